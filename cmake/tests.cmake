@@ -1,0 +1,10 @@
+# Every tests/**/*_test.cpp becomes part of one program; ctest sees each gtest case. Slow or device-bound suites add their own entries.
+enable_testing()
+include(GoogleTest)
+file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/*_test.cpp)
+if(test_sources)
+  add_executable(skerry_tests ${test_sources})
+  target_link_libraries(skerry_tests PRIVATE skerry_game GTest::gtest_main)
+  target_compile_definitions(skerry_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  gtest_discover_tests(skerry_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endif()

@@ -1,0 +1,29 @@
+#pragma once
+#include <functional>
+
+namespace skerry {
+
+/// Worker threads for everything that may run beside the frame. Wraps one TBB arena.
+class Jobs {
+ public:
+  /// @param threads 1.. ; 0 takes one a core.
+  explicit Jobs(int threads = 0);
+  ~Jobs();
+  Jobs(const Jobs&) = delete;
+  Jobs& operator=(const Jobs&) = delete;
+
+  int threads() const { return threads_; }
+  /// Runs on some worker later. Must not throw.
+  void submit(std::function<void()> job);
+  /// Returns when every job submitted so far, and those they submitted, has ended.
+  void wait();
+  /// Calls body(i) for i in [0, count) on all workers and returns when all are done.
+  void parallel_for(int count, const std::function<void(int)>& body);
+
+ private:
+  struct Impl;
+  Impl* impl_;
+  int threads_;
+};
+
+}  // namespace skerry

@@ -1,0 +1,48 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "shaders/shared/geometry.h"
+#include "world/blocks.h"
+
+namespace skerry::world {
+
+/// A meshed chunk: quads in range order (shaders/shared/geometry.h), and where each range ends.
+struct ChunkMesh {
+  std::vector<shared::Quad> quads;
+  std::array<std::uint32_t, shared::kRangeCount> range_end{};
+  std::array<std::uint8_t, 3> bounds_min{};  ///< tight box of the faces in voxels, 0..64
+  std::array<std::uint8_t, 3> bounds_max{};  ///< exclusive upper corner
+};
+
+/// Working memory of mesh_chunk; one a thread, reused between calls.
+class MeshScratch {
+ public:
+  MeshScratch();
+  ~MeshScratch();
+  MeshScratch(const MeshScratch&) = delete;
+  MeshScratch& operator=(const MeshScratch&) = delete;
+  struct Buffers;
+  Buffers& buffers() { return *buffers_; }
+
+ private:
+  std::unique_ptr<Buffers> buffers_;
+};
+
+inline constexpr int kPaddedEdge = 66;
+inline constexpr std::size_t kPaddedVoxels = std::size_t{kPaddedEdge} * kPaddedEdge * kPaddedEdge;
+
+/// Turns one padded chunk into merged quads.
+/// @param voxels kPaddedVoxels block ids, index z + 66 x + 66^2 y; the shell comes from the neighbours.
+/// @param out cleared, then filled.
+/// A face is drawn where a block meets one that does not hide it: opaque hides every kind's face; cut-out and translucent blocks hide
+/// faces of their own id only; plants hide nothing and give one quad for each diagonal.
+void mesh_chunk(std::span<const BlockId> voxels, MeshScratch& scratch, ChunkMesh& out);
+
+/// Same, for chunks with at most 256 different ids: `voxels` index `palette`. Reads half the memory.
+void mesh_chunk(std::span<const std::uint8_t> voxels, std::span<const BlockId> palette, MeshScratch& scratch, ChunkMesh& out);
+
+}  // namespace skerry::world
