@@ -1,5 +1,8 @@
 #include "engine/gpu/access.h"
 
+#include "engine/gpu/device.h"
+#include "engine/gpu/vk_struct.h"
+
 namespace skerry::gpu {
 
 UseInfo use_info(Use use) {
@@ -62,6 +65,52 @@ AccessState after(const AccessState& state, const Access& next) {
   result.stages = more_readers ? state.stages | next.stages : next.stages;
   result.access = more_readers ? state.access | next.access : next.access;
   return result;
+}
+
+void touch(const Device& device, VkCommandBuffer commands, Buffer& buffer, const Access& next) {
+  if (const std::optional<Scopes> scopes = hazard(buffer.state, next)) {
+    auto barrier = vk_struct<VkBufferMemoryBarrier2>(VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2);
+    barrier.srcStageMask = scopes->src_stages;
+    barrier.srcAccessMask = scopes->src_access;
+    barrier.dstStageMask = scopes->dst_stages;
+    barrier.dstAccessMask = scopes->dst_access;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.buffer = buffer.handle();
+    barrier.size = VK_WHOLE_SIZE;
+    auto info = vk_struct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    info.bufferMemoryBarrierCount = 1;
+    info.pBufferMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+  }
+  buffer.state = after(buffer.state, next);
+  buffer.state.last_value = device.next_value();
+}
+
+void touch(const Device& device, VkCommandBuffer commands, Image& image, const Access& next) {
+  const bool changes = image.state.layout != next.layout;
+  std::optional<Scopes> scopes = hazard(image.state, next);
+  if (changes && !scopes) {
+    // Readers before a transition have to be waited for even if the next access only reads: a transition writes.
+    scopes = Scopes{image.state.stages, 0, next.stages, next.access};
+  }
+  if (scopes) {
+    auto barrier = vk_struct<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
+    barrier.srcStageMask = scopes->src_stages;
+    barrier.srcAccessMask = scopes->src_access;
+    barrier.dstStageMask = scopes->dst_stages;
+    barrier.dstAccessMask = scopes->dst_access;
+    barrier.oldLayout = image.state.layout;
+    barrier.newLayout = next.layout;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image.handle();
+    barrier.subresourceRange = {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+    auto info = vk_struct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+  }
+  image.state = changes ? AccessState{next.stages, next.access, next.layout, next.write, 0} : after(image.state, next);
+  image.state.last_value = device.next_value();
 }
 
 }  // namespace skerry::gpu

@@ -49,4 +49,9 @@ std::optional<Scopes> hazard(const AccessState& state, const Access& next);
 /// The state after `next`, keeping the layout and submit value.
 AccessState after(const AccessState& state, const Access& next);
 
+/// For commands outside a frame graph: records the barrier that `next` needs, if any, and updates the resource's state for the
+/// submit being recorded. An image changes to next.layout as a whole.
+void touch(const Device& device, VkCommandBuffer commands, Buffer& buffer, const Access& next);
+void touch(const Device& device, VkCommandBuffer commands, Image& image, const Access& next);
+
 }  // namespace skerry::gpu
