@@ -6,8 +6,11 @@
 layout(scalar, binding = 0) readonly buffer Quads { Quad quads[]; };
 layout(scalar, binding = 1) readonly buffer Sections { Section sections[]; };
 layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };
-layout(scalar, binding = 3) readonly buffer Views { mat4 clip_from_world[]; };
-layout(push_constant) uniform Push { uint view; } push;
+layout(scalar, binding = 3) readonly buffer Views { mat4 clip_from_source[]; };
+layout(push_constant) uniform Push {
+  uint view;          // which matrix
+  uint first_island;  // its island table: each view has its own, relative to its own centre
+} push;
 
 layout(constant_id = 0) const bool kTextured = false;  // cut-outs need texture coordinates
 
@@ -41,7 +44,7 @@ void main() {
   }
   float voxel = float(1u << section.voxel_size_log2);
   vec3 lattice = vec3(section.origin) + p * voxel;
-  gl_Position = clip_from_world[push.view] * vec4(world_from_lattice(islands[section.island], lattice), 1.0);
+  gl_Position = clip_from_source[push.view] * vec4(world_from_lattice(islands[push.first_island + section.island], lattice), 1.0);
   out_surface = pack_surface(quad.material & 0xffffu, section.island, face);
   out_uv = vec2(0.0);
   if (kTextured) {
