@@ -24,6 +24,14 @@ vec3 world_from_lattice(IslandTransform t, vec3 p) { return world_from_lattice_v
 vec3 lattice_from_world_vector(IslandTransform t, vec3 v) { return vec3(dot(t.axis_x, v), dot(t.axis_y, v), dot(t.axis_z, v)); }
 vec3 lattice_from_world(IslandTransform t, vec3 p) { return lattice_from_world_vector(t, p - t.translation); }
 
+// What light meets at a pixel.
+struct Surface {
+  vec3 position;  // world
+  vec3 normal;    // world, unit, exact: it comes from the island's axes
+  vec3 albedo;    // linear
+  vec3 emitted;   // radiance
+};
+
 // Ray through a pixel's centre, scaled to one block along the view axis.
 vec3 pixel_ray(FrameConstants f, uvec2 pixel) {
   vec2 ndc = (vec2(pixel) + 0.5) * f.pixel_to_ndc - 1.0;

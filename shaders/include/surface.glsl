@@ -3,13 +3,6 @@
 #ifndef SKERRY_SURFACE_GLSL
 #define SKERRY_SURFACE_GLSL
 
-struct Surface {
-  vec3 position;  // world
-  vec3 normal;    // world, unit, exact: it comes from the island's axes
-  vec3 albedo;    // linear
-  vec3 emitted;   // radiance
-};
-
 const float kTextureEdge = 32.0;  // texels a block
 
 // Texture coordinates of a lattice point on a face [blocks], v downwards.
@@ -27,7 +20,7 @@ vec2 crisp_uv(vec2 uv, vec2 texels_per_pixel) {
 
 // Block texture at a point of a plane. The footprint is worked out from neighbouring rays, since compute has no derivatives; along its
 // long side it is covered by up to `max_taps` samples.
-vec3 plane_texel(uint layer, uint face, vec3 lattice, vec3 ray_lattice, vec3 right_lattice, vec3 up_lattice, vec3 normal_lattice, float t,
+vec4 plane_texel(uint layer, uint face, vec3 lattice, vec3 ray_lattice, vec3 right_lattice, vec3 up_lattice, vec3 normal_lattice, float t,
                  uint max_taps) {
   float facing = dot(normal_lattice, ray_lattice);
   facing = abs(facing) < 1e-6 ? 1e-6 : facing;
@@ -43,27 +36,31 @@ vec3 plane_texel(uint layer, uint face, vec3 lattice, vec3 ray_lattice, vec3 rig
   float taps = clamp(ceil(major_texels / max(minor_texels, 1.0)), 1.0, float(max_taps));
   float lod = log2(max(max(minor_texels, major_texels / taps), 1e-6));
   uv = crisp_uv(uv, max(abs(uv_dx) + abs(uv_dy), 1e-7) * kTextureEdge);
-  vec3 sum = vec3(0.0);
+  vec4 sum = vec4(0.0);
   for (float i = 0.0; i < taps; ++i)
-    sum += textureLod(block_textures, vec3(uv + major * ((i + 0.5) / taps - 0.5), float(layer)), lod).rgb;
+    sum += textureLod(block_textures, vec3(uv + major * ((i + 0.5) / taps - 0.5), float(layer)), lod);
   return sum / taps;
+}
+
+// Texture of the surface a word names, where the ray meets it `t` blocks along the view axis.
+vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
+  uint face = surface_face(word);
+  IslandTransform island = islands[surface_island(word)];
+  Material material = materials[surface_block(word)];
+  uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
+  vec3 normal = face >= 6u ? vec3(0.70710678, 0.0, face == 6u ? -0.70710678 : 0.70710678) : face_normal(face);
+  vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.pixel_to_ndc.x;
+  vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.pixel_to_ndc.y;
+  return plane_texel(layer, face, lattice_from_world(island, ray * t), lattice_from_world_vector(island, ray), right, up, normal, t, max_taps);
 }
 
 Surface resolve_surface(uint word, float depth, vec3 ray, uint max_taps) {
   float t = view_distance(depth, frame.near_plane);
-  uint face = surface_face(word);
-  IslandTransform island = islands[surface_island(word)];
-  Material material = materials[surface_block(word)];
-  vec3 lattice = lattice_from_world(island, ray * t);
-  vec3 normal = face >= 6u ? normalize(vec3(1.0, 0.0, face == 6u ? -1.0 : 1.0)) : face_normal(face);
-  uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
-  vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.pixel_to_ndc.x;
-  vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.pixel_to_ndc.y;
   Surface s;
   s.position = ray * t;
-  s.normal = world_from_lattice_vector(island, face_normal(face));
-  s.albedo = plane_texel(layer, face, lattice, lattice_from_world_vector(island, ray), right, up, normal, t, max_taps);
-  s.emitted = s.albedo * unpackHalf2x16(material.emission).x;
+  s.normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
+  s.albedo = surface_texel(word, ray, t, max_taps).rgb;
+  s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
   return s;
 }
 #endif

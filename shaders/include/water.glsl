@@ -78,9 +78,9 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
   float at = 0.0;  // blocks along the ray
   if (medium != 0u) light_in = light_at(ray / ray_length * 0.5, vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0), to_eye, 0.1).light;
   for (uint k = 0u; k < kLayers; ++k) {
-    uint word = imageLoad(layer_surfaces, ivec3(pixel, k)).r;
+    uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
-    float t = view_distance(texelFetch(layer_depths, ivec3(pixel, k), 0).r, frame.near_plane);
+    float t = view_distance(layer_depth(k, ivec2(pixel)), frame.near_plane);
     float next = t * ray_length;
     if (medium != 0u) {
       Material m = materials[medium];
@@ -103,6 +103,12 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror) : scattered(m, light_in, 1e3);
     colour += through * (reach.mirrored + reflected * mirrored_sky * (entering ? reach.any : 1.0));
     through *= 1.0 - reflected;
+    // What the texture covers (the frame of a pane) is a diffuse surface.
+    for (int once = wavy ? 0 : 1; once > 0; --once) {
+      vec4 texel = surface_texel(word, ray, t, 1u);
+      colour += through * texel.a * texel.rgb * kInvPi * reach.light;
+      through *= 1.0 - texel.a;
+    }
     light_in = reach.light;
     medium = entering ? block : 0u;
     at = next;
