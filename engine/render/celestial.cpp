@@ -89,6 +89,11 @@ bool any(glm::vec3 v) {
 
 }  // namespace
 
+glm::dvec3 moonlight(double moon_phase) {
+  const double share = (lambert_phase(moon_phase) - kFaintestMoon) / (1.0 - kFaintestMoon);
+  return kMoonToSun * std::max(0.0, share) * kMoonTint;
+}
+
 glm::dvec3 transmittance_to_zenith(double sine) {
   // Preetham 1999, appendix A1, at 680, 550 and 440 nm: optical depth of one air mass by molecules,
   // haze and ozone.
@@ -111,7 +116,7 @@ double zenith_radiance(double sun_altitude_sine) {
   const double h = altitude_deg(sun_altitude_sine);
   const double chi = (4.0 / 9.0 - kTurbidity / 120.0) * 2.0 * std::max(0.0, h) * kDegree;
   const double day = (4.0453 * kTurbidity - 4.9710) * std::tan(chi) - 0.2155 * kTurbidity + 2.4192;
-  constexpr double kSoftnessDeg = 1.5, kFallPerDeg = 0.55;
+  constexpr double kSoftnessDeg = 1.5, kFallPerDeg = 0.45;
   const double depth = kSoftnessDeg * std::log1p(std::exp(-h / kSoftnessDeg));
   return day / kKilocandelas * std::exp(-kFallPerDeg * depth) * smooth_step(-18.0, -9.0, h);
 }
@@ -124,9 +129,7 @@ Celestial celestial_at(double time_of_day_s, double moon_phase) {
   sky.to_moon = on_equator(turns - sky.moon_phase);
   sky.moon_lit_fraction = static_cast<float>(0.5 * (1.0 - unit_circle(sky.moon_phase).x));
   sky.sun_irradiance = direct_irradiance(sky.to_sun.y);
-  const double moonlight =
-      std::max(0.0, lambert_phase(sky.moon_phase) - kFaintestMoon) / (1.0 - kFaintestMoon);
-  sky.moon_irradiance = kMoonToSun * moonlight * kMoonTint * direct_irradiance(sky.to_moon.y);
+  sky.moon_irradiance = moonlight(sky.moon_phase) * direct_irradiance(sky.to_moon.y);
   sky.sun_casts = any(sky.sun_irradiance);
   sky.moon_casts = any(sky.moon_irradiance);
   const glm::dmat3 rows(sky.to_sun, glm::cross(kCelestialPole, sky.to_sun), kCelestialPole);
@@ -135,10 +138,11 @@ Celestial celestial_at(double time_of_day_s, double moon_phase) {
 }
 
 float auto_exposure_ev(const Celestial& sky) {
+  constexpr double kSkyWeight = 6.0;  // at dusk the picture is mostly bright horizon
+  const glm::dvec3 direct = glm::dvec3(sky.sun_irradiance) + glm::dvec3(sky.moon_irradiance);
   const double light =
-      glm::dot(kLuminance, glm::dvec3(sky.sun_irradiance) + glm::dvec3(sky.moon_irradiance)) / kPi +
-      zenith_radiance(sky.to_sun.y);
-  return static_cast<float>(0.75 * std::log2(light + 0x1p-10) - 0.5);
+      glm::dot(kLuminance, direct) / kPi + kSkyWeight * zenith_radiance(sky.to_sun.y);
+  return static_cast<float>(0.7 * std::log2(light + std::exp2(-9.5)) - 1.4);
 }
 
 double quantised_time(double time_of_day_s) {
