@@ -8,3 +8,10 @@ if(test_sources)
   target_compile_definitions(skerry_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
   gtest_discover_tests(skerry_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endif()
+
+# The rules of the tree itself.
+add_test(NAME tools.check_includes COMMAND ${CMAKE_SOURCE_DIR}/tools/check_includes)
+add_test(NAME tools.check_paths COMMAND ${CMAKE_SOURCE_DIR}/tools/check_paths)
+add_test(NAME tools.check_scripts_test COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/check_scripts_test.py)
+add_test(NAME tools.check_format COMMAND ${CMAKE_SOURCE_DIR}/tools/check_format)
+set_tests_properties(tools.check_format PROPERTIES SKIP_RETURN_CODE 77)
