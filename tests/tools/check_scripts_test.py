@@ -89,7 +89,8 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("world/island.h", '#include "chunk.h"\n', "no file")
 
     def test_an_include_in_a_comment_does_not_count(self):
-        status, output = run("check_includes", {**GOOD, "world/a.h": '// #include "game/session.h"\n/*\n#include <volk.h>\n*/\n'})
+        text = '// #include "game/session.h"\n/*\n#include <volk.h>\n*/\n'
+        status, output = run("check_includes", {**GOOD, "world/a.h": text})
         self.assertEqual(status, 0, output)
 
     def test_a_shader_leads_to_the_conventions(self):
@@ -113,8 +114,8 @@ class CheckPaths(unittest.TestCase):
         with tempfile.TemporaryDirectory() as root:
             Path(root, "a.png").write_bytes(b"\x89PNG\xff\xfe")
             Path(root, "b.txt").write_text("text\n")
-            done = subprocess.run([sys.executable, TOOLS / "check_paths", root], capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            done = subprocess.run([sys.executable, TOOLS / "check_paths", root], capture_output=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":
