@@ -9,6 +9,15 @@ if(test_sources)
   gtest_discover_tests(skerry_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endif()
 
+# What needs neither device nor window, alone: small enough to be built a second and a third time, under sanitizers.
+file(GLOB_RECURSE cpu_test_sources CONFIGURE_DEPENDS
+  ${CMAKE_SOURCE_DIR}/tests/core/*_test.cpp ${CMAKE_SOURCE_DIR}/tests/mesh/*_test.cpp ${CMAKE_SOURCE_DIR}/tests/world/*_test.cpp)
+if(cpu_test_sources)
+  add_executable(skerry_cpu_tests EXCLUDE_FROM_ALL ${cpu_test_sources})
+  target_link_libraries(skerry_cpu_tests PRIVATE skerry_world GTest::gtest_main)
+  target_compile_definitions(skerry_cpu_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
+endif()
+
 # The rules of the tree itself.
 add_test(NAME tools.check_includes COMMAND ${CMAKE_SOURCE_DIR}/tools/check_includes)
 add_test(NAME tools.check_paths COMMAND ${CMAKE_SOURCE_DIR}/tools/check_paths)
