@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine/core/check.h"
+#include "engine/gpu/gpu_check.h"
 #include "engine/render/block_textures.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
