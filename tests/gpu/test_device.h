@@ -20,7 +20,8 @@ class GpuTest : public testing::Test {
     device_ = *std::move(made);
   }
   void TearDown() override {
-    if (device_) EXPECT_EQ(device_->validation_message_count(), 0);
+    if (!device_) return;
+    EXPECT_EQ(device_->validation_message_count(), 0);
   }
   Device& device() { return *device_; }
   Buffer buffer(std::string name, std::uint64_t bytes, VkBufferUsageFlags usage, Memory memory = Memory::kDevice) {
