@@ -20,6 +20,7 @@ constexpr std::array<Skin, static_cast<std::size_t>(SkinId::kCount)> kSkins = {{
     {kStoneMossy, kStoneMossy, 1},
     {kClay, kClay, 2},
     {kObsidian, kObsidian, 1},
+    {kAirBlock, kAirBlock, -1},
 }};
 
 using enum TreeKind;

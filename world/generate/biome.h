@@ -40,6 +40,7 @@ enum class SkinId : std::uint8_t {
   kMossy,
   kClay,
   kObsidian,
+  kBare,  ///< the rock itself
   kCount
 };
 const Skin& skin(SkinId id);

@@ -67,7 +67,7 @@ struct Builder {
   int elevation_at(int x, int z, int inside) const;
   int thickness_at(int x, int z, int inside) const;
   void base_ground();
-  void spikes();
+  void spikes(int spacing, int of_256, std::uint32_t seed);
   void raise(const Butte& butte);
   bool settle(Lake& lake) const;
   void dig(const Lake& lake);
@@ -76,6 +76,7 @@ struct Builder {
   void raggedness();
   void roofs();
   void cover();
+  bool steep_at(std::size_t i) const;
   SkinId skin_of(int x, int z, std::size_t i) const;
 
   template <class F>
@@ -140,7 +141,7 @@ int Builder::elevation_at(int x, int z, int inside) const {
 /// How deep the rock hangs under the base plane: a tapering keel with folds, Q8.
 int Builder::thickness_at(int x, int z, int inside) const {
   if (inside <= 0) return kOne8;
-  const int reach = std::max(kOne8, radius8() * 11 / 20);
+  const int reach = std::max(kOne8, radius8() * 9 / 20);
   const std::int64_t f =
       std::min<std::int64_t>(kOne12, static_cast<std::int64_t>(inside) * kOne12 / reach);
   const std::int64_t taper = (f * 1500 + ((f * f) >> 12) * 2596) >> 12;
@@ -148,7 +149,7 @@ int Builder::thickness_at(int x, int z, int inside) const {
       noise::ridge2(shape.seed + 31, x, z, std::clamp(shape.extent.radius / 2, 14, 48), 3);
   const int wave =
       noise::gradient2(shape.seed + 37, x, z, std::clamp(shape.extent.radius, 16, 120));
-  const std::int64_t depth = shape.extent.depth * 70 / 100 * kOne8;
+  const std::int64_t depth = shape.extent.depth * 84 / 100 * kOne8;
   const std::int64_t body = depth * taper / kOne12;
   const int lip = 3 * kOne8 + (noise::gradient2(shape.seed + 41, x, z, 17) + kOne12) * 5 / 32;
   return lip + static_cast<int>(body * (2 * kOne12 + folds * 9 / 8 + wave / 2) / (3 * kOne12));
@@ -196,25 +197,25 @@ void Builder::base_ground() {
   }
 }
 
-/// Hanging cones of rock.
-void Builder::spikes() {
-  const int spacing = std::clamp(shape.extent.radius / 5, 9, 26);
+/// Hanging cones of rock on a jittered grid. @param of_256 share of the grid's cells that have one.
+void Builder::spikes(int spacing, int of_256, std::uint32_t seed) {
   const int cells = columns.half / spacing + 1;
   for (int cx = -cells; cx <= cells; ++cx) {
     for (int cz = -cells; cz <= cells; ++cz) {
-      Rng rng(hash2(shape.seed + 71, cx, cz));
+      Rng rng(hash2(seed, cx, cz));
+      if (!rng.chance(of_256)) continue;
       const int x0 = cx * spacing + rng.in(0, spacing - 1);
       const int z0 = cz * spacing + rng.in(0, spacing - 1);
-      const int reach = rng.in(spacing / 3, spacing * 3 / 4);
-      const int share = rng.in(14, 64);
+      const int reach = rng.in(spacing / 3, spacing * 4 / 5);
+      const int share = rng.in(14, 90);
       if (!columns.has(x0, z0) || columns.inside[columns.index(x0, z0)] < 3) continue;
-      const int length = (6 - columns.bottom[columns.index(x0, z0)]) * share / 128 + reach;
+      const int length = (6 - columns.bottom[columns.index(x0, z0)]) * share / 128 + reach / 2;
       for_columns_near(x0, z0, reach, [&](int x, int z, std::size_t i) {
         const int d = noise::length((x - x0) * kOne8, (z - z0) * kOne8);
         if (d >= reach * kOne8 || columns.inside[i] < 0) return;
         const int t = kOne12 - d * 16 / reach;
-        columns.bottom[i] =
-            static_cast<std::int16_t>(columns.bottom[i] - ((length * ((t * t) >> 12)) >> 12));
+        const int cone = (t + ((t * t) >> 12)) / 2;
+        columns.bottom[i] = static_cast<std::int16_t>(columns.bottom[i] - ((length * cone) >> 12));
       });
     }
   }
@@ -412,11 +413,23 @@ void Builder::roofs() {
   }
 }
 
+/// Whether the ground falls away by more than a player climbs.
+bool Builder::steep_at(std::size_t i) const {
+  constexpr int kClimb = 3;
+  const auto edge = static_cast<std::size_t>(columns.edge);
+  const std::int16_t* top = &columns.top[i];
+  const auto falls = [top](const std::int16_t* other) {
+    return *other != Columns::kNoGround && *top - *other >= kClimb;
+  };
+  return falls(top + 1) || falls(top - 1) || falls(top + edge) || falls(top - edge);
+}
+
 SkinId Builder::skin_of(int x, int z, std::size_t i) const {
   const BiomeType& biome = biome_type(shape.biome);
   const int patch = patches.at(x, z);
   const int height = columns.top[i];
   if (columns.water[i] != Columns::kDry) return biome.lake_bed;
+  if (steep_at(i)) return SkinId::kBare;
   if (shore[i] && patch < 2600) return biome.beach;
   switch (shape.biome) {
     case Biome::kHighland: {
@@ -473,7 +486,9 @@ Columns build_columns(Shape& shape) {
   Builder builder(shape, columns);
   builder.coarse_fields();
   builder.base_ground();
-  builder.spikes();
+  const int radius = shape.extent.radius;
+  builder.spikes(std::clamp(radius * 2 / 5, 12, 60), 190, shape.seed + 71);
+  builder.spikes(std::clamp(radius / 6, 8, 20), 110, shape.seed + 72);
   for (const Butte& butte : shape.buttes) builder.raise(butte);
   for (Lake& lake : shape.lakes) {
     if (builder.settle(lake)) builder.dig(lake);

@@ -15,6 +15,7 @@ constexpr int kPadded = kChunkEdge + 2;
 constexpr int kLayer = kPadded * kPadded;
 constexpr int kLookAbove =
     6;  // layers read above the chunk, so that it knows how deep below the turf it starts
+constexpr int kLedgeTurf = 4;              // blocks under the top that may still bear turf
 constexpr int kFinestShifted = 1;          // coarser voxels are larger than the sideways shift
 constexpr std::int16_t kUnderground = 64;  // depth of rock below a cave: no turf there
 
@@ -52,9 +53,9 @@ class Filler {
   Canvas canvas_;
   int level_;
   std::span<BlockId> out_;
-  int turf_scale_;
   int low_ = Columns::kNoRock, high_ = Columns::kNoGround;
-  Row top_, bottom_, water_, roof_, skin_top_, skin_below_, below_depth_, depth_, solid_, carved_;
+  Row top_, bottom_, water_, roof_, skin_top_, skin_below_, below_depth_, top_depth_, depth_,
+      solid_, carved_;
   std::array<std::int16_t, kLayer> rock_;
   std::vector<Ragged> ragged_;
   std::vector<Ball> solids_, holes_;
@@ -67,8 +68,7 @@ Filler::Filler(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId
       canvas_{chunk.x * kChunkEdge - 1, chunk.y * kChunkEdge - 1, chunk.z * kChunkEdge - 1, level,
               out},
       level_(level),
-      out_(out),
-      turf_scale_(level) {
+      out_(out) {
   const int size = kPadded << level;
   const int x = canvas_.x0 << level;
   const int y = canvas_.y0 << level;
@@ -103,7 +103,7 @@ void Filler::gather() {
         bottom_[at] = Columns::kNoRock;
         water_[at] = Columns::kDry;
         roof_[at] = Columns::kNoGround;
-        skin_top_[at] = skin_below_[at] = below_depth_[at] = 0;
+        skin_top_[at] = skin_below_[at] = below_depth_[at] = top_depth_[at] = 0;
         continue;
       }
       const std::size_t c = columns_.index(x, z);
@@ -114,7 +114,10 @@ void Filler::gather() {
       roof_[at] = columns_.roof[c];
       skin_top_[at] = static_cast<std::int16_t>(cover.top);
       skin_below_[at] = static_cast<std::int16_t>(cover.below);
-      below_depth_[at] = static_cast<std::int16_t>(1 + (cover.below_depth >> level_));
+      // Depth 1 is the top; bare rock has neither top nor turf.
+      const bool bare = columns_.skins[c] == SkinId::kBare;
+      top_depth_[at] = bare ? 0 : 1;
+      below_depth_[at] = static_cast<std::int16_t>(bare ? 0 : 1 + (cover.below_depth >> level_));
       low_ = std::min<int>(low_, bottom_[at]);
       high_ = std::max<int>(high_, std::max(top_[at], water_[at]));
       if (level_ <= kFinestShifted && columns_.ragged[c] > 0) {
@@ -148,6 +151,14 @@ void Filler::shift_rock(int y) {
         c[0], c[edge], c[1], c[edge + 1], r.x - i * sideways::kCell, r.z - k * sideways::kCell);
     const std::size_t from =
         columns_.shifted_index(r.x, r.z, columns_.index(r.x, r.z), shift.x, shift.z);
+    // The turf comes along with the rock, and only with its upper end: ledges below an overhang are
+    // bare.
+    const Skin& cover = skin(columns_.skins[from]);
+    const bool turf = columns_.skins[from] != SkinId::kBare && y >= columns_.top[from] - kLedgeTurf;
+    skin_top_[r.at] = static_cast<std::int16_t>(cover.top);
+    skin_below_[r.at] = static_cast<std::int16_t>(cover.below);
+    top_depth_[r.at] = turf ? 1 : 0;
+    below_depth_[r.at] = static_cast<std::int16_t>(turf ? 1 + (cover.below_depth >> level_) : 0);
     solid_[r.at] = y >= columns_.bottom[from] && y < columns_.top[from] ? -1 : 0;
     // Bands follow the shift, so that strata undulate along a cliff.
     rock_[r.at] = static_cast<std::int16_t>(
@@ -210,7 +221,7 @@ void Filler::paint_layer(int y, BlockId* out) {
     const auto liquid = static_cast<std::int16_t>(plan_.biome().liquid);
     for (int i = 0; i < kLayer; ++i) {
       const std::int16_t below = depth_[i] <= below_depth_[i] ? skin_below_[i] : rock_[i];
-      const std::int16_t rock = depth_[i] <= 1 ? skin_top_[i] : below;
+      const std::int16_t rock = depth_[i] <= top_depth_[i] ? skin_top_[i] : below;
       const std::int16_t open =
           (height < water_[i]) & (height >= top_[i]) ? liquid : std::int16_t{0};
       out[i] = static_cast<BlockId>(solid_[i] != 0 ? rock : open);
@@ -279,7 +290,7 @@ void Filler::plants() {
     if (y < 1 || y >= kPadded) continue;
     BlockId& voxel = out_[static_cast<std::size_t>(y) * kLayer + i];
     const BlockId ground = out_[static_cast<std::size_t>(y - 1) * kLayer + i];
-    if (voxel != kAir || ground != static_cast<BlockId>(skin_top_[i])) continue;
+    if (voxel != kAir) continue;
     if (ground != block::kGrass && ground != block::kDryGrass && ground != block::kMycelium &&
         ground != block::kRedSand)
       continue;

@@ -139,7 +139,7 @@ void volcano(Designer& d) {
   const int height = d.between(44, 56);
   const int crater = d.between(13, 17);
   d.shape.peaks.push_back({0, 0, d.scaled(72), height, 2});
-  d.lake({0, 0, crater}, d.rng.in(8, 14), height * 62 / 100);
+  d.lake({0, 0, crater}, d.rng.in(8, 14), height * 48 / 100);
   for (int i = 0; i < 3; ++i)
     d.butte(d.at(d.angle(), d.between(48, 60), d.between(9, 14)), d.between(6, 14), 3, 14);
   d.lake(d.at(d.angle(), d.scaled(56), d.between(6, 9)), 3);
