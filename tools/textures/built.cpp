@@ -27,7 +27,7 @@ int ornament(int i, int j, std::uint32_t kind) {
     case 0: return diamond < 11 ? (diamond < 3 ? -1 : line(diamond, 8)) : 0;
     case 1: return round < 110 ? (round > 80 ? -1 : round > 62 ? 1 : round < 12 ? -1 : 0) : 0;
     case 2: return square < 11 ? (square == 9 ? -1 : square == 5 && std::min(i, j) < 5 ? -1 : square == 6 ? 1 : 0) : 0;
-    default: return i < 11 && j < 11 ? (std::min(i, j) < 2 ? -1 : i == j && i < 8 ? 1 : 0) : 0;
+    default: return square < 11 && square > 1 ? (i * j < 10 ? -1 : i * j < 17 ? 1 : 0) : 0;
   }
 }
 
@@ -71,7 +71,7 @@ Canvas paint_bricks(Color brick, Color mortar, std::uint32_t seed) {
 }
 
 Canvas paint_masonry(const Ramp& stone, Masonry style, std::uint32_t seed) {
-  const Field grain = stone_tone({4, 5}, style == Masonry::kPolished ? 0.12f : 0.18f, seed);
+  const Field grain = brush({110, 2.0f, 4.5f, 0.42f, -0.1f, 0.1f, style == Masonry::kBricks ? 0.12f : 0.07f}, seed);
   return paint(stone, make_field([&](int x, int y) {
     const float tone = grain.at(x, y);
     switch (style) {
@@ -187,10 +187,12 @@ Canvas paint_thatch(Color base, bool ends, std::uint32_t seed) {
   constexpr int kStraws = 300;
   for (int i = 0; i < kStraws; ++i) {
     const float age = static_cast<float>(i) / kStraws, light = 0.34f + 0.22f * age + random.range(-0.12f, 0.12f);
-    const float x = random.range(0, kEdge), y = random.range(0, kEdge);
+    const auto [x, y] = spread_point(i, seed);
     if (ends) {
       // Cut straw seen from its end: small rings.
-      for_dab({x, y, {1, 0}, 1.5f, 1.5f}, [&](int px, int py, float u, float v) { tone.at(px, py) = u * u + v * v < 0.25f ? 0.2f : light - 0.12f * (u + v); });
+      for_dab({x, y, {1, 0}, 2.2f, 2.2f}, [&](int px, int py, float u, float v) {
+        tone.at(px, py) = u * u + v * v < 0.1f ? light - 0.24f : u * u + v * v < 0.55f ? light + 0.12f : light - 0.12f;
+      });
     } else {
       for_dab({x, y, direction(random.range(0.21f, 0.29f)), random.range(3.0f, 6.0f), 0.62f},
               [&](int px, int py, float u, float) { tone.at(px, py) = light - 0.1f * u; });

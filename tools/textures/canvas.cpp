@@ -73,6 +73,21 @@ Canvas paint(const Ramp& ramp, const Field& tone, int steps) {
   return canvas;
 }
 
+Field brush(const Brushwork& work, std::uint32_t seed) {
+  Field tone = make_field([](int, int) { return 0.5f; });
+  Random random(seed);
+  for (int i = 0; i < work.touches; ++i) {
+    const float length = random.range(work.length_low, work.length_high);
+    const auto [x, y] = spread_point(i, seed);
+    const Direction along = direction(random.range(work.turn_low, work.turn_high));
+    const float level = 0.5f + work.contrast * random.range(-1.0f, 1.0f);
+    for_dab({x, y, along, length, length * work.flatness}, [&](int px, int py, float u, float v) {
+      tone.at(px, py) = level - work.contrast * (0.9f * v + 0.25f * u);
+    });
+  }
+  return flatten(tone, 0.85f);
+}
+
 Direction direction(float turn) {
   const float quarters = (turn - std::floor(turn)) * 4.0f;
   const int quarter = static_cast<int>(quarters);

@@ -96,16 +96,28 @@ void for_dab(const Dab& dab, Put&& put) {
   }
 }
 
+/// How a surface is brushed: many overlapping touches, each lit along its upper edge and shaded below.
+struct Brushwork {
+  int touches;
+  float length_low, length_high;  ///< half lengths [texels]
+  float flatness;                 ///< width over length
+  float turn_low, turn_high;      ///< of direction(), within -0.25..0.25
+  float contrast;                 ///< how far tones are from 0.5
+};
+/// Tones around 0.5.
+Field brush(const Brushwork& work, std::uint32_t seed);
+
 /// A quadratic Bezier stroke that thins out towards its end.
 struct Stroke {
   float x0, y0, x1, y1, x2, y2;  ///< start, control point, end [texels]
   float width0, width1;          ///< at start and end [texels]
 };
 
-/// Calls put(x, y, t, side) along the stroke, unwrapped; t is 0..1 along, side -1 or 1 left and right of the middle.
+/// Calls put(x, y, t, side) along the stroke, unwrapped, once a texel unless it is wide and flat; t is 0..1 along, side -1 or 1 left and right of the middle.
 template <class Put>
 void for_stroke(const Stroke& s, Put&& put) {
   constexpr int kSteps = 96;
+  int last_row = 0, last_left = 0, last_right = -1;
   for (int i = 0; i <= kSteps; ++i) {
     const float t = static_cast<float>(i) / kSteps, r = 1.0f - t;
     const float x = r * r * s.x0 + 2.0f * r * t * s.x1 + t * t * s.x2;
@@ -113,8 +125,13 @@ void for_stroke(const Stroke& s, Put&& put) {
     const float half = (s.width0 * r + s.width1 * t) * 0.5f;
     const int left = static_cast<int>(std::floor(x - half + 0.5f));
     const int right = static_cast<int>(std::floor(x + half - 0.5f));
+    const int row = static_cast<int>(std::floor(y));
+    if (i > 0 && row == last_row && left == last_left && right == last_right) continue;
+    last_row = row;
+    last_left = left;
+    last_right = right;
     for (int column = left; column <= (right < left ? left : right); ++column)
-      put(column, static_cast<int>(std::floor(y)), t, static_cast<float>(column) + 0.5f < x ? -1.0f : 1.0f);
+      put(column, row, t, static_cast<float>(column) + 0.5f < x ? -1.0f : 1.0f);
   }
 }
 

@@ -6,12 +6,8 @@
 namespace skerry::textures {
 
 Canvas paint_mushroom_cap(Color base, Color spot, std::uint32_t seed) {
-  const Field height = even_fbm({3, 3}, 3, seed);
-  const Field light = relief(height);
   const Ramp skin = ramp(base, 0.55f), spots = ramp(spot, 0.5f);
-  Canvas canvas = paint(skin, flatten(make_field([&](int x, int y) {
-    return 0.5f + 0.3f * light.at(x, y) + 0.1f * (height.at(x, y) - 0.5f);
-  }), 0.85f), 8);
+  Canvas canvas = paint(skin, brush({90, 2.5f, 5.0f, 0.55f, -0.2f, 0.2f, 0.12f}, seed), 9);
   // Warts: round, raised, with a soft shadow below.
   constexpr float kSpots[][3] = {{6, 7, 3.0f}, {19, 4, 2.1f}, {27, 13, 3.3f}, {14, 16, 2.6f}, {4, 22, 2.0f}, {22, 25, 2.8f}, {11, 28, 1.9f}};
   for (const auto& [x, y, size] : kSpots) {

@@ -42,12 +42,12 @@ const Named kNamed[] = {
     {Texture::kSnowSide, "snow_side", [] { return paint_covered_side(kSnowCover, hex(0xd3dde8), 9.0f, false, 72); }},
     {Texture::kIce, "ice", [] { return paint_ice(); }},
     {Texture::kSand, "sand", [] { return paint_sand(hex(0xdac799), 81); }},
-    {Texture::kSandstoneTop, "sandstone_top", [] { return paint_clay(hex(0xd3bb89), 82); }},
-    {Texture::kSandstoneSide, "sandstone_side", [] { return paint_strata(ramp(hex(0xcdb27f), 0.55f), {5, 9}, 83); }},
+    {Texture::kSandstoneTop, "sandstone_top", [] { return paint_smooth_ground(hex(0xd3bb89), 82); }},
+    {Texture::kSandstoneSide, "sandstone_side", [] { return paint_sandstone_side(); }},
     {Texture::kRedSand, "red_sand", [] { return paint_sand(hex(0xb97a52), 84); }},
     {Texture::kRedRock, "red_rock", [] { return paint_stone(hex(0xa05c43), 85); }},
     {Texture::kRedRockBanded, "red_rock_banded", [] { return paint_banded_rock(); }},
-    {Texture::kClay, "clay", [] { return paint_clay(hex(0xa19a93), 86); }},
+    {Texture::kClay, "clay", [] { return paint_smooth_ground(hex(0xa19a93), 86); }},
     {Texture::kMud, "mud", [] { return paint_mud(); }},
     {Texture::kBasalt, "basalt", [] { return paint_basalt_side(); }},
     {Texture::kBasaltTop, "basalt_top", [] { return paint_basalt_top(); }},
@@ -191,8 +191,8 @@ void add_crafts_and_nature(std::vector<Layer>& layers) {
   add("crystal_green", paint_crystal(hex(0x72b08a), 6011));
   add("moss", paint_moss(hex(0x74804c), 6012));
   add("leaf_litter", paint_leaf_litter());
-  add("peat", paint_clay(hex(0x4f4038), 6013));
-  add("ash", paint_clay(hex(0x77757a), 6014));
+  add("peat", paint_smooth_ground(hex(0x4f4038), 6013));
+  add("ash", paint_smooth_ground(hex(0x77757a), 6014));
   add("cracked_earth", paint_cracked_ground(hex(0xb39872), 6015));
   add("salt", paint_salt());
   add("river_pebbles", paint_gravel(hex(0xa3998a), hex(0x72858c), 6016));

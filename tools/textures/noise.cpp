@@ -38,6 +38,13 @@ float fbm(float x, float y, Cells cells, int octaves, std::uint32_t seed) {
   return sum;
 }
 
+Point spread_point(int i, std::uint32_t seed) {
+  const float n = static_cast<float>(i);
+  const float u = unit(0, 3, seed) + n * 0.7548777f + 0.22f * unit(i, 5, seed);
+  const float v = unit(1, 3, seed) + n * 0.5698403f + 0.22f * unit(i, 7, seed);
+  return {(u - std::floor(u)) * kEdge, (v - std::floor(v)) * kEdge};
+}
+
 Cellular cellular(float x, float y, Cells cells, float jitter, std::uint32_t seed) {
   const float u = x * static_cast<float>(cells.x) / kEdge, v = y * static_cast<float>(cells.y) / kEdge;
   const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));

@@ -43,7 +43,15 @@ struct Cellular {
 /// @param jitter 0: a regular grid, 1: anywhere in the cell.
 Cellular cellular(float x, float y, Cells cells, float jitter, std::uint32_t seed);
 
-/// A stream of random numbers for brush strokes.
+struct Point {
+  float x, y;
+};
+/// Point i of a sequence that fills the tile evenly, 0..kEdge, moved about a little so that no lattice shows.
+/// Source: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences (2018), R2.
+Point spread_point(int i, std::uint32_t seed);
+
+/// A stream of random numbers for brush strokes. Take one at most in a call's arguments: compilers
+/// evaluate those in any order. Braced initialisers are ordered.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : seed_(seed) {}

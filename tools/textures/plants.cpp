@@ -20,12 +20,6 @@ void put_dab(Canvas& canvas, const Dab& dab, const Ramp& tones, float tone) {
   });
 }
 
-void put_leaf_pair(Canvas& canvas, float x, float y, float reach, const Ramp& tones) {
-  for (const float side : {-1.0f, 1.0f})
-    put_stroke(canvas, {x, y, x + side * reach * 0.6f, y - reach * 0.9f, x + side * reach, y - reach * 0.5f, 2.2f, 1.0f},
-               tones, 0.35f, 0.6f);
-}
-
 void put_flower_head(Canvas& canvas, float x, float y, Flower flower, const Ramp& petal, Color center) {
   switch (flower) {
     case Flower::kDaisy:
@@ -59,13 +53,14 @@ Canvas paint_tall_grass(Color base, std::uint32_t seed) {
   Canvas canvas = empty_canvas();
   Random random(seed);
   const Ramp tones = ramp(base, 0.72f);
-  constexpr int kBlades = 19;
+  constexpr int kBlades = 17;
   for (int i = 0; i < kBlades; ++i) {
-    // Back blades first, dark and tall; front blades short and light. Roots are spread, not in one point.
+    // Back blades first, dark and tall; front blades short and light. Roots step over the width by a golden section.
     const float front = static_cast<float>(i) / kBlades;
-    const float x = 2.5f + 27.0f * random.next(), lean = random.range(-6.5f, 6.5f);
-    const float tall = random.range(0.55f, 1.0f) * (28.0f - 12.0f * front);
-    put_stroke(canvas, {x, 31.5f, x + lean * 0.15f, 31.5f - tall * 0.65f, std::clamp(x + lean, 1.0f, 31.0f), 32.0f - tall, 2.4f, 1.0f},
+    const float step = 0.618f * static_cast<float>(i), x = 4.0f + 24.0f * (step - std::floor(step));
+    const float lean = (x - 16.0f) * 0.35f + random.range(-4.0f, 4.0f);
+    const float tall = random.range(0.6f, 1.0f) * (29.0f - 14.0f * front);
+    put_stroke(canvas, {x, 31.5f, x + lean * 0.1f, 31.5f - tall * 0.7f, std::clamp(x + lean, 0.5f, 31.5f), 32.0f - tall, 2.3f, 1.0f},
                tones, 0.14f + 0.2f * front, 0.5f + 0.25f * front);
   }
   return canvas;
@@ -74,23 +69,28 @@ Canvas paint_tall_grass(Color base, std::uint32_t seed) {
 Canvas paint_fern(Color base, Color tip, std::uint32_t seed) {
   Canvas canvas = empty_canvas();
   Random random(seed);
-  const Ramp tones = ramp(base, 0.72f), tips = ramp(tip, 0.72f);
-  constexpr float kFronds[][2] = {{-13.5f, 17}, {13.5f, 16}, {-8.5f, 24}, {9.5f, 23}, {-3.0f, 28}, {3.5f, 25}};
-  for (const auto& [lean, tall] : kFronds) {
-    const Stroke spine{16, 31.5f, 16 + lean * 0.35f, 31.5f - tall * 0.9f, 16 + lean, 31.5f - tall * 0.82f, 1.4f, 1.0f};
-    // Leaflets shorten towards the tip.
-    for (int i = 3; i < 17; ++i) {
-      const float t = static_cast<float>(i) / 17.0f, r = 1.0f - t;
+  const Ramp tones = ramp(base, 0.72f), tips = ramp(tip, 0.66f);
+  // Ends of the fronds and how high they arch; back fronds first.
+  constexpr float kFronds[][3] = {{9, 4, 10}, {23.5f, 3, 8}, {16, 1, 12}, {1.5f, 18, 6}, {30.5f, 17, 5}, {4, 26, 19}, {28, 26, 19}};
+  for (const auto& [end_x, end_y, arch] : kFronds) {
+    const Stroke spine{16, 31.5f, 16 + (end_x - 16) * 0.35f, arch, end_x, end_y, 1.0f, 1.0f};
+    constexpr int kPairs = 9;
+    for (int i = 2; i <= kPairs; ++i) {
+      const float t = static_cast<float>(i) / kPairs, r = 1.0f - t;
       const float x = r * r * spine.x0 + 2 * r * t * spine.x1 + t * t * spine.x2;
       const float y = r * r * spine.y0 + 2 * r * t * spine.y1 + t * t * spine.y2;
-      const float reach = 1.2f + 3.2f * r;
+      const float along_x = r * (spine.x1 - spine.x0) + t * (spine.x2 - spine.x1);
+      const float along_y = r * (spine.y1 - spine.y0) + t * (spine.y2 - spine.y1);
+      const float length = std::sqrt(along_x * along_x + along_y * along_y) + 0.001f;
+      const float reach = (1.2f + 3.0f * r) * random.range(0.85f, 1.1f);
+      // Leaflets stand out to both sides and lean towards the tip.
       for (const float side : {-1.0f, 1.0f}) {
-        const float end_x = x + side * reach * 0.85f + lean * 0.07f, end_y = y + (side * lean > 0 ? 0.3f : -0.5f) * reach;
-        put_stroke(canvas, {x, y, (x + end_x) * 0.5f, y - 0.6f, end_x, end_y, 1.0f, 1.0f},
-                   t > 0.62f ? tips : tones, 0.3f + 0.25f * t, 0.55f + 0.2f * t);
+        const float way_x = (-along_y * side + 0.6f * along_x) / length, way_y = (along_x * side + 0.6f * along_y) / length;
+        put_stroke(canvas, {x, y, x + way_x * reach * 0.5f, y + way_y * reach * 0.5f, x + way_x * reach, y + way_y * reach, 1.0f, 1.0f},
+                   t > 0.7f ? tips : tones, 0.3f + 0.2f * t, (way_y < 0 ? 0.62f : 0.42f) + 0.15f * t);
       }
     }
-    put_stroke(canvas, spine, tones, 0.15f, 0.5f);
+    put_stroke(canvas, spine, tones, 0.12f, 0.45f);
   }
   return canvas;
 }
@@ -98,14 +98,16 @@ Canvas paint_fern(Color base, Color tip, std::uint32_t seed) {
 Canvas paint_flower(Color petal, Color center, Flower flower, std::uint32_t seed) {
   Canvas canvas = empty_canvas();
   Random random(seed);
-  const Ramp stem = ramp(hex(0x62803f), 0.7f), petals = ramp(petal, 0.62f);
-  constexpr float kStems[][3] = {{9.5f, 6.5f, 15.5f}, {23.0f, 25.5f, 12.5f}, {16.0f, 15.5f, 5.5f}};
-  for (const auto& [root, head_x, head_y] : kStems) {
+  const Ramp stem = ramp(hex(0x66803f), 0.7f), petals = ramp(petal, 0.62f);
+  // A tuft of leaves, then three stems out of it.
+  for (int i = 0; i < 9; ++i) {
+    const float lean = (static_cast<float>(i) - 4.0f) * 2.9f, tall = random.range(6.0f, 11.5f);
+    put_stroke(canvas, {16 + lean * 0.35f, 31.5f, 16 + lean * 0.6f, 31.0f - tall, 16 + lean, 32.0f - tall, 2.2f, 1.0f}, stem, 0.18f, 0.5f);
+  }
+  constexpr float kHeads[][3] = {{12.5f, 6.5f, 14.5f}, {19.5f, 25.5f, 12.0f}, {16.0f, 15.5f, 5.0f}};
+  for (const auto& [root, head_x, head_y] : kHeads) {
     const float y = head_y + random.range(-0.6f, 0.6f);
-    const float mid = (root + head_x) * 0.5f + random.range(-1.5f, 1.5f);
-    put_stroke(canvas, {root, 31.5f, mid, 24.0f, head_x, y, 1.6f, 1.2f}, stem, 0.2f, 0.55f);
-    put_leaf_pair(canvas, root, 31.0f, 5.0f, stem);
-    put_leaf_pair(canvas, (root + mid) * 0.5f, 24.5f, 3.4f, stem);
+    put_stroke(canvas, {root, 31.5f, root + (head_x - root) * 0.3f, 22.0f, head_x, y, 1.4f, 1.2f}, stem, 0.25f, 0.6f);
     put_flower_head(canvas, head_x + 0.5f, y + 0.5f, flower, petals, center);
   }
   return canvas;
@@ -161,7 +163,10 @@ Canvas paint_heather() {
   constexpr float kSprigs[][3] = {{4, 2.5f, 16}, {8, 7, 9}, {12, 11, 13}, {16, 17, 6}, {20, 21, 11}, {24, 26, 8}, {28, 29.5f, 15}, {14, 14, 19}, {22, 23, 19}};
   for (const auto& [root, tip, top] : kSprigs) {
     put_stroke(canvas, {root, 31.5f, root, 24, tip, top, 1.4f, 1.0f}, stem, 0.2f, 0.5f);
-    put_leaf_pair(canvas, root, 29.0f, 2.4f, stem);
+    for (float y = 30.0f; y > top + 9.0f; y -= 2.0f) {
+      const float side = random.next() < 0.5f ? -1.6f : 1.6f, x = root + (tip - root) * (31.5f - y) / 25.0f;
+      put_stroke(canvas, {x, y, x + side * 0.5f, y - 1.0f, x + side, y - 1.6f, 1.0f, 1.0f}, stem, 0.35f, 0.6f);
+    }
     for (float y = top; y < top + 10.5f; y += 1.7f) {
       const float side = random.range(-1.4f, 1.4f);
       put_dab(canvas, {tip + (root - tip) * (y - top) / 20.0f + side, y, {1, 0}, 1.2f, 1.0f}, bell, random.range(0.4f, 0.75f));
@@ -175,7 +180,7 @@ Canvas paint_wheat() {
   Random random(921);
   const Ramp straw = ramp(hex(0xb99a55), 0.66f), ear = ramp(hex(0xd0ad62), 0.66f);
   for (int i = 0; i < 10; ++i) {
-    const float root = 2.0f + 3.1f * static_cast<float>(i), lean = random.range(-2.5f, 2.5f), top = random.range(3.0f, 11.0f);
+    const float root = 2.0f + 3.1f * static_cast<float>(i), lean = random.range(-2.8f, 2.8f), top = 2.0f + 9.0f * unit(i, 7, 922);
     const float tip = std::clamp(root + lean, 2.0f, 30.0f);
     put_stroke(canvas, {root, 31.5f, root, 18, tip, top, 1.2f, 1.0f}, straw, 0.2f, 0.55f);
     for (int grain = 0; grain < 5; ++grain) {

@@ -24,7 +24,8 @@ Canvas paint_birch(Color base) {
   // Dark lenticels lie across the trunk.
   Random random(813);
   for (int i = 0; i < 15; ++i) {
-    const Dab mark{random.range(0, kEdge), random.range(0, kEdge), {1, 0}, random.range(1.5f, 4.5f), random.range(0.5f, 1.1f)};
+    const auto [center_x, center_y] = spread_point(i, 814);
+    const Dab mark{center_x, center_y, {1, 0}, random.range(1.5f, 4.5f), random.range(0.5f, 1.1f)};
     for_dab(mark, [&](int x, int y, float u, float) { canvas.set(x, y, mix(hex(0x3b3532), hex(0x6f655d), u * u)); });
     canvas.tint(static_cast<int>(mark.x), static_cast<int>(mark.y) + 1, tones.tones[4], 0.6f);
   }
