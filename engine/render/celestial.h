@@ -1,0 +1,71 @@
+#pragma once
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace skerry::render {
+
+/// Seconds in a day of the game.
+inline constexpr double kDaySeconds = 86400.0;
+/// Altitude of the noon sun above the southern horizon [degrees].
+inline constexpr double kNoonAltitudeDeg = 60.0;
+/// The axis about which the sky turns, unit: the celestial pole above the northern horizon. Sun and
+/// moon keep at 90 degrees to it.
+inline constexpr glm::dvec3 kCelestialPole{0.0, 0.5, -0.86602540378443864676};
+/// Light of the full moon over light of the sun at the same altitude. The real ratio is 1/400,000,
+/// which no display can follow.
+inline constexpr double kMoonToSun = 1.0 / 400.0;
+
+/// Where the two bodies stand and the light they send at one moment. Axes and units:
+/// docs/conventions.md.
+struct Celestial {
+  glm::dvec3 to_sun, to_moon;      ///< unit
+  glm::vec3 sun_irradiance;        ///< on a surface facing the sun, linear RGB; pi at the zenith
+  glm::vec3 moon_irradiance;       ///< on a surface facing the moon
+  double moon_phase = 0.0;         ///< 0 new, 0.25 first quarter, 0.5 full, below 1
+  float moon_lit_fraction = 0.0f;  ///< part of the disc that is lit, 0..1
+  bool sun_casts = false;          ///< exactly when sun_irradiance is not zero
+  bool moon_casts = false;         ///< exactly when moon_irradiance is not zero
+  glm::mat3 sky_from_world;  ///< the frame in which the stars stand still: x at the sun, z at the
+                             ///< celestial pole
+};
+
+/// The sky at a moment. The sun rises in the east at 06:00, culminates in the south at
+/// kNoonAltitudeDeg and sets in the west at 18:00; the moon runs on the same circle, behind the sun
+/// by the phase (full: opposite).
+/// @param time_of_day_s any finite number of seconds, reduced exactly to a day; @param moon_phase
+/// any finite number, reduced to 0..1. Asserts that both are finite. Irradiance: pi * transmittance
+/// relative to the zenith (Preetham 1999, appendix A1: Rayleigh, aerosol and ozone, turbidity 2.5,
+/// air mass of Kasten and Young 1989), times the part of the disc above the horizon: 0 below -0.3
+/// degrees. The moon's is kMoonToSun times that, times Lambert's phase law of a sphere, less 1% so
+/// that thin crescents cast no light.
+Celestial celestial_at(double time_of_day_s, double moon_phase);
+
+/// The moon's light over the sun's at the same altitude, linear RGB, bluish. 0 about the new moon. @param moon_phase 0..1.
+glm::dvec3 moonlight(double moon_phase);
+
+/// Direct light that arrives from altitude `sine` (of the angle above the horizon, -1..1) over that
+/// from the zenith, linear RGB in 0..1, without the horizon's cut: below the horizon it is the
+/// horizon's.
+glm::dvec3 transmittance_to_zenith(double sine);
+
+/// Radiance (luminance) of the zenith of a sky lit by the sun at this altitude: Preetham's zenith
+/// luminance by day (35 kcd/m2 is the unit of radiance), times a twilight that falls off by
+/// exp(-0.55) a degree below the horizon (half the real pace, to leave an evening to play in) and
+/// ends at -18 degrees, 0 beyond. Smooth through the horizon.
+double zenith_radiance(double sun_altitude_sine);
+
+/// Incident-light meter: exposure from the light of sun, moon and sky, never from the picture, so
+/// that looking about changes nothing. The picture is tone_map(radiance * 2^-EV) with EV = 0.75 *
+/// log2(E / pi + 2^-10) - 0.5, where E is the luminance of all three (the sky counts pi *
+/// zenith_radiance). Noon is about -0.3, full moon about -6.6, and a night without any light stays
+/// dark at the cap of -8.
+float auto_exposure_ev(const Celestial& sky);
+
+/// The time rounded down to a step of 12 s (0.05 degrees of the sun), reduced to one day, for a sun
+/// whose shadow maps are kept between frames. A step is a tenth of the sun's disc (0.53 degrees),
+/// so it moves the edge of a shadow by less than a tenth of the edge's natural blur; the shadow of
+/// something 64 blocks up moves 0.056 blocks, below one texel of the nearest cascade at 2048 texels
+/// and 1000 blocks of view.
+double quantised_time(double time_of_day_s);
+
+}  // namespace skerry::render

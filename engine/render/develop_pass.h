@@ -1,0 +1,20 @@
+#pragma once
+#include "engine/render/phases.h"
+#include "engine/render/scene_refs.h"
+#include "engine/render/settings.h"
+
+namespace skerry::gpu {
+class Image;
+}
+
+namespace skerry::render {
+
+/// Radiance to picture: exposure, tone curve, sRGB; or a debug view of what the frame holds.
+struct DevelopPass {
+  /// @param picture RGBA8 storage image of the frame's size.
+  static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, Shaded shaded, gpu::Image& picture);
+  static Developed add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
+                             DebugView view, gpu::Image& picture);
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,374 @@
+#include "engine/render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "engine/core/check.h"
+#include "engine/gpu/frame_ring.h"
+#include "engine/render/block_textures.h"
+#include "engine/render/cull_pass.h"
+#include "engine/render/develop_pass.h"
+#include "engine/render/frame_setup.h"
+#include "engine/render/geometry_pass.h"
+#include "engine/render/shade_pass.h"
+#include "engine/render/shadow_maps.h"
+#include "engine/render/shadow_pass.h"
+#include "engine/render/sky_model.h"
+#include "engine/render/sky_pass.h"
+#include "engine/render/translucent_pass.h"
+
+namespace skerry::render {
+namespace {
+
+constexpr std::uint32_t kFramesInFlight = 2;
+constexpr VkBufferUsageFlags kTable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+constexpr std::array<const char*, 8> kShadowPassNames{"draw_shadow_sun_0",  "draw_shadow_sun_1",  "draw_shadow_sun_2",  "draw_shadow_sun_3",
+                                                      "draw_shadow_moon_0", "draw_shadow_moon_1", "draw_shadow_moon_2", "draw_shadow_moon_3"};
+
+/// What one frame in flight owns.
+struct Slot {
+  std::uint64_t value = 0;       // timeline value that completes it; 0: not in flight
+  gpu::Buffer readback;          // CullStats[kViewCount], then PixelStats
+  std::uint32_t views = 0;       // entries of CullStats that the frame wrote
+  bool pixels = false;           // whether it wrote PixelStats
+};
+
+constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::CullStats);
+
+}  // namespace
+
+struct Renderer::State {
+  State(gpu::Device& d, const RendererDesc& desc)
+      : device(d), pipelines(d), graph(&d), frame_uploader(d, desc.upload_path), mesh_uploader(d, desc.upload_path), shadows(d),
+        ring(d, kFramesInFlight), upload_budget(desc.upload_budget_bytes) {}
+
+  Result<void> create(const RendererDesc& desc);
+  Result<gpu::Buffer> table(const char* name, std::uint64_t size_bytes) { return device.create_buffer({name, size_bytes, kTable, gpu::Memory::kDevice}); }
+  Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
+  Result<void> resize_picture(VkExtent2D size);
+  template <class T>
+  Result<void> upload(gpu::Buffer& to, const char* name, std::span<const T> values);
+  Result<void> upload_tables(const FrameTables& tables, const shared::SkyConstants& sky);
+  void take_report(std::uint32_t slot_index);
+  SceneRefs import_scene(const FrameInput& input, VkExtent2D size);
+  void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
+             std::span<const ActiveCascade> cascades, bool bake_sky, Slot& slot);
+  Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws, const RenderSettings& settings, const FrameInput& input,
+                      std::span<const ActiveCascade> cascades);
+  void add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats, std::uint32_t views);
+
+  gpu::Device& device;
+  gpu::Pipelines pipelines;
+  gpu::FrameGraph graph;
+  gpu::Uploader frame_uploader, mesh_uploader;
+  std::unique_ptr<GeometryStore> geometry;
+  ShadowMaps shadows;
+  gpu::FrameRing ring;
+  std::uint64_t upload_budget;
+  gpu::Buffer frame, sky, islands, matrices, views, materials, indices, pixel_stats;
+  gpu::Image block_textures, sky_lut, picture;
+  VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
+  std::optional<shared::SkyConstants> baked_sky;
+  std::array<Slot, kFramesInFlight> slots;
+  std::uint32_t last_slot = 0;
+  std::optional<FrameReport> report;
+  std::optional<std::pair<shared::CullView, FixedPos>> frozen;
+};
+
+Result<void> Renderer::State::reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes) {
+  if (buffer && buffer.size_bytes() >= size_bytes) return {};
+  Result<gpu::Buffer> made = table(name, buffer ? std::max(size_bytes, buffer.size_bytes() * 2) : size_bytes);
+  if (!made) return made.error();
+  buffer = *std::move(made);
+  return {};
+}
+
+template <class T>
+Result<void> Renderer::State::upload(gpu::Buffer& to, const char* name, std::span<const T> values) {
+  if (Result<void> ok = reserve(to, name, std::max<std::size_t>(values.size_bytes(), sizeof(T))); !ok) return ok;
+  if (!values.empty()) frame_uploader.write(to, 0, values);
+  return {};
+}
+
+Result<void> Renderer::State::create(const RendererDesc& desc) {
+  Result<std::unique_ptr<GeometryStore>> store = GeometryStore::create(device, desc.arena_quads);
+  if (!store) return store.error();
+  geometry = *std::move(store);
+
+  std::vector<std::uint16_t> index(shared::kMaxQuadsPerDraw * 6);
+  for (std::uint32_t quad = 0; quad < shared::kMaxQuadsPerDraw; ++quad)
+    for (std::uint32_t i = 0; i < 6; ++i)
+      index[quad * 6 + i] = static_cast<std::uint16_t>(quad * 4 + std::array<std::uint32_t, 6>{0, 1, 2, 0, 2, 3}[i]);
+  Result<gpu::Buffer> made = device.create_buffer(
+      {"quad indices", index.size() * 2, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kDevice});
+  if (!made) return made.error();
+  indices = *std::move(made);
+  frame_uploader.write(indices, 0, std::span<const std::uint16_t>(index));
+  if (Result<void> ok = upload(materials, "materials", desc.materials); !ok) return ok;
+  if (Result<void> ok = reserve(pixel_stats, "pixel stats", sizeof(shared::PixelStats)); !ok) return ok;
+
+  const BlockTextures textures = render::block_textures();
+  Result<gpu::Image> image = device.create_image({.name = "block textures", .format = VK_FORMAT_R8G8B8A8_SRGB, .extent = {textures.edge, textures.edge},
+                                                  .mips = textures.mips, .layers = textures.layers,
+                                                  .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, .array = true});
+  if (!image) return image.error();
+  block_textures = *std::move(image);
+  if (Result<void> ok = frame_uploader.fill_image(block_textures, textures.texels); !ok) return ok;
+
+  image = device.create_image({.name = "sky table", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = {shared::kSkyLutWidth, shared::kSkyLutHeight},
+                               .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT});
+  if (!image) return image.error();
+  sky_lut = *std::move(image);
+
+  const std::array<std::pair<VkSampler*, gpu::SamplerDesc>, 3> samplers{{
+      {&block_sampler, {.mip = VK_SAMPLER_MIPMAP_MODE_LINEAR, .address = VK_SAMPLER_ADDRESS_MODE_REPEAT}},
+      {&lut_sampler, {}},
+      {&point_sampler, {.mag = VK_FILTER_NEAREST, .min = VK_FILTER_NEAREST}},
+  }};
+  for (const auto& [sampler, sampler_desc] : samplers) {
+    Result<VkSampler> got = device.sampler(sampler_desc);
+    if (!got) return got.error();
+    *sampler = *got;
+  }
+  for (Slot& slot : slots) {
+    Result<gpu::Buffer> readback = device.create_buffer(
+        {"frame stats", kPixelStatsOffset + sizeof(shared::PixelStats), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kReadback});
+    if (!readback) return readback.error();
+    slot.readback = *std::move(readback);
+  }
+  return {};
+}
+
+Result<void> Renderer::State::resize_picture(VkExtent2D size) {
+  if (picture && picture.desc().extent.width == size.width && picture.desc().extent.height == size.height) return {};
+  const std::uint32_t most = device.limits().max_image_edge;
+  if (size.width == 0 || size.height == 0 || size.width > most || size.height > most)
+    return Error{fmt::format("cannot draw a picture of {}x{} pixels: the device takes 1 to {} along an edge; choose another --size", size.width,
+                             size.height, most)};
+  picture = {};
+  Result<gpu::Image> image = device.create_image(
+      {.name = "picture", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = size, .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+  if (!image) return image.error();
+  picture = *std::move(image);
+  return {};
+}
+
+Result<void> Renderer::State::upload_tables(const FrameTables& tables, const shared::SkyConstants& sky_now) {
+  const std::array<Result<void>, 5> done{
+      upload(frame, "frame constants", std::span<const shared::FrameConstants>(&tables.constants, 1)),
+      upload(sky, "sky constants", std::span<const shared::SkyConstants>(&sky_now, 1)),
+      upload(islands, "island transforms", std::span<const shared::IslandTransform>(tables.islands)),
+      upload(matrices, "view matrices", std::span<const glm::mat4>(tables.matrices)),
+      upload(views, "cull views", std::span<const shared::CullView>(tables.views)),
+  };
+  for (const Result<void>& one : done)
+    if (!one) return one.error();
+  return {};
+}
+
+SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size) {
+  SceneRefs s;
+  s.frame = graph.import(frame);
+  s.sky = graph.import(sky);
+  s.islands = graph.import(islands);
+  s.matrices = graph.import(matrices);
+  s.views = graph.import(views);
+  s.materials = graph.import(materials);
+  s.quads = graph.import(geometry->quads());
+  s.sections = graph.import(geometry->sections());
+  s.indices = graph.import(indices);
+  s.pixel_stats = graph.import(pixel_stats);
+  s.block_textures = graph.import(block_textures);
+  s.sky_lut = graph.import(sky_lut);
+  s.block_sampler = block_sampler;
+  s.lut_sampler = lut_sampler;
+  s.point_sampler = point_sampler;
+  s.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
+  s.size = size;
+  return s;
+}
+
+Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& draws, const RenderSettings& settings, const FrameInput& input,
+                                     std::span<const ActiveCascade> cascades) {
+  std::vector<ShadowDraw> redraw;
+  std::uint32_t view = 1;
+  for (const ActiveCascade& c : cascades) {
+    const char* name = kShadowPassNames[static_cast<std::size_t>(c.body * kCascadeCount + c.index)];
+    if (c.redraw)
+      redraw.push_back({view++, c.layer, name});
+    else
+      graph.leave_out(name, "kept from an earlier frame: light, window, geometry and islands have not moved");
+  }
+  const std::array<bool, 2> up{input.sky.sun_casts, input.sky.moon_casts};
+  for (std::size_t body = 0; body < 2; ++body) {
+    const char* name = body == 0 ? "draw_shadow_sun" : "draw_shadow_moon";
+    if (!up[body])
+      graph.leave_out(name, body == 0 ? "the sun is below the horizon" : "the moon is below the horizon or gives no light");
+    else if (!settings.shadows)
+      graph.leave_out(name, "shadow.enabled=0");
+  }
+  return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw, geometry->cutout_quads() > 0);
+}
+
+void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats, std::uint32_t view_count) {
+  gpu::BufferRef to = graph.import(slot.readback);
+  slot.views = cull_stats ? view_count : 0;
+  graph.add_pass(
+      "read_stats",
+      [&](gpu::PassBuilder& b) {
+        if (cull_stats) b.read(*cull_stats, gpu::Use::kTransferRead);
+        b.read(scene.pixel_stats, gpu::Use::kTransferRead);
+        to = b.write(to, gpu::Use::kTransferWrite);
+      },
+      [to, stats = cull_stats ? *cull_stats : gpu::BufferRef{}, pixels = scene.pixel_stats, view_count](gpu::Commands& c) {
+        if (stats) c.copy(stats, to, 0, 0, view_count * sizeof(shared::CullStats));
+        c.copy(pixels, to, 0, kPixelStatsOffset, sizeof(shared::PixelStats));
+      });
+  graph.add_pass(
+      "stats_to_cpu", [&](gpu::PassBuilder& b) {
+        b.read(to, gpu::Use::kHostRead);
+        b.keep();
+      },
+      [](gpu::Commands&) {});
+}
+
+void Renderer::State::build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
+                            std::span<const ActiveCascade> cascades, bool bake_sky, Slot& slot) {
+  graph.begin();
+  SceneRefs scene = import_scene(input, size);
+  graph.add_pass(
+      "clear_pixel_stats", [&](gpu::PassBuilder& b) { scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite); },
+      [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
+  if (bake_sky)
+    scene.sky_lut = add_sky_pass(graph, pipelines, scene);
+  else
+    graph.leave_out("bake_sky", "sun and moon have not moved since the table was made");
+
+  const auto view_count = static_cast<std::uint32_t>(tables.views.size());
+  if (geometry->sections_resident() == 0) {
+    for (const char* name : {"cull_sections", "draw_geometry", "draw_shadow_sun", "draw_shadow_moon", "shade_surfaces", "shade_translucent"})
+      graph.leave_out(name, "no geometry is resident");
+    (void)DevelopPass::add(graph, pipelines, scene, ShadePass::add_sky_only(graph, pipelines, scene), picture);
+    add_readback(slot, scene, nullptr, 0);
+    return;
+  }
+  const CulledDraws draws = add_cull_passes(graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
+  Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, geometry->cutout_quads() > 0);
+  Shadows maps = add_shadows(scene, draws, settings, input, cascades);
+  if (settings.debug_view != DebugView::kNone) {
+    (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view, picture);
+    graph.leave_out("shade_surfaces", "a debug view is shown");
+  } else {
+    Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, settings.texture_taps);
+    if (geometry->translucent_quads() == 0 && input.camera_medium == 0)
+      graph.leave_out("shade_translucent", "no translucent block is resident");
+    else if (input.camera_medium == 0 && !translucent_in_view(geometry->records(), tables.islands, tables.views[0]))
+      graph.leave_out("shade_translucent", "no translucent block is in view");
+    else
+      shaded = TranslucentPass::add(graph, pipelines, scene, draws, surfaces, maps, std::move(shaded), settings.translucent_layers);
+    (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
+  }
+  add_readback(slot, scene, &draws.stats, view_count);
+}
+
+void Renderer::State::take_report(std::uint32_t slot_index) {
+  Slot& slot = slots[slot_index];
+  if (slot.value == 0) return;
+  FrameReport r;
+  r.passes = graph.times(slot_index);
+  for (const gpu::PassTime& pass : r.passes) r.gpu_ms += pass.ms;
+  const std::byte* data = slot.readback.mapped();
+  for (std::uint32_t v = 0; v < slot.views; ++v) {
+    shared::CullStats one;
+    std::memcpy(&one, data + v * sizeof(one), sizeof(one));
+    if (v == 0) {
+      r.camera = one;
+    } else {
+      r.shadows.sections_in += one.sections_in;
+      r.shadows.sections_passed += one.sections_passed;
+      r.shadows.draws += one.draws;
+      r.shadows.quads += one.quads;
+    }
+  }
+  std::memcpy(&r.pixels, data + kPixelStatsOffset, sizeof(r.pixels));
+  report = std::move(r);
+  slot.value = 0;
+}
+
+Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device, const RendererDesc& desc) {
+  auto state = std::make_unique<State>(device, desc);
+  std::unique_ptr<Renderer> renderer(new Renderer(std::move(state)));
+  if (Result<void> ok = renderer->state_->create(desc); !ok) return ok.error();
+  return renderer;
+}
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Renderer::~Renderer() {
+  State& s = *state_;
+  for (const Slot& slot : s.slots)
+    if (slot.value != 0) s.device.wait(slot.value);
+}
+
+Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+                                     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
+                                     std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
+  State& s = *state_;
+  SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
+  if (Result<void> ok = s.resize_picture(size); !ok) return ok.error();
+
+  const Result<std::span<const ActiveCascade>> cascades = s.geometry->sections_resident() == 0
+                                                              ? std::span<const ActiveCascade>{}
+                                                              : s.shadows.update(input, settings, s.geometry->version());
+  if (!cascades) return cascades.error();
+  FrameTables tables = build_tables(input, settings, size, *cascades);
+  if (!input.freeze_culling)
+    s.frozen.reset();
+  else if (!s.frozen)
+    s.frozen = {tables.views[0], input.camera.position};
+  if (s.frozen) {
+    tables.views[0] = s.frozen->first;
+    shift_view(tables.views[0], s.frozen->second, input.camera.position);
+  }
+  const shared::SkyConstants sky_now = sky_constants(input.sky);
+  const bool bake_sky = !s.baked_sky || std::memcmp(&*s.baked_sky, &sky_now, sizeof(sky_now)) != 0;
+  s.baked_sky = sky_now;
+  if (Result<void> ok = s.upload_tables(tables, sky_now); !ok) return ok.error();
+
+  const gpu::FrameRing::Frame frame = s.ring.begin();
+  Slot& slot = s.slots[frame.slot];
+  s.take_report(frame.slot);
+  s.geometry->collect();
+  s.frame_uploader.record(frame.commands, UINT64_MAX);
+  s.mesh_uploader.record(frame.commands, s.upload_budget);
+  // Maps drawn while meshes still wait for their turn will lack them.
+  if (s.mesh_uploader.pending_bytes() != 0) s.shadows.forget();
+  s.build(input, settings, size, tables, *cascades, bake_sky, slot);
+  s.graph.compile();
+  s.graph.execute(frame.commands, frame.slot);
+  if (after) after(frame.commands, s.picture);
+  slot.value = s.ring.submit(waits, signals);
+  s.last_slot = frame.slot;
+  return slot.value;
+}
+
+void Renderer::finish() {
+  State& s = *state_;
+  for (std::uint64_t i = 0; i < kFramesInFlight; ++i) {
+    const auto slot_index = static_cast<std::uint32_t>((s.last_slot + 1 + i) % kFramesInFlight);
+    if (s.slots[slot_index].value == 0) continue;
+    s.device.wait(s.slots[slot_index].value);
+    s.take_report(slot_index);
+  }
+}
+
+GeometryStore& Renderer::geometry() { return *state_->geometry; }
+gpu::Uploader& Renderer::mesh_uploader() { return state_->mesh_uploader; }
+const gpu::FrameGraph& Renderer::graph() const { return state_->graph; }
+int Renderer::pipelines_created() const { return state_->pipelines.created(); }
+gpu::Image& Renderer::picture() { return state_->picture; }
+const std::optional<FrameReport>& Renderer::report() const { return state_->report; }
+void Renderer::forget_shadows() { state_->shadows.forget(); }
+
+}  // namespace skerry::render

@@ -1,0 +1,95 @@
+#pragma once
+#include <volk.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/uploader.h"
+#include "engine/render/camera.h"
+#include "engine/render/celestial.h"
+#include "engine/render/geometry_store.h"
+#include "engine/render/settings.h"
+#include "shaders/shared/frame.h"
+#include "shaders/shared/geometry.h"
+
+namespace skerry::render {
+
+/// Where an island is this frame. Its index in FrameInput::islands is what Section::island holds.
+struct IslandPlacement {
+  FixedPos origin{};                        ///< of its lattice
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< world from lattice
+  double bounding_radius = 0.0;             ///< blocks about the origin
+};
+
+/// Everything that decides one picture besides the resident geometry. Plain values, const once built.
+struct FrameInput {
+  Camera camera;
+  FixedPos anchor{};  ///< moves with the world's offset; pictures depend on differences to it alone
+  std::span<const IslandPlacement> islands;  ///< at most shared::kMaxIslands
+  Celestial sky{};
+  float exposure_ev = 0.0f;        ///< picture = tone curve(radiance * 2^-EV)
+  double time_s = 0.0;             ///< seconds of play: water ripples
+  std::uint32_t camera_medium = 0; ///< block id the camera is in, if translucent; else 0
+  bool freeze_culling = false;     ///< keep culling with the camera of the frame in which this became true
+};
+
+/// Numbers of a frame the GPU has finished.
+struct FrameReport {
+  std::vector<gpu::PassTime> passes;
+  double gpu_ms = 0.0;
+  shared::CullStats camera{};
+  shared::CullStats shadows{};  ///< sums over the cascades drawn
+  shared::PixelStats pixels{};
+};
+
+struct RendererDesc {
+  std::span<const shared::Material> materials;  ///< indexed by block id
+  gpu::UploadPath upload_path = gpu::UploadPath::kUpdateBuffer;
+  std::uint64_t upload_budget_bytes = 4u << 20; ///< chunk meshes a frame
+  std::uint32_t arena_quads = 1u << 20;         ///< to begin with
+};
+
+/// Draws frames: owns what lives longer than one (geometry, textures, shadow maps, the picture) and assembles each frame's graph.
+class Renderer {
+ public:
+  static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererDesc& desc);
+  ~Renderer();  ///< waits for the GPU
+
+  GeometryStore& geometry();
+  gpu::Uploader& mesh_uploader();
+  const gpu::FrameGraph& graph() const;      ///< of the last frame, for --explain
+  int pipelines_created() const;
+
+  /// Records and submits one frame. Two are in flight; waits for the one before last.
+  /// @param after records into the same command buffer behind the frame, e.g. the copy to a window; @param waits, signals for the swapchain.
+  /// @return the timeline value that completes the frame. Errors: size over the device's limit, out of memory.
+  Result<std::uint64_t> draw(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+                             const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},
+                             std::span<const VkSemaphoreSubmitInfo> waits = {}, std::span<const VkSemaphoreSubmitInfo> signals = {});
+
+  /// RGBA8 picture of the last frame.
+  gpu::Image& picture();
+  /// The newest frame that has completed; empty before the third draw unless finish() was called.
+  const std::optional<FrameReport>& report() const;
+  /// Waits for all frames and takes in their numbers.
+  void finish();
+  /// Shadow maps are drawn afresh in the next frame, whatever has been kept.
+  void forget_shadows();
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,87 @@
+#include "engine/render/shadow_maps.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/gpu/device.h"
+#include "engine/render/renderer.h"
+
+namespace skerry::render {
+namespace {
+
+/// How far a point of the island can have moved against the anchor between two placements [blocks], at most.
+double movement(const IslandPlacement& a, const FixedPos& anchor_a, const IslandPlacement& b, const FixedPos& anchor_b) {
+  glm::dvec3 shift;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    shift[i] = static_cast<double>((b.origin[k] - anchor_b[k]) - (a.origin[k] - anchor_a[k])) / 65536.0;
+  }
+  // A rotation by angle t moves a point at distance r by 2 r sin(t / 2); |q - q'| = 2 sin(t / 4) for the nearer of q' and -q'.
+  const glm::dquat same = glm::dot(a.rotation, b.rotation) < 0.0 ? -b.rotation : b.rotation;
+  const double quarter = 0.5 * glm::length(a.rotation - same);
+  return glm::length(shift) + 4.0 * quarter * std::max(a.bounding_radius, b.bounding_radius);
+}
+
+/// Casters further than this above a cascade are flattened onto the map's near side by depth clamping, so nothing is lost.
+double caster_reach(const RenderSettings& settings) { return 2.0 * settings.view_distance_blocks + 512.0; }
+
+}  // namespace
+
+Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& input, const RenderSettings& settings, std::uint64_t geometry_version) {
+  const std::array<bool, 2> casting{settings.shadows && input.sky.sun_casts, settings.shadows && input.sky.moon_casts};
+  active_.clear();
+  if (!casting[0] && !casting[1]) {
+    maps_ = {};
+    casting_ = casting;
+    forget();
+    return std::span<const ActiveCascade>{};
+  }
+  const std::uint32_t layers = (casting[0] ? 4u : 0u) + (casting[1] ? 4u : 0u);
+  if (casting != casting_ || map_size_ != settings.shadow_map_size || !maps_) {
+    maps_ = {};
+    const auto edge = static_cast<std::uint32_t>(settings.shadow_map_size);
+    Result<gpu::Image> image = device_->create_image({.name = "shadow maps", .format = VK_FORMAT_D32_SFLOAT, .extent = {edge, edge}, .layers = layers,
+                                                      .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, .array = true});
+    if (!image) return image.error();
+    maps_ = *std::move(image);
+    casting_ = casting;
+    map_size_ = settings.shadow_map_size;
+    forget();
+  }
+  std::uint32_t layer = 0;
+  for (int body = 0; body < 2; ++body) {
+    if (!casting[static_cast<std::size_t>(body)]) continue;
+    CascadeInput in;
+    in.to_light = body == 0 ? input.sky.to_sun : input.sky.to_moon;
+    in.camera = input.camera.position;
+    in.anchor = input.anchor;
+    in.near_blocks = 1.0;
+    in.far_blocks = settings.view_distance_blocks;
+    in.caster_reach_blocks = caster_reach(settings);
+    in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_filter_blocks) + 8.0 * settings.view_distance_blocks / settings.shadow_map_size;
+    in.map_size = settings.shadow_map_size;
+    const std::array<Cascade, kCascadeCount> cascades = make_cascades(in);
+    for (int i = 0; i < kCascadeCount; ++i, ++layer) {
+      ActiveCascade active{body, i, layer, true, cascades[static_cast<std::size_t>(i)]};
+      Kept& kept = kept_[layer];
+      active.redraw = !still_right(kept, active.cascade, input, geometry_version);
+      if (active.redraw)
+        kept = {true, active.cascade.key, geometry_version, {input.islands.begin(), input.islands.end()}, input.anchor};
+      active_.push_back(active);
+    }
+  }
+  return std::span<const ActiveCascade>(active_);
+}
+
+bool ShadowMaps::still_right(const Kept& kept, const Cascade& cascade, const FrameInput& input, std::uint64_t geometry_version) const {
+  if (!kept.valid || kept.key != cascade.key || kept.geometry_version != geometry_version || kept.islands.size() != input.islands.size()) return false;
+  for (std::size_t i = 0; i < input.islands.size(); ++i)
+    if (movement(kept.islands[i], kept.anchor, input.islands[i], input.anchor) > 0.25 * static_cast<double>(cascade.texel_blocks)) return false;
+  return true;
+}
+
+void ShadowMaps::forget() {
+  for (Kept& kept : kept_) kept = {};
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,83 @@
+#include "engine/render/translucent_pass.h"
+
+#include <array>
+
+namespace skerry::render {
+
+using gpu::Use;
+
+Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, const CulledDraws& draws, const Geometry& geometry,
+                            const Shadows& shadows, Shaded shaded, int layers) {
+  static constexpr std::array<const char*, 4> kNames{"draw_translucent_0", "draw_translucent_1", "draw_translucent_2", "draw_translucent_3"};
+  const auto count = static_cast<std::uint32_t>(layers);
+  struct Layer {
+    gpu::ImageRef surfaces, depth;
+  };
+  std::array<Layer, 4> layer{};
+  const gpu::ImageRef opaque_depth = geometry.depth();
+  for (std::uint32_t k = 0; k < count; ++k) {
+    gpu::ImageRef& words = layer[k].surfaces;
+    gpu::ImageRef& depth = layer[k].depth;
+    words = graph.create(gpu::ImageDesc{.name = "translucent surfaces", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
+    depth = graph.create(gpu::ImageDesc{.name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
+    const gpu::ImageRef previous = k == 0 ? opaque_depth : layer[k - 1].depth;
+    const gpu::Pipeline& pipeline = pipelines.get(gpu::GraphicsDesc{.vertex = "draw_quads.vert", .fragment = "write_layer.frag",
+                                                                    .constants = {{1, k == 0 ? 1u : 0u}}, .color_formats = {VK_FORMAT_R32_UINT},
+                                                                    .depth_format = VK_FORMAT_D32_SFLOAT, .cull = VK_CULL_MODE_NONE});
+    graph.add_pass(
+        kNames[k],
+        [&](gpu::PassBuilder& b) {
+          declare_draws(b, scene, draws);
+          b.read(opaque_depth, Use::kFragmentRead);
+          if (k > 0) b.read(previous, Use::kFragmentRead);
+          words = b.color(words, gpu::Load::cleared({}));
+          depth = b.depth(depth, gpu::Load::cleared({}));
+        },
+        [scene, draws, opaque_depth, previous, &pipeline](gpu::Commands& c) {
+          c.bind(pipeline);
+          c.sampled(4, opaque_depth, scene.point_sampler);
+          c.sampled(5, previous, scene.point_sampler);
+          draw_list(c, scene, draws, 0, DrawList::kTranslucent);
+        });
+  }
+
+  gpu::ImageRef radiance = shaded.radiance();
+  const gpu::ImageRef maps = shadows.maps();
+  const gpu::Pipeline& pipeline =
+      pipelines.get(gpu::ComputeDesc{maps ? "shade_translucent.comp" : "shade_translucent_unshadowed.comp", {{0, count}}});
+  graph.add_pass(
+      "shade_translucent",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials}) b.read(ref, Use::kComputeRead);
+        for (std::uint32_t k = 0; k < count; ++k) {
+          b.read(layer[k].surfaces, Use::kComputeRead);
+          b.read(layer[k].depth, Use::kComputeSampled);
+        }
+        for (const gpu::ImageRef ref : {opaque_depth, scene.sky_lut, scene.block_textures}) b.read(ref, Use::kComputeSampled);
+        if (maps) b.read(maps, Use::kComputeSampled);
+        scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
+        radiance = b.write(radiance, Use::kComputeWrite);
+      },
+      [scene, layer, count, opaque_depth, maps, radiance, &pipeline](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.islands);
+        c.storage(2, scene.materials);
+        c.storage(4, scene.pixel_stats);
+        c.sampled(7, opaque_depth, scene.point_sampler);
+        c.sampled(8, scene.sky_lut, scene.lut_sampler);
+        c.storage(9, radiance);
+        if (maps) c.sampled(10, maps, scene.point_sampler);
+        c.sampled(11, scene.block_textures, scene.block_sampler);
+        // Layers that are not kept are never read; they are bound to the first so that every binding is valid.
+        for (std::uint32_t k = 0; k < 4; ++k) {
+          const Layer& bound = layer[k < count ? k : 0];
+          c.storage(12 + k, bound.surfaces);
+          c.sampled(16 + k, bound.depth, scene.point_sampler);
+        }
+        c.dispatch(gpu::Commands::groups(scene.size.width, 8), gpu::Commands::groups(scene.size.height, 8), 1);
+      });
+  return Shaded(radiance);
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,91 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Step 1 of 3: which ranges of each section a view needs (frustum, then the directions its faces look in), and how many draws each
+// work group of sections makes. One thread a section, one row of groups a view. docs/conventions.md.
+#include "include/cull.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(scalar, binding = 0) readonly buffer Sections { Section sections[]; };
+layout(scalar, binding = 1) readonly buffer Islands { IslandTransform islands[]; };
+layout(scalar, binding = 2) readonly buffer Views { CullView views[]; };
+layout(scalar, binding = 3) writeonly buffer Masks { uint masks[]; };         // [view][section]
+layout(scalar, binding = 4) writeonly buffer Totals { uint group_totals[]; }; // [view][list][group]
+layout(scalar, binding = 5) buffer Stats { CullStats stats[]; };              // [view]
+layout(push_constant) uniform Push { uint section_count; uint group_count; } push;
+
+shared uint draws_of_list[3];
+shared CullStats group_stats;
+
+uvec3 unpack_box(uint packed) { return uvec3(packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u); }
+
+uint visible_ranges(Section s, CullView view) {
+  if (s.range_end[kRangeCount - 1u] == 0u) return 0u;
+  IslandTransform island = islands[s.island];
+  float voxel = float(1u << s.voxel_size_log2);
+  vec3 low = vec3(s.origin) + vec3(unpack_box(s.bounds_min)) * voxel;
+  vec3 high = vec3(s.origin) + vec3(unpack_box(s.bounds_max)) * voxel;
+  vec3 half_size = 0.5 * (high - low);
+  vec3 centre = world_from_lattice(island, 0.5 * (low + high));
+  for (int i = 0; i < 6; ++i) {
+    vec3 n = view.planes[i].xyz;
+    float reach = dot(abs(lattice_from_world_vector(island, n)), half_size);
+    // A little slack covers the rounding of the products above; culling must never lose what can be seen.
+    if (dot(n, centre) + view.planes[i].w + reach < -1e-3 * (1.0 + reach)) return 0u;
+  }
+  bvec3 from_plus, from_minus;  // can the +x, +y, +z (-x, -y, -z) faces be seen?
+  if (view.orthographic == 0u) {
+    vec3 eye = lattice_from_world(island, view.eye);
+    from_plus = greaterThan(eye, low - 1e-2);
+    from_minus = lessThan(eye, high + 1e-2);
+  } else {
+    vec3 to_light = lattice_from_world_vector(island, view.eye);
+    from_plus = greaterThan(to_light, vec3(-1e-5));
+    from_minus = lessThan(to_light, vec3(1e-5));
+  }
+  uint faces = uint(from_plus.x) | (uint(from_minus.x) << 1) | (uint(from_plus.y) << 2) | (uint(from_minus.y) << 3) |
+               (uint(from_plus.z) << 4) | (uint(from_minus.z) << 5);
+  uint mask = (faces << kRangeOpaque) | (faces << kRangeCutout) | (1u << kRangePlant);
+  if (view.orthographic == 0u) mask |= 63u << kRangeTranslucent;  // drawn from both sides; casts no shadow
+  return mask;
+}
+
+void main() {
+  uint section = gl_GlobalInvocationID.x;
+  uint view = gl_GlobalInvocationID.y;
+  if (gl_LocalInvocationIndex == 0u) {
+    draws_of_list[0] = draws_of_list[1] = draws_of_list[2] = 0u;
+    group_stats = CullStats(0u, 0u, 0u, 0u);
+  }
+  barrier();
+  if (section < push.section_count && views[view].enabled != 0u) {
+    Section s = sections[section];
+    uint mask = visible_ranges(s, views[view]);
+    uint quads = 0u, draws = 0u;
+    for (uint list = 0u; list < kListCount; ++list) {
+      uint count = draw_count(s, mask, list);
+      if (count != 0u) atomicAdd(draws_of_list[list], count);
+      draws += count;
+    }
+    for (uint r = 0u; r < kRangeCount; ++r)
+      if ((mask & (1u << r)) != 0u) quads += s.range_end[r] - range_begin(s, r);
+    if (quads == 0u) mask = 0u;
+    masks[view * push.section_count + section] = mask;
+    if (s.range_end[kRangeCount - 1u] != 0u) atomicAdd(group_stats.sections_in, 1u);
+    if (quads != 0u) {
+      atomicAdd(group_stats.sections_passed, 1u);
+      atomicAdd(group_stats.draws, draws);
+      atomicAdd(group_stats.quads, quads);
+    }
+  }
+  barrier();
+  if (gl_LocalInvocationIndex < kListCount)
+    group_totals[(view * kListCount + gl_LocalInvocationIndex) * push.group_count + gl_WorkGroupID.x] =
+        draws_of_list[gl_LocalInvocationIndex];
+  if (gl_LocalInvocationIndex == 0u && group_stats.sections_in != 0u) {
+    atomicAdd(stats[view].sections_in, group_stats.sections_in);
+    atomicAdd(stats[view].sections_passed, group_stats.sections_passed);
+    atomicAdd(stats[view].draws, group_stats.draws);
+    atomicAdd(stats[view].quads, group_stats.quads);
+  }
+}

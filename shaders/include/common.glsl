@@ -1,0 +1,49 @@
+// Helpers every pass shares. Conventions: docs/conventions.md.
+#ifndef SKERRY_COMMON_GLSL
+#define SKERRY_COMMON_GLSL
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/frame.h"
+#include "shared/geometry.h"
+
+// G-buffer word: bits 0-15 block id, 16-27 island, 28-30 face, 31 set where there is a surface.
+uint pack_surface(uint block, uint island, uint face) { return block | (island << 16) | (face << 28) | 0x80000000u; }
+uint surface_block(uint word) { return word & 0xffffu; }
+uint surface_island(uint word) { return (word >> 16) & 0xfffu; }
+uint surface_face(uint word) { return (word >> 28) & 7u; }
+
+// Unit normal of a face in the lattice; a plant's diagonals stand for a surface that faces up.
+vec3 face_normal(uint face) {
+  if (face >= 6u) return vec3(0.0, 1.0, 0.0);
+  float s = (face & 1u) == 0u ? 1.0 : -1.0;
+  uint axis = face >> 1;
+  return vec3(axis == 0u ? s : 0.0, axis == 1u ? s : 0.0, axis == 2u ? s : 0.0);
+}
+
+vec3 world_from_lattice_vector(IslandTransform t, vec3 v) { return t.axis_x * v.x + t.axis_y * v.y + t.axis_z * v.z; }
+vec3 world_from_lattice(IslandTransform t, vec3 p) { return world_from_lattice_vector(t, p) + t.translation; }
+vec3 lattice_from_world_vector(IslandTransform t, vec3 v) { return vec3(dot(t.axis_x, v), dot(t.axis_y, v), dot(t.axis_z, v)); }
+vec3 lattice_from_world(IslandTransform t, vec3 p) { return lattice_from_world_vector(t, p - t.translation); }
+
+// What light meets at a pixel.
+struct Surface {
+  vec3 position;  // world
+  vec3 normal;    // world, unit, exact: it comes from the island's axes
+  vec3 albedo;    // linear
+  vec3 emitted;   // radiance
+};
+
+// Ray through a pixel's centre, scaled to one block along the view axis.
+vec3 pixel_ray(FrameConstants f, uvec2 pixel) {
+  vec2 ndc = (vec2(pixel) + 0.5) * f.pixel_to_ndc - 1.0;
+  return f.ray_forward + f.ray_right * ndc.x - f.ray_up * ndc.y;
+}
+
+// Distance along the view axis from reverse-Z infinite depth. @pre depth > 0.
+float view_distance(float depth, float near_plane) { return near_plane / depth; }
+
+// RGBA16F's largest finite value; what leaves a pass is clamped to it.
+const float kMaxRadiance = 65504.0;
+bool finite3(vec3 c) { return !(any(isnan(c)) || any(isinf(c))); }
+vec3 sanitised(vec3 c) { return finite3(c) ? clamp(c, vec3(0.0), vec3(kMaxRadiance)) : vec3(0.0); }
+
+#endif

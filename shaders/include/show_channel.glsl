@@ -1,0 +1,59 @@
+// Body of show_channel*.comp: one channel of the G-buffer, or one term of the light, in place of the lit scene. docs/conventions.md.
+#include "include/common.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 1) readonly buffer Islands { IslandTransform islands[]; };
+layout(scalar, binding = 2) readonly buffer Materials { Material materials[]; };
+layout(binding = 3, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = 4) uniform sampler2D depths;
+layout(binding = 5) uniform sampler2DArray block_textures;
+layout(binding = 6, rgba8) writeonly uniform image2D picture;
+#ifdef SKERRY_SHADOWS
+layout(binding = 7) uniform sampler2DArray shadow_maps;
+#include "include/shadow.glsl"
+#endif
+
+layout(constant_id = 0) const uint kChannel = 1u;  // render::DebugView
+
+#include "include/surface.glsl"
+#include "include/lighting.glsl"
+#include "include/tonemap.glsl"
+
+vec3 hashed_colour(uint id) {
+  uint h = id * 0x9e3779b1u;
+  h ^= h >> 15;
+  h *= 0x85ebca77u;
+  return vec3((h >> 8) & 255u, (h >> 16) & 255u, h >> 24) / 255.0;
+}
+
+uint cascade_at(Body body, float distance) {
+  uint c = body.first_cascade;
+  while (c < body.first_cascade + body.cascade_count && distance > frame.cascades[c].radius) ++c;
+  return c;
+}
+
+vec3 channel(uint word, float depth, vec3 ray) {
+  Surface s = resolve_surface(word, depth, ray, 1u);
+  if (kChannel == 1u) return srgb_encode(s.albedo);
+  if (kChannel == 2u) return s.normal * 0.5 + 0.5;
+  // Position in its island's lattice: red, green, blue repeat every block along x, y, z.
+  if (kChannel == 3u) return fract(lattice_from_world(islands[surface_island(word)], s.position));
+  if (kChannel == 4u) return hashed_colour(surface_block(word) | (surface_island(word) << 16));
+  if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * frame.exposure));
+  if (kChannel == 6u) return vec3(fract(log2(view_distance(depth, frame.near_plane))));
+  Body body = frame.bodies[frame.bodies[0].cascade_count != 0u ? 0 : 1];
+  if (kChannel == 7u) return hashed_colour(cascade_at(body, length(s.position)) + 3u) * 0.6 + 0.4 * s.albedo;
+  float n_dot_l = dot(s.normal, body.to_light);
+  return vec3(n_dot_l > 0.0 && body.cascade_count != 0u ? light_visibility(body, s.position, s.normal, n_dot_l) : 0.0);
+}
+
+void main() {
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(pixel, frame.size))) return;
+  uint word = imageLoad(surfaces, ivec2(pixel)).r;
+  vec3 colour = vec3(0.0);
+  if (word != 0u) colour = channel(word, texelFetch(depths, ivec2(pixel), 0).r, pixel_ray(frame, pixel));
+  imageStore(picture, ivec2(pixel), vec4(clamp(colour, 0.0, 1.0), 1.0));
+}

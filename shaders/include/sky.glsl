@@ -1,0 +1,134 @@
+// The sky's light: the daylight model, its table, the discs of sun and moon. Units and axes: docs/conventions.md.
+// sky_radiance() is the twin of engine/render/sky_model.cpp, where the sources are named; a test compares them.
+#ifndef SKERRY_SKY_GLSL
+#define SKERRY_SKY_GLSL
+#include "shared/sky.h"
+
+const float kSkyPi = 3.14159265358979;
+
+vec3 linear_from_yxy(vec3 yxy) {
+  float s = yxy.x / max(yxy.z, 1e-3);
+  vec3 xyz = vec3(yxy.y * s, yxy.x, (1.0 - yxy.y - yxy.z) * s);
+  return vec3(dot(xyz, vec3(3.2404542, -1.5371385, -0.4985314)), dot(xyz, vec3(-0.9692660, 1.8760108, 0.0415560)),
+              dot(xyz, vec3(0.0556434, -0.2040259, 1.0572252)));
+}
+
+// One body's radiance on the cone of sky at height `up` (sine of the elevation, >= 0). `dir` may dip below it.
+vec3 body_radiance(vec3 dir, float up, SkyBody body) {
+  float cos_gamma = clamp(dot(dir, body.to_body), -1.0, 1.0);
+  vec3 yxy = body.zenith * (1.0 + body.perez_a * exp(body.perez_b / max(up, 1e-3))) *
+             (1.0 + body.perez_c * exp(body.perez_d * acos(cos_gamma)) + body.perez_e * (cos_gamma * cos_gamma));
+  vec3 day = max(linear_from_yxy(yxy), 0.0) * body.day;
+  float clear = 1.0 - up;
+  float low = clear * clear * clear * clear * clear;
+  float towards = dot(dir.xz, body.to_body.xz) / max(1e-3, length(body.to_body.xz));
+  float side = 0.5 + 0.5 * towards;
+  float rise = (dir.y - max(0.0, body.to_body.y)) / 0.11;
+  float fire = exp(4.0 * (towards - 1.0)) / (1.0 + rise * rise);
+  float band = exp(-5.0 * up) * (0.3 + 0.7 * side * side);
+  float dome = 0.75 + 0.75 * side * clear;
+  return mix(day, body.haze, 0.9 * low) + fire * body.dusk_fire + band * body.dusk_band + dome * body.dusk_dome;
+}
+
+// Radiance of the sky without discs and stars, evaluated directly. dir is unit.
+vec3 sky_radiance(vec3 dir, SkyConstants sky) {
+  float up = max(0.0, dir.y);
+  vec3 radiance = body_radiance(dir, up, sky.sun) + body_radiance(dir, up, sky.moon);
+  float open = min(1.0, 1.0 + dir.y);
+  open *= open;
+  return mix(sky.sun.abyss + sky.moon.abyss, radiance, open * open);
+}
+
+// Table coordinates of a direction and back: 0..1 from the centre of the first texel to that of the last.
+vec2 sky_lut_from_dir(vec3 dir) {
+  float azimuth = dir.x == 0.0 && dir.z == 0.0 ? 0.0 : atan(dir.x, dir.z);
+  float height = asin(clamp(dir.y, -1.0, 1.0)) * (2.0 / kSkyPi);
+  return vec2(0.5 + azimuth * (0.5 / kSkyPi), 0.5 + 0.5 * sign(height) * sqrt(abs(height)));
+}
+
+vec3 dir_from_sky_lut(vec2 place) {
+  float azimuth = (place.x - 0.5) * (2.0 * kSkyPi);
+  float root = place.y * 2.0 - 1.0;
+  float elevation = sign(root) * root * root * (0.5 * kSkyPi);
+  return vec3(sin(azimuth) * cos(elevation), sin(elevation), cos(azimuth) * cos(elevation));
+}
+
+// The sky of dir (unit) from the table that bake_sky.comp filled. Any sampler that is linear and clamps to the edge.
+vec3 sample_sky(sampler2D lut, vec3 dir) {
+  const vec2 size = vec2(float(kSkyLutWidth), float(kSkyLutHeight));
+  return textureLod(lut, (sky_lut_from_dir(dir) * (size - 1.0) + 0.5) / size, 0.0).rgb;
+}
+
+// Where dir meets a disc about `centre`: x to the celestial west, y to the pole, in disc radii; z the depth of the near half of its sphere,
+// 0 at the limb.
+vec3 disc_place(vec3 dir, vec3 centre, vec3 pole) {
+  vec3 right = normalize(cross(pole, centre));
+  vec2 p = vec2(dot(dir, right), dot(dir, cross(centre, right))) / sin(kDiscRadius);
+  return vec3(p, sqrt(max(0.0, 1.0 - dot(p, p))));
+}
+
+// Share of a pixel that the disc at disc_place p fills.
+float disc_cover(vec3 p, float pixel_angle) {
+  return clamp((1.0 - length(p.xy)) * (kDiscRadius / pixel_angle) + 0.5, 0.0, 1.0);
+}
+
+// The lower sky's mist swallows what stands in it.
+float above_horizon(vec3 dir) { return smoothstep(-0.015, 0.010, dir.y); }
+
+// Smooth noise on a lattice, 0..1; a hash of integers, so every device makes the same moon.
+uint sky_hash(uvec3 v) {
+  uint h = v.x * 1664525u + v.y * 1013904223u + v.z * 374761393u;
+  h = (h ^ (h >> 15)) * 2246822519u;
+  h = (h ^ (h >> 13)) * 3266489917u;
+  return h ^ (h >> 16);
+}
+
+float sky_noise(vec3 p) {
+  vec3 cell = floor(p);
+  vec3 f = p - cell;
+  f = f * f * (3.0 - 2.0 * f);
+  uvec3 c = uvec3(ivec3(cell));
+  float sum = 0.0;
+  for (uint i = 0u; i < 8u; ++i) {
+    uvec3 corner = uvec3(i & 1u, (i >> 1) & 1u, i >> 2);
+    vec3 w = mix(1.0 - f, f, vec3(corner));
+    sum += w.x * w.y * w.z * float(sky_hash(c + corner) >> 8);
+  }
+  return sum / 16777215.0;
+}
+
+// Radiance of the sun's disc at p. Limb darkening: power law of Hestroffer and Magnan 1998, exponents at 700, 550 and 440 nm.
+vec3 sun_disc(vec3 p, SkyConstants sky) { return sky.sun_disc * pow(vec3(max(p.z, 0.05)), vec3(0.397, 0.503, 0.652)); }
+
+// Radiance of the moon's disc at p: ground lit from the sun's direction (Lommel and Seeliger, without limb darkening when full), with maria.
+vec3 moon_disc(vec3 p, SkyConstants sky) {
+  vec3 right = normalize(cross(sky.sky_z, sky.moon.to_body));
+  vec3 normal = p.x * right + p.y * cross(sky.moon.to_body, right) - p.z * sky.moon.to_body;
+  float lit = max(0.0, dot(normal, sky.sun.to_body));
+  float maria = 0.65 * sky_noise(p * 1.7 + 11.0) + 0.35 * sky_noise(p * 4.3 + 5.0);
+  return sky.moon_disc * (mix(0.45, 1.0, smoothstep(0.38, 0.62, maria)) * 2.0 * lit / max(lit + p.z, 1e-3));
+}
+
+// Radiance of both discs in front of the sky, for a pixel of pixel_angle [rad].
+vec3 discs(vec3 dir, SkyConstants sky, float pixel_angle) {
+  vec3 colour = vec3(0.0);
+  float near = cos(kDiscRadius + pixel_angle);
+  // Loops, not branches: lavapipe skips an empty loop but runs both sides of a branch.
+  for (int once = dot(dir, sky.sun.to_body) > near ? 1 : 0; once > 0; --once) {
+    vec3 p = disc_place(dir, sky.sun.to_body, sky.sky_z);
+    colour += sun_disc(p, sky) * disc_cover(p, pixel_angle);
+  }
+  for (int once = dot(dir, sky.moon.to_body) > near ? 1 : 0; once > 0; --once) {
+    vec3 p = disc_place(dir, sky.moon.to_body, sky.sky_z);
+    colour += moon_disc(p, sky) * disc_cover(p, pixel_angle);
+  }
+  return colour * above_horizon(dir);
+}
+
+// Share of the pixel behind which the moon hides the stars, lit or not.
+float moon_cover(vec3 dir, SkyConstants sky, float pixel_angle) {
+  if (dot(dir, sky.moon.to_body) <= 0.99) return 0.0;
+  return disc_cover(disc_place(dir, sky.moon.to_body, sky.sky_z), pixel_angle);
+}
+
+#endif

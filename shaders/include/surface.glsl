@@ -1,0 +1,66 @@
+// What a pixel's surface is, from the G-buffer word and depth.
+// Needs before the include: `frame`, `islands[]`, `materials[]`, `block_textures` (sampler2DArray, repeat, trilinear).
+#ifndef SKERRY_SURFACE_GLSL
+#define SKERRY_SURFACE_GLSL
+
+const float kTextureEdge = 32.0;  // texels a block
+
+// Texture coordinates of a lattice point on a face [blocks], v downwards.
+vec2 face_uv(uint face, vec3 lattice) {
+  return face >= 6u ? vec2(lattice.x, -lattice.y)
+                    : face < 2u ? vec2(lattice.z, -lattice.y) : face < 4u ? lattice.xz : vec2(lattice.x, -lattice.y);
+}
+
+// Sharp texels with smooth edges: inside a texel the coordinate stays at its centre, over one pixel at its border it crosses over.
+vec2 crisp_uv(vec2 uv, vec2 texels_per_pixel) {
+  vec2 t = uv * kTextureEdge;
+  vec2 border = floor(t + 0.5);
+  return (border + clamp((t - border) / max(texels_per_pixel, 1e-6), -0.5, 0.5)) / kTextureEdge;
+}
+
+// Block texture at a point of a plane. The footprint is worked out from neighbouring rays, since compute has no derivatives; along its
+// long side it is covered by up to `max_taps` samples.
+vec4 plane_texel(uint layer, uint face, vec3 lattice, vec3 ray_lattice, vec3 right_lattice, vec3 up_lattice, vec3 normal_lattice, float t,
+                 uint max_taps) {
+  float facing = dot(normal_lattice, ray_lattice);
+  facing = abs(facing) < 1e-6 ? 1e-6 : facing;
+  // d(ray * t) along one pixel while staying on the plane.
+  vec3 dx = t * (right_lattice - ray_lattice * (dot(normal_lattice, right_lattice) / facing));
+  vec3 dy = t * (up_lattice - ray_lattice * (dot(normal_lattice, up_lattice) / facing));
+  vec2 uv = face_uv(face, lattice);
+  vec2 uv_dx = face_uv(face, dx), uv_dy = face_uv(face, dy);
+  float x2 = dot(uv_dx, uv_dx), y2 = dot(uv_dy, uv_dy);
+  vec2 major = x2 > y2 ? uv_dx : uv_dy;
+  float major_texels = sqrt(max(x2, y2)) * kTextureEdge;
+  float minor_texels = max(abs(uv_dx.x * uv_dy.y - uv_dx.y * uv_dy.x) * kTextureEdge * kTextureEdge / max(major_texels, 1e-6), 1e-6);
+  float taps = clamp(ceil(major_texels / max(minor_texels, 1.0)), 1.0, float(max_taps));
+  float lod = log2(max(max(minor_texels, major_texels / taps), 1e-6));
+  uv = crisp_uv(uv, max(abs(uv_dx) + abs(uv_dy), 1e-7) * kTextureEdge);
+  vec4 sum = vec4(0.0);
+  for (float i = 0.0; i < taps; ++i)
+    sum += textureLod(block_textures, vec3(uv + major * ((i + 0.5) / taps - 0.5), float(layer)), lod);
+  return sum / taps;
+}
+
+// Texture of the surface a word names, where the ray meets it `t` blocks along the view axis.
+vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
+  uint face = surface_face(word);
+  IslandTransform island = islands[surface_island(word)];
+  Material material = materials[surface_block(word)];
+  uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
+  vec3 normal = face >= 6u ? vec3(0.70710678, 0.0, face == 6u ? -0.70710678 : 0.70710678) : face_normal(face);
+  vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.pixel_to_ndc.x;
+  vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.pixel_to_ndc.y;
+  return plane_texel(layer, face, lattice_from_world(island, ray * t), lattice_from_world_vector(island, ray), right, up, normal, t, max_taps);
+}
+
+Surface resolve_surface(uint word, float depth, vec3 ray, uint max_taps) {
+  float t = view_distance(depth, frame.near_plane);
+  Surface s;
+  s.position = ray * t;
+  s.normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
+  s.albedo = surface_texel(word, ray, t, max_taps).rgb;
+  s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
+  return s;
+}
+#endif

@@ -1,0 +1,124 @@
+// Water, glass and what is seen through them. Needs what shade_translucent.glsl declares.
+#ifndef SKERRY_WATER_GLSL
+#define SKERRY_WATER_GLSL
+
+const float kWaterIndex = 1.333;
+
+// Schlick's approximation of the Fresnel reflectance, for light that enters or leaves a medium of index n.
+float fresnel(float cosine, bool leaving, float n) {
+  float r0 = (n - 1.0) / (n + 1.0);
+  r0 *= r0;
+  if (leaving) {  // past the critical angle everything is reflected
+    float sine2 = n * n * (1.0 - cosine * cosine);
+    if (sine2 >= 1.0) return 1.0;
+    cosine = sqrt(1.0 - sine2);
+  }
+  return r0 + (1.0 - r0) * pow(1.0 - cosine, 5.0);
+}
+
+// Small waves on a level water surface: slopes of four sine waves in the lattice; their periods divide an hour, after which time_s repeats.
+vec3 rippled_normal(vec3 lattice, float distance) {
+  const vec4 waves[4] = vec4[](vec4(0.83, 0.31, 80.0, 0.022), vec4(-0.47, 1.13, 120.0, 0.018), vec4(1.91, -1.27, 150.0, 0.011),
+                               vec4(-2.3, -2.9, 200.0, 0.007));
+  vec2 slope = vec2(0.0);
+  for (int i = 0; i < 4; ++i) {
+    float phase = dot(waves[i].xy, lattice.xz) + frame.time_s * 6.28318530718 * floor(30.0 * length(waves[i].xy)) / 100.0;
+    slope += waves[i].xy / length(waves[i].xy) * (waves[i].w * cos(phase));
+  }
+  slope *= exp(-distance * 0.02);  // far waves are smaller than a pixel
+  return normalize(vec3(-slope.x, 1.0, -slope.y));
+}
+
+// Light of sun and moon mirrored by a wavy surface: GGX lobe of the waves too small to draw.
+vec3 glitter(Body body, vec3 n, vec3 to_eye, float roughness) {
+  vec3 h = normalize(body.to_light + to_eye);
+  float a2 = roughness * roughness * roughness * roughness;
+  float n_dot_h = max(dot(n, h), 0.0), n_dot_l = max(dot(n, body.to_light), 0.0), n_dot_v = max(dot(n, to_eye), 1e-3);
+  float d = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;
+  float lobe = a2 / (3.14159265 * d * d);
+  float k = 0.5 * roughness * roughness;
+  float shadowing = 1.0 / ((n_dot_l * (1.0 - k) + k) * (n_dot_v * (1.0 - k) + k));
+  return body.irradiance * (lobe * shadowing * 0.25 * fresnel(max(dot(h, to_eye), 0.0), false, kWaterIndex) * n_dot_l);
+}
+
+struct Reach {   // what sun and moon bring to a point of a surface
+  vec3 light;    // irradiance on a level surface
+  vec3 mirrored; // towards the eye
+  float any;     // largest visibility: where neither body is seen, the sky is not taken for granted either
+};
+
+Reach light_at(vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+  Reach r = Reach(vec3(0.0), vec3(0.0), 0.0);
+  for (uint b = 0u; b < kBodyCount; ++b) {
+    Body body = frame.bodies[b];
+    float n_dot_l = dot(n, body.to_light);
+    for (int once = n_dot_l > 0.0 && body.irradiance != vec3(0.0) ? 1 : 0; once > 0; --once) {
+      float visibility = light_visibility(body, p, n, n_dot_l);
+      r.light += body.irradiance * (visibility * n_dot_l);
+      r.mirrored += visibility * glitter(body, shading_normal, to_eye, roughness);
+      r.any = max(r.any, visibility);
+    }
+  }
+  return r;
+}
+
+// Radiance a stretch of medium sends towards the eye when it is lit by `light`: single scattering with an isotropic phase, half of the
+// scattered light lost on its own way through the medium.
+vec3 scattered(Material medium, vec3 light, float path) {
+  vec3 albedo = exp(-3.0 * medium.absorption);  // what little a clear medium scatters has the colour it lets through
+  return 0.05 * albedo * light * (1.0 - exp(-medium.absorption * path - 0.04 * path));
+}
+
+vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
+  float ray_length = length(ray);
+  vec3 to_eye = -ray / ray_length;
+  float opaque = texelFetch(depths, ivec2(pixel), 0).r;
+  vec3 colour = vec3(0.0), through = vec3(1.0), light_in = vec3(0.0);
+  uint medium = frame.camera_medium;
+  float at = 0.0;  // blocks along the ray
+  if (medium != 0u) light_in = light_at(ray / ray_length * 0.5, vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0), to_eye, 0.1).light;
+  for (uint k = 0u; k < kLayers; ++k) {
+    uint word = layer_surface(k, ivec2(pixel));
+    if (word == 0u) break;
+    float t = view_distance(layer_depth(k, ivec2(pixel)), frame.near_plane);
+    float next = t * ray_length;
+    if (medium != 0u) {
+      Material m = materials[medium];
+      colour += through * scattered(m, light_in, next - at);
+      through *= exp(-m.absorption * (next - at));
+    }
+    uint block = surface_block(word), face = surface_face(word);
+    IslandTransform island = islands[surface_island(word)];
+    vec3 n = world_from_lattice_vector(island, face_normal(face));
+    bool entering = medium != block;
+    Material m = materials[block];
+    vec3 lattice = lattice_from_world(island, ray * t);
+    vec3 shading = n;
+    bool wavy = (face >> 1) == 1u && m.roughness < 0.2 && m.absorption.r > 0.05;
+    if (wavy) shading = world_from_lattice_vector(island, rippled_normal(lattice, next)) * (face == 2u ? 1.0 : -1.0);
+    float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
+    float reflected = fresnel(cosine, !entering, kWaterIndex);
+    vec3 mirror = reflect(-to_eye, shading);
+    Reach reach = light_at(ray * t, n, shading, to_eye, max(m.roughness, 0.06));
+    vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror) : scattered(m, light_in, 1e3);
+    colour += through * (reach.mirrored + reflected * mirrored_sky * (entering ? reach.any : 1.0));
+    through *= 1.0 - reflected;
+    // What the texture covers (the frame of a pane) is a diffuse surface.
+    for (int once = wavy ? 0 : 1; once > 0; --once) {
+      vec4 texel = surface_texel(word, ray, t, 1u);
+      colour += through * texel.a * texel.rgb * kInvPi * reach.light;
+      through *= 1.0 - texel.a;
+    }
+    light_in = reach.light;
+    medium = entering ? block : 0u;
+    at = next;
+  }
+  if (medium != 0u) {
+    float end = opaque > 0.0 ? view_distance(opaque, frame.near_plane) * ray_length : 1e4;
+    Material m = materials[medium];
+    colour += through * scattered(m, light_in, max(end - at, 0.0));
+    through *= exp(-m.absorption * max(end - at, 0.0));
+  }
+  return colour + through * behind;
+}
+#endif

@@ -1,0 +1,74 @@
+// What one frame tells the GPU. Spaces and units: docs/conventions.md ("world" is relative to the camera, in blocks).
+#ifndef SKERRY_SHARED_FRAME_H
+#define SKERRY_SHARED_FRAME_H
+#include "types.h"
+SHARED_BEGIN
+
+SHARED_CONST uint kBodyCount = 2u;           // 0 the sun, 1 the moon
+SHARED_CONST uint kCascadeCount = 4u;        // a body
+SHARED_CONST uint kViewCount = 9u;           // 0 the camera, then cascades of the sun (1..4) and of the moon (5..8)
+SHARED_CONST uint kListCount = 3u;           // draw lists a view: 0 opaque, 1 cut-out and plants, 2 translucent
+SHARED_CONST uint kMaxIslands = 4096u;       // 12 bits in the G-buffer word
+SHARED_CONST uint kMaxQuadsPerDraw = 16384u; // 4 vertices a quad, 16-bit indices
+SHARED_CONST uint kCullGroup = 256u;         // sections a culling work group looks at
+
+// A directional light that is above the horizon; irradiance 0 otherwise.
+struct Body {
+  vec3 to_light;       // unit, world axes
+  vec3 irradiance;     // linear RGB on a surface facing it
+  uint first_cascade;  // index into FrameConstants.cascades
+  uint cascade_count;  // 0: casts no shadows because it gives no light, or shadows are off
+};
+
+// One shadow map layer: an orthographic view of a sphere around the camera.
+struct Cascade {
+  vec4 map_from_world_x;  // dot(row, (p, 1)): texel coordinate, 0..map size
+  vec4 map_from_world_y;
+  vec4 map_from_world_z;  // reverse depth, 1 nearest the light
+  float radius;           // blocks; the cascade serves points up to this far from the camera
+  float texel_blocks;     // a texel's edge [blocks]
+  float depth_per_block;  // change of depth for one block towards the light
+  uint layer;             // of the shadow map array
+};
+
+struct FrameConstants {
+  mat4 clip_from_world;
+  vec3 ray_right;    // camera axes; ray_right and ray_up are scaled by the tangent of the half field of view
+  vec3 ray_up;
+  vec3 ray_forward;
+  vec2 pixel_to_ndc; // 2 / image size
+  uvec2 size;        // image [pixels]
+  float near_plane;  // blocks
+  float exposure;    // display = tone curve(radiance * exposure)
+  float time_s;      // seconds of play, reduced to one hour, for water ripples
+  uint shading_flat; // 1: shadow result times light colour, no N.L
+  uint camera_medium;// block id the camera is in: 0 air, else a translucent block
+  float pcf_radius_blocks;  // smallest radius of the shadow filter [blocks]
+  float haze_per_block;     // extinction of clear air [1/block]
+  Body bodies[kBodyCount];
+  Cascade cascades[8];
+};
+
+// One frustum to cull against.
+struct CullView {
+  vec4 planes[6];     // dot(plane, (p, 1)) >= 0 inside
+  vec3 eye;           // perspective: the eye; orthographic: unit vector towards the light
+  uint orthographic;  // 0 or 1
+  uint enabled;       // 0: nothing is drawn in this view
+};
+
+// Counts of one view, read back for --stats and the overlay.
+struct CullStats {
+  uint sections_in;      // resident sections
+  uint sections_passed;  // inside the frustum with something facing the view
+  uint draws;            // indirect commands
+  uint quads;            // drawn
+};
+
+struct PixelStats {
+  uint non_finite;  // pixels in which a pass met a NaN or Inf
+  uint black;       // pixels that are exactly (0, 0, 0) before tone mapping
+};
+
+SHARED_END
+#endif

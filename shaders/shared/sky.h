@@ -1,0 +1,49 @@
+// What the sky's shaders need to know of one moment. Filled by engine/render/sky_model.h.
+#ifndef SKERRY_SHARED_SKY_H
+#define SKERRY_SHARED_SKY_H
+#include "types.h"
+SHARED_BEGIN
+
+// Sky-view table: u is the azimuth from +z towards +x, v the elevation with a square root about the
+// horizon. The outermost texel centres lie on the seam and on the two poles, so that clamped
+// sampling needs no wrapping.
+SHARED_CONST uint kSkyLutWidth = 192u;
+SHARED_CONST uint kSkyLutHeight = 108u;
+SHARED_CONST uint kSkyLutGroup = 8u;  // edge of a workgroup of bake_sky.comp
+
+// The discs are drawn this much larger than the real 0.53 degrees: a game's wide field of view
+// makes them look tiny.
+SHARED_CONST float kDiscEnlargement = 3.0f;
+SHARED_CONST float kDiscRadius = 3.0f * 0.004625f;  // [rad]
+
+// One body's share of the daylight model (Preetham, Shirley, Smits 1999). Components of the Perez
+// terms: luminance Y, chromaticities x, y.
+struct SkyBody {
+  vec3 to_body;    // unit
+  vec3 perez_a;    // darkening of the horizon
+  vec3 perez_b;    // gradient near the horizon
+  vec3 perez_c;    // glow about the body
+  vec3 perez_d;    // width of the glow
+  vec3 perez_e;    // backscatter
+  vec3 zenith;     // zenith's Y [radiance], x, y, each over its Perez term there
+  vec3 day;         // tint of the daylight model, linear RGB; 0 in the night
+  vec3 haze;        // radiance of the bright mist about the horizon by day
+  vec3 dusk_dome;   // twilight: radiance overhead
+  vec3 dusk_band;   // all around the horizon
+  vec3 dusk_fire;   // about the body's azimuth
+  vec3 abyss;      // radiance straight down
+};
+
+struct SkyConstants {
+  SkyBody sun;
+  SkyBody moon;
+  vec3 sun_disc;   // radiance in the middle of the disc
+  vec3 moon_disc;  // radiance of its fully lit ground
+  vec3 sky_x;      // rows of sky_from_world: the frame in which the stars stand still
+  vec3 sky_y;
+  vec3 sky_z;
+  float stars;  // 0 by day .. 1 in a dark night
+};
+
+SHARED_END
+#endif

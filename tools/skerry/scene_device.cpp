@@ -1,0 +1,38 @@
+#include "tools/skerry/scene_device.h"
+
+#include <cstdio>
+
+#include "engine/platform/files.h"
+
+namespace skerry::tools {
+namespace {
+
+/// Empty, for none, when the user has no folder for caches.
+std::string pipeline_cache_file() {
+  const std::filesystem::path folder = platform::cache_dir();
+  if (folder.empty() || !platform::make_dirs(folder)) return {};
+  return (folder / "pipelines.bin").string();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene) {
+  gpu::DeviceOptions options;
+  options.index = scene.device;
+  options.validate = scene.validate;
+  options.pipeline_cache_path = pipeline_cache_file();
+  return gpu::Device::create(options);
+}
+
+int fail(int status, const Error& error) {
+  std::fprintf(stderr, "skerry: %s\n", error.message.c_str());
+  return status;
+}
+
+int status_after(const gpu::Device& device) {
+  const int count = device.validation_message_count();
+  if (count == 0) return kDone;
+  return fail(kValidationMessage, {std::to_string(count) + " validation messages were printed above; this is a bug in Skerry or the driver"});
+}
+
+}  // namespace skerry::tools
