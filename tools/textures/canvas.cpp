@@ -39,12 +39,15 @@ Field equalize(const Field& field) {
 Field relief(const Field& height) {
   return make_field([&](int x, int y) {
     const float diagonal = height.at(x + 1, y + 1) - height.at(x - 1, y - 1);
-    const float straight = height.at(x + 1, y) - height.at(x - 1, y) + height.at(x, y + 1) - height.at(x, y - 1);
+    const float straight =
+        height.at(x + 1, y) - height.at(x - 1, y) + height.at(x, y + 1) - height.at(x, y - 1);
     return diagonal + 0.5f * straight;
   });
 }
 
-Field blur(const Field& field, int radius) { return box(box(field, radius), radius); }
+Field blur(const Field& field, int radius) {
+  return box(box(field, radius), radius);
+}
 
 Field flatten(const Field& field, float amount) {
   const Field wide = blur(field, 4);
@@ -95,10 +98,14 @@ Direction direction(float turn) {
   // Rational points of the unit circle; t is close to the share of the quarter turn.
   const float x = (1.0f - t * t) / (1.0f + t * t), y = 2.0f * t / (1.0f + t * t);
   switch (quarter & 3) {
-    case 0: return {x, y};
-    case 1: return {-y, x};
-    case 2: return {-x, -y};
-    default: return {y, -x};
+    case 0:
+      return {x, y};
+    case 1:
+      return {-y, x};
+    case 2:
+      return {-x, -y};
+    default:
+      return {y, -x};
   }
 }
 

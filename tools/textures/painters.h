@@ -90,7 +90,8 @@ Canvas paint_mushroom_cap(Color base, Color spot, std::uint32_t seed);
 Canvas paint_mushroom_stem();
 
 // built.cpp
-Canvas paint_glass(Color tint, Color frame);
+/// @param pane_cover share of the light that the pane itself scatters, besides what it absorbs.
+Canvas paint_glass(Color tint, Color frame, float pane_cover);
 Canvas paint_bricks(Color brick, Color mortar, std::uint32_t seed);
 enum class Masonry { kPolished, kBricks, kTiles, kCarved, kPillar };
 Canvas paint_masonry(const Ramp& stone, Masonry style, std::uint32_t seed);
