@@ -10,10 +10,12 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/textures/color.h"
 #include "tools/textures/layers.h"
+#include "tools/textures/noise.h"
 
 namespace skerry::render {
 namespace {
@@ -324,12 +326,16 @@ TEST(BlockTextures, GroundThatCoversFieldsShowsNoBlotches) {
 }
 
 TEST(BlockTextures, NoTwoLayersLookAlike) {
+  // Judged at half size, as from a few blocks away.
+  std::vector<std::vector<Rgba>> seen(kLayers);
+  for (int layer = 0; layer < kLayers; ++layer)
+    for_texels(layer, 1, [&](const Rgba& t, int, int) { seen[layer].push_back(t); });
   for (int a = 0; a < kLayers; ++a) {
     for (int b = a + 1; b < kLayers; ++b) {
       double sum = 0;
-      for (int y = 0; y < kEdge; ++y)
-        for (int x = 0; x < kEdge; ++x) sum += difference(texel(a, 0, x, y), texel(b, 0, x, y));
-      ASSERT_GT(sum / (kEdge * kEdge), 3.0) << names()[a] << " and " << names()[b];
+      for (std::size_t i = 0; i < seen[a].size(); ++i) sum += difference(seen[a][i], seen[b][i]);
+      ASSERT_GT(sum / static_cast<double>(seen[a].size()), 2.0)
+          << names()[a] << " and " << names()[b];
     }
   }
 }
@@ -372,6 +378,39 @@ TEST(BlockTextures, RejectsEveryOtherLength) {
   std::vector<std::byte> longer = file;
   longer.push_back({});
   EXPECT_FALSE(parse_block_textures(longer));
+}
+
+TEST(TextureNoise, RepeatsAfterOneTileInEveryDirection) {
+  for (const textures::Cells cells : {textures::Cells{2, 2}, {5, 3}, {8, 16}}) {
+    for (int i = 0; i < 500; ++i) {
+      const float x = textures::unit(i, 0, 1) * 32, y = textures::unit(i, 1, 1) * 32;
+      for (const auto& [dx, dy] : {std::pair{32.0f, 0.0f}, {0.0f, 32.0f}, {-64.0f, 32.0f}}) {
+        EXPECT_NEAR(textures::gradient_noise(x + dx, y + dy, cells, 7),
+                    textures::gradient_noise(x, y, cells, 7), 1e-4);
+        const auto here = textures::cellular(x, y, cells, 1.0f, 7);
+        const auto there = textures::cellular(x + dx, y + dy, cells, 1.0f, 7);
+        EXPECT_NEAR(there.nearest, here.nearest, 1e-4);
+        EXPECT_NEAR(there.second, here.second, 1e-4);
+      }
+    }
+  }
+}
+
+TEST(TextureNoise, HashBitsAreEvenAndNeighboursUnrelated) {
+  // 2^16 points: each bit is set in half of them, and differs from its neighbour's in half; 4 sigma
+  // is 512.
+  for (int bit = 0; bit < 32; ++bit) {
+    int set = 0, different = 0;
+    for (std::uint32_t y = 0; y < 256; ++y) {
+      for (std::uint32_t x = 0; x < 256; ++x) {
+        const std::uint32_t here = textures::hash(x, y, 5) >> bit & 1u;
+        set += static_cast<int>(here);
+        different += static_cast<int>(here ^ (textures::hash(x + 1, y, 5) >> bit & 1u));
+      }
+    }
+    EXPECT_NEAR(set, 32768, 512) << bit;
+    EXPECT_NEAR(different, 32768, 512) << bit;
+  }
 }
 
 TEST(TextureColor, LinearLightAgreesWithTheStandard) {
