@@ -29,6 +29,7 @@ class OffsetArena {
   std::uint32_t largest_free() const;
 
  private:
+  void give_back(ArenaRange range);
   std::uint32_t capacity_, used_ = 0, waiting_ = 0;
   std::map<std::uint32_t, std::uint32_t> free_;  // first -> count
   struct Waiting {

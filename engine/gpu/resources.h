@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace skerry::gpu {
 
@@ -14,7 +15,8 @@ struct AccessState {
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  bool written = false;
+  bool written = false;          ///< the last access wrote; else `stages` are the readers that saw the last write
+  std::uint64_t last_value = 0;  ///< timeline value of the submit that touches it last; 0: never on the GPU
 };
 
 enum class Memory : std::uint8_t {
@@ -29,6 +31,7 @@ struct BufferDesc {
   std::uint64_t size_bytes = 0;
   VkBufferUsageFlags usage = 0;
   Memory memory = Memory::kDevice;
+  bool operator==(const BufferDesc&) const = default;
 };
 
 struct ImageDesc {
@@ -39,6 +42,11 @@ struct ImageDesc {
   std::uint32_t layers = 1;
   VkImageUsageFlags usage = 0;
   bool array = false;  ///< view as an array even with one layer
+  bool operator==(const ImageDesc& other) const {
+    return name == other.name && format == other.format && extent.width == other.extent.width &&
+           extent.height == other.extent.height && mips == other.mips && layers == other.layers && usage == other.usage &&
+           array == other.array;
+  }
 };
 
 struct SamplerDesc {
@@ -61,6 +69,7 @@ class Buffer {
   ~Buffer();
   VkBuffer handle() const { return handle_; }
   std::uint64_t size_bytes() const { return size_; }
+  std::uint64_t allocated_bytes() const { return allocated_; }  ///< device memory it takes
   std::byte* mapped() const { return mapped_; }  ///< null unless host memory
   const std::string& name() const { return name_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
@@ -93,12 +102,14 @@ class Image {
   VkImageView view_of(std::uint32_t mip, std::uint32_t layer) const;
   const ImageDesc& desc() const { return desc_; }
   VkImageAspectFlags aspect() const;
+  std::uint64_t allocated_bytes() const { return allocated_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   AccessState state;
 
  private:
   friend class Device;
   void swap(Image& other) noexcept;
+  void adopt(Device& device, VkDeviceMemory memory, std::uint64_t allocated, const ImageDesc& desc);
   struct Views;
   Device* device_ = nullptr;
   VkImage handle_{};

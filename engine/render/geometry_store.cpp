@@ -7,6 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/uploader.h"
+#include "engine/gpu/vk_struct.h"
 
 namespace skerry::render {
 namespace {
@@ -24,12 +25,12 @@ Result<gpu::Buffer> grown(gpu::Device& device, gpu::Buffer& old, std::uint64_t s
   Result<gpu::Buffer> bigger = device.create_buffer({old.name(), size_bytes, kTableUsage, gpu::Memory::kDevice});
   if (!bigger) return bigger;
   device.run_now([&](VkCommandBuffer commands) {
-    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    auto barrier = gpu::vk_struct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    auto dependency = gpu::vk_struct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(commands, &dependency);

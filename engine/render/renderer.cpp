@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "engine/core/check.h"
+#include "engine/gpu/gpu_check.h"
+#include "engine/gpu/vk_struct.h"
 #include "engine/render/block_textures.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
@@ -132,10 +134,10 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
     *sampler = *got;
   }
   for (Slot& slot : slots) {
-    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    auto pool = gpu::vk_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     pool.queueFamilyIndex = device.queue_family();
     GPU_CHECK(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
-    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    auto allocate = gpu::vk_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     allocate.commandPool = slot.pool;
     allocate.commandBufferCount = 1;
     GPU_CHECK(vkAllocateCommandBuffers(device.handle(), &allocate, &slot.commands));
@@ -354,7 +356,7 @@ Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettin
   if (Result<void> ok = s.upload_tables(tables, sky_now); !ok) return ok.error();
 
   GPU_CHECK(vkResetCommandPool(s.device.handle(), slot.pool, 0));
-  VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  auto begin = gpu::vk_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   GPU_CHECK(vkBeginCommandBuffer(slot.commands, &begin));
   s.frame_uploader.record(slot.commands, UINT64_MAX);
