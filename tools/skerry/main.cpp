@@ -57,6 +57,7 @@ CommandLine::CommandLine() {
 CLI::App* CommandLine::add(const char* name, const char* description) {
   CLI::App* command = app.add_subcommand(name, description);
   command->allow_extras();  // check_leftovers says what was meant
+  command->footer("");      // not the one of all commands
   return command;
 }
 
