@@ -52,14 +52,15 @@ VkPipelineLayout create_layout(Device& device, const Pipeline& pipeline,
   return layout;
 }
 
-}  // namespace
-
-const EmbeddedShader& find_shader(const std::string& name) {
-  for (const EmbeddedShader& shader : embedded_shaders()) {
+const EmbeddedShader& find_shader(std::span<const EmbeddedShader> shaders, const std::string& name) {
+  for (const EmbeddedShader& shader : shaders) {
     if (name == shader.name) return shader;
   }
   gpu_fatal("there is no shader '" + name + "' in the program: is it in shaders/?");
 }
+
+}  // namespace
+
 
 Pipeline reflect_layout(Device& device, const std::string& name, std::span<const ShaderStage> stages) {
   Pipeline pipeline;
@@ -79,11 +80,13 @@ Pipeline reflect_layout(Device& device, const std::string& name, std::span<const
 
 struct Pipelines::State {
   Device& device;
+  std::span<const EmbeddedShader> shaders;
   std::map<ComputeDesc, Pipeline> compute;
   std::map<GraphicsDesc, Pipeline> graphics;
 };
 
-Pipelines::Pipelines(Device& device) : state_(std::make_unique<State>(State{device, {}, {}})) {}
+Pipelines::Pipelines(Device& device, std::span<const EmbeddedShader> shaders)
+    : state_(std::make_unique<State>(State{device, shaders, {}, {}})) {}
 
 Pipelines::~Pipelines() {
   const auto retire = [this](const Pipeline& pipeline) {
@@ -98,23 +101,23 @@ Pipelines::~Pipelines() {
 const Pipeline& Pipelines::get(const ComputeDesc& desc) {
   const auto found = state_->compute.find(desc);
   if (found != state_->compute.end()) return found->second;
-  const ShaderStage stage{VK_SHADER_STAGE_COMPUTE_BIT, &find_shader(desc.shader)};
+  const ShaderStage stage{VK_SHADER_STAGE_COMPUTE_BIT, &find_shader(state_->shaders, desc.shader)};
   Pipeline pipeline = reflect_layout(state_->device, desc.shader, {&stage, 1});
-  compile_compute(state_->device, pipeline, desc);
+  compile_compute(state_->device, pipeline, stage, desc);
   return state_->compute.emplace(desc, std::move(pipeline)).first->second;
 }
 
 const Pipeline& Pipelines::get(const GraphicsDesc& desc) {
   const auto found = state_->graphics.find(desc);
   if (found != state_->graphics.end()) return found->second;
-  std::vector<ShaderStage> stages{{VK_SHADER_STAGE_VERTEX_BIT, &find_shader(desc.vertex)}};
+  std::vector<ShaderStage> stages{{VK_SHADER_STAGE_VERTEX_BIT, &find_shader(state_->shaders, desc.vertex)}};
   std::string name = desc.vertex;
   if (!desc.fragment.empty()) {
-    stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, &find_shader(desc.fragment)});
+    stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, &find_shader(state_->shaders, desc.fragment)});
     name += " + " + desc.fragment;
   }
   Pipeline pipeline = reflect_layout(state_->device, name, stages);
-  compile_graphics(state_->device, pipeline, desc);
+  compile_graphics(state_->device, pipeline, stages, desc);
   return state_->graphics.emplace(desc, std::move(pipeline)).first->second;
 }
 

@@ -4,10 +4,12 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/gpu/shader_table.h"
 
 namespace skerry::gpu {
 
@@ -59,7 +61,8 @@ struct Pipeline {
 /// bindings are stated once, in the shader. Bad SPIR-V or a missing shader is fatal with its name.
 class Pipelines {
  public:
-  explicit Pipelines(Device& device);
+  /// @param shaders where names are looked up; must outlive this.
+  explicit Pipelines(Device& device, std::span<const EmbeddedShader> shaders = embedded_shaders());
   ~Pipelines();
   const Pipeline& get(const ComputeDesc& desc);
   const Pipeline& get(const GraphicsDesc& desc);

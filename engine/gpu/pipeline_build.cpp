@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
+#include <list>
 
 #include "engine/gpu/device.h"
 #include "engine/gpu/gpu_check.h"
@@ -104,8 +104,8 @@ VkPipelineColorBlendAttachmentState attachment_state(const GraphicsDesc& desc) {
 
 }  // namespace
 
-void compile_compute(Device& device, Pipeline& pipeline, const ComputeDesc& desc) {
-  const Module module(device, find_shader(desc.shader));
+void compile_compute(Device& device, Pipeline& pipeline, const ShaderStage& stage, const ComputeDesc& desc) {
+  const Module module(device, *stage.shader);
   const Specialization specialization(desc.constants);
   auto info = vk_struct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
@@ -115,13 +115,13 @@ void compile_compute(Device& device, Pipeline& pipeline, const ComputeDesc& desc
   name_pipeline(device, pipeline);
 }
 
-void compile_graphics(Device& device, Pipeline& pipeline, const GraphicsDesc& desc) {
-  const Module vertex(device, find_shader(desc.vertex));
-  std::optional<Module> fragment;
-  if (!desc.fragment.empty()) fragment.emplace(device, find_shader(desc.fragment));
+void compile_graphics(Device& device, Pipeline& pipeline, std::span<const ShaderStage> stages, const GraphicsDesc& desc) {
   const Specialization specialization(desc.constants);
-  std::vector<VkPipelineShaderStageCreateInfo> stages{stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex, specialization)};
-  if (fragment) stages.push_back(stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment, specialization));
+  std::list<Module> modules;  // not copyable, so not in a vector
+  std::vector<VkPipelineShaderStageCreateInfo> stage_infos;
+  for (const ShaderStage& stage : stages) {
+    stage_infos.push_back(stage_info(stage.stage, modules.emplace_back(device, *stage.shader), specialization));
+  }
 
   // Vertices are pulled from storage buffers: no vertex input.
   const auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
@@ -148,8 +148,8 @@ void compile_graphics(Device& device, Pipeline& pipeline, const GraphicsDesc& de
   rendering.depthAttachmentFormat = desc.depth_format;
 
   auto info = vk_struct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering);
-  info.stageCount = static_cast<std::uint32_t>(stages.size());
-  info.pStages = stages.data();
+  info.stageCount = static_cast<std::uint32_t>(stage_infos.size());
+  info.pStages = stage_infos.data();
   info.pVertexInputState = &input;
   info.pInputAssemblyState = &assembly;
   info.pViewportState = &viewport;
