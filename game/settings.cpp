@@ -133,7 +133,7 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) { return fmt::format("{}", s.moon_phase); }},
     {"view.distance", "blocks, 32 to 16384", "Nothing farther than this is drawn.",
      [](std::string_view t, Settings& s) {
-       return into(parse_integer(t, "view.distance", 32, 16384), s.view_distance);
+       return into(parse_integer(t, "view.distance", kMinViewDistance, kMaxViewDistance), s.view_distance);
      },
      [](const Settings& s) { return std::to_string(s.view_distance); }},
     {"view.detail", "blocks, 32 to 4096", "Full detail up to here; each doubling halves the detail.",

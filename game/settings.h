@@ -11,6 +11,8 @@
 
 namespace skerry::game {
 
+inline constexpr std::uint32_t kMinViewDistance = 32, kMaxViewDistance = 16384;  ///< blocks
+
 enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
 enum class Shading : std::uint8_t { kPbr, kFlat };
 enum class DebugView : std::uint8_t {

@@ -11,8 +11,6 @@
 namespace skerry::platform {
 namespace {
 
-constexpr double kMinimisedWait = 0.05;  // seconds between looks at a minimised window
-
 std::string last_problem() {
   const char* text = nullptr;
   glfwGetError(&text);
@@ -139,10 +137,9 @@ Result<VkSurfaceKHR> Window::create_surface(VkInstance instance) const {
                            static_cast<int>(result))};
 }
 
-InputFrame Window::poll() {
-  const FramebufferSize size = framebuffer_size();
-  if (size.width == 0 || size.height == 0) {
-    glfwWaitEventsTimeout(kMinimisedWait);
+InputFrame Window::poll(double wait_s) {
+  if (wait_s > 0.0) {
+    glfwWaitEventsTimeout(wait_s);
   } else {
     glfwPollEvents();
   }

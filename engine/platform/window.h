@@ -37,8 +37,9 @@ class Window {
   /// The caller destroys it, before the window.
   Result<VkSurfaceKHR> create_surface(VkInstance instance) const;
 
-  /// Takes in what happened since the last call; while minimised, waits up to 50 ms for something to happen.
-  InputFrame poll();
+  /// Takes in what happened since the last call. @param wait_s waits up to so many seconds for something to happen; for when there is
+  /// nothing to draw.
+  InputFrame poll(double wait_s = 0.0);
   bool should_close() const;
   void close();
   FramebufferSize framebuffer_size() const;
