@@ -99,6 +99,11 @@ class Device {
 
  private:
   Device();
+  void open();
+  Result<void> check_image(const VkImageCreateInfo& info, const std::string& name) const;
+  void account(const std::string& name, std::uint64_t bytes);
+  void destroy_retired(std::uint64_t completed);
+  void destroy(std::uint64_t object, VkObjectType type);
   VkCommandBuffer begin_now();
   void end_now(VkCommandBuffer commands);
   VkInstance instance_{};

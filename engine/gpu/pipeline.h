@@ -51,6 +51,7 @@ struct Pipeline {
     VkDescriptorType type;
   };
   std::vector<Binding> bindings;
+  std::string name;  ///< its shaders' file names
 };
 
 /// Compiles pipelines when first asked for and keeps them. Reflection (bindings, push-constant size) comes from the SPIR-V, so that

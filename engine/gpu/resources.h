@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace skerry::gpu {
 
@@ -14,7 +15,8 @@ struct AccessState {
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  bool written = false;
+  bool written = false;          ///< the last access wrote; else `stages` are the readers that saw the last write
+  std::uint64_t last_value = 0;  ///< timeline value of the submit that touches it last; 0: never on the GPU
 };
 
 enum class Memory : std::uint8_t {
@@ -99,6 +101,7 @@ class Image {
  private:
   friend class Device;
   void swap(Image& other) noexcept;
+  void adopt(Device& device, VkDeviceMemory memory, std::uint64_t allocated, const ImageDesc& desc);
   struct Views;
   Device* device_ = nullptr;
   VkImage handle_{};

@@ -1,0 +1,76 @@
+#include "engine/core/jobs.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+
+#include "engine/core/check.h"
+
+namespace skerry {
+namespace {
+
+// TBB starts at most (allowed parallelism - 1) workers in all and counts the calling thread as one. submit() must be served
+// without any caller inside the arena, so one thread more than the workers is allowed.
+std::size_t allowed_parallelism(int threads) { return static_cast<std::size_t>(threads) + 1; }
+
+}  // namespace
+
+struct Jobs::Impl {
+  explicit Impl(int threads)
+      : control(tbb::global_control::max_allowed_parallelism, allowed_parallelism(threads)),
+        arena(threads, 0) {}
+
+  void finished() {
+    std::lock_guard lock(mutex);
+    if (--pending == 0) idle.notify_all();
+  }
+
+  tbb::global_control control;
+  tbb::task_arena arena;  // no slot is reserved for callers: all of them belong to workers
+  std::mutex mutex;
+  std::condition_variable idle;
+  long pending = 0;  // jobs submitted and not ended; guarded by mutex
+};
+
+Jobs::Jobs(int threads) : threads_(threads > 0 ? threads : tbb::info::default_concurrency()) {
+  impl_ = new Impl(threads_);
+}
+
+Jobs::~Jobs() {
+  wait();
+  delete impl_;
+}
+
+void Jobs::submit(std::function<void()> job) {
+  SKERRY_ASSERT(job != nullptr);
+  {
+    std::lock_guard lock(impl_->mutex);
+    ++impl_->pending;
+  }
+  impl_->arena.enqueue([impl = impl_, work = std::move(job)] {
+    work();
+    impl->finished();
+  });
+}
+
+void Jobs::wait() {
+  std::unique_lock lock(impl_->mutex);
+  impl_->idle.wait(lock, [this] { return impl_->pending == 0; });
+}
+
+void Jobs::parallel_for(int count, const std::function<void(int)>& body) {
+  if (count <= 0) return;
+  // The simple partitioner with grain 1 lets the slowest single item decide the end, not a block of them: items here are
+  // chunks or rows, whose costs differ widely.
+  impl_->arena.execute([&] {
+    tbb::parallel_for(0, count, [&](int i) { body(i); }, tbb::simple_partitioner());
+  });
+}
+
+}  // namespace skerry

@@ -1,0 +1,123 @@
+#include "engine/gpu/pipeline.h"
+
+#include <algorithm>
+#include <map>
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/gpu_check.h"
+#include "engine/gpu/pipeline_build.h"
+#include "engine/gpu/reflection.h"
+#include "engine/gpu/vk_struct.h"
+
+namespace skerry::gpu {
+namespace {
+
+std::span<const std::uint32_t> words_of(const EmbeddedShader& shader) {
+  const auto bytes = static_cast<std::size_t>(shader.end - shader.begin);
+  return {reinterpret_cast<const std::uint32_t*>(shader.begin), bytes / sizeof(std::uint32_t)};
+}
+
+void merge_binding(std::vector<VkDescriptorSetLayoutBinding>& all, const ShaderReflection::Binding& one,
+                   VkShaderStageFlags stage, const std::string& name) {
+  const auto same = std::find_if(all.begin(), all.end(), [&](const auto& b) { return b.binding == one.binding; });
+  if (same == all.end()) {
+    all.push_back({one.binding, one.type, 1, stage, nullptr});
+  } else if (same->descriptorType != one.type) {
+    gpu_fatal("the shaders of '" + name + "' disagree about the kind of binding " + std::to_string(one.binding));
+  } else {
+    same->stageFlags |= stage;
+  }
+}
+
+VkPipelineLayout create_layout(Device& device, const Pipeline& pipeline,
+                               const std::vector<VkDescriptorSetLayoutBinding>& bindings) {
+  auto set_info = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+  set_info.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
+  set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  set_info.pBindings = bindings.data();
+  VkDescriptorSetLayout set{};
+  GPU_CHECK(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set));
+  device.set_name(reinterpret_cast<std::uint64_t>(set), VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, pipeline.name.c_str());
+  const VkPushConstantRange range{pipeline.push_stages, 0, pipeline.push_bytes};
+  auto info = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+  info.setLayoutCount = 1;
+  info.pSetLayouts = &set;
+  info.pushConstantRangeCount = pipeline.push_bytes > 0 ? 1 : 0;
+  info.pPushConstantRanges = &range;
+  VkPipelineLayout layout{};
+  GPU_CHECK(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout));
+  device.set_name(reinterpret_cast<std::uint64_t>(layout), VK_OBJECT_TYPE_PIPELINE_LAYOUT, pipeline.name.c_str());
+  // A pipeline layout keeps what it needs of its set layouts, and push descriptors never allocate from them.
+  vkDestroyDescriptorSetLayout(device.handle(), set, nullptr);
+  return layout;
+}
+
+}  // namespace
+
+const EmbeddedShader& find_shader(const std::string& name) {
+  for (const EmbeddedShader& shader : embedded_shaders()) {
+    if (name == shader.name) return shader;
+  }
+  gpu_fatal("there is no shader '" + name + "' in the program: is it in shaders/?");
+}
+
+Pipeline reflect_layout(Device& device, const std::string& name, std::span<const ShaderStage> stages) {
+  Pipeline pipeline;
+  pipeline.name = name;
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  for (const ShaderStage& stage : stages) {
+    const Result<ShaderReflection> reflection = reflect(words_of(*stage.shader));
+    if (!reflection) gpu_fatal("the shader '" + std::string(stage.shader->name) + "' cannot be used: " + reflection.error().message);
+    for (const auto& binding : reflection->bindings) merge_binding(bindings, binding, stage.stage, name);
+    if (reflection->push_bytes > 0) pipeline.push_stages |= static_cast<VkShaderStageFlags>(stage.stage);
+    pipeline.push_bytes = std::max(pipeline.push_bytes, reflection->push_bytes);
+  }
+  for (const auto& binding : bindings) pipeline.bindings.push_back({binding.binding, binding.descriptorType});
+  pipeline.layout = create_layout(device, pipeline, bindings);
+  return pipeline;
+}
+
+struct Pipelines::State {
+  Device& device;
+  std::map<ComputeDesc, Pipeline> compute;
+  std::map<GraphicsDesc, Pipeline> graphics;
+};
+
+Pipelines::Pipelines(Device& device) : state_(std::make_unique<State>(State{device, {}, {}})) {}
+
+Pipelines::~Pipelines() {
+  const auto retire = [this](const Pipeline& pipeline) {
+    state_->device.retire(reinterpret_cast<std::uint64_t>(pipeline.handle), VK_OBJECT_TYPE_PIPELINE, VK_NULL_HANDLE, 0, {});
+    state_->device.retire(reinterpret_cast<std::uint64_t>(pipeline.layout), VK_OBJECT_TYPE_PIPELINE_LAYOUT, VK_NULL_HANDLE,
+                          0, {});
+  };
+  for (const auto& [desc, pipeline] : state_->compute) retire(pipeline);
+  for (const auto& [desc, pipeline] : state_->graphics) retire(pipeline);
+}
+
+const Pipeline& Pipelines::get(const ComputeDesc& desc) {
+  const auto found = state_->compute.find(desc);
+  if (found != state_->compute.end()) return found->second;
+  const ShaderStage stage{VK_SHADER_STAGE_COMPUTE_BIT, &find_shader(desc.shader)};
+  Pipeline pipeline = reflect_layout(state_->device, desc.shader, {&stage, 1});
+  compile_compute(state_->device, pipeline, desc);
+  return state_->compute.emplace(desc, std::move(pipeline)).first->second;
+}
+
+const Pipeline& Pipelines::get(const GraphicsDesc& desc) {
+  const auto found = state_->graphics.find(desc);
+  if (found != state_->graphics.end()) return found->second;
+  std::vector<ShaderStage> stages{{VK_SHADER_STAGE_VERTEX_BIT, &find_shader(desc.vertex)}};
+  std::string name = desc.vertex;
+  if (!desc.fragment.empty()) {
+    stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, &find_shader(desc.fragment)});
+    name += " + " + desc.fragment;
+  }
+  Pipeline pipeline = reflect_layout(state_->device, name, stages);
+  compile_graphics(state_->device, pipeline, desc);
+  return state_->graphics.emplace(desc, std::move(pipeline)).first->second;
+}
+
+int Pipelines::created() const { return static_cast<int>(state_->compute.size() + state_->graphics.size()); }
+
+}  // namespace skerry::gpu
