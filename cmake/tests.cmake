@@ -8,3 +8,19 @@ if(test_sources)
   target_compile_definitions(skerry_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
   gtest_discover_tests(skerry_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endif()
+
+# What needs neither device nor window, alone: small enough to be built a second and a third time, under sanitizers.
+file(GLOB_RECURSE cpu_test_sources CONFIGURE_DEPENDS
+  ${CMAKE_SOURCE_DIR}/tests/core/*_test.cpp ${CMAKE_SOURCE_DIR}/tests/mesh/*_test.cpp ${CMAKE_SOURCE_DIR}/tests/world/*_test.cpp)
+if(cpu_test_sources)
+  add_executable(skerry_cpu_tests EXCLUDE_FROM_ALL ${cpu_test_sources})
+  target_link_libraries(skerry_cpu_tests PRIVATE skerry_world GTest::gtest_main)
+  target_compile_definitions(skerry_cpu_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
+endif()
+
+# The rules of the tree itself.
+add_test(NAME tools.check_includes COMMAND ${CMAKE_SOURCE_DIR}/tools/check_includes)
+add_test(NAME tools.check_paths COMMAND ${CMAKE_SOURCE_DIR}/tools/check_paths)
+add_test(NAME tools.check_scripts_test COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/check_scripts_test.py)
+add_test(NAME tools.check_format COMMAND ${CMAKE_SOURCE_DIR}/tools/check_format)
+set_tests_properties(tools.check_format PROPERTIES SKIP_RETURN_CODE 77)

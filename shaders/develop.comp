@@ -23,7 +23,7 @@ void main() {
     if (!finite3(c)) atomicAdd(stats.non_finite, 1u);
     c = sanitised(c);
     if (c == vec3(0.0)) atomicAdd(black_pixels, 1u);
-    imageStore(picture, ivec2(pixel), vec4(srgb_encode(tone_map(c * frame.exposure)), 1.0));
+    imageStore(picture, ivec2(pixel), vec4(dithered(srgb_encode(tone_map(c * frame.exposure)), pixel), 1.0));
   }
   barrier();
   if (gl_LocalInvocationIndex == 0u && black_pixels != 0u) atomicAdd(stats.black, black_pixels);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine/core/check.h"
+#include "engine/gpu/gpu_check.h"
 #include "engine/render/block_textures.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
@@ -359,6 +360,8 @@ Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettin
   GPU_CHECK(vkBeginCommandBuffer(slot.commands, &begin));
   s.frame_uploader.record(slot.commands, UINT64_MAX);
   s.mesh_uploader.record(slot.commands, s.upload_budget);
+  // Maps drawn while meshes still wait for their turn will lack them.
+  if (s.mesh_uploader.pending_bytes() != 0) s.shadows.forget();
   s.build(input, settings, size, tables, *cascades, bake_sky, slot);
   s.graph.compile();
   s.graph.execute(slot.commands, slot_index);

@@ -1,0 +1,163 @@
+#include "game/options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/check.h"
+
+namespace skerry::game {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 7> kFields{"seed", "camera", "fov", "time", "size", "quality", "settings"};
+
+/// A scalar as the text a person would have typed, or nothing for other kinds.
+std::optional<std::string> scalar_text(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
+  if (value.is_boolean()) return std::string(value.get<bool>() ? "1" : "0");
+  return std::nullopt;
+}
+
+Error field_error(std::string_view field, std::string_view wanted) {
+  return Error{fmt::format("the scene's field '{}' has the wrong kind: give {}", field, wanted)};
+}
+
+/// A coordinate written as a JSON number: doubles print in exponent form when large, which parse_blocks refuses.
+std::optional<std::string> coordinate_text(const json& value) {
+  if (value.is_number_float()) return fmt::format("{:.17f}", value.get<double>());
+  return scalar_text(value);
+}
+
+Result<std::string> camera_text(const json& value) {
+  if (!value.is_array() || value.size() != 5) return field_error("camera", "[X, Y, Z, YAW, PITCH]");
+  std::string text;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto part = i < 3 ? coordinate_text(value[i]) : scalar_text(value[i]);
+    if (!part || value[i].is_boolean()) return field_error("camera", "five numbers or strings");
+    text += (i ? "," : "") + *part;
+  }
+  return text;
+}
+
+Result<void> read_settings(const json& value, SceneText& scene) {
+  if (!value.is_object()) return field_error("settings", "an object of key: value");
+  for (const auto& [key, entry] : value.items()) {
+    const auto text = scalar_text(entry);
+    if (!text) return field_error("settings." + quote_text(key), "a string or a number");
+    scene.settings.push_back(key + "=" + *text);
+  }
+  return {};
+}
+
+Result<void> read_field(const std::string& key, const json& value, SceneText& scene) {
+  if (key == "settings") return read_settings(value, scene);
+  if (key == "camera") {
+    Result<std::string> camera = camera_text(value);
+    if (!camera) return camera.error();
+    scene.camera = *camera;
+    return {};
+  }
+  std::optional<std::string>* const texts[] = {&scene.seed, nullptr, &scene.fov, &scene.time, &scene.size,
+                                               &scene.quality};
+  const auto field = std::find(kFields.begin(), kFields.end(), key);
+  if (field == kFields.end()) {
+    return Error{fmt::format("the scene has an unknown field {}: did you mean '{}'?", quote_text(key),
+                             nearest_name(key, kFields))};
+  }
+  const auto text = scalar_text(value);
+  if (!text || value.is_boolean()) return field_error(key, "a string or a number");
+  *texts[field - kFields.begin()] = *text;
+  return {};
+}
+
+/// In single quotes unless every character is harmless to a shell.
+std::string shell_word(std::string_view text) {
+  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '.' ||
+           c == ',' || c == '-' || c == '+' || c == ':' || c == '=' || c == '/';
+  });
+  if (plain) return std::string(text);
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// The field given last, if any.
+const std::string* chosen(const std::optional<std::string>& under, const std::optional<std::string>& over) {
+  if (over) return &*over;
+  return under ? &*under : nullptr;
+}
+
+Result<void> apply_settings(const SceneText& under, const SceneText& over, Settings& settings) {
+  for (const SceneText* text : {&under, &over}) {
+    for (const std::string& assignment : text->settings) {
+      if (const auto done = apply_setting(assignment, settings); !done) return done;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<SceneText> parse_scene(std::string_view json_text) {
+  const json root = json::parse(json_text, nullptr, false);
+  if (root.is_discarded()) return Error{"the scene is not JSON: check its brackets, quotes and commas"};
+  if (!root.is_object()) return Error{"the scene is not a JSON object: put the fields between { and }"};
+  SceneText scene;
+  for (const auto& [key, value] : root.items()) {
+    if (const auto done = read_field(key, value, scene); !done) return done.error();
+  }
+  return scene;
+}
+
+Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
+  SceneOptions scene;
+  if (const auto* seed = chosen(under.seed, over.seed)) scene.seed_text = *seed;
+  if (const auto* text = chosen(under.camera, over.camera)) {
+    const auto camera = parse_camera(*text);
+    if (!camera) return camera.error();
+    scene.camera = *camera;
+  }
+  if (const auto* text = chosen(under.fov, over.fov)) {
+    const auto fov = parse_number(*text, "the field of view", 0.1, 175.0);
+    if (!fov) return fov.error();
+    scene.fov_deg = *fov;
+  }
+  if (const auto* text = chosen(under.time, over.time)) {
+    const auto time = parse_time_of_day(*text);
+    if (!time) return time.error();
+    scene.time_of_day_s = *time;
+  }
+  if (const auto* text = chosen(under.size, over.size)) {
+    const auto size = parse_size(*text);
+    if (!size) return size.error();
+    scene.size = *size;
+  }
+  if (const auto* text = chosen(under.quality, over.quality)) {
+    const auto quality = parse_quality(*text);
+    if (!quality) return quality.error();
+    scene.quality = *quality;
+  }
+  scene.settings = settings_of(scene.quality);
+  if (const auto done = apply_settings(under, over, scene.settings); !done) return done.error();
+  return scene;
+}
+
+std::string shot_command(const SceneOptions& scene) {
+  SKERRY_ASSERT(scene.camera.has_value());
+  std::string command = fmt::format("skerry shot --seed {} --camera {} --fov {} --time {} --size {}x{} --quality {}",
+                                    shell_word(scene.seed_text), format_camera(*scene.camera), scene.fov_deg,
+                                    format_time_of_day(scene.time_of_day_s), scene.size.width, scene.size.height,
+                                    quality_level(scene.quality).name);
+  for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
+    command += " --set " + shell_word(assignment);
+  }
+  return command;
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,47 @@
+// What a command was asked to do, checked, as plain values.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "game/parse.h"
+#include "game/settings.h"
+
+namespace skerry::game {
+
+/// A picture to be drawn: shared by shot, play and bench frame.
+struct SceneOptions {
+  std::string seed_text = "1";        ///< world::seed_from_text makes the seed
+  std::optional<CameraPlace> camera;  ///< none: the seed's spawn view
+  double fov_deg = 70.0;              ///< vertical, 0.1 .. 175
+  int time_of_day_s = 12 * 3600;      ///< since midnight
+  PictureSize size;
+  Quality quality = Quality::kMedium;
+  Settings settings;
+  std::optional<std::uint32_t> device;  ///< none: the best
+  bool validate = false;
+};
+
+/// One optional text a field, as typed on the command line or read from a scene file.
+struct SceneText {
+  std::optional<std::string> seed, camera, fov, time, size, quality;
+  std::vector<std::string> settings;  ///< KEY=VALUE, later ones win
+};
+
+/// The longest scene file worth reading.
+inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
+
+/// Reads a scene: a JSON object with the fields seed, camera (five numbers or strings), fov, time, size, quality and settings (an object).
+/// Errors: no JSON, an unknown field (names the nearest), a value of the wrong kind. Values are checked by make_scene.
+Result<SceneText> parse_scene(std::string_view json_text);
+
+/// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied first.
+Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over);
+
+/// The arguments that make `skerry shot` draw this scene again, quoted for a shell. The camera must be set.
+std::string shot_command(const SceneOptions& scene);
+
+}  // namespace skerry::game

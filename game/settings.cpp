@@ -1,0 +1,237 @@
+#include "game/settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "engine/core/check.h"
+#include "game/parse.h"
+#include "world/coords.h"
+
+namespace skerry::game {
+namespace {
+
+constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
+constexpr std::array<std::string_view, 9> kDebugViewNames{"none",  "albedo",   "normal", "position", "metadata",
+                                                          "depth", "cascades", "shadow", "overdraw"};
+constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
+constexpr std::array<std::string_view, 2> kRendererNames{"deferred", "auto"};
+constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
+
+constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024},
+                                               {"medium", 1000, 192, 2048},
+                                               {"high", 2000, 320, 4096},
+                                               {"ultra", 4000, 512, 4096}}};
+
+std::string listed(std::span<const std::string_view> names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The index of a name among the accepted ones; the error names the nearest.
+Result<std::size_t> parse_name(std::string_view text, std::string_view what,
+                               std::span<const std::string_view> names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == text) return i;
+  }
+  return Error{fmt::format("{} cannot be {}: did you mean '{}'? It takes {}", what, quote_text(text),
+                           nearest_name(text, names), listed(names))};
+}
+
+template <class T>
+Result<void> into(const Result<std::int64_t>& parsed, T& field) {
+  if (!parsed) return parsed.error();
+  field = static_cast<T>(*parsed);
+  return {};
+}
+
+template <class E>
+Result<void> into_name(const Result<std::size_t>& parsed, E& field) {
+  if (!parsed) return parsed.error();
+  field = static_cast<E>(*parsed);
+  return {};
+}
+
+Result<void> into_number(const Result<double>& parsed, double& field) {
+  if (!parsed) return parsed.error();
+  field = *parsed;
+  return {};
+}
+
+Result<void> parse_offset(std::string_view text, Settings& s) {
+  const std::vector<std::string> parts = split(text, ',');
+  if (parts.size() != 3) {
+    return Error{fmt::format("world.offset cannot be {}: give whole blocks X,Y,Z", quote_text(text))};
+  }
+  std::array<std::int64_t, 3> offset{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto part = parse_integer(parts[axis], "world.offset", -world::kMaxBlock, world::kMaxBlock);
+    if (!part) return part.error();
+    offset[axis] = *part;
+  }
+  s.world_offset = offset;
+  return {};
+}
+
+Result<void> parse_islands(std::string_view text, Settings& s) {
+  if (text == "all") {
+    s.world_islands.reset();
+    return {};
+  }
+  std::uint32_t count = 0;
+  const Result<void> done = into(parse_integer(text, "world.islands ('all' or a count)", 0, 100000), count);
+  if (done) s.world_islands = count;
+  return done;
+}
+
+Result<void> parse_exposure(std::string_view text, Settings& s) {
+  if (text == "auto") {
+    s.exposure_ev.reset();
+    return {};
+  }
+  double stops = 0.0;
+  const Result<void> done = into_number(parse_number(text, "exposure ('auto' or stops)", -20.0, 20.0), stops);
+  if (done) s.exposure_ev = stops;
+  return done;
+}
+
+Result<void> parse_shadow_size(std::string_view text, Settings& s) {
+  const auto size = parse_integer(text, "shadow.size", 256, 8192);
+  if (!size) return size.error();
+  if ((*size & (*size - 1)) != 0) {
+    return Error{fmt::format("shadow.size cannot be {}: give a power of two from 256 to 8192", quote_text(text))};
+  }
+  s.shadow_size = static_cast<std::uint32_t>(*size);
+  return {};
+}
+
+/// Both accepted names choose the one renderer there is.
+Result<void> parse_renderer(std::string_view text, Settings&) {
+  if (text == "forward" || text == "reference") {
+    return Error{fmt::format("renderer={} is not in this build: use deferred or auto", text)};
+  }
+  const auto name = parse_name(text, "renderer", kRendererNames);
+  if (!name) return name.error();
+  return {};
+}
+
+constexpr SettingKey kKeys[] = {
+    {"world.offset", "X,Y,Z: whole blocks, -2^40 to 2^40 each",
+     "Moves every island. With the camera moved alike the picture is the same, bit for bit.", parse_offset,
+     [](const Settings& s) { return fmt::format("{}", fmt::join(s.world_offset, ",")); }},
+    {"world.islands", "all, or 0 to 100000", "Keeps only so many islands, nearest to the spawn first.",
+     parse_islands,
+     [](const Settings& s) { return s.world_islands ? std::to_string(*s.world_islands) : std::string("all"); }},
+    {"world.time", "seconds, -1e9 to 1e9", "How long the islands have drifted and turned.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "world.time", -1e9, 1e9), s.world_time_s);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.world_time_s); }},
+    {"sky.moon_phase", "0 to 1", "0 new moon, 0.5 full moon, 1 new moon again.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "sky.moon_phase", 0.0, 1.0), s.moon_phase);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.moon_phase); }},
+    {"view.distance", "blocks, 32 to 16384", "Nothing farther than this is drawn.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "view.distance", 32, 16384), s.view_distance);
+     },
+     [](const Settings& s) { return std::to_string(s.view_distance); }},
+    {"view.detail", "blocks, 32 to 4096", "Full detail up to here; each doubling halves the detail.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "view.detail", 32, 4096), s.view_detail);
+     },
+     [](const Settings& s) { return std::to_string(s.view_detail); }},
+    {"shadow.enabled", "0 or 1", "Shadows of the sun and the moon.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "shadow.enabled", kSwitchNames), s.shadow_enabled);
+     },
+     [](const Settings& s) { return std::string(s.shadow_enabled ? "1" : "0"); }},
+    {"shadow.size", "a power of two, 256 to 8192", "Texels along the edge of one shadow map.", parse_shadow_size,
+     [](const Settings& s) { return std::to_string(s.shadow_size); }},
+    {"exposure", "auto, or stops from -20 to 20", "Metered, or fixed: each stop doubles the brightness.",
+     parse_exposure,
+     [](const Settings& s) { return s.exposure_ev ? fmt::format("{}", *s.exposure_ev) : std::string("auto"); }},
+    {"renderer", "deferred or auto", "How the picture is made. This build has one way: deferred.", parse_renderer,
+     [](const Settings&) { return std::string("auto"); }},
+    {"shading", "pbr or flat", "flat: light colour times shadow, without the surface's angle to the light.",
+     [](std::string_view t, Settings& s) { return into_name(parse_name(t, "shading", kShadingNames), s.shading); },
+     [](const Settings& s) { return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]); }},
+    {"debug.view", "none, albedo, normal, position, metadata, depth, cascades, shadow or overdraw",
+     "Shows one ingredient of the picture instead of the picture.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "debug.view", kDebugViewNames), s.debug_view);
+     },
+     [](const Settings& s) { return std::string(kDebugViewNames[static_cast<std::size_t>(s.debug_view)]); }},
+    {"upload.path", "update, staging or mapped", "How meshes travel to the GPU: vkCmdUpdateBuffer, copies, mapped memory.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "upload.path", kUploadNames), s.upload_path);
+     },
+     [](const Settings& s) { return std::string(kUploadNames[static_cast<std::size_t>(s.upload_path)]); }},
+    {"upload.budget", "bytes, 65536 to 1073741824", "The most that travels in one frame.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "upload.budget", 65536, 1 << 30), s.upload_budget_bytes);
+     },
+     [](const Settings& s) { return std::to_string(s.upload_budget_bytes); }},
+    {"jobs.threads", "0 to 256", "Worker threads; 0 takes one a core. The picture does not depend on it.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "jobs.threads", 0, 256), s.jobs_threads);
+     },
+     [](const Settings& s) { return std::to_string(s.jobs_threads); }},
+    {"water.layers", "1 to 4", "How many water and glass surfaces one behind another a pixel shows.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "water.layers", 1, 4), s.water_layers);
+     },
+     [](const Settings& s) { return std::to_string(s.water_layers); }},
+};
+
+}  // namespace
+
+std::span<const SettingKey> setting_keys() { return kKeys; }
+
+Result<void> apply_setting(std::string_view key, std::string_view value, Settings& settings) {
+  std::vector<std::string_view> names;
+  for (const SettingKey& entry : kKeys) {
+    if (entry.key == key) return entry.parse(value, settings);
+    names.push_back(entry.key);
+  }
+  return Error{fmt::format("there is no setting {}: did you mean '{}'? docs/settings.md lists all", quote_text(key),
+                           nearest_name(key, names))};
+}
+
+Result<void> apply_setting(std::string_view assignment, Settings& settings) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos) {
+    return Error{fmt::format("the setting {} has no value: give KEY=VALUE", quote_text(assignment))};
+  }
+  return apply_setting(assignment.substr(0, equals), assignment.substr(equals + 1), settings);
+}
+
+const QualityLevel& quality_level(Quality quality) { return kLevels[static_cast<std::size_t>(quality)]; }
+
+Result<Quality> parse_quality(std::string_view text) {
+  std::array<std::string_view, kLevels.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kLevels[i].name;
+  const Result<std::size_t> level = parse_name(text, "the quality", names);
+  if (!level) return level.error();
+  return static_cast<Quality>(*level);
+}
+
+Settings settings_of(Quality quality) {
+  const QualityLevel& level = quality_level(quality);
+  Settings settings;
+  settings.view_distance = level.view_distance;
+  settings.view_detail = level.view_detail;
+  settings.shadow_size = level.shadow_size;
+  return settings;
+}
+
+std::vector<std::string> assignments_from(Quality quality, const Settings& settings) {
+  const Settings level = settings_of(quality);
+  std::vector<std::string> assignments;
+  for (const SettingKey& entry : kKeys) {
+    const std::string value = entry.print(settings);
+    if (value != entry.print(level)) assignments.push_back(fmt::format("{}={}", entry.key, value));
+  }
+  return assignments;
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,70 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace skerry::game {
+
+enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
+enum class Shading : std::uint8_t { kPbr, kFlat };
+enum class DebugView : std::uint8_t {
+  kNone, kAlbedo, kNormal, kPosition, kMetadata, kDepth, kCascades, kShadow, kOverdraw
+};
+enum class UploadMode : std::uint8_t { kUpdate, kStaging, kMapped };
+
+/// Everything `--set` reaches, with the defaults of quality `medium`. docs/settings.md says what each means to a player.
+struct Settings {
+  std::array<std::int64_t, 3> world_offset{};  ///< whole blocks, +-2^40: moves every island
+  std::optional<std::uint32_t> world_islands;  ///< only so many islands, nearest to the spawn first; none: all
+  double world_time_s = 0.0;                   ///< seconds of island motion, +-1e9
+  double moon_phase = 0.5;                     ///< 0 new, 0.5 full, 1 new again
+  std::uint32_t view_distance = 1000;          ///< blocks, 32 .. 16384
+  std::uint32_t view_detail = 192;             ///< blocks drawn at full detail, 32 .. 4096
+  bool shadow_enabled = true;
+  std::uint32_t shadow_size = 2048;            ///< texels along a cascade's edge, power of two, 256 .. 8192
+  std::optional<double> exposure_ev;           ///< stops, -20 .. 20; none: metered
+  Shading shading = Shading::kPbr;
+  DebugView debug_view = DebugView::kNone;
+  UploadMode upload_path = UploadMode::kUpdate;
+  std::uint64_t upload_budget_bytes = 8u << 20;  ///< a frame, 65536 .. 2^30
+  std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
+  std::uint32_t water_layers = 2;                ///< nearest translucent surfaces kept a pixel, 1 .. 4
+  bool operator==(const Settings&) const = default;
+};
+
+/// One key of `--set`.
+struct SettingKey {
+  std::string_view key;
+  std::string_view values;  ///< what is accepted, for help and docs
+  std::string_view meaning;
+  Result<void> (*parse)(std::string_view value, Settings& into);
+  std::string (*print)(const Settings& from);  ///< text that parse reads back as the same value
+};
+
+/// All keys, in the order of the documentation.
+std::span<const SettingKey> setting_keys();
+
+/// Sets one key. Errors name the accepted values, and the nearest key or value to what was typed.
+Result<void> apply_setting(std::string_view key, std::string_view value, Settings& settings);
+/// Same from "key=value".
+Result<void> apply_setting(std::string_view assignment, Settings& settings);
+
+/// What a quality level stands for; everything else is as in Settings' defaults.
+struct QualityLevel {
+  std::string_view name;
+  std::uint32_t view_distance, view_detail, shadow_size;
+};
+const QualityLevel& quality_level(Quality quality);
+Result<Quality> parse_quality(std::string_view text);
+Settings settings_of(Quality quality);
+
+/// The "key=value" assignments that turn settings_of(quality) into `settings`.
+std::vector<std::string> assignments_from(Quality quality, const Settings& settings);
+
+}  // namespace skerry::game

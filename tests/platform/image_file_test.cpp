@@ -1,0 +1,125 @@
+#include "engine/platform/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "engine/platform/files.h"
+
+namespace skerry::platform {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test, gone afterwards.
+class ImageFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(dir_); }
+  void TearDown() override { fs::remove_all(dir_); }
+  fs::path dir_ = fs::path(testing::TempDir()) /
+                  ("skerry_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+std::vector<std::uint8_t> random_bytes(std::size_t count) {
+  std::mt19937 random(7);
+  std::vector<std::uint8_t> bytes(count);
+  for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+  return bytes;
+}
+
+TEST_F(ImageFile, RgbaAndItsTextsComeBackAsWritten) {
+  const auto pixels = random_bytes(37 * 19 * 4);
+  const std::vector<PngText> text{{"Command", "skerry shot --seed 'a b'"}, {"Seed", "bl\xc3\xa5skj\xc3\xa6r"}};
+  ASSERT_TRUE(write_png(dir_ / "a.png", {37, 19, 4, pixels}, text));
+  const auto image = read_png(dir_ / "a.png");
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->width, 37u);
+  EXPECT_EQ(image->height, 19u);
+  EXPECT_EQ(image->pixels, pixels);
+  ASSERT_EQ(image->text.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(image->text[i].key, text[i].key);
+    EXPECT_EQ(image->text[i].text, text[i].text);
+  }
+}
+
+TEST_F(ImageFile, RgbComesBackOpaque) {
+  const auto pixels = random_bytes(5 * 3 * 3);
+  ASSERT_TRUE(write_png(dir_ / "a.png", {5, 3, 3, pixels}));
+  const auto image = read_png(dir_ / "a.png");
+  ASSERT_TRUE(image) << image.error().message;
+  for (std::size_t i = 0; i < 15; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(image->pixels[i * 4 + c], pixels[i * 3 + c]);
+    EXPECT_EQ(image->pixels[i * 4 + 3], 255);
+  }
+}
+
+TEST_F(ImageFile, TheFileSaysItIsSrgbAndTheSamePixelsGiveTheSameBytes) {
+  const auto pixels = random_bytes(8 * 8 * 4);
+  ASSERT_TRUE(write_png(dir_ / "a.png", {8, 8, 4, pixels}));
+  ASSERT_TRUE(write_png(dir_ / "b.png", {8, 8, 4, pixels}));
+  const auto a = read_text(dir_ / "a.png", 1 << 20);
+  const auto b = read_text(dir_ / "b.png", 1 << 20);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(*a, *b);
+  EXPECT_NE(a->find("sRGB"), std::string::npos);
+}
+
+TEST_F(ImageFile, AnUnwritablePathIsNamedAndNothingIsLeft) {
+  const std::vector<std::uint8_t> pixels(4);
+  const auto missing = write_png(dir_ / "no" / "a.png", {1, 1, 4, pixels});
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("no/a.png"), std::string::npos);
+  EXPECT_NE(missing.error().message.find("No such file"), std::string::npos);
+  const auto folder = write_png(dir_, {1, 1, 4, pixels});
+  ASSERT_FALSE(folder);
+  EXPECT_NE(folder.error().message.find("directory"), std::string::npos);
+  const auto full = write_png("/dev/full/a.png", {1, 1, 4, pixels});
+  EXPECT_FALSE(full);
+  EXPECT_TRUE(fs::is_empty(dir_));
+}
+
+TEST_F(ImageFile, EveryTruncationAndManyCorruptionsAreErrorsNotCrashes) {
+  const auto pixels = random_bytes(16 * 16 * 4);
+  ASSERT_TRUE(write_png(dir_ / "a.png", {16, 16, 4, pixels}));
+  const auto whole = read_text(dir_ / "a.png", 1 << 20);
+  ASSERT_TRUE(whole);
+  for (std::size_t length = 0; length < whole->size(); ++length) {
+    ASSERT_TRUE(write_text(dir_ / "cut.png", whole->substr(0, length)));
+    ASSERT_FALSE(read_png(dir_ / "cut.png")) << length;
+  }
+  std::mt19937 random(3);
+  for (int round = 0; round < 300; ++round) {
+    std::string damaged = *whole;
+    damaged[random() % damaged.size()] ^= static_cast<char>(1 + random() % 255);
+    ASSERT_TRUE(write_text(dir_ / "bad.png", damaged));
+    const auto image = read_png(dir_ / "bad.png");
+    if (image) {
+      EXPECT_EQ(image->pixels.size(), std::size_t{image->width} * image->height * 4);
+    }
+  }
+}
+
+TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
+  // libpng checks the limits after the chunk's CRC, so the header carries a right one.
+  std::string png("\x89PNG\r\n\x1a\n", 8);
+  std::string ihdr("IHDR\x00\x01\x00\x00\x00\x01\x00\x00\x08\x06\x00\x00\x00", 17);  // 65536 x 65536
+  std::uint32_t crc = ~0u;
+  for (const char c : ihdr) {
+    crc ^= static_cast<std::uint8_t>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xEDB88320u : 0u);
+  }
+  crc = ~crc;
+  png += std::string("\x00\x00\x00\x0d", 4) + ihdr;
+  for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(crc >> shift);
+  ASSERT_TRUE(write_text(dir_ / "huge.png", png));
+  const auto image = read_png(dir_ / "huge.png");
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.error().message.find("IHDR"), std::string::npos) << image.error().message;
+}
+
+}  // namespace
+}  // namespace skerry::platform

@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "game/options.h"
+
+namespace skerry::tools {
+
+struct BenchFrameOptions {
+  game::SceneOptions scene;
+  std::optional<std::filesystem::path> json;
+};
+
+/// Times whole frames of a loaded scene in a loop with a slowly turning camera. Prints a row and writes it as JSON: name, size, distance, shadows,
+/// ms_median, ms_p10, ms_p99, fps_median, gpu_ms{}. @return exit status.
+int bench_frame(const BenchFrameOptions& options);
+
+}  // namespace skerry::tools

@@ -1,0 +1,22 @@
+#pragma once
+#include <memory>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "game/options.h"
+
+namespace skerry::tools {
+
+/// Exit statuses of the command-line contract.
+inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kValidationMessage = 3, kNoDevice = 4;
+
+/// Opens the device a scene asks for, with the user's pipeline cache.
+Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene);
+
+/// Prints `skerry: message` on stderr and returns the status.
+int fail(int status, const Error& error);
+
+/// kDone, or kValidationMessage when the layer said anything.
+int status_after(const gpu::Device& device);
+
+}  // namespace skerry::tools

@@ -1,0 +1,80 @@
+// The mesher for x86-64 with AVX2 and BMI2.
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#include "world/mesh/emission.h"
+#include "world/mesh/kernel.h"
+
+#define SKERRY_MESH_TARGET __attribute__((target("avx2,bmi,bmi2")))
+#include "world/mesh/scalar_emission.h"
+
+namespace skerry::world::mesh_detail {
+namespace {
+
+SKERRY_MESH_TARGET inline __m256i load_half(const std::uint8_t* bytes, int half) {
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(bytes + 32 * half));
+}
+
+SKERRY_MESH_TARGET inline std::uint64_t sign_bits(__m256i low, __m256i high) {
+  return static_cast<std::uint32_t>(_mm256_movemask_epi8(low)) |
+         std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_epi8(high))} << 32;
+}
+
+// Which bytes belong to a set: the low nibble picks a set of high nibbles, the high nibble a bit of
+// it. After W. Mula, "SIMD-ized check which bytes are in a set" (2018), re-derived.
+SKERRY_MESH_TARGET inline __m256i in_set(__m256i bytes, const ByteSet& set) {
+  const __m256i low_half = _mm256_broadcastsi128_si256(
+      _mm_load_si128(reinterpret_cast<const __m128i*>(set.high_below_8.data())));
+  const __m256i high_half = _mm256_broadcastsi128_si256(
+      _mm_load_si128(reinterpret_cast<const __m128i*>(set.high_from_8.data())));
+  const __m256i nibble = _mm256_set1_epi8(15);
+  const __m256i low = _mm256_and_si256(bytes, nibble);
+  const __m256i high = _mm256_and_si256(_mm256_srli_epi16(bytes, 4), nibble);
+  const __m256i bit_of_high = _mm256_broadcastsi128_si256(
+      _mm_setr_epi8(1, 2, 4, 8, 16, 32, 64, -128, 1, 2, 4, 8, 16, 32, 64, -128));
+  const __m256i members = _mm256_blendv_epi8(_mm256_shuffle_epi8(low_half, low),
+                                             _mm256_shuffle_epi8(high_half, low), bytes);
+  const __m256i bit = _mm256_shuffle_epi8(bit_of_high, high);
+  return _mm256_cmpeq_epi8(_mm256_and_si256(members, bit), bit);
+}
+
+SKERRY_MESH_TARGET inline void row_kinds(const std::uint8_t* bytes, const ByteTable& table,
+                                         std::uint64_t& opaque, std::uint64_t& see_through) {
+  const __m256i low = load_half(bytes, 0), high = load_half(bytes, 1);
+  opaque = sign_bits(in_set(low, table.opaque), in_set(high, table.opaque));
+  see_through = sign_bits(in_set(low, table.see_through), in_set(high, table.see_through));
+}
+
+SKERRY_MESH_TARGET inline std::uint64_t row_flag(const std::uint8_t* bytes, const ByteTable& table,
+                                                 std::uint8_t flag) {
+  std::uint64_t bits = 0;
+  for (int z = 0; z < kEdge; ++z) {
+    bits |= std::uint64_t{(table.flags[bytes[z]] & flag) != 0} << z;
+  }
+  return bits;
+}
+
+SKERRY_MESH_TARGET inline std::uint64_t row_equal(const std::uint8_t* a, const std::uint8_t* b) {
+  return sign_bits(_mm256_cmpeq_epi8(load_half(a, 0), load_half(b, 0)),
+                   _mm256_cmpeq_epi8(load_half(a, 1), load_half(b, 1)));
+}
+
+SKERRY_MESH_TARGET inline std::uint64_t nonzero_words(const std::uint64_t* words) {
+  std::uint64_t zero = 0;
+  for (int i = 0; i < kEdge; i += 4) {
+    const __m256i four = _mm256_load_si256(reinterpret_cast<const __m256i*>(words + i));
+    const __m256i equal = _mm256_cmpeq_epi64(four, _mm256_setzero_si256());
+    zero |= std::uint64_t(_mm256_movemask_pd(_mm256_castsi256_pd(equal))) << i;
+  }
+  return ~zero;
+}
+
+}  // namespace
+}  // namespace skerry::world::mesh_detail
+
+#include "world/mesh/kernel_body.h"
+
+namespace skerry::world::mesh_detail {
+const Kernel kAvx2Kernel{"avx2", narrow, build_planes, mesh_face};
+}
+#endif

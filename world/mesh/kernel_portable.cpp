@@ -1,0 +1,51 @@
+// The mesher for any CPU: 64-bit integers only.
+#include <cstring>
+
+#include "world/mesh/emission.h"
+#include "world/mesh/kernel.h"
+
+#define SKERRY_MESH_TARGET
+#include "world/mesh/scalar_emission.h"
+
+namespace skerry::world::mesh_detail {
+namespace {
+
+inline void row_kinds(const std::uint8_t* bytes, const ByteTable& table, std::uint64_t& opaque,
+                      std::uint64_t& see_through) {
+  opaque = see_through = 0;
+  for (int z = 0; z < kEdge; ++z) {
+    const std::uint64_t flags = table.flags[bytes[z]];
+    opaque |= (flags & kFlagOpaque) << z;
+    see_through |= std::uint64_t{(flags & kFlagsSeeThrough) != 0} << z;
+  }
+}
+
+inline std::uint64_t row_flag(const std::uint8_t* bytes, const ByteTable& table,
+                              std::uint8_t flag) {
+  std::uint64_t bits = 0;
+  for (int z = 0; z < kEdge; ++z) {
+    bits |= std::uint64_t{(table.flags[bytes[z]] & flag) != 0} << z;
+  }
+  return bits;
+}
+
+inline std::uint64_t row_equal(const std::uint8_t* a, const std::uint8_t* b) {
+  std::uint64_t bits = 0;
+  for (int z = 0; z < kEdge; ++z) bits |= std::uint64_t{a[z] == b[z]} << z;
+  return bits;
+}
+
+inline std::uint64_t nonzero_words(const std::uint64_t* words) {
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kEdge; ++i) bits |= std::uint64_t{words[i] != 0} << i;
+  return bits;
+}
+
+}  // namespace
+}  // namespace skerry::world::mesh_detail
+
+#include "world/mesh/kernel_body.h"
+
+namespace skerry::world::mesh_detail {
+const Kernel kPortableKernel{"portable", narrow, build_planes, mesh_face};
+}
