@@ -85,10 +85,12 @@ vec3 stars(vec3 dir, SkyConstants sky, float pixel_angle) {
   return colour;
 }
 
-// Everything a ray into the open sees: sky, discs, stars. dir is unit.
-vec3 sky_seen(vec3 dir) {
+// Everything a ray into the open sees: sky, discs, and stars unless it is day. dir is unit.
+vec3 sky_seen(vec3 dir, bool with_stars) {
   float pixel_angle = frame.pixel_to_ndc.y * length(frame.ray_up);
-  return sample_sky(sky_lut, dir) + discs(dir, sky, pixel_angle) + stars(dir, sky, pixel_angle);
+  vec3 colour = sample_sky(sky_lut, dir) + discs(dir, sky, pixel_angle);
+  if (with_stars) colour += stars(dir, sky, pixel_angle);
+  return colour;
 }
 
 #endif
