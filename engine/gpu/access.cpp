@@ -7,7 +7,6 @@ namespace skerry::gpu {
 
 UseInfo use_info(Use use) {
   constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-  UseInfo info;
   // Shader reads use the one general access bit: a stage then says it all, which lets a state keep reads as a set of stages.
   switch (use) {
     case Use::kIndirect:
@@ -47,7 +46,7 @@ UseInfo use_info(Use use) {
     case Use::kHostRead:
       return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, 0, 0};
   }
-  return info;
+  return {};
 }
 
 std::optional<Scopes> hazard(const AccessState& state, const Access& next) {

@@ -185,7 +185,7 @@ Result<ShaderReflection> reflect(std::span<const std::uint32_t> words) {
     const std::string what = "its binding " + std::to_string(*binding);
     if (module.decoration(id, kDescriptorSet).value_or(0) != 0) return Error{what + " is not in descriptor set 0"};
     const std::optional<VkDescriptorType> type = descriptor_type(module, storage_class, pointee);
-    if (!type) return Error{what + " is not a storage buffer, storage image, 2D texture or sampler"};
+    if (!type) return Error{what + " is not a buffer, 2D storage image, texture or sampler"};
     // Two variables may share a binding, say to read a buffer as two types.
     const ShaderReflection::Binding entry{*binding, *type};
     if (std::find(out.bindings.begin(), out.bindings.end(), entry) == out.bindings.end()) out.bindings.push_back(entry);

@@ -118,6 +118,15 @@ TEST(OffsetArena, NothingIsAlwaysThere) {
   EXPECT_EQ(arena.largest_free(), 0u);
 }
 
+TEST(OffsetArena, GrowingJoinsTheNewRoomToTheFreeEnd) {
+  OffsetArena arena(10);
+  ASSERT_TRUE(arena.allocate(4));
+  arena.grow(30);
+  EXPECT_EQ(arena.capacity(), 30u);
+  EXPECT_EQ(arena.largest_free(), 26u);
+  EXPECT_EQ(arena.allocate(26)->first, 4u);
+}
+
 TEST(OffsetArenaDeathTest, FreeingTwiceIsCaught) {
   OffsetArena arena(10);
   const ArenaRange a = *arena.allocate(5);

@@ -67,12 +67,23 @@ TEST(Reflection, SetsBeyondTheFirstAreRefused) {
   EXPECT_EQ(reflection.error().message, "its binding 3 is not in descriptor set 0");
 }
 
-TEST(Reflection, UniformBuffersAreRefused) {
+TEST(Reflection, UniformAndStorageBuffersAreToldApart) {
   const TestShader shader("uniform.comp", R"(
     layout(local_size_x = 1) in;
-    layout(binding = 0) uniform U { uint u; };
-    layout(binding = 1) buffer A { uint a; };
+    layout(scalar, binding = 0) uniform U { uint u; };
+    layout(scalar, binding = 1) buffer A { uint a; };
     void main() { a = u; })");
+  const std::vector<ShaderReflection::Binding> expected{{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+                                                        {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
+  EXPECT_EQ(reflect_ok(shader).bindings, expected);
+}
+
+TEST(Reflection, DescriptorsWithoutAUseHereAreRefused) {
+  const TestShader shader("texels.comp", R"(
+    layout(local_size_x = 1) in;
+    layout(binding = 0) uniform samplerBuffer texels;
+    layout(binding = 1, rgba8) uniform image3D volume;
+    void main() { imageStore(volume, ivec3(0), texelFetch(texels, 0)); })");
   EXPECT_FALSE(reflect(shader.words()));
 }
 
