@@ -38,6 +38,7 @@ struct GraphicsDesc {
   bool depth_write = true;       ///< test is GREATER_OR_EQUAL (reverse-Z)
   bool depth_clamp = false;
   bool depth_bias = false;       ///< dynamic: Commands::set_depth_bias
+  bool blend = false;            ///< colours are laid over what is there by their straight alpha; else they replace it
   auto operator<=>(const GraphicsDesc&) const = default;
 };
 

@@ -91,8 +91,13 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const GraphicsDesc& desc) {
   return info;
 }
 
-VkPipelineColorBlendAttachmentState write_all() {
+VkPipelineColorBlendAttachmentState attachment_state(const GraphicsDesc& desc) {
   VkPipelineColorBlendAttachmentState state{};
+  state.blendEnable = desc.blend ? VK_TRUE : VK_FALSE;
+  state.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
   return state;
 }
@@ -129,7 +134,7 @@ void compile_graphics(Device& device, Pipeline& pipeline, std::span<const Shader
   auto samples = vk_struct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   const auto depth = depth_state(desc);
-  const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(), write_all());
+  const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(), attachment_state(desc));
   auto blend = vk_struct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
   blend.pAttachments = attachments.data();
