@@ -1,5 +1,5 @@
-// One definition serves C++ and GLSL only if both compilers lay it out alike: every struct of shaders/shared, as glslang laid it
-// out in every shader that uses it, against offsetof.
+// One definition serves C++ and GLSL only if both compilers lay it out alike: every struct of
+// shaders/shared, as glslang laid it out in every shader that uses it, against offsetof.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/overlay.h"
 #include "shaders/shared/sky.h"
 #include "tests/gpu/compile_glsl.h"
 
@@ -39,9 +40,14 @@ std::ostream& operator<<(std::ostream& out, const Member& member) {
 }
 
 const std::vector<Layout>& cpp_layouts() {
-#define MEMBER(type, member) {#member, offsetof(type, member), sizeof(type::member)}
-#define STRUCT(type, ...) \
-  Layout { #type, sizeof(type), {__VA_ARGS__} }
+#define MEMBER(type, member) \
+  { #member, offsetof(type, member), sizeof(type::member) }
+#define STRUCT(type, ...)  \
+  Layout {                 \
+#type, sizeof(type), { \
+      __VA_ARGS__          \
+    }                      \
+  }
   static const std::vector<Layout> layouts{
       STRUCT(Quad, MEMBER(Quad, geometry), MEMBER(Quad, material)),
       STRUCT(Section, MEMBER(Section, origin), MEMBER(Section, island),
@@ -85,13 +91,17 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(SkyConstants, sun_disc), MEMBER(SkyConstants, moon_disc),
              MEMBER(SkyConstants, sky_x), MEMBER(SkyConstants, sky_y), MEMBER(SkyConstants, sky_z),
              MEMBER(SkyConstants, stars)),
+      STRUCT(OverlayVertex, MEMBER(OverlayVertex, position), MEMBER(OverlayVertex, uv),
+             MEMBER(OverlayVertex, color), MEMBER(OverlayVertex, clip)),
+      STRUCT(OverlayConstants, MEMBER(OverlayConstants, ndc_from_pixel)),
   };
 #undef STRUCT
 #undef MEMBER
   return layouts;
 }
 
-/// Named struct types of a SPIR-V module that lie in buffers, with their layout. (SPIR-V specification 2.3, 3.32.)
+/// Named struct types of a SPIR-V module that lie in buffers, with their layout. (SPIR-V
+/// specification 2.3, 3.32.)
 class SpirvLayouts {
  public:
   explicit SpirvLayouts(const std::vector<std::uint32_t>& words) {
@@ -108,7 +118,8 @@ class SpirvLayouts {
       Layout layout{names_.at(id), 0, {}};
       for (std::uint32_t i = 0; i < members.size(); ++i) {
         const auto stride = matrix_strides_.find({id, i});
-        const std::size_t size = size_of(members[i], stride == matrix_strides_.end() ? 0 : stride->second);
+        const std::size_t size =
+            size_of(members[i], stride == matrix_strides_.end() ? 0 : stride->second);
         layout.members.push_back({member_names_.at({id, i}), offsets_.at({id, i}), size});
         layout.size = std::max(layout.size, layout.members.back().offset + size);
       }
@@ -122,48 +133,75 @@ class SpirvLayouts {
     std::set<std::size_t> found;
     for (const auto& [id, element] : array_elements_) {
       const auto named = names_.find(element);
-      if (named != names_.end() && named->second == name && array_strides_.contains(id)) found.insert(array_strides_.at(id));
+      if (named != names_.end() && named->second == name && array_strides_.contains(id))
+        found.insert(array_strides_.at(id));
     }
     return found;
   }
 
  private:
   using Id = std::uint32_t;
-  static std::string text(const std::uint32_t* words) { return reinterpret_cast<const char*>(words); }
+  static std::string text(const std::uint32_t* words) {
+    return reinterpret_cast<const char*>(words);
+  }
 
   void take(std::uint32_t op, const std::uint32_t* w, std::size_t count) {
     switch (op) {
-      case 5: names_[w[0]] = text(w + 1); break;                  // OpName
-      case 6: member_names_[{w[0], w[1]}] = text(w + 2); break;   // OpMemberName
-      case 21: case 22: sizes_[w[0]] = w[1] / 8; break;           // OpTypeInt, OpTypeFloat
-      case 23: sizes_[w[0]] = sizes_[w[1]] * w[2]; break;         // OpTypeVector
-      case 24: columns_[w[0]] = w[2]; break;                      // OpTypeMatrix
-      case 28: array_elements_[w[0]] = w[1]; lengths_[w[0]] = constants_[w[2]]; break;  // OpTypeArray
-      case 29: array_elements_[w[0]] = w[1]; break;               // OpTypeRuntimeArray
-      case 30: struct_members_[w[0]].assign(w + 1, w + count); break;  // OpTypeStruct
-      case 43: constants_[w[1]] = w[2]; break;                    // OpConstant
-      case 71:                                                    // OpDecorate ArrayStride
+      case 5:
+        names_[w[0]] = text(w + 1);
+        break;  // OpName
+      case 6:
+        member_names_[{w[0], w[1]}] = text(w + 2);
+        break;  // OpMemberName
+      case 21:
+      case 22:
+        sizes_[w[0]] = w[1] / 8;
+        break;  // OpTypeInt, OpTypeFloat
+      case 23:
+        sizes_[w[0]] = sizes_[w[1]] * w[2];
+        break;  // OpTypeVector
+      case 24:
+        columns_[w[0]] = w[2];
+        break;  // OpTypeMatrix
+      case 28:
+        array_elements_[w[0]] = w[1];
+        lengths_[w[0]] = constants_[w[2]];
+        break;  // OpTypeArray
+      case 29:
+        array_elements_[w[0]] = w[1];
+        break;  // OpTypeRuntimeArray
+      case 30:
+        struct_members_[w[0]].assign(w + 1, w + count);
+        break;  // OpTypeStruct
+      case 43:
+        constants_[w[1]] = w[2];
+        break;  // OpConstant
+      case 71:  // OpDecorate ArrayStride
         if (w[1] == 6) array_strides_[w[0]] = w[2];
         break;
       case 72:  // OpMemberDecorate Offset, MatrixStride
         if (w[2] == 35) offsets_[{w[0], w[1]}] = w[3];
         if (w[2] == 7) matrix_strides_[{w[0], w[1]}] = w[3];
         break;
-      default: break;
+      default:
+        break;
     }
   }
 
   std::size_t size_of(Id type, std::size_t matrix_stride) const {
     if (const auto size = sizes_.find(type); size != sizes_.end()) return size->second;
-    if (const auto columns = columns_.find(type); columns != columns_.end()) return columns->second * matrix_stride;
-    if (const auto length = lengths_.find(type); length != lengths_.end()) return length->second * array_strides_.at(type);
+    if (const auto columns = columns_.find(type); columns != columns_.end())
+      return columns->second * matrix_stride;
+    if (const auto length = lengths_.find(type); length != lengths_.end())
+      return length->second * array_strides_.at(type);
     const auto members = struct_members_.find(type);
     if (members == struct_members_.end()) return 0;  // a runtime array
     std::size_t end = 0;
     for (std::uint32_t i = 0; i < members->second.size(); ++i) {
       const auto stride = matrix_strides_.find({type, i});
       end = std::max(end, offsets_.at({type, i}) +
-                              size_of(members->second[i], stride == matrix_strides_.end() ? 0 : stride->second));
+                              size_of(members->second[i],
+                                      stride == matrix_strides_.end() ? 0 : stride->second));
     }
     return end;
   }
@@ -179,7 +217,8 @@ class SpirvLayouts {
 std::vector<std::uint32_t> read_words(const fs::path& path) {
   std::vector<std::uint32_t> words(fs::file_size(path) / sizeof(std::uint32_t));
   std::ifstream(path, std::ios::binary)
-      .read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * sizeof(std::uint32_t)));
+      .read(reinterpret_cast<char*>(words.data()),
+            static_cast<std::streamsize>(words.size() * sizeof(std::uint32_t)));
   return words;
 }
 
@@ -217,8 +256,10 @@ TEST(SharedStructs, ThisTestKnowsAllOfThem) {
     text << std::ifstream(path).rdbuf();
     const std::string source = text.str();
     const std::regex pattern("struct\\s+(\\w+)\\s*\\{");
-    for (auto it = std::sregex_iterator(source.begin(), source.end(), pattern); it != std::sregex_iterator(); ++it) {
-      EXPECT_TRUE(known.contains((*it)[1])) << "add " << (*it)[1] << " of " << path.filename() << " to cpp_layouts()";
+    for (auto it = std::sregex_iterator(source.begin(), source.end(), pattern);
+         it != std::sregex_iterator(); ++it) {
+      EXPECT_TRUE(known.contains((*it)[1]))
+          << "add " << (*it)[1] << " of " << path.filename() << " to cpp_layouts()";
     }
   }
 }
@@ -229,23 +270,28 @@ TEST(SharedStructs, EveryShaderOfTheProgramLaysThemOutAsCppDoes) {
     const std::string name = entry.path().filename().string();
     if (name.ends_with(".full.spv")) seen.merge(compare(name, read_words(entry.path())));
   }
-  // A quad is read as one uvec2 and a body of the sky as a part of its constants; the test below has them all by name.
-  for (const char* used : {"Section", "IslandTransform", "Material", "FrameConstants", "CullView", "DrawCommand"}) {
+  // A quad is read as one uvec2 and a body of the sky as a part of its constants; the test below
+  // has them all by name.
+  for (const char* used :
+       {"Section", "IslandTransform", "Material", "FrameConstants", "CullView", "DrawCommand"}) {
     EXPECT_TRUE(seen.contains(used)) << used;
   }
 }
 
 TEST(SharedStructs, AShaderWithAllOfThemLaysThemOutAsCppDoes) {
   std::string glsl = "#extension GL_GOOGLE_include_directive : require\n";
-  for (const fs::path& path : shared_headers()) glsl += "#include \"" + path.filename().string() + "\"\n";
+  for (const fs::path& path : shared_headers())
+    glsl += "#include \"" + path.filename().string() + "\"\n";
   std::string body;
   for (std::size_t i = 0; i < cpp_layouts().size(); ++i) {
     const Layout& layout = cpp_layouts()[i];
     const std::string number = std::to_string(i);
-    glsl += "layout(scalar, binding = " + number + ") buffer B" + number + " { " + layout.name + " b" + number + "[]; };\n";
+    glsl += "layout(scalar, binding = " + number + ") buffer B" + number + " { " + layout.name +
+            " b" + number + "[]; };\n";
     body += "b" + number + "[0] = b" + number + "[1];\n";
   }
-  const gpu::TestShader shader("all.comp", glsl + "layout(local_size_x = 1) in;\nvoid main() {\n" + body + "}\n");
+  const gpu::TestShader shader(
+      "all.comp", glsl + "layout(local_size_x = 1) in;\nvoid main() {\n" + body + "}\n");
   const std::set<std::string> seen = compare("all.comp", shader.words_with_names());
   for (const Layout& layout : cpp_layouts()) EXPECT_TRUE(seen.contains(layout.name)) << layout.name;
 }
