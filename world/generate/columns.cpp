@@ -71,6 +71,7 @@ struct Builder {
   void raise(const Butte& butte);
   bool settle(Lake& lake) const;
   void dig(const Lake& lake);
+  int room_at(int x, int z) const;
   void finish_heights();
   void contain_water();
   void raggedness();
@@ -307,6 +308,16 @@ void Builder::dig(const Lake& lake) {
       });
 }
 
+/// How far up and down a column reaches before it, or a crown that leans out of it, would leave the
+/// bounding sphere.
+int Builder::room_at(int x, int z) const {
+  const int sphere = shape.extent.sphere;
+  const int flat = noise::length(x, z) + kBoxMargin + 2;
+  return flat < sphere ? static_cast<int>(noise::isqrt(
+                             static_cast<std::uint64_t>(sphere * sphere - flat * flat)))
+                       : 0;
+}
+
 void Builder::finish_heights() {
   for (std::size_t i = 0; i < ground.size(); ++i) {
     if (columns.inside[i] < 0) {
@@ -315,8 +326,13 @@ void Builder::finish_heights() {
       columns.water[i] = Columns::kDry;
       continue;
     }
-    const int top = std::clamp(ground[i] >> 8, -shape.extent.depth / 2, shape.extent.top);
-    const int bottom = std::min(-soft_limit(-columns.bottom[i], shape.extent.depth), top - 4);
+    const int room = room_at(static_cast<int>(i / columns.edge) - columns.half,
+                             static_cast<int>(i % columns.edge) - columns.half);
+    const int highest = std::min(shape.extent.top, room - kTreeRoom);
+    const int top = std::clamp(ground[i] >> 8, -shape.extent.depth / 2,
+                               std::max(highest, -shape.extent.depth / 2));
+    const int keel = soft_limit(-columns.bottom[i], std::min(shape.extent.depth, room - kKeelRoom));
+    const int bottom = std::min(-keel, top - 4);
     columns.top[i] = static_cast<std::int16_t>(top);
     columns.bottom[i] = static_cast<std::int16_t>(bottom);
     if (columns.water[i] <= top) columns.water[i] = Columns::kDry;
@@ -360,7 +376,7 @@ void Builder::contain_water() {
 /// exact heights.
 void Builder::raggedness() {
   constexpr int kGentle = 6;  // blocks of height within 2 cells: a slope, not a cliff
-  columns.max_shift = std::min(5 * kOne8, kOne8 + shape.extent.radius * 12);
+  columns.max_shift = std::min(9 * kOne8 / 2, kOne8 + shape.extent.radius * 12);
   const int cells = columns.edge / kStep;
   const auto cell = [cells](int i, int j) {
     return static_cast<std::size_t>(i) * cells + static_cast<std::size_t>(j);
