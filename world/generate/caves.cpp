@@ -54,14 +54,14 @@ class Digger {
     const int length = rng_.in(18, std::clamp(plan_.shape.extent.radius / 2, 24, 90));
     const int slope = rng_.in(0, 90);
     for (int step = 0; step < length; ++step) {
-      hollow(x >> 8, floor >> 8, z >> 8, rng_.in(3, 4));
+      const bool through = step > 8 && !rock_around(x >> 8, (floor >> 8) + 2, z >> 8);
+      hollow(x >> 8, floor >> 8, z >> 8, rng_.in(3, 4), step < 8 || through);
+      if (through) return;  // came out on the far side: a tunnel
       direction += rng_.in(-34, 34);
       x += noise::cosine(direction) / 16;
       z += noise::sine(direction) / 16;
       if (step > 6) floor -= slope;
       if (step % 9 == 8) grow(x >> 8, floor >> 8, z >> 8, 2, block::kGlowFern);
-      if (!rock_around(x >> 8, (floor >> 8) + 2, z >> 8) && step > 8)
-        return;  // came out on the far side: a tunnel
     }
     chamber(x >> 8, floor >> 8, z >> 8);
   }
@@ -71,8 +71,8 @@ class Digger {
     return plan_.rock_at(x + 5, y, z) || plan_.rock_at(x - 5, y, z) || plan_.rock_at(x, y, z + 5);
   }
 
-  void hollow(int x, int floor, int z, int radius) {
-    plan_.holes.push_back({x, floor + radius - 2, z, radius, floor});
+  void hollow(int x, int floor, int z, int radius, bool open) {
+    plan_.holes.push_back({x, floor + radius - 2, z, radius, floor, open});
   }
 
   /// A hall with a level floor where mushrooms and crystals glow.
@@ -115,6 +115,10 @@ class Digger {
   /// Keeps the stamps that ended up inside a cave and above solid floor: all holes must be known
   /// first.
   void settle() {
+    // Blocks before plants, so that no crystal takes root on a mushroom.
+    std::stable_partition(pending_.begin(), pending_.end(), [](const Pending& p) {
+      return block_kind(p.made.id) != BlockKind::kPlant;
+    });
     for (const auto& [made, floor] : pending_) {
       if (!plan_.columns.has(made.x, made.z)) continue;
       const int roof = plan_.roof_of(plan_.holes.back(), plan_.columns.index(made.x, made.z));
