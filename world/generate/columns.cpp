@@ -91,11 +91,6 @@ struct Builder {
         f(x, z, columns.index(x, z));
     }
   }
-  /// Distance from a centre, Q8, in coordinates bent by the shift fields, so that no circle looks
-  /// like one.
-  int bent_distance(int x, int z, int cx, int cz) const {
-    return noise::length((x - cx) * kOne8 + shift_x.at(x, z), (z - cz) * kOne8 + shift_z.at(x, z));
-  }
 };
 
 /// Maximum with a rounded crease of width k.
@@ -223,8 +218,11 @@ void Builder::spikes(int spacing, int of_256, std::uint32_t seed) {
       if (!columns.has(x0, z0) || columns.inside[columns.index(x0, z0)] < 3) continue;
       const int length = (6 - columns.bottom[columns.index(x0, z0)]) * share / 128 + reach / 2;
       for_columns_near(x0, z0, reach, [&](int x, int z, std::size_t i) {
-        const int d = noise::length((x - x0) * kOne8, (z - z0) * kOne8);
-        if (d >= reach * kOne8 || columns.inside[i] < 0) return;
+        if (columns.inside[i] < 0) return;
+        const int squared = (x - x0) * (x - x0) + (z - z0) * (z - z0);
+        if (squared >= reach * reach) return;
+        const int d =
+            static_cast<int>(noise::isqrt(static_cast<std::uint64_t>(squared) * kOne8 * kOne8));
         const int t = kOne12 - d * 16 / reach;
         const int cone = (t + ((t * t) >> 12)) / 2;
         columns.bottom[i] = static_cast<std::int16_t>(columns.bottom[i] - ((length * cone) >> 12));
@@ -236,23 +234,32 @@ void Builder::spikes(int spacing, int of_256, std::uint32_t seed) {
 void Builder::raise(const Butte& butte) {
   const int ramp_x = noise::cosine(butte.ramp);
   const int ramp_z = noise::sine(butte.ramp);
-  for_columns_near(
-      butte.x, butte.z, butte.radius + shape.warp + 6, [&](int x, int z, std::size_t i) {
-        const int d = bent_distance(x, z, butte.x, butte.z);
-        const int within = butte.radius * kOne8 - d;
-        if (within <= 0) return;
-        int width = butte.cliff * kOne8;
-        if (d > 0) {
-          const std::int64_t along = (static_cast<std::int64_t>(x - butte.x) * ramp_x +
-                                      static_cast<std::int64_t>(z - butte.z) * ramp_z) *
-                                     kOne8;
-          const int facing = static_cast<int>(along / d);  // cosine of the angle to the ramp, Q12
-          const int share = smooth(std::clamp((facing - 3300) * 8, 0, kOne12));
-          width += (std::min(butte.ramp_width, butte.radius) - butte.cliff) * share / 16;
-        }
-        ground[i] += static_cast<int>(static_cast<std::int64_t>(butte.height) *
-                                      smooth(within * 16 / std::max(1, width / 256)) / 16);
-      });
+  const auto square = [](std::int64_t blocks) { return blocks * blocks * kOne8 * kOne8; };
+  const int widest = std::max(butte.cliff, std::min(butte.ramp_width, butte.radius));
+  const std::int64_t foot = square(butte.radius);
+  const std::int64_t table = square(butte.radius - widest);  // nearer than this, all is up
+  const int reach = butte.radius + shape.warp * 3 / 2 + 6;
+  for_columns_near(butte.x, butte.z, reach, [&](int x, int z, std::size_t i) {
+    if (columns.inside[i] < 0) return;
+    const std::int64_t bent_x = (x - butte.x) * kOne8 + shift_x.at(x, z);
+    const std::int64_t bent_z = (z - butte.z) * kOne8 + shift_z.at(x, z);
+    const std::int64_t squared = bent_x * bent_x + bent_z * bent_z;
+    if (squared >= foot) return;
+    if (squared <= table) {
+      ground[i] += butte.height * kOne8;
+      return;
+    }
+    const int d = std::max(1, noise::length(bent_x, bent_z));
+    const std::int64_t along = (static_cast<std::int64_t>(x - butte.x) * ramp_x +
+                                static_cast<std::int64_t>(z - butte.z) * ramp_z) *
+                               kOne8;
+    const int facing = static_cast<int>(along / d);  // cosine of the angle to the ramp, Q12
+    const int share = smooth(std::clamp((facing - 3300) * 8, 0, kOne12));
+    const int width =
+        butte.cliff * kOne8 + (std::min(butte.ramp_width, butte.radius) - butte.cliff) * share / 16;
+    const int risen = smooth((butte.radius * kOne8 - d) * 16 / std::max(1, width / kOne8));
+    ground[i] += butte.height * risen / 16;
+  });
 }
 
 /// Finds a radius at which the whole shore lies inland, and a level. False when there is no such
