@@ -23,7 +23,7 @@ struct WorldDesc {
   std::array<std::int64_t, 3> offset_blocks{};
   /// Only so many islands exist: the nearest to the world's own origin, which is the offset. None:
   /// all. At most 100,000.
-  std::optional<std::uint32_t> island_limit;
+  std::optional<std::uint32_t> island_limit = {};
 };
 
 /// A block that set_block changed.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "world/generate/generate.h"
 
@@ -68,7 +69,7 @@ void expect_same(const std::map<SectionKey, ChunkMesh>& a,
 struct Scene {
   WorldDesc desc{.seed = 1};
   StreamView view;
-  StreamSettings settings{.view_distance_blocks = 150.0, .detail_distance_blocks = 40.0};
+  StreamSettings settings{.view_distance_blocks = 320.0, .detail_distance_blocks = 40.0};
   explicit Scene(const WorldDesc& world_desc = {.seed = 1}) : desc(world_desc) {
     const World world(desc);
     view.camera = moved(world.origin(), {0.0, 60.0, 0.0});
@@ -231,11 +232,11 @@ TEST(Stream, AHurriedFlightEndsWithNothingButWhatIsNear) {
   }
   finish(streamer, consumer);
   // Hysteresis may keep an island up to 5% beyond; nothing within may be missing.
-  for (const IslandSpec& spec : world.islands_near(view.camera, 150.0, 0.0)) {
+  for (const IslandSpec& spec : world.islands_near(view.camera, 320.0, 0.0)) {
     EXPECT_TRUE(consumer.islands().contains(spec.id));
   }
   std::set<std::uint64_t> allowed;
-  for (const IslandSpec& spec : world.islands_near(view.camera, 150.0 * 1.06, 0.0)) {
+  for (const IslandSpec& spec : world.islands_near(view.camera, 320.0 * 1.06, 0.0)) {
     allowed.insert(spec.id);
   }
   for (const std::uint64_t id : consumer.islands()) EXPECT_TRUE(allowed.contains(id));
@@ -305,9 +306,11 @@ TEST(Stream, DestructionInTheMiddleOfWorkIsClean) {
   const Scene scene;
   World world(scene.desc);
   Jobs jobs(4);
-  for (int round = 0; round < 5; ++round) {
+  for (std::size_t chunks = 0; chunks < 12; chunks += 2) {
     Streamer streamer(world, jobs);
     streamer.update(scene.view, scene.settings);
+    while (streamer.stats().chunks_made < chunks) std::this_thread::yield();
+    EXPECT_GT(streamer.stats().tasks_left, 0u);
   }
   jobs.wait();
 }
