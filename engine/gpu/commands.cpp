@@ -72,7 +72,7 @@ Commands::Bound& Commands::slot(std::uint32_t binding) {
 void Commands::storage(std::uint32_t binding, BufferRef ref) {
   require(ref.id, ref.version, VK_ACCESS_2_SHADER_READ_BIT);
   Bound& bound = slot(binding);
-  if (bound.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) fail("gives a buffer to the binding " + std::to_string(binding));
+  if (bound.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER && bound.type != VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) fail("gives a buffer to the binding " + std::to_string(binding));
   bound.buffer = {buffer(ref).handle(), 0, VK_WHOLE_SIZE};
 }
 

@@ -90,7 +90,7 @@ class PassBuilder {
 class Commands {
  public:
   void bind(const Pipeline& pipeline);  ///< forgets all bindings
-  void storage(std::uint32_t binding, BufferRef buffer);
+  void storage(std::uint32_t binding, BufferRef buffer);  ///< a storage or a uniform buffer, as the shader declares it
   void storage(std::uint32_t binding, ImageRef image, std::uint32_t mip = 0, std::uint32_t layer = 0);
   void sampled(std::uint32_t binding, ImageRef image, VkSampler sampler);
   template <class T>

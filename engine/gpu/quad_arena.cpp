@@ -73,4 +73,11 @@ std::uint32_t OffsetArena::largest_free() const {
   return largest;
 }
 
+void OffsetArena::grow(std::uint32_t capacity) {
+  SKERRY_ASSERT(capacity >= capacity_);
+  if (capacity == capacity_) return;
+  give_back({capacity_, capacity - capacity_});
+  capacity_ = capacity;
+}
+
 }  // namespace skerry::gpu

@@ -15,6 +15,7 @@ namespace {
 constexpr VkBufferUsageFlags kTableUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 constexpr std::uint32_t kFirstSections = 1024;
+constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
 
 std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
   return section.range_end[end - 1] - (first == 0 ? 0 : section.range_end[first - 1]);
@@ -77,7 +78,9 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   }
   section.first_quad = range->first;
   records_[slot] = section;
-  uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad), quads);
+  scratch_.assign(quads.begin(), quads.end());
+  for (shared::Quad& quad : scratch_) quad.material |= section.island << kIslandShift;
+  uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad), std::span<const shared::Quad>(scratch_));
   uploader.write(sections_, std::uint64_t{slot} * sizeof(shared::Section), std::span<const shared::Section>(&section, 1));
   count(section, 1);
   return SectionId{slot};

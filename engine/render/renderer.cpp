@@ -22,7 +22,7 @@ namespace skerry::render {
 namespace {
 
 constexpr std::uint32_t kFramesInFlight = 2;
-constexpr VkBufferUsageFlags kTable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+constexpr VkBufferUsageFlags kTable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 constexpr std::array<const char*, 8> kShadowPassNames{"draw_shadow_sun_0",  "draw_shadow_sun_1",  "draw_shadow_sun_2",  "draw_shadow_sun_3",
                                                       "draw_shadow_moon_0", "draw_shadow_moon_1", "draw_shadow_moon_2", "draw_shadow_moon_3"};
 
@@ -49,9 +49,9 @@ struct Renderer::State {
   Result<void> resize_picture(VkExtent2D size);
   template <class T>
   Result<void> upload(gpu::Buffer& to, const char* name, std::span<const T> values);
-  Result<void> upload_tables(const FrameTables& tables, const shared::SkyConstants& sky);
+  Result<void> upload_tables(const FrameTables& tables, std::size_t island_count, const shared::SkyConstants& sky);
   void take_report(std::uint32_t slot_index);
-  SceneRefs import_scene(const FrameInput& input, VkExtent2D size);
+  SceneRefs import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables);
   void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
              std::span<const ActiveCascade> cascades, bool bake_sky, Slot& slot);
   Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws, const RenderSettings& settings, const FrameInput& input,
@@ -66,7 +66,7 @@ struct Renderer::State {
   ShadowMaps shadows;
   gpu::FrameRing ring;
   std::uint64_t upload_budget;
-  gpu::Buffer frame, sky, islands, matrices, views, materials, indices, pixel_stats;
+  gpu::Buffer frame, sky, islands, view_islands, views, materials, indices, pixel_stats;
   gpu::Image block_textures, sky_lut, picture;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::optional<shared::SkyConstants> baked_sky;
@@ -154,12 +154,12 @@ Result<void> Renderer::State::resize_picture(VkExtent2D size) {
   return {};
 }
 
-Result<void> Renderer::State::upload_tables(const FrameTables& tables, const shared::SkyConstants& sky_now) {
+Result<void> Renderer::State::upload_tables(const FrameTables& tables, std::size_t island_count, const shared::SkyConstants& sky_now) {
   const std::array<Result<void>, 5> done{
       upload(frame, "frame constants", std::span<const shared::FrameConstants>(&tables.constants, 1)),
       upload(sky, "sky constants", std::span<const shared::SkyConstants>(&sky_now, 1)),
-      upload(islands, "island transforms", std::span<const shared::IslandTransform>(tables.islands)),
-      upload(matrices, "view matrices", std::span<const glm::mat4>(tables.matrices)),
+      upload(islands, "island transforms", std::span<const shared::IslandTransform>(tables.islands).first(island_count)),
+      upload(view_islands, "view island transforms", std::span<const shared::IslandTransform>(tables.islands)),
       upload(views, "cull views", std::span<const shared::CullView>(tables.views)),
   };
   for (const Result<void>& one : done)
@@ -167,12 +167,13 @@ Result<void> Renderer::State::upload_tables(const FrameTables& tables, const sha
   return {};
 }
 
-SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size) {
+SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables) {
   SceneRefs s;
   s.frame = graph.import(frame);
   s.sky = graph.import(sky);
   s.islands = graph.import(islands);
-  s.matrices = graph.import(matrices);
+  s.view_islands = graph.import(view_islands);
+  s.clip_from_source = tables.matrices;
   s.views = graph.import(views);
   s.materials = graph.import(materials);
   s.quads = graph.import(geometry->quads());
@@ -236,7 +237,7 @@ void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene, const gpu
 void Renderer::State::build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
                             std::span<const ActiveCascade> cascades, bool bake_sky, Slot& slot) {
   graph.begin();
-  SceneRefs scene = import_scene(input, size);
+  SceneRefs scene = import_scene(input, size, tables);
   graph.add_pass(
       "clear_pixel_stats", [&](gpu::PassBuilder& b) { scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite); },
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
@@ -334,7 +335,7 @@ Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettin
   const shared::SkyConstants sky_now = sky_constants(input.sky);
   const bool bake_sky = !s.baked_sky || std::memcmp(&*s.baked_sky, &sky_now, sizeof(sky_now)) != 0;
   s.baked_sky = sky_now;
-  if (Result<void> ok = s.upload_tables(tables, sky_now); !ok) return ok.error();
+  if (Result<void> ok = s.upload_tables(tables, input.islands.size(), sky_now); !ok) return ok.error();
 
   const gpu::FrameRing::Frame frame = s.ring.begin();
   Slot& slot = s.slots[frame.slot];
