@@ -164,7 +164,18 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
     note_made(task, std::move(mesh), std::move(voxels));
   }
   // The island may have left meanwhile, and this task may have built its plan once more.
-  if (!islands.contains(task.island)) world.release_plan(task.island);
+  if (plan_unused(task.island)) world.release_plan(task.island);
+}
+
+// Islands at level 0 keep their plan for edits; further away there are too many of them.
+bool Streamer::State::plan_unused(std::uint64_t id) const {
+  const auto found = islands.find(id);
+  if (found == islands.end()) return true;
+  const auto unused = [](const StreamLevel& level) {
+    return level.level > 0 && level.planned && level.unmade == 0;
+  };
+  const StreamIsland& island = found->second;
+  return unused(island.shown) && (!island.coming || unused(*island.coming));
 }
 
 void Streamer::State::note_planned(const StreamTask& task, const std::vector<IVec3>& chunks) {

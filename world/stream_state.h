@@ -85,6 +85,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   void remake(std::uint64_t island, StreamLevel& level, IVec3 chunk);
   void score_tasks();
   double cost_of(const StreamTask& task) const;
+  bool plan_unused(std::uint64_t id) const;
   bool take_task(StreamTask& task);
   bool all_made() const { return tasks.empty() && running == 0; }
   void note_planned(const StreamTask& task, const std::vector<IVec3>& chunks);
