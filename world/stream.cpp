@@ -205,7 +205,8 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
     update.removed = std::exchange(s.removed, {});
     std::vector<StreamIsland*> waiting;
     for (auto& [id, island] : s.islands) {
-      if (island.swappable() || (!island.coming && island.shown.made > 0)) waiting.push_back(&island);
+      if (island.swappable() || (!island.coming && island.shown.made > 0))
+        waiting.push_back(&island);
     }
     std::sort(waiting.begin(), waiting.end(), [](const StreamIsland* a, const StreamIsland* b) {
       return std::tie(a->distance, a->spec.id) < std::tie(b->distance, b->spec.id);

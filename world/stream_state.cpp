@@ -13,7 +13,9 @@ using Phase = StreamSlot::Phase;
 constexpr double kOutOfViewFactor = 3.0;
 constexpr double kViewConeCos = 0.5;
 
-bool costlier(const StreamTask& a, const StreamTask& b) { return a.cost > b.cost; }
+bool costlier(const StreamTask& a, const StreamTask& b) {
+  return a.cost > b.cost;
+}
 
 double distance_cost(const glm::dvec3& to, const glm::dvec3& forward, double radius) {
   const double distance = std::sqrt(glm::dot(to, to));

@@ -103,7 +103,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
     double reach = -1.0;
     std::vector<IslandSpec> islands;
   };
-  Around around;  // frame thread only
+  Around around;             // frame thread only
   mutable std::mutex mutex;  // guards everything below; held for bookkeeping only
   std::condition_variable idle;
   bool stopping = false;

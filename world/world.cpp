@@ -17,7 +17,9 @@ constexpr std::uint32_t kMaxIslandLimit = 100'000;
 // Above this many known islands, those that hold nothing are forgotten.
 constexpr std::size_t kMaxKnownIslands = 32'768;
 
-double length(const glm::dvec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+double length(const glm::dvec3& v) {
+  return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
 
 // Ids of the `count` islands nearest to the world's own origin. The plan lists every island whose
 // centre is within the radius, so a list that reaches the radius with enough centres has them all.
@@ -71,9 +73,10 @@ Chunk chunk_from_padded(std::span<const BlockId> padded) {
   std::vector<BlockId> voxels(kChunkVoxels);
   for (std::size_t y = 0; y < kChunkEdge; ++y) {
     for (std::size_t x = 0; x < kChunkEdge; ++x) {
-      const auto row = padded.subspan(1 + kPaddedEdge * ((x + 1) + kPaddedEdge * (y + 1)), kChunkEdge);
-      std::copy(row.begin(), row.end(), voxels.begin() + static_cast<std::ptrdiff_t>(
-                                                             kChunkEdge * (x + kChunkEdge * y)));
+      const auto row =
+          padded.subspan(1 + kPaddedEdge * ((x + 1) + kPaddedEdge * (y + 1)), kChunkEdge);
+      std::copy(row.begin(), row.end(),
+                voxels.begin() + static_cast<std::ptrdiff_t>(kChunkEdge * (x + kChunkEdge * y)));
     }
   }
   return Chunk::from_voxels(voxels);
@@ -102,9 +105,9 @@ struct World::Island {
   std::mutex plan_mutex;     // held while the plan is built
   mutable std::mutex mutex;  // guards everything below; never held for long
   std::shared_ptr<const IslandGenerator> generator;
-  std::map<IVec3, Chunk> chunks;                // loaded, level 0
-  std::optional<std::set<IVec3>> may_hold;      // level-0 chunks that are not plain air, if known
-  std::map<IVec3, Edits> edits;                 // by level-0 chunk
+  std::map<IVec3, Chunk> chunks;            // loaded, level 0
+  std::optional<std::set<IVec3>> may_hold;  // level-0 chunks that are not plain air, if known
+  std::map<IVec3, Edits> edits;             // by level-0 chunk
 };
 
 std::shared_ptr<const IslandGenerator> World::Island::plan() {

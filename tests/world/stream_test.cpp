@@ -138,7 +138,8 @@ TEST(Stream, OrderAndContentDoNotDependOnThreads) {
 }
 
 TEST(Stream, AWorldOffsetChangesNothing) {
-  const Scene near, far({.seed = 1, .offset_blocks = {std::int64_t{1} << 40, 0, -(std::int64_t{1} << 24)}});
+  const Scene near,
+      far({.seed = 1, .offset_blocks = {std::int64_t{1} << 40, 0, -(std::int64_t{1} << 24)}});
   expect_same(load(near, 2).held(), load(far, 2).held());
 }
 

@@ -68,9 +68,10 @@ Result<ChunkSet> read_set(const std::filesystem::path& path) {
   set.kind = path.stem().string();
   set.edge = failed ? 0 : edge_of(size);
   if (set.edge == 0) {
-    return Error{fmt::format("cannot mesh {}: a set is 64 cubes of bytes of an edge up to {}; "
-                             "write it with gen --size {}",
-                             path.string(), kPaddedEdge, kPaddedEdge)};
+    return Error{
+        fmt::format("cannot mesh {}: a set is 64 cubes of bytes of an edge up to {}; "
+                    "write it with gen --size {}",
+                    path.string(), kPaddedEdge, kPaddedEdge)};
   }
   std::vector<char> file(size);
   std::ifstream stream(path, std::ios::binary);
@@ -97,8 +98,8 @@ Result<std::vector<ChunkSet>> read_folder(const std::filesystem::path& folder) {
     if (entry.path().extension() == ".bin") files.push_back(entry.path());
   }
   if (files.empty()) {
-    return Error{fmt::format("cannot find chunk sets in {}: give a folder of .bin files",
-                             folder.string())};
+    return Error{
+        fmt::format("cannot find chunk sets in {}: give a folder of .bin files", folder.string())};
   }
   std::sort(files.begin(), files.end());
   std::vector<ChunkSet> sets;
