@@ -46,6 +46,7 @@ struct GraphicsDesc {
 struct Pipeline {
   VkPipeline handle{};
   VkPipelineLayout layout{};
+  VkDescriptorSetLayout set_layout{};  ///< pushing descriptors refers to it
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
   VkShaderStageFlags push_stages = 0;
   std::uint32_t push_bytes = 0;

@@ -170,7 +170,7 @@ std::optional<SwapchainFrame> Swapchain::acquire(VkExtent2D window_px) {
   if (window_px.width == 0 || window_px.height == 0) return std::nullopt;
   const bool resized = window_px.width != window_px_.width || window_px.height != window_px_.height;
   if ((!handle_ || stale_ || resized) && !rebuild(window_px)) return std::nullopt;
-  Acquire& acquire = acquires_[next_acquire_];
+  const Acquire acquire = acquires_[next_acquire_];
   device_.wait(acquire.value);  // its last wait has been done, so the semaphore is free
   std::uint32_t index = 0;
   // A window that changes its size all the time can outrun us; then this frame is skipped.

@@ -142,7 +142,7 @@ float auto_exposure_ev(const Celestial& sky) {
   const glm::dvec3 direct = glm::dvec3(sky.sun_irradiance) + glm::dvec3(sky.moon_irradiance);
   const double light =
       glm::dot(kLuminance, direct) / kPi + kSkyWeight * zenith_radiance(sky.to_sun.y);
-  return static_cast<float>(0.7 * std::log2(light + std::exp2(-9.5)) - 1.4);
+  return static_cast<float>(0.7 * std::log2(light + std::exp2(-9.5)) - 1.35);
 }
 
 double quantised_time(double time_of_day_s) {

@@ -55,10 +55,10 @@ glm::dvec3 transmittance_to_zenith(double sine);
 double zenith_radiance(double sun_altitude_sine);
 
 /// Incident-light meter: exposure from the light of sun, moon and sky, never from the picture, so
-/// that looking about changes nothing. The picture is tone_map(radiance * 2^-EV) with EV = 0.75 *
-/// log2(E / pi + 2^-10) - 0.5, where E is the luminance of all three (the sky counts pi *
-/// zenith_radiance). Noon is about -0.3, full moon about -6.6, and a night without any light stays
-/// dark at the cap of -8.
+/// that looking about changes nothing. The picture is tone_map(radiance * 2^-EV) with
+/// EV = 0.7 * log2(E + 2^-9.5) - 1.35 and E = luminance of both bodies' irradiance / pi
+/// + 6 * zenith_radiance. Noon is about -0.5, sunset -3, full moon -7, and a night without any
+/// light stays dark at the cap of -8.
 float auto_exposure_ev(const Celestial& sky);
 
 /// The time rounded down to a step of 12 s (0.05 degrees of the sun), reduced to one day, for a sun

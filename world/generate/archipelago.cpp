@@ -70,8 +70,8 @@ Archetype archetype_for(Biome biome, Rng& rng) {
 /// Sizes: most islands are 60 to 260 blocks across; one in ten groups has a giant.
 int main_radius(Rng& rng) {
   const int luck = rng.in(0, 99);
-  if (luck < 10) return rng.in(190, 290);
-  return luck < 45 ? rng.in(105, 165) : rng.in(62, 105);
+  if (luck < 12) return rng.in(190, 290);
+  return luck < 55 ? rng.in(105, 165) : rng.in(72, 105);
 }
 
 bool fits(const std::vector<Site>& group, const Site& site) {
@@ -116,13 +116,14 @@ std::vector<Site> group_of(std::uint64_t seed, Cell cell) {
                              mix64(static_cast<std::uint64_t>(cell.z)))));
   std::vector<Site> group{main_site(cell, rng)};
   const bool chain = rng.chance(120);
-  const int wanted = rng.in(3, 6);
+  const int wanted = rng.in(2, 4);
   int direction = rng.in(0, 1023);
   Site previous = group.front();
   for (int tries = 0; tries < 40 && static_cast<int>(group.size()) <= wanted; ++tries) {
     Site site{};
-    const int luck = rng.in(0, 99);
-    site.radius = luck < 30 ? rng.in(12, 24) : luck < 75 ? rng.in(24, 48) : rng.in(48, 80);
+    // The first satellite is close and large: something to long for.
+    const int luck = group.size() == 1 ? 99 : rng.in(0, 99);
+    site.radius = luck < 20 ? rng.in(12, 26) : luck < 60 ? rng.in(28, 56) : rng.in(56, 96);
     site.biome = rng.chance(150)
                      ? group.front().biome
                      : static_cast<Biome>(rng.in(0, static_cast<int>(Biome::kCount) - 1));
@@ -131,8 +132,8 @@ std::vector<Site> group_of(std::uint64_t seed, Cell cell) {
     site.drift = rng.in(2, 5);
     const Site& from = chain ? previous : group.front();
     direction += chain ? rng.in(-130, 130) : rng.in(150, 420);
-    const int distance = reach_of(from) + reach_of(site) + rng.in(kClearance, chain ? 40 : 130);
-    const int tilt = rng.in(-150, 150);  // up or down from the neighbour, 1/1024 turn
+    const int distance = reach_of(from) + reach_of(site) + rng.in(kClearance, chain ? 30 : 70);
+    const int tilt = rng.in(-95, 95);  // up or down from the neighbour, 1/1024 turn
     const int flat = distance * noise::cosine(tilt) / noise::kOne12;
     site.x = from.x + flat * noise::cosine(direction) / noise::kOne12;
     site.z = from.z + flat * noise::sine(direction) / noise::kOne12;

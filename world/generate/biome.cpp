@@ -5,24 +5,6 @@ namespace {
 
 using namespace block;
 
-constexpr std::array<Skin, static_cast<std::size_t>(SkinId::kCount)> kSkins = {{
-    {kGrass, kDirt, 3},
-    {kDryGrass, kDirt, 3},
-    {kSnowyGrass, kDirt, 3},
-    {kSnow, kSnow, 1},
-    {kSand, kSand, 2},
-    {kRedSand, kRedSand, 1},
-    {kGravel, kGravel, 2},
-    {kMud, kClay, 2},
-    {kMycelium, kDirt, 3},
-    {kBasalt, kBasalt, 1},
-    {kStone, kStone, 1},
-    {kStoneMossy, kStoneMossy, 1},
-    {kClay, kClay, 2},
-    {kObsidian, kObsidian, 1},
-    {kAirBlock, kAirBlock, -1},
-}};
-
 using enum TreeKind;
 
 constexpr std::array<BiomeType, static_cast<std::size_t>(Biome::kCount)> kBiomes = {{

@@ -40,10 +40,29 @@ enum class SkinId : std::uint8_t {
   kMossy,
   kClay,
   kObsidian,
+  kLava,
   kBare,  ///< the rock itself
   kCount
 };
-const Skin& skin(SkinId id);
+/// Indexed by SkinId.
+inline constexpr std::array<Skin, static_cast<std::size_t>(SkinId::kCount)> kSkins = {{
+    {block::kGrass, block::kDirt, 3},
+    {block::kDryGrass, block::kDirt, 3},
+    {block::kSnowyGrass, block::kDirt, 3},
+    {block::kSnow, block::kSnow, 1},
+    {block::kSand, block::kSand, 2},
+    {block::kRedSand, block::kRedSand, 1},
+    {block::kGravel, block::kGravel, 2},
+    {block::kMud, block::kClay, 2},
+    {block::kMycelium, block::kDirt, 3},
+    {block::kBasalt, block::kBasalt, 1},
+    {block::kStone, block::kStone, 1},
+    {block::kStoneMossy, block::kStoneMossy, 1},
+    {block::kClay, block::kClay, 2},
+    {block::kObsidian, block::kObsidian, 1},
+    {block::kLava, block::kBasalt, 2},
+    {block::kAirBlock, block::kAirBlock, -1},
+}};
 
 enum class TreeKind : std::uint8_t {
   kOak,

@@ -82,7 +82,7 @@ class Digger {
       const int r = rng_.in(size * 2 / 3, size);
       const int cx = x + rng_.in(-size, size);
       const int cz = z + rng_.in(-size, size);
-      plan_.holes.push_back({cx, floor + r / 3, cz, r, floor});
+      plan_.holes.push_back({cx, floor + r / 3, cz, r, floor, false});
       for (int k = 0; k < r; ++k)
         grow(cx, floor, cz, r, rng_.chance(150) ? block::kGlowShroom : block::kGlowFern);
       for (int k = rng_.in(1, 3); k > 0; --k)

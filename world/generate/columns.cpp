@@ -74,8 +74,10 @@ struct Builder {
   void finish_heights();
   void contain_water();
   void raggedness();
+  void reaches();
   void roofs();
   void cover();
+  bool in_stream(int x, int z) const;
   bool steep_at(std::size_t i) const;
   SkinId skin_of(int x, int z, std::size_t i) const;
 
@@ -101,6 +103,15 @@ int smooth_max(int a, int b, int k) {
   return std::max(a, b) + static_cast<int>(static_cast<std::int64_t>(h) * h / (4 * k));
 }
 
+/// Bends what passes three quarters of a limit so that it approaches the limit and never reaches
+/// it.
+int soft_limit(int value, int limit) {
+  const int knee = limit * 3 / 4;
+  const int room = limit - knee;
+  const int over = value - knee;
+  return over <= 0 ? value : knee + over * room / (over + room);
+}
+
 /// Distance into the outline at a place already bent by the shift, Q8.
 int Builder::outline_at(int x, int z) const {
   const int round = std::max(kOne8, radius8() / 7);
@@ -121,8 +132,8 @@ int Builder::elevation_at(int x, int z, int inside) const {
   const int radius = shape.extent.radius;
   int height = noise::fractal2(shape.seed + 11, x, z, std::clamp(radius * 2 / 3, 20, 90), 3) *
                shape.roll / 16;
-  const int inland = smooth(
-      std::clamp(inside * 12 / std::max(radius, 1), 0, kOne12));  // full at a third of the radius
+  const int inland =
+      smooth(std::clamp(inside * 48 / radius, 0, kOne12));  // full at a third of the radius
   if (shape.crags > 0) {
     const int ridges = noise::ridge2(shape.seed + 23, x, z, std::clamp(radius / 2, 24, 80), 4);
     height += ((shape.crags * ridges) >> 12) * inland / 16;
@@ -305,8 +316,7 @@ void Builder::finish_heights() {
       continue;
     }
     const int top = std::clamp(ground[i] >> 8, -shape.extent.depth / 2, shape.extent.top);
-    const int bottom =
-        std::clamp(std::min<int>(columns.bottom[i], top - 4), -shape.extent.depth, top);
+    const int bottom = std::min(-soft_limit(-columns.bottom[i], shape.extent.depth), top - 4);
     columns.top[i] = static_cast<std::int16_t>(top);
     columns.bottom[i] = static_cast<std::int16_t>(bottom);
     if (columns.water[i] <= top) columns.water[i] = Columns::kDry;
@@ -349,47 +359,86 @@ void Builder::contain_water() {
 /// Marks cliffs and the outline, where the rock may shift sideways. Meadows and shores keep their
 /// exact heights.
 void Builder::raggedness() {
+  constexpr int kGentle = 6;  // blocks of height within 2 cells: a slope, not a cliff
   columns.max_shift = std::min(5 * kOne8, kOne8 + shape.extent.radius * 12);
   const int cells = columns.edge / kStep;
   const auto cell = [cells](int i, int j) {
     return static_cast<std::size_t>(i) * cells + static_cast<std::size_t>(j);
   };
-  std::vector<std::int16_t> low(static_cast<std::size_t>(cells) * cells, 1000);
-  std::vector<std::int16_t> high(low.size(), -1000);
+  constexpr std::int16_t kFar = 1000;  // beyond any height; columns without ground count as -kFar
+  std::vector<std::int16_t> low(static_cast<std::size_t>(cells) * cells, kFar);
+  std::vector<std::int16_t> high(low.size(), -kFar);
   for (int i = 0; i < columns.edge; ++i) {
     for (int j = 0; j < columns.edge; ++j) {
       const std::size_t c = cell(i / kStep, j / kStep);
-      const auto top = std::max<std::int16_t>(
-          columns.top[static_cast<std::size_t>(i) * columns.edge + j], -1000);
-      low[c] = std::min(low[c], top);
-      high[c] = std::max(high[c], top);
+      const std::int16_t top = columns.top[static_cast<std::size_t>(i) * columns.edge + j];
+      low[c] = std::min(low[c], std::max<std::int16_t>(top, -kFar));
+      high[c] = std::max(high[c], std::max<std::int16_t>(top, -kFar));
     }
   }
   Coarse amount(columns.half);
-  std::vector<std::uint8_t> steep(low.size());
-  for (int i = 1; i + 1 < cells; ++i) {
-    for (int j = 1; j + 1 < cells; ++j) {
-      int least = 1000;
-      int most = -1000;
-      for (int k = 0; k < 9; ++k) {
-        least = std::min<int>(least, low[cell(i + k / 3 - 1, j + k % 3 - 1)]);
-        most = std::max<int>(most, high[cell(i + k / 3 - 1, j + k % 3 - 1)]);
+  for (int i = 1; i < cells; ++i) {
+    for (int j = 1; j < cells; ++j) {  // a lattice node looks at the four cells that meet there
+      const std::array<std::size_t, 4> around = {cell(i, j), cell(i - 1, j), cell(i, j - 1),
+                                                 cell(i - 1, j - 1)};
+      int least = kFar;
+      int most = -kFar;
+      for (const std::size_t c : around) {
+        least = std::min<int>(least, low[c]);
+        most = std::max<int>(most, high[c]);
       }
-      steep[cell(i, j)] = static_cast<std::uint8_t>(std::clamp((most - least - 6) * 40, 0, 255));
-    }
-  }
-  for (int i = 1; i < cells;
-       ++i) {  // a lattice node takes the mean of the four cells that meet there
-    for (int j = 1; j < cells; ++j) {
-      amount.node(i, j) = (steep[cell(i, j)] + steep[cell(i - 1, j)] + steep[cell(i, j - 1)] +
-                           steep[cell(i - 1, j - 1)]) /
-                          4;
+      amount.node(i, j) = std::clamp((most - least - kGentle) * 32, 0, 255);
     }
   }
   for (int x = -columns.half; x < columns.half; ++x) {
-    for (int z = -columns.half; z < columns.half; ++z)
+    for (int z = -columns.half; z < columns.half; ++z) {
       columns.ragged[columns.index(x, z)] = static_cast<std::uint8_t>(amount.at(x, z));
+    }
   }
+}
+
+/// Bounds of the heights within the sideways shift of each cell: whole cells around it.
+void Builder::reaches() {
+  constexpr int kAround = 2;  // cells: 8 columns, more than the largest shift
+  constexpr std::int16_t kTurf = 6;
+  using Reach = Columns::Reach;
+  const int cells = columns.edge / Columns::kReachCell;
+  const auto widen = [](Reach& a, const Reach& b) {
+    a = {std::min(a.bottom, b.bottom), std::max(a.top, b.top),
+         std::max(a.core_bottom, b.core_bottom), std::min(a.core_top, b.core_top)};
+  };
+  constexpr Reach kNothing = {Columns::kNoRock, Columns::kNoGround, Columns::kNoGround,
+                              Columns::kNoRock};
+  std::vector<Reach> own(static_cast<std::size_t>(cells) * cells, kNothing);
+  for (int i = 0; i < columns.edge; ++i) {
+    for (int j = 0; j < columns.edge; ++j) {
+      const std::size_t c = static_cast<std::size_t>(i) * columns.edge + j;
+      widen(
+          own[static_cast<std::size_t>(i / Columns::kReachCell) * cells + j / Columns::kReachCell],
+          {columns.bottom[c], columns.top[c], columns.bottom[c], columns.top[c]});
+    }
+  }
+  // Rows, then columns: a box filter is separable.
+  std::vector<Reach> rows(own.size(), kNothing);
+  columns.reaches.assign(own.size(), kNothing);
+  const auto spread = [&](const std::vector<Reach>& from, std::vector<Reach>& to, int step_i,
+                          int step_j) {
+    for (int i = 0; i < cells; ++i) {
+      for (int j = 0; j < cells; ++j) {
+        for (int k = -kAround; k <= kAround; ++k) {
+          const int ni = std::clamp(i + k * step_i, 0, cells - 1);
+          const int nj = std::clamp(j + k * step_j, 0, cells - 1);
+          widen(to[static_cast<std::size_t>(i) * cells + j],
+                from[static_cast<std::size_t>(ni) * cells + nj]);
+        }
+      }
+    }
+  };
+  spread(own, rows, 0, 1);
+  spread(rows, columns.reaches, 1, 0);
+  for (Reach& reach : columns.reaches)
+    reach.core_top =
+        static_cast<std::int16_t>(std::max<int>(reach.core_top - kTurf, Columns::kNoGround));
 }
 
 /// Caves may open in cliffs only, and stay three blocks below any lake bed. Shores stay exact, so
@@ -413,6 +462,20 @@ void Builder::roofs() {
   }
 }
 
+/// Whether lava runs here: winding lines that leave the crater and end on the flanks.
+bool Builder::in_stream(int x, int z) const {
+  return std::any_of(shape.streams.begin(), shape.streams.end(), [&](int direction) {
+    const int bx = x * kOne8 + shift_x.at(x, z) * 2;
+    const int bz = z * kOne8 + shift_z.at(x, z) * 2;
+    const int along =
+        (bx / 16 * noise::cosine(direction) + bz / 16 * noise::sine(direction)) / (kOne12 / 16);
+    const int across =
+        (bz / 16 * noise::cosine(direction) - bx / 16 * noise::sine(direction)) / (kOne12 / 16);
+    const int end = radius8() * 5 / 8;
+    return along > 0 && along < end && std::abs(across) < 2 * kOne8 + (end - along) / 40;
+  });
+}
+
 /// Whether the ground falls away by more than a player climbs.
 bool Builder::steep_at(std::size_t i) const {
   constexpr int kClimb = 3;
@@ -429,6 +492,7 @@ SkinId Builder::skin_of(int x, int z, std::size_t i) const {
   const int patch = patches.at(x, z);
   const int height = columns.top[i];
   if (columns.water[i] != Columns::kDry) return biome.lake_bed;
+  if (in_stream(x, z)) return SkinId::kLava;
   if (steep_at(i)) return SkinId::kBare;
   if (shore[i] && patch < 2600) return biome.beach;
   switch (shape.biome) {
@@ -496,6 +560,7 @@ Columns build_columns(Shape& shape) {
   builder.finish_heights();
   builder.contain_water();
   builder.raggedness();
+  builder.reaches();
   builder.roofs();
   builder.cover();
   return columns;

@@ -28,12 +28,25 @@ struct Columns {
       ragged;  ///< how far noise may shift the rock sideways here: 0 none .. 255 all of `max_shift`
   std::vector<SkinId> skins;
   int max_shift = 0;  ///< in 1/256 block
+
+  /// Heights among all columns from which a ragged one may take its rock: none outside bottom..top,
+  /// all rock and no turf inside core_bottom..core_top.
+  struct Reach {
+    std::int16_t bottom, top, core_bottom, core_top;
+  };
+  static constexpr int kReachCell = 4;
+  std::vector<Reach> reaches;  ///< one for kReachCell^2 columns
   int highest = kNoGround, lowest = kNoRock;
 
   bool has(int x, int z) const { return x >= -half && x < half && z >= -half && z < half; }
   std::size_t index(int x, int z) const {
     return static_cast<std::size_t>(x + half) * static_cast<std::size_t>(edge) +
            static_cast<std::size_t>(z + half);
+  }
+  const Reach& reach_at(int x, int z) const {
+    return reaches[static_cast<std::size_t>((x + half) / kReachCell) *
+                       static_cast<std::size_t>(edge / kReachCell) +
+                   static_cast<std::size_t>((z + half) / kReachCell)];
   }
   /// The column that a ragged one takes its rock from. @param share_x, share_z Q12 share of the
   /// shift allowed there.

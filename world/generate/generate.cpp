@@ -19,12 +19,24 @@ constexpr int kLedgeTurf = 4;              // blocks under the top that may stil
 constexpr int kFinestShifted = 1;          // coarser voxels are larger than the sideways shift
 constexpr std::int16_t kUnderground = 64;  // depth of rock below a cave: no turf there
 
+constexpr std::int16_t kDeepest = 2 * kUnderground;
+
+constexpr Ball kOpenHole = {0, 0, 0, 0, 0, true};
+constexpr Ball kClosedHole = {0, 0, 0, 0, 0, false};
+
 using Row = std::array<std::int16_t, kLayer>;
+
+/// `yes` where the condition holds, else `no`, as a mask: vectorisers keep it free of branches.
+inline std::int16_t select(bool condition, std::int16_t yes, std::int16_t no) {
+  const auto mask = static_cast<std::int16_t>(-static_cast<int>(condition));
+  return static_cast<std::int16_t>((yes & mask) | (no & ~mask));
+}
 
 /// A column whose rock is shifted sideways layer by layer.
 struct Ragged {
   std::int16_t at;    // index in the layer
   std::int16_t x, z;  // blocks
+  Columns::Reach reach;
 };
 
 /// Fills one padded chunk, layer by layer from above: whole layers are plain loops over 66 x 66
@@ -33,7 +45,7 @@ class Filler {
  public:
   Filler(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId> out);
 
-  /// Block height at which the column data can first and last matter.
+  /// Whether the chunk is plainly outside of all that the plan holds.
   bool empty() const;
   void fill();
 
@@ -54,8 +66,8 @@ class Filler {
   int level_;
   std::span<BlockId> out_;
   int low_ = Columns::kNoRock, high_ = Columns::kNoGround;
-  Row top_, bottom_, water_, roof_, skin_top_, skin_below_, below_depth_, top_depth_, depth_,
-      solid_, carved_;
+  Row top_, bottom_, water_, roof_, cover_, skin_top_, skin_below_, below_depth_, top_depth_,
+      depth_, solid_, carved_, layer_;
   std::array<std::int16_t, kLayer> rock_;
   std::vector<Ragged> ragged_;
   std::vector<Ball> solids_, holes_;
@@ -102,16 +114,17 @@ void Filler::gather() {
         top_[at] = Columns::kNoGround;
         bottom_[at] = Columns::kNoRock;
         water_[at] = Columns::kDry;
-        roof_[at] = Columns::kNoGround;
+        roof_[at] = cover_[at] = Columns::kNoGround;
         skin_top_[at] = skin_below_[at] = below_depth_[at] = top_depth_[at] = 0;
         continue;
       }
       const std::size_t c = columns_.index(x, z);
-      const Skin& cover = skin(columns_.skins[c]);
+      const Skin& cover = kSkins[static_cast<std::size_t>(columns_.skins[c])];
       top_[at] = columns_.top[c];
       bottom_[at] = columns_.bottom[c];
       water_[at] = columns_.water[c];
-      roof_[at] = columns_.roof[c];
+      roof_[at] = static_cast<std::int16_t>(plan_.roof_of(kOpenHole, c));
+      cover_[at] = static_cast<std::int16_t>(plan_.roof_of(kClosedHole, c));
       skin_top_[at] = static_cast<std::int16_t>(cover.top);
       skin_below_[at] = static_cast<std::int16_t>(cover.below);
       // Depth 1 is the top; bare rock has neither top nor turf.
@@ -122,9 +135,15 @@ void Filler::gather() {
       high_ = std::max<int>(high_, std::max(top_[at], water_[at]));
       if (level_ <= kFinestShifted && columns_.ragged[c] > 0) {
         ragged_.push_back({static_cast<std::int16_t>(at), static_cast<std::int16_t>(x),
-                           static_cast<std::int16_t>(z)});
+                           static_cast<std::int16_t>(z), columns_.reach_at(x, z)});
+        low_ = std::min<int>(low_, ragged_.back().reach.bottom);
+        high_ = std::max<int>(high_, ragged_.back().reach.top);
       }
     }
+  }
+  for (const Ball& b : solids_) {
+    low_ = std::min(low_, b.y - b.radius);
+    high_ = std::max(high_, b.y + b.radius + 1);
   }
   depth_.fill(0);
   carved_.fill(0);
@@ -144,6 +163,10 @@ void Filler::shift_rock(int y) {
     }
   }
   for (const Ragged& r : ragged_) {
+    if (y >= r.reach.top || y < r.reach.bottom ||
+        (y >= r.reach.core_bottom && y < r.reach.core_top)) {
+      continue;
+    }
     const int i = sideways::floor_to(r.x, sideways::kCell);
     const int k = sideways::floor_to(r.z, sideways::kCell);
     const sideways::Shift* c = &corners_[static_cast<std::size_t>(i - cx0) * edge + (k - cz0)];
@@ -153,7 +176,7 @@ void Filler::shift_rock(int y) {
         columns_.shifted_index(r.x, r.z, columns_.index(r.x, r.z), shift.x, shift.z);
     // The turf comes along with the rock, and only with its upper end: ledges below an overhang are
     // bare.
-    const Skin& cover = skin(columns_.skins[from]);
+    const Skin& cover = kSkins[static_cast<std::size_t>(columns_.skins[from])];
     const bool turf = columns_.skins[from] != SkinId::kBare && y >= columns_.top[from] - kLedgeTurf;
     skin_top_[r.at] = static_cast<std::int16_t>(cover.top);
     skin_below_[r.at] = static_cast<std::int16_t>(cover.below);
@@ -166,7 +189,8 @@ void Filler::shift_rock(int y) {
   }
 }
 
-/// Calls f(first, last) with index ranges of the layer at block height y that lie in some ball.
+/// Calls f(ball, first, last) with index ranges of the layer at block height y that lie in some
+/// ball.
 template <class F>
 void Filler::for_ball_voxels(const std::vector<Ball>& balls, int y, F&& f) {
   const int size = 1 << level_;
@@ -184,7 +208,7 @@ void Filler::for_ball_voxels(const std::vector<Ball>& balls, int y, F&& f) {
       const int first = std::max(0, -sideways::floor_to(-(b.z - reach - half), size) - canvas_.z0);
       const int last =
           std::min(kPadded - 1, sideways::floor_to(b.z + reach - half, size) - canvas_.z0);
-      if (first <= last) f(i * kPadded + first, i * kPadded + last);
+      if (first <= last) f(b, i * kPadded + first, i * kPadded + last);
     }
   }
 }
@@ -196,12 +220,13 @@ void Filler::solid_layer(int y) {
         static_cast<std::int16_t>(-static_cast<int>((height < top_[i]) & (height >= bottom_[i])));
   }
   shift_rock(y);
-  for_ball_voxels(solids_, y, [this](int first, int last) {
+  for_ball_voxels(solids_, y, [this](const Ball&, int first, int last) {
     for (int i = first; i <= last; ++i) solid_[i] = -1;
   });
-  for_ball_voxels(holes_, y, [this, y](int first, int last) {
+  for_ball_voxels(holes_, y, [this, y](const Ball& hole, int first, int last) {
     for (int i = first; i <= last; ++i) {
-      const bool dug = y < roof_[i] && (solid_[i] != 0 || y < top_[i]);
+      const int roof = hole.open ? roof_[i] : cover_[i];
+      const bool dug = y < roof && (solid_[i] != 0 || y < top_[i]);
       if (!dug) continue;
       solid_[i] = 0;
       carved_[i] = kUnderground;
@@ -209,23 +234,25 @@ void Filler::solid_layer(int y) {
   });
 }
 
-/// Advances the depth below open air and turns it into blocks. @param out the layer's voxels, or
-/// null above the chunk.
+/// Advances the depth below open air and turns it into blocks. No branch on data: the loops must
+/// vectorise.
+/// @param out the layer's voxels, or null above the chunk.
 void Filler::paint_layer(int y, BlockId* out) {
   const auto height = static_cast<std::int16_t>(y);
   for (int i = 0; i < kLayer; ++i) {
-    const auto deeper = static_cast<std::int16_t>(std::min<int>(depth_[i] + 1, 2 * kUnderground));
+    const auto deeper = static_cast<std::int16_t>(std::min<std::int16_t>(depth_[i], kDeepest) + 1);
     depth_[i] = static_cast<std::int16_t>((deeper & solid_[i]) | (carved_[i] & ~solid_[i]));
   }
   if (out != nullptr) {
     const auto liquid = static_cast<std::int16_t>(plan_.biome().liquid);
     for (int i = 0; i < kLayer; ++i) {
-      const std::int16_t below = depth_[i] <= below_depth_[i] ? skin_below_[i] : rock_[i];
-      const std::int16_t rock = depth_[i] <= top_depth_[i] ? skin_top_[i] : below;
-      const std::int16_t open =
-          (height < water_[i]) & (height >= top_[i]) ? liquid : std::int16_t{0};
-      out[i] = static_cast<BlockId>(solid_[i] != 0 ? rock : open);
+      const std::int16_t depth = depth_[i];
+      const std::int16_t below = select(depth <= below_depth_[i], skin_below_[i], rock_[i]);
+      const std::int16_t block = select(depth <= top_depth_[i], skin_top_[i], below);
+      const std::int16_t open = select(height < water_[i], select(height >= top_[i], liquid, 0), 0);
+      layer_[i] = static_cast<std::int16_t>((block & solid_[i]) | (open & ~solid_[i]));
     }
+    std::memcpy(out, layer_.data(), sizeof(layer_));
   }
   if (!holes_.empty()) carved_.fill(0);
 }
@@ -235,6 +262,10 @@ void Filler::fill() {
   for (int j = kPadded - 1 + kLookAbove; j >= 0; --j) {
     const int y = block_of(canvas_.y0 + j);
     BlockId* out = j < kPadded ? &out_[static_cast<std::size_t>(j) * kLayer] : nullptr;
+    if (y >= high_ || y < low_) {
+      if (out != nullptr) std::fill_n(out, kLayer, kAir);
+      continue;
+    }
     rock_.fill(
         static_cast<std::int16_t>(plan_.bands[static_cast<std::size_t>(y & (kBandPeriod - 1))]));
     solid_layer(y);

@@ -59,12 +59,23 @@ bool IslandPlan::rock_at(int x, int y, int z) const {
   return y >= columns.bottom[i] && y < columns.top[i];
 }
 
+bool IslandPlan::arch_at(int x, int y, int z) const {
+  return std::any_of(solids.begin(), solids.end(),
+                     [&](const Ball& b) { return holds(b, x, y, z); });
+}
+
+int IslandPlan::roof_of(const Ball& hole, std::size_t column) const {
+  constexpr int kCover = 5;
+  const int roof = columns.roof[column];
+  return hole.open ? roof : std::min(roof, columns.top[column] - kCover);
+}
+
 bool IslandPlan::solid_at(int x, int y, int z) const {
-  const bool rock =
-      rock_at(x, y, z) ||
-      std::any_of(solids.begin(), solids.end(), [&](const Ball& b) { return holds(b, x, y, z); });
-  if (!rock || !columns.has(x, z) || y >= columns.roof[columns.index(x, z)]) return rock;
-  return std::none_of(holes.begin(), holes.end(), [&](const Ball& b) { return holds(b, x, y, z); });
+  const bool rock = rock_at(x, y, z) || arch_at(x, y, z);
+  if (!rock || !columns.has(x, z)) return rock;
+  const std::size_t column = columns.index(x, z);
+  return std::none_of(holes.begin(), holes.end(),
+                      [&](const Ball& b) { return holds(b, x, y, z) && y < roof_of(b, column); });
 }
 
 void plan_arches(IslandPlan& plan) {

@@ -12,6 +12,8 @@ namespace skerry::world {
 /// A ball that adds or removes rock above `floor`.
 struct Ball {
   int x, y, z, radius, floor;
+  bool open =
+      true;  ///< a hole may break through a cliff; otherwise it stays below the ground's surface
 };
 
 /// One voxel set after everything else: crystals, cave floors, boulders.
@@ -41,6 +43,10 @@ struct IslandPlan {
   std::uint32_t shift_seed() const { return shape.seed + 201; }
   /// Whether the rock, shifted but neither arched nor hollowed, fills a voxel at full detail.
   bool rock_at(int x, int y, int z) const;
+  /// Highest voxel a hole may take in a column, exclusive.
+  int roof_of(const Ball& hole, std::size_t column) const;
+  /// Whether an arch fills a voxel at full detail.
+  bool arch_at(int x, int y, int z) const;
   /// Whether anything that carries weight fills a voxel at full detail.
   bool solid_at(int x, int y, int z) const;
 };

@@ -136,7 +136,7 @@ void buttes(Designer& d) {
 
 void volcano(Designer& d) {
   d.coast(66, d.rng.in(4, 7));
-  const int height = d.between(44, 56);
+  const int height = d.between(56, 70);
   const int crater = d.between(13, 17);
   d.shape.peaks.push_back({0, 0, d.scaled(72), height, 2});
   d.lake({0, 0, crater}, d.rng.in(8, 14), height * 48 / 100);
@@ -144,6 +144,8 @@ void volcano(Designer& d) {
     d.butte(d.at(d.angle(), d.between(48, 60), d.between(9, 14)), d.between(6, 14), 3, 14);
   d.lake(d.at(d.angle(), d.scaled(56), d.between(6, 9)), 3);
   d.shape.crags = d.scaled(6);
+  const int first = d.angle();
+  for (int i = 0; i < 3; ++i) d.shape.streams.push_back(first + i * 341 + d.rng.in(-90, 90));
 }
 
 void ridge(Designer& d) {
@@ -193,7 +195,7 @@ Extent extent_of(Archetype archetype, int radius) {
     int top, depth;
   };
   static constexpr Share kShares[] = {{46, 80}, {36, 62}, {90, 90}, {66, 74},  {60, 80},
-                                      {60, 64}, {62, 84}, {72, 70}, {60, 120}, {50, 76}};
+                                      {60, 64}, {78, 84}, {72, 70}, {60, 120}, {50, 76}};
   static_assert(std::size(kShares) == static_cast<std::size_t>(Archetype::kCount));
   const Share share = kShares[static_cast<std::size_t>(archetype)];
   return {radius, std::min(150, 12 + radius * share.top / 100),

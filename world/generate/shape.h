@@ -79,11 +79,12 @@ struct Shape {
   std::vector<Peak> peaks;
   std::vector<Lake> lakes;
   std::vector<Arch> arches;
-  int rim = 2;    ///< height of the ground at the edge
-  int roll = 4;   ///< strength of gentle hills
-  int crags = 0;  ///< strength of ridged mountains
-  int lean = 0;   ///< strength of the tilt of the whole top, blocks over the radius
-  int warp = 0;   ///< how far noise moves the outline
+  std::vector<int> streams;  ///< directions in which lava runs down from the centre, 1/1024 turn
+  int rim = 2;               ///< height of the ground at the edge
+  int roll = 4;              ///< strength of gentle hills
+  int crags = 0;             ///< strength of ridged mountains
+  int lean = 0;              ///< strength of the tilt of the whole top, blocks over the radius
+  int warp = 0;              ///< how far noise moves the outline
 };
 Shape shape_of(const IslandSpec& spec);
 
