@@ -20,7 +20,7 @@ std::filesystem::path free_screenshot_path(const std::filesystem::path& folder, 
 }
 
 Result<std::filesystem::path> save_screenshot(gpu::Device& device, gpu::Image& picture, const SceneOptions& scene) {
-  const std::filesystem::path data = platform::data_directory();
+  const std::filesystem::path data = platform::data_dir();
   if (data.empty()) return Error{"cannot save a screenshot: there is no data folder; set HOME or XDG_DATA_HOME"};
   const std::filesystem::path folder = data / "screenshots";
   if (const auto made = platform::make_dirs(folder); !made) return made.error();

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/platform/files.h"
 #include "game/parse.h"
 #include "tools/skerry/arguments.h"
 #include "tools/skerry/devices.h"
@@ -81,8 +80,6 @@ int CommandLine::run_shot() {
 int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
-  // Without it the pipeline cache cannot be kept; that only costs time, so a failure is not worth a word.
-  (void)platform::make_dirs(platform::cache_directory());
   if (chosen == play) return run_play();
   if (chosen == shot) return run_shot();
   return tools::devices(json);
