@@ -365,6 +365,7 @@ void Renderer::finish() {
 }
 
 GeometryStore& Renderer::geometry() { return *state_->geometry; }
+void Renderer::set_upload_budget(std::uint64_t bytes) { state_->upload_budget = bytes; }
 gpu::Uploader& Renderer::mesh_uploader() { return state_->mesh_uploader; }
 const gpu::FrameGraph& Renderer::graph() const { return state_->graph; }
 int Renderer::pipelines_created() const { return state_->pipelines.created(); }
