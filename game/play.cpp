@@ -25,25 +25,31 @@ namespace {
 using platform::Key;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongestFrame = 0.25;       // seconds of play in one frame, however long it took
-constexpr double kIdleWait = 0.05;           // seconds between looks at a window that shows nothing
-constexpr double kTitlePeriod = 0.5;         // seconds
-constexpr std::size_t kFramesKept = 240;     // for the overlay's graph
-constexpr double kDayTurn = 1800.0;          // seconds of day a second that T or Y is held
-constexpr double kFlySpeedNotch = 1.25;      // factor a notch of the wheel
+constexpr double kLongestFrame = 0.25;    // seconds of play in one frame, however long it took
+constexpr double kIdleWait = 0.05;        // seconds between looks at a window that shows nothing
+constexpr double kTitlePeriod = 0.5;      // seconds
+constexpr std::size_t kFramesKept = 240;  // for the overlay's graph
+constexpr double kDayTurn = 1800.0;       // seconds of day a second that T or Y is held
+constexpr double kFlySpeedNotch = 1.25;   // factor a notch of the wheel
 
-render::FixedPos fixed(const world::WorldPos& p) { return {p.x, p.y, p.z}; }
-world::WorldPos place(const render::FixedPos& p) { return {p[0], p[1], p[2]}; }
+render::FixedPos fixed(const world::WorldPos& p) {
+  return {p.x, p.y, p.z};
+}
+world::WorldPos place(const render::FixedPos& p) {
+  return {p[0], p[1], p[2]};
+}
 
 /// Where the feet are when the eye is there.
 Player player_at(const render::Camera& eye, double time_s) {
-  return {world::moved(place(eye.position), {0.0, -kEyeHeight, 0.0}), eye.yaw_deg, eye.pitch_deg, time_s};
+  return {world::moved(place(eye.position), {0.0, -kEyeHeight, 0.0}), eye.yaw_deg, eye.pitch_deg,
+          time_s};
 }
 
 /// One run of the game.
 class Session {
  public:
-  Session(platform::Window& window, gpu::Device& device, const SceneOptions& options, std::unique_ptr<SceneView> view)
+  Session(platform::Window& window, gpu::Device& device, const SceneOptions& options,
+          std::unique_ptr<SceneView> view)
       : window_(window),
         device_(device),
         scene_(options),
@@ -154,7 +160,8 @@ void Session::act_on_picture_keys(const platform::InputFrame& input, double seco
 
 void Session::move(const platform::InputFrame& input, double seconds) {
   if (window_.pointer_captured()) look(player_, input, scene_.fov_deg);
-  if (input.scroll != 0.0) player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, input.scroll));
+  if (input.scroll != 0.0)
+    player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, input.scroll));
   const double reach = glm::length(player_.velocity()) * kLongestFrame;
   around_.refresh(player_.feet(), reach, player_.world_time_s());
   player_.advance(seconds, intent_of(input), around_);
@@ -163,7 +170,8 @@ void Session::move(const platform::InputFrame& input, double seconds) {
 
 SceneView::Moment Session::moment() const {
   SceneView::Moment moment;
-  moment.camera = {fixed(scene_.camera->position), scene_.camera->yaw_deg, scene_.camera->pitch_deg, scene_.fov_deg};
+  moment.camera = {fixed(scene_.camera->position), scene_.camera->yaw_deg, scene_.camera->pitch_deg,
+                   scene_.fov_deg};
   moment.time_of_day_s = day_.time_of_day_s();
   moment.world_time_s = player_.world_time_s();
   moment.freeze_culling = culling_frozen_;
@@ -175,7 +183,8 @@ Result<bool> Session::draw(double seconds) {
   const SceneView::Moment now = moment();
   if (const auto done = view_->stream(now.camera, now.world_time_s); !done) return done.error();
   const platform::FramebufferSize window_px = window_.framebuffer_size();
-  const std::optional<gpu::SwapchainFrame> frame = presenter_->acquire({window_px.width, window_px.height});
+  const std::optional<gpu::SwapchainFrame> frame =
+      presenter_->acquire({window_px.width, window_px.height});
   if (!frame) return false;
   const VkExtent2D size = presenter_->extent();
   std::optional<OverlayTriangles> overlay;
@@ -184,7 +193,8 @@ Result<bool> Session::draw(double seconds) {
   const auto bring_to_window = [&](VkCommandBuffer commands, gpu::Image& picture) {
     recorded = presenter_->record(commands, picture, *frame, overlay ? &*overlay : nullptr);
   };
-  const Result<std::uint64_t> value = view_->draw(now, size, bring_to_window, {&frame->wait, 1}, {&frame->signal, 1});
+  const Result<std::uint64_t> value =
+      view_->draw(now, size, bring_to_window, {&frame->wait, 1}, {&frame->signal, 1});
   if (!value) return value.error();
   presenter_->present(*frame, *value);
   if (!recorded) return recorded.error();
@@ -218,17 +228,20 @@ void Session::note_frame(double seconds) {
 std::vector<std::string> Session::overlay_lines() const {
   const CameraPlace& eye = *scene_.camera;
   const world::Streamer::Stats stream = view_->streamer().stats();
-  return {fmt::format("seed {}   {}x{}   {}", scene_.seed_text, presenter_->extent().width, presenter_->extent().height,
-                      device_.info().name),
-          fmt::format("x {} y {} z {}", format_blocks(eye.position.x), format_blocks(eye.position.y),
-                      format_blocks(eye.position.z)),
+  return {fmt::format("seed {}   {}x{}   {}", scene_.seed_text, presenter_->extent().width,
+                      presenter_->extent().height, device_.info().name),
+          fmt::format("x {} y {} z {}", format_blocks(eye.position.x),
+                      format_blocks(eye.position.y), format_blocks(eye.position.z)),
           fmt::format("yaw {:.1f} pitch {:.1f}   {} {:.1f} blocks/s", eye.yaw_deg, eye.pitch_deg,
-                      player_.mode() == MoveMode::kFly ? "flying" : player_.in_water() ? "swimming" : "walking",
+                      player_.mode() == MoveMode::kFly ? "flying"
+                      : player_.in_water()             ? "swimming"
+                                                       : "walking",
                       glm::length(player_.velocity())),
-          fmt::format("time {}   islands at {:.1f} s", format_time_of_day(day_.time_of_day_s()), player_.world_time_s()),
-          fmt::format("quality {}   view {} blocks, detail {}{}", quality_level(scene_.quality).name,
-                      view_->settings().view_distance, view_->settings().view_detail,
-                      culling_frozen_ ? "   culling frozen" : ""),
+          fmt::format("time {}   islands at {:.1f} s", format_time_of_day(day_.time_of_day_s()),
+                      player_.world_time_s()),
+          fmt::format("quality {}   view {} blocks, detail {}{}",
+                      quality_level(scene_.quality).name, view_->settings().view_distance,
+                      view_->settings().view_detail, culling_frozen_ ? "   culling frozen" : ""),
           fmt::format("streaming: {} islands, {} tasks left", stream.islands, stream.tasks_left)};
 }
 
@@ -256,7 +269,8 @@ OverlayTriangles Session::overlay_triangles(double seconds) {
 
 }  // namespace
 
-Result<void> play(platform::Window& window, gpu::Device& device, VkSurfaceKHR surface, const SceneOptions& options) {
+Result<void> play(platform::Window& window, gpu::Device& device, VkSurfaceKHR surface,
+                  const SceneOptions& options) {
   auto view = SceneView::create(device, options);
   if (!view) return view.error();
   Session session(window, device, options, *std::move(view));

@@ -9,8 +9,9 @@
 namespace skerry::game {
 
 /// The main loop: plays in a window until it is closed. Keys: docs/controls.md.
-/// @param surface of the window, made with the device's instance; the caller destroys it afterwards.
-/// Errors: the device cannot present to the window, or runs out of memory.
-Result<void> play(platform::Window& window, gpu::Device& device, VkSurfaceKHR surface, const SceneOptions& options);
+/// @param surface of the window, made with the device's instance; the caller destroys it
+/// afterwards. Errors: the device cannot present to the window, or runs out of memory.
+Result<void> play(platform::Window& window, gpu::Device& device, VkSurfaceKHR surface,
+                  const SceneOptions& options);
 
 }  // namespace skerry::game

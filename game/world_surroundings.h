@@ -12,15 +12,17 @@
 
 namespace skerry::game {
 
-/// A world as the player meets it. The islands around are looked up once a frame; the chunks next to the player are loaded on a thread of
-/// their own, so that there is ground even where nothing has been meshed yet.
+/// A world as the player meets it. The islands around are looked up once a frame; the chunks next
+/// to the player are loaded on a thread of their own, so that there is ground even where nothing
+/// has been meshed yet.
 class WorldSurroundings : public Surroundings {
  public:
   /// @param world outlives this.
   explicit WorldSurroundings(world::World& world) : world_(world), loader_(1) {}
   ~WorldSurroundings() override { loader_.wait(); }
 
-  /// Call once a frame, before the ticks. @param reach_blocks how far the player may get until the next call.
+  /// Call once a frame, before the ticks. @param reach_blocks how far the player may get until the
+  /// next call.
   void refresh(world::WorldPos place, double reach_blocks, double time_s);
 
   void islands_near(world::WorldPos place, double radius_blocks, double time_s,

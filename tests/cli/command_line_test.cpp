@@ -1,4 +1,5 @@
-// Runs the program itself, as scripts do: exit statuses and the one line on stderr are its contract.
+// Runs the program itself, as scripts do: exit statuses and the one line on stderr are its
+// contract.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -26,7 +27,9 @@ struct Outcome {
 /// A scratch folder that goes with its owner.
 class Folder {
  public:
-  Folder() : path_(fs::path(testing::TempDir()) / ("skerry_cli_" + std::to_string(::getpid()))) { fs::create_directories(path_); }
+  Folder() : path_(fs::path(testing::TempDir()) / ("skerry_cli_" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
   ~Folder() { fs::remove_all(path_); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
@@ -67,15 +70,19 @@ Outcome run(std::vector<std::string> arguments, const std::vector<std::string>& 
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out), text_of(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out),
+          text_of(err)};
 }
 
 /// One line `skerry: ...` on stderr, with all of `parts` in it, and this status.
-void expect_refusal(const Outcome& outcome, int status, const std::vector<std::string>& parts, const std::string& what) {
+void expect_refusal(const Outcome& outcome, int status, const std::vector<std::string>& parts,
+                    const std::string& what) {
   EXPECT_EQ(outcome.status, status) << what << ": " << outcome.err;
   EXPECT_TRUE(outcome.err.starts_with("skerry: ")) << what << ": " << outcome.err;
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << what << ": " << outcome.err;
-  for (const std::string& part : parts) EXPECT_NE(outcome.err.find(part), std::string::npos) << what << ": " << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1)
+      << what << ": " << outcome.err;
+  for (const std::string& part : parts)
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << what << ": " << outcome.err;
 }
 
 std::string joined(const std::vector<std::string>& arguments) {
@@ -85,9 +92,17 @@ std::string joined(const std::vector<std::string>& arguments) {
 }
 
 TEST(CommandLine, HelpIsThereOnEveryLevel) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"play", "--help"}, {"shot", "--help"}, {"devices", "--help"}, {"shot", "-h"}, {"bench", "--help"},
-        {"bench", "mesh", "--help"}, {"bench", "generate", "--help"}, {"bench", "upload", "--help"}, {"bench", "cull", "--help"}, {"bench", "frame", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"play", "--help"},
+                                                    {"shot", "--help"},
+                                                    {"devices", "--help"},
+                                                    {"shot", "-h"},
+                                                    {"bench", "--help"},
+                                                    {"bench", "mesh", "--help"},
+                                                    {"bench", "generate", "--help"},
+                                                    {"bench", "upload", "--help"},
+                                                    {"bench", "cull", "--help"},
+                                                    {"bench", "frame", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0) << joined(arguments) << outcome.err;
     EXPECT_NE(outcome.out.find("Usage: skerry"), std::string::npos) << joined(arguments);
@@ -127,7 +142,8 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"bench", "frame"}, {"--seed"}},
       {{"shot", "--seed", "1", "--set", std::string(100000, 'x')}, {"'xxx"}},
   };
-  for (const auto& [arguments, parts] : cases) expect_refusal(run(arguments), 2, parts, joined(arguments));
+  for (const auto& [arguments, parts] : cases)
+    expect_refusal(run(arguments), 2, parts, joined(arguments));
 }
 
 TEST(CommandLine, WhatIsNotInThisBuildIsNotListed) {
@@ -139,9 +155,11 @@ TEST(CommandLine, WhatIsNotInThisBuildIsNotListed) {
 }
 
 TEST(CommandLine, FilesThatCannotBeUsedExitWithOne) {
-  expect_refusal(run({"shot", "--seed", "1", "--out", "/no/such/folder/a.png"}), 1, {"/no/such/folder/a.png", "No such file"}, "out");
+  expect_refusal(run({"shot", "--seed", "1", "--out", "/no/such/folder/a.png"}), 1,
+                 {"/no/such/folder/a.png", "No such file"}, "out");
   expect_refusal(run({"shot", "--seed", "1", "--out", "/"}), 1, {"directory"}, "folder");
-  expect_refusal(run({"shot", "--seed", "1", "--stats", "/no/such/folder/a.json"}), 1, {"a.json"}, "stats");
+  expect_refusal(run({"shot", "--seed", "1", "--stats", "/no/such/folder/a.json"}), 1, {"a.json"},
+                 "stats");
   expect_refusal(run({"shot", "--scene", "/no/such.json"}), 1, {"/no/such.json"}, "scene");
   expect_refusal(run({"shot", "--world", "/no/such/world"}), 1, {"does not exist"}, "world");
   expect_refusal(run({"--world", "/"}), 1, {"cannot load saved worlds"}, "play world");
@@ -160,16 +178,20 @@ TEST(CommandLine, MistakesInASceneFileAreUsageErrors) {
 }
 
 TEST(CommandLine, WithoutADriverTheStatusIsFour) {
-  const std::vector<std::string> no_driver{"VK_ICD_FILENAMES=/no/such/driver.json", "VK_DRIVER_FILES=/no/such/driver.json"};
+  const std::vector<std::string> no_driver{"VK_ICD_FILENAMES=/no/such/driver.json",
+                                           "VK_DRIVER_FILES=/no/such/driver.json"};
   expect_refusal(run({"devices"}, no_driver), 4, {}, "devices");
   const Folder folder;
-  expect_refusal(run({"shot", "--seed", "1", "--out", (folder / "a.png").string()}, no_driver), 4, {}, "shot");
+  expect_refusal(run({"shot", "--seed", "1", "--out", (folder / "a.png").string()}, no_driver), 4,
+                 {}, "shot");
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 
 TEST(CommandLine, ADeviceThatDoesNotExistIsStatusFour) {
   const Folder folder;
-  expect_refusal(run({"shot", "--seed", "1", "--device", "999", "--out", (folder / "a.png").string()}), 4, {"999"}, "device");
+  expect_refusal(
+      run({"shot", "--seed", "1", "--device", "999", "--out", (folder / "a.png").string()}), 4,
+      {"999"}, "device");
 }
 
 TEST(CommandLine, DevicesListsWhatCanBeUsed) {
@@ -184,8 +206,10 @@ TEST(CommandLine, DevicesListsWhatCanBeUsed) {
 }
 
 TEST(CommandLine, PlayWithoutADisplaySaysSoAndNamesShot) {
-  expect_refusal(run({"play", "--seed", "1"}, {"DISPLAY", "WAYLAND_DISPLAY"}), 1, {"display", "skerry shot"}, "no display");
-  expect_refusal(run({}, {"DISPLAY=:987", "WAYLAND_DISPLAY"}), 1, {"display", "skerry shot"}, "wrong display");
+  expect_refusal(run({"play", "--seed", "1"}, {"DISPLAY", "WAYLAND_DISPLAY"}), 1,
+                 {"display", "skerry shot"}, "no display");
+  expect_refusal(run({}, {"DISPLAY=:987", "WAYLAND_DISPLAY"}), 1, {"display", "skerry shot"},
+                 "wrong display");
 }
 
 }  // namespace

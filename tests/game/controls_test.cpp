@@ -29,9 +29,14 @@ TEST(Controls, ThePointerTurnsTheHeadTheWayItMoves) {
   input.move_pointer({10.0, 20.0});  // right and down
   look(player, input.take(), 70.0);
   class Nothing : public Surroundings {
-    void islands_near(world::WorldPos, double, double, std::vector<std::uint64_t>& out) const override { out.clear(); }
+    void islands_near(world::WorldPos, double, double,
+                      std::vector<std::uint64_t>& out) const override {
+      out.clear();
+    }
     std::optional<world::Pose> pose(std::uint64_t, double) const override { return std::nullopt; }
-    std::optional<world::BlockId> block(std::uint64_t, world::IVec3) const override { return std::nullopt; }
+    std::optional<world::BlockId> block(std::uint64_t, world::IVec3) const override {
+      return std::nullopt;
+    }
   } nothing;
   EXPECT_LT(player.eye(nothing).yaw_deg, 0.0);    // right of south is west: yaw falls
   EXPECT_LT(player.eye(nothing).pitch_deg, 0.0);  // down

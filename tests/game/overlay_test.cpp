@@ -25,12 +25,14 @@ OverlayFacts some_facts() {
 TEST(Overlay, LaysTrianglesOutWithinTheirClipsAndThePicture) {
   Overlay overlay;
   OverlayTriangles triangles;
-  for (int frame = 0; frame < 3; ++frame) triangles = overlay.layout(some_facts(), 1280, 720, 0.016);
+  for (int frame = 0; frame < 3; ++frame)
+    triangles = overlay.layout(some_facts(), 1280, 720, 0.016);
   ASSERT_GT(triangles.vertices.size(), 600u);  // a hundred glyphs at the least
   EXPECT_EQ(triangles.vertices.size() % 3, 0u);
   for (const shared::OverlayVertex& vertex : triangles.vertices) {
     ASSERT_LT(vertex.clip, triangles.clips.size());
-    ASSERT_TRUE(vertex.uv.x >= 0.0f && vertex.uv.x <= 1.0f && vertex.uv.y >= 0.0f && vertex.uv.y <= 1.0f);
+    ASSERT_TRUE(vertex.uv.x >= 0.0f && vertex.uv.x <= 1.0f && vertex.uv.y >= 0.0f &&
+                vertex.uv.y <= 1.0f);
     ASSERT_TRUE(vertex.position.x >= 0.0f && vertex.position.x <= 600.0f) << vertex.position.x;
   }
 }
@@ -65,7 +67,8 @@ TEST(OverlayPass, BlendsExactlyInsideItsClip) {
     auto image = (*device)->create_image({.name = "canvas",
                                           .format = VK_FORMAT_R8G8B8A8_UNORM,
                                           .extent = {kSize, kSize},
-                                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                                   VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                                    VK_IMAGE_USAGE_TRANSFER_DST_BIT});
     ASSERT_TRUE(image);
     // One half-transparent red triangle that covers everything, cut to x 4..12, y 2..6.
@@ -80,7 +83,9 @@ TEST(OverlayPass, BlendsExactlyInsideItsClip) {
     gpu::ImageRef canvas = graph.import(*image);
     graph.add_pass(
         "clear", [&](gpu::PassBuilder& b) { canvas = b.write(canvas, gpu::Use::kTransferWrite); },
-        [&canvas](gpu::Commands& c) { c.clear(canvas, {{0.0f, 0.0f, 1.0f, 1.0f}}); });
+        [&canvas](gpu::Commands& c) {
+          c.clear(canvas, {{0.0f, 0.0f, 1.0f, 1.0f}});
+        });
     const gpu::ImageRef cleared = canvas;
     auto drawn = (*pass)->add(graph, pipelines, cleared, {kSize, kSize}, triangles, 0);
     ASSERT_TRUE(drawn) << drawn.error().message;
@@ -92,7 +97,8 @@ TEST(OverlayPass, BlendsExactlyInsideItsClip) {
       for (std::uint32_t x = 0; x < kSize; ++x) {
         const bool inside = x >= 4 && x < 12 && y >= 2 && y < 6;
         // 128/255 of red over blue: 255 * 128/255 = 128 and 255 * 127/255 = 127.
-        const std::array<int, 4> wanted = inside ? std::array{128, 0, 127, 255} : std::array{0, 0, 255, 255};
+        const std::array<int, 4> wanted =
+            inside ? std::array{128, 0, 127, 255} : std::array{0, 0, 255, 255};
         for (std::size_t c = 0; c < 4; ++c) {
           const int got = static_cast<int>((*pixels)[(y * kSize + x) * 4 + c]);
           ASSERT_LE(std::abs(got - wanted[c]), 1) << x << "," << y << " channel " << c;

@@ -28,7 +28,8 @@ class Surface {
 }  // namespace
 
 int play_command(const game::SceneOptions& scene) {
-  const platform::WindowOptions wanted{static_cast<int>(scene.size.width), static_cast<int>(scene.size.height), "Skerry"};
+  const platform::WindowOptions wanted{static_cast<int>(scene.size.width),
+                                       static_cast<int>(scene.size.height), "Skerry"};
   auto window = platform::Window::create(wanted);
   if (!window) return fail(kFailed, window.error());
   auto device = open_device(scene, (*window)->vulkan_extensions());
