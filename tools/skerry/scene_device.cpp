@@ -1,6 +1,7 @@
 #include "tools/skerry/scene_device.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "engine/platform/files.h"
 
@@ -16,8 +17,10 @@ std::string pipeline_cache_file() {
 
 }  // namespace
 
-Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene) {
+Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene,
+                                                 std::vector<const char*> surface_extensions) {
   gpu::DeviceOptions options;
+  options.surface_extensions = std::move(surface_extensions);
   options.index = scene.device;
   options.validate = scene.validate;
   options.pipeline_cache_path = pipeline_cache_file();
