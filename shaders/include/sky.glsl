@@ -16,10 +16,11 @@ vec3 linear_from_yxy(vec3 yxy) {
 // One body's radiance on the cone of sky at height `up` (sine of the elevation, >= 0). `dir` may dip below it.
 vec3 body_radiance(vec3 dir, float up, SkyBody body) {
   float cos_gamma = clamp(dot(dir, body.to_body), -1.0, 1.0);
-  vec3 yxy = body.zenith * (1.0 + body.perez_a * exp(body.perez_b / max(up, 1e-3))) *
+  float clear = 1.0 - up;
+  float hue_up = up + 0.25 * clear * clear * clear;
+  vec3 yxy = body.zenith * (1.0 + body.perez_a * exp(body.perez_b / vec3(max(up, 1e-3), hue_up, hue_up))) *
              (1.0 + body.perez_c * exp(body.perez_d * acos(cos_gamma)) + body.perez_e * (cos_gamma * cos_gamma));
   vec3 day = max(linear_from_yxy(yxy), 0.0) * body.day;
-  float clear = 1.0 - up;
   float low = clear * clear * clear * clear * clear;
   float towards = dot(dir.xz, body.to_body.xz) / max(1e-3, length(body.to_body.xz));
   float side = 0.5 + 0.5 * towards;
@@ -105,8 +106,9 @@ vec3 moon_disc(vec3 p, SkyConstants sky) {
   vec3 right = normalize(cross(sky.sky_z, sky.moon.to_body));
   vec3 normal = p.x * right + p.y * cross(sky.moon.to_body, right) - p.z * sky.moon.to_body;
   float lit = max(0.0, dot(normal, sky.sun.to_body));
-  float maria = 0.65 * sky_noise(p * 1.7 + 11.0) + 0.35 * sky_noise(p * 4.3 + 5.0);
-  return sky.moon_disc * (mix(0.45, 1.0, smoothstep(0.38, 0.62, maria)) * 2.0 * lit / max(lit + p.z, 1e-3));
+  float maria = 0.5 * sky_noise(p * 1.6 + 11.0) + 0.3 * sky_noise(p * 3.7 + 5.0) + 0.2 * sky_noise(p * 9.1 + 3.0);
+  float ground = mix(0.40, 1.0, smoothstep(0.34, 0.66, maria));
+  return sky.moon_disc * (ground * 2.0 * lit / max(lit + p.z, 1e-3));
 }
 
 // Radiance of both discs in front of the sky, for a pixel of pixel_angle [rad].

@@ -6,10 +6,10 @@
 // The sphere is a cube of equal-angle cells (edge 90 / kStarCells degrees), some of which hold a star.
 const float kStarCells = 64.0;
 const float kStarShare = 0.22;       // of the cells in the middle of a face; some 4,500 stars in all
-const float kStarFlux = 2.2e-7;      // of a star of magnitude 0 [radiance * sr]
+const float kStarFlux = 6.0e-7;      // of a star of magnitude 0 [radiance * sr]
 const float kFaintestStar = 6.5;     // magnitude
 const float kStarRadiusPixels = 1.6; // a footprint of at least this radius (about one pixel at half height) keeps stars from twinkling as they move
-const float kMilkyWay = 1.6e-4;      // radiance in its middle
+const float kMilkyWay = 3.0e-4;      // radiance in its middle
 
 float unit_float(uint h) { return float(h >> 8) * (1.0 / 16777216.0); }
 
