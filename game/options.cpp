@@ -6,8 +6,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/check.h"
-
 namespace skerry::game {
 namespace {
 
@@ -149,11 +147,11 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
 }
 
 std::string shot_command(const SceneOptions& scene) {
-  SKERRY_ASSERT(scene.camera.has_value());
-  std::string command = fmt::format("skerry shot --seed {} --camera {} --fov {} --time {} --size {}x{} --quality {}",
-                                    shell_word(scene.seed_text), format_camera(*scene.camera), scene.fov_deg,
-                                    format_time_of_day(scene.time_of_day_s), scene.size.width, scene.size.height,
-                                    quality_level(scene.quality).name);
+  std::string command = "skerry shot --seed " + shell_word(scene.seed_text);
+  if (scene.camera) command += " --camera " + format_camera(*scene.camera);
+  command += fmt::format(" --fov {} --time {} --size {}x{} --quality {}", scene.fov_deg,
+                         format_time_of_day(scene.time_of_day_s), scene.size.width, scene.size.height,
+                         quality_level(scene.quality).name);
   for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
     command += " --set " + shell_word(assignment);
   }

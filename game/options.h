@@ -41,7 +41,7 @@ Result<SceneText> parse_scene(std::string_view json_text);
 /// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied first.
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over);
 
-/// The arguments that make `skerry shot` draw this scene again, quoted for a shell. The camera must be set.
+/// The command that draws this scene again, quoted for a shell. Without a camera it names none: the seed's spawn view is the default.
 std::string shot_command(const SceneOptions& scene);
 
 }  // namespace skerry::game

@@ -11,8 +11,9 @@ namespace skerry::game {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
-constexpr std::array<std::string_view, 9> kDebugViewNames{"none",  "albedo",   "normal", "position", "metadata",
-                                                          "depth", "cascades", "shadow", "overdraw"};
+constexpr std::array<std::string_view, 9> kDebugViewNames{"none",     "albedo",   "normal",
+                                                          "position", "metadata", "emissive",
+                                                          "depth",    "cascades", "shadow"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 2> kRendererNames{"deferred", "auto"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
@@ -132,7 +133,7 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) { return fmt::format("{}", s.moon_phase); }},
     {"view.distance", "blocks, 32 to 16384", "Nothing farther than this is drawn.",
      [](std::string_view t, Settings& s) {
-       return into(parse_integer(t, "view.distance", 32, 16384), s.view_distance);
+       return into(parse_integer(t, "view.distance", kMinViewDistance, kMaxViewDistance), s.view_distance);
      },
      [](const Settings& s) { return std::to_string(s.view_distance); }},
     {"view.detail", "blocks, 32 to 4096", "Full detail up to here; each doubling halves the detail.",
@@ -155,7 +156,7 @@ constexpr SettingKey kKeys[] = {
     {"shading", "pbr or flat", "flat: light colour times shadow, without the surface's angle to the light.",
      [](std::string_view t, Settings& s) { return into_name(parse_name(t, "shading", kShadingNames), s.shading); },
      [](const Settings& s) { return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]); }},
-    {"debug.view", "none, albedo, normal, position, metadata, depth, cascades, shadow or overdraw",
+    {"debug.view", "none, albedo, normal, position, metadata, emissive, depth, cascades or shadow",
      "Shows one ingredient of the picture instead of the picture.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "debug.view", kDebugViewNames), s.debug_view);

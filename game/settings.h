@@ -11,10 +11,12 @@
 
 namespace skerry::game {
 
+inline constexpr std::uint32_t kMinViewDistance = 32, kMaxViewDistance = 16384;  ///< blocks
+
 enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
 enum class Shading : std::uint8_t { kPbr, kFlat };
 enum class DebugView : std::uint8_t {
-  kNone, kAlbedo, kNormal, kPosition, kMetadata, kDepth, kCascades, kShadow, kOverdraw
+  kNone, kAlbedo, kNormal, kPosition, kMetadata, kEmissive, kDepth, kCascades, kShadow
 };
 enum class UploadMode : std::uint8_t { kUpdate, kStaging, kMapped };
 
@@ -34,7 +36,7 @@ struct Settings {
   UploadMode upload_path = UploadMode::kUpdate;
   std::uint64_t upload_budget_bytes = 8u << 20;  ///< a frame, 65536 .. 2^30
   std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
-  std::uint32_t water_layers = 2;                ///< nearest translucent surfaces kept a pixel, 1 .. 4
+  std::uint32_t water_layers = 3;                ///< nearest translucent surfaces kept a pixel, 1 .. 4
   bool operator==(const Settings&) const = default;
 };
 

@@ -6,7 +6,7 @@
 
 layout(local_size_x = kSkyLutGroup, local_size_y = kSkyLutGroup) in;
 
-layout(scalar, binding = 0) readonly buffer Sky { SkyConstants sky; };
+layout(scalar, binding = 0) uniform Sky { SkyConstants sky; };
 layout(binding = 1, rgba16f) writeonly uniform image2D sky_lut;
 
 void main() {

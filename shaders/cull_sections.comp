@@ -12,7 +12,8 @@ layout(scalar, binding = 2) readonly buffer Views { CullView views[]; };
 layout(scalar, binding = 3) writeonly buffer Masks { uint masks[]; };         // [view][section]
 layout(scalar, binding = 4) writeonly buffer Totals { uint group_totals[]; }; // [view][list][group]
 layout(scalar, binding = 5) buffer Stats { CullStats stats[]; };              // [view]
-layout(push_constant) uniform Push { uint section_count; uint group_count; } push;
+layout(scalar, binding = 6) writeonly buffer Transforms { SectionTransform transforms[]; };  // [view][section]
+layout(push_constant) uniform Push { uint section_count; uint group_count; uint islands_per_view; } push;
 
 shared uint draws_of_list[3];
 shared CullStats group_stats;
@@ -50,6 +51,15 @@ uint visible_ranges(Section s, CullView view) {
   return mask;
 }
 
+// Composed once a section, so that a vertex needs three dot products and one matrix.
+SectionTransform section_transform(Section s, IslandTransform t) {
+  vec3 origin = world_from_lattice(t, vec3(s.origin));
+  float voxel = float(1u << s.voxel_size_log2);
+  return SectionTransform(vec4(vec3(t.axis_x.x, t.axis_y.x, t.axis_z.x) * voxel, origin.x),
+                          vec4(vec3(t.axis_x.y, t.axis_y.y, t.axis_z.y) * voxel, origin.y),
+                          vec4(vec3(t.axis_x.z, t.axis_y.z, t.axis_z.z) * voxel, origin.z));
+}
+
 void main() {
   uint section = gl_GlobalInvocationID.x;
   uint view = gl_GlobalInvocationID.y;
@@ -73,6 +83,7 @@ void main() {
     masks[view * push.section_count + section] = mask;
     if (s.range_end[kRangeCount - 1u] != 0u) atomicAdd(group_stats.sections_in, 1u);
     if (quads != 0u) {
+      transforms[view * push.section_count + section] = section_transform(s, islands[view * push.islands_per_view + s.island]);
       atomicAdd(group_stats.sections_passed, 1u);
       atomicAdd(group_stats.draws, draws);
       atomicAdd(group_stats.quads, quads);

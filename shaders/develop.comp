@@ -5,7 +5,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) buffer Stats { PixelStats stats; };
 layout(binding = 2, rgba16f) readonly uniform image2D radiance;
 layout(binding = 3, rgba8) writeonly uniform image2D picture;

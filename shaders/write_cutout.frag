@@ -3,7 +3,7 @@
 // Leaves and plants: the same word as opaque geometry where the texture's alpha covers the pixel. docs/conventions.md.
 #include "include/common.glsl"
 
-layout(scalar, binding = 4) readonly buffer Materials { Material materials[]; };
+layout(scalar, binding = 4) uniform Materials { Material materials[kMaxMaterials]; };
 layout(binding = 5) uniform sampler2DArray block_textures;
 
 layout(constant_id = 1) const bool kWriteSurface = true;  // false in shadow passes, which have depth only

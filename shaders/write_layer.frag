@@ -2,6 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // One layer of translucent surfaces: the nearest one behind the previous layer and before the opaque surface (depth peeling, Everitt 2001).
 // docs/conventions.md.
+#include "include/common.glsl"
+
 layout(location = 0) flat in uint in_surface;
 layout(location = 0) out uint out_surface;
 
@@ -16,5 +18,5 @@ void main() {
   if (z <= texelFetch(opaque_depth, pixel, 0).r) discard;
   if (!kFirstLayer && z >= texelFetch(previous_depth, pixel, 0).r) discard;
   // A block's back is told from its front by which side faces the camera.
-  out_surface = gl_FrontFacing ? in_surface : in_surface ^ (1u << 28);
+  out_surface = gl_FrontFacing ? in_surface : in_surface ^ kOppositeFace;
 }

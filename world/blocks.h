@@ -7,53 +7,177 @@
 namespace skerry::world {
 
 using BlockId = std::uint16_t;
-inline constexpr BlockId kAir = 0;
 
 /// How a block meets light and the mesher.
 enum class BlockKind : std::uint8_t {
-  kAir,          ///< nothing to draw
-  kOpaque,       ///< hides the neighbour's face
-  kCutout,       ///< has holes (leaves); drawn in the G-buffer with an alpha test; hides faces of its own id only
-  kPlant,        ///< two crossed diagonal quads, hides nothing, one voxel, no collision
+  kAir,     ///< nothing to draw
+  kOpaque,  ///< hides the neighbour's face
+  kCutout,  ///< has holes (leaves); drawn in the G-buffer with an alpha test; hides faces of its
+            ///< own id only
+  kPlant,   ///< two crossed diagonal quads, hides nothing, one voxel, no collision
   kTranslucent,  ///< glass, water: drawn in the translucent layers; hides faces of its own id only
 };
 
-/// A layer of the block texture array, see tools/textures. The enumerators' order is the layer order.
+inline constexpr BlockId kAir = 0;
+
+/// A layer of the block texture array, see tools/textures. The enumerators' order is the layer
+/// order.
 enum class Texture : std::uint8_t {
-  kStone, kStoneMossy, kCobble, kGravel, kDirt, kGrassTop, kGrassSide, kDryGrassTop, kDryGrassSide, kSnow, kSnowSide,
-  kIce, kSand, kSandstoneTop, kSandstoneSide, kRedSand, kRedRock, kRedRockBanded, kClay, kMud, kBasalt, kBasaltTop,
-  kLava, kObsidian, kMarble, kSlate, kLimestone,
-  kCoalOre, kIronOre, kCopperOre, kGoldOre, kCrystalOre, kCrystalBlue, kCrystalViolet, kGlowstone,
-  kOakLogSide, kOakLogTop, kBirchLogSide, kBirchLogTop, kPineLogSide, kPineLogTop, kPalmLogSide, kPalmLogTop,
-  kWillowLogSide, kWillowLogTop,
-  kOakLeaves, kBirchLeaves, kPineLeaves, kPalmLeaves, kWillowLeaves, kAutumnLeaves, kBlossomLeaves,
-  kTallGrass, kFern, kFlowerRed, kFlowerYellow, kFlowerBlue, kReed, kDeadBush, kGlowShroom, kGlowFern, kHeather,
-  kMushroomCapRed, kMushroomCapGlow, kMushroomStem, kMyceliumTop, kMyceliumSide,
-  kWater, kGlass, kPlanks, kBricks, kTorch, kLamp,
+  kStone,
+  kStoneMossy,
+  kCobble,
+  kGravel,
+  kDirt,
+  kGrassTop,
+  kGrassSide,
+  kDryGrassTop,
+  kDryGrassSide,
+  kSnow,
+  kSnowSide,
+  kIce,
+  kSand,
+  kSandstoneTop,
+  kSandstoneSide,
+  kRedSand,
+  kRedRock,
+  kRedRockBanded,
+  kClay,
+  kMud,
+  kBasalt,
+  kBasaltTop,
+  kLava,
+  kObsidian,
+  kMarble,
+  kSlate,
+  kLimestone,
+  kCoalOre,
+  kIronOre,
+  kCopperOre,
+  kGoldOre,
+  kCrystalOre,
+  kCrystalBlue,
+  kCrystalViolet,
+  kGlowstone,
+  kOakLogSide,
+  kOakLogTop,
+  kBirchLogSide,
+  kBirchLogTop,
+  kPineLogSide,
+  kPineLogTop,
+  kPalmLogSide,
+  kPalmLogTop,
+  kWillowLogSide,
+  kWillowLogTop,
+  kOakLeaves,
+  kBirchLeaves,
+  kPineLeaves,
+  kPalmLeaves,
+  kWillowLeaves,
+  kAutumnLeaves,
+  kBlossomLeaves,
+  kTallGrass,
+  kFern,
+  kFlowerRed,
+  kFlowerYellow,
+  kFlowerBlue,
+  kReed,
+  kDeadBush,
+  kGlowShroom,
+  kGlowFern,
+  kHeather,
+  kMushroomCapRed,
+  kMushroomCapGlow,
+  kMushroomStem,
+  kMyceliumTop,
+  kMyceliumSide,
+  kWater,
+  kGlass,
+  kPlanks,
+  kBricks,
+  kTorch,
+  kLamp,
   kCount
 };
 
-/// What the program knows of a block id. World data, mesher, renderer and player all read this table.
+/// What the program knows of a block id. World data, mesher, renderer and player all read this
+/// table.
 struct BlockType {
-  std::string_view name;      ///< lower-case words joined by '_', unique
+  std::string_view name;  ///< lower-case words joined by '_', unique
   BlockKind kind = BlockKind::kAir;
   Texture side{}, top{}, bottom{};
-  float emission = 0.0f;      ///< radiance = albedo * this; 0: none
-  float roughness = 0.9f;     ///< perceptual, 0..1
-  std::array<float, 3> absorption{};  ///< translucent only: extinction per block of path, linear RGB [1/block]
+  float emission = 0.0f;   ///< radiance = albedo * this; 0: none
+  float roughness = 0.9f;  ///< perceptual, 0..1
+  std::array<float, 3>
+      absorption{};  ///< translucent only: extinction per block of path, linear RGB [1/block]
 };
 
 /// Named ids of the built-in blocks. The order is saved in worlds: append only.
 namespace block {
 enum : BlockId {
-  kAirBlock = kAir, kStone, kStoneMossy, kCobble, kGravel, kDirt, kGrass, kDryGrass, kSnow, kSnowyGrass, kIce, kSand,
-  kSandstone, kRedSand, kRedRock, kRedRockBanded, kClay, kMud, kBasalt, kLava, kObsidian, kMarble, kSlate, kLimestone,
-  kCoalOre, kIronOre, kCopperOre, kGoldOre, kCrystalOre, kCrystalBlue, kCrystalViolet, kGlowstone,
-  kOakLog, kBirchLog, kPineLog, kPalmLog, kWillowLog,
-  kOakLeaves, kBirchLeaves, kPineLeaves, kPalmLeaves, kWillowLeaves, kAutumnLeaves, kBlossomLeaves,
-  kTallGrass, kFern, kFlowerRed, kFlowerYellow, kFlowerBlue, kReed, kDeadBush, kGlowShroom, kGlowFern, kHeather,
-  kMushroomCapRed, kMushroomCapGlow, kMushroomStem, kMycelium,
-  kWater, kGlass, kPlanks, kBricks, kTorch, kLamp,
+  kAirBlock = kAir,
+  kStone,
+  kStoneMossy,
+  kCobble,
+  kGravel,
+  kDirt,
+  kGrass,
+  kDryGrass,
+  kSnow,
+  kSnowyGrass,
+  kIce,
+  kSand,
+  kSandstone,
+  kRedSand,
+  kRedRock,
+  kRedRockBanded,
+  kClay,
+  kMud,
+  kBasalt,
+  kLava,
+  kObsidian,
+  kMarble,
+  kSlate,
+  kLimestone,
+  kCoalOre,
+  kIronOre,
+  kCopperOre,
+  kGoldOre,
+  kCrystalOre,
+  kCrystalBlue,
+  kCrystalViolet,
+  kGlowstone,
+  kOakLog,
+  kBirchLog,
+  kPineLog,
+  kPalmLog,
+  kWillowLog,
+  kOakLeaves,
+  kBirchLeaves,
+  kPineLeaves,
+  kPalmLeaves,
+  kWillowLeaves,
+  kAutumnLeaves,
+  kBlossomLeaves,
+  kTallGrass,
+  kFern,
+  kFlowerRed,
+  kFlowerYellow,
+  kFlowerBlue,
+  kReed,
+  kDeadBush,
+  kGlowShroom,
+  kGlowFern,
+  kHeather,
+  kMushroomCapRed,
+  kMushroomCapGlow,
+  kMushroomStem,
+  kMycelium,
+  kWater,
+  kGlass,
+  kPlanks,
+  kBricks,
+  kTorch,
+  kLamp,
   kBuiltInCount
 };
 }  // namespace block

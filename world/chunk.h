@@ -17,7 +17,8 @@ constexpr std::size_t voxel_index(int x, int y, int z) {
          static_cast<std::size_t>(y) * kChunkEdge * kChunkEdge;
 }
 
-/// 64^3 block ids. A uniform chunk stores one id; others store a palette and indices of 1, 2, 4, 8 or 16 bits.
+/// 64^3 block ids. A uniform chunk stores one id; others store a palette and indices of 1, 2, 4 or
+/// 8 bits; with more than 256 ids, 16 bits a voxel hold the ids themselves.
 class Chunk {
  public:
   /// A chunk filled with one id.
@@ -31,15 +32,17 @@ class Chunk {
   void set(int x, int y, int z, BlockId id);
   bool is_uniform() const { return bits_ == 0; }
   /// Ids in use, at least those present; index order is the storage's.
-  std::span<const BlockId> palette() const { return palette_; }
+  std::span<const BlockId> palette() const;
   /// @param out kChunkVoxels ids in voxel_index order.
   void unpack(std::span<BlockId> out) const;
   /// Heap and object bytes this chunk takes.
   std::size_t size_bytes() const;
 
  private:
+  void widen();  // makes room for one more palette entry
+
   int bits_ = 0;                      // bits an index: 0 (uniform), 1, 2, 4, 8, 16
-  std::vector<BlockId> palette_;      // one entry when uniform
+  std::vector<BlockId> palette_;      // one entry when uniform, none at 16 bits
   std::vector<std::uint64_t> words_;  // indices, packed low bits first; empty when uniform
 };
 

@@ -10,7 +10,8 @@ inline constexpr std::int64_t kUnitsPerBlock = 65536;
 /// Largest distance from the origin the program accepts, in blocks, on any axis.
 inline constexpr std::int64_t kMaxBlock = std::int64_t{1} << 40;
 
-/// An exact place in the world: units of 1/65536 block. Differences of two valid places never overflow.
+/// An exact place in the world: units of 1/65536 block. Differences of two valid places never
+/// overflow.
 struct WorldPos {
   std::int64_t x = 0, y = 0, z = 0;
   auto operator<=>(const WorldPos&) const = default;
@@ -35,7 +36,11 @@ struct IVec3 {
 };
 
 /// Floor division and its remainder in [0, b), for b > 0.
-constexpr std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0); }
-constexpr std::int64_t floor_mod(std::int64_t a, std::int64_t b) { return a % b + (a % b < 0 ? b : 0); }
+constexpr std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+  return a / b - (a % b < 0);
+}
+constexpr std::int64_t floor_mod(std::int64_t a, std::int64_t b) {
+  return a % b + (a % b < 0 ? b : 0);
+}
 
 }  // namespace skerry::world

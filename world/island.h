@@ -10,11 +10,12 @@ namespace skerry::world {
 
 /// A rigid transform at one moment.
 struct Pose {
-  WorldPos origin;                             ///< where the lattice origin is
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};     ///< world from lattice
+  WorldPos origin;                          ///< where the lattice origin is
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< world from lattice
 };
 
-/// Everything that decides an island's voxels and its undisturbed motion. Plain values; two equal specs generate equal voxels.
+/// Everything that decides an island's voxels and its undisturbed motion. Plain values; two equal
+/// specs generate equal voxels.
 struct IslandSpec {
   std::uint64_t id = 0;          ///< unique in its world
   std::uint64_t seed = 0;        ///< feeds all noise of this island
@@ -41,11 +42,13 @@ struct Spawn {
   std::uint64_t island = 0;  ///< id of the island stood on
 };
 
-/// A seed from what a player typed: decimal numbers 0 .. 2^64-1 are taken as they are, any other text is hashed.
+/// A seed from what a player typed: decimal numbers 0 .. 2^64-1 are taken as they are, any other
+/// text is hashed.
 std::uint64_t seed_from_text(std::string_view text);
 
-/// The archipelago's plan: every island whose bounding sphere comes within `radius_blocks` of `centre`, nearest first, ties by id.
-/// Pure: same arguments, same answer, on any machine. The origins do not include a world offset.
+/// The archipelago's plan: every island whose bounding sphere comes within `radius_blocks` of
+/// `centre`, nearest first, ties by id. Pure: same arguments, same answer, on any machine. The
+/// origins do not include a world offset.
 std::vector<IslandSpec> islands_within(std::uint64_t seed, WorldPos centre, double radius_blocks);
 
 /// The seed's spawn. Generates the columns it needs. At time 0.

@@ -30,6 +30,7 @@ const std::array kRequirements = {
     SKERRY_NEED(v11, shaderDrawParameters),
     SKERRY_NEED(v12, drawIndirectCount),
     SKERRY_NEED(v12, scalarBlockLayout),
+    SKERRY_NEED(v13, maintenance4),  // a fragment shader need not take all that the vertex shader gives
     SKERRY_NEED(v12, timelineSemaphore),
     SKERRY_NEED(v13, dynamicRendering),
     SKERRY_NEED(v13, synchronization2),

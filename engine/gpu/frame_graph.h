@@ -2,6 +2,7 @@
 #include <volk.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,6 +15,7 @@
 namespace skerry::gpu {
 
 class Device;
+struct MemoryUse;
 class FrameGraph;
 class PassBuilder;
 class Commands;
@@ -88,7 +90,7 @@ class PassBuilder {
 class Commands {
  public:
   void bind(const Pipeline& pipeline);  ///< forgets all bindings
-  void storage(std::uint32_t binding, BufferRef buffer);
+  void storage(std::uint32_t binding, BufferRef buffer);  ///< a storage or a uniform buffer, as the shader declares it
   void storage(std::uint32_t binding, ImageRef image, std::uint32_t mip = 0, std::uint32_t layer = 0);
   void sampled(std::uint32_t binding, ImageRef image, VkSampler sampler);
   template <class T>
@@ -117,6 +119,9 @@ class Commands {
  private:
   friend class FrameGraph;
   Commands(FrameGraph& graph, std::uint32_t pass, VkCommandBuffer commands);
+  void require(std::uint32_t id, std::uint32_t version, VkAccessFlags2 access) const;
+  VkImageLayout layout_of(ImageRef ref) const;
+  [[noreturn]] void fail(const std::string& text) const;
   void push_bytes(const void* data, std::size_t size);
   void flush_bindings();
   FrameGraph& graph_;
@@ -129,8 +134,10 @@ class Commands {
     VkDescriptorBufferInfo buffer{};
     VkDescriptorImageInfo image{};
   };
+  Bound& slot(std::uint32_t binding);
   std::array<Bound, 32> bound_{};
-  bool dirty_ = false;
+  bool dirty_ = false;   ///< bindings changed since they were last pushed
+  bool pushed_ = false;  ///< push() was called for this pipeline
 };
 
 /// One frame's passes, rebuilt each frame: unused passes and their images vanish, barriers, debug labels and GPU timers come from here.

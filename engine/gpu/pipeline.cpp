@@ -29,37 +29,33 @@ void merge_binding(std::vector<VkDescriptorSetLayoutBinding>& all, const ShaderR
   }
 }
 
-VkPipelineLayout create_layout(Device& device, const Pipeline& pipeline,
-                               const std::vector<VkDescriptorSetLayoutBinding>& bindings) {
+void create_layouts(Device& device, Pipeline& pipeline, const std::vector<VkDescriptorSetLayoutBinding>& bindings) {
   auto set_info = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set_info.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
   set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
   set_info.pBindings = bindings.data();
-  VkDescriptorSetLayout set{};
-  GPU_CHECK(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set));
-  device.set_name(reinterpret_cast<std::uint64_t>(set), VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, pipeline.name.c_str());
+  GPU_CHECK(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &pipeline.set_layout));
+  device.set_name(reinterpret_cast<std::uint64_t>(pipeline.set_layout), VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
+                  pipeline.name.c_str());
   const VkPushConstantRange range{pipeline.push_stages, 0, pipeline.push_bytes};
   auto info = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
   info.setLayoutCount = 1;
-  info.pSetLayouts = &set;
+  info.pSetLayouts = &pipeline.set_layout;
   info.pushConstantRangeCount = pipeline.push_bytes > 0 ? 1 : 0;
   info.pPushConstantRanges = &range;
-  VkPipelineLayout layout{};
-  GPU_CHECK(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout));
-  device.set_name(reinterpret_cast<std::uint64_t>(layout), VK_OBJECT_TYPE_PIPELINE_LAYOUT, pipeline.name.c_str());
-  // A pipeline layout keeps what it needs of its set layouts, and push descriptors never allocate from them.
-  vkDestroyDescriptorSetLayout(device.handle(), set, nullptr);
-  return layout;
+  GPU_CHECK(vkCreatePipelineLayout(device.handle(), &info, nullptr, &pipeline.layout));
+  device.set_name(reinterpret_cast<std::uint64_t>(pipeline.layout), VK_OBJECT_TYPE_PIPELINE_LAYOUT, pipeline.name.c_str());
 }
 
-}  // namespace
-
-const EmbeddedShader& find_shader(const std::string& name) {
-  for (const EmbeddedShader& shader : embedded_shaders()) {
+const EmbeddedShader& find_shader(std::span<const EmbeddedShader> shaders, const std::string& name) {
+  for (const EmbeddedShader& shader : shaders) {
     if (name == shader.name) return shader;
   }
   gpu_fatal("there is no shader '" + name + "' in the program: is it in shaders/?");
 }
+
+}  // namespace
+
 
 Pipeline reflect_layout(Device& device, const std::string& name, std::span<const ShaderStage> stages) {
   Pipeline pipeline;
@@ -73,23 +69,28 @@ Pipeline reflect_layout(Device& device, const std::string& name, std::span<const
     pipeline.push_bytes = std::max(pipeline.push_bytes, reflection->push_bytes);
   }
   for (const auto& binding : bindings) pipeline.bindings.push_back({binding.binding, binding.descriptorType});
-  pipeline.layout = create_layout(device, pipeline, bindings);
+  create_layouts(device, pipeline, bindings);
   return pipeline;
 }
 
 struct Pipelines::State {
   Device& device;
+  std::span<const EmbeddedShader> shaders;
   std::map<ComputeDesc, Pipeline> compute;
   std::map<GraphicsDesc, Pipeline> graphics;
 };
 
-Pipelines::Pipelines(Device& device) : state_(std::make_unique<State>(State{device, {}, {}})) {}
+Pipelines::Pipelines(Device& device, std::span<const EmbeddedShader> shaders)
+    : state_(std::make_unique<State>(State{device, shaders, {}, {}})) {}
 
 Pipelines::~Pipelines() {
   const auto retire = [this](const Pipeline& pipeline) {
-    state_->device.retire(reinterpret_cast<std::uint64_t>(pipeline.handle), VK_OBJECT_TYPE_PIPELINE, VK_NULL_HANDLE, 0, {});
-    state_->device.retire(reinterpret_cast<std::uint64_t>(pipeline.layout), VK_OBJECT_TYPE_PIPELINE_LAYOUT, VK_NULL_HANDLE,
-                          0, {});
+    const auto one = [this](auto handle, VkObjectType type) {
+      state_->device.retire(reinterpret_cast<std::uint64_t>(handle), type, VK_NULL_HANDLE, 0, {});
+    };
+    one(pipeline.handle, VK_OBJECT_TYPE_PIPELINE);
+    one(pipeline.layout, VK_OBJECT_TYPE_PIPELINE_LAYOUT);
+    one(pipeline.set_layout, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT);
   };
   for (const auto& [desc, pipeline] : state_->compute) retire(pipeline);
   for (const auto& [desc, pipeline] : state_->graphics) retire(pipeline);
@@ -98,23 +99,23 @@ Pipelines::~Pipelines() {
 const Pipeline& Pipelines::get(const ComputeDesc& desc) {
   const auto found = state_->compute.find(desc);
   if (found != state_->compute.end()) return found->second;
-  const ShaderStage stage{VK_SHADER_STAGE_COMPUTE_BIT, &find_shader(desc.shader)};
+  const ShaderStage stage{VK_SHADER_STAGE_COMPUTE_BIT, &find_shader(state_->shaders, desc.shader)};
   Pipeline pipeline = reflect_layout(state_->device, desc.shader, {&stage, 1});
-  compile_compute(state_->device, pipeline, desc);
+  compile_compute(state_->device, pipeline, stage, desc);
   return state_->compute.emplace(desc, std::move(pipeline)).first->second;
 }
 
 const Pipeline& Pipelines::get(const GraphicsDesc& desc) {
   const auto found = state_->graphics.find(desc);
   if (found != state_->graphics.end()) return found->second;
-  std::vector<ShaderStage> stages{{VK_SHADER_STAGE_VERTEX_BIT, &find_shader(desc.vertex)}};
+  std::vector<ShaderStage> stages{{VK_SHADER_STAGE_VERTEX_BIT, &find_shader(state_->shaders, desc.vertex)}};
   std::string name = desc.vertex;
   if (!desc.fragment.empty()) {
-    stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, &find_shader(desc.fragment)});
+    stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, &find_shader(state_->shaders, desc.fragment)});
     name += " + " + desc.fragment;
   }
   Pipeline pipeline = reflect_layout(state_->device, name, stages);
-  compile_graphics(state_->device, pipeline, desc);
+  compile_graphics(state_->device, pipeline, stages, desc);
   return state_->graphics.emplace(desc, std::move(pipeline)).first->second;
 }
 

@@ -4,10 +4,12 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/gpu/shader_table.h"
 
 namespace skerry::gpu {
 
@@ -36,6 +38,7 @@ struct GraphicsDesc {
   bool depth_write = true;       ///< test is GREATER_OR_EQUAL (reverse-Z)
   bool depth_clamp = false;
   bool depth_bias = false;       ///< dynamic: Commands::set_depth_bias
+  bool blend = false;            ///< colours are laid over what is there by their straight alpha; else they replace it
   auto operator<=>(const GraphicsDesc&) const = default;
 };
 
@@ -43,6 +46,7 @@ struct GraphicsDesc {
 struct Pipeline {
   VkPipeline handle{};
   VkPipelineLayout layout{};
+  VkDescriptorSetLayout set_layout{};  ///< pushing descriptors refers to it
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
   VkShaderStageFlags push_stages = 0;
   std::uint32_t push_bytes = 0;
@@ -58,7 +62,8 @@ struct Pipeline {
 /// bindings are stated once, in the shader. Bad SPIR-V or a missing shader is fatal with its name.
 class Pipelines {
  public:
-  explicit Pipelines(Device& device);
+  /// @param shaders where names are looked up; must outlive this.
+  explicit Pipelines(Device& device, std::span<const EmbeddedShader> shaders = embedded_shaders());
   ~Pipelines();
   const Pipeline& get(const ComputeDesc& desc);
   const Pipeline& get(const GraphicsDesc& desc);

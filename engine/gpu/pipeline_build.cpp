@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
+#include <list>
 
 #include "engine/gpu/device.h"
 #include "engine/gpu/gpu_check.h"
@@ -91,16 +91,21 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const GraphicsDesc& desc) {
   return info;
 }
 
-VkPipelineColorBlendAttachmentState write_all() {
+VkPipelineColorBlendAttachmentState attachment_state(const GraphicsDesc& desc) {
   VkPipelineColorBlendAttachmentState state{};
+  state.blendEnable = desc.blend ? VK_TRUE : VK_FALSE;
+  state.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
   return state;
 }
 
 }  // namespace
 
-void compile_compute(Device& device, Pipeline& pipeline, const ComputeDesc& desc) {
-  const Module module(device, find_shader(desc.shader));
+void compile_compute(Device& device, Pipeline& pipeline, const ShaderStage& stage, const ComputeDesc& desc) {
+  const Module module(device, *stage.shader);
   const Specialization specialization(desc.constants);
   auto info = vk_struct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
@@ -110,13 +115,13 @@ void compile_compute(Device& device, Pipeline& pipeline, const ComputeDesc& desc
   name_pipeline(device, pipeline);
 }
 
-void compile_graphics(Device& device, Pipeline& pipeline, const GraphicsDesc& desc) {
-  const Module vertex(device, find_shader(desc.vertex));
-  std::optional<Module> fragment;
-  if (!desc.fragment.empty()) fragment.emplace(device, find_shader(desc.fragment));
+void compile_graphics(Device& device, Pipeline& pipeline, std::span<const ShaderStage> stages, const GraphicsDesc& desc) {
   const Specialization specialization(desc.constants);
-  std::vector<VkPipelineShaderStageCreateInfo> stages{stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex, specialization)};
-  if (fragment) stages.push_back(stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment, specialization));
+  std::list<Module> modules;  // not copyable, so not in a vector
+  std::vector<VkPipelineShaderStageCreateInfo> stage_infos;
+  for (const ShaderStage& stage : stages) {
+    stage_infos.push_back(stage_info(stage.stage, modules.emplace_back(device, *stage.shader), specialization));
+  }
 
   // Vertices are pulled from storage buffers: no vertex input.
   const auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
@@ -129,7 +134,7 @@ void compile_graphics(Device& device, Pipeline& pipeline, const GraphicsDesc& de
   auto samples = vk_struct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   const auto depth = depth_state(desc);
-  const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(), write_all());
+  const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(), attachment_state(desc));
   auto blend = vk_struct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
   blend.pAttachments = attachments.data();
@@ -143,8 +148,8 @@ void compile_graphics(Device& device, Pipeline& pipeline, const GraphicsDesc& de
   rendering.depthAttachmentFormat = desc.depth_format;
 
   auto info = vk_struct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering);
-  info.stageCount = static_cast<std::uint32_t>(stages.size());
-  info.pStages = stages.data();
+  info.stageCount = static_cast<std::uint32_t>(stage_infos.size());
+  info.pStages = stage_infos.data();
   info.pVertexInputState = &input;
   info.pInputAssemblyState = &assembly;
   info.pViewportState = &viewport;

@@ -23,12 +23,15 @@ class OffsetArena {
   void free(ArenaRange range, std::uint64_t after_value);
   /// Makes ranges freed at or before `completed` available.
   void collect(std::uint64_t completed);
+  /// Appends room. @pre capacity >= capacity().
+  void grow(std::uint32_t capacity);
   std::uint32_t capacity() const { return capacity_; }
   std::uint32_t used() const { return used_; }           ///< allocated, not yet freed
   std::uint32_t waiting() const { return waiting_; }     ///< freed, still in flight
   std::uint32_t largest_free() const;
 
  private:
+  void give_back(ArenaRange range);
   std::uint32_t capacity_, used_ = 0, waiting_ = 0;
   std::map<std::uint32_t, std::uint32_t> free_;  // first -> count
   struct Waiting {

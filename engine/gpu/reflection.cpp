@@ -156,6 +156,7 @@ std::optional<VkDescriptorType> descriptor_type(const Module& module, std::uint3
   if (block && storage_class == kUniform && module.decoration(type_id, kBufferBlock)) {
     return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;  // how SPIR-V before 1.3 says it
   }
+  if (block && storage_class == kUniform) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   if (storage_class != kUniformConstant) return std::nullopt;
   if (type.op == kOpTypeSampledImage) return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
   if (type.op == kOpTypeSampler) return VK_DESCRIPTOR_TYPE_SAMPLER;

@@ -31,6 +31,7 @@ struct BufferDesc {
   std::uint64_t size_bytes = 0;
   VkBufferUsageFlags usage = 0;
   Memory memory = Memory::kDevice;
+  bool operator==(const BufferDesc&) const = default;
 };
 
 struct ImageDesc {
@@ -41,6 +42,11 @@ struct ImageDesc {
   std::uint32_t layers = 1;
   VkImageUsageFlags usage = 0;
   bool array = false;  ///< view as an array even with one layer
+  bool operator==(const ImageDesc& other) const {
+    return name == other.name && format == other.format && extent.width == other.extent.width &&
+           extent.height == other.extent.height && mips == other.mips && layers == other.layers && usage == other.usage &&
+           array == other.array;
+  }
 };
 
 struct SamplerDesc {
@@ -63,6 +69,7 @@ class Buffer {
   ~Buffer();
   VkBuffer handle() const { return handle_; }
   std::uint64_t size_bytes() const { return size_; }
+  std::uint64_t allocated_bytes() const { return allocated_; }  ///< device memory it takes
   std::byte* mapped() const { return mapped_; }  ///< null unless host memory
   const std::string& name() const { return name_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
@@ -95,6 +102,7 @@ class Image {
   VkImageView view_of(std::uint32_t mip, std::uint32_t layer) const;
   const ImageDesc& desc() const { return desc_; }
   VkImageAspectFlags aspect() const;
+  std::uint64_t allocated_bytes() const { return allocated_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   AccessState state;
 

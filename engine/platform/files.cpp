@@ -117,15 +117,15 @@ Result<std::string> read_text(const fs::path& path, std::uint64_t max_bytes) {
   }
 }
 
-fs::path executable_dir() {
+fs::path executable_directory() {
   std::error_code code;
   const fs::path self = fs::read_symlink("/proc/self/exe", code);
   return code ? fs::path(".") : self.parent_path();
 }
 
-fs::path cache_dir() { return xdg_dir("XDG_CACHE_HOME", ".cache"); }
-fs::path config_dir() { return xdg_dir("XDG_CONFIG_HOME", ".config"); }
-fs::path data_dir() { return xdg_dir("XDG_DATA_HOME", ".local/share"); }
+fs::path cache_directory() { return xdg_dir("XDG_CACHE_HOME", ".cache"); }
+fs::path config_directory() { return xdg_dir("XDG_CONFIG_HOME", ".config"); }
+fs::path data_directory() { return xdg_dir("XDG_DATA_HOME", ".local/share"); }
 
 Result<void> make_dirs(const fs::path& dir) {
   std::error_code code;

@@ -22,13 +22,13 @@ Result<void> check_writable(const std::filesystem::path& path);
 Result<std::string> read_text(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// The folder the running program is in.
-std::filesystem::path executable_dir();
+std::filesystem::path executable_directory();
 
 /// The user's folders for Skerry, by the XDG base directory rules: variable, else the default below $HOME. Not created; write_file does not
 /// create folders either, make_dirs does. Empty when neither the variable nor $HOME is set.
-std::filesystem::path cache_dir();
-std::filesystem::path config_dir();
-std::filesystem::path data_dir();
+std::filesystem::path cache_directory();
+std::filesystem::path config_directory();
+std::filesystem::path data_directory();
 Result<void> make_dirs(const std::filesystem::path& dir);
 
 }  // namespace skerry::platform

@@ -12,13 +12,15 @@ extern const std::byte skerry_block_textures[], skerry_block_textures_end[];
 namespace skerry::render {
 namespace {
 
-constexpr std::uint32_t kMaxLayers = 2048;  // what every desktop Vulkan device can hold in one image
+constexpr std::uint32_t kMaxLayers =
+    2048;  // what every desktop Vulkan device can hold in one image
 constexpr std::uint32_t kMaxEdge = 1024;
 constexpr std::size_t kTexelBytes = 4;
 
 std::uint32_t word_at(std::span<const std::byte> file, std::size_t index) {
   std::uint32_t word = 0;
-  for (std::size_t i = 0; i < 4; ++i) word |= std::to_integer<std::uint32_t>(file[index * 4 + i]) << (8 * i);
+  for (std::size_t i = 0; i < 4; ++i)
+    word |= std::to_integer<std::uint32_t>(file[index * 4 + i]) << (8 * i);
   return word;
 }
 
@@ -26,14 +28,19 @@ std::uint32_t word_at(std::span<const std::byte> file, std::size_t index) {
 
 Result<BlockTextures> parse_block_textures(std::span<const std::byte> file) {
   if (file.size() < kBlockTexturesHeaderBytes || word_at(file, 0) != kBlockTexturesMagic) {
-    return Error{"cannot read block textures: not a block texture file; build it with skerry_textures"};
+    return Error{
+        "cannot read block textures: not a block texture file; build it with skerry_textures"};
   }
   if (word_at(file, 1) != kBlockTexturesVersion) {
-    return Error{"cannot read block textures: another version of the format; build it with this program's skerry_textures"};
+    return Error{
+        "cannot read block textures: another version of the format; build it with this program's "
+        "skerry_textures"};
   }
   const std::uint32_t layers = word_at(file, 2), edge = word_at(file, 3);
   if (layers == 0 || layers > kMaxLayers || edge > kMaxEdge || !std::has_single_bit(edge)) {
-    return Error{"cannot read block textures: impossible layer count or edge in the header; build the file again"};
+    return Error{
+        "cannot read block textures: impossible layer count or edge in the header; build the file "
+        "again"};
   }
   std::size_t size_bytes = 0;
   for (std::size_t e = edge; e > 0; e /= 2) size_bytes += e * e * layers * kTexelBytes;

@@ -7,9 +7,9 @@
 
 namespace skerry::render {
 
-// The file that tools/textures writes: a header of four little-endian uint32 (magic, version, layers, edge),
-// then RGBA8 texels, sRGB colour and linear coverage: mip by mip from edge down to 1, the layers in order
-// within a mip, row 0 on top. docs/textures.md lists the layers.
+// The file that tools/textures writes: a header of four little-endian uint32 (magic, version,
+// layers, edge), then RGBA8 texels, sRGB colour and linear coverage: mip by mip from edge down to
+// 1, the layers in order within a mip, row 0 on top. docs/textures.md lists the layers.
 inline constexpr std::uint32_t kBlockTexturesMagic = 0x58544b53;  // "SKTX"
 inline constexpr std::uint32_t kBlockTexturesVersion = 1;
 inline constexpr std::uint32_t kBlockTextureLayers = 256;
@@ -17,14 +17,16 @@ inline constexpr std::size_t kBlockTexturesHeaderBytes = 16;
 
 /// A block texture array in memory.
 struct BlockTextures {
-  std::uint32_t edge;    ///< of mip 0 [texels], a power of two
+  std::uint32_t edge;  ///< of mip 0 [texels], a power of two
   std::uint32_t layers;
-  std::uint32_t mips;    ///< log2(edge) + 1
-  std::span<const std::byte> texels;  ///< everything after the header, as gpu::Uploader::fill_image takes it
+  std::uint32_t mips;  ///< log2(edge) + 1
+  std::span<const std::byte>
+      texels;  ///< everything after the header, as gpu::Uploader::fill_image takes it
 };
 
 /// Checks a file's header and size. The result points into `file`.
-/// @return an Error if it is no block texture file, of another version, or of another size than its header says.
+/// @return an Error if it is no block texture file, of another version, or of another size than its
+/// header says.
 Result<BlockTextures> parse_block_textures(std::span<const std::byte> file);
 
 /// The textures embedded in the program, kBlockTextureLayers layers.

@@ -26,6 +26,9 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, c
   out.max_draws = max_draws;
   out.commands = graph.create(gpu::BufferDesc{"draw commands", std::uint64_t{lists} * max_draws * sizeof(shared::DrawCommand), 0, gpu::Memory::kDevice});
   out.counts = words("draw counts", lists);
+  out.transforms = graph.create(gpu::BufferDesc{
+      "section transforms", std::uint64_t{in.views} * in.section_slots * sizeof(shared::SectionTransform), 0, gpu::Memory::kDevice});
+  out.section_slots = in.section_slots;
   out.stats = graph.create(gpu::BufferDesc{"cull stats", in.views * sizeof(shared::CullStats), 0, gpu::Memory::kDevice});
 
   graph.add_pass(
@@ -35,20 +38,22 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, c
   graph.add_pass(
       "cull_sections",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.sections, scene.islands, scene.views}) b.read(ref, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {scene.sections, scene.view_islands, scene.views}) b.read(ref, Use::kComputeRead);
         masks = b.write(masks, Use::kComputeWrite);
         totals = b.write(totals, Use::kComputeWrite);
         out.stats = b.write(out.stats, Use::kComputeWrite);
+        out.transforms = b.write(out.transforms, Use::kComputeWrite);
       },
-      [scene, masks, totals, stats = out.stats, in, groups, &pipeline = pipelines.get(gpu::ComputeDesc{"cull_sections.comp", {}})](gpu::Commands& c) {
+      [scene, masks, totals, stats = out.stats, transforms = out.transforms, in, groups, &pipeline = pipelines.get(gpu::ComputeDesc{"cull_sections.comp", {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.sections);
-        c.storage(1, scene.islands);
+        c.storage(1, scene.view_islands);
         c.storage(2, scene.views);
         c.storage(3, masks);
         c.storage(4, totals);
         c.storage(5, stats);
-        const struct { std::uint32_t section_count, group_count; } push{in.section_slots, groups};
+        c.storage(6, transforms);
+        const struct { std::uint32_t section_count, group_count, islands_per_view; } push{in.section_slots, groups, scene.islands_per_view};
         c.push(push);
         c.dispatch(groups, in.views, 1);
       });
@@ -93,15 +98,17 @@ void declare_draws(gpu::PassBuilder& builder, const SceneRefs& scene, const Cull
   builder.read(draws.commands, Use::kIndirect);
   builder.read(draws.counts, Use::kIndirect);
   builder.read(scene.indices, Use::kIndex);
-  for (const gpu::BufferRef ref : {scene.quads, scene.sections, scene.islands, scene.matrices}) builder.read(ref, Use::kVertexRead);
+  builder.read(scene.quads, Use::kVertexRead);
+  builder.read(draws.transforms, Use::kVertexRead);
 }
 
 void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws, std::uint32_t view, DrawList list) {
   commands.storage(0, scene.quads);
-  commands.storage(1, scene.sections);
-  commands.storage(2, scene.islands);
-  commands.storage(3, scene.matrices);
-  const struct { std::uint32_t view, first_island; } push{view, view * scene.islands_per_view};
+  commands.storage(1, draws.transforms);
+  const struct {
+    glm::mat4 clip_from_source;
+    std::uint32_t first_transform;
+  } push{scene.clip_from_source[view], view * draws.section_slots};
   commands.push(push);
   commands.index_buffer(scene.indices, VK_INDEX_TYPE_UINT16);
   const std::uint64_t index = list_index(view, list);

@@ -18,6 +18,8 @@ struct CulledDraws {
   gpu::BufferRef commands;  ///< shared::DrawCommand[view][list][max_draws]
   gpu::BufferRef counts;    ///< uint[view][list]
   gpu::BufferRef stats;     ///< shared::CullStats[view]
+  gpu::BufferRef transforms;  ///< shared::SectionTransform[view][section]
+  std::uint32_t section_slots = 0;
   std::uint32_t max_draws = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/uploader.h"
+#include "engine/gpu/vk_struct.h"
 
 namespace skerry::render {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr VkBufferUsageFlags kTableUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 constexpr std::uint32_t kFirstSections = 1024;
+constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
 
 std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
   return section.range_end[end - 1] - (first == 0 ? 0 : section.range_end[first - 1]);
@@ -24,12 +26,12 @@ Result<gpu::Buffer> grown(gpu::Device& device, gpu::Buffer& old, std::uint64_t s
   Result<gpu::Buffer> bigger = device.create_buffer({old.name(), size_bytes, kTableUsage, gpu::Memory::kDevice});
   if (!bigger) return bigger;
   device.run_now([&](VkCommandBuffer commands) {
-    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    auto barrier = gpu::vk_struct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    auto dependency = gpu::vk_struct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(commands, &dependency);
@@ -76,7 +78,9 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   }
   section.first_quad = range->first;
   records_[slot] = section;
-  uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad), quads);
+  scratch_.assign(quads.begin(), quads.end());
+  for (shared::Quad& quad : scratch_) quad.material |= section.island << kIslandShift;
+  uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad), std::span<const shared::Quad>(scratch_));
   uploader.write(sections_, std::uint64_t{slot} * sizeof(shared::Section), std::span<const shared::Section>(&section, 1));
   count(section, 1);
   return SectionId{slot};

@@ -60,6 +60,7 @@ class GeometryStore {
   gpu::Buffer quads_, sections_;
   std::vector<shared::Section> records_;   // CPU copy, one a slot; free slots have no ranges
   std::vector<std::uint32_t> free_slots_;
+  std::vector<shared::Quad> scratch_;
   std::uint32_t section_capacity_ = 0;
   std::uint64_t translucent_quads_ = 0, cutout_quads_ = 0, version_ = 0;
 };

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "engine/core/check.h"
-#include "engine/gpu/gpu_check.h"
+#include "engine/gpu/frame_ring.h"
 #include "engine/render/block_textures.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
@@ -22,14 +22,12 @@ namespace skerry::render {
 namespace {
 
 constexpr std::uint32_t kFramesInFlight = 2;
-constexpr VkBufferUsageFlags kTable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+constexpr VkBufferUsageFlags kTable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 constexpr std::array<const char*, 8> kShadowPassNames{"draw_shadow_sun_0",  "draw_shadow_sun_1",  "draw_shadow_sun_2",  "draw_shadow_sun_3",
                                                       "draw_shadow_moon_0", "draw_shadow_moon_1", "draw_shadow_moon_2", "draw_shadow_moon_3"};
 
 /// What one frame in flight owns.
 struct Slot {
-  VkCommandPool pool{};
-  VkCommandBuffer commands{};
   std::uint64_t value = 0;       // timeline value that completes it; 0: not in flight
   gpu::Buffer readback;          // CullStats[kViewCount], then PixelStats
   std::uint32_t views = 0;       // entries of CullStats that the frame wrote
@@ -43,7 +41,7 @@ constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::
 struct Renderer::State {
   State(gpu::Device& d, const RendererDesc& desc)
       : device(d), pipelines(d), graph(&d), frame_uploader(d, desc.upload_path), mesh_uploader(d, desc.upload_path), shadows(d),
-        upload_budget(desc.upload_budget_bytes) {}
+        ring(d, kFramesInFlight), upload_budget(desc.upload_budget_bytes) {}
 
   Result<void> create(const RendererDesc& desc);
   Result<gpu::Buffer> table(const char* name, std::uint64_t size_bytes) { return device.create_buffer({name, size_bytes, kTable, gpu::Memory::kDevice}); }
@@ -51,9 +49,9 @@ struct Renderer::State {
   Result<void> resize_picture(VkExtent2D size);
   template <class T>
   Result<void> upload(gpu::Buffer& to, const char* name, std::span<const T> values);
-  Result<void> upload_tables(const FrameTables& tables, const shared::SkyConstants& sky);
+  Result<void> upload_tables(const FrameTables& tables, std::size_t island_count, const shared::SkyConstants& sky);
   void take_report(std::uint32_t slot_index);
-  SceneRefs import_scene(const FrameInput& input, VkExtent2D size);
+  SceneRefs import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables);
   void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
              std::span<const ActiveCascade> cascades, bool bake_sky, Slot& slot);
   Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws, const RenderSettings& settings, const FrameInput& input,
@@ -66,13 +64,14 @@ struct Renderer::State {
   gpu::Uploader frame_uploader, mesh_uploader;
   std::unique_ptr<GeometryStore> geometry;
   ShadowMaps shadows;
+  gpu::FrameRing ring;
   std::uint64_t upload_budget;
-  gpu::Buffer frame, sky, islands, matrices, views, materials, indices, pixel_stats;
+  gpu::Buffer frame, sky, islands, view_islands, views, materials, indices, pixel_stats;
   gpu::Image block_textures, sky_lut, picture;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::optional<shared::SkyConstants> baked_sky;
   std::array<Slot, kFramesInFlight> slots;
-  std::uint64_t frame_index = 0;
+  std::uint32_t last_slot = 0;
   std::optional<FrameReport> report;
   std::optional<std::pair<shared::CullView, FixedPos>> frozen;
 };
@@ -133,13 +132,6 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
     *sampler = *got;
   }
   for (Slot& slot : slots) {
-    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-    pool.queueFamilyIndex = device.queue_family();
-    GPU_CHECK(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
-    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocate.commandPool = slot.pool;
-    allocate.commandBufferCount = 1;
-    GPU_CHECK(vkAllocateCommandBuffers(device.handle(), &allocate, &slot.commands));
     Result<gpu::Buffer> readback = device.create_buffer(
         {"frame stats", kPixelStatsOffset + sizeof(shared::PixelStats), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kReadback});
     if (!readback) return readback.error();
@@ -162,12 +154,12 @@ Result<void> Renderer::State::resize_picture(VkExtent2D size) {
   return {};
 }
 
-Result<void> Renderer::State::upload_tables(const FrameTables& tables, const shared::SkyConstants& sky_now) {
+Result<void> Renderer::State::upload_tables(const FrameTables& tables, std::size_t island_count, const shared::SkyConstants& sky_now) {
   const std::array<Result<void>, 5> done{
       upload(frame, "frame constants", std::span<const shared::FrameConstants>(&tables.constants, 1)),
       upload(sky, "sky constants", std::span<const shared::SkyConstants>(&sky_now, 1)),
-      upload(islands, "island transforms", std::span<const shared::IslandTransform>(tables.islands)),
-      upload(matrices, "view matrices", std::span<const glm::mat4>(tables.matrices)),
+      upload(islands, "island transforms", std::span<const shared::IslandTransform>(tables.islands).first(island_count)),
+      upload(view_islands, "view island transforms", std::span<const shared::IslandTransform>(tables.islands)),
       upload(views, "cull views", std::span<const shared::CullView>(tables.views)),
   };
   for (const Result<void>& one : done)
@@ -175,12 +167,13 @@ Result<void> Renderer::State::upload_tables(const FrameTables& tables, const sha
   return {};
 }
 
-SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size) {
+SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables) {
   SceneRefs s;
   s.frame = graph.import(frame);
   s.sky = graph.import(sky);
   s.islands = graph.import(islands);
-  s.matrices = graph.import(matrices);
+  s.view_islands = graph.import(view_islands);
+  s.clip_from_source = tables.matrices;
   s.views = graph.import(views);
   s.materials = graph.import(materials);
   s.quads = graph.import(geometry->quads());
@@ -244,7 +237,7 @@ void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene, const gpu
 void Renderer::State::build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
                             std::span<const ActiveCascade> cascades, bool bake_sky, Slot& slot) {
   graph.begin();
-  SceneRefs scene = import_scene(input, size);
+  SceneRefs scene = import_scene(input, size, tables);
   graph.add_pass(
       "clear_pixel_stats", [&](gpu::PassBuilder& b) { scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite); },
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
@@ -315,10 +308,8 @@ Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 Renderer::~Renderer() {
   State& s = *state_;
-  for (Slot& slot : s.slots) {
+  for (const Slot& slot : s.slots)
     if (slot.value != 0) s.device.wait(slot.value);
-    vkDestroyCommandPool(s.device.handle(), slot.pool, nullptr);
-  }
 }
 
 Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
@@ -326,14 +317,6 @@ Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettin
                                      std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
   State& s = *state_;
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
-  const auto slot_index = static_cast<std::uint32_t>(s.frame_index++ % kFramesInFlight);
-  Slot& slot = s.slots[slot_index];
-  if (slot.value != 0) {
-    s.device.wait(slot.value);
-    s.take_report(slot_index);
-  }
-  s.device.collect();
-  s.geometry->collect();
   if (Result<void> ok = s.resize_picture(size); !ok) return ok.error();
 
   const Result<std::span<const ActiveCascade>> cascades = s.geometry->sections_resident() == 0
@@ -352,29 +335,29 @@ Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettin
   const shared::SkyConstants sky_now = sky_constants(input.sky);
   const bool bake_sky = !s.baked_sky || std::memcmp(&*s.baked_sky, &sky_now, sizeof(sky_now)) != 0;
   s.baked_sky = sky_now;
-  if (Result<void> ok = s.upload_tables(tables, sky_now); !ok) return ok.error();
+  if (Result<void> ok = s.upload_tables(tables, input.islands.size(), sky_now); !ok) return ok.error();
 
-  GPU_CHECK(vkResetCommandPool(s.device.handle(), slot.pool, 0));
-  VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  GPU_CHECK(vkBeginCommandBuffer(slot.commands, &begin));
-  s.frame_uploader.record(slot.commands, UINT64_MAX);
-  s.mesh_uploader.record(slot.commands, s.upload_budget);
+  const gpu::FrameRing::Frame frame = s.ring.begin();
+  Slot& slot = s.slots[frame.slot];
+  s.take_report(frame.slot);
+  s.geometry->collect();
+  s.frame_uploader.record(frame.commands, UINT64_MAX);
+  s.mesh_uploader.record(frame.commands, s.upload_budget);
   // Maps drawn while meshes still wait for their turn will lack them.
   if (s.mesh_uploader.pending_bytes() != 0) s.shadows.forget();
   s.build(input, settings, size, tables, *cascades, bake_sky, slot);
   s.graph.compile();
-  s.graph.execute(slot.commands, slot_index);
-  if (after) after(slot.commands, s.picture);
-  GPU_CHECK(vkEndCommandBuffer(slot.commands));
-  slot.value = s.device.submit(slot.commands, waits, signals);
+  s.graph.execute(frame.commands, frame.slot);
+  if (after) after(frame.commands, s.picture);
+  slot.value = s.ring.submit(waits, signals);
+  s.last_slot = frame.slot;
   return slot.value;
 }
 
 void Renderer::finish() {
   State& s = *state_;
   for (std::uint64_t i = 0; i < kFramesInFlight; ++i) {
-    const auto slot_index = static_cast<std::uint32_t>((s.frame_index + i) % kFramesInFlight);
+    const auto slot_index = static_cast<std::uint32_t>((s.last_slot + 1 + i) % kFramesInFlight);
     if (s.slots[slot_index].value == 0) continue;
     s.device.wait(s.slots[slot_index].value);
     s.take_report(slot_index);

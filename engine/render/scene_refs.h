@@ -1,6 +1,9 @@
 #pragma once
 #include <volk.h>
 
+#include <glm/mat4x4.hpp>
+#include <span>
+
 #include "engine/gpu/frame_graph.h"
 
 namespace skerry::render {
@@ -9,8 +12,9 @@ namespace skerry::render {
 struct SceneRefs {
   gpu::BufferRef frame;           ///< shared::FrameConstants
   gpu::BufferRef sky;             ///< shared::SkyConstants
-  gpu::BufferRef islands;         ///< shared::IslandTransform[view][island]
-  gpu::BufferRef matrices;        ///< mat4 clip_from_source [view]
+  gpu::BufferRef islands;         ///< shared::IslandTransform[island], relative to the camera
+  gpu::BufferRef view_islands;    ///< shared::IslandTransform[view][island], each view's relative to its own centre
+  std::span<const glm::mat4> clip_from_source;  ///< one a view; lives until the graph has been executed
   gpu::BufferRef views;           ///< shared::CullView[view]
   gpu::BufferRef materials;       ///< shared::Material[block id]
   gpu::BufferRef quads, sections; ///< the geometry store

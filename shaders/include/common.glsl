@@ -5,11 +5,12 @@
 #include "shared/frame.h"
 #include "shared/geometry.h"
 
-// G-buffer word: bits 0-15 block id, 16-27 island, 28-30 face, 31 set where there is a surface.
-uint pack_surface(uint block, uint island, uint face) { return block | (island << 16) | (face << 28) | 0x80000000u; }
+// G-buffer word: Quad.material (bits 0-15 block id, 16-18 face, 19-30 island), and bit 31 set where there is a surface.
+const uint kSurfaceHere = 0x80000000u;
+const uint kOppositeFace = 1u << 16;  // xor turns a face into the one that looks the other way
 uint surface_block(uint word) { return word & 0xffffu; }
-uint surface_island(uint word) { return (word >> 16) & 0xfffu; }
-uint surface_face(uint word) { return (word >> 28) & 7u; }
+uint surface_face(uint word) { return (word >> 16) & 7u; }
+uint surface_island(uint word) { return (word >> 19) & 0xfffu; }
 
 // Unit normal of a face in the lattice; a plant's diagonals stand for a surface that faces up.
 vec3 face_normal(uint face) {
@@ -33,10 +34,9 @@ struct Surface {
 };
 
 // Ray through a pixel's centre, scaled to one block along the view axis.
-vec3 pixel_ray(FrameConstants f, uvec2 pixel) {
-  vec2 ndc = (vec2(pixel) + 0.5) * f.pixel_to_ndc - 1.0;
-  return f.ray_forward + f.ray_right * ndc.x - f.ray_up * ndc.y;
-}
+#define pixel_ray(pixel) \
+  (frame.ray_forward + frame.ray_right * ((float((pixel).x) + 0.5) * frame.pixel_to_ndc.x - 1.0) - \
+   frame.ray_up * ((float((pixel).y) + 0.5) * frame.pixel_to_ndc.y - 1.0))
 
 // Distance along the view axis from reverse-Z infinite depth. @pre depth > 0.
 float view_distance(float depth, float near_plane) { return near_plane / depth; }

@@ -5,10 +5,10 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Islands { IslandTransform islands[]; };
-layout(scalar, binding = 2) readonly buffer Materials { Material materials[]; };
-layout(scalar, binding = 3) readonly buffer Sky { SkyConstants sky; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = 1) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = 2) uniform Materials { Material materials[kMaxMaterials]; };
+layout(scalar, binding = 3) uniform Sky { SkyConstants sky; };
 layout(scalar, binding = 4) buffer Stats { PixelStats stats; };
 layout(binding = 5, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = 6) uniform sampler2D depths;
@@ -32,7 +32,7 @@ void main() {
   if (any(greaterThanEqual(pixel, frame.size))) return;
   uint word = imageLoad(surfaces, ivec2(pixel)).r;
   float depth = texelFetch(depths, ivec2(pixel), 0).r;
-  vec3 ray = pixel_ray(frame, pixel);
+  vec3 ray = pixel_ray(pixel);
   vec3 colour = vec3(0.0);
   // Loops, not branches: lavapipe skips an empty loop but runs both sides of a branch.
   for (int once = word != 0u ? 1 : 0; once > 0; --once) colour = shade_diffuse(resolve_surface(word, depth, ray, kTextureTaps));

@@ -5,9 +5,9 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Islands { IslandTransform islands[]; };
-layout(scalar, binding = 2) readonly buffer Materials { Material materials[]; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = 1) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = 2) uniform Materials { Material materials[kMaxMaterials]; };
 layout(scalar, binding = 4) buffer Stats { PixelStats stats; };
 layout(binding = 7) uniform sampler2D depths;
 layout(binding = 8) uniform sampler2D sky_lut;
@@ -51,7 +51,7 @@ void main() {
   bool work = first != 0u || frame.camera_medium != 0u;
   for (int once = work ? 1 : 0; once > 0; --once) {
     vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
-    vec3 colour = look_through(pixel, pixel_ray(frame, pixel), behind);
+    vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
     if (!finite3(colour)) atomicAdd(stats.non_finite, 1u);
     imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
   }

@@ -3,9 +3,9 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Islands { IslandTransform islands[]; };
-layout(scalar, binding = 2) readonly buffer Materials { Material materials[]; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = 1) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = 2) uniform Materials { Material materials[kMaxMaterials]; };
 layout(binding = 3, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = 4) uniform sampler2D depths;
 layout(binding = 5) uniform sampler2DArray block_textures;
@@ -54,6 +54,6 @@ void main() {
   if (any(greaterThanEqual(pixel, frame.size))) return;
   uint word = imageLoad(surfaces, ivec2(pixel)).r;
   vec3 colour = vec3(0.0);
-  if (word != 0u) colour = channel(word, texelFetch(depths, ivec2(pixel), 0).r, pixel_ray(frame, pixel));
+  if (word != 0u) colour = channel(word, texelFetch(depths, ivec2(pixel), 0).r, pixel_ray(pixel));
   imageStore(picture, ivec2(pixel), vec4(clamp(colour, 0.0, 1.0), 1.0));
 }

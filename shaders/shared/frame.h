@@ -8,7 +8,7 @@ SHARED_CONST uint kBodyCount = 2u;           // 0 the sun, 1 the moon
 SHARED_CONST uint kCascadeCount = 4u;        // a body
 SHARED_CONST uint kViewCount = 9u;           // 0 the camera, then cascades of the sun (1..4) and of the moon (5..8)
 SHARED_CONST uint kListCount = 3u;           // draw lists a view: 0 opaque, 1 cut-out and plants, 2 translucent
-SHARED_CONST uint kMaxIslands = 4096u;       // 12 bits in the G-buffer word
+SHARED_CONST uint kMaxIslands = 1024u;       // resident at once; their transforms fit in a 64 KiB uniform buffer
 SHARED_CONST uint kMaxQuadsPerDraw = 16384u; // 4 vertices a quad, 16-bit indices
 SHARED_CONST uint kCullGroup = 256u;         // sections a culling work group looks at
 
@@ -55,6 +55,13 @@ struct CullView {
   vec3 eye;           // perspective: the eye; orthographic: unit vector towards the light
   uint orthographic;  // 0 or 1
   uint enabled;       // 0: nothing is drawn in this view
+};
+
+// Source-relative world from voxel coordinates of one section: p.x = dot(x, (v, 1)). The source is the view's own centre.
+struct SectionTransform {
+  vec4 x;
+  vec4 y;
+  vec4 z;
 };
 
 // Counts of one view, read back for --stats and the overlay.

@@ -10,6 +10,8 @@ SHARED_BEGIN
 SHARED_CONST uint kFaceCount = 6u;
 SHARED_CONST uint kChunkEdge = 64u;  // voxels along a chunk's edge
 
+SHARED_CONST uint kMaxMaterials = 1024u;  // block ids with a look of their own
+
 // Quad ranges of a section, in this order in memory. Opaque and cut-out go to the G-buffer, translucent to layers.
 SHARED_CONST uint kRangeOpaque = 0u;        // 6 ranges, one a face
 SHARED_CONST uint kRangeCutout = 6u;        // 6 ranges, one a face
@@ -20,7 +22,7 @@ SHARED_CONST uint kRangeCount = 19u;
 // One merged rectangle of faces, 8 bytes.
 struct Quad {
   uint geometry;  // bits 0-5 x, 6-11 y, 12-17 z: the lowest voxel, chunk-local; 18-23 extent along u minus 1; 24-29 along v minus 1
-  uint material;  // bits 0-15 block id, 16-18 face
+  uint material;  // bits 0-15 block id, 16-18 face, 19-30 index into the island table (0 from the mesher, set on upload)
 };
 
 // One resident chunk mesh. Its quads are first_quad .. first_quad + range_end[kRangeCount - 1].

@@ -53,7 +53,7 @@ TEST(Settings, EveryKeyReadsBackWhatItPrints) {
   for (const char* assignment :
        {"world.offset=1099511627776,-1099511627776,7", "world.islands=0", "world.time=123456.789", "sky.moon_phase=0.1",
         "view.distance=32", "view.detail=4096", "shadow.enabled=0", "shadow.size=256", "exposure=-1.5", "shading=flat",
-        "debug.view=overdraw", "upload.path=mapped", "upload.budget=65536", "jobs.threads=8", "water.layers=4"}) {
+        "debug.view=emissive", "upload.path=mapped", "upload.budget=65536", "jobs.threads=8", "water.layers=4"}) {
     const auto done = apply_setting(assignment, odd);
     ASSERT_TRUE(done) << done.error().message;
   }

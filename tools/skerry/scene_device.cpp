@@ -5,12 +5,22 @@
 #include "engine/platform/files.h"
 
 namespace skerry::tools {
+namespace {
+
+/// Empty, for none, when the user has no folder for caches.
+std::string pipeline_cache_file() {
+  const std::filesystem::path folder = platform::cache_dir();
+  if (folder.empty() || !platform::make_dirs(folder)) return {};
+  return (folder / "pipelines.bin").string();
+}
+
+}  // namespace
 
 Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene) {
   gpu::DeviceOptions options;
   options.index = scene.device;
   options.validate = scene.validate;
-  options.pipeline_cache_path = (platform::cache_directory() / "pipelines.bin").string();
+  options.pipeline_cache_path = pipeline_cache_file();
   return gpu::Device::create(options);
 }
 

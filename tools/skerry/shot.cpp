@@ -7,6 +7,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/check.h"
 #include "engine/gpu/readback.h"
 #include "engine/platform/files.h"
 #include "engine/platform/image_file.h"
@@ -107,7 +108,7 @@ int shot(const ShotOptions& options) {
   renderer.finish();
   cpu_ms["draw"] = watch.lap();
 
-  Result<std::vector<std::byte>> pixels = gpu::read_back(**device, renderer.picture());
+  Result<std::vector<std::byte>> pixels = gpu::read_back(**device, renderer.picture(), 4);
   if (!pixels) return fail(kFailed, pixels.error());
   const platform::PixelView image{size.width, size.height, 4,
                                   {reinterpret_cast<const std::uint8_t*>(pixels->data()), pixels->size()}};

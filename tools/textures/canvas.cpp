@@ -39,12 +39,15 @@ Field equalize(const Field& field) {
 Field relief(const Field& height) {
   return make_field([&](int x, int y) {
     const float diagonal = height.at(x + 1, y + 1) - height.at(x - 1, y - 1);
-    const float straight = height.at(x + 1, y) - height.at(x - 1, y) + height.at(x, y + 1) - height.at(x, y - 1);
+    const float straight =
+        height.at(x + 1, y) - height.at(x - 1, y) + height.at(x, y + 1) - height.at(x, y - 1);
     return diagonal + 0.5f * straight;
   });
 }
 
-Field blur(const Field& field, int radius) { return box(box(field, radius), radius); }
+Field blur(const Field& field, int radius) {
+  return box(box(field, radius), radius);
+}
 
 Field flatten(const Field& field, float amount) {
   const Field wide = blur(field, 4);
@@ -73,6 +76,21 @@ Canvas paint(const Ramp& ramp, const Field& tone, int steps) {
   return canvas;
 }
 
+Field brush(const Brushwork& work, std::uint32_t seed) {
+  Field tone = make_field([](int, int) { return 0.5f; });
+  Random random(seed);
+  for (int i = 0; i < work.touches; ++i) {
+    const float length = random.range(work.length_low, work.length_high);
+    const auto [x, y] = spread_point(i, seed);
+    const Direction along = direction(random.range(work.turn_low, work.turn_high));
+    const float level = 0.5f + work.contrast * random.range(-1.0f, 1.0f);
+    for_dab({x, y, along, length, length * work.flatness}, [&](int px, int py, float u, float v) {
+      tone.at(px, py) = level - work.contrast * (0.9f * v + 0.25f * u);
+    });
+  }
+  return flatten(tone, 0.85f);
+}
+
 Direction direction(float turn) {
   const float quarters = (turn - std::floor(turn)) * 4.0f;
   const int quarter = static_cast<int>(quarters);
@@ -80,10 +98,14 @@ Direction direction(float turn) {
   // Rational points of the unit circle; t is close to the share of the quarter turn.
   const float x = (1.0f - t * t) / (1.0f + t * t), y = 2.0f * t / (1.0f + t * t);
   switch (quarter & 3) {
-    case 0: return {x, y};
-    case 1: return {-y, x};
-    case 2: return {-x, -y};
-    default: return {y, -x};
+    case 0:
+      return {x, y};
+    case 1:
+      return {-y, x};
+    case 2:
+      return {-x, -y};
+    default:
+      return {y, -x};
   }
 }
 

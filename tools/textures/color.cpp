@@ -5,7 +5,8 @@
 namespace skerry::textures {
 namespace {
 
-// x^2.4 = x^2 * (x^(1/5))^2. Newton's method from above converges in well under 32 steps for x > 0.04.
+// x^2.4 = x^2 * (x^(1/5))^2. Newton's method from above converges in well under 32 steps for x >
+// 0.04.
 double power_2_4(double x) {
   double root = 1.0;
   for (int i = 0; i < 32; ++i) {
@@ -44,7 +45,9 @@ Ramp ramp(Color base, float spread) {
            mix(base, warm, spread * 0.4f), mix(base, warm, spread * 0.85f)}};
 }
 
-float linear_from_srgb(std::uint8_t coded) { return linear_values()[coded]; }
+float linear_from_srgb(std::uint8_t coded) {
+  return linear_values()[coded];
+}
 
 std::uint8_t srgb_from_linear(float linear) {
   const auto& table = linear_values();

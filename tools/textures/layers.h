@@ -12,7 +12,8 @@ struct Layer {
   Canvas canvas;
 };
 
-/// All layers in the array's order: those of world::Texture, then the builders' palette. Always 256.
+/// All layers in the array's order: those of world::Texture, then the builders' palette. Always
+/// 256.
 std::vector<Layer> paint_layers();
 
 }  // namespace skerry::textures

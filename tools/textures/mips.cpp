@@ -20,13 +20,12 @@ struct Image {
 
 Image first_image(const Canvas& canvas) {
   Image image{kEdge, {}};
+  const auto linear = [](float coded) { return linear_from_srgb(quantize(coded)); };
   for (int y = 0; y < kEdge; ++y) {
     for (int x = 0; x < kEdge; ++x) {
       const auto& [color, alpha] = canvas.at(x, y);
-      const bool covered = alpha >= 0.5f;
-      image.texels.push_back(covered ? Light{linear_from_srgb(quantize(color.r)), linear_from_srgb(quantize(color.g)),
-                                             linear_from_srgb(quantize(color.b)), 1.0f}
-                                     : Light{});
+      image.texels.push_back(
+          {linear(color.r) * alpha, linear(color.g) * alpha, linear(color.b) * alpha, alpha});
     }
   }
   return image;
@@ -47,7 +46,8 @@ Image half(const Image& fine) {
   return coarse;
 }
 
-// Coverage after averaging takes few values, so many texels tie; the surroundings decide between them.
+// Coverage after averaging takes few values, so many texels tie; the surroundings decide between
+// them.
 float rank_key(const Image& image, int x, int y) {
   float around = 0.0f;
   for (int dy = -1; dy <= 1; ++dy)
@@ -55,7 +55,8 @@ float rank_key(const Image& image, int x, int y) {
   return image.at(x, y).a + around * (1.0f / 128.0f);
 }
 
-// Alpha bytes of a mip: the `covered` texels that rank highest are at least 128, the others less.
+// Alpha bytes of a cut-out's mip: the `covered` texels that rank highest are at least 128, the
+// others less.
 std::vector<std::uint8_t> scaled_alpha(const Image& image, float share) {
   const int count = image.edge * image.edge;
   const int covered = static_cast<int>(share * static_cast<float>(count) + 0.5f);
@@ -65,13 +66,21 @@ std::vector<std::uint8_t> scaled_alpha(const Image& image, float share) {
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return keys[a] > keys[b]; });
-  // Mip 0 is all or nothing already; a mip without a covered texel keeps its alpha below the threshold.
-  const float threshold = image.edge == kEdge ? 0.5f : covered > 0 ? std::max(image.texels[order[covered - 1]].a, 1.0f / 256.0f) : 1.0f;
+  // Without a covered texel all stay below the threshold.
+  const float last =
+      covered > 0 ? std::max(image.texels[order[covered - 1]].a, 1.0f / 256.0f) : 1.0f;
   std::vector<std::uint8_t> alpha(count);
   for (int rank = 0; rank < count; ++rank) {
-    const std::uint8_t scaled = quantize(image.texels[order[rank]].a * 0.5f / threshold);
-    alpha[order[rank]] = rank < covered ? std::max<std::uint8_t>(scaled, 128) : std::min<std::uint8_t>(scaled, 127);
+    const std::uint8_t scaled = quantize(image.texels[order[rank]].a * 0.5f / last);
+    alpha[order[rank]] =
+        rank < covered ? std::max<std::uint8_t>(scaled, 128) : std::min<std::uint8_t>(scaled, 127);
   }
+  return alpha;
+}
+
+std::vector<std::uint8_t> plain_alpha(const Image& image) {
+  std::vector<std::uint8_t> alpha;
+  for (const Light& light : image.texels) alpha.push_back(quantize(light.a));
   return alpha;
 }
 
@@ -90,11 +99,14 @@ std::vector<Mip> make_mips(const Canvas& canvas) {
   std::vector<Image> images{first_image(canvas)};
   while (images.back().edge > 1) images.push_back(half(images.back()));
   const float share = images.back().texels[0].a;
+  const bool is_cutout =
+      std::all_of(images[0].texels.begin(), images[0].texels.end(),
+                  [](const Light& light) { return light.a == 0.0f || light.a == 1.0f; });
   std::vector<Mip> mips;
   for (std::size_t level = 0; level < images.size(); ++level) {
     const Image& image = images[level];
     const std::vector<std::uint8_t> alpha =
-        share == 1.0f ? std::vector<std::uint8_t>(image.texels.size(), 255) : scaled_alpha(image, share);
+        is_cutout && level > 0 && share < 1.0f ? scaled_alpha(image, share) : plain_alpha(image);
     Mip mip{image.edge, {}};
     for (int y = 0; y < image.edge; ++y) {
       for (int x = 0; x < image.edge; ++x) {

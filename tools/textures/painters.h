@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "tools/textures/canvas.h"
 
@@ -15,7 +16,7 @@ Canvas paint_covered_side(Color cover, Color other, float fringe, bool blades, s
 Canvas paint_snow();
 Canvas paint_ice();
 Canvas paint_sand(Color base, std::uint32_t seed);
-Canvas paint_clay(Color base, std::uint32_t seed);
+Canvas paint_smooth_ground(Color base, std::uint32_t seed);
 Canvas paint_mud();
 Canvas paint_cracked_ground(Color base, std::uint32_t seed);
 Canvas paint_mycelium_top();
@@ -30,7 +31,14 @@ Field stone_tone(Cells cells, float strength, std::uint32_t seed);
 Canvas paint_stone(Color base, std::uint32_t seed);
 Canvas paint_mossy(const Canvas& stone, std::uint32_t seed);
 Canvas paint_cobble(Color base, std::uint32_t seed);
-Canvas paint_strata(const Ramp& tones, Cells waves, std::uint32_t seed);
+/// One layer of a layered rock.
+struct Bed {
+  Color color;
+  int thickness;  ///< [texels]; those of all beds sum to kEdge
+};
+/// @param waves how far the beds bend up and down [texels].
+Canvas paint_beds(std::span<const Bed> beds, float waves, std::uint32_t seed);
+Canvas paint_sandstone_side();
 Canvas paint_banded_rock();
 Canvas paint_basalt_side();
 Canvas paint_basalt_top();
@@ -82,7 +90,8 @@ Canvas paint_mushroom_cap(Color base, Color spot, std::uint32_t seed);
 Canvas paint_mushroom_stem();
 
 // built.cpp
-Canvas paint_glass(Color tint, Color frame);
+/// @param pane_cover share of the light that the pane itself scatters, besides what it absorbs.
+Canvas paint_glass(Color tint, Color frame, float pane_cover);
 Canvas paint_bricks(Color brick, Color mortar, std::uint32_t seed);
 enum class Masonry { kPolished, kBricks, kTiles, kCarved, kPillar };
 Canvas paint_masonry(const Ramp& stone, Masonry style, std::uint32_t seed);

@@ -42,11 +42,14 @@ struct alignas(64) Plane {
 struct Planes {
   Plane opaque;                 // with shell
   Plane above_z, below_z;       // the +z, -z neighbour is opaque; inner rows only
-  Plane same_x, same_y, same_z; // same id as the next voxel along the axis; from -1 along its own axis
-  Plane same_below_z;           // same id as the voxel before along z
-  Plane see_through;            // cut-out, translucent or plant
-  Plane cutout, translucent, plant;  // written only where `any` says that there is one
+  // Same id as the next voxel along the axis (from -1 along it) and, same_below_z, as the one
+  // before. Only rows with a face to draw are kept up to date.
+  Plane same_x, same_y, same_z, same_below_z;
+  Plane see_through;                 // cut-out, translucent or plant
+  Plane cutout, translucent, plant;  // meaningless when their `any` is 0
+  // The bits of all rows together: 0 when the chunk has none of the kind.
   std::uint64_t any_opaque = 0, any_see_through = 0;
+  std::uint64_t any_cutout = 0, any_translucent = 0, any_plant = 0;
 };
 
 /// A set of bytes by nibbles: bit h & 7 of entry l says whether byte 16 h + l is in it.

@@ -20,39 +20,57 @@ SKERRY_MESH_TARGET inline std::uint64_t sign_bits(__m256i low, __m256i high) {
          std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_epi8(high))} << 32;
 }
 
+SKERRY_MESH_TARGET inline __m256i twice(const std::array<std::uint8_t, 16>& half) {
+  return _mm256_broadcastsi128_si256(
+      _mm_load_si128(reinterpret_cast<const __m128i*>(half.data())));
+}
+
 // Which bytes belong to a set: the low nibble picks a set of high nibbles, the high nibble a bit of
 // it. After W. Mula, "SIMD-ized check which bytes are in a set" (2018), re-derived.
-SKERRY_MESH_TARGET inline __m256i in_set(__m256i bytes, const ByteSet& set) {
-  const __m256i low_half = _mm256_broadcastsi128_si256(
-      _mm_load_si128(reinterpret_cast<const __m128i*>(set.high_below_8.data())));
-  const __m256i high_half = _mm256_broadcastsi128_si256(
-      _mm_load_si128(reinterpret_cast<const __m128i*>(set.high_from_8.data())));
-  const __m256i nibble = _mm256_set1_epi8(15);
-  const __m256i low = _mm256_and_si256(bytes, nibble);
-  const __m256i high = _mm256_and_si256(_mm256_srli_epi16(bytes, 4), nibble);
-  const __m256i bit_of_high = _mm256_broadcastsi128_si256(
-      _mm_setr_epi8(1, 2, 4, 8, 16, 32, 64, -128, 1, 2, 4, 8, 16, 32, 64, -128));
-  const __m256i members = _mm256_blendv_epi8(_mm256_shuffle_epi8(low_half, low),
-                                             _mm256_shuffle_epi8(high_half, low), bytes);
-  const __m256i bit = _mm256_shuffle_epi8(bit_of_high, high);
-  return _mm256_cmpeq_epi8(_mm256_and_si256(members, bit), bit);
-}
-
-SKERRY_MESH_TARGET inline void row_kinds(const std::uint8_t* bytes, const ByteTable& table,
-                                         std::uint64_t& opaque, std::uint64_t& see_through) {
-  const __m256i low = load_half(bytes, 0), high = load_half(bytes, 1);
-  opaque = sign_bits(in_set(low, table.opaque), in_set(high, table.opaque));
-  see_through = sign_bits(in_set(low, table.see_through), in_set(high, table.see_through));
-}
-
-SKERRY_MESH_TARGET inline std::uint64_t row_flag(const std::uint8_t* bytes, const ByteTable& table,
-                                                 std::uint8_t flag) {
-  std::uint64_t bits = 0;
-  for (int z = 0; z < kEdge; ++z) {
-    bits |= std::uint64_t{(table.flags[bytes[z]] & flag) != 0} << z;
+class SetMatcher {
+ public:
+  SKERRY_MESH_TARGET explicit SetMatcher(const ByteSet& set)
+      : below_8_(twice(set.high_below_8)), from_8_(twice(set.high_from_8)) {}
+  SKERRY_MESH_TARGET std::uint64_t match(__m256i low, __m256i high) const {
+    return sign_bits(in_set(low), in_set(high));
   }
-  return bits;
-}
+
+ private:
+  SKERRY_MESH_TARGET __m256i in_set(__m256i bytes) const {
+    const __m256i nibble = _mm256_set1_epi8(15);
+    const __m256i low = _mm256_and_si256(bytes, nibble);
+    const __m256i high = _mm256_and_si256(_mm256_srli_epi16(bytes, 4), nibble);
+    const __m256i bit_of_high = _mm256_broadcastsi128_si256(
+        _mm_setr_epi8(1, 2, 4, 8, 16, 32, 64, -128, 1, 2, 4, 8, 16, 32, 64, -128));
+    const __m256i members = _mm256_blendv_epi8(_mm256_shuffle_epi8(below_8_, low),
+                                               _mm256_shuffle_epi8(from_8_, low), bytes);
+    const __m256i bit = _mm256_shuffle_epi8(bit_of_high, high);
+    return _mm256_cmpeq_epi8(_mm256_and_si256(members, bit), bit);
+  }
+
+  __m256i below_8_, from_8_;
+};
+
+class RowReader {
+ public:
+  SKERRY_MESH_TARGET explicit RowReader(const ByteTable& table)
+      : opaque_(table.opaque), see_through_(table.see_through), flags_(table.flags) {}
+  SKERRY_MESH_TARGET void kinds(const std::uint8_t* bytes, std::uint64_t& opaque,
+                                std::uint64_t& see_through) const {
+    const __m256i low = load_half(bytes, 0), high = load_half(bytes, 1);
+    opaque = opaque_.match(low, high);
+    see_through = see_through_.match(low, high);
+  }
+  SKERRY_MESH_TARGET std::uint64_t flag(const std::uint8_t* bytes, std::uint8_t flag) const {
+    std::uint64_t bits = 0;
+    for (int z = 0; z < kEdge; ++z) bits |= std::uint64_t{(flags_[bytes[z]] & flag) != 0} << z;
+    return bits;
+  }
+
+ private:
+  SetMatcher opaque_, see_through_;
+  const std::array<std::uint8_t, 256>& flags_;
+};
 
 SKERRY_MESH_TARGET inline std::uint64_t row_equal(const std::uint8_t* a, const std::uint8_t* b) {
   return sign_bits(_mm256_cmpeq_epi8(load_half(a, 0), load_half(b, 0)),

@@ -19,26 +19,33 @@ namespace {
 
 SKERRY_MESH_TARGET inline __m512i load(const void* bytes) { return _mm512_loadu_si512(bytes); }
 
-// table[byte] for 64 bytes.
-SKERRY_MESH_TARGET inline __m512i look_up(const std::uint8_t* bytes, const std::uint8_t* table) {
-  const __m512i index = load(bytes);
-  const __m512i low = _mm512_permutex2var_epi8(load(table), index, load(table + 64));
-  const __m512i high = _mm512_permutex2var_epi8(load(table + 128), index, load(table + 192));
-  return _mm512_mask_mov_epi8(low, _mm512_movepi8_mask(index), high);
-}
+// Looks up the kinds of 64 voxels at once.
+class RowReader {
+ public:
+  SKERRY_MESH_TARGET explicit RowReader(const ByteTable& table)
+      : flags_{load(table.flags.data()), load(table.flags.data() + 64),
+               load(table.flags.data() + 128), load(table.flags.data() + 192)} {}
 
-SKERRY_MESH_TARGET inline void row_kinds(const std::uint8_t* bytes, const ByteTable& table,
-                                         std::uint64_t& opaque, std::uint64_t& see_through) {
-  const __m512i flags = look_up(bytes, table.flags.data());
-  opaque = _mm512_test_epi8_mask(flags, _mm512_set1_epi8(kFlagOpaque));
-  see_through = _mm512_test_epi8_mask(flags, _mm512_set1_epi8(kFlagsSeeThrough));
-}
+  SKERRY_MESH_TARGET void kinds(const std::uint8_t* bytes, std::uint64_t& opaque,
+                                std::uint64_t& see_through) const {
+    const __m512i flags = look_up(bytes);
+    opaque = _mm512_test_epi8_mask(flags, _mm512_set1_epi8(kFlagOpaque));
+    see_through = _mm512_test_epi8_mask(flags, _mm512_set1_epi8(kFlagsSeeThrough));
+  }
+  SKERRY_MESH_TARGET std::uint64_t flag(const std::uint8_t* bytes, std::uint8_t flag) const {
+    return _mm512_test_epi8_mask(look_up(bytes), _mm512_set1_epi8(static_cast<char>(flag)));
+  }
 
-SKERRY_MESH_TARGET inline std::uint64_t row_flag(const std::uint8_t* bytes, const ByteTable& table,
-                                                 std::uint8_t flag) {
-  return _mm512_test_epi8_mask(look_up(bytes, table.flags.data()),
-                               _mm512_set1_epi8(static_cast<char>(flag)));
-}
+ private:
+  SKERRY_MESH_TARGET __m512i look_up(const std::uint8_t* bytes) const {
+    const __m512i index = load(bytes);
+    const __m512i low = _mm512_permutex2var_epi8(flags_[0], index, flags_[1]);
+    const __m512i high = _mm512_permutex2var_epi8(flags_[2], index, flags_[3]);
+    return _mm512_mask_mov_epi8(low, _mm512_movepi8_mask(index), high);
+  }
+
+  __m512i flags_[4];
+};
 
 SKERRY_MESH_TARGET inline std::uint64_t row_equal(const std::uint8_t* a, const std::uint8_t* b) {
   return _mm512_cmpeq_epi8_mask(load(a), load(b));

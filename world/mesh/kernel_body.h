@@ -1,12 +1,12 @@
 // The mesher's steps, compiled once for each instruction set: the including file defines
 // SKERRY_MESH_TARGET (its target attribute) and the primitives named below, then includes this.
 //
-//   row_kinds(bytes, table, opaque, see_through)  one bit for each of 64 voxels
-//   row_flag(bytes, table, flag)                  likewise, for one KindFlag
-//   row_equal(a, b)                               bit i: a[i] == b[i], 64 bytes
-//   nonzero_words(words)                          bit i: words[i] != 0, 64 words
-//   set_bytes(bytes, mask, value)                 bytes[i] = value where bit i is set
-//   emit_runs, emit_columns                       see Emission
+//   RowReader(table).kinds(bytes, opaque, see_through)  one bit for each of 64 voxels
+//   RowReader(table).flag(bytes, flag)                  likewise, for one KindFlag
+//   row_equal(a, b)                bit i: a[i] == b[i], 64 bytes
+//   nonzero_words(words)           bit i: words[i] != 0, 64 words
+//   set_bytes(bytes, mask, value)  bytes[i] = value where bit i is set
+//   emit_runs, emit_columns        see Emission
 #include "world/mesh/kernel.h"
 
 namespace skerry::world::mesh_detail {
@@ -17,63 +17,114 @@ namespace {
 using Lanes = std::uint64_t __attribute__((vector_size(64)));
 using LanesAnywhere = std::uint64_t __attribute__((vector_size(64), aligned(8), may_alias));
 constexpr int kLanes = 8;
+// How far ahead of use voxels are asked for: a page, where the CPU's own prefetching stops. On a
+// Zen 5 it takes a third off the time of an island's chunk that comes from the last-level cache.
+constexpr int kPrefetchBytes = 4096;
 
-SKERRY_MESH_TARGET inline void build_row(const Voxels& voxels, Planes& planes, int x, int y) {
-  const std::uint8_t* bytes = voxels.row(x, y);
+SKERRY_MESH_TARGET inline Lanes& lanes(std::uint64_t* aligned) {
+  return *reinterpret_cast<Lanes*>(aligned);
+}
+SKERRY_MESH_TARGET inline const Lanes& lanes(const std::uint64_t* aligned) {
+  return *reinterpret_cast<const Lanes*>(aligned);
+}
+SKERRY_MESH_TARGET inline const LanesAnywhere& lanes_anywhere(const std::uint64_t* words) {
+  return *reinterpret_cast<const LanesAnywhere*>(words);
+}
+
+// All eight words, or-ed together.
+SKERRY_MESH_TARGET inline std::uint64_t combined(Lanes& words) {
+  words |= __builtin_shufflevector(words, words, 4, 5, 6, 7, 0, 1, 2, 3);
+  words |= __builtin_shufflevector(words, words, 2, 3, 0, 1, 6, 7, 4, 5);
+  return words[0] | words[1];
+}
+
+// Kinds of every voxel, and opacity across the z borders. Reads each byte once, in order.
+SKERRY_MESH_TARGET inline void build_kinds(const Voxels& voxels, Planes& planes) {
+  const RowReader reader(*voxels.table);
   const auto& flags = voxels.table->flags;
-  std::uint64_t opaque, see_through;
-  row_kinds(bytes, *voxels.table, opaque, see_through);
-  const std::uint64_t before = flags[bytes[-1]] & kFlagOpaque;
-  const std::uint64_t after = flags[bytes[kEdge]] & kFlagOpaque;
-  planes.opaque.row(y)[x] = opaque;
-  planes.see_through.row(y)[x] = see_through;
-  planes.above_z.row(y)[x] = opaque >> 1 | after << 63;
-  planes.below_z.row(y)[x] = opaque << 1 | before;
-  planes.same_x.row(y)[x] = row_equal(bytes, bytes + kVoxelStepX);
-  planes.same_y.row(y)[x] = row_equal(bytes, bytes + kVoxelStepY);
-  planes.same_z.row(y)[x] = row_equal(bytes, bytes + 1);
-  planes.any_opaque |= opaque;
-  planes.any_see_through |= see_through;
+  std::uint64_t any_opaque = 0, any_see_through = 0, opaque, see_through;
+  for (int y = -1; y <= kEdge; ++y) {
+    const bool inner = y >= 0 && y < kEdge;
+    for (int x = inner ? -1 : 0; x < (inner ? kEdge + 1 : kEdge); ++x) {
+      const std::uint8_t* bytes = voxels.row(x, y);
+      __builtin_prefetch(bytes + kPrefetchBytes);
+      reader.kinds(bytes, opaque, see_through);
+      planes.opaque.row(y)[x] = opaque;
+      if (!inner || x < 0 || x == kEdge) continue;
+      const std::uint64_t before = flags[bytes[-1]] & kFlagOpaque;
+      const std::uint64_t after = flags[bytes[kEdge]] & kFlagOpaque;
+      planes.see_through.row(y)[x] = see_through;
+      planes.above_z.row(y)[x] = opaque >> 1 | after << 63;
+      planes.below_z.row(y)[x] = opaque << 1 | before;
+      any_opaque |= opaque;
+      any_see_through |= see_through;
+    }
+  }
+  planes.any_opaque = any_opaque;
+  planes.any_see_through = any_see_through;
 }
 
-SKERRY_MESH_TARGET inline void build_shell_row(const Voxels& voxels, Planes& planes, int x, int y) {
-  std::uint64_t see_through;
-  row_kinds(voxels.row(x, y), *voxels.table, planes.opaque.row(y)[x], see_through);
+// Same-id bits, for rows with an opaque face only: nobody asks for the others. In an island five
+// rows of six lie in the air or in the ground.
+SKERRY_MESH_TARGET inline void build_same(const Voxels& voxels, Planes& planes) {
+  for (int y = 0; y < kEdge; ++y) {
+    alignas(64) std::uint64_t faces[kEdge];
+    const std::uint64_t* opaque = planes.opaque.row(y);
+    for (int x = 0; x < kEdge; x += kLanes) {
+      const Lanes surrounded =
+          lanes_anywhere(opaque + x + 1) & lanes_anywhere(opaque + x - 1) &
+          lanes(planes.opaque.row(y + 1) + x) & lanes(planes.opaque.row(y - 1) + x) &
+          lanes(planes.above_z.row(y) + x) & lanes(planes.below_z.row(y) + x);
+      lanes(faces + x) = lanes(opaque + x) & ~surrounded;
+    }
+    for (std::uint64_t rows = nonzero_words(faces); rows != 0; rows &= rows - 1) {
+      const int x = __builtin_ctzll(rows);
+      const std::uint8_t* bytes = voxels.row(x, y);
+      planes.same_x.row(y)[x] = row_equal(bytes, bytes + kVoxelStepX);
+      planes.same_y.row(y)[x] = row_equal(bytes, bytes + kVoxelStepY);
+      planes.same_z.row(y)[x] = row_equal(bytes, bytes + 1);
+    }
+  }
 }
 
-// Splits `see_through` into its kinds; most rows have none.
+// Splits `see_through` into its kinds. Their own ids hide them, so that they look at the voxels
+// before them too.
 SKERRY_MESH_TARGET inline void split_see_through(const Voxels& voxels, Planes& planes) {
+  const RowReader reader(*voxels.table);
+  planes.any_cutout = planes.any_translucent = planes.any_plant = 0;
   for (int y = 0; y < kEdge; ++y) {
     for (int x = 0; x < kEdge; ++x) {
       std::uint64_t cutout = 0, translucent = 0, plant = 0;
       if (planes.see_through.row(y)[x] != 0) {
         const std::uint8_t* bytes = voxels.row(x, y);
-        cutout = row_flag(bytes, *voxels.table, kFlagCutout);
-        translucent = row_flag(bytes, *voxels.table, kFlagTranslucent);
+        cutout = reader.flag(bytes, kFlagCutout);
+        translucent = reader.flag(bytes, kFlagTranslucent);
         plant = planes.see_through.row(y)[x] & ~(cutout | translucent);
+        planes.same_x.row(y)[x] = row_equal(bytes, bytes + kVoxelStepX);
+        planes.same_x.row(y)[x - 1] = row_equal(bytes, bytes - kVoxelStepX);
+        planes.same_y.row(y)[x] = row_equal(bytes, bytes + kVoxelStepY);
+        planes.same_y.row(y - 1)[x] = row_equal(bytes, bytes - kVoxelStepY);
+        planes.same_z.row(y)[x] = row_equal(bytes, bytes + 1);
         planes.same_below_z.row(y)[x] = row_equal(bytes, bytes - 1);
       }
       planes.cutout.row(y)[x] = cutout;
       planes.translucent.row(y)[x] = translucent;
       planes.plant.row(y)[x] = plant;
+      planes.any_cutout |= cutout;
+      planes.any_translucent |= translucent;
+      planes.any_plant |= plant;
     }
   }
 }
 
 SKERRY_MESH_TARGET void build_planes(const Voxels& voxels, Planes& planes) {
-  planes.any_opaque = planes.any_see_through = 0;
-  for (int x = 0; x < kEdge; ++x) {
-    build_shell_row(voxels, planes, x, -1);
-    planes.same_y.row(-1)[x] = row_equal(voxels.row(x, -1), voxels.row(x, 0));
-    build_shell_row(voxels, planes, x, kEdge);
+  build_kinds(voxels, planes);
+  if (planes.any_opaque != 0) build_same(voxels, planes);
+  if (planes.any_see_through != 0) {
+    split_see_through(voxels, planes);
+  } else {
+    planes.any_cutout = planes.any_translucent = planes.any_plant = 0;
   }
-  for (int y = 0; y < kEdge; ++y) {
-    build_shell_row(voxels, planes, -1, y);
-    planes.same_x.row(y)[-1] = row_equal(voxels.row(-1, y), voxels.row(0, y));
-    for (int x = 0; x < kEdge; ++x) build_row(voxels, planes, x, y);
-    build_shell_row(voxels, planes, kEdge, y);
-  }
-  if (planes.any_see_through != 0) split_see_through(voxels, planes);
 }
 
 // One face direction of one kind: where its faces are, and where its quads go.
@@ -125,16 +176,6 @@ struct alignas(64) Carried {
   std::uint64_t* at(int x) { return words + kLanes + x; }
 };
 
-SKERRY_MESH_TARGET inline Lanes& lanes(std::uint64_t* aligned) {
-  return *reinterpret_cast<Lanes*>(aligned);
-}
-SKERRY_MESH_TARGET inline const Lanes& lanes(const std::uint64_t* aligned) {
-  return *reinterpret_cast<const Lanes*>(aligned);
-}
-SKERRY_MESH_TARGET inline const LanesAnywhere& lanes_anywhere(const std::uint64_t* words) {
-  return *reinterpret_cast<const LanesAnywhere*>(words);
-}
-
 // The visible faces of layer y.
 SKERRY_MESH_TARGET inline void load_faces(Sweep& sweep, int y, Layer& layer) {
   const std::uint64_t* kind = sweep.kind.row(y);
@@ -147,8 +188,7 @@ SKERRY_MESH_TARGET inline void load_faces(Sweep& sweep, int y, Layer& layer) {
     lanes(layer.face + x) = faces;
     any |= faces;
   }
-  std::uint64_t all = 0;
-  for (int i = 0; i < kLanes; ++i) all |= any[i];
+  const std::uint64_t all = combined(any);
   layer.any = all != 0;
   if (!layer.any) return;
   sweep.extent.z |= all;

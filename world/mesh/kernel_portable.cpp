@@ -10,24 +10,26 @@
 namespace skerry::world::mesh_detail {
 namespace {
 
-inline void row_kinds(const std::uint8_t* bytes, const ByteTable& table, std::uint64_t& opaque,
-                      std::uint64_t& see_through) {
-  opaque = see_through = 0;
-  for (int z = 0; z < kEdge; ++z) {
-    const std::uint64_t flags = table.flags[bytes[z]];
-    opaque |= (flags & kFlagOpaque) << z;
-    see_through |= std::uint64_t{(flags & kFlagsSeeThrough) != 0} << z;
+class RowReader {
+ public:
+  explicit RowReader(const ByteTable& table) : flags_(table.flags) {}
+  void kinds(const std::uint8_t* bytes, std::uint64_t& opaque, std::uint64_t& see_through) const {
+    opaque = see_through = 0;
+    for (int z = 0; z < kEdge; ++z) {
+      const std::uint64_t flags = flags_[bytes[z]];
+      opaque |= (flags & kFlagOpaque) << z;
+      see_through |= std::uint64_t{(flags & kFlagsSeeThrough) != 0} << z;
+    }
   }
-}
+  std::uint64_t flag(const std::uint8_t* bytes, std::uint8_t flag) const {
+    std::uint64_t bits = 0;
+    for (int z = 0; z < kEdge; ++z) bits |= std::uint64_t{(flags_[bytes[z]] & flag) != 0} << z;
+    return bits;
+  }
 
-inline std::uint64_t row_flag(const std::uint8_t* bytes, const ByteTable& table,
-                              std::uint8_t flag) {
-  std::uint64_t bits = 0;
-  for (int z = 0; z < kEdge; ++z) {
-    bits |= std::uint64_t{(table.flags[bytes[z]] & flag) != 0} << z;
-  }
-  return bits;
-}
+ private:
+  const std::array<std::uint8_t, 256>& flags_;
+};
 
 inline std::uint64_t row_equal(const std::uint8_t* a, const std::uint8_t* b) {
   std::uint64_t bits = 0;

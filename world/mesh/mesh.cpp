@@ -13,6 +13,7 @@ using namespace mesh_detail;
 struct MeshScratch::Buffers {
   Planes planes;
   ByteTable table;
+  std::vector<shared::Quad> quads;  // grows to the largest mesh so far
   std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(kPaddedVoxels);
 };
 
@@ -65,8 +66,10 @@ void add_plants(const Planes& planes, const Voxels& voxels, QuadSink& sink, Chun
 }
 
 // Steps 2 and 3 for every range.
-void mesh_planes(const Kernel& kernel, const Planes& planes, const Voxels& voxels, ChunkMesh& out) {
-  QuadSink sink{out.quads};
+void mesh_planes(const Kernel& kernel, const Voxels& voxels, MeshScratch::Buffers& buffers,
+                 ChunkMesh& out) {
+  const Planes& planes = buffers.planes;
+  QuadSink sink{buffers.quads};
   out.bounds_min = {kEdge, kEdge, kEdge};
   out.bounds_max = {};
   const auto add_faces = [&](const Plane& kind, bool any, bool own_id_hides, unsigned range) {
@@ -78,13 +81,12 @@ void mesh_planes(const Kernel& kernel, const Planes& planes, const Voxels& voxel
       out.range_end[range + face] = static_cast<std::uint32_t>(sink.count);
     }
   };
-  const bool see_through = planes.any_see_through != 0;
   add_faces(planes.opaque, planes.any_opaque != 0, false, shared::kRangeOpaque);
-  add_faces(planes.cutout, see_through, true, shared::kRangeCutout);
-  if (see_through) add_plants(planes, voxels, sink, out);
+  add_faces(planes.cutout, planes.any_cutout != 0, true, shared::kRangeCutout);
+  if (planes.any_plant != 0) add_plants(planes, voxels, sink, out);
   out.range_end[shared::kRangePlant] = static_cast<std::uint32_t>(sink.count);
-  add_faces(planes.translucent, see_through, true, shared::kRangeTranslucent);
-  out.quads.resize(sink.count);
+  add_faces(planes.translucent, planes.any_translucent != 0, true, shared::kRangeTranslucent);
+  out.quads.assign(buffers.quads.data(), buffers.quads.data() + sink.count);
   if (sink.count == 0) out.bounds_min = {};
 }
 
@@ -126,7 +128,7 @@ void build_wide_planes(std::span<const BlockId> voxels, Planes& planes) {
     }
     return bits;
   };
-  planes.any_opaque = planes.any_see_through = 0;
+  planes.any_opaque = planes.any_cutout = planes.any_translucent = planes.any_plant = 0;
   for (int y = -1; y <= kEdge; ++y) {
     for (int x = -1; x <= kEdge; ++x) {
       planes.opaque.row(y)[x] = flag_row(x, y, 0, kFlagOpaque);
@@ -141,7 +143,9 @@ void build_wide_planes(std::span<const BlockId> voxels, Planes& planes) {
       planes.translucent.row(y)[x] = flag_row(x, y, 0, kFlagTranslucent);
       planes.plant.row(y)[x] = flag_row(x, y, 0, kFlagPlant);
       planes.any_opaque |= planes.opaque.row(y)[x];
-      planes.any_see_through |= flag_row(x, y, 0, kFlagsSeeThrough);
+      planes.any_cutout |= planes.cutout.row(y)[x];
+      planes.any_translucent |= planes.translucent.row(y)[x];
+      planes.any_plant |= planes.plant.row(y)[x];
     }
   }
 }
@@ -160,7 +164,7 @@ void mesh_bytes(const Kernel& kernel, const std::uint8_t* bytes, MeshScratch::Bu
                 ChunkMesh& out) {
   const Voxels voxels{bytes, &buffers.table};
   kernel.build_planes(voxels, buffers.planes);
-  mesh_planes(kernel, buffers.planes, voxels, out);
+  mesh_planes(kernel, voxels, buffers, out);
 }
 
 }  // namespace
@@ -198,7 +202,7 @@ void mesh_chunk_with(const Kernel& kernel, std::span<const BlockId> voxels, Mesh
     return;
   }
   build_wide_planes(voxels, buffers.planes);
-  mesh_planes(kernel, buffers.planes, {buffers.bytes.data(), &buffers.table}, out);
+  mesh_planes(kernel, {buffers.bytes.data(), &buffers.table}, buffers, out);
   set_wide_ids(voxels, out);
 }
 

@@ -1,0 +1,65 @@
+#include "engine/gpu/transient_pool.h"
+
+#include "engine/gpu/gpu_check.h"
+
+namespace skerry::gpu {
+namespace {
+
+/// Frames an unused entry survives: a pass that comes and goes (a menu, dusk) should not allocate each time.
+constexpr int kIdleFrames = 8;
+
+Result<Image> create(Device& device, const ImageDesc& desc) { return device.create_image(desc); }
+Result<Buffer> create(Device& device, const BufferDesc& desc) { return device.create_buffer(desc); }
+
+template <class Entries>
+void release(Entries& entries) {
+  std::erase_if(entries, [](const auto& entry) { return !entry->taken && entry->idle_frames >= kIdleFrames; });
+  for (auto& entry : entries) {
+    entry->idle_frames = entry->taken ? 0 : entry->idle_frames + 1;
+    entry->taken = false;
+  }
+}
+
+}  // namespace
+
+void TransientPool::begin_frame() {
+  release(images_);
+  release(buffers_);
+}
+
+template <class Entries, class Desc>
+auto& TransientPool::take_from(Entries& entries, const Desc& desc) {
+  for (auto& entry : entries) {
+    if (!entry->taken && entry->desc == desc) {
+      entry->taken = true;
+      return entry->object;
+    }
+  }
+  using EntryType = typename Entries::value_type::element_type;
+  auto entry = std::make_unique<EntryType>();
+  entry->desc = desc;
+  entry->taken = true;
+  if (device_) {
+    auto made = create(*device_, desc);
+    if (!made) gpu_fatal(made.error().message);
+    entry->object = *std::move(made);
+  }
+  entries.push_back(std::move(entry));
+  return entries.back()->object;
+}
+
+Image& TransientPool::take(const ImageDesc& desc) { return take_from(images_, desc); }
+Buffer& TransientPool::take(const BufferDesc& desc) { return take_from(buffers_, desc); }
+
+std::vector<MemoryUse> TransientPool::memory() const {
+  std::vector<MemoryUse> list;
+  for (const auto& entry : images_) {
+    if (entry->taken) list.push_back({entry->desc.name, entry->object.allocated_bytes()});
+  }
+  for (const auto& entry : buffers_) {
+    if (entry->taken) list.push_back({entry->desc.name, entry->object.allocated_bytes()});
+  }
+  return list;
+}
+
+}  // namespace skerry::gpu

@@ -1,0 +1,34 @@
+// What keys and mouse mean. docs/controls.md lists them for players.
+#pragma once
+#include "engine/platform/input.h"
+#include "game/options.h"
+#include "game/player.h"
+
+namespace skerry::game {
+
+/// What the keys say about the next ticks.
+Intent intent_of(const platform::InputFrame& input);
+
+/// Turns the head by the mouse's motion. @param fov_deg zooms: a narrower view turns slower.
+void look(Player& player, const platform::InputFrame& input, double fov_deg);
+
+/// View-distance steps: a fifth up or down, within what settings allow.
+std::uint32_t stepped_view_distance(std::uint32_t blocks, int steps);
+
+/// The next level up or down; the ends stay.
+Quality stepped_quality(Quality quality, int steps);
+
+/// Time of day that a held key turns, in whole steps of ten seconds, wrapped at midnight. Between steps the sun stands still, so that kept
+/// shadow maps serve on and a screenshot's command can name the time exactly.
+class DayClock {
+ public:
+  explicit DayClock(int time_of_day_s) : shown_s_(time_of_day_s), exact_s_(time_of_day_s) {}
+  void turn(double seconds);
+  int time_of_day_s() const { return shown_s_; }
+
+ private:
+  int shown_s_;     // 0 .. 86399
+  double exact_s_;  // 0 .. 86400
+};
+
+}  // namespace skerry::game

@@ -1,0 +1,137 @@
+#include "game/overlay.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace skerry::game {
+namespace {
+
+constexpr float kPanelWidth = 380.0f;  // pixels
+constexpr float kGraphHeight = 60.0f;
+constexpr std::size_t kMemoryRows = 12;  // the rest is summed up
+
+void text(const std::string& line) { ImGui::TextUnformatted(line.data(), line.data() + line.size()); }
+
+void show_frames(const OverlayFacts& facts) {
+  const FrameSpread spread = spread_of_frames(facts.frame_ms);
+  if (facts.frame_ms.empty()) return;
+  text(fmt::format("{:.1f} fps   median {:.2f} ms   slowest 1% {:.2f} ms", 1000.0f / std::max(spread.median, 1e-3f),
+                   spread.median, spread.slowest_1_percent));
+  ImGui::PlotLines("##frames", facts.frame_ms.data(), static_cast<int>(facts.frame_ms.size()), 0, nullptr, 0.0f,
+                   std::max(2.0f * spread.median, spread.slowest_1_percent), ImVec2(kPanelWidth - 16.0f, kGraphHeight));
+}
+
+void row(std::string_view name, const std::string& value) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(name.data(), name.data() + name.size());
+  ImGui::TableNextColumn();
+  text(value);
+}
+
+/// Two columns of names and values under a heading; `rows` emits them.
+template <class F>
+void table(const std::string& heading, const F& rows) {
+  ImGui::Separator();
+  text(heading);
+  if (!ImGui::BeginTable(heading.c_str(), 2)) return;
+  rows();
+  ImGui::EndTable();
+}
+
+std::string megabytes(std::uint64_t bytes) { return fmt::format("{:10.2f} MB", static_cast<double>(bytes) * 1e-6); }
+
+void show_memory(std::span<const gpu::MemoryUse> memory) {
+  std::uint64_t total = 0, rest = 0;
+  for (std::size_t i = 0; i < memory.size(); ++i) {
+    total += memory[i].bytes;
+    if (i >= kMemoryRows) rest += memory[i].bytes;
+  }
+  table(fmt::format("GPU memory: {:.1f} MB", static_cast<double>(total) * 1e-6), [&] {
+    for (const gpu::MemoryUse& use : memory.first(std::min(memory.size(), kMemoryRows))) row(use.name, megabytes(use.bytes));
+    if (rest != 0) row("others", megabytes(rest));
+  });
+}
+
+void show(const OverlayFacts& facts, float height) {
+  ImGui::SetNextWindowPos(ImVec2(8.0f, 8.0f));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(kPanelWidth, 0.0f), ImVec2(kPanelWidth, std::max(32.0f, height - 16.0f)));
+  ImGui::SetNextWindowBgAlpha(0.6f);
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                      ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings;
+  ImGui::Begin("overlay", nullptr, kFlags);
+  show_frames(facts);
+  for (const std::string& line : facts.lines) text(line);
+  table("counts", [&] {
+    for (const auto& count : facts.counts) row(count.name, fmt::format("{:>12}", count.value));
+  });
+  table(fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
+    for (const gpu::PassTime& pass : facts.passes) row(pass.name, fmt::format("{:9.3f} ms", pass.ms));
+  });
+  show_memory(facts.memory);
+  ImGui::End();
+}
+
+/// ImGui's indexed lists as plain triangles, each with its clip rectangle's index.
+OverlayTriangles flatten(const ImDrawData& data) {
+  OverlayTriangles out;
+  for (int l = 0; l < data.CmdListsCount; ++l) {
+    const ImDrawList& list = *data.CmdLists[l];
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      const auto clip = static_cast<std::uint32_t>(out.clips.size());
+      out.clips.emplace_back(command.ClipRect.x, command.ClipRect.y, command.ClipRect.z, command.ClipRect.w);
+      for (unsigned i = 0; i < command.ElemCount; ++i) {
+        const ImDrawIdx index = list.IdxBuffer[static_cast<int>(command.IdxOffset + i)];
+        const ImDrawVert& v = list.VtxBuffer[static_cast<int>(command.VtxOffset + index)];
+        out.vertices.push_back({{v.pos.x, v.pos.y}, {v.uv.x, v.uv.y}, v.col, clip});
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Overlay::Overlay() {
+  IMGUI_CHECKVERSION();
+  context_ = ImGui::CreateContext();
+  ImGui::SetCurrentContext(context_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // the working directory is not ours to write to
+  io.LogFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+}
+
+Overlay::~Overlay() { ImGui::DestroyContext(context_); }
+
+FontAtlas Overlay::font() const {
+  ImGui::SetCurrentContext(context_);
+  unsigned char* texels = nullptr;
+  FontAtlas atlas;
+  ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &atlas.width, &atlas.height);
+  atlas.texels = {texels, static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height)};
+  return atlas;
+}
+
+OverlayTriangles Overlay::layout(const OverlayFacts& facts, std::uint32_t width, std::uint32_t height, double seconds) {
+  (void)font();  // NewFrame wants the atlas built
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
+  io.DeltaTime = std::max(static_cast<float>(seconds), 1e-6f);
+  ImGui::NewFrame();
+  show(facts, io.DisplaySize.y);
+  ImGui::Render();
+  return flatten(*ImGui::GetDrawData());
+}
+
+FrameSpread spread_of_frames(std::span<const float> frame_ms) {
+  if (frame_ms.empty()) return {};
+  std::vector<float> sorted(frame_ms.begin(), frame_ms.end());
+  std::sort(sorted.begin(), sorted.end());
+  return {sorted[sorted.size() / 2], sorted[(sorted.size() * 99) / 100]};
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,20 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shared/overlay.h"
+
+layout(binding = 0, scalar) readonly buffer Vertices { OverlayVertex vertices[]; };
+layout(binding = 1, scalar) readonly buffer Clips { vec4 clips[]; };  // min x, min y, max x, max y [pixels]
+layout(push_constant, scalar) uniform Constants { OverlayConstants constants; };
+
+layout(location = 0) out vec2 out_uv;
+layout(location = 1) out vec4 out_color;
+layout(location = 2) flat out vec4 out_clip;
+
+void main() {
+  const OverlayVertex vertex = vertices[gl_VertexIndex];
+  out_uv = vertex.uv;
+  out_color = unpackUnorm4x8(vertex.color);
+  out_clip = clips[vertex.clip];
+  gl_Position = vec4(vertex.position * constants.ndc_from_pixel - 1.0, 0.0, 1.0);
+}

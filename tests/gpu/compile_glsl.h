@@ -1,0 +1,48 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/shader_table.h"
+
+namespace skerry::gpu {
+
+/// A shader of a test's own, compiled as the build compiles those in shaders/: optimised and without names.
+class TestShader {
+ public:
+  /// @param name file name whose ending is the stage, e.g. "add.comp".
+  TestShader(std::string name, const std::string& glsl) : name_(std::move(name)) {
+    namespace fs = std::filesystem;
+    const std::string info = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const fs::path folder = fs::path(testing::TempDir()) / ("skerry_glsl_" + info);
+    fs::create_directories(folder);
+    const std::string source = (folder / name_).string(), full = source + ".full.spv", small = source + ".spv";
+    std::ofstream(source) << "#version 460\n#extension GL_EXT_scalar_block_layout : require\n" << glsl;
+    const std::string compile = "glslangValidator --target-env vulkan1.2 -g -Od --quiet " + source + " -o " + full;
+    const std::string optimise = "spirv-opt -O --strip-debug " + full + " -o " + small;
+    if (std::system(compile.c_str()) != 0 || std::system(optimise.c_str()) != 0) {
+      ADD_FAILURE() << "cannot compile " << name_;
+    } else {
+      words_.resize(fs::file_size(small) / sizeof(std::uint32_t));
+      std::ifstream(small, std::ios::binary)
+          .read(reinterpret_cast<char*>(words_.data()), static_cast<std::streamsize>(words_.size() * sizeof(std::uint32_t)));
+    }
+    fs::remove_all(folder);
+  }
+  const std::vector<std::uint32_t>& words() const { return words_; }
+  EmbeddedShader embedded() const {
+    const auto* begin = reinterpret_cast<const unsigned char*>(words_.data());
+    return {name_.c_str(), begin, begin + words_.size() * sizeof(std::uint32_t)};
+  }
+
+ private:
+  std::string name_;
+  std::vector<std::uint32_t> words_;
+};
+
+}  // namespace skerry::gpu

@@ -1,0 +1,37 @@
+// The command line: options shared by sub-commands, and usage errors that name what was probably meant.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "game/options.h"
+
+namespace skerry::tools {
+
+/// Why a command cannot start, with its exit status.
+struct Refusal {
+  int status = 0;
+  Error error;
+};
+
+/// Options of every command that draws a scene, as typed.
+struct SceneArguments {
+  game::SceneText text;
+  std::optional<std::string> world, scene_file, device, renderer, shading;
+  bool validate = false;
+};
+
+void add_scene_options(CLI::App& command, SceneArguments& arguments);
+
+/// Reads the scene file, checks every value. @param needs_source a seed, world or scene must be given.
+std::optional<Refusal> resolve(const SceneArguments& arguments, bool needs_source, game::SceneOptions& scene);
+
+/// Checks that a command was given nothing it does not know; names the nearest option.
+std::optional<Refusal> check_leftovers(const CLI::App& command);
+
+/// Checks early that a file can be written, so that no work is done in vain.
+std::optional<Refusal> check_output(const std::optional<std::string>& path);
+
+}  // namespace skerry::tools
