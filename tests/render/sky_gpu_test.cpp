@@ -61,9 +61,9 @@ class SkyOnGpu : public testing::Test {
 
   gpu::Buffer buffer(const void* data, std::size_t size,
                      gpu::Memory memory = gpu::Memory::kUpload) {
-    const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags usage =
+        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     Result<gpu::Buffer> made = device_->create_buffer(
         {.name = "test", .size_bytes = size, .usage = usage, .memory = memory});
     EXPECT_TRUE(made);
@@ -96,6 +96,20 @@ class SkyOnGpu : public testing::Test {
     return std::move(*made);
   }
 
+  /// Everything done so far is seen by everything that follows.
+  static void order_memory(VkCommandBuffer commands) {
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+  }
+
   void dispatch(const char* shader, const std::vector<Bind>& binds, std::uint32_t width,
                 std::uint32_t height) {
     const gpu::Pipeline& pipeline = pipelines_->get(gpu::ComputeDesc{shader, {}});
@@ -107,19 +121,20 @@ class SkyOnGpu : public testing::Test {
       write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
       write.dstBinding = binds[i].binding;
       write.descriptorCount = 1;
+      for (const gpu::Pipeline::Binding& declared : pipeline.bindings) {
+        if (declared.binding == write.dstBinding) write.descriptorType = declared.type;
+      }
       if (binds[i].buffer) {
         buffers[i] = {binds[i].buffer->handle(), 0, VK_WHOLE_SIZE};
-        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = &buffers[i];
       } else {
         images[i] = {binds[i].sampler, binds[i].image->view(), VK_IMAGE_LAYOUT_GENERAL};
-        write.descriptorType = binds[i].sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                                : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         write.pImageInfo = &images[i];
       }
       writes.push_back(write);
     }
     device_->run_now([&](VkCommandBuffer c) {
+      order_memory(c);
       vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
       vkCmdPushDescriptorSetKHR(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0,
                                 static_cast<std::uint32_t>(writes.size()), writes.data());
@@ -132,6 +147,7 @@ class SkyOnGpu : public testing::Test {
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {from.desc().extent.width, from.desc().extent.height, 1};
     device_->run_now([&](VkCommandBuffer c) {
+      order_memory(c);
       if (back) {
         vkCmdCopyBufferToImage(c, to.handle(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
       } else {
