@@ -220,8 +220,7 @@ void Filler::for_ball_voxels(const std::vector<Ball>& balls, int y, F&& f) {
 void Filler::solid_layer(int y) {
   const auto height = static_cast<std::int16_t>(y);
   for (int i = 0; i < kLayer; ++i) {
-    solid_[i] =
-        static_cast<std::int16_t>(-static_cast<int>((height < top_[i]) & (height >= bottom_[i])));
+    solid_[i] = select(height < top_[i], select(height >= bottom_[i], -1, 0), 0);
   }
   shift_rock(y);
   for_ball_voxels(solids_, y, [this](const Ball&, int first, int last) {
