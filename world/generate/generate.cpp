@@ -308,8 +308,10 @@ void Filler::ores() {
                             : rarity < 108 ? block::kGoldOre
                                            : block::kCrystalOre;
         for (int k = rng.in(4, 12); k > 0; --k) {
-          BlockId* voxel = canvas_.find(x0 + rng.in(-1, kReach - 1), y0 + rng.in(-1, 1),
-                                        z0 + rng.in(-1, kReach - 1));
+          const int x = x0 + rng.in(-1, kReach - 1);
+          const int y = y0 + rng.in(-1, 1);
+          const int z = z0 + rng.in(-1, kReach - 1);
+          BlockId* voxel = canvas_.find(x, y, z);
           if (voxel != nullptr && std::find(rocks.begin(), rocks.end(), *voxel) != rocks.end())
             *voxel = ore;
         }
