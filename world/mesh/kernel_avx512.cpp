@@ -53,8 +53,8 @@ class Reader {
   SKERRY_MESH_TARGET explicit Reader(const ByteTable& table) : flags_(table.flags.data()) {}
   SKERRY_MESH_TARGET RowKinds kinds(const std::uint8_t* bytes) const {
     const __m512i flags = flags_(load(bytes));
-    return {has(flags, kFlagOpaque), has(flags, kFlagsSeeThrough),
-            flag(bytes + 1, kFlagOpaque), flag(bytes - 1, kFlagOpaque)};
+    return {has(flags, kFlagOpaque), has(flags, kFlagsSeeThrough), flag(bytes + 1, kFlagOpaque),
+            flag(bytes - 1, kFlagOpaque)};
   }
   SKERRY_MESH_TARGET std::uint64_t flag(const std::uint8_t* bytes, std::uint8_t flag) const {
     return has(flags_(load(bytes)), flag);
