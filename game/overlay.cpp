@@ -36,12 +36,13 @@ void row(std::string_view name, const std::string& value) {
   text(value);
 }
 
-/// Two columns of names and values under a heading; `rows` emits them.
+/// Two columns of names and values under a heading; `rows` emits them. @param id stays the same
+/// while the heading changes: ImGui keeps the columns' widths by it.
 template <class F>
-void table(const std::string& heading, const F& rows) {
+void table(const char* id, const std::string& heading, const F& rows) {
   ImGui::Separator();
   text(heading);
-  if (!ImGui::BeginTable(heading.c_str(), 2)) return;
+  if (!ImGui::BeginTable(id, 2)) return;
   rows();
   ImGui::EndTable();
 }
@@ -56,7 +57,7 @@ void show_memory(std::span<const gpu::MemoryUse> memory) {
     total += memory[i].bytes;
     if (i >= kMemoryRows) rest += memory[i].bytes;
   }
-  table(fmt::format("GPU memory: {:.1f} MB", static_cast<double>(total) * 1e-6), [&] {
+  table("memory", fmt::format("GPU memory: {:.1f} MB", static_cast<double>(total) * 1e-6), [&] {
     for (const gpu::MemoryUse& use : memory.first(std::min(memory.size(), kMemoryRows)))
       row(use.name, megabytes(use.bytes));
     if (rest != 0) row("others", megabytes(rest));
@@ -74,10 +75,10 @@ void show(const OverlayFacts& facts, float height) {
   ImGui::Begin("overlay", nullptr, kFlags);
   show_frames(facts);
   for (const std::string& line : facts.lines) text(line);
-  table("counts", [&] {
+  table("counts", "counts", [&] {
     for (const auto& count : facts.counts) row(count.name, fmt::format("{:>12}", count.value));
   });
-  table(fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
+  table("passes", fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
     for (const gpu::PassTime& pass : facts.passes)
       row(pass.name, fmt::format("{:9.3f} ms", pass.ms));
   });

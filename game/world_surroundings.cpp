@@ -35,6 +35,40 @@ bool touches_box(const world::IVec3& chunk, const world::IslandSpec& spec) {
 
 }  // namespace
 
+ChunkLoader::ChunkLoader(world::World& world) : world_(world), thread_([this] { work(); }) {}
+
+ChunkLoader::~ChunkLoader() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void ChunkLoader::request(std::uint64_t island, world::IVec3 chunk) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!waiting_.insert({island, chunk}).second) return;
+    queue_.push_back({island, chunk});
+  }
+  wake_.notify_one();
+}
+
+void ChunkLoader::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return stop_ || !queue_.empty(); });
+    if (stop_) return;
+    const Task task = queue_.front();
+    queue_.pop_front();
+    lock.unlock();
+    world_.ensure_chunk(task.island, task.chunk);
+    lock.lock();
+    waiting_.erase(task);
+  }
+}
+
 void WorldSurroundings::refresh(world::WorldPos place, double reach_blocks, double time_s) {
   islands_ = world_.islands_near(place, reach_blocks + kMargin, time_s);
   std::sort(islands_.begin(), islands_.end(),
@@ -56,13 +90,7 @@ void WorldSurroundings::load_chunks(const world::IslandSpec& spec, world::WorldP
         const world::IVec3 corner{chunk.x * world::kChunkEdge, chunk.y * world::kChunkEdge,
                                   chunk.z * world::kChunkEdge};
         if (!touches_box(chunk, spec) || world_.block_at(spec.id, corner)) continue;
-        const std::lock_guard lock(loading_mutex_);
-        if (!loading_.insert({spec.id, chunk}).second) continue;
-        loader_.submit([this, id = spec.id, chunk] {
-          world_.ensure_chunk(id, chunk);
-          const std::lock_guard done(loading_mutex_);
-          loading_.erase({id, chunk});
-        });
+        loader_.request(spec.id, chunk);
       }
     }
   }

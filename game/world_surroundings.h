@@ -1,25 +1,54 @@
 #pragma once
+#include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <set>
-#include <utility>
+#include <thread>
 #include <vector>
 
-#include "engine/core/jobs.h"
 #include "game/player.h"
 #include "world/world.h"
 
 namespace skerry::game {
 
+/// Loads level-0 chunks on a thread of its own. Not on jobs: there they would queue behind all that
+/// is still to be meshed, and the player waits for the ground.
+class ChunkLoader {
+ public:
+  /// @param world outlives this.
+  explicit ChunkLoader(world::World& world);
+  ~ChunkLoader();  ///< finishes the chunk at hand, forgets the others
+  ChunkLoader(const ChunkLoader&) = delete;
+  ChunkLoader& operator=(const ChunkLoader&) = delete;
+
+  /// Queues a chunk unless it is waiting already.
+  void request(std::uint64_t island, world::IVec3 chunk);
+
+ private:
+  struct Task {
+    std::uint64_t island;
+    world::IVec3 chunk;
+    auto operator<=>(const Task&) const = default;
+  };
+  void work();
+
+  world::World& world_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Task> queue_;
+  std::set<Task> waiting_;  // queued or at hand
+  bool stop_ = false;
+  std::thread thread_;
+};
+
 /// A world as the player meets it. The islands around are looked up once a frame; the chunks next
-/// to the player are loaded on a thread of their own, so that there is ground even where nothing
-/// has been meshed yet.
+/// to the player are loaded, so that there is ground even where nothing has been meshed yet.
 class WorldSurroundings : public Surroundings {
  public:
   /// @param world outlives this.
-  explicit WorldSurroundings(world::World& world) : world_(world), loader_(1) {}
-  ~WorldSurroundings() override { loader_.wait(); }
+  explicit WorldSurroundings(world::World& world) : world_(world), loader_(world) {}
 
   /// Call once a frame, before the ticks. @param reach_blocks how far the player may get until the
   /// next call.
@@ -36,9 +65,7 @@ class WorldSurroundings : public Surroundings {
 
   world::World& world_;
   std::vector<world::IslandSpec> islands_;  // ascending ids
-  std::mutex loading_mutex_;
-  std::set<std::pair<std::uint64_t, world::IVec3>> loading_;
-  Jobs loader_;  // last: its jobs touch the members above
+  ChunkLoader loader_;
 };
 
 }  // namespace skerry::game
