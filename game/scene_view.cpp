@@ -33,9 +33,12 @@ std::vector<shared::Material> material_table() {
 
 gpu::UploadPath upload_path(UploadMode mode) {
   switch (mode) {
-    case UploadMode::kUpdate: return gpu::UploadPath::kUpdateBuffer;
-    case UploadMode::kStaging: return gpu::UploadPath::kStaging;
-    case UploadMode::kMapped: return gpu::UploadPath::kMapped;
+    case UploadMode::kUpdate:
+      return gpu::UploadPath::kUpdateBuffer;
+    case UploadMode::kStaging:
+      return gpu::UploadPath::kStaging;
+    case UploadMode::kMapped:
+      return gpu::UploadPath::kMapped;
   }
   return gpu::UploadPath::kUpdateBuffer;
 }
@@ -44,8 +47,12 @@ std::uint32_t packed_box(const std::array<std::uint8_t, 3>& corner) {
   return std::uint32_t{corner[0]} | std::uint32_t{corner[1]} << 7 | std::uint32_t{corner[2]} << 14;
 }
 
-render::FixedPos fixed(const world::WorldPos& p) { return {p.x, p.y, p.z}; }
-world::WorldPos place(const render::FixedPos& p) { return {p[0], p[1], p[2]}; }
+render::FixedPos fixed(const world::WorldPos& p) {
+  return {p.x, p.y, p.z};
+}
+world::WorldPos place(const render::FixedPos& p) {
+  return {p[0], p[1], p[2]};
+}
 
 glm::dvec3 forward_of(const render::Camera& camera) {
   const double yaw = glm::radians(camera.yaw_deg), pitch = glm::radians(camera.pitch_deg);
@@ -69,9 +76,8 @@ shared::Section section_record(const world::SectionKey& key, const world::ChunkM
 
 SceneView::SceneView(const SceneOptions& options) : settings_(options.settings) {
   jobs_ = std::make_unique<Jobs>(static_cast<int>(settings_.jobs_threads));
-  world_ = std::make_unique<world::World>(
-      world::WorldDesc{world::seed_from_text(options.seed_text), settings_.world_offset,
-                       settings_.world_islands});
+  world_ = std::make_unique<world::World>(world::WorldDesc{
+      world::seed_from_text(options.seed_text), settings_.world_offset, settings_.world_islands});
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
   if (options.camera) {
     start_camera_.position = fixed(options.camera->position);
@@ -104,9 +110,9 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
 }
 
 Result<void> SceneView::load_completely(const render::Camera& camera, double world_time_s) {
-  streamer_->update({place(camera.position), forward_of(camera), world_time_s},
-                    {static_cast<double>(settings_.view_distance),
-                     static_cast<double>(settings_.view_detail)});
+  streamer_->update(
+      {place(camera.position), forward_of(camera), world_time_s},
+      {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)});
   streamer_->wait_until_complete();
   while (!streamer_->complete())
     if (Result<void> taken = take_in(streamer_->poll(kMaxPolledQuads)); !taken) return taken;
@@ -116,9 +122,9 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
 
 Result<void> SceneView::stream(const render::Camera& camera, double world_time_s) {
   renderer_->set_upload_budget(settings_.upload_budget_bytes);
-  streamer_->update({place(camera.position), forward_of(camera), world_time_s},
-                    {static_cast<double>(settings_.view_distance),
-                     static_cast<double>(settings_.view_detail)});
+  streamer_->update(
+      {place(camera.position), forward_of(camera), world_time_s},
+      {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)});
   return take_in(streamer_->poll(kMaxPolledQuads));
 }
 
@@ -135,8 +141,8 @@ Result<void> SceneView::take_in(world::StreamUpdate update) {
   }
   for (const world::ReadySection& ready : update.ready) {
     const std::uint32_t slot = island_slot(ready.key.island);
-    Result<render::SectionId> added = store.add(
-        uploader, section_record(ready.key, ready.mesh, slot), ready.mesh.quads);
+    Result<render::SectionId> added =
+        store.add(uploader, section_record(ready.key, ready.mesh, slot), ready.mesh.quads);
     if (!added) return added.error();
     ++islands_[slot].sections;
     sections_.emplace(ready.key, *added);
@@ -199,8 +205,7 @@ render::RenderSettings SceneView::render_settings() const {
 Result<std::uint64_t> SceneView::draw(
     const Moment& moment, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
-    std::span<const VkSemaphoreSubmitInfo> waits,
-    std::span<const VkSemaphoreSubmitInfo> signals) {
+    std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
   const std::vector<render::IslandPlacement> islands = placements(moment.world_time_s);
   render::FrameInput input;
   input.camera = moment.camera;

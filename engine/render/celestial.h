@@ -40,7 +40,8 @@ struct Celestial {
 /// that thin crescents cast no light.
 Celestial celestial_at(double time_of_day_s, double moon_phase);
 
-/// The moon's light over the sun's at the same altitude, linear RGB, bluish. 0 about the new moon. @param moon_phase 0..1.
+/// The moon's light over the sun's at the same altitude, linear RGB, bluish. 0 about the new moon.
+/// @param moon_phase 0..1.
 glm::dvec3 moonlight(double moon_phase);
 
 /// Direct light that arrives from altitude `sine` (of the angle above the horizon, -1..1) over that

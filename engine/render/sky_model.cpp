@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/common.hpp>
 #include <numbers>
 
 namespace skerry::render {
@@ -16,16 +16,26 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
 constexpr double kTurbidity = 2.5;
 
-double altitude_deg(double sine) { return std::asin(std::clamp(sine, -1.0, 1.0)) / kDegree; }
+double altitude_deg(double sine) {
+  return std::asin(std::clamp(sine, -1.0, 1.0)) / kDegree;
+}
+
+double luminance(glm::dvec3 c) {
+  return glm::dot(c, glm::dvec3{0.2126, 0.7152, 0.0722});
+}
 
 double smooth_step(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
+/// The Perez function of (Y, x, y). The chromaticities are looked up a little higher in the sky
+/// near the horizon, where the paper's fit turns pink.
 glm::dvec3 perez(const std::array<glm::dvec3, 5>& k, double cos_view, double gamma) {
-  const double cos_gamma = std::cos(gamma);
-  return (1.0 + k[0] * glm::exp(k[1] / std::max(cos_view, 1e-3))) *
+  const double cos_gamma = std::cos(gamma), clear = 1.0 - cos_view;
+  const double hue_view = cos_view + 0.25 * clear * clear * clear;
+  const glm::dvec3 view{std::max(cos_view, 1e-3), hue_view, hue_view};
+  return (1.0 + k[0] * glm::exp(k[1] / view)) *
          (1.0 + k[2] * glm::exp(k[3] * gamma) + k[4] * (cos_gamma * cos_gamma));
 }
 
@@ -42,14 +52,16 @@ std::array<glm::dvec3, 5> perez_terms() {
 /// Preetham 1999, appendix A2: chromaticity of the zenith, cubic in the sun's angle from it.
 glm::dvec2 zenith_chromaticity(double theta) {
   constexpr std::array<std::array<glm::dvec4, 3>, 2> kRows{
-      {{glm::dvec4{0.00166, -0.00375, 0.00209, 0.0}, glm::dvec4{-0.02903, 0.06377, -0.03202, 0.00394},
+      {{glm::dvec4{0.00166, -0.00375, 0.00209, 0.0},
+        glm::dvec4{-0.02903, 0.06377, -0.03202, 0.00394},
         glm::dvec4{0.11693, -0.21196, 0.06052, 0.25886}},
-       {glm::dvec4{0.00275, -0.00610, 0.00317, 0.0}, glm::dvec4{-0.04214, 0.08970, -0.04153, 0.00516},
+       {glm::dvec4{0.00275, -0.00610, 0.00317, 0.0},
+        glm::dvec4{-0.04214, 0.08970, -0.04153, 0.00516},
         glm::dvec4{0.15346, -0.26756, 0.06670, 0.26688}}}};
   const glm::dvec4 powers{theta * theta * theta, theta * theta, theta, 1.0};
   const auto value = [&](const std::array<glm::dvec4, 3>& rows) {
-    return glm::dot(rows[0], powers) * kTurbidity * kTurbidity + glm::dot(rows[1], powers) * kTurbidity +
-           glm::dot(rows[2], powers);
+    return glm::dot(rows[0], powers) * kTurbidity * kTurbidity +
+           glm::dot(rows[1], powers) * kTurbidity + glm::dot(rows[2], powers);
   };
   return {value(kRows[0]), value(kRows[1])};
 }
@@ -71,13 +83,18 @@ shared::SkyBody sky_body(glm::dvec3 to_body, glm::dvec3 light) {
   const double dusk = 1.0 - smooth_step(-3.0, 13.0, h);
   const double late = 1.0 - smooth_step(-9.0, 1.0, h);
   const double low = 1.0 - smooth_step(0.0, 30.0, h);
-  body.day = light * glm::mix(glm::dvec3(1.0), glm::dvec3{0.88, 0.92, 1.40}, low) * (1.0 - dusk);
-  body.haze = light * glm::mix(glm::dvec3{1.40, 1.95, 2.75}, glm::dvec3{1.85, 1.70, 1.95}, low) * (brightness * (1.0 - dusk));
-  const auto hue = [&](glm::dvec3 sunset, glm::dvec3 after) { return light * glm::mix(sunset, after, late); };
+  body.day = light * glm::mix(glm::dvec3{0.82, 0.98, 1.22}, glm::dvec3{0.86, 0.92, 1.42}, low) *
+             (1.0 - dusk);
+  body.haze = light * glm::mix(glm::dvec3{1.25, 1.95, 3.00}, glm::dvec3{1.85, 1.70, 1.95}, low) *
+              (brightness * (1.0 - dusk));
+  const auto hue = [&](glm::dvec3 sunset, glm::dvec3 after) {
+    return light * glm::mix(sunset, after, late);
+  };
   body.dusk_dome = hue({0.48, 0.78, 1.50}, {0.34, 0.62, 1.75}) * (brightness * dusk);
-  body.dusk_band = hue({1.90, 1.15, 0.70}, {1.00, 0.70, 0.90}) * (brightness * dusk);
-  body.dusk_fire = hue({5.00, 1.75, 0.20}, {4.20, 1.05, 0.16}) * (brightness * dusk);
-  body.abyss = light * glm::mix(glm::dvec3{0.62, 1.05, 1.60}, glm::dvec3{0.36, 0.45, 0.85}, dusk) * brightness;
+  body.dusk_band = hue({2.00, 1.10, 0.60}, {1.00, 0.70, 0.90}) * (brightness * dusk);
+  body.dusk_fire = hue({5.60, 1.65, 0.10}, {4.60, 1.10, 0.12}) * (brightness * dusk);
+  body.abyss = light * glm::mix(glm::dvec3{0.52, 1.02, 1.75}, glm::dvec3{0.36, 0.45, 0.85}, dusk) *
+               brightness;
   return body;
 }
 
@@ -89,39 +106,53 @@ glm::dvec3 linear_from_yxy(glm::dvec3 yxy) {
           0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z};
 }
 
-/// One body's radiance on the cone of sky at height `up` (sine of the elevation, >= 0). `dir` may dip below it.
+/// One body's radiance on the cone of sky at height `up` (sine of the elevation, >= 0). `dir` may
+/// dip below it.
 glm::dvec3 body_radiance(glm::dvec3 dir, double up, const shared::SkyBody& body) {
   const glm::dvec3 to_body(body.to_body);
   const double gamma = std::acos(std::clamp(glm::dot(dir, to_body), -1.0, 1.0));
-  const std::array<glm::dvec3, 5> terms{body.perez_a, body.perez_b, body.perez_c, body.perez_d, body.perez_e};
+  const std::array<glm::dvec3, 5> terms{body.perez_a, body.perez_b, body.perez_c, body.perez_d,
+                                        body.perez_e};
   const glm::dvec3 yxy = glm::dvec3(body.zenith) * perez(terms, up, gamma);
   const glm::dvec3 day = glm::max(linear_from_yxy(yxy), 0.0) * glm::dvec3(body.day);
   const double low = std::pow(1.0 - up, 5.0);
-  const double towards = (dir.x * to_body.x + dir.z * to_body.z) / std::max(1e-3, std::hypot(to_body.x, to_body.z));
+  const double towards =
+      (dir.x * to_body.x + dir.z * to_body.z) / std::max(1e-3, std::hypot(to_body.x, to_body.z));
   const double side = 0.5 + 0.5 * towards;
   const double rise = (dir.y - std::max(0.0, to_body.y)) / 0.11;
   const double fire = std::exp(4.0 * (towards - 1.0)) / (1.0 + rise * rise);
   const double band = std::exp(-5.0 * up) * (0.3 + 0.7 * side * side);
   const double dome = 0.75 + 0.75 * side * (1.0 - up);
-  return glm::mix(day, glm::dvec3(body.haze), 0.9 * low) + fire * glm::dvec3(body.dusk_fire) + band * glm::dvec3(body.dusk_band) +
-         dome * glm::dvec3(body.dusk_dome);
+  return glm::mix(day, glm::dvec3(body.haze), 0.9 * low) + fire * glm::dvec3(body.dusk_fire) +
+         band * glm::dvec3(body.dusk_band) + dome * glm::dvec3(body.dusk_dome);
 }
 
 }  // namespace
 
 shared::SkyConstants sky_constants(const Celestial& sky) {
-  constexpr glm::dvec3 kUnitSun{1.0};
   shared::SkyConstants c;
-  c.sun = sky_body(sky.to_sun, kUnitSun);
-  c.moon = sky_body(sky.to_moon, moonlight(sky.moon_phase));
-  const double disc = kPi * std::pow(std::sin(shared::kDiscRadius), 2.0);
-  c.sun_disc = kPi * transmittance_to_zenith(sky.to_sun.y) / disc;
-  c.moon_disc = glm::dvec3(0.1);
+  c.sun = sky_body(sky.to_sun, glm::dvec3(1.0));
+  // Half of what the moon's light would give, and less blue: eyes see little colour then, and
+  // moonlit land shall stand out from its sky.
+  constexpr glm::dvec3 kMoonSky{0.62, 0.50, 0.42};
+  c.moon = sky_body(sky.to_moon, kMoonSky * moonlight(sky.moon_phase));
+  // The mean of mu^a over a disc is 2 / (2 + a): with it, the darkened disc sends the sun's whole
+  // irradiance.
+  constexpr glm::dvec3 kLimb{0.397, 0.503, 0.652};
+  const double disc = kPi * std::pow(std::sin(static_cast<double>(shared::kDiscRadius)), 2.0);
+  c.sun_disc = kPi / disc * (1.0 + 0.5 * kLimb) * transmittance_to_zenith(sky.to_sun.y);
+  // By day the moon's ground is an eighth of white (its albedo); at night, as an eye would, it is
+  // seen darker, or no display could show its face.
+  const double night = 1.0 - smooth_step(-12.0, 2.0, altitude_deg(sky.to_sun.y));
+  c.moon_disc = glm::mix(0.12, 0.013, night) * transmittance_to_zenith(sky.to_moon.y);
   const glm::mat3 rows = glm::transpose(sky.sky_from_world);
   c.sky_x = rows[0];
   c.sky_y = rows[1];
   c.sky_z = rows[2];
-  c.stars = static_cast<float>(1.0 - smooth_step(-13.0, -5.0, altitude_deg(sky.to_sun.y)));
+  // A risen full moon drowns two thirds of the stars' light.
+  const double moonlit = luminance(sky.moon_irradiance) / (kMoonToSun * kPi);
+  c.stars = static_cast<float>((1.0 - smooth_step(-13.0, -5.0, altitude_deg(sky.to_sun.y))) *
+                               (1.0 - 0.66 * std::min(1.0, moonlit)));
   return c;
 }
 

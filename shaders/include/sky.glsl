@@ -1,5 +1,6 @@
-// The sky's light: the daylight model, its table, the discs of sun and moon. Units and axes: docs/conventions.md.
-// sky_radiance() is the twin of engine/render/sky_model.cpp, where the sources are named; a test compares them.
+// The sky's light: the daylight model, its table, the discs of sun and moon. Units and axes:
+// docs/conventions.md. sky_radiance() is the twin of engine/render/sky_model.cpp, where the sources
+// are named; a test compares them.
 #ifndef SKERRY_SKY_GLSL
 #define SKERRY_SKY_GLSL
 #include "shared/sky.h"
@@ -9,17 +10,22 @@ const float kSkyPi = 3.14159265358979;
 vec3 linear_from_yxy(vec3 yxy) {
   float s = yxy.x / max(yxy.z, 1e-3);
   vec3 xyz = vec3(yxy.y * s, yxy.x, (1.0 - yxy.y - yxy.z) * s);
-  return vec3(dot(xyz, vec3(3.2404542, -1.5371385, -0.4985314)), dot(xyz, vec3(-0.9692660, 1.8760108, 0.0415560)),
+  return vec3(dot(xyz, vec3(3.2404542, -1.5371385, -0.4985314)),
+              dot(xyz, vec3(-0.9692660, 1.8760108, 0.0415560)),
               dot(xyz, vec3(0.0556434, -0.2040259, 1.0572252)));
 }
 
-// One body's radiance on the cone of sky at height `up` (sine of the elevation, >= 0). `dir` may dip below it.
+// One body's radiance on the cone of sky at height `up` (sine of the elevation, >= 0). `dir` may
+// dip below it.
 vec3 body_radiance(vec3 dir, float up, SkyBody body) {
   float cos_gamma = clamp(dot(dir, body.to_body), -1.0, 1.0);
-  vec3 yxy = body.zenith * (1.0 + body.perez_a * exp(body.perez_b / max(up, 1e-3))) *
-             (1.0 + body.perez_c * exp(body.perez_d * acos(cos_gamma)) + body.perez_e * (cos_gamma * cos_gamma));
-  vec3 day = max(linear_from_yxy(yxy), 0.0) * body.day;
   float clear = 1.0 - up;
+  float hue_up = up + 0.25 * clear * clear * clear;
+  vec3 yxy = body.zenith *
+             (1.0 + body.perez_a * exp(body.perez_b / vec3(max(up, 1e-3), hue_up, hue_up))) *
+             (1.0 + body.perez_c * exp(body.perez_d * acos(cos_gamma)) +
+              body.perez_e * (cos_gamma * cos_gamma));
+  vec3 day = max(linear_from_yxy(yxy), 0.0) * body.day;
   float low = clear * clear * clear * clear * clear;
   float towards = dot(dir.xz, body.to_body.xz) / max(1e-3, length(body.to_body.xz));
   float side = 0.5 + 0.5 * towards;
@@ -27,7 +33,8 @@ vec3 body_radiance(vec3 dir, float up, SkyBody body) {
   float fire = exp(4.0 * (towards - 1.0)) / (1.0 + rise * rise);
   float band = exp(-5.0 * up) * (0.3 + 0.7 * side * side);
   float dome = 0.75 + 0.75 * side * clear;
-  return mix(day, body.haze, 0.9 * low) + fire * body.dusk_fire + band * body.dusk_band + dome * body.dusk_dome;
+  return mix(day, body.haze, 0.9 * low) + fire * body.dusk_fire + band * body.dusk_band +
+         dome * body.dusk_dome;
 }
 
 // Radiance of the sky without discs and stars, evaluated directly. dir is unit.
@@ -39,7 +46,8 @@ vec3 sky_radiance(vec3 dir, SkyConstants sky) {
   return mix(sky.sun.abyss + sky.moon.abyss, radiance, open * open);
 }
 
-// Table coordinates of a direction and back: 0..1 from the centre of the first texel to that of the last.
+// Table coordinates of a direction and back: 0..1 from the centre of the first texel to that of the
+// last.
 vec2 sky_lut_from_dir(vec3 dir) {
   float azimuth = dir.x == 0.0 && dir.z == 0.0 ? 0.0 : atan(dir.x, dir.z);
   float height = asin(clamp(dir.y, -1.0, 1.0)) * (2.0 / kSkyPi);
@@ -53,14 +61,15 @@ vec3 dir_from_sky_lut(vec2 place) {
   return vec3(sin(azimuth) * cos(elevation), sin(elevation), cos(azimuth) * cos(elevation));
 }
 
-// The sky of dir (unit) from the table that bake_sky.comp filled. Any sampler that is linear and clamps to the edge.
+// The sky of dir (unit) from the table that bake_sky.comp filled. Any sampler that is linear and
+// clamps to the edge.
 vec3 sample_sky(sampler2D lut, vec3 dir) {
   const vec2 size = vec2(float(kSkyLutWidth), float(kSkyLutHeight));
   return textureLod(lut, (sky_lut_from_dir(dir) * (size - 1.0) + 0.5) / size, 0.0).rgb;
 }
 
-// Where dir meets a disc about `centre`: x to the celestial west, y to the pole, in disc radii; z the depth of the near half of its sphere,
-// 0 at the limb.
+// Where dir meets a disc about `centre`: x to the celestial west, y to the pole, in disc radii; z
+// the depth of the near half of its sphere, 0 at the limb.
 vec3 disc_place(vec3 dir, vec3 centre, vec3 pole) {
   vec3 right = normalize(cross(pole, centre));
   vec2 p = vec2(dot(dir, right), dot(dir, cross(centre, right))) / sin(kDiscRadius);
@@ -73,7 +82,9 @@ float disc_cover(vec3 p, float pixel_angle) {
 }
 
 // The lower sky's mist swallows what stands in it.
-float above_horizon(vec3 dir) { return smoothstep(-0.015, 0.010, dir.y); }
+float above_horizon(vec3 dir) {
+  return smoothstep(-0.015, 0.010, dir.y);
+}
 
 // Smooth noise on a lattice, 0..1; a hash of integers, so every device makes the same moon.
 uint sky_hash(uvec3 v) {
@@ -97,16 +108,22 @@ float sky_noise(vec3 p) {
   return sum / 16777215.0;
 }
 
-// Radiance of the sun's disc at p. Limb darkening: power law of Hestroffer and Magnan 1998, exponents at 700, 550 and 440 nm.
-vec3 sun_disc(vec3 p, SkyConstants sky) { return sky.sun_disc * pow(vec3(max(p.z, 0.05)), vec3(0.397, 0.503, 0.652)); }
+// Radiance of the sun's disc at p. Limb darkening: power law of Hestroffer and Magnan 1998,
+// exponents at 700, 550 and 440 nm.
+vec3 sun_disc(vec3 p, SkyConstants sky) {
+  return sky.sun_disc * pow(vec3(max(p.z, 0.05)), vec3(0.397, 0.503, 0.652));
+}
 
-// Radiance of the moon's disc at p: ground lit from the sun's direction (Lommel and Seeliger, without limb darkening when full), with maria.
+// Radiance of the moon's disc at p: ground lit from the sun's direction (Lommel and Seeliger,
+// without limb darkening when full), with maria.
 vec3 moon_disc(vec3 p, SkyConstants sky) {
   vec3 right = normalize(cross(sky.sky_z, sky.moon.to_body));
   vec3 normal = p.x * right + p.y * cross(sky.moon.to_body, right) - p.z * sky.moon.to_body;
   float lit = max(0.0, dot(normal, sky.sun.to_body));
-  float maria = 0.65 * sky_noise(p * 1.7 + 11.0) + 0.35 * sky_noise(p * 4.3 + 5.0);
-  return sky.moon_disc * (mix(0.45, 1.0, smoothstep(0.38, 0.62, maria)) * 2.0 * lit / max(lit + p.z, 1e-3));
+  float maria = 0.5 * sky_noise(p * 1.6 + 11.0) + 0.3 * sky_noise(p * 3.7 + 5.0) +
+                0.2 * sky_noise(p * 9.1 + 3.0);
+  float ground = mix(0.40, 1.0, smoothstep(0.34, 0.66, maria));
+  return sky.moon_disc * (ground * 2.0 * lit / max(lit + p.z, 1e-3));
 }
 
 // Radiance of both discs in front of the sky, for a pixel of pixel_angle [rad].

@@ -26,11 +26,11 @@ struct SkyBody {
   vec3 perez_d;    // width of the glow
   vec3 perez_e;    // backscatter
   vec3 zenith;     // zenith's Y [radiance], x, y, each over its Perez term there
-  vec3 day;         // tint of the daylight model, linear RGB; 0 in the night
-  vec3 haze;        // radiance of the bright mist about the horizon by day
-  vec3 dusk_dome;   // twilight: radiance overhead
-  vec3 dusk_band;   // all around the horizon
-  vec3 dusk_fire;   // about the body's azimuth
+  vec3 day;        // tint of the daylight model, linear RGB; 0 in the night
+  vec3 haze;       // radiance of the bright mist about the horizon by day
+  vec3 dusk_dome;  // twilight: radiance overhead
+  vec3 dusk_band;  // all around the horizon
+  vec3 dusk_fire;  // about the body's azimuth
   vec3 abyss;      // radiance straight down
 };
 

@@ -1,0 +1,461 @@
+// The sky's shaders on a real device, judged by the CPU's double-precision model and by closed
+// forms.
+#include <gtest/gtest.h>
+#include <volk.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/celestial.h"
+#include "engine/render/sky_model.h"
+#include "shaders/shared/frame.h"
+#include "shaders/shared/sky.h"
+
+namespace skerry::render {
+namespace {
+
+constexpr double kHour = 3600.0;
+using Texel = std::array<std::uint16_t, 4>;
+
+double luminance(glm::dvec3 c) {
+  return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+
+glm::dvec3 decoded(const Texel& t) {
+  return {glm::unpackHalf1x16(t[0]), glm::unpackHalf1x16(t[1]), glm::unpackHalf1x16(t[2])};
+}
+
+/// One binding of a compute shader.
+struct Bind {
+  std::uint32_t binding;
+  const gpu::Buffer* buffer = nullptr;
+  const gpu::Image* image = nullptr;
+  VkSampler sampler = VK_NULL_HANDLE;
+};
+
+/// Runs single compute shaders. Every image stays in the general layout.
+class SkyOnGpu : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    Result<std::unique_ptr<gpu::Device>> created = gpu::Device::create({});
+    if (!created) return;
+    device_ = std::move(*created);
+    pipelines_ = std::make_unique<gpu::Pipelines>(*device_);
+  }
+  static void TearDownTestSuite() {
+    pipelines_.reset();
+    device_.reset();
+  }
+  void SetUp() override {
+    if (!device_) GTEST_SKIP() << "no Vulkan device";
+  }
+
+  gpu::Buffer buffer(const void* data, std::size_t size,
+                     gpu::Memory memory = gpu::Memory::kUpload) {
+    const VkBufferUsageFlags usage =
+        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    Result<gpu::Buffer> made = device_->create_buffer(
+        {.name = "test", .size_bytes = size, .usage = usage, .memory = memory});
+    EXPECT_TRUE(made);
+    if (data) std::memcpy(made->mapped(), data, size);
+    return std::move(*made);
+  }
+  template <class T>
+  gpu::Buffer buffer(const T& value) {
+    return buffer(&value, sizeof value);
+  }
+
+  gpu::Image image(std::uint32_t width, std::uint32_t height, VkFormat format) {
+    const VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                    VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    Result<gpu::Image> made = device_->create_image(
+        {.name = "test", .format = format, .extent = {width, height}, .usage = usage});
+    EXPECT_TRUE(made);
+    VkImageMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.image = made->handle();
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &barrier;
+    device_->run_now([&](VkCommandBuffer c) { vkCmdPipelineBarrier2(c, &info); });
+    return std::move(*made);
+  }
+
+  /// Everything done so far is seen by everything that follows.
+  static void order_memory(VkCommandBuffer commands) {
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+  }
+
+  void dispatch(const char* shader, const std::vector<Bind>& binds, std::uint32_t width,
+                std::uint32_t height) {
+    const gpu::Pipeline& pipeline = pipelines_->get(gpu::ComputeDesc{shader, {}});
+    std::vector<VkDescriptorBufferInfo> buffers(binds.size());
+    std::vector<VkDescriptorImageInfo> images(binds.size());
+    std::vector<VkWriteDescriptorSet> writes;
+    for (std::size_t i = 0; i < binds.size(); ++i) {
+      VkWriteDescriptorSet write{};
+      write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+      write.dstBinding = binds[i].binding;
+      write.descriptorCount = 1;
+      for (const gpu::Pipeline::Binding& declared : pipeline.bindings) {
+        if (declared.binding == write.dstBinding) write.descriptorType = declared.type;
+      }
+      if (binds[i].buffer) {
+        buffers[i] = {binds[i].buffer->handle(), 0, VK_WHOLE_SIZE};
+        write.pBufferInfo = &buffers[i];
+      } else {
+        images[i] = {binds[i].sampler, binds[i].image->view(), VK_IMAGE_LAYOUT_GENERAL};
+        write.pImageInfo = &images[i];
+      }
+      writes.push_back(write);
+    }
+    device_->run_now([&](VkCommandBuffer c) {
+      order_memory(c);
+      vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
+      vkCmdPushDescriptorSetKHR(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0,
+                                static_cast<std::uint32_t>(writes.size()), writes.data());
+      vkCmdDispatch(c, (width + 7) / 8, (height + 7) / 8, 1);
+    });
+  }
+
+  void copy(const gpu::Image& from, const gpu::Buffer& to, bool back = false) {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {from.desc().extent.width, from.desc().extent.height, 1};
+    device_->run_now([&](VkCommandBuffer c) {
+      order_memory(c);
+      if (back) {
+        vkCmdCopyBufferToImage(c, to.handle(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+      } else {
+        vkCmdCopyImageToBuffer(c, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
+      }
+    });
+  }
+
+  template <class T>
+  std::vector<T> read(const gpu::Image& from) {
+    std::vector<T> texels(std::size_t{from.desc().extent.width} * from.desc().extent.height);
+    const gpu::Buffer back = buffer(nullptr, texels.size() * sizeof(T), gpu::Memory::kReadback);
+    copy(from, back);
+    std::memcpy(texels.data(), back.mapped(), texels.size() * sizeof(T));
+    return texels;
+  }
+
+  gpu::Image baked(const shared::SkyConstants& sky) {
+    gpu::Image lut =
+        image(shared::kSkyLutWidth, shared::kSkyLutHeight, VK_FORMAT_R16G16B16A16_SFLOAT);
+    const gpu::Buffer constants = buffer(sky);
+    dispatch("bake_sky.comp", {{0, &constants}, {1, nullptr, &lut}}, shared::kSkyLutWidth,
+             shared::kSkyLutHeight);
+    return lut;
+  }
+
+  /// What a camera looking along `forward` sees of the sky.
+  std::vector<glm::dvec3> seen(const shared::SkyConstants& sky, glm::vec3 forward,
+                               float tan_half_fov, glm::uvec2 size) {
+    const gpu::Image lut = baked(sky),
+                     radiance = image(size.x, size.y, VK_FORMAT_R16G16B16A16_SFLOAT);
+    shared::FrameConstants frame{};
+    frame.ray_forward = glm::normalize(forward);
+    frame.ray_right =
+        glm::normalize(glm::cross(frame.ray_forward, glm::vec3(0.001f, 1.0f, 0.002f)));
+    frame.ray_up = glm::cross(frame.ray_right, frame.ray_forward) * tan_half_fov;
+    frame.ray_right *= tan_half_fov * static_cast<float>(size.x) / static_cast<float>(size.y);
+    frame.pixel_to_ndc = 2.0f / glm::vec2(size);
+    frame.size = size;
+    const gpu::Buffer frame_buffer = buffer(frame), sky_buffer = buffer(sky),
+                      stats = buffer(shared::PixelStats{});
+    const VkSampler sampler = *device_->sampler({});
+    dispatch("shade_sky.comp",
+             {{0, &frame_buffer},
+              {3, &sky_buffer},
+              {4, &stats},
+              {8, nullptr, &lut, sampler},
+              {9, nullptr, &radiance}},
+             size.x, size.y);
+    std::vector<glm::dvec3> result;
+    for (const Texel& t : read<Texel>(radiance)) result.push_back(decoded(t));
+    return result;
+  }
+
+  static std::unique_ptr<gpu::Device> device_;
+  static std::unique_ptr<gpu::Pipelines> pipelines_;
+};
+std::unique_ptr<gpu::Device> SkyOnGpu::device_;
+std::unique_ptr<gpu::Pipelines> SkyOnGpu::pipelines_;
+
+/// The table's layout as shaders/shared/sky.h words it.
+glm::dvec3 lut_direction(double u, double v) {
+  const double azimuth = (u - 0.5) * 2.0 * M_PI, root = 2.0 * v - 1.0;
+  const double elevation = std::copysign(root * root, root) * 0.5 * M_PI;
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+          std::cos(azimuth) * std::cos(elevation)};
+}
+
+std::vector<Celestial> moments() {
+  std::vector<Celestial> all;
+  for (const double hour : {0.0, 5.5, 6.0, 6.5, 9.0, 12.0, 17.9, 18.3, 18.7}) {
+    for (const double phase : {0.0, 0.3, 0.5}) all.push_back(celestial_at(hour * kHour, phase));
+  }
+  return all;
+}
+
+TEST_F(SkyOnGpu, TableEqualsTheDoublePrecisionModel) {
+  double worst = 0.0;
+  for (const Celestial& now : moments()) {
+    const shared::SkyConstants sky = sky_constants(now);
+    const std::vector<Texel> texels = read<Texel>(baked(sky));
+    for (std::uint32_t j = 0; j < shared::kSkyLutHeight; ++j) {
+      for (std::uint32_t i = 0; i < shared::kSkyLutWidth; ++i) {
+        const glm::dvec3 d =
+            lut_direction(i / (shared::kSkyLutWidth - 1.0), j / (shared::kSkyLutHeight - 1.0));
+        const glm::dvec3 expected = sky_radiance(d, sky);
+        const glm::dvec3 got = decoded(texels[j * shared::kSkyLutWidth + i]);
+        // A half has 11 bits, and steps of 6e-8 at worst below 6e-5.
+        const double error =
+            (glm::length(got - expected) - 1.2e-7) / std::max(1e-12, glm::length(expected));
+        worst = std::max(worst, error);
+      }
+    }
+  }
+  RecordProperty("worst", std::to_string(worst));
+  std::printf("worst texel %g\n", worst);
+  EXPECT_LT(worst, 0.002);
+}
+
+TEST_F(SkyOnGpu, SampledTableFollowsTheModelInEveryDirection) {
+  double worst = 0.0, sum = 0.0;
+  int count = 0;
+  for (const Celestial& now : moments()) {
+    shared::SkyConstants sky = sky_constants(now);
+    const shared::SkyConstants model = sky;
+    sky.sun_disc = sky.moon_disc = glm::vec3(0.0f);
+    sky.stars = 0.0f;
+    const double exposure = std::exp2(-auto_exposure_ev(now));
+    const glm::uvec2 size{96, 96};
+    for (int axis = 0; axis < 6; ++axis) {
+      glm::vec3 forward(0.0f);
+      forward[axis / 2] = axis % 2 ? -1.0f : 1.0f;
+      const std::vector<glm::dvec3> got = seen(sky, forward, 1.0f, size);
+      const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0.001f, 1.0f, 0.002f)));
+      const glm::vec3 up = glm::cross(right, forward);
+      for (std::uint32_t p = 0; p < got.size(); ++p) {
+        const glm::vec2 ndc =
+            (glm::vec2(p % size.x, p / size.x) + 0.5f) * (2.0f / glm::vec2(size)) - 1.0f;
+        const glm::dvec3 d = glm::normalize(glm::dvec3(forward + right * ndc.x - up * ndc.y));
+        const glm::dvec3 expected = sky_radiance(d, model);
+        const double error =
+            glm::length(got[p] - expected) / (glm::length(expected) + 0.01 / exposure);
+        worst = std::max(worst, error);
+        sum += error;
+        ++count;
+      }
+    }
+  }
+  std::printf("sampled table: worst %g mean %g\n", worst, sum / count);
+  EXPECT_LT(worst, 0.03);
+  EXPECT_LT(sum / count, 0.002);
+}
+
+/// A square view and what each of its pixels covers of the sphere.
+struct View {
+  glm::dvec3 forward;
+  double tan_half_fov;
+  std::uint32_t edge;
+
+  glm::dvec2 ndc(std::uint32_t pixel) const {
+    return (glm::dvec2(pixel % edge, pixel / edge) + 0.5) * (2.0 / edge) - 1.0;
+  }
+  double solid_angle(std::uint32_t pixel) const {
+    const glm::dvec2 at = ndc(pixel) * tan_half_fov;
+    const double side = 2.0 * tan_half_fov / edge;
+    return side * side / std::pow(1.0 + glm::dot(at, at), 1.5);
+  }
+};
+
+glm::dvec3 energy(const std::vector<glm::dvec3>& image, const View& view) {
+  glm::dvec3 sum(0.0);
+  for (std::uint32_t p = 0; p < image.size(); ++p) sum += image[p] * view.solid_angle(p);
+  return sum;
+}
+
+TEST_F(SkyOnGpu, SunDiscSendsTheSunsIrradiance) {
+  for (const double hour : {7.0, 12.0}) {
+    const Celestial now = celestial_at(hour * kHour, 0.0);
+    shared::SkyConstants sky = sky_constants(now);
+    const View view{now.to_sun, 0.03, 256};
+    const auto with = seen(sky, view.forward, 0.03f, glm::uvec2(view.edge));
+    sky.sun_disc = glm::vec3(0.0f);
+    const auto without = seen(sky, view.forward, 0.03f, glm::uvec2(view.edge));
+    const glm::dvec3 disc = energy(with, view) - energy(without, view);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(disc[i] / now.sun_irradiance[i], 1.0, 0.02) << hour;
+  }
+}
+
+TEST_F(SkyOnGpu, MoonIsLitFromTheSunsSideByItsPhase) {
+  for (const double phase : {0.1, 0.25, 0.4, 0.5, 0.7}) {
+    // The hour at which the moon stands in the south.
+    const Celestial now = celestial_at((12.0 + 24.0 * phase) * kHour, phase);
+    shared::SkyConstants sky = sky_constants(now);
+    const View view{now.to_moon, 0.02, 256};
+    const auto with = seen(sky, view.forward, 0.02f, glm::uvec2(view.edge));
+    sky.moon_disc = glm::vec3(0.0f);
+    const auto without = seen(sky, view.forward, 0.02f, glm::uvec2(view.edge));
+    double lit_area = 0.0;
+    glm::dvec2 centroid(0.0);
+    for (std::uint32_t p = 0; p < with.size(); ++p) {
+      if (luminance(with[p] - without[p]) < 0.003 * luminance(sky_constants(now).moon_disc))
+        continue;
+      lit_area += view.solid_angle(p);
+      centroid += view.ndc(p);
+    }
+    const double disc_area = M_PI * std::pow(shared::kDiscRadius, 2);
+    EXPECT_NEAR(lit_area / disc_area, now.moon_lit_fraction, 0.03) << phase;
+    if (phase == 0.5) continue;
+    // Right of the picture is forward x up: the west for one who looks south.
+    const glm::dvec3 right = glm::normalize(glm::cross(now.to_moon, glm::dvec3(0, 1, 0)));
+    EXPECT_GT(centroid.x * glm::dot(now.to_sun, right), 0.0) << phase;
+  }
+}
+
+TEST_F(SkyOnGpu, StarsKeepTheirLightAtEveryResolution) {
+  const shared::SkyConstants sky = sky_constants(celestial_at(0.0, 0.0));
+  const View coarse{{0.1, 1.0, 0.2}, 0.5, 200}, fine{{0.1, 1.0, 0.2}, 0.5, 600};
+  const glm::dvec3 a = energy(seen(sky, coarse.forward, 0.5f, glm::uvec2(coarse.edge)), coarse);
+  const glm::dvec3 b = energy(seen(sky, fine.forward, 0.5f, glm::uvec2(fine.edge)), fine);
+  EXPECT_GT(luminance(a), 0.0);
+  EXPECT_NEAR(luminance(a) / luminance(b), 1.0, 0.03);
+}
+
+TEST_F(SkyOnGpu, StarsDoNotTwinkleAsTheyMoveAcrossPixels) {
+  const View view{{0.1, 1.0, 0.2}, 0.2, 200};
+  double least = 1e300, most = 0.0;
+  // A pixel is 0.002 rad: 27 s of turning. Steps of a fifth of that.
+  for (int step = 0; step < 15; ++step) {
+    const auto image = seen(sky_constants(celestial_at(step * 5.5, 0.0)), view.forward, 0.2f,
+                            glm::uvec2(view.edge));
+    // The brightest star well inside is the same one in every step.
+    std::uint32_t best = 0;
+    for (std::uint32_t p = 0; p < image.size(); ++p) {
+      const glm::dvec2 at = glm::abs(view.ndc(p));
+      if (std::max(at.x, at.y) < 0.8 && luminance(image[p]) > luminance(image[best])) best = p;
+    }
+    double sum = 0.0;
+    for (int dy = -4; dy <= 4; ++dy) {
+      for (int dx = -4; dx <= 4; ++dx) {
+        sum += luminance(
+            image[best + static_cast<std::uint32_t>(dy * static_cast<int>(view.edge) + dx)]);
+      }
+    }
+    least = std::min(least, sum);
+    most = std::max(most, sum);
+  }
+  std::printf("brightest star: %g of its light at worst\n", least / most);
+  EXPECT_GT(least / most, 0.9);
+}
+
+TEST_F(SkyOnGpu, StarsAreThousandsOverTheWholeSphereAndNoneByDay) {
+  shared::SkyConstants sky = sky_constants(celestial_at(0.0, 0.0));
+  const int edge = 800;
+  // A view of 90 by 90 degrees is a sixth of the sphere.
+  const auto image = seen(sky, {0.0f, 1.0f, 0.0f}, 1.0f, glm::uvec2(edge));
+  const auto light = [&](int x, int y) {
+    return luminance(image[static_cast<std::size_t>(y * edge + x)]);
+  };
+  int peaks = 0;
+  for (int y = 3; y + 3 < edge; ++y) {
+    for (int x = 3; x + 3 < edge; ++x) {
+      // A local maximum that rises over its surroundings by half of what the faintest star does.
+      const double around =
+          0.25 * (light(x - 3, y) + light(x + 3, y) + light(x, y - 3) + light(x, y + 3));
+      bool peak = light(x, y) > around + 1.5e-5;
+      for (int n = 0; n < 9 && peak; ++n)
+        peak = n == 4 || light(x, y) > light(x + n % 3 - 1, y + n / 3 - 1);
+      peaks += peak;
+    }
+  }
+  std::printf("stars in a sixth of the sphere: %d\n", peaks);
+  EXPECT_GT(peaks, 400);
+  EXPECT_LT(peaks, 1200);
+  sky.stars = 0.0f;
+  for (const glm::dvec3& c : seen(sky, {0.0f, 1.0f, 0.0f}, 1.0f, {64, 64}))
+    EXPECT_EQ(c, glm::dvec3(0.0));
+  EXPECT_EQ(sky_constants(celestial_at(12 * kHour, 0.0)).stars, 0.0f);
+}
+
+/// S. Hill's ACES fit without its constant term, then IEC 61966-2-1, in double precision.
+glm::dvec3 expected_picture(glm::dvec3 c) {
+  const double in[3][3] = {
+      {0.59719, 0.35458, 0.04823}, {0.07600, 0.90834, 0.01566}, {0.02840, 0.13383, 0.83777}};
+  const double out[3][3] = {
+      {1.60475, -0.53108, -0.07367}, {-0.10208, 1.10813, -0.00605}, {-0.00327, -0.07276, 1.07602}};
+  glm::dvec3 v(0.0), result(0.0);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) v[i] += in[i][j] * c[j];
+    v[i] =
+        (v[i] * v[i] + 0.0245786 * v[i]) / (0.983729 * v[i] * v[i] + 0.4329510 * v[i] + 0.238081);
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result[i] += out[i][j] * v[j];
+    const double x = std::clamp(result[i], 0.0, 1.0);
+    result[i] = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+  }
+  return result;
+}
+
+TEST_F(SkyOnGpu, PictureIsTheToneCurveAndBlackStaysBlack) {
+  const glm::uvec2 size{64, 64};
+  std::vector<Texel> scene(std::size_t{size.x} * size.y);
+  std::mt19937 random(7);
+  for (std::size_t i = 1; i < scene.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const float value = std::exp2(std::uniform_real_distribution<float>(-14.0f, 15.9f)(random));
+      scene[i][static_cast<std::size_t>(k)] =
+          glm::packHalf1x16(i % 5 == 0 && k == 0 ? 0.0f : value);
+    }
+  }
+  const gpu::Image radiance = image(size.x, size.y, VK_FORMAT_R16G16B16A16_SFLOAT);
+  copy(radiance, buffer(scene.data(), scene.size() * sizeof(Texel)), true);
+  const gpu::Image picture = image(size.x, size.y, VK_FORMAT_R8G8B8A8_UNORM);
+  shared::FrameConstants frame{};
+  frame.size = size;
+  frame.exposure = 0.7f;
+  const gpu::Buffer frame_buffer = buffer(frame), stats = buffer(shared::PixelStats{});
+  dispatch("develop.comp",
+           {{0, &frame_buffer}, {1, &stats}, {2, nullptr, &radiance}, {3, nullptr, &picture}},
+           size.x, size.y);
+  const auto pixels = read<std::array<std::uint8_t, 4>>(picture);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(pixels[0][static_cast<std::size_t>(k)], 0);
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const glm::dvec3 expected = expected_picture(decoded(scene[i]) * 0.7) * 255.0;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(pixels[i][static_cast<std::size_t>(k)], expected[k], 1.02) << i;
+  }
+}
+
+}  // namespace
+}  // namespace skerry::render
