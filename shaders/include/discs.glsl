@@ -4,8 +4,8 @@
 #define SKERRY_DISCS_GLSL
 #include "include/sky.glsl"
 
-// Where dir meets a disc with these axes: x across, y towards the celestial pole, in disc radii; z the
-// depth of the near half of its sphere, 0 at the limb.
+// Where dir meets a disc with these axes: x across, y towards the celestial pole, in disc radii; z
+// the depth of the near half of its sphere, 0 at the limb.
 vec3 disc_place(vec3 dir, vec3 right, vec3 up) {
   vec2 p = vec2(dot(dir, right), dot(dir, up));
   return vec3(p, sqrt(max(0.0, 1.0 - dot(p, p))));

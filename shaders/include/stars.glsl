@@ -7,7 +7,7 @@
 // The sphere is a cube of about equal cells (edge some 90 / kStarCells degrees), some of which hold
 // a star. Per pixel only the four nearest cells are looked at.
 const float kStarCells = 64.0;       // along a face's edge
-const float kStarShare = 0.24;       // of the cells in the middle of a face; some 4,500 stars in all
+const float kStarShare = 0.24;       // of the cells in the middle of a face; 4,500 stars in all
 const float kStarFlux = 6.0e-7;      // of a star of magnitude 0 [radiance * sr]
 const float kFaintestFlux = 2.5e-3;  // magnitude 6.5, over that of magnitude 0
 // A footprint of at least this radius, about one pixel wide at half height, keeps stars from
@@ -16,12 +16,13 @@ const float kStarRadiusPixels = 1.6;
 
 // Colour of a star, unit luminance: from orange through white to blue-white.
 vec3 star_colour(float t) {
-  vec3 c = mix(vec3(1.0), t < 0.5 ? vec3(1.50, 0.90, 0.46) : vec3(0.80, 0.97, 1.75), abs(2.0 * t - 1.0));
+  vec3 end = t < 0.5 ? vec3(1.50, 0.90, 0.46) : vec3(0.80, 0.97, 1.75);
+  vec3 c = mix(vec3(1.0), end, abs(2.0 * t - 1.0));
   return c / dot(c, vec3(0.2126, 0.7152, 0.0722));
 }
 
-// A star of one cell at `offset` cells from the pixel, if the cell has one: radiance on a footprint
-// of squared radius radius2 [sr], where metric turns offsets into squared angles.
+// Radiance of the star of one cell, if it has one, at the place `at` [cells] of a face. The star's
+// footprint has the squared radius radius2 [rad2]; metric turns offsets [cells] to squared angles.
 vec3 star_of_cell(uint face, vec2 cell, vec2 at, vec3 metric, float radius2) {
   uint h = sky_hash(uvec3(face, uvec2(cell)));
   uint k = (h ^ (h >> 15)) * 747796405u;
@@ -29,8 +30,8 @@ vec3 star_of_cell(uint face, vec2 cell, vec2 at, vec3 metric, float radius2) {
   vec2 s = (cell + 0.5) * (2.0 / kStarCells) - 1.0;
   s *= s;
   float share = kStarShare * (1.0 - 0.411 * (s.x + s.y) + 0.356 * s.x * s.y);
-  bool here = float(h >> 20) < share * 4096.0 && all(lessThan(abs(cell + 0.5 - 0.5 * kStarCells),
-                                                              vec2(0.5 * kStarCells)));
+  bool on_face = all(lessThan(abs(cell + 0.5 - 0.5 * kStarCells), vec2(0.5 * kStarCells)));
+  bool here = on_face && float(h >> 20) < share * 4096.0;
   // Half a cell off the face's edge, beyond which the neighbours are not looked at.
   vec2 star = cell + vec2(uvec2(k, k >> 12) & 0xfffu) * (1.0 / 4096.0);
   vec2 d = at - clamp(star, 0.5, kStarCells - 0.5);
@@ -39,8 +40,8 @@ vec3 star_of_cell(uint face, vec2 cell, vec2 at, vec3 metric, float radius2) {
   // Numbers of stars grow by a factor of 3.4 a magnitude: flux over the faintest is u^-0.75.
   float u = (float(h & 0xfffffu) + 128.0) * (1.0 / 1048576.0);
   float flux = kStarFlux * kFaintestFlux / sqrt(u * sqrt(u));
-  return here ? star_colour(float(k >> 24) * (1.0 / 255.0)) * (flux * w * w * 3.0 / (kSkyPi * radius2))
-              : vec3(0.0);
+  float radiance = here ? flux * w * w * 3.0 / (kSkyPi * radius2) : 0.0;
+  return star_colour(float(k >> 24) * (1.0 / 255.0)) * radiance;
 }
 
 // Stars of direction d in the sky's frame. @param cells 4, or 0 to skip.
@@ -62,7 +63,8 @@ vec3 star_field(vec3 d, float pixel_angle, int cells) {
   vec2 first = floor(at - 0.5);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < cells; ++i) {
-    sum += star_of_cell(side, first + vec2(float(i & 1), float(i >> 1)), at, metric, radius * radius);
+    vec2 cell = first + vec2(float(i & 1), float(i >> 1));
+    sum += star_of_cell(side, cell, at, metric, radius * radius);
   }
   return sum;
 }
@@ -78,7 +80,9 @@ vec3 stars(vec3 dir, float pixel_angle) {
 
 // Everything a ray into the open sees: sky, discs, stars. dir is unit.
 vec3 sky_seen(vec3 dir) {
-  float pixel_angle = frame.pixel_to_ndc.y * length(frame.ray_up);
+  // A pixel's mean angle: off the axis it covers the cube of the cosine of the middle one's sky.
+  float c = max(0.1, dot(dir, frame.ray_forward));
+  float pixel_angle = frame.pixel_to_ndc.y * length(frame.ray_up) * c * sqrt(c);
   return sample_sky(sky_lut, dir) + discs(dir, pixel_angle) + stars(dir, pixel_angle);
 }
 
