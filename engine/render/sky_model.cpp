@@ -68,6 +68,12 @@ glm::dvec2 zenith_chromaticity(double theta) {
   return {value(kRows[0]), value(kRows[1])};
 }
 
+/// The paper's model under a body above 13 degrees. Its fit turns pale and brown under a lower one,
+/// so from 13 down to -3 degrees a twilight takes over and carries on: a dome overhead, a band all
+/// around the horizon and a fire about the body's azimuth. All follow zenith_radiance(), so they
+/// fade smoothly and end at -18 degrees. About the horizon by day lies a bright haze, and what is
+/// looked down into is lit by the same sky. These colours were chosen by eye, behind the tone
+/// curve.
 /// @param light the body's light over the sun's at the same altitude, linear RGB.
 shared::SkyBody sky_body(glm::dvec3 to_body, glm::dvec3 light) {
   shared::SkyBody body;
