@@ -24,3 +24,10 @@ add_test(NAME tools.check_paths COMMAND ${CMAKE_SOURCE_DIR}/tools/check_paths)
 add_test(NAME tools.check_scripts_test COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/check_scripts_test.py)
 add_test(NAME tools.check_format COMMAND ${CMAKE_SOURCE_DIR}/tools/check_format)
 set_tests_properties(tools.check_format PROPERTIES SKIP_RETURN_CODE 77)
+
+# The program itself: tests/cli runs it, and a script plays in a window on a virtual display.
+if(test_sources)
+  add_dependencies(skerry_tests skerry)
+endif()
+add_test(NAME window.play COMMAND ${CMAKE_SOURCE_DIR}/tests/window/play_test.sh $<TARGET_FILE:skerry>)
+set_tests_properties(window.play PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)

@@ -9,7 +9,8 @@
 namespace skerry::game {
 namespace {
 
-/// Longest step along any axis [blocks]: less than a voxel, so that a diagonal path cannot skip a corner.
+/// Longest step along any axis [blocks]: less than a voxel, so that a diagonal path cannot skip a
+/// corner.
 constexpr double kMaxStep = 0.5;
 
 struct Box {
@@ -21,13 +22,20 @@ Box box_at(const glm::dvec3& feet) {
           {feet.x + kPlayerHalfWidth, feet.y + kPlayerHeight, feet.z + kPlayerHalfWidth}};
 }
 
-int lower_voxel(double edge) { return static_cast<int>(std::floor(edge)); }
+int lower_voxel(double edge) {
+  return static_cast<int>(std::floor(edge));
+}
 /// The last voxel an open interval ending at `edge` reaches into.
-int upper_voxel(double edge) { return static_cast<int>(std::ceil(edge)) - 1; }
+int upper_voxel(double edge) {
+  return static_cast<int>(std::ceil(edge)) - 1;
+}
 
-world::IVec3 voxel_of(const glm::ivec3& v) { return {v.x, v.y, v.z}; }
+world::IVec3 voxel_of(const glm::ivec3& v) {
+  return {v.x, v.y, v.z};
+}
 
-/// Whether any voxel of the layer `at` along `axis` is solid where the box covers the other two axes.
+/// Whether any voxel of the layer `at` along `axis` is solid where the box covers the other two
+/// axes.
 bool layer_blocks(const SolidQuery& solid, const Box& box, int axis, int at) {
   const int u = (axis + 1) % 3;
   const int v = (axis + 2) % 3;

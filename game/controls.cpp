@@ -37,19 +37,22 @@ void look(Player& player, const platform::InputFrame& input, double fov_deg) {
 
 std::uint32_t stepped_view_distance(std::uint32_t blocks, int steps) {
   const double wanted = blocks * std::pow(kViewStep, steps);
-  return static_cast<std::uint32_t>(std::clamp(std::round(wanted), double{kMinViewDistance}, double{kMaxViewDistance}));
+  return static_cast<std::uint32_t>(
+      std::clamp(std::round(wanted), double{kMinViewDistance}, double{kMaxViewDistance}));
 }
 
 Quality stepped_quality(Quality quality, int steps) {
   const int level = static_cast<int>(quality) + steps;
-  return static_cast<Quality>(std::clamp(level, static_cast<int>(Quality::kLow), static_cast<int>(Quality::kUltra)));
+  return static_cast<Quality>(
+      std::clamp(level, static_cast<int>(Quality::kLow), static_cast<int>(Quality::kUltra)));
 }
 
 void DayClock::turn(double seconds) {
   exact_s_ = std::fmod(exact_s_ + seconds, kSecondsPerDay);
   if (exact_s_ < 0.0) exact_s_ += kSecondsPerDay;
   if (std::abs(exact_s_ - shown_s_) < kDayStep) return;
-  shown_s_ = static_cast<int>(std::floor(exact_s_ / kDayStep) * kDayStep) % static_cast<int>(kSecondsPerDay);
+  shown_s_ = static_cast<int>(std::floor(exact_s_ / kDayStep) * kDayStep) %
+             static_cast<int>(kSecondsPerDay);
 }
 
 }  // namespace skerry::game

@@ -11,12 +11,14 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 7> kFields{"seed", "camera", "fov", "time", "size", "quality", "settings"};
+constexpr std::array<std::string_view, 7> kFields{"seed", "camera",  "fov",     "time",
+                                                  "size", "quality", "settings"};
 
 /// A scalar as the text a person would have typed, or nothing for other kinds.
 std::optional<std::string> scalar_text(const json& value) {
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number()) return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
+  if (value.is_number())
+    return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
   if (value.is_boolean()) return std::string(value.get<bool>() ? "1" : "0");
   return std::nullopt;
 }
@@ -25,7 +27,8 @@ Error field_error(std::string_view field, std::string_view wanted) {
   return Error{fmt::format("the scene's field '{}' has the wrong kind: give {}", field, wanted)};
 }
 
-/// A coordinate written as a JSON number: doubles print in exponent form when large, which parse_blocks refuses.
+/// A coordinate written as a JSON number: doubles print in exponent form when large, which
+/// parse_blocks refuses.
 std::optional<std::string> coordinate_text(const json& value) {
   if (value.is_number_float()) return fmt::format("{:.17f}", value.get<double>());
   return scalar_text(value);
@@ -60,12 +63,12 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
     scene.camera = *camera;
     return {};
   }
-  std::optional<std::string>* const texts[] = {&scene.seed, nullptr, &scene.fov, &scene.time, &scene.size,
-                                               &scene.quality};
+  std::optional<std::string>* const texts[] = {&scene.seed, nullptr,     &scene.fov,
+                                               &scene.time, &scene.size, &scene.quality};
   const auto field = std::find(kFields.begin(), kFields.end(), key);
   if (field == kFields.end()) {
-    return Error{fmt::format("the scene has an unknown field {}: did you mean '{}'?", quote_text(key),
-                             nearest_name(key, kFields))};
+    return Error{fmt::format("the scene has an unknown field {}: did you mean '{}'?",
+                             quote_text(key), nearest_name(key, kFields))};
   }
   const auto text = scalar_text(value);
   if (!text || value.is_boolean()) return field_error(key, "a string or a number");
@@ -76,8 +79,8 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
 /// In single quotes unless every character is harmless to a shell.
 std::string shell_word(std::string_view text) {
   const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '.' ||
-           c == ',' || c == '-' || c == '+' || c == ':' || c == '=' || c == '/';
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+           c == '.' || c == ',' || c == '-' || c == '+' || c == ':' || c == '=' || c == '/';
   });
   if (plain) return std::string(text);
   std::string out = "'";
@@ -86,7 +89,8 @@ std::string shell_word(std::string_view text) {
 }
 
 /// The field given last, if any.
-const std::string* chosen(const std::optional<std::string>& under, const std::optional<std::string>& over) {
+const std::string* chosen(const std::optional<std::string>& under,
+                          const std::optional<std::string>& over) {
   if (over) return &*over;
   return under ? &*under : nullptr;
 }
@@ -104,8 +108,10 @@ Result<void> apply_settings(const SceneText& under, const SceneText& over, Setti
 
 Result<SceneText> parse_scene(std::string_view json_text) {
   const json root = json::parse(json_text, nullptr, false);
-  if (root.is_discarded()) return Error{"the scene is not JSON: check its brackets, quotes and commas"};
-  if (!root.is_object()) return Error{"the scene is not a JSON object: put the fields between { and }"};
+  if (root.is_discarded())
+    return Error{"the scene is not JSON: check its brackets, quotes and commas"};
+  if (!root.is_object())
+    return Error{"the scene is not a JSON object: put the fields between { and }"};
   SceneText scene;
   for (const auto& [key, value] : root.items()) {
     if (const auto done = read_field(key, value, scene); !done) return done.error();
@@ -150,8 +156,8 @@ std::string shot_command(const SceneOptions& scene) {
   std::string command = "skerry shot --seed " + shell_word(scene.seed_text);
   if (scene.camera) command += " --camera " + format_camera(*scene.camera);
   command += fmt::format(" --fov {} --time {} --size {}x{} --quality {}", scene.fov_deg,
-                         format_time_of_day(scene.time_of_day_s), scene.size.width, scene.size.height,
-                         quality_level(scene.quality).name);
+                         format_time_of_day(scene.time_of_day_s), scene.size.width,
+                         scene.size.height, quality_level(scene.quality).name);
   for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
     command += " --set " + shell_word(assignment);
   }

@@ -34,14 +34,17 @@ struct SceneText {
 /// The longest scene file worth reading.
 inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 
-/// Reads a scene: a JSON object with the fields seed, camera (five numbers or strings), fov, time, size, quality and settings (an object).
-/// Errors: no JSON, an unknown field (names the nearest), a value of the wrong kind. Values are checked by make_scene.
+/// Reads a scene: a JSON object with the fields seed, camera (five numbers or strings), fov, time,
+/// size, quality and settings (an object). Errors: no JSON, an unknown field (names the nearest), a
+/// value of the wrong kind. Values are checked by make_scene.
 Result<SceneText> parse_scene(std::string_view json_text);
 
-/// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied first.
+/// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied
+/// first.
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over);
 
-/// The command that draws this scene again, quoted for a shell. Without a camera it names none: the seed's spawn view is the default.
+/// The command that draws this scene again, quoted for a shell. Without a camera it names none: the
+/// seed's spawn view is the default.
 std::string shot_command(const SceneOptions& scene);
 
 }  // namespace skerry::game

@@ -13,15 +13,19 @@ constexpr float kPanelWidth = 380.0f;  // pixels
 constexpr float kGraphHeight = 60.0f;
 constexpr std::size_t kMemoryRows = 12;  // the rest is summed up
 
-void text(const std::string& line) { ImGui::TextUnformatted(line.data(), line.data() + line.size()); }
+void text(const std::string& line) {
+  ImGui::TextUnformatted(line.data(), line.data() + line.size());
+}
 
 void show_frames(const OverlayFacts& facts) {
   const FrameSpread spread = spread_of_frames(facts.frame_ms);
   if (facts.frame_ms.empty()) return;
-  text(fmt::format("{:.1f} fps   median {:.2f} ms   slowest 1% {:.2f} ms", 1000.0f / std::max(spread.median, 1e-3f),
-                   spread.median, spread.slowest_1_percent));
-  ImGui::PlotLines("##frames", facts.frame_ms.data(), static_cast<int>(facts.frame_ms.size()), 0, nullptr, 0.0f,
-                   std::max(2.0f * spread.median, spread.slowest_1_percent), ImVec2(kPanelWidth - 16.0f, kGraphHeight));
+  text(fmt::format("{:.1f} fps   median {:.2f} ms   slowest 1% {:.2f} ms",
+                   1000.0f / std::max(spread.median, 1e-3f), spread.median,
+                   spread.slowest_1_percent));
+  ImGui::PlotLines("##frames", facts.frame_ms.data(), static_cast<int>(facts.frame_ms.size()), 0,
+                   nullptr, 0.0f, std::max(2.0f * spread.median, spread.slowest_1_percent),
+                   ImVec2(kPanelWidth - 16.0f, kGraphHeight));
 }
 
 void row(std::string_view name, const std::string& value) {
@@ -42,7 +46,9 @@ void table(const std::string& heading, const F& rows) {
   ImGui::EndTable();
 }
 
-std::string megabytes(std::uint64_t bytes) { return fmt::format("{:10.2f} MB", static_cast<double>(bytes) * 1e-6); }
+std::string megabytes(std::uint64_t bytes) {
+  return fmt::format("{:10.2f} MB", static_cast<double>(bytes) * 1e-6);
+}
 
 void show_memory(std::span<const gpu::MemoryUse> memory) {
   std::uint64_t total = 0, rest = 0;
@@ -51,16 +57,19 @@ void show_memory(std::span<const gpu::MemoryUse> memory) {
     if (i >= kMemoryRows) rest += memory[i].bytes;
   }
   table(fmt::format("GPU memory: {:.1f} MB", static_cast<double>(total) * 1e-6), [&] {
-    for (const gpu::MemoryUse& use : memory.first(std::min(memory.size(), kMemoryRows))) row(use.name, megabytes(use.bytes));
+    for (const gpu::MemoryUse& use : memory.first(std::min(memory.size(), kMemoryRows)))
+      row(use.name, megabytes(use.bytes));
     if (rest != 0) row("others", megabytes(rest));
   });
 }
 
 void show(const OverlayFacts& facts, float height) {
   ImGui::SetNextWindowPos(ImVec2(8.0f, 8.0f));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(kPanelWidth, 0.0f), ImVec2(kPanelWidth, std::max(32.0f, height - 16.0f)));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(kPanelWidth, 0.0f),
+                                      ImVec2(kPanelWidth, std::max(32.0f, height - 16.0f)));
   ImGui::SetNextWindowBgAlpha(0.6f);
-  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration |
+                                      ImGuiWindowFlags_AlwaysAutoResize |
                                       ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings;
   ImGui::Begin("overlay", nullptr, kFlags);
   show_frames(facts);
@@ -69,7 +78,8 @@ void show(const OverlayFacts& facts, float height) {
     for (const auto& count : facts.counts) row(count.name, fmt::format("{:>12}", count.value));
   });
   table(fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
-    for (const gpu::PassTime& pass : facts.passes) row(pass.name, fmt::format("{:9.3f} ms", pass.ms));
+    for (const gpu::PassTime& pass : facts.passes)
+      row(pass.name, fmt::format("{:9.3f} ms", pass.ms));
   });
   show_memory(facts.memory);
   ImGui::End();
@@ -82,7 +92,8 @@ OverlayTriangles flatten(const ImDrawData& data) {
     const ImDrawList& list = *data.CmdLists[l];
     for (const ImDrawCmd& command : list.CmdBuffer) {
       const auto clip = static_cast<std::uint32_t>(out.clips.size());
-      out.clips.emplace_back(command.ClipRect.x, command.ClipRect.y, command.ClipRect.z, command.ClipRect.w);
+      out.clips.emplace_back(command.ClipRect.x, command.ClipRect.y, command.ClipRect.z,
+                             command.ClipRect.w);
       for (unsigned i = 0; i < command.ElemCount; ++i) {
         const ImDrawIdx index = list.IdxBuffer[static_cast<int>(command.IdxOffset + i)];
         const ImDrawVert& v = list.VtxBuffer[static_cast<int>(command.VtxOffset + index)];
@@ -105,18 +116,22 @@ Overlay::Overlay() {
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
 }
 
-Overlay::~Overlay() { ImGui::DestroyContext(context_); }
+Overlay::~Overlay() {
+  ImGui::DestroyContext(context_);
+}
 
 FontAtlas Overlay::font() const {
   ImGui::SetCurrentContext(context_);
   unsigned char* texels = nullptr;
   FontAtlas atlas;
   ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &atlas.width, &atlas.height);
-  atlas.texels = {texels, static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height)};
+  atlas.texels = {texels,
+                  static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height)};
   return atlas;
 }
 
-OverlayTriangles Overlay::layout(const OverlayFacts& facts, std::uint32_t width, std::uint32_t height, double seconds) {
+OverlayTriangles Overlay::layout(const OverlayFacts& facts, std::uint32_t width,
+                                 std::uint32_t height, double seconds) {
   (void)font();  // NewFrame wants the atlas built
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));

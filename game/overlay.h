@@ -21,12 +21,12 @@ struct OverlayFacts {
     std::string_view name;
     std::uint64_t value = 0;
   };
-  std::span<const float> frame_ms;              ///< recent frames, oldest first
-  std::span<const std::string> lines;           ///< where, when and how, ready to read
+  std::span<const float> frame_ms;     ///< recent frames, oldest first
+  std::span<const std::string> lines;  ///< where, when and how, ready to read
   double gpu_ms = 0.0;
-  std::span<const gpu::PassTime> passes;        ///< of the newest finished frame
+  std::span<const gpu::PassTime> passes;  ///< of the newest finished frame
   std::span<const Count> counts;
-  std::span<const gpu::MemoryUse> memory;       ///< largest first
+  std::span<const gpu::MemoryUse> memory;  ///< largest first
 };
 
 /// Triangles to draw over a picture: three vertices each, back to front.
@@ -41,8 +41,9 @@ struct FontAtlas {
   std::span<const unsigned char> texels;
 };
 
-/// The developer's overlay (F3), laid out by Dear ImGui. Only its core is used: packaged builds of its Vulkan backend call Vulkan through
-/// prototypes, which cannot be linked together with volk's function pointers of the same names, and its shape is one draw anyway.
+/// The developer's overlay (F3), laid out by Dear ImGui. Only its core is used: packaged builds of
+/// its Vulkan backend call Vulkan through prototypes, which cannot be linked together with volk's
+/// function pointers of the same names, and its shape is one draw anyway.
 class Overlay {
  public:
   Overlay();
@@ -52,7 +53,8 @@ class Overlay {
 
   FontAtlas font() const;
   /// @param width, height of the picture [pixels]. @param seconds since the frame before.
-  OverlayTriangles layout(const OverlayFacts& facts, std::uint32_t width, std::uint32_t height, double seconds);
+  OverlayTriangles layout(const OverlayFacts& facts, std::uint32_t width, std::uint32_t height,
+                          double seconds);
 
  private:
   ImGuiContext* context_;

@@ -20,9 +20,11 @@ class OverlayPass {
   /// Errors: no memory on the device.
   static Result<std::unique_ptr<OverlayPass>> create(gpu::Device& device, const FontAtlas& font);
 
-  /// Adds the pass "overlay". @param picture drawn over, format VK_FORMAT_R8G8B8A8_UNORM. @param slot 0 .. kSlots - 1; the frame that used it
-  /// last must have completed. @return the picture's new version. Errors: no memory.
-  Result<gpu::ImageRef> add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, gpu::ImageRef picture, VkExtent2D size,
+  /// Adds the pass "overlay". @param picture drawn over, format VK_FORMAT_R8G8B8A8_UNORM. @param
+  /// slot 0 .. kSlots - 1; the frame that used it last must have completed. @return the picture's
+  /// new version. Errors: no memory.
+  Result<gpu::ImageRef> add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                            gpu::ImageRef picture, VkExtent2D size,
                             const OverlayTriangles& triangles, std::uint32_t slot);
 
  private:

@@ -17,11 +17,15 @@ namespace {
 constexpr int kFractionBits = 16;  // of world::kUnitsPerBlock
 static_assert(world::kUnitsPerBlock == 1 << kFractionBits);
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool all_digits(std::string_view text) { return std::all_of(text.begin(), text.end(), is_digit); }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool all_digits(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), is_digit);
+}
 
-/// The decimal fraction 0.`digits` times 2^16, rounded to the nearest integer, ties up. Doubles the decimal string once a bit: exact for any
-/// number of digits.
+/// The decimal fraction 0.`digits` times 2^16, rounded to the nearest integer, ties up. Doubles the
+/// decimal string once a bit: exact for any number of digits.
 std::int64_t fraction_units(std::string_view digits) {
   std::vector<int> decimal(digits.size());
   for (std::size_t i = 0; i < digits.size(); ++i) decimal[i] = digits[i] - '0';
@@ -39,7 +43,8 @@ std::int64_t fraction_units(std::string_view digits) {
   return units + double_it();  // the next bit rounds
 }
 
-/// The magnitude of an unsigned decimal in units, or nothing when it is no decimal or above the limit.
+/// The magnitude of an unsigned decimal in units, or nothing when it is no decimal or above the
+/// limit.
 std::optional<std::int64_t> magnitude_units(std::string_view text) {
   const std::size_t point = text.find('.');
   std::string_view whole = text.substr(0, point);
@@ -111,7 +116,8 @@ Result<std::int64_t> parse_integer(std::string_view text, std::string_view what,
   std::int64_t value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || end != text.data() + text.size() || value < min || value > max) {
-    return Error{fmt::format("{} cannot be {}: give a whole number from {} to {}", what, quote_text(text), min, max)};
+    return Error{fmt::format("{} cannot be {}: give a whole number from {} to {}", what,
+                             quote_text(text), min, max)};
   }
   return value;
 }
@@ -123,7 +129,8 @@ Result<double> parse_number(std::string_view text, std::string_view what, double
   const auto [end, code] = std::from_chars(text.data() + plus, text.data() + text.size(), value);
   const bool read = code == std::errc() && end == text.data() + text.size();
   if (!read || !std::isfinite(value) || value < min || value > max) {
-    return Error{fmt::format("{} cannot be {}: give a number from {} to {}", what, quote_text(text), min, max)};
+    return Error{fmt::format("{} cannot be {}: give a number from {} to {}", what, quote_text(text),
+                             min, max)};
   }
   return value;
 }
@@ -135,8 +142,8 @@ Result<std::int64_t> parse_blocks(std::string_view text, std::string_view what) 
   if (negative || digits.starts_with('+')) digits.remove_prefix(1);
   const auto units = text.size() <= kMaxLength ? magnitude_units(digits) : std::nullopt;
   if (!units) {
-    return Error{fmt::format("{} cannot be {}: give plain decimal blocks from -{} to {}", what, quote_text(text),
-                             world::kMaxBlock, world::kMaxBlock)};
+    return Error{fmt::format("{} cannot be {}: give plain decimal blocks from -{} to {}", what,
+                             quote_text(text), world::kMaxBlock, world::kMaxBlock)};
   }
   return negative ? -*units : *units;
 }
@@ -147,8 +154,9 @@ std::string format_blocks(std::int64_t units) {
   const std::int64_t fraction = magnitude % world::kUnitsPerBlock;
   if (fraction == 0) return out;
   // Five digits tell neighbours 1/65536 apart; fewer often do.
-  for (std::int64_t scale = 10; ; scale *= 10) {
-    const std::int64_t digits = (fraction * scale * 2 + world::kUnitsPerBlock) / (2 * world::kUnitsPerBlock);
+  for (std::int64_t scale = 10;; scale *= 10) {
+    const std::int64_t digits =
+        (fraction * scale * 2 + world::kUnitsPerBlock) / (2 * world::kUnitsPerBlock);
     const std::int64_t back = (digits * world::kUnitsPerBlock * 2 + scale) / (2 * scale);
     if (back != fraction || digits == scale) continue;
     const std::string text = std::to_string(scale + digits);  // "1ddd": keeps leading zeros
@@ -173,15 +181,19 @@ Result<CameraPlace> parse_camera(std::span<const std::string> parts) {
   return CameraPlace{{*x, *y, *z}, *yaw, *pitch};
 }
 
-Result<CameraPlace> parse_camera(std::string_view text) { return parse_camera(split(text, ',')); }
+Result<CameraPlace> parse_camera(std::string_view text) {
+  return parse_camera(split(text, ','));
+}
 
 std::string format_camera(const CameraPlace& camera) {
-  return fmt::format("{},{},{},{},{}", format_blocks(camera.position.x), format_blocks(camera.position.y),
-                     format_blocks(camera.position.z), camera.yaw_deg, camera.pitch_deg);
+  return fmt::format("{},{},{},{},{}", format_blocks(camera.position.x),
+                     format_blocks(camera.position.y), format_blocks(camera.position.z),
+                     camera.yaw_deg, camera.pitch_deg);
 }
 
 Result<int> parse_time_of_day(std::string_view text) {
-  const Error error{fmt::format("the time cannot be {}: give HH:MM or HH:MM:SS, 00:00:00 to 23:59:59", quote_text(text))};
+  const Error error{fmt::format(
+      "the time cannot be {}: give HH:MM or HH:MM:SS, 00:00:00 to 23:59:59", quote_text(text))};
   const std::vector<std::string> parts = split(text, ':');
   if (parts.size() != 2 && parts.size() != 3) return error;
   std::array<int, 3> values{};
@@ -200,7 +212,8 @@ std::string format_time_of_day(int seconds) {
 Result<PictureSize> parse_size(std::string_view text) {
   const std::vector<std::string> parts = split(text, 'x');
   if (parts.size() != 2) {
-    return Error{fmt::format("the size cannot be {}: give WIDTHxHEIGHT, such as 1280x720", quote_text(text))};
+    return Error{fmt::format("the size cannot be {}: give WIDTHxHEIGHT, such as 1280x720",
+                             quote_text(text))};
   }
   const Result<std::int64_t> width = parse_integer(parts[0], "the width", 1, kMaxPictureEdge);
   if (!width) return width.error();

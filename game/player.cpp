@@ -9,17 +9,20 @@
 namespace skerry::game {
 namespace {
 
-// Islands turn about +y only (world::IslandSpec), so "up" and gravity are the same in every lattice.
+// Islands turn about +y only (world::IslandSpec), so "up" and gravity are the same in every
+// lattice.
 
-constexpr double kGravity = 25.0;         // blocks/s^2; brisker than nature's, as a jump of 1.25 blocks wants
-constexpr double kJumpSpeed = 7.9;        // blocks/s: rises sqrt-law to kJumpSpeed^2 / (2 kGravity) = 1.25 blocks
-constexpr double kFallSpeedLimit = 80.0;  // blocks/s
+constexpr double kGravity =
+    25.0;  // blocks/s^2; brisker than nature's, as a jump of 1.25 blocks wants
+constexpr double kJumpSpeed =
+    7.9;  // blocks/s: rises sqrt-law to kJumpSpeed^2 / (2 kGravity) = 1.25 blocks
+constexpr double kFallSpeedLimit = 80.0;                                  // blocks/s
 constexpr double kWalkSpeed = 4.5, kSprintSpeed = 8.0, kSwimSpeed = 2.5;  // blocks/s
-constexpr double kSwimRise = 3.5, kSink = -1.5;                           // blocks/s, with and without stroke
+constexpr double kSwimRise = 3.5, kSink = -1.5;  // blocks/s, with and without stroke
 constexpr double kGroundGrip = 12.0, kAirGrip = 2.0, kWaterGrip = 5.0, kFlyGrip = 8.0;  // 1/s
-constexpr double kFastFlight = 5.0;   // times the flying speed
-constexpr double kReach = 16.0;       // blocks beyond an island's sphere in which its frame is kept
-constexpr int kMaxPushOut = 256;      // blocks upwards
+constexpr double kFastFlight = 5.0;  // times the flying speed
+constexpr double kReach = 16.0;      // blocks beyond an island's sphere in which its frame is kept
+constexpr int kMaxPushOut = 256;     // blocks upwards
 
 glm::dvec3 to_lattice(const world::Pose& pose, world::WorldPos place) {
   return glm::conjugate(pose.rotation) * world::difference_blocks(place, pose.origin);
@@ -65,7 +68,9 @@ void Player::turn(double yaw_deg, double pitch_deg) {
   pitch_deg_ = std::clamp(pitch_deg_ + pitch_deg, -90.0, 90.0);
 }
 
-void Player::set_fly_speed(double speed) { fly_speed_ = std::clamp(speed, kMinFlySpeed, kMaxFlySpeed); }
+void Player::set_fly_speed(double speed) {
+  fly_speed_ = std::clamp(speed, kMinFlySpeed, kMaxFlySpeed);
+}
 
 void Player::advance(double seconds, const Intent& intent, const Surroundings& around) {
   owed_s_ += seconds;
@@ -104,7 +109,8 @@ void Player::tick(const Intent& intent, const Surroundings& around) {
   update_velocity(intent);
   Place target = wanted_place();
   on_ground_ = false;
-  // Being stopped by one island can push into another; a few rounds settle it. What is left, leave_solids resolves.
+  // Being stopped by one island can push into another; a few rounds settle it. What is left,
+  // leave_solids resolves.
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     bool touched = false;
@@ -152,12 +158,14 @@ void Player::leave_lost_frame(const Surroundings& around) {
 
 void Player::leave_solids(const Surroundings& around) {
   for (const Mover& mover : movers_) {
-    glm::dvec3 lattice = now_.island == mover.island ? now_.lattice : to_lattice(mover.from, now_.feet);
+    glm::dvec3 lattice =
+        now_.island == mover.island ? now_.lattice : to_lattice(mover.from, now_.feet);
     const SolidQuery solid = solid_query(around, mover.island, false);
     if (!box_overlaps(solid, lattice) || !push_out(solid, lattice, kMaxPushOut)) continue;
     velocity_ = {};
     now_.feet = to_world(mover.from, lattice);
-    if (const Mover* frame = mover_of(now_.island)) now_.lattice = to_lattice(frame->from, now_.feet);
+    if (const Mover* frame = mover_of(now_.island))
+      now_.lattice = to_lattice(frame->from, now_.feet);
     if (now_.island == mover.island) now_.lattice = lattice;
   }
 }
@@ -169,7 +177,8 @@ void Player::update_velocity(const Intent& intent) {
     const double length = std::max(1.0, glm::length(wish));
     const double speed = std::min(fly_speed_ * (intent.fast ? kFastFlight : 1.0), kMaxFlySpeed);
     wish *= speed / length;
-    for (int axis = 0; axis < 3; ++axis) velocity_[axis] = approach(velocity_[axis], wish[axis], kFlyGrip);
+    for (int axis = 0; axis < 3; ++axis)
+      velocity_[axis] = approach(velocity_[axis], wish[axis], kFlyGrip);
   } else {
     const double speed = in_water_ ? kSwimSpeed : intent.fast ? kSprintSpeed : kWalkSpeed;
     const double grip = in_water_ ? kWaterGrip : on_ground_ ? kGroundGrip : kAirGrip;
@@ -201,9 +210,11 @@ Player::Place Player::wanted_place() const {
   return place;
 }
 
-bool Player::collide(const Surroundings& around, const Mover& mover, Place& target, bool only_if_inside) {
+bool Player::collide(const Surroundings& around, const Mover& mover, Place& target,
+                     bool only_if_inside) {
   const bool in_frame = target.island == mover.island;
-  const glm::dvec3 from = now_.island == mover.island ? now_.lattice : to_lattice(mover.from, now_.feet);
+  const glm::dvec3 from =
+      now_.island == mover.island ? now_.lattice : to_lattice(mover.from, now_.feet);
   const glm::dvec3 to = in_frame ? target.lattice : to_lattice(mover.to, target.feet);
   const SolidQuery solid = solid_query(around, mover.island, mode_ == MoveMode::kWalk);
   if (only_if_inside && !box_overlaps(solid, to)) return false;
@@ -238,7 +249,8 @@ bool Player::collide(const Surroundings& around, const Mover& mover, Place& targ
   return true;
 }
 
-SolidQuery Player::solid_query(const Surroundings& around, std::uint64_t island, bool hold_at_unknown) const {
+SolidQuery Player::solid_query(const Surroundings& around, std::uint64_t island,
+                               bool hold_at_unknown) const {
   return [&around, island, hold_at_unknown](world::IVec3 voxel) {
     const auto id = around.block(island, voxel);
     return id ? world::is_solid(*id) : hold_at_unknown;
@@ -247,7 +259,8 @@ SolidQuery Player::solid_query(const Surroundings& around, std::uint64_t island,
 
 void Player::look_for_water(const Surroundings& around) {
   in_water_ = std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
-    glm::dvec3 middle = now_.island == mover.island ? now_.lattice : to_lattice(mover.to, now_.feet);
+    glm::dvec3 middle =
+        now_.island == mover.island ? now_.lattice : to_lattice(mover.to, now_.feet);
     middle.y += kPlayerHeight / 2.0;
     const glm::ivec3 voxel = glm::floor(middle);
     return around.block(mover.island, {voxel.x, voxel.y, voxel.z}) == world::block::kWater;

@@ -13,11 +13,13 @@
 
 namespace skerry::game {
 
-/// What a player can stand on and bump into. All answers must depend on the arguments alone while a tick runs.
+/// What a player can stand on and bump into. All answers must depend on the arguments alone while a
+/// tick runs.
 class Surroundings {
  public:
   virtual ~Surroundings() = default;
-  /// Ids of the islands whose bounding spheres come within `radius_blocks` of a place at a time, in ascending order. `out` is replaced.
+  /// Ids of the islands whose bounding spheres come within `radius_blocks` of a place at a time, in
+  /// ascending order. `out` is replaced.
   virtual void islands_near(world::WorldPos place, double radius_blocks, double time_s,
                             std::vector<std::uint64_t>& out) const = 0;
   /// None: there is no such island any more.
@@ -28,25 +30,28 @@ class Surroundings {
 
 /// What the person wants during a tick.
 struct Intent {
-  glm::dvec2 move{};    ///< x to the right, y forward; length at most 1 counts
-  double rise = 0.0;    ///< flying: -1 down .. 1 up
-  bool jump = false;    ///< walking: jump; in water: swim up
-  bool fast = false;    ///< sprint, or five times the flying speed
+  glm::dvec2 move{};  ///< x to the right, y forward; length at most 1 counts
+  double rise = 0.0;  ///< flying: -1 down .. 1 up
+  bool jump = false;  ///< walking: jump; in water: swim up
+  bool fast = false;  ///< sprint, or five times the flying speed
 };
 
 enum class MoveMode : std::uint8_t { kWalk, kFly };
 
-/// Ticks a second; every length of frame runs the same ticks, so motion does not depend on the frame rate.
+/// Ticks a second; every length of frame runs the same ticks, so motion does not depend on the
+/// frame rate.
 inline constexpr int kTicksPerSecond = 120;
 inline constexpr double kTickSeconds = 1.0 / kTicksPerSecond;
-inline constexpr double kEyeHeight = 1.62;  ///< blocks above the feet
+inline constexpr double kEyeHeight = 1.62;                           ///< blocks above the feet
 inline constexpr double kMinFlySpeed = 1.0, kMaxFlySpeed = 10000.0;  ///< blocks/s
 
-/// A walking, swimming or flying person. Someone who touched an island stays in its frame (turning and drifting with it) until touching
-/// another or leaving its neighbourhood; the place is then kept in lattice blocks, else in exact world units.
+/// A walking, swimming or flying person. Someone who touched an island stays in its frame (turning
+/// and drifting with it) until touching another or leaving its neighbourhood; the place is then
+/// kept in lattice blocks, else in exact world units.
 class Player {
  public:
-  /// @param feet where the middle of the soles is. @param time_s the world's time at which that holds.
+  /// @param feet where the middle of the soles is. @param time_s the world's time at which that
+  /// holds.
   Player(world::WorldPos feet, double yaw_deg, double pitch_deg, double time_s);
 
   /// Turns the head at once. Pitch stays within +-90.
@@ -57,10 +62,12 @@ class Player {
   void set_fly_speed(double speed);
   double fly_speed() const { return fly_speed_; }
 
-  /// Advances by `seconds` of frame time: as many whole ticks as are due, the rest is kept for the next call.
+  /// Advances by `seconds` of frame time: as many whole ticks as are due, the rest is kept for the
+  /// next call.
   void advance(double seconds, const Intent& intent, const Surroundings& around);
 
-  /// Place and view between the last two ticks, at the time world_time_s(). That lags by up to a tick, and so never has to guess.
+  /// Place and view between the last two ticks, at the time world_time_s(). That lags by up to a
+  /// tick, and so never has to guess.
   CameraPlace eye(const Surroundings& around) const;
   /// Time of the world to draw together with eye().
   double world_time_s() const;
@@ -74,7 +81,8 @@ class Player {
   glm::dvec3 velocity() const { return velocity_; }
 
  private:
-  /// A place in a frame. With an island, `lattice` and the yaw relative to it are what counts, and `feet` follows from the island's pose.
+  /// A place in a frame. With an island, `lattice` and the yaw relative to it are what counts, and
+  /// `feet` follows from the island's pose.
   struct Place {
     world::WorldPos feet;
     std::optional<std::uint64_t> island;
@@ -89,7 +97,9 @@ class Player {
     glm::dvec3 carry(const glm::dvec3& lattice) const;
   };
 
-  double time_of(std::uint64_t ticks) const { return start_s_ + static_cast<double>(ticks) * kTickSeconds; }
+  double time_of(std::uint64_t ticks) const {
+    return start_s_ + static_cast<double>(ticks) * kTickSeconds;
+  }
   void tick(const Intent& intent, const Surroundings& around);
   void find_movers(const Surroundings& around);
   const Mover* mover_of(std::optional<std::uint64_t> island) const;
@@ -99,7 +109,8 @@ class Player {
   Place wanted_place() const;
   /// Stops `target` at the mover's voxels. @return whether anything was in the way.
   bool collide(const Surroundings& around, const Mover& mover, Place& target, bool only_if_inside);
-  SolidQuery solid_query(const Surroundings& around, std::uint64_t island, bool hold_at_unknown) const;
+  SolidQuery solid_query(const Surroundings& around, std::uint64_t island,
+                         bool hold_at_unknown) const;
   void look_for_water(const Surroundings& around);
 
   Place before_, now_;

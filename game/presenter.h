@@ -1,6 +1,4 @@
 #pragma once
-#include <volk.h>
-
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -19,31 +17,38 @@ namespace skerry::game {
 class Presenter {
  public:
   /// @param surface outlives this. Errors: the device cannot present to it, no memory.
-  static Result<std::unique_ptr<Presenter>> create(gpu::Device& device, VkSurfaceKHR surface, const FontAtlas& font);
+  static Result<std::unique_ptr<Presenter>> create(gpu::Device& device, VkSurfaceKHR surface,
+                                                   const FontAtlas& font);
 
   /// The window's next image; none while the window has no area.
-  std::optional<gpu::SwapchainFrame> acquire(VkExtent2D window_px) { return swapchain_->acquire(window_px); }
+  std::optional<gpu::SwapchainFrame> acquire(VkExtent2D window_px) {
+    return swapchain_->acquire(window_px);
+  }
   VkExtent2D extent() const { return swapchain_->extent(); }
 
-  /// Records the way from a finished picture to the window's image. The picture stays without overlay: screenshots read it.
+  /// Records the way from a finished picture to the window's image. The picture stays without
+  /// overlay: screenshots read it.
   /// @param overlay null: none, which saves a copy. Errors: no memory.
-  Result<void> record(VkCommandBuffer commands, gpu::Image& picture, const gpu::SwapchainFrame& frame,
-                      const OverlayTriangles* overlay);
+  Result<void> record(VkCommandBuffer commands, gpu::Image& picture,
+                      const gpu::SwapchainFrame& frame, const OverlayTriangles* overlay);
   /// After the submit. @param value the timeline value it signals.
   void present(const gpu::SwapchainFrame& frame, std::uint64_t value);
 
  private:
-  Presenter(gpu::Device& device, std::unique_ptr<gpu::Swapchain> swapchain, std::unique_ptr<OverlayPass> overlay_pass);
+  Presenter(gpu::Device& device, std::unique_ptr<gpu::Swapchain> swapchain,
+            std::unique_ptr<OverlayPass> overlay_pass);
   Result<void> fit_canvas(VkExtent2D size);
-  Result<void> draw_overlay(VkCommandBuffer commands, gpu::Image& picture, const OverlayTriangles& triangles);
+  Result<void> draw_overlay(VkCommandBuffer commands, gpu::Image& picture,
+                            const OverlayTriangles& triangles);
 
   gpu::Device& device_;
   gpu::Pipelines pipelines_;
   gpu::FrameGraph graph_;
   std::unique_ptr<gpu::Swapchain> swapchain_;
   std::unique_ptr<OverlayPass> overlay_pass_;
-  gpu::Image canvas_;                                           // the picture's copy that the overlay is drawn on
-  std::array<std::uint64_t, OverlayPass::kSlots> slot_values_{};  // timeline values of the frames that used the slots last
+  gpu::Image canvas_;  // the picture's copy that the overlay is drawn on
+  std::array<std::uint64_t, OverlayPass::kSlots>
+      slot_values_{};  // timeline values of the frames that used the slots last
   std::uint32_t slot_ = 0;
 };
 

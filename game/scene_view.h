@@ -3,9 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/core/jobs.h"
@@ -18,27 +16,32 @@
 
 namespace skerry::game {
 
-/// A world and the renderer that shows it: streams islands in around the camera, hands chunk meshes to the GPU and draws. Shared by shot, bench
-/// and play. The frame thread calls everything; generation and meshing run on jobs.
+/// A world and the renderer that shows it: streams islands in around the camera, hands chunk
+/// meshes to the GPU and draws. Shared by shot, bench and play. The frame thread calls everything
+/// here; generation and meshing run on jobs.
 class SceneView {
  public:
   /// Errors: no memory on the device.
-  static Result<std::unique_ptr<SceneView>> create(gpu::Device& device, const SceneOptions& options);
+  static Result<std::unique_ptr<SceneView>> create(gpu::Device& device,
+                                                   const SceneOptions& options);
   ~SceneView();
 
   /// The camera the options ask for: given, or the seed's spawn view at eye height.
   const render::Camera& start_camera() const { return start_camera_; }
   world::World& world() { return *world_; }
+  const world::Streamer& streamer() const { return *streamer_; }
   render::Renderer& renderer() { return *renderer_; }
   Settings& settings() { return settings_; }  ///< may be changed between frames
 
-  /// Waits until all that belongs to this camera is generated and meshed, then queues it in an order that does not depend on threads and draws
-  /// nothing yet. The next draw() uploads everything at once. Errors: the quad arena is full.
+  /// Waits until all that belongs to this camera is generated and meshed, then queues it in an
+  /// order that does not depend on threads. The next draw() uploads everything at once.
+  /// Errors: the quad arena is full.
   Result<void> load_completely(const render::Camera& camera, double world_time_s);
   /// Takes in what the workers have ready, within the frame's budget; never waits.
+  /// Errors: the quad arena is full.
   Result<void> stream(const render::Camera& camera, double world_time_s);
-  /// Whether everything within view distance is on the GPU.
-  bool complete() const;
+  /// Whether everything within view distance has been handed to the renderer.
+  bool complete() const { return streamer_->complete(); }
 
   struct Moment {
     render::Camera camera;
@@ -46,22 +49,27 @@ class SceneView {
     double world_time_s = 0.0;
     bool freeze_culling = false;
   };
-  Result<std::uint64_t> draw(const Moment& moment, VkExtent2D size,
-                             const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},
-                             std::span<const VkSemaphoreSubmitInfo> waits = {}, std::span<const VkSemaphoreSubmitInfo> signals = {});
+  /// See render::Renderer::draw.
+  Result<std::uint64_t> draw(
+      const Moment& moment, VkExtent2D size,
+      const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},
+      std::span<const VkSemaphoreSubmitInfo> waits = {},
+      std::span<const VkSemaphoreSubmitInfo> signals = {});
 
  private:
-  SceneView(gpu::Device& device, const SceneOptions& options);
+  explicit SceneView(const SceneOptions& options);
   Result<void> take_in(world::StreamUpdate update);
   std::uint32_t island_slot(std::uint64_t island);
+  std::vector<render::IslandPlacement> placements(double world_time_s) const;
+  /// Id of the translucent block the camera is in, or air.
+  world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
   render::RenderSettings render_settings() const;
 
   struct IslandEntry {
     world::IslandSpec spec;
-    std::uint32_t sections = 0;  // resident ones that name this slot; a slot without any may be taken over
+    std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
   };
 
-  gpu::Device& device_;
   Settings settings_;
   std::unique_ptr<Jobs> jobs_;
   std::unique_ptr<world::World> world_;
@@ -71,7 +79,6 @@ class SceneView {
   std::vector<IslandEntry> islands_;                     // by GPU slot
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
   std::map<world::SectionKey, render::SectionId> sections_;
-  bool upload_all_ = false;
 };
 
 }  // namespace skerry::game

@@ -11,9 +11,8 @@ namespace skerry::game {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
-constexpr std::array<std::string_view, 9> kDebugViewNames{"none",     "albedo",   "normal",
-                                                          "position", "metadata", "emissive",
-                                                          "depth",    "cascades", "shadow"};
+constexpr std::array<std::string_view, 9> kDebugViewNames{
+    "none", "albedo", "normal", "position", "metadata", "emissive", "depth", "cascades", "shadow"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 2> kRendererNames{"deferred", "auto"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
@@ -33,8 +32,8 @@ Result<std::size_t> parse_name(std::string_view text, std::string_view what,
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == text) return i;
   }
-  return Error{fmt::format("{} cannot be {}: did you mean '{}'? It takes {}", what, quote_text(text),
-                           nearest_name(text, names), listed(names))};
+  return Error{fmt::format("{} cannot be {}: did you mean '{}'? It takes {}", what,
+                           quote_text(text), nearest_name(text, names), listed(names))};
 }
 
 template <class T>
@@ -60,11 +59,13 @@ Result<void> into_number(const Result<double>& parsed, double& field) {
 Result<void> parse_offset(std::string_view text, Settings& s) {
   const std::vector<std::string> parts = split(text, ',');
   if (parts.size() != 3) {
-    return Error{fmt::format("world.offset cannot be {}: give whole blocks X,Y,Z", quote_text(text))};
+    return Error{
+        fmt::format("world.offset cannot be {}: give whole blocks X,Y,Z", quote_text(text))};
   }
   std::array<std::int64_t, 3> offset{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto part = parse_integer(parts[axis], "world.offset", -world::kMaxBlock, world::kMaxBlock);
+    const auto part =
+        parse_integer(parts[axis], "world.offset", -world::kMaxBlock, world::kMaxBlock);
     if (!part) return part.error();
     offset[axis] = *part;
   }
@@ -78,7 +79,8 @@ Result<void> parse_islands(std::string_view text, Settings& s) {
     return {};
   }
   std::uint32_t count = 0;
-  const Result<void> done = into(parse_integer(text, "world.islands ('all' or a count)", 0, 100000), count);
+  const Result<void> done =
+      into(parse_integer(text, "world.islands ('all' or a count)", 0, 100000), count);
   if (done) s.world_islands = count;
   return done;
 }
@@ -89,7 +91,8 @@ Result<void> parse_exposure(std::string_view text, Settings& s) {
     return {};
   }
   double stops = 0.0;
-  const Result<void> done = into_number(parse_number(text, "exposure ('auto' or stops)", -20.0, 20.0), stops);
+  const Result<void> done =
+      into_number(parse_number(text, "exposure ('auto' or stops)", -20.0, 20.0), stops);
   if (done) s.exposure_ev = stops;
   return done;
 }
@@ -98,7 +101,8 @@ Result<void> parse_shadow_size(std::string_view text, Settings& s) {
   const auto size = parse_integer(text, "shadow.size", 256, 8192);
   if (!size) return size.error();
   if ((*size & (*size - 1)) != 0) {
-    return Error{fmt::format("shadow.size cannot be {}: give a power of two from 256 to 8192", quote_text(text))};
+    return Error{fmt::format("shadow.size cannot be {}: give a power of two from 256 to 8192",
+                             quote_text(text))};
   }
   s.shadow_size = static_cast<std::uint32_t>(*size);
   return {};
@@ -116,11 +120,14 @@ Result<void> parse_renderer(std::string_view text, Settings&) {
 
 constexpr SettingKey kKeys[] = {
     {"world.offset", "X,Y,Z: whole blocks, -2^40 to 2^40 each",
-     "Moves every island. With the camera moved alike the picture is the same, bit for bit.", parse_offset,
+     "Moves every island. With the camera moved alike the picture is the same, bit for bit.",
+     parse_offset,
      [](const Settings& s) { return fmt::format("{}", fmt::join(s.world_offset, ",")); }},
-    {"world.islands", "all, or 0 to 100000", "Keeps only so many islands, nearest to the spawn first.",
-     parse_islands,
-     [](const Settings& s) { return s.world_islands ? std::to_string(*s.world_islands) : std::string("all"); }},
+    {"world.islands", "all, or 0 to 100000",
+     "Keeps only so many islands, nearest to the spawn first.", parse_islands,
+     [](const Settings& s) {
+       return s.world_islands ? std::to_string(*s.world_islands) : std::string("all");
+     }},
     {"world.time", "seconds, -1e9 to 1e9", "How long the islands have drifted and turned.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "world.time", -1e9, 1e9), s.world_time_s);
@@ -133,10 +140,12 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) { return fmt::format("{}", s.moon_phase); }},
     {"view.distance", "blocks, 32 to 16384", "Nothing farther than this is drawn.",
      [](std::string_view t, Settings& s) {
-       return into(parse_integer(t, "view.distance", kMinViewDistance, kMaxViewDistance), s.view_distance);
+       return into(parse_integer(t, "view.distance", kMinViewDistance, kMaxViewDistance),
+                   s.view_distance);
      },
      [](const Settings& s) { return std::to_string(s.view_distance); }},
-    {"view.detail", "blocks, 32 to 4096", "Full detail up to here; each doubling halves the detail.",
+    {"view.detail", "blocks, 32 to 4096",
+     "Full detail up to here; each doubling halves the detail.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "view.detail", 32, 4096), s.view_detail);
      },
@@ -146,38 +155,52 @@ constexpr SettingKey kKeys[] = {
        return into_name(parse_name(t, "shadow.enabled", kSwitchNames), s.shadow_enabled);
      },
      [](const Settings& s) { return std::string(s.shadow_enabled ? "1" : "0"); }},
-    {"shadow.size", "a power of two, 256 to 8192", "Texels along the edge of one shadow map.", parse_shadow_size,
-     [](const Settings& s) { return std::to_string(s.shadow_size); }},
-    {"exposure", "auto, or stops from -20 to 20", "Metered, or fixed: each stop doubles the brightness.",
-     parse_exposure,
-     [](const Settings& s) { return s.exposure_ev ? fmt::format("{}", *s.exposure_ev) : std::string("auto"); }},
-    {"renderer", "deferred or auto", "How the picture is made. This build has one way: deferred.", parse_renderer,
-     [](const Settings&) { return std::string("auto"); }},
-    {"shading", "pbr or flat", "flat: light colour times shadow, without the surface's angle to the light.",
-     [](std::string_view t, Settings& s) { return into_name(parse_name(t, "shading", kShadingNames), s.shading); },
-     [](const Settings& s) { return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]); }},
+    {"shadow.size", "a power of two, 256 to 8192", "Texels along the edge of one shadow map.",
+     parse_shadow_size, [](const Settings& s) { return std::to_string(s.shadow_size); }},
+    {"exposure", "auto, or stops from -20 to 20",
+     "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
+     [](const Settings& s) {
+       return s.exposure_ev ? fmt::format("{}", *s.exposure_ev) : std::string("auto");
+     }},
+    {"renderer", "deferred or auto", "How the picture is made. This build has one way: deferred.",
+     parse_renderer, [](const Settings&) { return std::string("auto"); }},
+    {"shading", "pbr or flat",
+     "flat: light colour times shadow, without the surface's angle to the light.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "shading", kShadingNames), s.shading);
+     },
+     [](const Settings& s) {
+       return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]);
+     }},
     {"debug.view", "none, albedo, normal, position, metadata, emissive, depth, cascades or shadow",
      "Shows one ingredient of the picture instead of the picture.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "debug.view", kDebugViewNames), s.debug_view);
      },
-     [](const Settings& s) { return std::string(kDebugViewNames[static_cast<std::size_t>(s.debug_view)]); }},
-    {"upload.path", "update, staging or mapped", "How meshes travel to the GPU: vkCmdUpdateBuffer, copies, mapped memory.",
+     [](const Settings& s) {
+       return std::string(kDebugViewNames[static_cast<std::size_t>(s.debug_view)]);
+     }},
+    {"upload.path", "update, staging or mapped",
+     "How meshes travel to the GPU: vkCmdUpdateBuffer, copies, mapped memory.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "upload.path", kUploadNames), s.upload_path);
      },
-     [](const Settings& s) { return std::string(kUploadNames[static_cast<std::size_t>(s.upload_path)]); }},
+     [](const Settings& s) {
+       return std::string(kUploadNames[static_cast<std::size_t>(s.upload_path)]);
+     }},
     {"upload.budget", "bytes, 65536 to 1073741824", "The most that travels in one frame.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "upload.budget", 65536, 1 << 30), s.upload_budget_bytes);
      },
      [](const Settings& s) { return std::to_string(s.upload_budget_bytes); }},
-    {"jobs.threads", "0 to 256", "Worker threads; 0 takes one a core. The picture does not depend on it.",
+    {"jobs.threads", "0 to 256",
+     "Worker threads; 0 takes one a core. The picture does not depend on it.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "jobs.threads", 0, 256), s.jobs_threads);
      },
      [](const Settings& s) { return std::to_string(s.jobs_threads); }},
-    {"water.layers", "1 to 4", "How many water and glass surfaces one behind another a pixel shows.",
+    {"water.layers", "1 to 4",
+     "How many water and glass surfaces one behind another a pixel shows.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "water.layers", 1, 4), s.water_layers);
      },
@@ -186,7 +209,9 @@ constexpr SettingKey kKeys[] = {
 
 }  // namespace
 
-std::span<const SettingKey> setting_keys() { return kKeys; }
+std::span<const SettingKey> setting_keys() {
+  return kKeys;
+}
 
 Result<void> apply_setting(std::string_view key, std::string_view value, Settings& settings) {
   std::vector<std::string_view> names;
@@ -194,19 +219,22 @@ Result<void> apply_setting(std::string_view key, std::string_view value, Setting
     if (entry.key == key) return entry.parse(value, settings);
     names.push_back(entry.key);
   }
-  return Error{fmt::format("there is no setting {}: did you mean '{}'? docs/settings.md lists all", quote_text(key),
-                           nearest_name(key, names))};
+  return Error{fmt::format("there is no setting {}: did you mean '{}'? docs/settings.md lists all",
+                           quote_text(key), nearest_name(key, names))};
 }
 
 Result<void> apply_setting(std::string_view assignment, Settings& settings) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) {
-    return Error{fmt::format("the setting {} has no value: give KEY=VALUE", quote_text(assignment))};
+    return Error{
+        fmt::format("the setting {} has no value: give KEY=VALUE", quote_text(assignment))};
   }
   return apply_setting(assignment.substr(0, equals), assignment.substr(equals + 1), settings);
 }
 
-const QualityLevel& quality_level(Quality quality) { return kLevels[static_cast<std::size_t>(quality)]; }
+const QualityLevel& quality_level(Quality quality) {
+  return kLevels[static_cast<std::size_t>(quality)];
+}
 
 Result<Quality> parse_quality(std::string_view text) {
   std::array<std::string_view, kLevels.size()> names;

@@ -16,27 +16,37 @@ inline constexpr std::uint32_t kMinViewDistance = 32, kMaxViewDistance = 16384; 
 enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
 enum class Shading : std::uint8_t { kPbr, kFlat };
 enum class DebugView : std::uint8_t {
-  kNone, kAlbedo, kNormal, kPosition, kMetadata, kEmissive, kDepth, kCascades, kShadow
+  kNone,
+  kAlbedo,
+  kNormal,
+  kPosition,
+  kMetadata,
+  kEmissive,
+  kDepth,
+  kCascades,
+  kShadow
 };
 enum class UploadMode : std::uint8_t { kUpdate, kStaging, kMapped };
 
-/// Everything `--set` reaches, with the defaults of quality `medium`. docs/settings.md says what each means to a player.
+/// Everything `--set` reaches, with the defaults of quality `medium`. docs/settings.md says what
+/// each means to a player.
 struct Settings {
   std::array<std::int64_t, 3> world_offset{};  ///< whole blocks, +-2^40: moves every island
-  std::optional<std::uint32_t> world_islands;  ///< only so many islands, nearest to the spawn first; none: all
-  double world_time_s = 0.0;                   ///< seconds of island motion, +-1e9
-  double moon_phase = 0.5;                     ///< 0 new, 0.5 full, 1 new again
-  std::uint32_t view_distance = 1000;          ///< blocks, 32 .. 16384
-  std::uint32_t view_detail = 192;             ///< blocks drawn at full detail, 32 .. 4096
+  std::optional<std::uint32_t>
+      world_islands;          ///< only so many islands, nearest to the spawn first; none: all
+  double world_time_s = 0.0;  ///< seconds of island motion, +-1e9
+  double moon_phase = 0.5;    ///< 0 new, 0.5 full, 1 new again
+  std::uint32_t view_distance = 1000;  ///< blocks, 32 .. 16384
+  std::uint32_t view_detail = 192;     ///< blocks drawn at full detail, 32 .. 4096
   bool shadow_enabled = true;
-  std::uint32_t shadow_size = 2048;            ///< texels along a cascade's edge, power of two, 256 .. 8192
-  std::optional<double> exposure_ev;           ///< stops, -20 .. 20; none: metered
+  std::uint32_t shadow_size = 2048;   ///< texels along a cascade's edge, power of two, 256 .. 8192
+  std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   Shading shading = Shading::kPbr;
   DebugView debug_view = DebugView::kNone;
   UploadMode upload_path = UploadMode::kUpdate;
   std::uint64_t upload_budget_bytes = 8u << 20;  ///< a frame, 65536 .. 2^30
   std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
-  std::uint32_t water_layers = 3;                ///< nearest translucent surfaces kept a pixel, 1 .. 4
+  std::uint32_t water_layers = 3;  ///< nearest translucent surfaces kept a pixel, 1 .. 4
   bool operator==(const Settings&) const = default;
 };
 

@@ -1,4 +1,5 @@
 #version 460
+// Overlay text and panels, in sRGB values as ImGui blends them. Pixels: docs/conventions.md.
 
 layout(binding = 2) uniform sampler2D font;  // coverage in red
 

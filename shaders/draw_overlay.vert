@@ -1,4 +1,5 @@
 #version 460
+// Overlay triangles, pulled from a buffer. Pixels: docs/conventions.md.
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shared/overlay.h"

@@ -81,7 +81,7 @@ Chunk Chunk::from_voxels(std::span<const BlockId> voxels) {
     }
     chunk.words_[w] = word;
   }
-  if (direct) chunk.palette_ = {};
+  if (direct) std::vector<BlockId>().swap(chunk.palette_);
   return chunk;
 }
 
@@ -100,7 +100,7 @@ void Chunk::widen() {
   }
   words_ = std::move(words);
   bits_ = bits;
-  if (bits == kDirectBits) palette_ = {};
+  if (bits == kDirectBits) std::vector<BlockId>().swap(palette_);
 }
 
 void Chunk::set(int x, int y, int z, BlockId id) {

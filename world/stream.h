@@ -76,10 +76,10 @@ class Streamer {
   void wait_until_complete();
 
   struct Stats {
-    std::size_t islands = 0;         ///< resident or coming
-    std::size_t sections = 0;        ///< handed out and not removed
-    std::size_t tasks_left = 0;      ///< queued or running
-    std::size_t chunks_made = 0;     ///< generated and meshed so far, empty ones included
+    std::size_t islands = 0;      ///< resident or coming
+    std::size_t sections = 0;     ///< handed out and not removed
+    std::size_t tasks_left = 0;   ///< queued or running
+    std::size_t chunks_made = 0;  ///< generated and meshed so far, empty ones included
   };
   Stats stats() const;
 

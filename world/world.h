@@ -23,7 +23,7 @@ struct WorldDesc {
   std::array<std::int64_t, 3> offset_blocks{};
   /// Only so many islands exist: the nearest to the world's own origin, which is the offset. None:
   /// all. At most 100,000.
-  std::optional<std::uint32_t> island_limit;
+  std::optional<std::uint32_t> island_limit = {};
 };
 
 /// A block that set_block changed.
@@ -72,10 +72,13 @@ class World {
   /// Builds the island's plan if need be: seconds of work for a giant, so not for the frame thread.
   std::vector<IVec3> chunks(std::uint64_t id, int level);
   /// IslandGenerator::generate_padded with edits applied: a coarse voxel shows an edit that lies at
-  /// its centre, as it shows the generated block there. Keeps what it made when level is 0.
+  /// its centre, as it shows the generated block there. All air when no such island is known.
   bool generate_padded(std::uint64_t id, IVec3 chunk, int level, std::span<BlockId> out);
-  /// Drops an island's voxels and plan; edits stay.
-  void release(std::uint64_t id);
+  /// Loads a chunk that chunk_from_padded has made; edits that came meanwhile are added.
+  void keep_chunk(std::uint64_t id, IVec3 at, Chunk chunk);
+  /// Drops what was generated of an island and can be generated again; edits stay.
+  void release_voxels(std::uint64_t id);
+  void release_plan(std::uint64_t id);
 
   /// What the loaded voxels take.
   struct Usage {
@@ -88,8 +91,7 @@ class World {
  private:
   struct Island;
   std::shared_ptr<Island> find(std::uint64_t id) const;
-  std::shared_ptr<Island> know(const IslandSpec& spec) const;
-  void forget_idle(const std::vector<IslandSpec>& but) const;
+  void know(const std::vector<IslandSpec>& specs) const;
 
   const WorldDesc desc_;
   std::optional<std::unordered_set<std::uint64_t>> allowed_;  // ids within the limit
@@ -98,6 +100,12 @@ class World {
   std::mutex edits_mutex_;
   std::vector<BlockEdit> edits_;
 };
+
+/// No island drifts further than this from its mean place [blocks].
+inline constexpr double kMaxIslandDriftBlocks = 16.0;
+
+/// The inner voxels of a padded chunk (IslandGenerator::generate_padded).
+Chunk chunk_from_padded(std::span<const BlockId> padded);
 
 /// Chunk that holds a voxel, and the voxel's place in it.
 IVec3 chunk_of(IVec3 voxel);

@@ -8,4 +8,5 @@ namespace skerry {
 }  // namespace skerry
 
 /// For programmer mistakes; on in every build.
-#define SKERRY_ASSERT(x) ((x) ? static_cast<void>(0) : ::skerry::assertion_failed(#x, __FILE__, __LINE__))
+#define SKERRY_ASSERT(x) \
+  ((x) ? static_cast<void>(0) : ::skerry::assertion_failed(#x, __FILE__, __LINE__))

@@ -3,7 +3,8 @@
 
 namespace skerry {
 
-/// Monotonic time since construction or the last restart(). For measuring only: nothing a picture shows may depend on it.
+/// Monotonic time since construction or the last restart(). For measuring only: nothing a picture
+/// shows may depend on it.
 class Stopwatch {
  public:
   double seconds() const {

@@ -15,9 +15,12 @@
 namespace skerry {
 namespace {
 
-// TBB starts at most (allowed parallelism - 1) workers in all and counts the calling thread as one. submit() must be served
-// without any caller inside the arena, so one thread more than the workers is allowed.
-std::size_t allowed_parallelism(int threads) { return static_cast<std::size_t>(threads) + 1; }
+// TBB starts at most (allowed parallelism - 1) workers in all and counts the calling thread as one.
+// submit() must be served without any caller inside the arena, so one thread more than the workers
+// is allowed.
+std::size_t allowed_parallelism(int threads) {
+  return static_cast<std::size_t>(threads) + 1;
+}
 
 }  // namespace
 
@@ -66,10 +69,11 @@ void Jobs::wait() {
 
 void Jobs::parallel_for(int count, const std::function<void(int)>& body) {
   if (count <= 0) return;
-  // The simple partitioner with grain 1 lets the slowest single item decide the end, not a block of them: items here are
-  // chunks or rows, whose costs differ widely.
+  // The simple partitioner with grain 1 lets the slowest single item decide the end, not a block of
+  // them: items here are chunks or rows, whose costs differ widely.
   impl_->arena.execute([&] {
-    tbb::parallel_for(0, count, [&](int i) { body(i); }, tbb::simple_partitioner());
+    tbb::parallel_for(
+        0, count, [&](int i) { body(i); }, tbb::simple_partitioner());
   });
 }
 

@@ -16,8 +16,14 @@ void write_line(std::string_view prefix, std::string_view text) {
 
 }  // namespace
 
-void log_error(std::string_view text) { write_line("skerry: ", text); }
-void log_warning(std::string_view text) { write_line("skerry: warning: ", text); }
-void log_info(std::string_view text) { write_line("skerry: ", text); }
+void log_error(std::string_view text) {
+  write_line("skerry: ", text);
+}
+void log_warning(std::string_view text) {
+  write_line("skerry: warning: ", text);
+}
+void log_info(std::string_view text) {
+  write_line("skerry: ", text);
+}
 
 }  // namespace skerry

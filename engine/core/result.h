@@ -11,7 +11,8 @@ struct Error {
   std::string message;
 };
 
-/// A value or an Error. For expected failures (files, devices, input); programmer mistakes use ASSERT.
+/// A value or an Error. For expected failures (files, devices, input); programmer mistakes use
+/// ASSERT.
 template <class T>
 class [[nodiscard]] Result {
  public:

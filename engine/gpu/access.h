@@ -22,8 +22,9 @@ UseInfo use_info(Use use);
 
 /// All access bits that write.
 inline constexpr VkAccessFlags2 kWriteAccess =
-    VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-    VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+    VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
 
 /// One access of a pass to a resource or to one of its layers: all its uses in that pass together.
 struct Access {
@@ -42,15 +43,16 @@ struct Scopes {
 };
 
 /// What the accesses in `state` oblige `next` to wait for, if anything, in an unchanged layout:
-/// read after write and write after write wait for the write to become visible; write after read waits for execution only;
-/// a read after reads that its stage has seen waits for nothing; in another stage it chains to them, as they saw the write.
+/// read after write and write after write wait for the write to become visible; write after read
+/// waits for execution only; a read after reads that its stage has seen waits for nothing; in
+/// another stage it chains to them, as they saw the write.
 std::optional<Scopes> hazard(const AccessState& state, const Access& next);
 
 /// The state after `next`, keeping the layout and submit value.
 AccessState after(const AccessState& state, const Access& next);
 
-/// For commands outside a frame graph: records the barrier that `next` needs, if any, and updates the resource's state for the
-/// submit being recorded. An image changes to next.layout as a whole.
+/// For commands outside a frame graph: records the barrier that `next` needs, if any, and updates
+/// the resource's state for the submit being recorded. An image changes to next.layout as a whole.
 void touch(const Device& device, VkCommandBuffer commands, Buffer& buffer, const Access& next);
 void touch(const Device& device, VkCommandBuffer commands, Image& image, const Access& next);
 

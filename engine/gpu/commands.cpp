@@ -10,7 +10,8 @@ namespace skerry::gpu {
 Commands::Commands(FrameGraph& graph, std::uint32_t pass, VkCommandBuffer commands)
     : graph_(graph), pass_(pass), commands_(commands) {}
 
-// Fatal unless the pass declared this version of the resource, as read or written, with all of `access`.
+// Fatal unless the pass declared this version of the resource, as read or written, with all of
+// `access`.
 void Commands::require(std::uint32_t id, std::uint32_t version, VkAccessFlags2 access) const {
   const FrameGraph::State& state = *graph_.state_;
   const auto& pass = state.passes[pass_];
@@ -21,14 +22,16 @@ void Commands::require(std::uint32_t id, std::uint32_t version, VkAccessFlags2 a
     known = true;
     declared |= use_info(use.use).access;
   }
-  if (id >= state.resources.size()) state.fail(pass, "records with an empty reference, or one of another frame");
+  if (id >= state.resources.size())
+    state.fail(pass, "records with an empty reference, or one of another frame");
   if (!known) state.fail(pass, id, "it did not declare");
   if ((access & ~declared) != 0) state.fail(pass, id, "it declared for another use");
 }
 
 VkImageLayout Commands::layout_of(ImageRef ref) const {
   const auto& merged = graph_.state_->passes[pass_].merged;
-  const auto found = std::find_if(merged.begin(), merged.end(), [&](const auto& m) { return m.resource == ref.id; });
+  const auto found = std::find_if(merged.begin(), merged.end(),
+                                  [&](const auto& m) { return m.resource == ref.id; });
   return found->access.layout;
 }
 
@@ -44,7 +47,9 @@ const Buffer& Commands::buffer(BufferRef ref) const {
 
 void Commands::fail(const std::string& text) const {
   const FrameGraph::State& state = *graph_.state_;
-  state.fail(state.passes[pass_], (pipeline_ ? "with the shader '" + pipeline_->name + "' " : "without a pipeline ") + text);
+  state.fail(
+      state.passes[pass_],
+      (pipeline_ ? "with the shader '" + pipeline_->name + "' " : "without a pipeline ") + text);
 }
 
 void Commands::bind(const Pipeline& pipeline) {
@@ -72,21 +77,27 @@ Commands::Bound& Commands::slot(std::uint32_t binding) {
 void Commands::storage(std::uint32_t binding, BufferRef ref) {
   require(ref.id, ref.version, VK_ACCESS_2_SHADER_READ_BIT);
   Bound& bound = slot(binding);
-  if (bound.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER && bound.type != VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) fail("gives a buffer to the binding " + std::to_string(binding));
+  if (bound.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER &&
+      bound.type != VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) {
+    fail("gives a buffer to the binding " + std::to_string(binding));
+  }
   bound.buffer = {buffer(ref).handle(), 0, VK_WHOLE_SIZE};
 }
 
-void Commands::storage(std::uint32_t binding, ImageRef ref, std::uint32_t mip, std::uint32_t layer) {
+void Commands::storage(std::uint32_t binding, ImageRef ref, std::uint32_t mip,
+                       std::uint32_t layer) {
   require(ref.id, ref.version, VK_ACCESS_2_SHADER_READ_BIT);
   Bound& bound = slot(binding);
-  if (bound.type != VK_DESCRIPTOR_TYPE_STORAGE_IMAGE) fail("gives a storage image to the binding " + std::to_string(binding));
+  if (bound.type != VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)
+    fail("gives a storage image to the binding " + std::to_string(binding));
   bound.image = {VK_NULL_HANDLE, image(ref).view_of(mip, layer), layout_of(ref)};
 }
 
 void Commands::sampled(std::uint32_t binding, ImageRef ref, VkSampler sampler) {
   require(ref.id, ref.version, VK_ACCESS_2_SHADER_READ_BIT);
   Bound& bound = slot(binding);
-  if (bound.type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER && bound.type != VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE) {
+  if (bound.type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER &&
+      bound.type != VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE) {
     fail("gives a texture to the binding " + std::to_string(binding));
   }
   bound.image = {sampler, image(ref).view(), layout_of(ref)};
@@ -97,7 +108,8 @@ void Commands::push_bytes(const void* data, std::size_t size) {
     fail("pushes " + std::to_string(size) + " bytes of constants, but the shader has " +
          std::to_string(pipeline_ ? pipeline_->push_bytes : 0));
   }
-  vkCmdPushConstants(commands_, pipeline_->layout, pipeline_->push_stages, 0, pipeline_->push_bytes, data);
+  vkCmdPushConstants(commands_, pipeline_->layout, pipeline_->push_stages, 0, pipeline_->push_bytes,
+                     data);
   pushed_ = true;
 }
 
@@ -112,14 +124,17 @@ void Commands::flush_bindings() {
       fail("draws or dispatches without the binding " + std::to_string(wanted.binding));
     }
     const Bound& bound = bound_[wanted.binding];
-    auto& write = writes[count++] = vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    auto& write = writes[count++] =
+        vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     write.dstBinding = wanted.binding;
     write.descriptorCount = 1;
     write.descriptorType = wanted.type;
     write.pBufferInfo = &bound.buffer;
     write.pImageInfo = &bound.image;
   }
-  if (count > 0) vkCmdPushDescriptorSetKHR(commands_, pipeline_->bind_point, pipeline_->layout, 0, count, writes.data());
+  if (count > 0)
+    vkCmdPushDescriptorSetKHR(commands_, pipeline_->bind_point, pipeline_->layout, 0, count,
+                              writes.data());
   dirty_ = false;
 }
 
@@ -149,16 +164,22 @@ void Commands::draw_indirect_count(BufferRef commands, std::uint64_t offset_byte
   require(commands.id, commands.version, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
   require(count.id, count.version, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
   flush_bindings();
-  vkCmdDrawIndexedIndirectCount(commands_, buffer(commands).handle(), offset_bytes, buffer(count).handle(),
-                                count_offset_bytes, max_draws, sizeof(VkDrawIndexedIndirectCommand));
+  vkCmdDrawIndexedIndirectCount(commands_, buffer(commands).handle(), offset_bytes,
+                                buffer(count).handle(), count_offset_bytes, max_draws,
+                                sizeof(VkDrawIndexedIndirectCommand));
 }
 
-void Commands::set_depth_bias(float constant, float slope) { vkCmdSetDepthBias(commands_, constant, 0.0f, slope); }
+void Commands::set_depth_bias(float constant, float slope) {
+  vkCmdSetDepthBias(commands_, constant, 0.0f, slope);
+}
 
 void Commands::viewport(VkRect2D area) {
-  const VkViewport viewport{static_cast<float>(area.offset.x),     static_cast<float>(area.offset.y),
-                            static_cast<float>(area.extent.width), static_cast<float>(area.extent.height),
-                            0.0f,                                  1.0f};
+  const VkViewport viewport{static_cast<float>(area.offset.x),
+                            static_cast<float>(area.offset.y),
+                            static_cast<float>(area.extent.width),
+                            static_cast<float>(area.extent.height),
+                            0.0f,
+                            1.0f};
   vkCmdSetViewport(commands_, 0, 1, &viewport);
   vkCmdSetScissor(commands_, 0, 1, &area);
 }
@@ -168,7 +189,8 @@ void Commands::fill(BufferRef ref, std::uint64_t offset, std::uint64_t size, std
   vkCmdFillBuffer(commands_, buffer(ref).handle(), offset, size, value);
 }
 
-void Commands::copy(BufferRef from, BufferRef to, std::uint64_t from_offset, std::uint64_t to_offset, std::uint64_t size) {
+void Commands::copy(BufferRef from, BufferRef to, std::uint64_t from_offset,
+                    std::uint64_t to_offset, std::uint64_t size) {
   require(from.id, from.version, VK_ACCESS_2_TRANSFER_READ_BIT);
   require(to.id, to.version, VK_ACCESS_2_TRANSFER_WRITE_BIT);
   const VkBufferCopy region{from_offset, to_offset, size};
@@ -182,13 +204,15 @@ void Commands::copy(ImageRef from, BufferRef to) {
   VkBufferImageCopy region{};
   region.imageSubresource = {source.aspect(), 0, 0, 1};
   region.imageExtent = {source.desc().extent.width, source.desc().extent.height, 1};
-  vkCmdCopyImageToBuffer(commands_, source.handle(), layout_of(from), buffer(to).handle(), 1, &region);
+  vkCmdCopyImageToBuffer(commands_, source.handle(), layout_of(from), buffer(to).handle(), 1,
+                         &region);
 }
 
 void Commands::clear(ImageRef ref, VkClearColorValue value) {
   require(ref.id, ref.version, VK_ACCESS_2_TRANSFER_WRITE_BIT);
   const Image& target = image(ref);
-  const VkImageSubresourceRange all{target.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+  const VkImageSubresourceRange all{target.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
+                                    VK_REMAINING_ARRAY_LAYERS};
   vkCmdClearColorImage(commands_, target.handle(), layout_of(ref), &value, 1, &all);
 }
 

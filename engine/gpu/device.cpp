@@ -13,7 +13,8 @@
 namespace skerry::gpu {
 namespace {
 
-Result<VkDevice> create_logical(VkPhysicalDevice physical, std::uint32_t queue_family, bool surface) {
+Result<VkDevice> create_logical(VkPhysicalDevice physical, std::uint32_t queue_family,
+                                bool surface) {
   const float priority = 1.0f;
   auto queue = vk_struct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
   queue.queueFamilyIndex = queue_family;
@@ -46,7 +47,8 @@ VkSemaphore create_timeline(VkDevice device) {
   return semaphore;
 }
 
-VkPipelineCache create_pipeline_cache(VkDevice device, VkPhysicalDevice physical, const std::string& path) {
+VkPipelineCache create_pipeline_cache(VkDevice device, VkPhysicalDevice physical,
+                                      const std::string& path) {
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(physical, &properties);
   std::vector<std::byte> bytes;
@@ -64,7 +66,8 @@ VkPipelineCache create_pipeline_cache(VkDevice device, VkPhysicalDevice physical
 
 std::vector<DeviceInfo> describe_all(const std::vector<VkPhysicalDevice>& devices, bool surface) {
   std::vector<DeviceInfo> infos;
-  for (std::uint32_t i = 0; i < devices.size(); ++i) infos.push_back(describe_device(devices[i], i, surface));
+  for (std::uint32_t i = 0; i < devices.size(); ++i)
+    infos.push_back(describe_device(devices[i], i, surface));
   return infos;
 }
 
@@ -118,8 +121,10 @@ void Device::open() {
   GPU_CHECK(vkCreateCommandPool(device_, &pool, nullptr, &state_->now_pool));
   set_name(reinterpret_cast<std::uint64_t>(queue_), VK_OBJECT_TYPE_QUEUE, "queue");
   set_name(reinterpret_cast<std::uint64_t>(state_->timeline), VK_OBJECT_TYPE_SEMAPHORE, "timeline");
-  set_name(reinterpret_cast<std::uint64_t>(state_->now_pool), VK_OBJECT_TYPE_COMMAND_POOL, "run_now pool");
-  set_name(reinterpret_cast<std::uint64_t>(pipeline_cache_), VK_OBJECT_TYPE_PIPELINE_CACHE, "pipeline cache");
+  set_name(reinterpret_cast<std::uint64_t>(state_->now_pool), VK_OBJECT_TYPE_COMMAND_POOL,
+           "run_now pool");
+  set_name(reinterpret_cast<std::uint64_t>(pipeline_cache_), VK_OBJECT_TYPE_PIPELINE_CACHE,
+           "pipeline cache");
 }
 
 Device::~Device() {
@@ -135,7 +140,8 @@ Device::~Device() {
   destroy_retired(std::numeric_limits<std::uint64_t>::max());
   // Whoever is left holds a pointer to this device.
   if (!state_->memory_by_name.empty()) {
-    gpu_fatal("the resource '" + state_->memory_by_name.begin()->first + "' outlives its device: destroy it earlier");
+    gpu_fatal("the resource '" + state_->memory_by_name.begin()->first +
+              "' outlives its device: destroy it earlier");
   }
   for (const auto& [desc, sampler] : state_->samplers) vkDestroySampler(device_, sampler, nullptr);
   vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
@@ -144,7 +150,9 @@ Device::~Device() {
   vkDestroyDevice(device_, nullptr);
 }
 
-int Device::validation_message_count() const { return state_->instance.message_count(); }
+int Device::validation_message_count() const {
+  return state_->instance.message_count();
+}
 
 std::uint64_t Device::completed_value() const {
   std::uint64_t value = 0;
@@ -183,7 +191,8 @@ std::uint64_t Device::submit(VkCommandBuffer commands, std::span<const VkSemapho
 }
 
 VkCommandBuffer Device::begin_now() {
-  auto allocate = vk_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+  auto allocate =
+      vk_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
   allocate.commandPool = state_->now_pool;
   allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   allocate.commandBufferCount = 1;
@@ -205,7 +214,8 @@ void Device::end_now(VkCommandBuffer commands) {
 
 void Device::set_name(std::uint64_t object, VkObjectType type, const char* name) {
   if (!vkSetDebugUtilsObjectNameEXT || !object) return;
-  auto info = vk_struct<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);
+  auto info =
+      vk_struct<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);
   info.objectType = type;
   info.objectHandle = object;
   info.pObjectName = name;

@@ -25,18 +25,22 @@ struct DeviceInfo {
 };
 
 struct DeviceOptions {
-  std::optional<std::uint32_t> index;          ///< --device N; else the best usable: discrete, integrated, virtual, CPU
-  bool validate = false;                       ///< Khronos layer, core + synchronisation; messages go to stderr and are counted
-  std::vector<const char*> surface_extensions; ///< instance extensions a window needs; empty: headless
-  std::string pipeline_cache_path;             ///< empty: no file. A damaged or foreign file is ignored and replaced.
+  std::optional<std::uint32_t>
+      index;  ///< --device N; else the best usable: discrete, integrated, virtual, CPU
+  bool validate =
+      false;  ///< Khronos layer, core + synchronisation; messages go to stderr and are counted
+  std::vector<const char*>
+      surface_extensions;  ///< instance extensions a window needs; empty: headless
+  std::string
+      pipeline_cache_path;  ///< empty: no file. A damaged or foreign file is ignored and replaced.
 };
 
 /// Limits the renderer plans with.
 struct DeviceLimits {
-  std::uint64_t max_storage_range = 0;   ///< bytes one storage buffer binding may cover
-  std::uint32_t max_image_edge = 0;      ///< pixels, 2D
-  std::uint32_t max_draw_count = 0;      ///< of an indirect draw
-  float timestamp_period_ns = 0.0f;
+  std::uint64_t max_storage_range = 0;  ///< bytes one storage buffer binding may cover
+  std::uint32_t max_image_edge = 0;     ///< pixels, 2D
+  std::uint32_t max_draw_count = 0;     ///< of an indirect draw
+  float timestamp_period_ns = 0.0f;     ///< 0: the queue cannot measure
   std::uint64_t min_storage_alignment = 1;
 };
 
@@ -46,13 +50,15 @@ struct MemoryUse {
   std::uint64_t bytes = 0;
 };
 
-/// One Vulkan device with one queue (graphics + compute + transfer) and one timeline. Not thread-safe unless a member says so.
+/// One Vulkan device with one queue (graphics + compute + transfer) and one timeline. Not
+/// thread-safe unless a member says so.
 class Device {
  public:
   static Result<std::vector<DeviceInfo>> list();
   /// Errors name the missing driver, device or feature.
   static Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
-  ~Device();  ///< waits for the GPU, saves the pipeline cache (temporary file, then rename), destroys everything
+  ~Device();  ///< waits for the GPU, saves the pipeline cache (temporary file, then rename),
+              ///< destroys everything
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
@@ -68,7 +74,8 @@ class Device {
   /// Validation messages seen so far (warnings and errors).
   int validation_message_count() const;
 
-  /// One dedicated allocation each. Errors: out of memory (says the size wanted), size over a limit.
+  /// One dedicated allocation each. Errors: out of memory (says the size wanted), size over a
+  /// limit.
   Result<Buffer> create_buffer(const BufferDesc& desc);
   Result<Image> create_image(const ImageDesc& desc);
   Result<VkSampler> sampler(const SamplerDesc& desc);  ///< shared, owned by the device
@@ -77,12 +84,14 @@ class Device {
   std::vector<MemoryUse> memory_use() const;
   std::uint64_t memory_total() const;
 
-  /// Frame timeline: the value the next submit signals; whether a value has been reached; wait for it; destroy what is retired by then.
+  /// Frame timeline: the value the next submit signals; whether a value has been reached; wait for
+  /// it; destroy what is retired by then.
   std::uint64_t next_value() const { return next_value_; }
   std::uint64_t completed_value() const;
   void wait(std::uint64_t value);
   void collect();
-  /// Submits on the queue, signals the timeline. Extra semaphores are for the swapchain. @return the timeline value signalled.
+  /// Submits on the queue, signals the timeline. Extra semaphores are for the swapchain. @return
+  /// the timeline value signalled.
   std::uint64_t submit(VkCommandBuffer commands, std::span<const VkSemaphoreSubmitInfo> waits = {},
                        std::span<const VkSemaphoreSubmitInfo> signals = {});
   /// Records and submits at once, then waits. For start-up and tests only.
@@ -93,8 +102,10 @@ class Device {
     end_now(commands);
   }
 
-  /// Called by owners when they die: destroyed after every submit made so far (and the one being recorded) has completed.
-  void retire(std::uint64_t object, VkObjectType type, VkDeviceMemory memory, std::uint64_t bytes, const std::string& name);
+  /// Called by owners when they die: destroyed after every submit made so far (and the one being
+  /// recorded) has completed.
+  void retire(std::uint64_t object, VkObjectType type, VkDeviceMemory memory, std::uint64_t bytes,
+              const std::string& name);
   void set_name(std::uint64_t object, VkObjectType type, const char* name);
 
  private:

@@ -7,7 +7,8 @@
 namespace skerry::gpu {
 namespace {
 
-/// Descriptor bindings a pipeline may have: the size of the table in Commands, and what lavapipe and every desktop driver offer.
+/// Descriptor bindings a pipeline may have: the size of the table in Commands, and what lavapipe
+/// and every desktop driver offer.
 constexpr std::uint32_t kPushDescriptors = 32;
 constexpr std::uint32_t kPushConstantBytes = 128;
 
@@ -17,8 +18,10 @@ struct Requirement {
 };
 
 // The feature floor, once: for checking, for naming what lacks, and for switching on.
-#define SKERRY_NEED(part, feature) \
-  Requirement { #feature, [](FeatureChain& c) -> VkBool32& { return c.part.feature; } }
+#define SKERRY_NEED(part, feature)                                         \
+  Requirement {                                                            \
+#feature, [](FeatureChain & c) -> VkBool32& { return c.part.feature; } \
+  }
 const std::array kRequirements = {
     SKERRY_NEED(core.features, multiDrawIndirect),
     SKERRY_NEED(core.features, drawIndirectFirstInstance),
@@ -30,7 +33,8 @@ const std::array kRequirements = {
     SKERRY_NEED(v11, shaderDrawParameters),
     SKERRY_NEED(v12, drawIndirectCount),
     SKERRY_NEED(v12, scalarBlockLayout),
-    SKERRY_NEED(v13, maintenance4),  // a fragment shader need not take all that the vertex shader gives
+    SKERRY_NEED(v13,
+                maintenance4),  // a fragment shader need not take all that the vertex shader gives
     SKERRY_NEED(v12, timelineSemaphore),
     SKERRY_NEED(v13, dynamicRendering),
     SKERRY_NEED(v13, synchronization2),
@@ -56,7 +60,8 @@ void find_missing_features(VkPhysicalDevice device, std::vector<std::string>& mi
   }
 }
 
-void find_missing_extensions(VkPhysicalDevice device, bool surface, std::vector<std::string>& missing) {
+void find_missing_extensions(VkPhysicalDevice device, bool surface,
+                             std::vector<std::string>& missing) {
   if (surface && !has_extension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) {
     missing.emplace_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   }
@@ -64,8 +69,10 @@ void find_missing_extensions(VkPhysicalDevice device, bool surface, std::vector<
     missing.emplace_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     return;
   }
-  auto push = vk_struct<VkPhysicalDevicePushDescriptorPropertiesKHR>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
-  auto properties = vk_struct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &push);
+  auto push = vk_struct<VkPhysicalDevicePushDescriptorPropertiesKHR>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
+  auto properties =
+      vk_struct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &push);
   vkGetPhysicalDeviceProperties2(device, &properties);
   if (push.maxPushDescriptors < kPushDescriptors) missing.emplace_back("maxPushDescriptors >= 32");
   if (properties.properties.limits.maxPushConstantsSize < kPushConstantBytes) {
@@ -73,13 +80,27 @@ void find_missing_extensions(VkPhysicalDevice device, bool surface, std::vector<
   }
 }
 
+bool has_timestamps(VkPhysicalDevice device) {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  const std::uint32_t ours = find_queue_family(device);
+  return ours < count && families[ours].timestampValidBits > 0;
+}
+
 int rank(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 3;
-    default: return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return 3;
+    default:
+      return 4;
   }
 }
 
@@ -127,13 +148,16 @@ DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index, bool su
     info.missing.emplace_back("Vulkan 1.3");
     return info;
   }
-  auto driver = vk_struct<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
-  auto properties = vk_struct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);
+  auto driver = vk_struct<VkPhysicalDeviceDriverProperties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
+  auto properties = vk_struct<VkPhysicalDeviceProperties2>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);
   vkGetPhysicalDeviceProperties2(device, &properties);
   info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   find_missing_features(device, info.missing);
   find_missing_extensions(device, surface, info.missing);
-  if (find_queue_family(device) == ~0u) info.missing.emplace_back("a queue with graphics and compute");
+  if (find_queue_family(device) == ~0u)
+    info.missing.emplace_back("a queue with graphics and compute");
   return info;
 }
 
@@ -145,12 +169,13 @@ DeviceLimits read_limits(VkPhysicalDevice device) {
   out.max_storage_range = limits.maxStorageBufferRange;
   out.max_image_edge = limits.maxImageDimension2D;
   out.max_draw_count = limits.maxDrawIndirectCount;
-  out.timestamp_period_ns = limits.timestampPeriod;
+  out.timestamp_period_ns = has_timestamps(device) ? limits.timestampPeriod : 0.0f;
   out.min_storage_alignment = limits.minStorageBufferOffsetAlignment;
   return out;
 }
 
-Result<std::uint32_t> choose_device(const std::vector<DeviceInfo>& devices, std::optional<std::uint32_t> wanted) {
+Result<std::uint32_t> choose_device(const std::vector<DeviceInfo>& devices,
+                                    std::optional<std::uint32_t> wanted) {
   if (wanted) {
     if (*wanted >= devices.size()) {
       return Error{"there is no Vulkan device " + std::to_string(*wanted) + ": this machine has " +
@@ -158,8 +183,9 @@ Result<std::uint32_t> choose_device(const std::vector<DeviceInfo>& devices, std:
     }
     const DeviceInfo& device = devices[*wanted];
     if (!device.missing.empty()) {
-      return Error{"Vulkan device " + std::to_string(*wanted) + " (" + device.name + ") cannot be used: it lacks " +
-                   missing_text(device) + "; `skerry devices` lists the others"};
+      return Error{"Vulkan device " + std::to_string(*wanted) + " (" + device.name +
+                   ") cannot be used: it lacks " + missing_text(device) +
+                   "; `skerry devices` lists the others"};
     }
     return *wanted;
   }
@@ -169,7 +195,8 @@ Result<std::uint32_t> choose_device(const std::vector<DeviceInfo>& devices, std:
   }
   if (best) return best->index;
   std::string text = "no usable Vulkan device:";
-  for (const DeviceInfo& device : devices) text += " " + device.name + " lacks " + missing_text(device) + ";";
+  for (const DeviceInfo& device : devices)
+    text += " " + device.name + " lacks " + missing_text(device) + ";";
   return Error{text + " update the driver, or install mesa-vulkan-drivers for a software device"};
 }
 

@@ -37,7 +37,8 @@ ImageRef PassBuilder::write(ImageRef image, Use use) {
   state.check_ref(pass, image.id, true);
   const bool attachment = use == Use::kColor || use == Use::kDepth;
   if (!use_info(use).write || attachment) state.fail(pass, image.id, "cannot be written that way");
-  return {image.id, state.declare(pass_, {image.id, image.version, image.version + 1, use, false, 0, {}})};
+  return {image.id,
+          state.declare(pass_, {image.id, image.version, image.version + 1, use, false, 0, {}})};
 }
 
 BufferRef PassBuilder::write(BufferRef buffer, Use use) {
@@ -46,24 +47,30 @@ BufferRef PassBuilder::write(BufferRef buffer, Use use) {
   state.check_ref(pass, buffer.id, false);
   const UseInfo info = use_info(use);
   if (!info.write || !info.buffer) state.fail(pass, buffer.id, "cannot be written that way");
-  return {buffer.id, state.declare(pass_, {buffer.id, buffer.version, buffer.version + 1, use, false, 0, {}})};
+  return {buffer.id,
+          state.declare(pass_, {buffer.id, buffer.version, buffer.version + 1, use, false, 0, {}})};
 }
 
 ImageRef PassBuilder::color(ImageRef image, Load load) {
   FrameGraph::State& state = *graph_.state_;
   state.check_ref(state.passes[pass_], image.id, true);
-  return {image.id, state.declare(pass_, {image.id, image.version, image.version + 1, Use::kColor, true, 0, load})};
+  return {image.id, state.declare(pass_, {image.id, image.version, image.version + 1, Use::kColor,
+                                          true, 0, load})};
 }
 
 ImageRef PassBuilder::depth(ImageRef image, Load load, std::uint32_t layer) {
   FrameGraph::State& state = *graph_.state_;
   const auto& pass = state.passes[pass_];
   state.check_ref(pass, image.id, true);
-  if (layer >= state.resources[image.id].layers.size()) state.fail(pass, image.id, "has no such layer");
-  return {image.id, state.declare(pass_, {image.id, image.version, image.version + 1, Use::kDepth, true, layer, load})};
+  if (layer >= state.resources[image.id].layers.size())
+    state.fail(pass, image.id, "has no such layer");
+  return {image.id, state.declare(pass_, {image.id, image.version, image.version + 1, Use::kDepth,
+                                          true, layer, load})};
 }
 
-void PassBuilder::keep() { graph_.state_->passes[pass_].keep = true; }
+void PassBuilder::keep() {
+  graph_.state_->passes[pass_].keep = true;
+}
 
 // --- FrameGraph: declaring ---
 
@@ -71,7 +78,8 @@ FrameGraph::FrameGraph(Device* device) : state_(std::make_unique<State>(device))
 
 FrameGraph::~FrameGraph() {
   for (const auto& [slot, timers] : state_->timers) {
-    state_->device->retire(reinterpret_cast<std::uint64_t>(timers.pool), VK_OBJECT_TYPE_QUERY_POOL, VK_NULL_HANDLE, 0, {});
+    state_->device->retire(reinterpret_cast<std::uint64_t>(timers.pool), VK_OBJECT_TYPE_QUERY_POOL,
+                           VK_NULL_HANDLE, 0, {});
   }
 }
 
@@ -102,9 +110,11 @@ BufferRef FrameGraph::create(const BufferDesc& desc) {
 
 ImageRef FrameGraph::import(Image& image) {
   auto& all = state_->resources;
-  const auto known = std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.image == &image; });
+  const auto known =
+      std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.image == &image; });
   if (known != all.end()) {
-    return {static_cast<std::uint32_t>(known - all.begin()), static_cast<std::uint32_t>(known->writers.size() - 1)};
+    return {static_cast<std::uint32_t>(known - all.begin()),
+            static_cast<std::uint32_t>(known->writers.size() - 1)};
   }
   const ImageRef ref = create(image.desc());
   all[ref.id].imported = true;
@@ -114,9 +124,11 @@ ImageRef FrameGraph::import(Image& image) {
 
 BufferRef FrameGraph::import(Buffer& buffer) {
   auto& all = state_->resources;
-  const auto known = std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.buffer == &buffer; });
+  const auto known =
+      std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.buffer == &buffer; });
   if (known != all.end()) {
-    return {static_cast<std::uint32_t>(known - all.begin()), static_cast<std::uint32_t>(known->writers.size() - 1)};
+    return {static_cast<std::uint32_t>(known - all.begin()),
+            static_cast<std::uint32_t>(known->writers.size() - 1)};
   }
   const BufferRef ref = create(BufferDesc{buffer.name(), buffer.size_bytes()});
   all[ref.id].imported = true;
@@ -163,9 +175,13 @@ std::vector<std::string> FrameGraph::culled_names() const {
   return names;
 }
 
-const std::vector<LeftOut>& FrameGraph::left_out() const { return state_->left_out; }
+const std::vector<LeftOut>& FrameGraph::left_out() const {
+  return state_->left_out;
+}
 
-std::vector<MemoryUse> FrameGraph::transient_memory() const { return state_->pool.memory(); }
+std::vector<MemoryUse> FrameGraph::transient_memory() const {
+  return state_->pool.memory();
+}
 
 std::uint32_t FrameGraph::barrier_count() const {
   std::size_t count = 0;
@@ -179,7 +195,8 @@ void FrameGraph::State::fail(const Pass& pass, const std::string& text) const {
   gpu_fatal("frame graph: the pass '" + pass.name + "' " + text);
 }
 
-void FrameGraph::State::fail(const Pass& pass, std::uint32_t resource, const std::string& text) const {
+void FrameGraph::State::fail(const Pass& pass, std::uint32_t resource,
+                             const std::string& text) const {
   fail(pass, "uses '" + resources[resource].name() + "', which " + text);
 }
 
@@ -209,13 +226,16 @@ void FrameGraph::State::check_pass(std::uint32_t index, std::vector<std::uint32_
     const Resource& resource = resources[use.resource];
     if (use.version_in != current[use.resource]) {
       // A reference that is too new, too, can only come from an earlier frame.
-      if (use.version_in > current[use.resource]) fail(pass, use.resource, "has no such version in this frame");
+      if (use.version_in > current[use.resource])
+        fail(pass, use.resource, "has no such version in this frame");
       const std::uint32_t writer = resource.writers[use.version_in + 1];
       fail(pass, use.resource,
-           "has been replaced: '" + passes[writer].name + "' wrote a newer version; use the reference it returned");
+           "has been replaced: '" + passes[writer].name +
+               "' wrote a newer version; use the reference it returned");
     }
     const bool keeps_contents = !use.write() || (use.attachment && !use.load.clear);
-    if (keeps_contents && !written[use.resource]) fail(pass, use.resource, "no pass has written yet");
+    if (keeps_contents && !written[use.resource])
+      fail(pass, use.resource, "no pass has written yet");
     if (use.write()) {
       current[use.resource] = use.version_out;
       written[use.resource] = true;
@@ -235,16 +255,19 @@ void FrameGraph::State::check_attachments(const Pass& pass) const {
     if (a.width != b.width || a.height != b.height) {
       fail(pass, use.resource, "has another size than its attachment '" + first->name() + "'");
     }
-    if (use.use == Use::kDepth && std::exchange(depth, true)) fail(pass, use.resource, "is a second depth attachment");
+    if (use.use == Use::kDepth && std::exchange(depth, true))
+      fail(pass, use.resource, "is a second depth attachment");
   }
 }
 
 void FrameGraph::State::cull() {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> wanted;  // (resource, version) a kept pass depends on
+  std::set<std::pair<std::uint32_t, std::uint32_t>>
+      wanted;  // (resource, version) a kept pass depends on
   for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
     pass->alive = pass->keep;
     for (const Declared& use : pass->declared) {
-      if (use.write() && (resources[use.resource].imported || wanted.contains({use.resource, use.version_out}))) {
+      if (use.write() &&
+          (resources[use.resource].imported || wanted.contains({use.resource, use.version_out}))) {
         pass->alive = true;
       }
     }
@@ -252,7 +275,8 @@ void FrameGraph::State::cull() {
     for (const Declared& use : pass->declared) {
       // A cleared attachment needs nothing of the version before, if it is the whole image.
       const ImageDesc& desc = resources[use.resource].image_desc;
-      const bool replaces_all = use.attachment && use.load.clear && desc.layers == 1 && desc.mips == 1;
+      const bool replaces_all =
+          use.attachment && use.load.clear && desc.layers == 1 && desc.mips == 1;
       if (!replaces_all) wanted.insert({use.resource, use.version_in});
     }
   }

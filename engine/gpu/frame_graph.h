@@ -20,7 +20,8 @@ class FrameGraph;
 class PassBuilder;
 class Commands;
 
-/// A versioned name of an image in one frame's graph. Writing returns a new version; using an old one is an error at compile().
+/// A versioned name of an image in one frame's graph. Writing returns a new version; using an old
+/// one is an error at compile().
 struct ImageRef {
   std::uint32_t id = ~0u, version = 0;
   explicit operator bool() const { return id != ~0u; }
@@ -33,18 +34,18 @@ struct BufferRef {
 
 /// How a pass touches a resource; decides stage, access mask and layout.
 enum class Use : std::uint8_t {
-  kIndirect,         ///< buffer: indirect commands and counts
-  kIndex,            ///< buffer: index data
-  kVertexRead,       ///< storage buffer read in a vertex shader
-  kFragmentRead,     ///< storage buffer or sampled image read in a fragment shader
-  kComputeRead,      ///< storage buffer or storage image read in a compute shader
-  kComputeSampled,   ///< image sampled in a compute shader
-  kComputeWrite,     ///< storage buffer or image written (or read and written) in a compute shader
-  kColor,            ///< colour attachment
-  kDepth,            ///< depth attachment, tested and written
+  kIndirect,        ///< buffer: indirect commands and counts
+  kIndex,           ///< buffer: index data
+  kVertexRead,      ///< storage buffer read in a vertex shader
+  kFragmentRead,    ///< storage buffer or sampled image read in a fragment shader
+  kComputeRead,     ///< storage buffer or storage image read in a compute shader
+  kComputeSampled,  ///< image sampled in a compute shader
+  kComputeWrite,    ///< storage buffer or image written (or read and written) in a compute shader
+  kColor,           ///< colour attachment
+  kDepth,           ///< depth attachment, tested and written
   kTransferRead,
   kTransferWrite,
-  kHostRead,         ///< buffer read by the CPU after the frame
+  kHostRead,  ///< buffer read by the CPU after the frame
 };
 
 /// What happens to an attachment when its pass begins.
@@ -73,7 +74,8 @@ class PassBuilder {
   void read(BufferRef buffer, Use use);
   [[nodiscard]] ImageRef write(ImageRef image, Use use);
   [[nodiscard]] BufferRef write(BufferRef buffer, Use use);
-  /// Attachment of this pass. @param layer array layer drawn to. The render area is the image's extent.
+  /// Attachment of this pass. @param layer array layer drawn to. The render area is the image's
+  /// extent.
   [[nodiscard]] ImageRef color(ImageRef image, Load load);
   [[nodiscard]] ImageRef depth(ImageRef image, Load load, std::uint32_t layer = 0);
   /// The pass runs even when nobody reads what it writes.
@@ -86,12 +88,15 @@ class PassBuilder {
   std::uint32_t pass_;
 };
 
-/// Records one pass. Resolves refs, pushes descriptors, checks that each resource was declared and each binding is set.
+/// Records one pass. Resolves refs, pushes descriptors, checks that each resource was declared and
+/// each binding is set.
 class Commands {
  public:
   void bind(const Pipeline& pipeline);  ///< forgets all bindings
-  void storage(std::uint32_t binding, BufferRef buffer);  ///< a storage or a uniform buffer, as the shader declares it
-  void storage(std::uint32_t binding, ImageRef image, std::uint32_t mip = 0, std::uint32_t layer = 0);
+  void storage(std::uint32_t binding,
+               BufferRef buffer);  ///< a storage or a uniform buffer, as the shader declares it
+  void storage(std::uint32_t binding, ImageRef image, std::uint32_t mip = 0,
+               std::uint32_t layer = 0);
   void sampled(std::uint32_t binding, ImageRef image, VkSampler sampler);
   template <class T>
   void push(const T& constants) {
@@ -99,17 +104,20 @@ class Commands {
   }
   void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z);
   /// Groups that cover `threads` with `group` threads each.
-  static std::uint32_t groups(std::uint32_t threads, std::uint32_t group) { return (threads + group - 1) / group; }
+  static std::uint32_t groups(std::uint32_t threads, std::uint32_t group) {
+    return (threads + group - 1) / group;
+  }
   void dispatch_indirect(BufferRef arguments, std::uint64_t offset_bytes);
   void index_buffer(BufferRef buffer, VkIndexType type);
   void draw(std::uint32_t vertices, std::uint32_t instances);
   /// vkCmdDrawIndexedIndirectCount over shared::DrawCommand.
-  void draw_indirect_count(BufferRef commands, std::uint64_t offset_bytes, BufferRef count, std::uint64_t count_offset_bytes,
-                           std::uint32_t max_draws);
+  void draw_indirect_count(BufferRef commands, std::uint64_t offset_bytes, BufferRef count,
+                           std::uint64_t count_offset_bytes, std::uint32_t max_draws);
   void set_depth_bias(float constant, float slope);
   void viewport(VkRect2D area);  ///< default: the attachments' extent
   void fill(BufferRef buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t value);
-  void copy(BufferRef from, BufferRef to, std::uint64_t from_offset, std::uint64_t to_offset, std::uint64_t size);
+  void copy(BufferRef from, BufferRef to, std::uint64_t from_offset, std::uint64_t to_offset,
+            std::uint64_t size);
   void copy(ImageRef from, BufferRef to);  ///< mip 0, layer 0, tightly packed
   void clear(ImageRef image, VkClearColorValue value);
   VkCommandBuffer raw() const { return commands_; }
@@ -140,35 +148,40 @@ class Commands {
   bool pushed_ = false;  ///< push() was called for this pipeline
 };
 
-/// One frame's passes, rebuilt each frame: unused passes and their images vanish, barriers, debug labels and GPU timers come from here.
-/// Passes run in the order they were added. A pass is kept if keep() was called, it writes an imported resource, or a kept pass reads
-/// what it writes. Without a device (device == nullptr) compile() still works: for tests.
+/// One frame's passes, rebuilt each frame: unused passes and their images vanish, barriers, debug
+/// labels and GPU timers come from here. Passes run in the order they were added. A pass is kept if
+/// keep() was called, it writes an imported resource, or a kept pass reads what it writes. Without
+/// a device (device == nullptr) compile() still works: for tests.
 class FrameGraph {
  public:
   explicit FrameGraph(Device* device);
   ~FrameGraph();
 
-  /// Forgets last frame's passes; transient images and buffers go back to a pool keyed by their description and are reused. Pool entries
-  /// not used for a few frames are retired.
+  /// Forgets last frame's passes; transient images and buffers go back to a pool keyed by their
+  /// description and are reused. Pool entries not used for a few frames are retired.
   void begin();
   ImageRef create(const ImageDesc& desc);    ///< transient; its usage flags are added from its uses
   BufferRef create(const BufferDesc& desc);  ///< transient
-  ImageRef import(Image& image);             ///< lives on after the frame, its state is carried in Image::state
+  ImageRef import(
+      Image& image);  ///< lives on after the frame, its state is carried in Image::state
   BufferRef import(Buffer& buffer);
-  void add_pass(std::string name, const std::function<void(PassBuilder&)>& setup, std::function<void(Commands&)> record);
+  void add_pass(std::string name, const std::function<void(PassBuilder&)>& setup,
+                std::function<void(Commands&)> record);
   /// Names a pass this frame does not have and why, for --explain.
   void leave_out(std::string name, std::string why);
 
-  /// Culls, checks versions, assigns resources, plans barriers. An error is a programmer's mistake and is fatal, with the pass's name.
+  /// Culls, checks versions, assigns resources, plans barriers. An error is a programmer's mistake
+  /// and is fatal, with the pass's name.
   void compile();
-  /// Records everything into `commands`. @param frame_slot which of the frames in flight (0, 1, ...), for timer queries.
+  /// Records everything into `commands`. @param frame_slot which of the frames in flight (0, 1,
+  /// ...), for timer queries.
   void execute(VkCommandBuffer commands, std::uint32_t frame_slot);
 
-  std::vector<std::string> pass_names() const;            ///< kept passes, in order
-  std::vector<std::string> culled_names() const;          ///< added but unused
+  std::vector<std::string> pass_names() const;    ///< kept passes, in order
+  std::vector<std::string> culled_names() const;  ///< added but unused
   const std::vector<LeftOut>& left_out() const;
-  std::vector<MemoryUse> transient_memory() const;        ///< images and buffers made for this frame
-  std::uint32_t barrier_count() const;                    ///< image + buffer barriers of this frame
+  std::vector<MemoryUse> transient_memory() const;  ///< images and buffers made for this frame
+  std::uint32_t barrier_count() const;              ///< image + buffer barriers of this frame
   /// GPU times of the frame last executed in this slot. @pre that frame has completed.
   std::vector<PassTime> times(std::uint32_t frame_slot);
 

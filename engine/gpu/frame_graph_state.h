@@ -10,11 +10,13 @@
 
 namespace skerry::gpu {
 
-/// What FrameGraph keeps to itself. Declaring fills resources and passes; compile() derives the rest of them.
+/// What FrameGraph keeps to itself. Declaring fills resources and passes; compile() derives the
+/// rest of them.
 struct FrameGraph::State {
   static constexpr std::uint32_t kNoPass = ~0u;
 
-  /// Who touched a layer last. `touched` is false while only a layout transition did, which the stages in `access` have seen.
+  /// Who touched a layer last. `touched` is false while only a layout transition did, which the
+  /// stages in `access` have seen.
   struct Layer {
     AccessState access;
     bool touched = true;
@@ -27,10 +29,11 @@ struct FrameGraph::State {
     BufferDesc buffer_desc;
     Image* image = nullptr;
     Buffer* buffer = nullptr;
-    std::vector<std::uint32_t> writers{kNoPass};  ///< pass that wrote each version; version 0 comes from outside
-    std::uint32_t last_pass = kNoPass;            ///< last kept pass that touches it
-    std::vector<Layer> layers;                    ///< one for a buffer
-    bool discard = false;                         ///< contents are not wanted any more: the next transition may drop them
+    std::vector<std::uint32_t> writers{
+        kNoPass};  ///< pass that wrote each version; version 0 comes from outside
+    std::uint32_t last_pass = kNoPass;  ///< last kept pass that touches it
+    std::vector<Layer> layers;          ///< one for a buffer
+    bool discard = false;  ///< contents are not wanted any more: the next transition may drop them
     const std::string& name() const { return is_image ? image_desc.name : buffer_desc.name; }
   };
 
@@ -66,8 +69,8 @@ struct FrameGraph::State {
     std::vector<Declared> declared;
     bool keep = false;
     bool alive = false;
-    std::vector<Merged> merged;       ///< what the pass itself does
-    std::vector<Merged> host_reads;   ///< what the CPU does afterwards
+    std::vector<Merged> merged;      ///< what the pass itself does
+    std::vector<Merged> host_reads;  ///< what the CPU does afterwards
     std::vector<Barrier> before, behind;
   };
 
@@ -85,7 +88,8 @@ struct FrameGraph::State {
   std::uint32_t declare(std::uint32_t pass, const Declared& declared);
 
   void check_versions();
-  void check_pass(std::uint32_t index, std::vector<std::uint32_t>& current, std::vector<bool>& written) const;
+  void check_pass(std::uint32_t index, std::vector<std::uint32_t>& current,
+                  std::vector<bool>& written) const;
   void check_attachments(const Pass& pass) const;
   void cull();
   void allocate();

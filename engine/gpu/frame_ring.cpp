@@ -7,25 +7,30 @@
 
 namespace skerry::gpu {
 
-FrameRing::FrameRing(Device& device, std::uint32_t slots) : device_(device), slots_(slots), current_(slots - 1) {
+FrameRing::FrameRing(Device& device, std::uint32_t slots)
+    : device_(device), slots_(slots), current_(slots - 1) {
   SKERRY_ASSERT(slots > 0);
   for (Slot& slot : slots_) {
     auto pool = vk_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     pool.queueFamilyIndex = device.queue_family();
     GPU_CHECK(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
-    device.set_name(reinterpret_cast<std::uint64_t>(slot.pool), VK_OBJECT_TYPE_COMMAND_POOL, "frame");
-    auto allocate = vk_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    device.set_name(reinterpret_cast<std::uint64_t>(slot.pool), VK_OBJECT_TYPE_COMMAND_POOL,
+                    "frame");
+    auto allocate =
+        vk_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     allocate.commandPool = slot.pool;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     GPU_CHECK(vkAllocateCommandBuffers(device.handle(), &allocate, &slot.commands));
-    device.set_name(reinterpret_cast<std::uint64_t>(slot.commands), VK_OBJECT_TYPE_COMMAND_BUFFER, "frame");
+    device.set_name(reinterpret_cast<std::uint64_t>(slot.commands), VK_OBJECT_TYPE_COMMAND_BUFFER,
+                    "frame");
   }
 }
 
 FrameRing::~FrameRing() {
   for (const Slot& slot : slots_) {
-    device_.retire(reinterpret_cast<std::uint64_t>(slot.pool), VK_OBJECT_TYPE_COMMAND_POOL, VK_NULL_HANDLE, 0, {});
+    device_.retire(reinterpret_cast<std::uint64_t>(slot.pool), VK_OBJECT_TYPE_COMMAND_POOL,
+                   VK_NULL_HANDLE, 0, {});
   }
 }
 

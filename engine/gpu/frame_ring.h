@@ -22,10 +22,12 @@ class FrameRing {
   FrameRing& operator=(const FrameRing&) = delete;
   ~FrameRing();
 
-  /// Waits until the frame that last used the next slot is done, destroys what is retired by now, begins recording.
+  /// Waits until the frame that last used the next slot is done, destroys what is retired by now,
+  /// begins recording.
   Frame begin();
   /// Ends and submits the frame begun. @return its timeline value.
-  std::uint64_t submit(std::span<const VkSemaphoreSubmitInfo> waits = {}, std::span<const VkSemaphoreSubmitInfo> signals = {});
+  std::uint64_t submit(std::span<const VkSemaphoreSubmitInfo> waits = {},
+                       std::span<const VkSemaphoreSubmitInfo> signals = {});
 
  private:
   struct Slot {

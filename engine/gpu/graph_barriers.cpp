@@ -6,7 +6,8 @@
 namespace skerry::gpu {
 namespace {
 
-// A pass may use a resource in several ways at once. Images then need one layout that allows all of them.
+// A pass may use a resource in several ways at once. Images then need one layout that allows all of
+// them.
 void add_use(Access& access, const UseInfo& info) {
   const bool first = access.stages == 0;
   access.stages |= info.stages;
@@ -37,13 +38,15 @@ void FrameGraph::State::merge_uses(Pass& pass) {
     const auto layers = static_cast<std::uint32_t>(resources[use.resource].layers.size());
     // What the CPU reads, it reads after the pass.
     auto& list = use.use == Use::kHostRead ? pass.host_reads : pass.merged;
-    const auto same = std::find_if(list.begin(), list.end(), [&](const Merged& m) { return m.resource == use.resource; });
+    const auto same = std::find_if(list.begin(), list.end(),
+                                   [&](const Merged& m) { return m.resource == use.resource; });
     if (same == list.end()) {
       Merged merged{use.resource, use.attachment ? use.layer : 0, use.attachment ? 1 : layers, {}};
       add_use(merged.access, use_info(use.use));
       list.push_back(merged);
-    } else if (use.attachment || (same->access.access & (VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-                                                         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT))) {
+    } else if (use.attachment ||
+               (same->access.access & (VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                       VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT))) {
       fail(pass, use.resource, "is an attachment and used in another way by the same pass");
     } else {
       add_use(same->access, use_info(use.use));
@@ -90,7 +93,8 @@ void FrameGraph::State::plan_access(const Merged& merged, std::vector<Barrier>& 
     if (needed) {
       all.dst_stages = merged.access.stages;
       all.dst_access = merged.access.access;
-      out.push_back({merged.resource, merged.first_layer, merged.layer_count, all, merged.access.layout, merged.access.layout});
+      out.push_back({merged.resource, merged.first_layer, merged.layer_count, all,
+                     merged.access.layout, merged.access.layout});
     }
     for (std::uint32_t i = 0; i < merged.layer_count; ++i) {
       Layer& layer = resource.layers[merged.first_layer + i];
@@ -100,16 +104,18 @@ void FrameGraph::State::plan_access(const Merged& merged, std::vector<Barrier>& 
   resource.discard = false;
 }
 
-// A layout belongs to the whole image: layers that a pass does not touch change along, so that one word says it for all.
-void FrameGraph::State::plan_transition(Resource& resource, const Merged& merged, std::vector<Barrier>& out) {
+// A layout belongs to the whole image: layers that a pass does not touch change along, so that one
+// word says it for all.
+void FrameGraph::State::plan_transition(Resource& resource, const Merged& merged,
+                                        std::vector<Barrier>& out) {
   AccessState before;
   for (const Layer& layer : resource.layers) before = unite(before, layer.access);
   const VkImageLayout old_layout =
       resource.discard ? VK_IMAGE_LAYOUT_UNDEFINED : resource.layers.front().access.layout;
-  const Scopes scopes{before.stages, before.written ? before.access & kWriteAccess : 0, merged.access.stages,
-                      merged.access.access};
-  out.push_back({merged.resource, 0, static_cast<std::uint32_t>(resource.layers.size()), scopes, old_layout,
-                 merged.access.layout});
+  const Scopes scopes{before.stages, before.written ? before.access & kWriteAccess : 0,
+                      merged.access.stages, merged.access.access};
+  out.push_back({merged.resource, 0, static_cast<std::uint32_t>(resource.layers.size()), scopes,
+                 old_layout, merged.access.layout});
   for (std::uint32_t i = 0; i < resource.layers.size(); ++i) {
     const bool used = i >= merged.first_layer && i - merged.first_layer < merged.layer_count;
     AccessState state;

@@ -15,8 +15,9 @@
 namespace skerry::gpu {
 namespace {
 
-// volk's function table is the process's. Instances nest (`devices` listed while a window runs), so the table goes back to
-// the instance before when one ends. Creation and destruction happen on the main thread.
+// volk's function table is the process's. Instances nest (`devices` listed while a window runs), so
+// the table goes back to the instance before when one ends. Creation and destruction happen on the
+// main thread.
 std::vector<VkInstance> g_instances;
 
 void load_functions_of(VkInstance instance) {
@@ -26,7 +27,8 @@ void load_functions_of(VkInstance instance) {
 
 void forget_functions_of(VkInstance instance) {
   std::erase(g_instances, instance);
-  if (!g_instances.empty() && volkGetLoadedInstance() == instance) volkLoadInstance(g_instances.back());
+  if (!g_instances.empty() && volkGetLoadedInstance() == instance)
+    volkLoadInstance(g_instances.back());
 }
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
@@ -59,8 +61,10 @@ bool has_validation_layer() {
 
 Result<void> check_loader() {
   if (volkInitialize() != VK_SUCCESS) {
-    return Error{"cannot load libvulkan.so.1: there is no Vulkan loader; install the package libvulkan1 and a driver "
-                 "(mesa-vulkan-drivers)"};
+    return Error{
+        "cannot load libvulkan.so.1: there is no Vulkan loader; install the package libvulkan1 and "
+        "a driver "
+        "(mesa-vulkan-drivers)"};
   }
   if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
     return Error{"the Vulkan loader is older than 1.3: update the package libvulkan1"};
@@ -79,8 +83,10 @@ struct Instance::Messages {
 
 VkBool32 VKAPI_PTR Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                         VkDebugUtilsMessageTypeFlagsEXT types,
-                                        const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-  // General messages are the loader's own (a driver file without its card, for one) and say nothing about our calls.
+                                        const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                        void* user) {
+  // General messages are the loader's own (a driver file without its card, for one) and say nothing
+  // about our calls.
   if (types == VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT) return VK_FALSE;
   auto& messages = *static_cast<Messages*>(user);
   std::lock_guard lock(messages.mutex);
@@ -93,9 +99,12 @@ VkBool32 VKAPI_PTR Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT s
 }
 
 VkDebugUtilsMessengerCreateInfoEXT Instance::messenger_info() const {
-  auto info = vk_struct<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
-  info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+  auto info = vk_struct<VkDebugUtilsMessengerCreateInfoEXT>(
+      VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
+  info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                         VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT |
+                     VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
                      VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   info.pfnUserCallback = &Instance::on_message;
   info.pUserData = messages_.get();
@@ -113,10 +122,11 @@ Result<Instance> Instance::create(bool validate, std::span<const char* const> su
     }
   }
   // Names and labels are for debuggers too, so they do not depend on the validation layer.
-  if (contains(available, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (contains(available, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   if (validate) {
-    if (!has_validation_layer() ||
-        !contains(instance_extensions(kValidationLayer), VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME)) {
+    if (!has_validation_layer() || !contains(instance_extensions(kValidationLayer),
+                                             VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME)) {
       return Error{std::string("cannot validate: the layer ") + kValidationLayer +
                    " is not installed; install the package vulkan-validationlayers"};
     }
@@ -126,7 +136,8 @@ Result<Instance> Instance::create(bool validate, std::span<const char* const> su
   Instance instance;
   instance.messages_ = std::make_unique<Messages>();
   VkDebugUtilsMessengerCreateInfoEXT messenger = instance.messenger_info();
-  const VkValidationFeatureEnableEXT enabled = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  const VkValidationFeatureEnableEXT enabled =
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
   auto features = vk_struct<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
   features.enabledValidationFeatureCount = 1;
   features.pEnabledValidationFeatures = &enabled;
@@ -149,7 +160,8 @@ Result<Instance> Instance::create(bool validate, std::span<const char* const> su
   }
   load_functions_of(instance.handle_);
   if (validate) {
-    GPU_CHECK(vkCreateDebugUtilsMessengerEXT(instance.handle_, &messenger, nullptr, &instance.messenger_));
+    GPU_CHECK(vkCreateDebugUtilsMessengerEXT(instance.handle_, &messenger, nullptr,
+                                             &instance.messenger_));
   }
   return instance;
 }
@@ -176,11 +188,14 @@ Result<std::vector<VkPhysicalDevice>> Instance::devices() const {
   std::uint32_t count = 0;
   VkResult result = vkEnumeratePhysicalDevices(handle_, &count, nullptr);
   std::vector<VkPhysicalDevice> list(count);
-  if (result == VK_SUCCESS && count > 0) result = vkEnumeratePhysicalDevices(handle_, &count, list.data());
+  if (result == VK_SUCCESS && count > 0)
+    result = vkEnumeratePhysicalDevices(handle_, &count, list.data());
   list.resize(count);
   if (result < 0 || list.empty()) {
-    return Error{"no Vulkan device: no driver reports one; install a Vulkan driver (mesa-vulkan-drivers has a "
-                 "software one)"};
+    return Error{
+        "no Vulkan device: no driver reports one; install a Vulkan driver (mesa-vulkan-drivers has "
+        "a "
+        "software one)"};
   }
   return list;
 }

@@ -10,10 +10,12 @@
 namespace skerry::gpu {
 
 /// A Vulkan instance, with the validation layer and its message counter when asked for.
-/// Functions are loaded through the instance (loader trampolines), so several devices can live in one process.
+/// Functions are loaded through the instance (loader trampolines), so several devices can live in
+/// one process.
 class Instance {
  public:
-  /// Errors: no Vulkan loader or driver, version below 1.3, a missing surface extension or validation layer.
+  /// Errors: no Vulkan loader or driver, version below 1.3, a missing surface extension or
+  /// validation layer.
   static Result<Instance> create(bool validate, std::span<const char* const> surface_extensions);
   Instance(Instance&& other) noexcept;
   Instance& operator=(Instance&&) = delete;
@@ -29,7 +31,8 @@ class Instance {
   Instance() = default;
   static VkBool32 VKAPI_PTR on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                        VkDebugUtilsMessageTypeFlagsEXT types,
-                                       const VkDebugUtilsMessengerCallbackDataEXT* data, void* user);
+                                       const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                       void* user);
   VkDebugUtilsMessengerCreateInfoEXT messenger_info() const;
   VkInstance handle_{};
   VkDebugUtilsMessengerEXT messenger_{};

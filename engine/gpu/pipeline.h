@@ -15,7 +15,8 @@ namespace skerry::gpu {
 
 class Device;
 
-/// A specialization constant: constant_id and its 32-bit value (bool, int, uint or the bits of a float).
+/// A specialization constant: constant_id and its 32-bit value (bool, int, uint or the bits of a
+/// float).
 struct SpecConstant {
   std::uint32_t id = 0;
   std::uint32_t value = 0;
@@ -34,15 +35,18 @@ struct GraphicsDesc {
   std::vector<SpecConstant> constants;
   std::vector<VkFormat> color_formats;
   VkFormat depth_format = VK_FORMAT_UNDEFINED;
-  VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;  ///< front faces are counter-clockwise in the world; the y flip is accounted for
-  bool depth_write = true;       ///< test is GREATER_OR_EQUAL (reverse-Z)
+  VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;  ///< front faces are counter-clockwise in the
+                                                 ///< world; the y flip is accounted for
+  bool depth_write = true;                       ///< test is GREATER_OR_EQUAL (reverse-Z)
   bool depth_clamp = false;
-  bool depth_bias = false;       ///< dynamic: Commands::set_depth_bias
-  bool blend = false;            ///< colours are laid over what is there by their straight alpha; else they replace it
+  bool depth_bias = false;  ///< dynamic: Commands::set_depth_bias
+  bool blend =
+      false;  ///< colours are laid over what is there by their straight alpha; else they replace it
   auto operator<=>(const GraphicsDesc&) const = default;
 };
 
-/// A compiled pipeline with the layout reflected from its SPIR-V: one push-descriptor set 0 and one push-constant block.
+/// A compiled pipeline with the layout reflected from its SPIR-V: one push-descriptor set 0 and one
+/// push-constant block.
 struct Pipeline {
   VkPipeline handle{};
   VkPipelineLayout layout{};
@@ -58,8 +62,9 @@ struct Pipeline {
   std::string name;  ///< its shaders' file names
 };
 
-/// Compiles pipelines when first asked for and keeps them. Reflection (bindings, push-constant size) comes from the SPIR-V, so that
-/// bindings are stated once, in the shader. Bad SPIR-V or a missing shader is fatal with its name.
+/// Compiles pipelines when first asked for and keeps them. Reflection (bindings, push-constant
+/// size) comes from the SPIR-V, so that bindings are stated once, in the shader. Bad SPIR-V or a
+/// missing shader is fatal with its name.
 class Pipelines {
  public:
   /// @param shaders where names are looked up; must outlive this.

@@ -15,17 +15,20 @@ constexpr std::uintmax_t kMaxCacheBytes = 256u << 20;
 
 }  // namespace
 
-bool pipeline_cache_fits(std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& device) {
+bool pipeline_cache_fits(std::span<const std::byte> bytes,
+                         const VkPhysicalDeviceProperties& device) {
   VkPipelineCacheHeaderVersionOne header;
   static_assert(sizeof header == 32);
   if (bytes.size() < sizeof header) return false;
   std::memcpy(&header, bytes.data(), sizeof header);
-  return header.headerSize == sizeof header && header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
+  return header.headerSize == sizeof header &&
+         header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
          header.vendorID == device.vendorID && header.deviceID == device.deviceID &&
          std::memcmp(header.pipelineCacheUUID, device.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
-std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device) {
+std::vector<std::byte> load_pipeline_cache(const std::string& path,
+                                           const VkPhysicalDeviceProperties& device) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return {};
@@ -48,7 +51,8 @@ void save_pipeline_cache(const std::string& path, std::span<const std::byte> byt
   const std::string temporary = path + ".tmp";
   {
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
     file.close();
     if (!file) error = std::make_error_code(std::errc::io_error);
   }

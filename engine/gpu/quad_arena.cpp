@@ -21,7 +21,8 @@ Result<ArenaRange> OffsetArena::allocate(std::uint32_t count) {
   if (best == free_.end()) {
     return Error{"the quad arena has no run of " + std::to_string(count) + ": " +
                  std::to_string(capacity_ - used_ - waiting_) + " of " + std::to_string(capacity_) +
-                 " are free, the largest run is " + std::to_string(largest_free()) + "; lower view.distance"};
+                 " are free, the largest run is " + std::to_string(largest_free()) +
+                 "; lower view.distance"};
   }
   const ArenaRange range{best->first, count};
   const std::uint32_t rest = best->second - count;
@@ -51,7 +52,8 @@ void OffsetArena::collect(std::uint64_t completed) {
 
 void OffsetArena::give_back(ArenaRange range) {
   auto next = free_.lower_bound(range.first);
-  SKERRY_ASSERT(next == free_.end() || range.first + range.count <= next->first);  // else freed twice
+  SKERRY_ASSERT(next == free_.end() ||
+                range.first + range.count <= next->first);  // else freed twice
   if (next != free_.end() && range.first + range.count == next->first) {
     range.count += next->second;
     next = free_.erase(next);

@@ -13,8 +13,9 @@ struct ArenaRange {
   std::uint32_t count = 0;
 };
 
-/// Sub-allocates [0, capacity) elements by offset: best fit, neighbours merge on free. A range freed at timeline value v is only handed out
-/// again once `completed >= v`, so that the GPU never reads what is being overwritten.
+/// Sub-allocates [0, capacity) elements by offset: best fit, neighbours merge on free. A range
+/// freed at timeline value v is only handed out again once `completed >= v`, so that the GPU never
+/// reads what is being overwritten.
 class OffsetArena {
  public:
   explicit OffsetArena(std::uint32_t capacity);
@@ -26,8 +27,8 @@ class OffsetArena {
   /// Appends room. @pre capacity >= capacity().
   void grow(std::uint32_t capacity);
   std::uint32_t capacity() const { return capacity_; }
-  std::uint32_t used() const { return used_; }           ///< allocated, not yet freed
-  std::uint32_t waiting() const { return waiting_; }     ///< freed, still in flight
+  std::uint32_t used() const { return used_; }        ///< allocated, not yet freed
+  std::uint32_t waiting() const { return waiting_; }  ///< freed, still in flight
   std::uint32_t largest_free() const;
 
  private:

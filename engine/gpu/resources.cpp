@@ -12,7 +12,8 @@ namespace skerry::gpu {
 namespace {
 
 constexpr VkImageUsageFlags kViewable = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                                        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+                                        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
 
 VkImageView create_view(Device& device, VkImage image, const ImageDesc& desc, VkImageViewType type,
                         const VkImageSubresourceRange& range) {
@@ -23,19 +24,22 @@ VkImageView create_view(Device& device, VkImage image, const ImageDesc& desc, Vk
   info.subresourceRange = range;
   VkImageView view{};
   GPU_CHECK(vkCreateImageView(device.handle(), &info, nullptr, &view));
-  device.set_name(reinterpret_cast<std::uint64_t>(view), VK_OBJECT_TYPE_IMAGE_VIEW, desc.name.c_str());
+  device.set_name(reinterpret_cast<std::uint64_t>(view), VK_OBJECT_TYPE_IMAGE_VIEW,
+                  desc.name.c_str());
   return view;
 }
 
 void retire_view(Device& device, VkImageView view, const std::string& name) {
-  device.retire(reinterpret_cast<std::uint64_t>(view), VK_OBJECT_TYPE_IMAGE_VIEW, VK_NULL_HANDLE, 0, name);
+  device.retire(reinterpret_cast<std::uint64_t>(view), VK_OBJECT_TYPE_IMAGE_VIEW, VK_NULL_HANDLE, 0,
+                name);
 }
 
 }  // namespace
 
 Buffer::~Buffer() {
   if (!device_) return;
-  device_->retire(reinterpret_cast<std::uint64_t>(handle_), VK_OBJECT_TYPE_BUFFER, memory_, allocated_, name_);
+  device_->retire(reinterpret_cast<std::uint64_t>(handle_), VK_OBJECT_TYPE_BUFFER, memory_,
+                  allocated_, name_);
 }
 
 void Buffer::swap(Buffer& other) noexcept {
@@ -53,7 +57,8 @@ struct Image::Views {
   std::map<std::pair<std::uint32_t, std::uint32_t>, VkImageView> by_mip_and_layer;
 };
 
-void Image::adopt(Device& device, VkDeviceMemory memory, std::uint64_t allocated, const ImageDesc& desc) {
+void Image::adopt(Device& device, VkDeviceMemory memory, std::uint64_t allocated,
+                  const ImageDesc& desc) {
   device_ = &device;
   memory_ = memory;
   allocated_ = allocated;
@@ -61,23 +66,28 @@ void Image::adopt(Device& device, VkDeviceMemory memory, std::uint64_t allocated
   views_ = new Views;
   if (!(desc.usage & kViewable)) return;
   const bool array = desc.array || desc.layers > 1;
-  view_ = create_view(device, handle_, desc, array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
+  view_ = create_view(device, handle_, desc,
+                      array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
                       {aspect(), 0, desc.mips, 0, desc.layers});
 }
 
 Image::~Image() {
   if (!device_) return;
-  for (const auto& [where, view] : views_->by_mip_and_layer) retire_view(*device_, view, desc_.name);
+  for (const auto& [where, view] : views_->by_mip_and_layer)
+    retire_view(*device_, view, desc_.name);
   delete views_;
   if (view_) retire_view(*device_, view_, desc_.name);
-  device_->retire(reinterpret_cast<std::uint64_t>(handle_), VK_OBJECT_TYPE_IMAGE, memory_, allocated_, desc_.name);
+  device_->retire(reinterpret_cast<std::uint64_t>(handle_), VK_OBJECT_TYPE_IMAGE, memory_,
+                  allocated_, desc_.name);
 }
 
 VkImageView Image::view_of(std::uint32_t mip, std::uint32_t layer) const {
   SKERRY_ASSERT(device_ && mip < desc_.mips && layer < desc_.layers);
   if (!desc_.array && desc_.mips == 1 && desc_.layers == 1) return view_;
   VkImageView& view = views_->by_mip_and_layer[{mip, layer}];
-  if (!view) view = create_view(*device_, handle_, desc_, VK_IMAGE_VIEW_TYPE_2D, {aspect(), mip, 1, layer, 1});
+  if (!view)
+    view =
+        create_view(*device_, handle_, desc_, VK_IMAGE_VIEW_TYPE_2D, {aspect(), mip, 1, layer, 1});
   return view;
 }
 

@@ -10,13 +10,16 @@ namespace skerry::gpu {
 
 class Device;
 
-/// Who touched a resource last, so that the next barrier is exact. Kept by the frame graph and the uploader.
+/// Who touched a resource last, so that the next barrier is exact. Kept by the frame graph and the
+/// uploader.
 struct AccessState {
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  bool written = false;          ///< the last access wrote; else `stages` are the readers that saw the last write
-  std::uint64_t last_value = 0;  ///< timeline value of the submit that touches it last; 0: never on the GPU
+  bool written =
+      false;  ///< the last access wrote; else `stages` are the readers that saw the last write
+  std::uint64_t last_value =
+      0;  ///< timeline value of the submit that touches it last; 0: never on the GPU
 };
 
 enum class Memory : std::uint8_t {
@@ -44,8 +47,8 @@ struct ImageDesc {
   bool array = false;  ///< view as an array even with one layer
   bool operator==(const ImageDesc& other) const {
     return name == other.name && format == other.format && extent.width == other.extent.width &&
-           extent.height == other.extent.height && mips == other.mips && layers == other.layers && usage == other.usage &&
-           array == other.array;
+           extent.height == other.extent.height && mips == other.mips && layers == other.layers &&
+           usage == other.usage && array == other.array;
   }
 };
 
@@ -57,7 +60,8 @@ struct SamplerDesc {
   bool operator==(const SamplerDesc&) const = default;
 };
 
-/// A move-only buffer with its memory. Usable from construction to destruction; its destructor retires it with the device's timeline.
+/// A move-only buffer with its memory. Usable from construction to destruction; its destructor
+/// retires it with the device's timeline.
 class Buffer {
  public:
   Buffer() = default;  ///< owns nothing
@@ -70,7 +74,7 @@ class Buffer {
   VkBuffer handle() const { return handle_; }
   std::uint64_t size_bytes() const { return size_; }
   std::uint64_t allocated_bytes() const { return allocated_; }  ///< device memory it takes
-  std::byte* mapped() const { return mapped_; }  ///< null unless host memory
+  std::byte* mapped() const { return mapped_; }                 ///< null unless host memory
   const std::string& name() const { return name_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   AccessState state;

@@ -12,7 +12,8 @@
 namespace skerry::gpu {
 namespace {
 
-/// First use of an acquired image. Waiting there alone lets all other work of the frame start before the window is ready.
+/// First use of an acquired image. Waiting there alone lets all other work of the frame start
+/// before the window is ready.
 constexpr VkPipelineStageFlags2 kFirstUse = VK_PIPELINE_STAGE_2_BLIT_BIT;
 
 VkSemaphore create_semaphore(Device& device, const char* name) {
@@ -23,18 +24,21 @@ VkSemaphore create_semaphore(Device& device, const char* name) {
   return semaphore;
 }
 
-// The picture holds sRGB-coded values already, so a format that would code them again is not wanted.
+// The picture holds sRGB-coded values already, so a format that would code them again is not
+// wanted.
 std::optional<VkSurfaceFormatKHR> choose_format(const Device& device, VkSurfaceKHR surface) {
   std::uint32_t count = 0;
   GPU_CHECK(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, nullptr));
   std::vector<VkSurfaceFormatKHR> formats(count);
-  GPU_CHECK(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, formats.data()));
+  GPU_CHECK(
+      vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, formats.data()));
   for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}) {
     VkFormatProperties properties{};
     vkGetPhysicalDeviceFormatProperties(device.physical(), wanted, &properties);
     if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_BLIT_DST_BIT)) continue;
     for (const VkSurfaceFormatKHR& format : formats) {
-      if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) return format;
+      if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR)
+        return format;
     }
   }
   return std::nullopt;
@@ -44,17 +48,20 @@ bool has_mode(const Device& device, VkSurfaceKHR surface, VkPresentModeKHR wante
   std::uint32_t count = 0;
   GPU_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr));
   std::vector<VkPresentModeKHR> modes(count);
-  GPU_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()));
+  GPU_CHECK(
+      vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()));
   return std::find(modes.begin(), modes.end(), wanted) != modes.end();
 }
 
 VkExtent2D choose_extent(const VkSurfaceCapabilitiesKHR& caps, VkExtent2D window_px) {
-  if (caps.currentExtent.width != std::numeric_limits<std::uint32_t>::max()) return caps.currentExtent;
+  if (caps.currentExtent.width != std::numeric_limits<std::uint32_t>::max())
+    return caps.currentExtent;
   return {std::clamp(window_px.width, caps.minImageExtent.width, caps.maxImageExtent.width),
           std::clamp(window_px.height, caps.minImageExtent.height, caps.maxImageExtent.height)};
 }
 
-void transition(VkCommandBuffer commands, VkImage image, const Scopes& scopes, VkImageLayout from, VkImageLayout to) {
+void transition(VkCommandBuffer commands, VkImage image, const Scopes& scopes, VkImageLayout from,
+                VkImageLayout to) {
   auto barrier = vk_struct<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
   barrier.srcStageMask = scopes.src_stages;
   barrier.srcAccessMask = scopes.src_access;
@@ -73,29 +80,35 @@ void transition(VkCommandBuffer commands, VkImage image, const Scopes& scopes, V
 
 }  // namespace
 
-Result<std::unique_ptr<Swapchain>> Swapchain::create(Device& device, VkSurfaceKHR surface, bool mailbox) {
+Result<std::unique_ptr<Swapchain>> Swapchain::create(Device& device, VkSurfaceKHR surface,
+                                                     bool mailbox) {
   const std::string who = "cannot present to this window with " + device.info().name + ": ";
   VkBool32 supported = VK_FALSE;
-  GPU_CHECK(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queue_family(), surface, &supported));
+  GPU_CHECK(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queue_family(), surface,
+                                                 &supported));
   if (!supported) return Error{who + "its queue cannot present; choose another with --device"};
   const std::optional<VkSurfaceFormatKHR> format = choose_format(device, surface);
-  if (!format) return Error{who + "it offers no 8-bit format to copy to; choose another with --device"};
+  if (!format)
+    return Error{who + "it offers no 8-bit format to copy to; choose another with --device"};
   VkSurfaceCapabilitiesKHR caps{};
   GPU_CHECK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical(), surface, &caps));
-  constexpr VkImageUsageFlags kNeeded = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  constexpr VkImageUsageFlags kNeeded =
+      VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if ((caps.supportedUsageFlags & kNeeded) != kNeeded) {
     return Error{who + "its images cannot be copied to; choose another with --device"};
   }
   std::unique_ptr<Swapchain> swapchain(new Swapchain(device, surface));
   swapchain->format_ = *format;
-  if (mailbox && has_mode(device, surface, VK_PRESENT_MODE_MAILBOX_KHR)) swapchain->mode_ = VK_PRESENT_MODE_MAILBOX_KHR;
+  if (mailbox && has_mode(device, surface, VK_PRESENT_MODE_MAILBOX_KHR))
+    swapchain->mode_ = VK_PRESENT_MODE_MAILBOX_KHR;
   return swapchain;
 }
 
 Swapchain::~Swapchain() {
   vkDeviceWaitIdle(device_.handle());
   destroy_images();
-  for (const Acquire& acquire : acquires_) vkDestroySemaphore(device_.handle(), acquire.semaphore, nullptr);
+  for (const Acquire& acquire : acquires_)
+    vkDestroySemaphore(device_.handle(), acquire.semaphore, nullptr);
   if (handle_) vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
 }
 
@@ -107,7 +120,8 @@ void Swapchain::destroy_images() {
   images_.clear();
 }
 
-// Rare, so it may wait for the GPU: then nothing old is in use any more. @return false if there is nothing to draw to.
+// Rare, so it may wait for the GPU: then nothing old is in use any more. @return false if there is
+// nothing to draw to.
 bool Swapchain::rebuild(VkExtent2D window_px) {
   VkSurfaceCapabilitiesKHR caps{};
   GPU_CHECK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &caps));
@@ -127,7 +141,8 @@ bool Swapchain::rebuild(VkExtent2D window_px) {
   info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
   info.preTransform = caps.currentTransform;
   const bool opaque = (caps.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0;
-  info.compositeAlpha = opaque ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+  info.compositeAlpha =
+      opaque ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
   info.presentMode = mode_;
   info.clipped = VK_TRUE;
   info.oldSwapchain = handle_;
@@ -135,7 +150,8 @@ bool Swapchain::rebuild(VkExtent2D window_px) {
   GPU_CHECK(vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &made));
   if (handle_) vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
   handle_ = made;
-  device_.set_name(reinterpret_cast<std::uint64_t>(handle_), VK_OBJECT_TYPE_SWAPCHAIN_KHR, "swapchain");
+  device_.set_name(reinterpret_cast<std::uint64_t>(handle_), VK_OBJECT_TYPE_SWAPCHAIN_KHR,
+                   "swapchain");
   extent_ = extent;
   window_px_ = window_px;
   stale_ = false;
@@ -158,11 +174,14 @@ void Swapchain::adopt_images() {
     view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     GPU_CHECK(vkCreateImageView(device_.handle(), &view, nullptr, &image.view));
     device_.set_name(reinterpret_cast<std::uint64_t>(handle), VK_OBJECT_TYPE_IMAGE, "window image");
-    device_.set_name(reinterpret_cast<std::uint64_t>(image.view), VK_OBJECT_TYPE_IMAGE_VIEW, "window image");
+    device_.set_name(reinterpret_cast<std::uint64_t>(image.view), VK_OBJECT_TYPE_IMAGE_VIEW,
+                     "window image");
     images_.push_back(image);
   }
-  // One more than images: all images may be acquired and queued while the next acquire needs a semaphore of its own.
-  while (acquires_.size() < images_.size() + 1) acquires_.push_back({create_semaphore(device_, "window image acquired"), 0});
+  // One more than images: all images may be acquired and queued while the next acquire needs a
+  // semaphore of its own.
+  while (acquires_.size() < images_.size() + 1)
+    acquires_.push_back({create_semaphore(device_, "window image acquired"), 0});
 }
 
 std::optional<SwapchainFrame> Swapchain::acquire(VkExtent2D window_px) {
@@ -175,8 +194,9 @@ std::optional<SwapchainFrame> Swapchain::acquire(VkExtent2D window_px) {
   std::uint32_t index = 0;
   // A window that changes its size all the time can outrun us; then this frame is skipped.
   for (int attempt = 0; attempt < 3; ++attempt) {
-    const VkResult result = vkAcquireNextImageKHR(device_.handle(), handle_, std::numeric_limits<std::uint64_t>::max(),
-                                                  acquire.semaphore, VK_NULL_HANDLE, &index);
+    const VkResult result =
+        vkAcquireNextImageKHR(device_.handle(), handle_, std::numeric_limits<std::uint64_t>::max(),
+                              acquire.semaphore, VK_NULL_HANDLE, &index);
     if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR) {
       stale_ = result == VK_SUBOPTIMAL_KHR;
       acquired_ = true;
@@ -200,8 +220,10 @@ std::optional<SwapchainFrame> Swapchain::acquire(VkExtent2D window_px) {
 void Swapchain::show(VkCommandBuffer commands, Image& picture, const SwapchainFrame& frame) {
   const VkImage target = images_[frame.index].image;
   touch(device_, commands, picture,
-        {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, false});
-  transition(commands, target, {kFirstUse, 0, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+        {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, false});
+  transition(commands, target,
+             {kFirstUse, 0, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
              VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   const VkExtent2D from = picture.desc().extent;
   const auto corner = [](VkExtent2D e) {
@@ -213,9 +235,11 @@ void Swapchain::show(VkCommandBuffer commands, Image& picture, const SwapchainFr
   region.dstOffsets[1] = corner(extent_);
   const bool same = from.width == extent_.width && from.height == extent_.height;
   vkCmdBlitImage(commands, picture.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target,
-                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                 same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
   transition(commands, target,
-             {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+             {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+              VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
               VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
@@ -223,7 +247,8 @@ void Swapchain::show(VkCommandBuffer commands, Image& picture, const SwapchainFr
 void Swapchain::finish(VkCommandBuffer commands, const SwapchainFrame& frame) {
   // The semaphore that presenting waits for makes the image visible to it: no second scope.
   transition(commands, images_[frame.index].image,
-             {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, 0, 0},
+             {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+              VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, 0, 0},
              VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 

@@ -21,29 +21,36 @@ struct SwapchainFrame {
   VkSemaphoreSubmitInfo signal{};  ///< and signal
 };
 
-/// The images of a window. Use: acquire(), record show(), the UI, finish(), submit with the frame's semaphores, present().
+/// The images of a window. Use: acquire(), record show(), the UI, finish(), submit with the frame's
+/// semaphores, present().
 class Swapchain {
  public:
-  /// @param surface of the device's instance; the caller destroys it after this. @param mailbox newest frame wins, without
-  /// tearing, where the device has it; else first in, first out. Errors: this device cannot present to the surface.
-  static Result<std::unique_ptr<Swapchain>> create(Device& device, VkSurfaceKHR surface, bool mailbox);
+  /// @param surface of the device's instance; the caller destroys it after this. @param mailbox
+  /// newest frame wins, without tearing, where the device has it; else first in, first out. Errors:
+  /// this device cannot present to the surface.
+  static Result<std::unique_ptr<Swapchain>> create(Device& device, VkSurfaceKHR surface,
+                                                   bool mailbox);
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
   ~Swapchain();  ///< waits for the GPU
 
-  /// The next image to draw, waiting until there is one. Makes the images anew when the window has another size or they are out
-  /// of date. @param window_px size of the window's framebuffer now. @return nothing while the window has no area (minimised):
-  /// wait for window events then, do not ask again at once.
+  /// The next image to draw, waiting until there is one. Makes the images anew when the window has
+  /// another size or they are out of date. @param window_px size of the window's framebuffer now.
+  /// @return nothing while the window has no area (minimised): wait for window events then, do not
+  /// ask again at once.
   std::optional<SwapchainFrame> acquire(VkExtent2D window_px);
-  /// Records the picture over the whole image, scaled if the sizes differ (needs usage TRANSFER_SRC), and makes the image ready
-  /// to be a colour attachment.
+  /// Records the picture over the whole image, scaled if the sizes differ (needs usage
+  /// TRANSFER_SRC), and makes the image ready to be a colour attachment.
   void show(VkCommandBuffer commands, Image& picture, const SwapchainFrame& frame);
-  /// Records what presenting needs. The image must be in COLOR_ATTACHMENT_OPTIMAL, as show() left it and a UI pass keeps it.
+  /// Records what presenting needs. The image must be in COLOR_ATTACHMENT_OPTIMAL, as show() left
+  /// it and a UI pass keeps it.
   void finish(VkCommandBuffer commands, const SwapchainFrame& frame);
   /// Queues the image for the window, after the submit. Each acquired frame must get here.
   void present(const SwapchainFrame& frame);
 
-  VkFormat format() const { return format_.format; }  ///< UNORM: sRGB-coded values are stored as they are
+  VkFormat format() const {
+    return format_.format;
+  }  ///< UNORM: sRGB-coded values are stored as they are
   VkExtent2D extent() const { return extent_; }
   std::uint32_t image_count() const { return static_cast<std::uint32_t>(images_.size()); }
   VkImageView view(std::uint32_t index) const { return images_[index].view; }

@@ -5,15 +5,22 @@
 namespace skerry::gpu {
 namespace {
 
-/// Frames an unused entry survives: a pass that comes and goes (a menu, dusk) should not allocate each time.
+/// Frames an unused entry survives: a pass that comes and goes (a menu, dusk) should not allocate
+/// each time.
 constexpr int kIdleFrames = 8;
 
-Result<Image> create(Device& device, const ImageDesc& desc) { return device.create_image(desc); }
-Result<Buffer> create(Device& device, const BufferDesc& desc) { return device.create_buffer(desc); }
+Result<Image> create(Device& device, const ImageDesc& desc) {
+  return device.create_image(desc);
+}
+Result<Buffer> create(Device& device, const BufferDesc& desc) {
+  return device.create_buffer(desc);
+}
 
 template <class Entries>
 void release(Entries& entries) {
-  std::erase_if(entries, [](const auto& entry) { return !entry->taken && entry->idle_frames >= kIdleFrames; });
+  std::erase_if(entries, [](const auto& entry) {
+    return !entry->taken && entry->idle_frames >= kIdleFrames;
+  });
   for (auto& entry : entries) {
     entry->idle_frames = entry->taken ? 0 : entry->idle_frames + 1;
     entry->taken = false;
@@ -48,8 +55,12 @@ auto& TransientPool::take_from(Entries& entries, const Desc& desc) {
   return entries.back()->object;
 }
 
-Image& TransientPool::take(const ImageDesc& desc) { return take_from(images_, desc); }
-Buffer& TransientPool::take(const BufferDesc& desc) { return take_from(buffers_, desc); }
+Image& TransientPool::take(const ImageDesc& desc) {
+  return take_from(images_, desc);
+}
+Buffer& TransientPool::take(const BufferDesc& desc) {
+  return take_from(buffers_, desc);
+}
 
 std::vector<MemoryUse> TransientPool::memory() const {
   std::vector<MemoryUse> list;

@@ -8,13 +8,15 @@
 
 namespace skerry::gpu {
 
-/// Images and buffers of single frames, kept for the frames after. Without a device it hands out empty ones.
+/// Images and buffers of single frames, kept for the frames after. Without a device it hands out
+/// empty ones.
 class TransientPool {
  public:
   explicit TransientPool(Device* device) : device_(device) {}
   /// Everything is free again; what no frame took for a while is destroyed.
   void begin_frame();
-  /// One with exactly this description, until the next begin_frame(). Out of memory is fatal, with the line the device gives.
+  /// One with exactly this description, until the next begin_frame(). Out of memory is fatal, with
+  /// the line the device gives.
   Image& take(const ImageDesc& desc);
   Buffer& take(const BufferDesc& desc);
   std::vector<MemoryUse> memory() const;  ///< of those taken this frame

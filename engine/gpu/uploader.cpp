@@ -19,12 +19,14 @@ namespace {
 constexpr std::uint64_t kMaxUpdateBytes = 65536;  // of one vkCmdUpdateBuffer
 constexpr std::uint64_t kStagingBlockBytes = 4u << 20;
 
-/// Everything that may read an uploaded buffer later. The barrier behind a batch covers all of it, so that no reader adds one.
-constexpr VkPipelineStageFlags2 kReadStages = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT |
-                                              VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
-                                              VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr VkAccessFlags2 kReadAccess =
-    VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_SHADER_READ_BIT;
+/// Everything that may read an uploaded buffer later. The barrier behind a batch covers all of it,
+/// so that no reader adds one.
+constexpr VkPipelineStageFlags2 kReadStages =
+    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT |
+    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+constexpr VkAccessFlags2 kReadAccess = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT |
+                                       VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_SHADER_READ_BIT;
 
 void memory_barrier(VkCommandBuffer commands, const Scopes& scopes) {
   auto barrier = vk_struct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
@@ -38,7 +40,8 @@ void memory_barrier(VkCommandBuffer commands, const Scopes& scopes) {
   vkCmdPipelineBarrier2(commands, &info);
 }
 
-/// Byte ranges of buffers written since the last barrier. Two transfers to the same place are unordered without one.
+/// Byte ranges of buffers written since the last barrier. Two transfers to the same place are
+/// unordered without one.
 class WrittenRanges {
  public:
   /// @return false if the range overlaps one already there.
@@ -75,7 +78,9 @@ struct Uploader::State {
   void record_transfer(VkCommandBuffer commands, const Write& write);
   void update(VkCommandBuffer commands, const Write& write);
   Block* staging_block(std::uint64_t bytes);
-  bool idle(const Buffer& buffer) const { return buffer.state.last_value <= device.completed_value(); }
+  bool idle(const Buffer& buffer) const {
+    return buffer.state.last_value <= device.completed_value();
+  }
 
   Device& device;
   UploadPath path;
@@ -99,14 +104,19 @@ void Uploader::write(Buffer& to, std::uint64_t offset_bytes, std::span<const std
   state_->pending += bytes.size();
 }
 
-std::uint64_t Uploader::pending_bytes() const { return state_->pending; }
+std::uint64_t Uploader::pending_bytes() const {
+  return state_->pending;
+}
 
-const UploadBytes& Uploader::sent() const { return state_->sent; }
+const UploadBytes& Uploader::sent() const {
+  return state_->sent;
+}
 
 std::uint64_t Uploader::record(VkCommandBuffer commands, std::uint64_t budget_bytes) {
   std::vector<State::Write> batch;
   std::uint64_t bytes = 0;
-  while (!state_->queue.empty() && (batch.empty() || bytes + state_->queue.front().bytes.size() <= budget_bytes)) {
+  while (!state_->queue.empty() &&
+         (batch.empty() || bytes + state_->queue.front().bytes.size() <= budget_bytes)) {
     bytes += state_->queue.front().bytes.size();
     batch.push_back(std::move(state_->queue.front()));
     state_->queue.pop_front();
@@ -125,7 +135,8 @@ void Uploader::State::record_writes(VkCommandBuffer commands, std::span<const Wr
     if (!added) continue;
     entry->second = path == UploadPath::kMapped && write.to->mapped() && idle(*write.to);
     if (entry->second) continue;
-    const Access transfer{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, {}, true};
+    const Access transfer{
+        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, {}, true};
     if (const std::optional<Scopes> scopes = hazard(write.to->state, transfer)) {
       before.src_stages |= scopes->src_stages;
       before.src_access |= scopes->src_access;
@@ -155,9 +166,12 @@ void Uploader::State::record_writes(VkCommandBuffer commands, std::span<const Wr
     transfers = true;
   }
   current = nullptr;
-  if (transfers) memory_barrier(commands, {before.dst_stages, before.dst_access, kReadStages, kReadAccess});
+  if (transfers)
+    memory_barrier(commands, {before.dst_stages, before.dst_access, kReadStages, kReadAccess});
   for (const auto& [buffer, by_mapping] : mapped) {
-    if (!by_mapping) buffer->state = {kReadStages, kReadAccess, VK_IMAGE_LAYOUT_UNDEFINED, false, device.next_value()};
+    if (!by_mapping)
+      buffer->state = {kReadStages, kReadAccess, VK_IMAGE_LAYOUT_UNDEFINED, false,
+                       device.next_value()};
   }
 }
 
@@ -178,23 +192,27 @@ void Uploader::State::record_transfer(VkCommandBuffer commands, const Write& wri
 void Uploader::State::update(VkCommandBuffer commands, const Write& write) {
   for (std::uint64_t at = 0; at < write.bytes.size(); at += kMaxUpdateBytes) {
     const std::uint64_t size = std::min<std::uint64_t>(kMaxUpdateBytes, write.bytes.size() - at);
-    vkCmdUpdateBuffer(commands, write.to->handle(), write.offset + at, size, write.bytes.data() + at);
+    vkCmdUpdateBuffer(commands, write.to->handle(), write.offset + at, size,
+                      write.bytes.data() + at);
   }
 }
 
-// A block with room for `bytes`, or null when there is no memory for one: the caller then has another way.
+// A block with room for `bytes`, or null when there is no memory for one: the caller then has
+// another way.
 Uploader::State::Block* Uploader::State::staging_block(std::uint64_t bytes) {
   if (current && current->buffer.size_bytes() - current->used >= bytes) return current;
   const std::uint64_t completed = device.completed_value();
   for (auto& block : blocks) {
-    if (block.get() == current || block->value > completed || block->buffer.size_bytes() < bytes) continue;
+    if (block.get() == current || block->value > completed || block->buffer.size_bytes() < bytes)
+      continue;
     current = block.get();
     current->used = 0;
     current->value = device.next_value();
     return current;
   }
   const std::uint64_t size = std::max(kStagingBlockBytes, bytes);
-  Result<Buffer> made = device.create_buffer({"staging ring", size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Memory::kUpload});
+  Result<Buffer> made = device.create_buffer(
+      {"staging ring", size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Memory::kUpload});
   if (!made) return nullptr;
   auto block = std::make_unique<Block>();
   block->buffer = *std::move(made);
@@ -209,7 +227,8 @@ Result<void> Uploader::fill_image(Image& image, std::span<const std::byte> bytes
   const auto edge = [](std::uint32_t size, std::uint32_t mip) { return std::max(1u, size >> mip); };
   std::uint64_t texels = 0;
   for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
-    texels += std::uint64_t{edge(desc.extent.width, mip)} * edge(desc.extent.height, mip) * desc.layers;
+    texels +=
+        std::uint64_t{edge(desc.extent.width, mip)} * edge(desc.extent.height, mip) * desc.layers;
   }
   const std::uint64_t texel_bytes = bytes.size() / texels;
   SKERRY_ASSERT(texel_bytes > 0 && texel_bytes * texels == bytes.size());
@@ -229,13 +248,14 @@ Result<void> Uploader::fill_image(Image& image, std::span<const std::byte> bytes
     offset += texel_bytes * region.imageExtent.width * region.imageExtent.height * desc.layers;
   }
   state_->device.run_now([&](VkCommandBuffer commands) {
-    touch(state_->device, commands, image, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, true});
+    touch(state_->device, commands, image,
+          {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, true});
     vkCmdCopyBufferToImage(commands, staging->handle(), image.handle(), image.state.layout,
                            static_cast<std::uint32_t>(regions.size()), regions.data());
     touch(state_->device, commands, image,
-          {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT,
-           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false});
+          {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+           VK_ACCESS_2_SHADER_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false});
   });
   return {};
 }

@@ -15,11 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string reason(int code) { return std::strerror(code); }
+std::string reason(int code) {
+  return std::strerror(code);
+}
 
 Error write_error(const fs::path& path, int code) {
-  return Error{fmt::format("cannot write '{}': {}; give a path in a folder you may write to", path.string(),
-                           reason(code))};
+  return Error{fmt::format("cannot write '{}': {}; give a path in a folder you may write to",
+                           path.string(), reason(code))};
 }
 
 /// A file descriptor that closes itself.
@@ -59,7 +61,8 @@ int write_all(File& file, std::span<const std::byte> bytes) {
 
 fs::path xdg_dir(const char* variable, const char* below_home) {
   // The specification says to ignore relative paths.
-  if (const char* set = std::getenv(variable); set && set[0] == '/') return fs::path(set) / "skerry";
+  if (const char* set = std::getenv(variable); set && set[0] == '/')
+    return fs::path(set) / "skerry";
   if (const char* home = std::getenv("HOME"); home && home[0] == '/') {
     return fs::path(home) / below_home / "skerry";
   }
@@ -117,15 +120,21 @@ Result<std::string> read_text(const fs::path& path, std::uint64_t max_bytes) {
   }
 }
 
-fs::path executable_directory() {
+fs::path executable_dir() {
   std::error_code code;
   const fs::path self = fs::read_symlink("/proc/self/exe", code);
   return code ? fs::path(".") : self.parent_path();
 }
 
-fs::path cache_directory() { return xdg_dir("XDG_CACHE_HOME", ".cache"); }
-fs::path config_directory() { return xdg_dir("XDG_CONFIG_HOME", ".config"); }
-fs::path data_directory() { return xdg_dir("XDG_DATA_HOME", ".local/share"); }
+fs::path cache_dir() {
+  return xdg_dir("XDG_CACHE_HOME", ".cache");
+}
+fs::path config_dir() {
+  return xdg_dir("XDG_CONFIG_HOME", ".config");
+}
+fs::path data_dir() {
+  return xdg_dir("XDG_DATA_HOME", ".local/share");
+}
 
 Result<void> make_dirs(const fs::path& dir) {
   std::error_code code;

@@ -16,8 +16,9 @@
 namespace skerry::platform {
 namespace {
 
-// libpng reports errors by longjmp, which must not pass frames with destructors: every object that owns memory lives in the caller of the
-// functions that call setjmp, and those hold plain values only.
+// libpng reports errors by longjmp, which must not pass frames with destructors: every object that
+// owns memory lives in the caller of the functions that call setjmp, and those hold plain values
+// only.
 
 /// What a libpng call needs to reach: the bytes, a cursor, and the message of a failure.
 struct Stream {
@@ -48,7 +49,8 @@ void on_read(png_structp png, png_bytep data, std::size_t size) {
 }
 
 bool is_ascii(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= 32 && c < 127); });
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c == '\n' || (c >= 32 && c < 127); });
 }
 
 /// libpng's view of the texts; points into them.
@@ -68,12 +70,13 @@ std::vector<png_text> png_texts(std::span<const PngText> texts) {
   return out;
 }
 
-bool encode(png_structp png, png_infop info, const PixelView& image, std::span<const png_text> texts,
-            Stream& stream) {
+bool encode(png_structp png, png_infop info, const PixelView& image,
+            std::span<const png_text> texts, Stream& stream) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, &stream, on_write, nullptr);
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-  // Level 4 with one cheap filter: three times as fast as the defaults for a tenth more bytes on rendered pictures.
+  // Level 4 with one cheap filter: three times as fast as the defaults for a tenth more bytes on
+  // rendered pictures.
   png_set_compression_level(png, 4);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
   png_set_IHDR(png, info, image.width, image.height, 8,
@@ -136,7 +139,8 @@ Result<void> write_png(const std::filesystem::path& path, const PixelView& image
   SKERRY_ASSERT(image.channels == 3 || image.channels == 4);
   SKERRY_ASSERT(image.pixels.size() == std::size_t{image.width} * image.height * image.channels);
   if (image.width == 0 || image.height == 0) {
-    return Error{fmt::format("cannot write '{}': the picture has no pixels; ask for at least 1x1", path.string())};
+    return Error{fmt::format("cannot write '{}': the picture has no pixels; ask for at least 1x1",
+                             path.string())};
   }
   Stream stream;
   const std::vector<png_text> texts = png_texts(text);
@@ -145,8 +149,8 @@ Result<void> write_png(const std::filesystem::path& path, const PixelView& image
   const bool done = info && encode(png, info, image, texts, stream);
   png_destroy_write_struct(&png, &info);
   if (!done) {
-    return Error{fmt::format("cannot write '{}': {}; free some memory or ask for a smaller picture", path.string(),
-                             stream.message)};
+    return Error{fmt::format("cannot write '{}': {}; free some memory or ask for a smaller picture",
+                             path.string(), stream.message)};
   }
   return write_file(path, stream.out);
 }
@@ -171,7 +175,8 @@ Result<PngImage> read_png(const std::filesystem::path& path) {
   const std::size_t stride = std::size_t{image.width} * 4;
   image.pixels.resize(stride * image.height);
   std::vector<png_bytep> rows(image.height);
-  for (std::uint32_t row = 0; row < image.height; ++row) rows[row] = image.pixels.data() + row * stride;
+  for (std::uint32_t row = 0; row < image.height; ++row)
+    rows[row] = image.pixels.data() + row * stride;
   if (!decode_rows(reader.png, reader.info, rows.data())) return failed(stream.message);
   png_textp texts = nullptr;
   const int count = png_get_text(reader.png, reader.info, &texts, nullptr);

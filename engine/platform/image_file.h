@@ -17,7 +17,7 @@ struct PngText {
 /// 8-bit sRGB pixels owned by someone else; rows from the top, no padding.
 struct PixelView {
   std::uint32_t width = 0, height = 0;
-  std::uint32_t channels = 4;  ///< 3 RGB, 4 RGBA
+  std::uint32_t channels = 4;            ///< 3 RGB, 4 RGBA
   std::span<const std::uint8_t> pixels;  ///< width * height * channels
 };
 

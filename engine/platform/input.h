@@ -8,18 +8,39 @@ namespace skerry::platform {
 
 /// Keys and mouse buttons the program knows.
 enum class Key : std::uint8_t {
-  kW, kA, kS, kD, kF, kT, kY, kSpace, kShift, kControl, kEscape, kMinus, kPlus, kLeftBracket, kRightBracket,
-  kF2, kF3, kF8, kF11, kMouseLeft, kCount
+  kW,
+  kA,
+  kS,
+  kD,
+  kF,
+  kT,
+  kY,
+  kSpace,
+  kShift,
+  kControl,
+  kEscape,
+  kMinus,
+  kPlus,
+  kLeftBracket,
+  kRightBracket,
+  kF2,
+  kF3,
+  kF8,
+  kF11,
+  kMouseLeft,
+  kCount
 };
 
 /// What happened since the frame before.
 class InputFrame {
  public:
-  bool down(Key key) const { return down_[index(key)]; }          ///< held at the end of the frame
-  bool pressed(Key key) const { return pressed_[index(key)]; }    ///< went down during it, even if it is up again
+  bool down(Key key) const { return down_[index(key)]; }  ///< held at the end of the frame
+  bool pressed(Key key) const {
+    return pressed_[index(key)];
+  }  ///< went down during it, even if it is up again
   bool released(Key key) const { return released_[index(key)]; }  ///< went up during it
-  glm::dvec2 mouse_delta{};  ///< pixels, right and down
-  double scroll = 0.0;       ///< notches, up is positive
+  glm::dvec2 mouse_delta{};                                       ///< pixels, right and down
+  double scroll = 0.0;                                            ///< notches, up is positive
 
  private:
   friend class Input;

@@ -19,45 +19,72 @@ std::string last_problem() {
 
 std::optional<Key> key_of(int glfw_key) {
   switch (glfw_key) {
-    case GLFW_KEY_W: return Key::kW;
-    case GLFW_KEY_A: return Key::kA;
-    case GLFW_KEY_S: return Key::kS;
-    case GLFW_KEY_D: return Key::kD;
-    case GLFW_KEY_F: return Key::kF;
-    case GLFW_KEY_T: return Key::kT;
-    case GLFW_KEY_Y: return Key::kY;
-    case GLFW_KEY_SPACE: return Key::kSpace;
+    case GLFW_KEY_W:
+      return Key::kW;
+    case GLFW_KEY_A:
+      return Key::kA;
+    case GLFW_KEY_S:
+      return Key::kS;
+    case GLFW_KEY_D:
+      return Key::kD;
+    case GLFW_KEY_F:
+      return Key::kF;
+    case GLFW_KEY_T:
+      return Key::kT;
+    case GLFW_KEY_Y:
+      return Key::kY;
+    case GLFW_KEY_SPACE:
+      return Key::kSpace;
     case GLFW_KEY_LEFT_SHIFT:
-    case GLFW_KEY_RIGHT_SHIFT: return Key::kShift;
+    case GLFW_KEY_RIGHT_SHIFT:
+      return Key::kShift;
     case GLFW_KEY_LEFT_CONTROL:
-    case GLFW_KEY_RIGHT_CONTROL: return Key::kControl;
-    case GLFW_KEY_ESCAPE: return Key::kEscape;
+    case GLFW_KEY_RIGHT_CONTROL:
+      return Key::kControl;
+    case GLFW_KEY_ESCAPE:
+      return Key::kEscape;
     case GLFW_KEY_MINUS:
-    case GLFW_KEY_KP_SUBTRACT: return Key::kMinus;
+    case GLFW_KEY_KP_SUBTRACT:
+      return Key::kMinus;
     case GLFW_KEY_EQUAL:
-    case GLFW_KEY_KP_ADD: return Key::kPlus;
-    case GLFW_KEY_LEFT_BRACKET: return Key::kLeftBracket;
-    case GLFW_KEY_RIGHT_BRACKET: return Key::kRightBracket;
-    case GLFW_KEY_F2: return Key::kF2;
-    case GLFW_KEY_F3: return Key::kF3;
-    case GLFW_KEY_F8: return Key::kF8;
-    case GLFW_KEY_F11: return Key::kF11;
-    default: return std::nullopt;
+    case GLFW_KEY_KP_ADD:
+      return Key::kPlus;
+    case GLFW_KEY_LEFT_BRACKET:
+      return Key::kLeftBracket;
+    case GLFW_KEY_RIGHT_BRACKET:
+      return Key::kRightBracket;
+    case GLFW_KEY_F2:
+      return Key::kF2;
+    case GLFW_KEY_F3:
+      return Key::kF3;
+    case GLFW_KEY_F8:
+      return Key::kF8;
+    case GLFW_KEY_F11:
+      return Key::kF11;
+    default:
+      return std::nullopt;
   }
 }
 
-Input& input_of(GLFWwindow* handle) { return *static_cast<Input*>(glfwGetWindowUserPointer(handle)); }
+Input& input_of(GLFWwindow* handle) {
+  return *static_cast<Input*>(glfwGetWindowUserPointer(handle));
+}
 
 void on_key(GLFWwindow* handle, int key, int, int action, int) {
   if (const auto known = key_of(key)) input_of(handle).set_key(*known, action != GLFW_RELEASE);
 }
 
 void on_button(GLFWwindow* handle, int button, int action, int) {
-  if (button == GLFW_MOUSE_BUTTON_LEFT) input_of(handle).set_key(Key::kMouseLeft, action != GLFW_RELEASE);
+  if (button == GLFW_MOUSE_BUTTON_LEFT)
+    input_of(handle).set_key(Key::kMouseLeft, action != GLFW_RELEASE);
 }
 
-void on_pointer(GLFWwindow* handle, double x, double y) { input_of(handle).move_pointer({x, y}); }
-void on_scroll(GLFWwindow* handle, double, double y) { input_of(handle).add_scroll(y); }
+void on_pointer(GLFWwindow* handle, double x, double y) {
+  input_of(handle).move_pointer({x, y});
+}
+void on_scroll(GLFWwindow* handle, double, double y) {
+  input_of(handle).add_scroll(y);
+}
 void on_focus(GLFWwindow* handle, int focused) {
   if (!focused) input_of(handle).lose_focus();
 }
@@ -89,22 +116,29 @@ GLFWmonitor* monitor_of(GLFWwindow* handle) {
 
 Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
   if (!glfwInit()) {
-    return Error{fmt::format("cannot open a window: there is no display ({}); start it on a desktop, or draw a "
-                             "picture with 'skerry shot'", last_problem())};
+    return Error{fmt::format(
+        "cannot open a window: there is no display ({}); start it on a desktop, or draw a "
+        "picture with 'skerry shot'",
+        last_problem())};
   }
   // From here on the destructor of Window, or this function, ends GLFW.
   if (!glfwVulkanSupported()) {
     glfwTerminate();
-    return Error{"cannot open a window: no Vulkan loader with window support was found; install libvulkan1 and a "
-                 "Vulkan driver (mesa-vulkan-drivers)"};
+    return Error{
+        "cannot open a window: no Vulkan loader with window support was found; install libvulkan1 "
+        "and a "
+        "Vulkan driver (mesa-vulkan-drivers)"};
   }
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  GLFWwindow* handle = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+  GLFWwindow* handle =
+      glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
   if (!handle) {
     const std::string why = last_problem();
     glfwTerminate();
-    return Error{fmt::format("cannot open a window of {}x{}: {}; try another --size, or draw a picture with "
-                             "'skerry shot'", options.width, options.height, why)};
+    return Error{
+        fmt::format("cannot open a window of {}x{}: {}; try another --size, or draw a picture with "
+                    "'skerry shot'",
+                    options.width, options.height, why)};
   }
   return std::unique_ptr<Window>(new Window(handle));
 }
@@ -133,8 +167,8 @@ Result<VkSurfaceKHR> Window::create_surface(VkInstance instance) const {
   VkSurfaceKHR surface = VK_NULL_HANDLE;
   const VkResult result = glfwCreateWindowSurface(instance, handle_, nullptr, &surface);
   if (result == VK_SUCCESS) return surface;
-  return Error{fmt::format("cannot draw into the window: {} (VkResult {}); choose another --device", last_problem(),
-                           static_cast<int>(result))};
+  return Error{fmt::format("cannot draw into the window: {} (VkResult {}); choose another --device",
+                           last_problem(), static_cast<int>(result))};
 }
 
 InputFrame Window::poll(double wait_s) {
@@ -146,18 +180,25 @@ InputFrame Window::poll(double wait_s) {
   return input_.take();
 }
 
-bool Window::should_close() const { return glfwWindowShouldClose(handle_) != 0; }
-void Window::close() { glfwSetWindowShouldClose(handle_, GLFW_TRUE); }
+bool Window::should_close() const {
+  return glfwWindowShouldClose(handle_) != 0;
+}
+void Window::close() {
+  glfwSetWindowShouldClose(handle_, GLFW_TRUE);
+}
 
 FramebufferSize Window::framebuffer_size() const {
   // X11 keeps reporting the old size of an iconified window.
   if (glfwGetWindowAttrib(handle_, GLFW_ICONIFIED)) return {};
   int width = 0, height = 0;
   glfwGetFramebufferSize(handle_, &width, &height);
-  return {static_cast<std::uint32_t>(std::max(0, width)), static_cast<std::uint32_t>(std::max(0, height))};
+  return {static_cast<std::uint32_t>(std::max(0, width)),
+          static_cast<std::uint32_t>(std::max(0, height))};
 }
 
-bool Window::focused() const { return glfwGetWindowAttrib(handle_, GLFW_FOCUSED) != 0; }
+bool Window::focused() const {
+  return glfwGetWindowAttrib(handle_, GLFW_FOCUSED) != 0;
+}
 
 void Window::capture_pointer(bool captured) {
   if (captured == captured_) return;
@@ -169,7 +210,8 @@ void Window::capture_pointer(bool captured) {
 
 void Window::toggle_fullscreen() {
   if (glfwGetWindowMonitor(handle_)) {
-    glfwSetWindowMonitor(handle_, nullptr, windowed_.x, windowed_.y, windowed_.width, windowed_.height, GLFW_DONT_CARE);
+    glfwSetWindowMonitor(handle_, nullptr, windowed_.x, windowed_.y, windowed_.width,
+                         windowed_.height, GLFW_DONT_CARE);
     return;
   }
   GLFWmonitor* monitor = monitor_of(handle_);
@@ -180,6 +222,8 @@ void Window::toggle_fullscreen() {
   glfwSetWindowMonitor(handle_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(handle_, title.c_str()); }
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(handle_, title.c_str());
+}
 
 }  // namespace skerry::platform

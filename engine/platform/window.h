@@ -37,8 +37,8 @@ class Window {
   /// The caller destroys it, before the window.
   Result<VkSurfaceKHR> create_surface(VkInstance instance) const;
 
-  /// Takes in what happened since the last call. @param wait_s waits up to so many seconds for something to happen; for when there is
-  /// nothing to draw.
+  /// Takes in what happened since the last call. @param wait_s waits up to so many seconds for
+  /// something to happen; for when there is nothing to draw.
   InputFrame poll(double wait_s = 0.0);
   bool should_close() const;
   void close();
@@ -48,7 +48,8 @@ class Window {
   /// A captured pointer is hidden and only moves the view, unaccelerated where the display can.
   void capture_pointer(bool captured);
   bool pointer_captured() const { return captured_; }
-  /// Between a window and the whole of its monitor, keeping the window's place and size for the way back.
+  /// Between a window and the whole of its monitor, keeping the window's place and size for the way
+  /// back.
   void toggle_fullscreen();
   void set_title(const std::string& title);
 

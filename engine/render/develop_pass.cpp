@@ -20,7 +20,7 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         c.storage(0, scene.frame);
         c.storage(1, scene.pixel_stats);
         c.storage(2, radiance);
-        c.storage(3, out);
+        c.storage(9, out);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8), gpu::Commands::groups(scene.size.height, 8), 1);
       });
   return Developed(out);
@@ -31,7 +31,7 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   gpu::ImageRef out = graph.import(picture);
   const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth(), maps = shadows.maps();
   const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{maps ? "show_channel.comp" : "show_channel_unshadowed.comp", {{0, static_cast<std::uint32_t>(view)}}});
+      pipelines.get(gpu::ComputeDesc{maps ? "show_channel.comp" : "show_channel_unshadowed.comp", {{0, static_cast<std::uint32_t>(view)}, {8, scene.bodies}}});
   graph.add_pass(
       "show_channel",
       [&](gpu::PassBuilder& b) {

@@ -53,7 +53,7 @@ struct Renderer::State {
   void take_report(std::uint32_t slot_index);
   SceneRefs import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables);
   void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
-             std::span<const ActiveCascade> cascades, bool bake_sky, Slot& slot);
+             std::span<const ActiveCascade> cascades, const shared::SkyConstants& sky_now, Slot& slot);
   Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws, const RenderSettings& settings, const FrameInput& input,
                       std::span<const ActiveCascade> cascades);
   void add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats, std::uint32_t views);
@@ -187,6 +187,8 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size
   s.point_sampler = point_sampler;
   s.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
   s.size = size;
+  for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
+    if (tables.constants.bodies[body].irradiance != glm::vec3(0.0f)) s.bodies |= 1u << body;
   return s;
 }
 
@@ -235,13 +237,16 @@ void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene, const gpu
 }
 
 void Renderer::State::build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
-                            std::span<const ActiveCascade> cascades, bool bake_sky, Slot& slot) {
+                            std::span<const ActiveCascade> cascades, const shared::SkyConstants& sky_now, Slot& slot) {
   graph.begin();
   SceneRefs scene = import_scene(input, size, tables);
   graph.add_pass(
       "clear_pixel_stats", [&](gpu::PassBuilder& b) { scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite); },
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
-  if (bake_sky)
+  const ShadeIn shade_in{settings.texture_taps, sky_now.stars > 0.0f};
+  const bool sky_moved = !baked_sky || std::memcmp(&*baked_sky, &sky_now, sizeof(sky_now)) != 0;
+  baked_sky = sky_now;
+  if (sky_moved)
     scene.sky_lut = add_sky_pass(graph, pipelines, scene);
   else
     graph.leave_out("bake_sky", "sun and moon have not moved since the table was made");
@@ -250,7 +255,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   if (geometry->sections_resident() == 0) {
     for (const char* name : {"cull_sections", "draw_geometry", "draw_shadow_sun", "draw_shadow_moon", "shade_surfaces", "shade_translucent"})
       graph.leave_out(name, "no geometry is resident");
-    (void)DevelopPass::add(graph, pipelines, scene, ShadePass::add_sky_only(graph, pipelines, scene), picture);
+    (void)ShadePass::add_sky_only(graph, pipelines, scene, shade_in, picture);
     add_readback(slot, scene, nullptr, 0);
     return;
   }
@@ -261,14 +266,21 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
     (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view, picture);
     graph.leave_out("shade_surfaces", "a debug view is shown");
   } else {
-    Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, settings.texture_taps);
-    if (geometry->translucent_quads() == 0 && input.camera_medium == 0)
-      graph.leave_out("shade_translucent", "no translucent block is resident");
+    const char* no_translucent = nullptr;
+    if (input.camera_medium == 0 && geometry->translucent_quads() == 0)
+      no_translucent = "no translucent block is resident";
     else if (input.camera_medium == 0 && !translucent_in_view(geometry->records(), tables.islands, tables.views[0]))
-      graph.leave_out("shade_translucent", "no translucent block is in view");
-    else
-      shaded = TranslucentPass::add(graph, pipelines, scene, draws, surfaces, maps, std::move(shaded), settings.translucent_layers);
-    (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
+      no_translucent = "no translucent block is in view";
+    if (no_translucent) {
+      graph.leave_out("shade_translucent", no_translucent);
+      graph.leave_out("develop", "nothing comes between shading and picture");
+      (void)ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture);
+    } else {
+      Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, shade_in);
+      shaded = TranslucentPass::add(graph, pipelines, scene, draws, surfaces, maps, std::move(shaded), settings.translucent_layers,
+                                    input.camera_medium != 0);
+      (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
+    }
   }
   add_readback(slot, scene, &draws.stats, view_count);
 }
@@ -333,8 +345,6 @@ Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettin
     shift_view(tables.views[0], s.frozen->second, input.camera.position);
   }
   const shared::SkyConstants sky_now = sky_constants(input.sky);
-  const bool bake_sky = !s.baked_sky || std::memcmp(&*s.baked_sky, &sky_now, sizeof(sky_now)) != 0;
-  s.baked_sky = sky_now;
   if (Result<void> ok = s.upload_tables(tables, input.islands.size(), sky_now); !ok) return ok.error();
 
   const gpu::FrameRing::Frame frame = s.ring.begin();
@@ -345,7 +355,7 @@ Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettin
   s.mesh_uploader.record(frame.commands, s.upload_budget);
   // Maps drawn while meshes still wait for their turn will lack them.
   if (s.mesh_uploader.pending_bytes() != 0) s.shadows.forget();
-  s.build(input, settings, size, tables, *cascades, bake_sky, slot);
+  s.build(input, settings, size, tables, *cascades, sky_now, slot);
   s.graph.compile();
   s.graph.execute(frame.commands, frame.slot);
   if (after) after(frame.commands, s.picture);
@@ -365,6 +375,7 @@ void Renderer::finish() {
 }
 
 GeometryStore& Renderer::geometry() { return *state_->geometry; }
+void Renderer::set_upload_budget(std::uint64_t bytes) { state_->upload_budget = bytes; }
 gpu::Uploader& Renderer::mesh_uploader() { return state_->mesh_uploader; }
 const gpu::FrameGraph& Renderer::graph() const { return state_->graph; }
 int Renderer::pipelines_created() const { return state_->pipelines.created(); }

@@ -67,6 +67,8 @@ class Renderer {
 
   GeometryStore& geometry();
   gpu::Uploader& mesh_uploader();
+  /// Bytes of chunk meshes that one frame may upload, from now on.
+  void set_upload_budget(std::uint64_t bytes);
   const gpu::FrameGraph& graph() const;      ///< of the last frame, for --explain
   int pipelines_created() const;
 

@@ -23,6 +23,7 @@ struct SceneRefs {
   gpu::ImageRef block_textures, sky_lut;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::uint32_t islands_per_view = 0;
+  std::uint32_t bodies = 0;  ///< that give light: bit 0 the sun, bit 1 the moon
   VkExtent2D size{};
 };
 

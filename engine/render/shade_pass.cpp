@@ -1,76 +1,120 @@
 #include "engine/render/shade_pass.h"
 
+#include <string>
+
+#include "engine/render/tiles.h"
+#include "shaders/shared/frame.h"
+
 namespace skerry::render {
 namespace {
 
 using gpu::Use;
 
-gpu::ImageRef radiance_image(gpu::FrameGraph& graph, const SceneRefs& scene) {
-  return graph.create(gpu::ImageDesc{.name = "radiance", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = scene.size});
-}
-
-void dispatch_pixels(gpu::Commands& c, const SceneRefs& scene) {
-  c.dispatch(gpu::Commands::groups(scene.size.width, 8), gpu::Commands::groups(scene.size.height, 8), 1);
-}
-
-}  // namespace
-
-Shaded ShadePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
-                      int texture_taps) {
-  gpu::ImageRef radiance = radiance_image(graph, scene);
-  const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth(), maps = shadows.maps();
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      maps ? "shade_surfaces.comp" : "shade_surfaces_unshadowed.comp", {{0, static_cast<std::uint32_t>(texture_taps)}}});
+/// Adds surfaces and sky, both into `target`. @return its last version.
+gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const Geometry& geometry, const Shadows& shadows, const ShadeIn& in,
+                    gpu::ImageRef target, bool to_picture) {
+  const Tiles tiles = classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size);
+  const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth();
+  const gpu::ImageRef maps = shadows.maps();
+  const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
+  const gpu::Pipeline& surface_pipeline = pipelines.get(
+      gpu::ComputeDesc{(maps ? "shade_surfaces" : "shade_surfaces_unshadowed") + suffix,
+                       {{0, static_cast<std::uint32_t>(in.texture_taps)}, {8, scene.bodies}}});
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials, scene.sky}) b.read(ref, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        declare_tiles(b, tiles);
         b.read(surfaces, Use::kComputeRead);
-        for (const gpu::ImageRef ref : {depth, scene.block_textures, scene.sky_lut}) b.read(ref, Use::kComputeSampled);
+        b.read(depth, Use::kComputeSampled);
+        b.read(scene.block_textures, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
-        radiance = b.write(radiance, Use::kComputeWrite);
+        target = b.write(target, Use::kComputeWrite);
       },
-      [&pipeline, scene, surfaces, depth, maps, radiance](gpu::Commands& c) {
-        c.bind(pipeline);
+      [&surface_pipeline, scene, tiles, surfaces, depth, maps, target](gpu::Commands& c) {
+        c.bind(surface_pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
         c.storage(2, scene.materials);
-        c.storage(3, scene.sky);
         c.storage(4, scene.pixel_stats);
         c.storage(5, surfaces);
         c.sampled(6, depth, scene.point_sampler);
         c.sampled(7, scene.block_textures, scene.block_sampler);
-        c.sampled(8, scene.sky_lut, scene.lut_sampler);
-        c.storage(9, radiance);
-        if (maps) c.sampled(10, maps, scene.point_sampler);
-        dispatch_pixels(c, scene);
+        c.storage(9, target);
+        if (maps) c.sampled(12, maps, scene.point_sampler);
+        dispatch_tiles(c, tiles, TileKind::kCovered);
       });
-  return Shaded(radiance);
-}
-
-Shaded ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene) {
-  gpu::ImageRef radiance = radiance_image(graph, scene);
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{"shade_sky.comp", {}});
+  const gpu::Pipeline& sky_pipeline =
+      pipelines.get(gpu::ComputeDesc{"shade_sky" + suffix, {{0, in.stars ? 1u : 0u}}});
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
-        b.read(scene.frame, Use::kComputeRead);
-        b.read(scene.sky, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {scene.frame, scene.sky}) b.read(ref, Use::kComputeRead);
+        declare_tiles(b, tiles);
+        b.read(surfaces, Use::kComputeRead);
         b.read(scene.sky_lut, Use::kComputeSampled);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
-        radiance = b.write(radiance, Use::kComputeWrite);
+        target = b.write(target, Use::kComputeWrite);
       },
-      [&pipeline, scene, radiance](gpu::Commands& c) {
+      [&sky_pipeline, scene, tiles, surfaces, target](gpu::Commands& c) {
+        c.bind(sky_pipeline);
+        c.storage(0, scene.frame);
+        c.storage(3, scene.sky);
+        c.storage(4, scene.pixel_stats);
+        c.storage(5, surfaces);
+        c.sampled(8, scene.sky_lut, scene.lut_sampler);
+        c.storage(9, target);
+        dispatch_tiles(c, tiles, TileKind::kOpen);
+      });
+  return target;
+}
+
+}  // namespace
+
+Shaded ShadePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                      const Geometry& geometry, const Shadows& shadows, const ShadeIn& in) {
+  const gpu::ImageRef radiance =
+      graph.create(gpu::ImageDesc{.name = "radiance",
+                                  .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                  .extent = scene.size});
+  return Shaded(shade(graph, pipelines, scene, geometry, shadows, in, radiance, false));
+}
+
+Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                    SceneRefs& scene, const Geometry& geometry,
+                                    const Shadows& shadows, const ShadeIn& in,
+                                    gpu::Image& picture) {
+  return Developed(
+      shade(graph, pipelines, scene, geometry, shadows, in, graph.import(picture), true));
+}
+
+Developed ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                  SceneRefs& scene, const ShadeIn& in, gpu::Image& picture) {
+  gpu::ImageRef target = graph.import(picture);
+  const gpu::Pipeline& pipeline = pipelines.get(
+      gpu::ComputeDesc{"shade_sky_everywhere.comp", {{0, in.stars ? 1u : 0u}}});
+  graph.add_pass(
+      "shade_sky",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.sky}) b.read(ref, Use::kComputeRead);
+        b.read(scene.sky_lut, Use::kComputeSampled);
+        scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
+        target = b.write(target, Use::kComputeWrite);
+      },
+      [&pipeline, scene, target](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(3, scene.sky);
         c.storage(4, scene.pixel_stats);
         c.sampled(8, scene.sky_lut, scene.lut_sampler);
-        c.storage(9, radiance);
-        dispatch_pixels(c, scene);
+        c.storage(9, target);
+        c.dispatch(gpu::Commands::groups(scene.size.width, shared::kTileEdge),
+                   gpu::Commands::groups(scene.size.height, shared::kTileEdge), 1);
       });
-  return Shaded(radiance);
+  return Developed(target);
 }
 
 }  // namespace skerry::render

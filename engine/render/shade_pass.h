@@ -2,15 +2,29 @@
 #include "engine/render/phases.h"
 #include "engine/render/scene_refs.h"
 
+namespace skerry::gpu {
+class Image;
+}
+
 namespace skerry::render {
 
-/// Light for every pixel, in compute: surfaces under sun and moon, sky elsewhere.
+struct ShadeIn {
+  int texture_taps = 2;  ///< samples along the long side of a texture footprint
+  bool stars = false;    ///< whether any star can be seen
+};
+
+/// Light for every pixel, in compute, by tiles: surfaces under sun and moon, sky elsewhere.
 struct ShadePass {
-  /// The usual frame. @param texture_taps samples along the long side of a texture footprint.
-  static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
-                    int texture_taps);
+  /// To scene radiance, for the passes that follow.
+  static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const Geometry& geometry, const Shadows& shadows, const ShadeIn& in);
+  /// Straight to the picture, when nothing comes between: two image passes less.
+  static Developed add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                  SceneRefs& scene, const Geometry& geometry,
+                                  const Shadows& shadows, const ShadeIn& in, gpu::Image& picture);
   /// A frame without geometry: sky alone.
-  static Shaded add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene);
+  static Developed add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                SceneRefs& scene, const ShadeIn& in, gpu::Image& picture);
 };
 
 }  // namespace skerry::render

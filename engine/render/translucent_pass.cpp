@@ -2,12 +2,14 @@
 
 #include <array>
 
+#include "engine/render/tiles.h"
+
 namespace skerry::render {
 
 using gpu::Use;
 
 Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, const CulledDraws& draws, const Geometry& geometry,
-                            const Shadows& shadows, Shaded shaded, int layers) {
+                            const Shadows& shadows, Shaded shaded, int layers, bool inside_medium) {
   static constexpr std::array<const char*, 4> kNames{"draw_translucent_0", "draw_translucent_1", "draw_translucent_2", "draw_translucent_3"};
   const auto count = static_cast<std::uint32_t>(layers);
   struct Layer {
@@ -41,14 +43,17 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         });
   }
 
+  // Inside a medium every pixel is looked at through it; else only those with a translucent surface.
+  const Tiles tiles = classify_tiles(graph, pipelines, "classify_translucent_tiles", layer[0].surfaces, scene.size);
   gpu::ImageRef radiance = shaded.radiance();
   const gpu::ImageRef maps = shadows.maps();
   const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{maps ? "shade_translucent.comp" : "shade_translucent_unshadowed.comp", {{0, count}}});
+      pipelines.get(gpu::ComputeDesc{maps ? "shade_translucent.comp" : "shade_translucent_unshadowed.comp", {{0, count}, {8, scene.bodies}}});
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials}) b.read(ref, Use::kComputeRead);
+        declare_tiles(b, tiles);
         for (std::uint32_t k = 0; k < count; ++k) {
           b.read(layer[k].surfaces, Use::kComputeRead);
           b.read(layer[k].depth, Use::kComputeSampled);
@@ -58,7 +63,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [scene, layer, count, opaque_depth, maps, radiance, &pipeline](gpu::Commands& c) {
+      [scene, layer, count, tiles, inside_medium, opaque_depth, maps, radiance, &pipeline](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
@@ -75,7 +80,8 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
           c.storage(12 + k, bound.surfaces);
           c.sampled(16 + k, bound.depth, scene.point_sampler);
         }
-        c.dispatch(gpu::Commands::groups(scene.size.width, 8), gpu::Commands::groups(scene.size.height, 8), 1);
+        dispatch_tiles(c, tiles, TileKind::kCovered);
+        if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
       });
   return Shaded(radiance);
 }

@@ -14,19 +14,21 @@ float light_visibility(Body body, vec3 p, vec3 normal, float n_dot_l) {
 #endif
 }
 
+// Which bodies give light: bit 0 the sun, bit 1 the moon. A constant, so that the other body costs nothing.
+layout(constant_id = 8) const uint kBodies = 3u;
+
+// Light of one body that a surface receives.
+vec3 received(Body body, vec3 p, vec3 normal) {
+  float n_dot_l = dot(normal, body.to_light);
+  float visibility = light_visibility(body, p, normal, n_dot_l);
+  return n_dot_l > 0.0 ? body.irradiance * (visibility * (frame.shading_flat != 0u ? 1.0 : n_dot_l)) : vec3(0.0);
+}
+
 // Radiance a diffuse surface sends out under sun and moon. No ambient term: what no light reaches is exactly 0.
 vec3 shade_diffuse(Surface s) {
   vec3 light = vec3(0.0);
-  for (uint b = 0u; b < kBodyCount; ++b) {
-    Body body = frame.bodies[b];
-    float n_dot_l = dot(s.normal, body.to_light);
-    bool reached = n_dot_l > 0.0 && body.irradiance != vec3(0.0);
-    // A loop, not a branch: lavapipe skips an empty loop but runs both sides of a branch.
-    for (int once = reached ? 1 : 0; once > 0; --once) {
-      float visibility = light_visibility(body, s.position, s.normal, n_dot_l);
-      light += body.irradiance * (visibility * (frame.shading_flat != 0u ? 1.0 : n_dot_l));
-    }
-  }
+  if ((kBodies & 1u) != 0u) light += received(frame.bodies[0], s.position, s.normal);
+  if ((kBodies & 2u) != 0u) light += received(frame.bodies[1], s.position, s.normal);
   return s.albedo * kInvPi * light + s.emitted;
 }
 #endif

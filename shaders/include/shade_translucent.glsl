@@ -39,20 +39,17 @@ float layer_depth(uint k, ivec2 pixel) {
 
 layout(constant_id = 0) const uint kLayers = 3u;
 
+#include "include/tiles.glsl"
 #include "include/surface.glsl"
 #include "include/lighting.glsl"
 #include "include/sky.glsl"
 #include "include/water.glsl"
 
 void main() {
-  uvec2 pixel = gl_GlobalInvocationID.xy;
-  if (any(greaterThanEqual(pixel, frame.size))) return;
-  uint first = layer_surface(0u, ivec2(pixel));
-  bool work = first != 0u || frame.camera_medium != 0u;
-  for (int once = work ? 1 : 0; once > 0; --once) {
-    vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
-    vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
-    if (!finite3(colour)) atomicAdd(stats.non_finite, 1u);
-    imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
-  }
+  uvec2 pixel;
+  bool here = tile_pixel(pixel);
+  vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
+  vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
+  if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
+  if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
 }

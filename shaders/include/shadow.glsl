@@ -3,8 +3,12 @@
 #ifndef SKERRY_SHADOW_GLSL
 #define SKERRY_SHADOW_GLSL
 
-const vec2 kPoissonDisc[8] = vec2[](vec2(-0.326, -0.406), vec2(-0.840, -0.074), vec2(-0.203, 0.621), vec2(0.519, 0.767),
-                                    vec2(0.962, -0.195), vec2(0.473, -0.480), vec2(0.185, -0.893), vec2(0.507, 0.064));
+// 1 where the light reaches the receiver's plane at one texel.
+float shadow_tap(vec2 offset, vec3 map, vec2 slope, float bias, uint layer) {
+  vec2 texel = floor(map.xy + offset);
+  float plane_depth = map.z + dot(slope, texel + 0.5 - map.xy);
+  return plane_depth + bias >= texelFetch(shadow_maps, ivec3(ivec2(texel), int(layer)), 0).r ? 1.0 : 0.0;
+}
 
 // Share of the filter's taps that see the light, 0..1.
 // Each tap compares at a texel's centre with the depth that the receiver's own plane has there (receiver plane depth bias, Isidoro,
@@ -20,33 +24,44 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
   vec2 slope = per_texel * vec2(dot(cascade.map_from_world_x.xyz, normal), dot(cascade.map_from_world_y.xyz, normal));
   float bias = cascade.depth_per_block * (0.004 + 0.02 * texel) + 0.016 * (abs(slope.x) + abs(slope.y));
   float radius = max(frame.pcf_radius_blocks / texel, 1.5);
-  float lit = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    ivec2 tap = ivec2(floor(map.xy + kPoissonDisc[i] * radius));
-    float plane_depth = map.z + dot(slope, vec2(tap) + 0.5 - map.xy);
-    float nearest = texelFetch(shadow_maps, ivec3(tap, int(cascade.layer)), 0).r;
-    lit += plane_depth + bias >= nearest ? 0.125 : 0.0;
-  }
-  return lit;
+  // Unrolled by hand: an array of offsets would live in memory.
+  float lit = shadow_tap(vec2(-0.326, -0.406) * radius, map, slope, bias, cascade.layer) + shadow_tap(vec2(-0.840, -0.074) * radius, map, slope, bias, cascade.layer) +
+              shadow_tap(vec2(-0.203, 0.621) * radius, map, slope, bias, cascade.layer) + shadow_tap(vec2(0.519, 0.767) * radius, map, slope, bias, cascade.layer) +
+              shadow_tap(vec2(0.962, -0.195) * radius, map, slope, bias, cascade.layer) + shadow_tap(vec2(0.473, -0.480) * radius, map, slope, bias, cascade.layer) +
+              shadow_tap(vec2(0.185, -0.893) * radius, map, slope, bias, cascade.layer) + shadow_tap(vec2(0.507, 0.064) * radius, map, slope, bias, cascade.layer);
+  return lit * 0.125;
+}
+
+// One of a body's cascades. Selected among values that every pixel loads alike, because on lavapipe a load with its own address for each pixel
+// costs as much as a dozen selections.
+Cascade pick_cascade(uint base, uint index) {
+  Cascade c = frame.cascades[base];
+  if (index == 1u) c = frame.cascades[base + 1u];
+  if (index == 2u) c = frame.cascades[base + 2u];
+  if (index == 3u) c = frame.cascades[base + 3u];
+  return c;
 }
 
 // 0 in shadow, 1 in full light. Cascades are spheres around the camera; over the last fifth of its radius each fades into the next.
 // Past the last cascade nothing is known, so nothing is lit.
 float body_visibility(Body body, vec3 p, vec3 normal, float n_dot_l) {
   float distance = length(p);
-  uint end = body.first_cascade + body.cascade_count;
-  uint first = body.first_cascade;
-  while (first < end && distance > frame.cascades[first].radius) ++first;
+  uint base = body.first_cascade;
+  uint index = uint(distance > frame.cascades[base].radius) + uint(distance > frame.cascades[base + 1u].radius) +
+               uint(distance > frame.cascades[base + 2u].radius) + uint(distance > frame.cascades[base + 3u].radius);
+  float known = index < kCascadeCount ? 1.0 : 0.0;
+  Cascade cascade = pick_cascade(base, index);
   // The last cascade has no successor to fade into.
-  float to_next = first + 1u < end ? clamp((distance / frame.cascades[first].radius - 0.8) / 0.2, 0.0, 1.0) : 0.0;
-  uint last = min(first + (to_next > 0.0 ? 2u : 1u), end);
+  float to_next = index < kCascadeCount - 1u ? clamp((distance / cascade.radius - 0.8) / 0.2, 0.0, 1.0) : 0.0;
   float visibility = 0.0;
   float weight = 1.0 - to_next;
-  // A loop, not a branch: lavapipe skips an empty loop but runs both sides of a branch.
-  for (uint c = first; c < last; ++c) {
-    visibility += weight * cascade_visibility(frame.cascades[c], p, normal, n_dot_l);
+  // A second round only where some pixel fades.
+  for (uint round = 0u;; ++round) {
+    visibility += weight * cascade_visibility(cascade, p, normal, n_dot_l);
+    if (round == 1u || to_next == 0.0) break;
     weight = to_next;
+    cascade = pick_cascade(base, index + 1u);
   }
-  return visibility;
+  return known * visibility;
 }
 #endif

@@ -72,6 +72,17 @@ struct CullStats {
   uint quads;            // drawn
 };
 
+SHARED_CONST uint kTileEdge = 8u;      // pixels
+SHARED_CONST uint kTileRow = 32768u;   // tiles in one row of an indirect dispatch; 65,535 is the least a device must take
+
+// One kind's tiles: arguments of vkCmdDispatchIndirect, then how many tiles they are for.
+struct TileDispatch {
+  uint groups_x;
+  uint groups_y;
+  uint groups_z;
+  uint tiles;
+};
+
 struct PixelStats {
   uint non_finite;  // pixels in which a pass met a NaN or Inf
   uint black;       // pixels that are exactly (0, 0, 0) before tone mapping

@@ -5,7 +5,7 @@
 SHARED_BEGIN
 
 struct OverlayVertex {
-  vec2 position;  // picture [pixels], origin at the top left
+  vec2 position;  // picture [pixels], docs/conventions.md
   vec2 uv;        // font atlas, 0..1
   uint color;     // sRGB with straight alpha: bits 0-7 red, 8-15 green, 16-23 blue, 24-31 alpha
   uint clip;      // index of the rectangle that bounds it

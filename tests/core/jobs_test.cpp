@@ -45,7 +45,8 @@ TEST(Jobs, AsManyThreadsAsAskedForRunAtOnce) {
       jobs.submit([&] {
         ++running;
         // All must get here together; a pool with fewer threads never gets past.
-        for (int spin = 0; running < threads && spin < 5000; ++spin) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        for (int spin = 0; running < threads && spin < 5000; ++spin)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
       });
     }
     jobs.wait();

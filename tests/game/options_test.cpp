@@ -16,7 +16,8 @@ std::string scene_error(std::string_view json) {
 }
 
 TEST(Scene, EveryFieldOfAFileArrives) {
-  const auto text = parse_scene(R"({"seed": "fjord", "camera": [1.5, "1099511627775.9999847412109375", -3, 90, -10.5],
+  const auto text = parse_scene(
+      R"({"seed": "fjord", "camera": [1.5, "1099511627775.9999847412109375", -3, 90, -10.5],
     "fov": 60, "time": "06:30", "size": "320x180", "quality": "low", "settings": {"view.distance": 123, "exposure": "auto"}})");
   ASSERT_TRUE(text) << text.error().message;
   const auto scene = make_scene(*text, {});
@@ -55,12 +56,15 @@ TEST(Scene, TheCommandLineWinsOverTheFile) {
 
 TEST(Scene, MistakesInAFileAreNamed) {
   EXPECT_NE(scene_error(R"({"sed": 1})").find("did you mean 'seed'"), std::string::npos);
-  EXPECT_NE(scene_error(R"({"settings": {"view.distnce": 1}})").find("'view.distance'"), std::string::npos);
+  EXPECT_NE(scene_error(R"({"settings": {"view.distnce": 1}})").find("'view.distance'"),
+            std::string::npos);
   EXPECT_NE(scene_error(R"({"camera": [1, 2, 3]})").find("camera"), std::string::npos);
-  for (const char* json : {"", "{", "[]", "1", "null", R"({"seed": null})", R"({"seed": {}})", R"({"camera": "1,2,3,4,5"})",
-                           R"({"camera": [1,2,3,4,null]})", R"({"camera": [true,2,3,4,5]})", R"({"camera": [1e300,2,3,4,5]})",
-                           R"({"fov": "wide"})", R"({"fov": 0})", R"({"fov": 175.1})", R"({"settings": []})",
-                           R"({"settings": {"view.distance": [1]}})", R"({"size": [1, 2]})", R"({"time": 12})", "{\"seed\": \"\xff\"}"}) {
+  for (const char* json : {"", "{", "[]", "1", "null", R"({"seed": null})", R"({"seed": {}})",
+                           R"({"camera": "1,2,3,4,5"})", R"({"camera": [1,2,3,4,null]})",
+                           R"({"camera": [true,2,3,4,5]})", R"({"camera": [1e300,2,3,4,5]})",
+                           R"({"fov": "wide"})", R"({"fov": 0})", R"({"fov": 175.1})",
+                           R"({"settings": []})", R"({"settings": {"view.distance": [1]}})",
+                           R"({"size": [1, 2]})", R"({"time": 12})", "{\"seed\": \"\xff\"}"}) {
     const std::string error = scene_error(json);
     EXPECT_FALSE(error.empty()) << json;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
@@ -78,7 +82,8 @@ TEST(Scene, HostileTextIsAnErrorNotACrash) {
   const std::string good = R"({"seed": "x", "camera": [1,2,3,4,5], "settings": {"exposure": 1}})";
   for (int round = 0; round < 5000; ++round) {
     std::string bad = good;
-    for (int edits = 0; edits < 3; ++edits) bad[random() % bad.size()] = static_cast<char>(random());
+    for (int edits = 0; edits < 3; ++edits)
+      bad[random() % bad.size()] = static_cast<char>(random());
     const auto text = parse_scene(bad);
     if (text) (void)make_scene(*text, {});
   }
@@ -87,7 +92,8 @@ TEST(Scene, HostileTextIsAnErrorNotACrash) {
 TEST(Scene, TheCommandOfASceneRebuildsIt) {
   SceneOptions scene;
   scene.seed_text = "it's a \"seed\" $HOME";
-  scene.camera = CameraPlace{{1, -65535, world::kMaxBlock * world::kUnitsPerBlock - 3}, 12.3456789, -45.0};
+  scene.camera =
+      CameraPlace{{1, -65535, world::kMaxBlock * world::kUnitsPerBlock - 3}, 12.3456789, -45.0};
   scene.fov_deg = 33.3;
   scene.time_of_day_s = 12345;
   scene.quality = Quality::kHigh;
@@ -95,13 +101,15 @@ TEST(Scene, TheCommandOfASceneRebuildsIt) {
   scene.settings.view_distance = 555;
   const std::string command = shot_command(scene);
   // Let a real shell take the command apart again.
-  const std::string printer = "set -- " + command.substr(std::string("skerry shot ").size()) + "; printf '%s\\n' \"$@\"";
+  const std::string printer =
+      "set -- " + command.substr(std::string("skerry shot ").size()) + "; printf '%s\\n' \"$@\"";
   ::setenv("PRINTER", printer.c_str(), 1);
   FILE* pipe = ::popen("eval \"$PRINTER\"", "r");
   ASSERT_NE(pipe, nullptr);
   std::vector<std::string> words;
   char line[512];
-  while (std::fgets(line, sizeof line, pipe)) words.emplace_back(line, std::string_view(line).size() - 1);
+  while (std::fgets(line, sizeof line, pipe))
+    words.emplace_back(line, std::string_view(line).size() - 1);
   ::pclose(pipe);
   SceneText typed;
   for (std::size_t i = 0; i + 1 < words.size(); i += 2) {

@@ -25,7 +25,7 @@ TEST(ParseBlocks, KeepsEveryUnitAtTheEdgeOfTheWorld) {
 }
 
 TEST(ParseBlocks, RoundsToTheNearestUnitWithTiesAwayFromZero) {
-  EXPECT_EQ(blocks("0.00000762939453125"), 1);    // half a unit
+  EXPECT_EQ(blocks("0.00000762939453125"), 1);  // half a unit
   EXPECT_EQ(blocks("-0.00000762939453125"), -1);
   EXPECT_EQ(blocks("0.000007629394531249999999999999999999999999"), 0);
   EXPECT_EQ(blocks("0.99999999999"), 65536);
@@ -36,8 +36,26 @@ TEST(ParseBlocks, RoundsToTheNearestUnitWithTiesAwayFromZero) {
 }
 
 TEST(ParseBlocks, RefusesWhatIsNoPlainDecimalInRange) {
-  for (const char* text : {"", "-", ".", "+.", "nan", "NaN", "inf", "-inf", "1e300", "1e3", "0x10", "1,5", " 1", "1 ", "--1",
-                           "1.2.3", "1099511627776.00001", "1099511627777", "-1099511627777", "99999999999999999999999"}) {
+  for (const char* text : {"",
+                           "-",
+                           ".",
+                           "+.",
+                           "nan",
+                           "NaN",
+                           "inf",
+                           "-inf",
+                           "1e300",
+                           "1e3",
+                           "0x10",
+                           "1,5",
+                           " 1",
+                           "1 ",
+                           "--1",
+                           "1.2.3",
+                           "1099511627776.00001",
+                           "1099511627777",
+                           "-1099511627777",
+                           "99999999999999999999999"}) {
     EXPECT_FALSE(parse_blocks(text, "X")) << text;
   }
   EXPECT_FALSE(parse_blocks(std::string(100000, '1'), "X"));
@@ -69,8 +87,9 @@ TEST(ParseCamera, ReadsFivePartsAndReadsBackItsOwnText) {
 }
 
 TEST(ParseCamera, RefusesTooFewPartsAndAnglesThatAreNone) {
-  for (const char* text : {"", "1,2,3", "1,2,3,4", "1,2,3,4,5,6", "1,2,3,nan,0", "1,2,3,0,inf", "1,2,3,0,90.1",
-                           "1,2,3,0,-91", "1,2,3,1e300,0", "1,2,nan,0,0", "1,1e300,3,0,0", "a,b,c,d,e", "1,2,3,4,"}) {
+  for (const char* text :
+       {"", "1,2,3", "1,2,3,4", "1,2,3,4,5,6", "1,2,3,nan,0", "1,2,3,0,inf", "1,2,3,0,90.1",
+        "1,2,3,0,-91", "1,2,3,1e300,0", "1,2,nan,0,0", "1,1e300,3,0,0", "a,b,c,d,e", "1,2,3,4,"}) {
     const auto camera = parse_camera(text);
     ASSERT_FALSE(camera) << text;
     EXPECT_EQ(camera.error().message.find('\n'), std::string::npos);
@@ -81,7 +100,8 @@ TEST(ParseTime, ReadsHoursMinutesAndSeconds) {
   EXPECT_EQ(*parse_time_of_day("00:00"), 0);
   EXPECT_EQ(*parse_time_of_day("7:05"), 7 * 3600 + 300);
   EXPECT_EQ(*parse_time_of_day("23:59:59"), 86399);
-  for (const char* text : {"", "12", "24:00", "12:60", "12:00:60", "-1:00", "12:", ":30", "1:2:3:4", "012:00", "a:b"}) {
+  for (const char* text : {"", "12", "24:00", "12:60", "12:00:60", "-1:00", "12:", ":30", "1:2:3:4",
+                           "012:00", "a:b"}) {
     EXPECT_FALSE(parse_time_of_day(text)) << text;
   }
   for (const int second : {0, 1, 3599, 43200, 86399}) {
@@ -92,8 +112,8 @@ TEST(ParseTime, ReadsHoursMinutesAndSeconds) {
 TEST(ParseSize, AcceptsPicturesAndNothingElse) {
   EXPECT_EQ(*parse_size("1x1"), (PictureSize{1, 1}));
   EXPECT_EQ(*parse_size("3840x2160"), (PictureSize{3840, 2160}));
-  for (const char* text : {"", "x", "0x10", "10x0", "-1x5", "5x-1", "10", "10x", "x10", "1.5x2", "ax3", "10x10x10", "10X10",
-                           "99999999999999999999x1", "65536x1"}) {
+  for (const char* text : {"", "x", "0x10", "10x0", "-1x5", "5x-1", "10", "10x", "x10", "1.5x2",
+                           "ax3", "10x10x10", "10X10", "99999999999999999999x1", "65536x1"}) {
     EXPECT_FALSE(parse_size(text)) << text;
   }
 }

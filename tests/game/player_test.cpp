@@ -18,7 +18,9 @@ using world::WorldPos;
 
 constexpr std::int64_t kUnit = world::kUnitsPerBlock;
 
-WorldPos at_blocks(double x, double y, double z) { return world::moved({}, {x, y, z}); }
+WorldPos at_blocks(double x, double y, double z) {
+  return world::moved({}, {x, y, z});
+}
 
 /// Islands made of functions: pose of time, block of voxel.
 class TestWorld : public Surroundings {
@@ -30,7 +32,8 @@ class TestWorld : public Surroundings {
   };
   std::vector<Island> islands;
 
-  void islands_near(WorldPos place, double radius, double time_s, std::vector<std::uint64_t>& out) const override {
+  void islands_near(WorldPos place, double radius, double time_s,
+                    std::vector<std::uint64_t>& out) const override {
     out.clear();
     for (std::size_t i = 0; i < islands.size(); ++i) {
       const auto to = world::difference_blocks(place, islands[i].pose(time_s).origin);
@@ -41,24 +44,32 @@ class TestWorld : public Surroundings {
     if (island >= islands.size()) return std::nullopt;
     return islands[island].pose(time_s);
   }
-  std::optional<BlockId> block(std::uint64_t island, IVec3 voxel) const override { return islands[island].block(voxel); }
+  std::optional<BlockId> block(std::uint64_t island, IVec3 voxel) const override {
+    return islands[island].block(voxel);
+  }
 };
 
-Pose still(WorldPos origin) { return {origin, glm::dquat(1.0, 0.0, 0.0, 0.0)}; }
+Pose still(WorldPos origin) {
+  return {origin, glm::dquat(1.0, 0.0, 0.0, 0.0)};
+}
 
 Pose turning(WorldPos origin, double rad_per_s, double time_s) {
   return {origin, glm::angleAxis(rad_per_s * time_s, glm::dvec3(0.0, 1.0, 0.0))};
 }
 
 /// Stone below y = 0.
-std::optional<BlockId> plain(IVec3 v) { return v.y < 0 ? world::block::kStone : world::block::kAirBlock; }
+std::optional<BlockId> plain(IVec3 v) {
+  return v.y < 0 ? world::block::kStone : world::block::kAirBlock;
+}
 
-/// A box full of random stone in [-24, 24)^3 with a closed stone wall around it, decided by a hash of the voxel.
+/// A box full of random stone in [-24, 24)^3 with a closed stone wall around it, decided by a hash
+/// of the voxel.
 std::optional<BlockId> rubble(IVec3 v, std::uint32_t seed, std::uint32_t percent) {
   const int edge = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (edge >= 24) return edge < 27 ? world::block::kStone : world::block::kAirBlock;
   std::uint32_t h = seed;
-  for (const int c : {v.x, v.y, v.z}) h = (h ^ static_cast<std::uint32_t>(c + 1000)) * 2654435761u, h ^= h >> 15;
+  for (const int c : {v.x, v.y, v.z})
+    h = (h ^ static_cast<std::uint32_t>(c + 1000)) * 2654435761u, h ^= h >> 15;
   return h % 100 < percent ? world::block::kStone : world::block::kAirBlock;
 }
 
@@ -73,7 +84,8 @@ double solid_volume(const TestWorld& world, std::size_t island, const glm::dvec3
         const auto shared = [](double a0, double a1, double b0, double b1) {
           return std::max(0.0, std::min(a1, b1) - std::max(a0, b0));
         };
-        volume += shared(feet.x - 0.3, feet.x + 0.3, x, x + 1) * shared(feet.y, feet.y + 1.8, y, y + 1) *
+        volume += shared(feet.x - 0.3, feet.x + 0.3, x, x + 1) *
+                  shared(feet.y, feet.y + 1.8, y, y + 1) *
                   shared(feet.z - 0.3, feet.z + 0.3, z, z + 1);
       }
     }
@@ -88,7 +100,8 @@ glm::dvec3 lattice_of(const Pose& pose, WorldPos place) {
 /// The first free place in a rubble box, scanning upwards from a random column.
 std::optional<glm::dvec3> free_place(const TestWorld& world, std::mt19937& random) {
   for (int tries = 0; tries < 1000; ++tries) {
-    const glm::dvec3 feet{static_cast<int>(random() % 40) - 19.5, static_cast<int>(random() % 40) - 20.0 + 0.01,
+    const glm::dvec3 feet{static_cast<int>(random() % 40) - 19.5,
+                          static_cast<int>(random() % 40) - 20.0 + 0.01,
                           static_cast<int>(random() % 40) - 19.5};
     if (solid_volume(world, 0, feet) == 0.0) return feet;
   }
@@ -111,8 +124,12 @@ TEST(Player, RandomMotionThroughRandomWorldsNeverEndsInsideASolid) {
     for (int step = 0; step < 1500; ++step) {
       if (step % 97 == 0) player.set_mode(step / 97 % 2 ? MoveMode::kFly : MoveMode::kWalk);
       player.turn(40.0 * unit(random), 10.0 * unit(random));
-      player.advance(1.0 / 60.0, {{unit(random), unit(random)}, unit(random), random() % 3 == 0, random() % 2 == 0}, world);
-      const glm::dvec3 feet = lattice_of(world.pose(0, player.tick_time_s()).value(), player.feet());
+      player.advance(
+          1.0 / 60.0,
+          {{unit(random), unit(random)}, unit(random), random() % 3 == 0, random() % 2 == 0},
+          world);
+      const glm::dvec3 feet =
+          lattice_of(world.pose(0, player.tick_time_s()).value(), player.feet());
       ASSERT_EQ(solid_volume(world, 0, feet), 0.0) << "seed " << seed << " step " << step;
       // The closed wall also means: nobody ever gets out.
       ASSERT_LT(std::max({std::abs(feet.x), std::abs(feet.y), std::abs(feet.z)}), 24.0);
@@ -124,12 +141,15 @@ TEST(Player, NoSpeedTunnelsThroughAOneBlockWall) {
   for (const double speed : {10.0, 100.0, 1e3, 1e4}) {
     TestWorld world;
     // One layer of stone at z = 1000, thin as can be; nothing else.
-    world.islands.push_back({[](double) { return still({}); },
-                             [](IVec3 v) { return v.z == 1000 ? world::block::kStone : world::block::kAirBlock; }, 1e6});
+    world.islands.push_back(
+        {[](double) { return still({}); },
+         [](IVec3 v) { return v.z == 1000 ? world::block::kStone : world::block::kAirBlock; },
+         1e6});
     Player player(at_blocks(0.5, 10.0, 0.5), 0.0, 0.0, 0.0);
     player.set_mode(MoveMode::kFly);
     player.set_fly_speed(speed);
-    for (int i = 0; i < 150 * 120 && player.feet().z < 999 * kUnit; ++i) player.advance(1.0, {{0.0, 1.0}, 0.0, false, true}, world);
+    for (int i = 0; i < 150 * 120 && player.feet().z < 999 * kUnit; ++i)
+      player.advance(1.0, {{0.0, 1.0}, 0.0, false, true}, world);
     player.advance(5.0, {{0.0, 1.0}, 0.0, false, true}, world);
     const double z = world::difference_blocks(player.feet(), {}).z;
     EXPECT_NEAR(z, 1000.0 - 0.3, 0.001) << speed;
@@ -139,11 +159,13 @@ TEST(Player, NoSpeedTunnelsThroughAOneBlockWall) {
 TEST(Player, RestsForAnHourWithoutMovingABit) {
   for (const double spin : {0.0, 0.003}) {
     TestWorld world;
-    world.islands.push_back({[=](double t) { return turning(at_blocks(7.0, 3.0, -2.0), spin, t); }, plain});
+    world.islands.push_back(
+        {[=](double t) { return turning(at_blocks(7.0, 3.0, -2.0), spin, t); }, plain});
     Player player(at_blocks(17.3, 3.2, 1.7), 0.0, 0.0, 0.0);
     player.advance(2.0, {}, world);
     ASSERT_TRUE(player.on_ground());
-    const glm::dvec3 before = lattice_of(world.pose(0, player.tick_time_s()).value(), player.feet());
+    const glm::dvec3 before =
+        lattice_of(world.pose(0, player.tick_time_s()).value(), player.feet());
     for (int second = 0; second < 3600; ++second) player.advance(1.0, {}, world);
     const glm::dvec3 after = lattice_of(world.pose(0, player.tick_time_s()).value(), player.feet());
     EXPECT_TRUE(player.on_ground());
@@ -160,20 +182,27 @@ TEST(Player, FrameLengthsFromATenthOfAMillisecondToASecondAgree) {
     TestWorld world;
     world.islands.push_back({[](double t) { return turning({}, 0.05, t); }, plain});
     Player player(at_blocks(3.0, 0.5, 4.0), 30.0, 0.0, 0.0);
-    for (int i = 0; i < std::lround(10.0 / dt); ++i) player.advance(dt, {{0.3, 0.8}, 0.0, true, true}, world);
+    for (int i = 0; i < std::lround(10.0 / dt); ++i)
+      player.advance(dt, {{0.3, 0.8}, 0.0, true, true}, world);
     ends.push_back(world::difference_blocks(player.feet(), {}));
   }
-  const double tick_travel = (8.0 + 7.9 + 2.0) * kTickSeconds;  // sprint + jump + carried by the island
+  const double tick_travel =
+      (8.0 + 7.9 + 2.0) * kTickSeconds;  // sprint + jump + carried by the island
   for (const glm::dvec3& end : ends) EXPECT_LT(glm::distance(end, ends.back()), tick_travel);
 }
 
 TEST(Player, WhatHappensAtTheEdgeOfTheWorldIsWhatHappensAtItsMiddle) {
   const auto run = [](WorldPos offset) {
     TestWorld world;
-    world.islands.push_back({[=](double t) { return turning(offset + at_blocks(1.0, 2.0, 3.0), 0.1, t); },
-                             [](IVec3 v) { return rubble({v.x, v.y, v.z}, 9, 12); }});
+    world.islands.push_back(
+        {[=](double t) { return turning(offset + at_blocks(1.0, 2.0, 3.0), 0.1, t); },
+         [](IVec3 v) {
+           return rubble({v.x, v.y, v.z}, 9, 12);
+         }});
     std::mt19937 random(2);
-    Player player(offset + world::moved(at_blocks(1.0, 2.0, 3.0), free_place(world, random).value()), 10.0, 0.0, 0.0);
+    Player player(
+        offset + world::moved(at_blocks(1.0, 2.0, 3.0), free_place(world, random).value()), 10.0,
+        0.0, 0.0);
     std::vector<WorldPos> path;
     for (int i = 0; i < 600; ++i) {
       player.advance(0.016, {{0.4, 1.0}, 0.0, i % 50 < 10, false}, world);
@@ -217,23 +246,33 @@ TEST(Player, AnIslandThatRisesOrSweepsSidewaysPushesWhoeverIsInItsWay) {
   for (const glm::dvec3 velocity : {glm::dvec3(0.0, 3.0, 0.0), glm::dvec3(0.0, 0.0, -6.0)}) {
     TestWorld world;
     world.islands.push_back({[=](double t) { return still(world::moved({}, velocity * t)); },
-                             [](IVec3 v) { return v.y < 0 || v.z > 10 ? world::block::kStone : world::block::kAirBlock; }});
+                             [](IVec3 v) {
+                               return v.y < 0 || v.z > 10 ? world::block::kStone
+                                                          : world::block::kAirBlock;
+                             }});
     Player player(at_blocks(0.5, 5.0, 0.5), 0.0, 0.0, 0.0);
     player.set_mode(MoveMode::kFly);  // hovers in the world's frame
     for (int i = 0; i < 600; ++i) {
       player.advance(1.0 / 60.0, {}, world);
-      ASSERT_EQ(solid_volume(world, 0, lattice_of(world.pose(0, player.tick_time_s()).value(), player.feet())), 0.0);
+      ASSERT_EQ(
+          solid_volume(world, 0,
+                       lattice_of(world.pose(0, player.tick_time_s()).value(), player.feet())),
+          0.0);
     }
   }
 }
 
 TEST(Player, LeavingAnIslandKeepsItsMotionAndTheView) {
   TestWorld world;
-  world.islands.push_back({[](double t) { return still(world::moved({}, {5.0 * t, 0.0, 0.0})); }, plain, 8.0});
+  world.islands.push_back({[](double t) {
+                             return still(world::moved({}, {5.0 * t, 0.0, 0.0}));
+                           },
+                           plain, 8.0});
   Player player(at_blocks(0.5, 0.01, 0.5), 90.0, 0.0, 0.0);
   player.advance(0.5, {}, world);
   ASSERT_EQ(player.frame_island(), 0u);
-  // Walk off towards +x until the island is out of reach; in the air nothing but grip changes the speed.
+  // Walk off towards +x until the island is out of reach; in the air nothing but grip changes the
+  // speed.
   while (player.frame_island()) player.advance(kTickSeconds, {{0.0, 1.0}, 0.0, true, true}, world);
   EXPECT_NEAR(player.velocity().x, 5.0 + 8.0, 0.2);
   EXPECT_NEAR(player.eye(world).yaw_deg, 90.0, 1e-9);
@@ -244,7 +283,9 @@ TEST(Player, JumpsOneBlockHighButNotTwo) {
     TestWorld world;
     world.islands.push_back({[](double) { return still({}); },
                              [=](IVec3 v) {
-                               return v.y < 0 || (v.z >= 3 && v.y < height) ? world::block::kStone : world::block::kAirBlock;
+                               return v.y < 0 || (v.z >= 3 && v.y < height)
+                                          ? world::block::kStone
+                                          : world::block::kAirBlock;
                              }});
     Player player(at_blocks(0.5, 0.01, 0.5), 0.0, 0.0, 0.0);
     for (int i = 0; i < 300; ++i) player.advance(1.0 / 60.0, {{0.0, 1.0}, 0.0, true, false}, world);
@@ -260,7 +301,11 @@ TEST(Player, JumpsOneBlockHighButNotTwo) {
 TEST(Player, WaterSlowsTheFallAndStrokesLift) {
   TestWorld world;
   world.islands.push_back({[](double) { return still({}); },
-                           [](IVec3 v) { return v.y < -50 ? world::block::kStone : v.y < 0 ? world::block::kWater : world::block::kAirBlock; }});
+                           [](IVec3 v) {
+                             return v.y < -50 ? world::block::kStone
+                                    : v.y < 0 ? world::block::kWater
+                                              : world::block::kAirBlock;
+                           }});
   Player player(at_blocks(0.5, -5.0, 0.5), 0.0, 0.0, 0.0);
   player.advance(2.0, {}, world);
   EXPECT_TRUE(player.in_water());
@@ -298,10 +343,13 @@ TEST(Player, DirectionsFollowTheConventions) {
     player.advance(1.0, intent, world);
     return glm::normalize(world::difference_blocks(player.feet(), {}));
   };
-  const auto near = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < 1e-4; };
+  const auto near = [](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::distance(a, b) < 1e-4;
+  };
   EXPECT_TRUE(near(flown(0.0, {{0.0, 1.0}, 0.0, false, false}), {0, 0, 1}));
   EXPECT_TRUE(near(flown(90.0, {{0.0, 1.0}, 0.0, false, false}), {1, 0, 0}));
-  EXPECT_TRUE(near(flown(0.0, {{1.0, 0.0}, 0.0, false, false}), {-1, 0, 0}));  // right of south is west
+  EXPECT_TRUE(
+      near(flown(0.0, {{1.0, 0.0}, 0.0, false, false}), {-1, 0, 0}));  // right of south is west
   EXPECT_TRUE(near(flown(0.0, {{0.0, 0.0}, 1.0, false, false}), {0, 1, 0}));
 }
 

@@ -38,12 +38,31 @@ TEST(Settings, RenderersOfOtherBuildsAreNamedAsMissing) {
 }
 
 TEST(Settings, ValuesOutOfRangeAreRefused) {
-  for (const char* assignment :
-       {"view.distance=31", "view.distance=16385", "view.distance=1.5", "view.distance=", "view.detail=0", "shadow.size=300",
-        "shadow.size=16384", "shadow.enabled=2", "shadow.enabled=true", "exposure=nan", "exposure=21", "sky.moon_phase=1.01",
-        "sky.moon_phase=-0.1", "world.offset=1,2", "world.offset=1,2,3.5", "world.offset=1,2,1099511627777", "world.islands=-1",
-        "world.time=inf", "world.time=1e300", "upload.budget=1", "jobs.threads=257", "water.layers=0", "water.layers=5",
-        "view.distance", ""}) {
+  for (const char* assignment : {"view.distance=31",
+                                 "view.distance=16385",
+                                 "view.distance=1.5",
+                                 "view.distance=",
+                                 "view.detail=0",
+                                 "shadow.size=300",
+                                 "shadow.size=16384",
+                                 "shadow.enabled=2",
+                                 "shadow.enabled=true",
+                                 "exposure=nan",
+                                 "exposure=21",
+                                 "sky.moon_phase=1.01",
+                                 "sky.moon_phase=-0.1",
+                                 "world.offset=1,2",
+                                 "world.offset=1,2,3.5",
+                                 "world.offset=1,2,1099511627777",
+                                 "world.islands=-1",
+                                 "world.time=inf",
+                                 "world.time=1e300",
+                                 "upload.budget=1",
+                                 "jobs.threads=257",
+                                 "water.layers=0",
+                                 "water.layers=5",
+                                 "view.distance",
+                                 ""}) {
     EXPECT_FALSE(error_of(assignment).empty()) << assignment;
   }
 }
@@ -51,9 +70,10 @@ TEST(Settings, ValuesOutOfRangeAreRefused) {
 TEST(Settings, EveryKeyReadsBackWhatItPrints) {
   Settings odd;
   for (const char* assignment :
-       {"world.offset=1099511627776,-1099511627776,7", "world.islands=0", "world.time=123456.789", "sky.moon_phase=0.1",
-        "view.distance=32", "view.detail=4096", "shadow.enabled=0", "shadow.size=256", "exposure=-1.5", "shading=flat",
-        "debug.view=emissive", "upload.path=mapped", "upload.budget=65536", "jobs.threads=8", "water.layers=4"}) {
+       {"world.offset=1099511627776,-1099511627776,7", "world.islands=0", "world.time=123456.789",
+        "sky.moon_phase=0.1", "view.distance=32", "view.detail=4096", "shadow.enabled=0",
+        "shadow.size=256", "exposure=-1.5", "shading=flat", "debug.view=emissive",
+        "upload.path=mapped", "upload.budget=65536", "jobs.threads=8", "water.layers=4"}) {
     const auto done = apply_setting(assignment, odd);
     ASSERT_TRUE(done) << done.error().message;
   }
@@ -95,7 +115,8 @@ TEST(Settings, TheDocumentListsExactlyTheKeys) {
     documented.push_back((*it)[1].str() + ": " + (*it)[2].str());
   }
   std::vector<std::string> keys;
-  for (const SettingKey& key : setting_keys()) keys.push_back(std::string(key.key) + ": " + std::string(key.values));
+  for (const SettingKey& key : setting_keys())
+    keys.push_back(std::string(key.key) + ": " + std::string(key.values));
   EXPECT_EQ(documented, keys);
 }
 

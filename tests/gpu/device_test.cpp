@@ -9,7 +9,8 @@
 namespace skerry::gpu {
 namespace {
 
-DeviceInfo info(std::uint32_t index, VkPhysicalDeviceType type, std::vector<std::string> missing = {}) {
+DeviceInfo info(std::uint32_t index, VkPhysicalDeviceType type,
+                std::vector<std::string> missing = {}) {
   DeviceInfo device;
   device.index = index;
   device.name = "device " + std::to_string(index);
@@ -23,7 +24,9 @@ constexpr auto kDiscrete = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
 constexpr auto kIntegrated = VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
 
 TEST(ChooseDevice, TheBestUsableKindWinsAndTheFirstOfEquals) {
-  EXPECT_EQ(*choose_device({info(0, kCpu), info(1, kIntegrated), info(2, kDiscrete), info(3, kDiscrete)}, {}), 2u);
+  EXPECT_EQ(*choose_device(
+                {info(0, kCpu), info(1, kIntegrated), info(2, kDiscrete), info(3, kDiscrete)}, {}),
+            2u);
   EXPECT_EQ(*choose_device({info(0, kCpu), info(1, kDiscrete, {"Vulkan 1.3"})}, {}), 0u);
 }
 
@@ -32,14 +35,18 @@ TEST(ChooseDevice, TheUserDecides) {
 }
 
 TEST(ChooseDevice, FailuresNameWhatIsMissing) {
-  const auto text = [](const std::vector<DeviceInfo>& devices, std::optional<std::uint32_t> wanted) {
+  const auto text = [](const std::vector<DeviceInfo>& devices,
+                       std::optional<std::uint32_t> wanted) {
     const Result<std::uint32_t> chosen = choose_device(devices, wanted);
     return chosen ? std::string("chosen") : chosen.error().message;
   };
-  EXPECT_EQ(text({info(0, kCpu)}, 1), "there is no Vulkan device 1: this machine has 1; `skerry devices` lists them");
+  EXPECT_EQ(text({info(0, kCpu)}, 1),
+            "there is no Vulkan device 1: this machine has 1; `skerry devices` lists them");
   EXPECT_EQ(text({info(0, kCpu, {"depthClamp", "scalarBlockLayout"})}, 0),
-            "Vulkan device 0 (device 0) cannot be used: it lacks depthClamp, scalarBlockLayout; `skerry devices` lists the others");
-  EXPECT_NE(text({info(0, kDiscrete, {"VK_KHR_push_descriptor"})}, {}).find("device 0 lacks VK_KHR_push_descriptor"),
+            "Vulkan device 0 (device 0) cannot be used: it lacks depthClamp, scalarBlockLayout; "
+            "`skerry devices` lists the others");
+  EXPECT_NE(text({info(0, kDiscrete, {"VK_KHR_push_descriptor"})}, {})
+                .find("device 0 lacks VK_KHR_push_descriptor"),
             std::string::npos);
 }
 
@@ -64,14 +71,18 @@ TEST(DeviceList, AnIndexBeyondTheListIsAnError) {
 using DeviceTest = GpuTest;
 
 TEST_F(DeviceTest, TwoDevicesAndAListLiveSideBySide) {
-  Buffer mine = buffer("mine", 16, VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  Buffer mine =
+      buffer("mine", 16, VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   {
     const Result<std::unique_ptr<Device>> other = Device::create({});
     ASSERT_TRUE(other);
     ASSERT_TRUE(Device::list());
   }
-  device().run_now([&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, mine.handle(), 0, 16, 0x01020304u); });
-  mine.state = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED, true};
+  device().run_now([&](VkCommandBuffer commands) {
+    vkCmdFillBuffer(commands, mine.handle(), 0, 16, 0x01020304u);
+  });
+  mine.state = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_IMAGE_LAYOUT_UNDEFINED, true};
   const Result<std::vector<std::byte>> bytes = read_back(device(), mine, 12, 4);
   ASSERT_TRUE(bytes);
   EXPECT_EQ((*bytes)[0], std::byte{4});
@@ -110,15 +121,20 @@ TEST_F(DeviceTest, AssigningOverABufferRetiresTheOldOne) {
 
 TEST_F(DeviceTest, SizesBeyondTheLimitsAreErrorsWithTheName) {
   const auto failure = [&](std::uint64_t bytes) {
-    const Result<Buffer> made = device().create_buffer({"arena", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Memory::kDevice});
+    const Result<Buffer> made = device().create_buffer(
+        {"arena", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Memory::kDevice});
     return made ? std::string() : made.error().message;
   };
   EXPECT_NE(failure(0).find("'arena'"), std::string::npos);
   EXPECT_NE(failure(device().limits().max_storage_range + 1).find("'arena'"), std::string::npos);
 
-  ImageDesc desc{.name = "picture", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {16, 16}, .usage = VK_IMAGE_USAGE_SAMPLED_BIT};
+  ImageDesc desc{.name = "picture",
+                 .format = VK_FORMAT_R8G8B8A8_UNORM,
+                 .extent = {16, 16},
+                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT};
   EXPECT_TRUE(device().create_image(desc));
-  for (const VkExtent2D bad : {VkExtent2D{0, 16}, VkExtent2D{16, 0}, VkExtent2D{device().limits().max_image_edge + 1, 16}}) {
+  for (const VkExtent2D bad : {VkExtent2D{0, 16}, VkExtent2D{16, 0},
+                               VkExtent2D{device().limits().max_image_edge + 1, 16}}) {
     desc.extent = bad;
     const Result<Image> made = device().create_image(desc);
     ASSERT_FALSE(made);
@@ -128,14 +144,16 @@ TEST_F(DeviceTest, SizesBeyondTheLimitsAreErrorsWithTheName) {
 
 TEST_F(DeviceTest, MoreMemoryThanThereIsIsAnErrorThatSaysTheSize) {
   // A buffer for copies has no binding limit, so only memory says no. 1 PiB is beyond any device.
-  const Result<Buffer> made =
-      device().create_buffer({"too much", 1ull << 50, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Memory::kUpload});
+  const Result<Buffer> made = device().create_buffer(
+      {"too much", 1ull << 50, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Memory::kUpload});
   ASSERT_FALSE(made);
-  EXPECT_NE(made.error().message.find("MiB of device memory for 'too much'"), std::string::npos) << made.error().message;
+  EXPECT_NE(made.error().message.find("MiB of device memory for 'too much'"), std::string::npos)
+      << made.error().message;
 }
 
 TEST_F(DeviceTest, SamplersAreShared) {
-  const Result<VkSampler> a = device().sampler({}), b = device().sampler({}), c = device().sampler({.compare = true});
+  const Result<VkSampler> a = device().sampler({}), b = device().sampler({}),
+                          c = device().sampler({.compare = true});
   ASSERT_TRUE(a && b && c);
   EXPECT_EQ(*a, *b);
   EXPECT_NE(*a, *c);
@@ -147,7 +165,8 @@ TEST(Validation, AMissingBarrierIsReportedAndCounted) {
   const Result<std::unique_ptr<Device>> made = Device::create(options);
   ASSERT_TRUE(made) << made.error().message;
   Device& device = **made;
-  const Buffer b = *device.create_buffer({"raced", 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::kDevice});
+  const Buffer b =
+      *device.create_buffer({"raced", 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::kDevice});
   testing::internal::CaptureStderr();
   device.run_now([&](VkCommandBuffer commands) {
     vkCmdFillBuffer(commands, b.handle(), 0, 64, 1);
@@ -165,7 +184,8 @@ TEST(DeviceDeathTest, AResourceThatOutlivesItsDeviceIsNamed) {
       {
         Buffer late;
         const Result<std::unique_ptr<Device>> device = Device::create({});
-        late = *(*device)->create_buffer({"late", 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::kDevice});
+        late = *(*device)->create_buffer(
+            {"late", 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::kDevice});
       },
       "the resource 'late' outlives its device");
 }

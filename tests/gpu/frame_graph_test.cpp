@@ -19,7 +19,9 @@ ImageDesc picture(std::string name, std::uint32_t layers = 1) {
   return desc;
 }
 
-BufferDesc bytes(std::string name) { return {std::move(name), 256, 0, Memory::kDevice}; }
+BufferDesc bytes(std::string name) {
+  return {std::move(name), 256, 0, Memory::kDevice};
+}
 
 void nothing(Commands&) {}
 
@@ -34,7 +36,8 @@ struct Frame {
   template <class Ref>
   Ref writes(const std::string& name, Ref to, Use use = Use::kComputeWrite) {
     Ref out;
-    graph.add_pass(name, [&](PassBuilder& b) { out = b.write(to, use); }, nothing);
+    graph.add_pass(
+        name, [&](PassBuilder& b) { out = b.write(to, use); }, nothing);
     return out;
   }
   template <class Ref>
@@ -49,7 +52,8 @@ struct Frame {
   }
   ImageRef draws_layer(const std::string& name, ImageRef to, std::uint32_t layer) {
     ImageRef out;
-    graph.add_pass(name, [&](PassBuilder& b) { out = b.depth(to, Load::cleared({}), layer); }, nothing);
+    graph.add_pass(
+        name, [&](PassBuilder& b) { out = b.depth(to, Load::cleared({}), layer); }, nothing);
     return out;
   }
 };
@@ -114,7 +118,8 @@ TEST(FrameGraph, AClearedAttachmentForgetsTheWriteBefore) {
   Frame frame;
   const ImageRef first = frame.writes("forgotten", frame.graph.create(picture("p")));
   ImageRef second;
-  frame.graph.add_pass("draw", [&](PassBuilder& b) { second = b.color(first, Load::cleared({})); }, nothing);
+  frame.graph.add_pass(
+      "draw", [&](PassBuilder& b) { second = b.color(first, Load::cleared({})); }, nothing);
   frame.reads("show", second, Use::kFragmentRead);
   frame.run();
   EXPECT_EQ(frame.graph.culled_names(), Names{"forgotten"});
@@ -123,7 +128,8 @@ TEST(FrameGraph, AClearedAttachmentForgetsTheWriteBefore) {
 TEST(FrameGraph, LayersOfOneImageChainAndShareOneTransition) {
   Frame frame;
   ImageRef map = frame.graph.create(picture("shadow", 4));
-  for (std::uint32_t i = 0; i < 4; ++i) map = frame.draws_layer("shadow_" + std::to_string(i), map, i);
+  for (std::uint32_t i = 0; i < 4; ++i)
+    map = frame.draws_layer("shadow_" + std::to_string(i), map, i);
   frame.reads("light", map, Use::kComputeSampled);
   frame.run();
   EXPECT_EQ(frame.graph.pass_names().size(), 5u);
@@ -188,7 +194,8 @@ TEST(FrameGraph, TheCpuReadsAfterThePassThatWrites) {
   Buffer kept;
   const BufferRef ref = frame.graph.import(kept);
   frame.graph.add_pass(
-      "count", [&](PassBuilder& b) { b.read(b.write(ref, Use::kComputeWrite), Use::kHostRead); }, nothing);
+      "count", [&](PassBuilder& b) { b.read(b.write(ref, Use::kComputeWrite), Use::kHostRead); },
+      nothing);
   frame.run();
   EXPECT_EQ(frame.graph.barrier_count(), 1u);
   EXPECT_TRUE((kept.state.stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0);
@@ -244,7 +251,8 @@ TEST(FrameGraph, TransientsOfOneDescriptionAreReusedNextFrame) {
     frame.graph.begin();
     ImageRef out;
     const ImageRef made = frame.graph.create(picture("p"));
-    frame.graph.add_pass("write", [&](PassBuilder& b) { out = b.write(made, Use::kComputeWrite); }, nothing);
+    frame.graph.add_pass(
+        "write", [&](PassBuilder& b) { out = b.write(made, Use::kComputeWrite); }, nothing);
     frame.graph.add_pass(
         "show",
         [&](PassBuilder& b) {
@@ -314,7 +322,8 @@ TEST(FrameGraphDeathTest, ReadingWhatNobodyWroteIsFatal) {
 TEST(FrameGraphDeathTest, KeepingAnAttachmentNobodyWroteIsFatal) {
   Frame frame;
   const ImageRef fresh = frame.graph.create(picture("hdr"));
-  frame.graph.add_pass("draw", [&](PassBuilder& b) { std::ignore = b.color(fresh, Load::keep()); }, nothing);
+  frame.graph.add_pass(
+      "draw", [&](PassBuilder& b) { std::ignore = b.color(fresh, Load::keep()); }, nothing);
   EXPECT_DEATH(frame.graph.compile(), "'draw' uses 'hdr', which no pass has written yet");
 }
 
@@ -327,12 +336,14 @@ TEST(FrameGraphDeathTest, UsingWhatWasNotDeclaredIsFatal) {
       "sneaky", [&](PassBuilder& b) { std::ignore = b.write(ref, Use::kComputeWrite); },
       [&](Commands& c) { c.buffer(hidden); });
   frame.graph.compile();
-  EXPECT_DEATH(frame.graph.execute(VK_NULL_HANDLE, 0), "'sneaky' uses 'secret', which it did not declare");
+  EXPECT_DEATH(frame.graph.execute(VK_NULL_HANDLE, 0),
+               "'sneaky' uses 'secret', which it did not declare");
 }
 
 TEST(FrameGraphDeathTest, AnEmptyReferenceIsFatal) {
   Frame frame;
-  EXPECT_DEATH(frame.reads("show", ImageRef{}, Use::kComputeRead), "'show' uses an empty reference");
+  EXPECT_DEATH(frame.reads("show", ImageRef{}, Use::kComputeRead),
+               "'show' uses an empty reference");
 }
 
 TEST(FrameGraphDeathTest, AttachmentsOfDifferentSizesAreFatal) {
@@ -347,7 +358,8 @@ TEST(FrameGraphDeathTest, AttachmentsOfDifferentSizesAreFatal) {
         std::ignore = builder.color(b, Load::cleared({}));
       },
       nothing);
-  EXPECT_DEATH(frame.graph.compile(), "'draw' uses 'small', which has another size than its attachment 'large'");
+  EXPECT_DEATH(frame.graph.compile(),
+               "'draw' uses 'small', which has another size than its attachment 'large'");
 }
 
 TEST(FrameGraphDeathTest, SamplingOnesOwnAttachmentIsFatal) {
@@ -362,7 +374,8 @@ TEST(FrameGraphDeathTest, SamplingOnesOwnAttachmentIsFatal) {
         b.keep();
       },
       nothing);
-  EXPECT_DEATH(frame.graph.compile(), "'loop' uses 'hdr', which is an attachment and used in another way");
+  EXPECT_DEATH(frame.graph.compile(),
+               "'loop' uses 'hdr', which is an attachment and used in another way");
 }
 
 }  // namespace

@@ -11,8 +11,9 @@
 namespace skerry::gpu {
 namespace {
 
-constexpr VkBufferUsageFlags kStorage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                        VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 class GraphTest : public GpuTest {
  protected:
@@ -23,7 +24,8 @@ class GraphTest : public GpuTest {
     std::memcpy(values.data(), bytes->data(), values.size() * sizeof(T));
     return values;
   }
-  std::vector<std::uint8_t> contents(Image& from, std::uint32_t texel_bytes, std::uint32_t layer = 0) {
+  std::vector<std::uint8_t> contents(Image& from, std::uint32_t texel_bytes,
+                                     std::uint32_t layer = 0) {
     const Result<std::vector<std::byte>> bytes = read_back(device(), from, texel_bytes, 0, layer);
     std::vector<std::uint8_t> values(bytes->size());
     std::memcpy(values.data(), bytes->data(), values.size());
@@ -62,7 +64,8 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
         [value](Commands& c) { c.fill(value, 0, VK_WHOLE_SIZE, 5); });
     for (std::uint32_t factor = 2; factor <= 4; ++factor) {
       const BufferRef from = value;
-      BufferRef to = factor == 4 ? graph.import(result) : graph.create(BufferDesc{"step", kCount * 4});
+      BufferRef to =
+          factor == 4 ? graph.import(result) : graph.create(BufferDesc{"step", kCount * 4});
       graph.add_pass(
           "step_" + std::to_string(factor),
           [&](PassBuilder& b) {
@@ -81,7 +84,8 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
     run(graph);
     EXPECT_EQ(graph.pass_names().size(), 4u);
   }
-  EXPECT_EQ(contents<std::uint32_t>(result), std::vector<std::uint32_t>(kCount, ((5 * 2 + 1) * 3 + 1) * 4 + 1));
+  EXPECT_EQ(contents<std::uint32_t>(result),
+            std::vector<std::uint32_t>(kCount, ((5 * 2 + 1) * 3 + 1) * 4 + 1));
   EXPECT_EQ(pipelines.created(), 3);
 
   const std::vector<PassTime> times = graph.times(0);
@@ -93,7 +97,8 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
   }
 }
 
-// A triangle on the plane z = -1, seen from the origin along -z; the projection is docs/conventions.md's, with its y flip.
+// A triangle on the plane z = -1, seen from the origin along -z; the projection is
+// docs/conventions.md's, with its y flip.
 constexpr const char* kTriangle = R"(
   layout(scalar, push_constant) uniform Push { uint clockwise; float depth; } push;
   void main() {
@@ -118,10 +123,11 @@ TEST_F(GraphTest, FrontFacesAreCounterClockwiseAndBackFacesVanish) {
   desc.vertex = "triangle.vert";
   desc.fragment = "red.frag";
   desc.color_formats = {VK_FORMAT_R8G8B8A8_UNORM};
-  const ImageDesc picture{.name = "picture",
-                          .format = VK_FORMAT_R8G8B8A8_UNORM,
-                          .extent = {16, 16},
-                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+  const ImageDesc picture{
+      .name = "picture",
+      .format = VK_FORMAT_R8G8B8A8_UNORM,
+      .extent = {16, 16},
+      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
   for (const std::uint32_t clockwise : {0u, 1u}) {
     Image target = image(picture);
     FrameGraph graph(&device());
@@ -157,11 +163,12 @@ TEST_F(GraphTest, CascadesDrawLayersOfOneImageAndAreReadTogether) {
   desc.depth_bias = true;
   desc.depth_clamp = true;
   Buffer result = buffer("result", kLayers * sizeof(float), kStorage);
-  Image map = image({.name = "shadow map",
-                     .format = VK_FORMAT_D32_SFLOAT,
-                     .extent = {kEdge, kEdge},
-                     .layers = kLayers,
-                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+  Image map =
+      image({.name = "shadow map",
+             .format = VK_FORMAT_D32_SFLOAT,
+             .extent = {kEdge, kEdge},
+             .layers = kLayers,
+             .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
   const VkSampler sampler = *device().sampler({.mag = VK_FILTER_NEAREST, .min = VK_FILTER_NEAREST});
   FrameGraph graph(&device());
   // In the second frame one cascade alone is drawn anew; the others keep what they have.
@@ -171,7 +178,8 @@ TEST_F(GraphTest, CascadesDrawLayersOfOneImageAndAreReadTogether) {
     for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
       if (frame == 1 && layer != 1) continue;
       graph.add_pass(
-          "shadow_" + std::to_string(layer), [&](PassBuilder& b) { ref = b.depth(ref, Load::cleared({}), layer); },
+          "shadow_" + std::to_string(layer),
+          [&](PassBuilder& b) { ref = b.depth(ref, Load::cleared({}), layer); },
           [&, layer, frame](Commands& c) {
             c.bind(pipelines.get(desc));
             c.set_depth_bias(0.0f, 0.0f);
@@ -216,14 +224,17 @@ TEST_F(GraphTest, IndirectDrawsTakeTheirCountFromTheGpu) {
   desc.vertex = "triangle.vert";
   desc.fragment = "red.frag";
   desc.color_formats = {VK_FORMAT_R8G8B8A8_UNORM};
-  Image target = image({.name = "picture",
-                        .format = VK_FORMAT_R8G8B8A8_UNORM,
-                        .extent = {4, 4},
-                        .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-  Buffer landing = buffer("landing", 4 * 4 * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::kReadback);
+  Image target =
+      image({.name = "picture",
+             .format = VK_FORMAT_R8G8B8A8_UNORM,
+             .extent = {4, 4},
+             .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+  Buffer landing =
+      buffer("landing", 4 * 4 * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::kReadback);
   FrameGraph graph(&device());
   graph.begin();
-  BufferRef draws = graph.create(BufferDesc{"draws", 10 * 20}), count = graph.create(BufferDesc{"count", 4}),
+  BufferRef draws = graph.create(BufferDesc{"draws", 10 * 20}),
+            count = graph.create(BufferDesc{"count", 4}),
             indices = graph.create(BufferDesc{"indices", 12}), to_cpu = graph.import(landing);
   ImageRef picture = graph.import(target);
   graph.add_pass(
@@ -274,7 +285,8 @@ class GraphDeathTest : public GraphTest {
     GraphTest::SetUp();
   }
   /// One compute pass over kStep that records `record`.
-  void record_step(const std::function<void(Commands&, const Pipeline&, BufferRef from, BufferRef to)>& record) {
+  void record_step(
+      const std::function<void(Commands&, const Pipeline&, BufferRef from, BufferRef to)>& record) {
     const TestShader shader("step.comp", kStep);
     const std::array table{shader.embedded()};
     Pipelines pipelines(device(), table);
@@ -288,7 +300,9 @@ class GraphDeathTest : public GraphTest {
           builder.read(from, Use::kComputeRead);
           to = builder.write(to, Use::kComputeWrite);
         },
-        [&](Commands& c) { record(c, pipelines.get(ComputeDesc{"step.comp", {}}), from, to); });
+        [&](Commands& c) {
+          record(c, pipelines.get(ComputeDesc{"step.comp", {}}), from, to);
+        });
     run(graph);
   }
 };
@@ -330,7 +344,9 @@ TEST_F(GraphDeathTest, ForgottenPushConstantsAreFatal) {
 }
 
 TEST_F(GraphDeathTest, AnotherUseThanTheDeclaredOneIsFatal) {
-  EXPECT_DEATH(record_step([](Commands& c, const Pipeline&, BufferRef from, BufferRef) { c.fill(from, 0, 64, 0); }),
+  EXPECT_DEATH(record_step([](Commands& c, const Pipeline&, BufferRef from, BufferRef) {
+                 c.fill(from, 0, 64, 0);
+               }),
                "'step' uses 'a', which it declared for another use");
 }
 

@@ -45,11 +45,14 @@ class PipelineCacheTest : public testing::Test {
   }
   std::vector<std::byte> file() const {
     std::vector<std::byte> bytes(fs::file_size(path_));
-    std::ifstream(path_, std::ios::binary).read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    std::ifstream(path_, std::ios::binary)
+        .read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     return bytes;
   }
   void damage(const std::vector<std::byte>& bytes) const {
-    std::ofstream(path_, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(path_, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
   }
   void expect_replaced() {
     start();
@@ -57,7 +60,8 @@ class PipelineCacheTest : public testing::Test {
     EXPECT_FALSE(fs::exists(path_ + ".tmp"));
   }
   const fs::path folder_ = fs::path(testing::TempDir()) /
-                           (std::string("skerry_cache_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+                           (std::string("skerry_cache_") +
+                            testing::UnitTest::GetInstance()->current_test_info()->name());
   const std::string path_ = (folder_ / "pipelines.bin").string();
   VkPhysicalDeviceProperties properties_{};
 };
@@ -77,6 +81,16 @@ TEST_F(PipelineCacheTest, ATruncatedFileIsReplaced) {
   damage(bytes);
   EXPECT_TRUE(load_pipeline_cache(path_, properties_).empty());
   expect_replaced();
+}
+
+TEST_F(PipelineCacheTest, DamageBehindTheHeaderIsSurvivedAndReplaced) {
+  start();
+  const std::vector<std::byte> bytes = file();
+  std::vector<std::byte> cut = bytes;
+  cut.resize(bytes.size() / 2);
+  damage(cut);
+  expect_replaced();
+  EXPECT_EQ(file().size(), bytes.size());
 }
 
 TEST_F(PipelineCacheTest, AnEmptyFileIsReplaced) {

@@ -8,13 +8,15 @@
 namespace skerry::gpu {
 namespace {
 
-// The arena against a map of every element: who owns it, and until which timeline value the GPU may read it.
+// The arena against a map of every element: who owns it, and until which timeline value the GPU may
+// read it.
 class ArenaModel {
  public:
   explicit ArenaModel(std::uint32_t capacity) : busy_until_(capacity, kFree) {}
 
   bool all_free(ArenaRange range) const {
-    return std::all_of(busy_until_.begin() + range.first, busy_until_.begin() + range.first + range.count,
+    return std::all_of(busy_until_.begin() + range.first,
+                       busy_until_.begin() + range.first + range.count,
                        [](std::uint64_t value) { return value == kFree; });
   }
   void mark(ArenaRange range, std::uint64_t value) {
@@ -106,7 +108,8 @@ TEST(OffsetArena, AFullArenaSaysWhatIsLeftAndWhatToDo) {
   const Result<ArenaRange> got = arena.allocate(4);
   ASSERT_FALSE(got);
   EXPECT_EQ(got.error().message,
-            "the quad arena has no run of 4: 3 of 10 are free, the largest run is 3; lower view.distance");
+            "the quad arena has no run of 4: 3 of 10 are free, the largest run is 3; lower "
+            "view.distance");
 }
 
 TEST(OffsetArena, NothingIsAlwaysThere) {
@@ -116,6 +119,15 @@ TEST(OffsetArena, NothingIsAlwaysThere) {
   arena.free(*nothing, 1);
   EXPECT_FALSE(arena.allocate(1));
   EXPECT_EQ(arena.largest_free(), 0u);
+}
+
+TEST(OffsetArena, GrowingJoinsTheNewRoomToTheFreeEnd) {
+  OffsetArena arena(10);
+  ASSERT_TRUE(arena.allocate(4));
+  arena.grow(30);
+  EXPECT_EQ(arena.capacity(), 30u);
+  EXPECT_EQ(arena.largest_free(), 26u);
+  EXPECT_EQ(arena.allocate(26)->first, 4u);
 }
 
 TEST(OffsetArenaDeathTest, FreeingTwiceIsCaught) {

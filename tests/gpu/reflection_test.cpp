@@ -28,11 +28,12 @@ TEST(Reflection, EveryKindOfBindingIsFound) {
       vec4 c = texture(textures, vec3(0)) + texture(sampler2D(plain, how), vec2(0));
       imageStore(picture, ivec2(gl_GlobalInvocationID.xy), c * float(numbers[gl_GlobalInvocationID.x]));
     })");
-  const std::vector<ShaderReflection::Binding> expected{{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-                                                        {1, VK_DESCRIPTOR_TYPE_SAMPLER},
-                                                        {2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
-                                                        {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-                                                        {7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
+  const std::vector<ShaderReflection::Binding> expected{
+      {0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+      {1, VK_DESCRIPTOR_TYPE_SAMPLER},
+      {2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+      {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+      {7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
   EXPECT_EQ(reflect_ok(shader).bindings, expected);
   EXPECT_EQ(reflect_ok(shader).push_bytes, 0u);
 }
@@ -43,7 +44,8 @@ TEST(Reflection, WhatTheShaderDoesNotUseIsNotThere) {
     layout(binding = 0) buffer A { uint a; };
     layout(binding = 1) buffer B { uint b; };
     void main() { a = 1; })");
-  EXPECT_EQ(reflect_ok(shader).bindings, (std::vector<ShaderReflection::Binding>{{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}}));
+  EXPECT_EQ(reflect_ok(shader).bindings,
+            (std::vector<ShaderReflection::Binding>{{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}}));
 }
 
 TEST(Reflection, PushConstantsEndWithTheirLastMemberInScalarLayout) {
@@ -67,12 +69,23 @@ TEST(Reflection, SetsBeyondTheFirstAreRefused) {
   EXPECT_EQ(reflection.error().message, "its binding 3 is not in descriptor set 0");
 }
 
-TEST(Reflection, UniformBuffersAreRefused) {
+TEST(Reflection, UniformAndStorageBuffersAreToldApart) {
   const TestShader shader("uniform.comp", R"(
     layout(local_size_x = 1) in;
-    layout(binding = 0) uniform U { uint u; };
-    layout(binding = 1) buffer A { uint a; };
+    layout(scalar, binding = 0) uniform U { uint u; };
+    layout(scalar, binding = 1) buffer A { uint a; };
     void main() { a = u; })");
+  const std::vector<ShaderReflection::Binding> expected{{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+                                                        {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
+  EXPECT_EQ(reflect_ok(shader).bindings, expected);
+}
+
+TEST(Reflection, DescriptorsWithoutAUseHereAreRefused) {
+  const TestShader shader("texels.comp", R"(
+    layout(local_size_x = 1) in;
+    layout(binding = 0) uniform samplerBuffer texels;
+    layout(binding = 1, rgba8) uniform image3D volume;
+    void main() { imageStore(volume, ivec3(0), texelFetch(texels, 0)); })");
   EXPECT_FALSE(reflect(shader.words()));
 }
 
@@ -89,11 +102,13 @@ TEST(Reflection, DamagedModulesAreErrorsOrHarmless) {
   other[0] ^= 1;
   EXPECT_FALSE(reflect(other));
   // Cut anywhere, or with any word replaced, it must not read outside; sanitizers watch this.
-  for (std::size_t cut = 5; cut < words.size(); ++cut) static_cast<void>(reflect(std::span(words).first(cut)));
+  for (std::size_t cut = 5; cut < words.size(); ++cut)
+    static_cast<void>(reflect(std::span(words).first(cut)));
   std::mt19937 random(1);
   for (int i = 0; i < 20000; ++i) {
     std::vector<std::uint32_t> broken = words;
-    for (int k = 0; k < 3; ++k) broken[5 + random() % (broken.size() - 5)] = static_cast<std::uint32_t>(random());
+    for (int k = 0; k < 3; ++k)
+      broken[5 + random() % (broken.size() - 5)] = static_cast<std::uint32_t>(random());
     static_cast<void>(reflect(broken));
   }
 }

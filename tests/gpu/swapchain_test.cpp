@@ -79,14 +79,17 @@ class SwapchainTest : public testing::Test {
     pool_info.queueFamilyIndex = device_->queue_family();
     VkCommandPool pool{};
     EXPECT_EQ(vkCreateCommandPool(device_->handle(), &pool_info, nullptr, &pool), VK_SUCCESS);
-    auto info = vk_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    auto info =
+        vk_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     info.commandPool = pool;
     info.commandBufferCount = 1;
     VkCommandBuffer commands{};
     EXPECT_EQ(vkAllocateCommandBuffers(device_->handle(), &info, &commands), VK_SUCCESS);
-    const auto begin_info = vk_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+    const auto begin_info =
+        vk_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     EXPECT_EQ(vkBeginCommandBuffer(commands, &begin_info), VK_SUCCESS);
-    device_->retire(reinterpret_cast<std::uint64_t>(pool), VK_OBJECT_TYPE_COMMAND_POOL, VK_NULL_HANDLE, 0, {});
+    device_->retire(reinterpret_cast<std::uint64_t>(pool), VK_OBJECT_TYPE_COMMAND_POOL,
+                    VK_NULL_HANDLE, 0, {});
     return commands;
   }
   GLFWwindow* window_ = nullptr;

@@ -24,7 +24,8 @@ class GpuTest : public testing::Test {
     EXPECT_EQ(device_->validation_message_count(), 0);
   }
   Device& device() { return *device_; }
-  Buffer buffer(std::string name, std::uint64_t bytes, VkBufferUsageFlags usage, Memory memory = Memory::kDevice) {
+  Buffer buffer(std::string name, std::uint64_t bytes, VkBufferUsageFlags usage,
+                Memory memory = Memory::kDevice) {
     Result<Buffer> made = device_->create_buffer({std::move(name), bytes, usage, memory});
     if (!made) {
       ADD_FAILURE() << made.error().message;

@@ -11,8 +11,9 @@
 namespace skerry::gpu {
 namespace {
 
-constexpr VkBufferUsageFlags kUsage =
-    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
 std::vector<std::byte> noise(std::size_t size, std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -128,7 +129,9 @@ std::string way_name(const testing::TestParamInfo<UploadPath>& way) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, UploaderTest,
-                         testing::Values(UploadPath::kUpdateBuffer, UploadPath::kStaging, UploadPath::kMapped), way_name);
+                         testing::Values(UploadPath::kUpdateBuffer, UploadPath::kStaging,
+                                         UploadPath::kMapped),
+                         way_name);
 
 using MappedUploadTest = GpuTest;
 
@@ -153,7 +156,8 @@ TEST_F(FillImageTest, EveryMipOfEveryLayerGetsItsTexels) {
   desc.extent = {8, 4};
   desc.mips = 4;
   desc.layers = 3;
-  desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+               VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   Image to = image(desc);
   const std::size_t texels_a_layer[] = {32, 8, 2, 1};
   const std::vector<std::byte> bytes = noise((32 + 8 + 2 + 1) * 3 * 4, 9);
@@ -164,7 +168,8 @@ TEST_F(FillImageTest, EveryMipOfEveryLayerGetsItsTexels) {
   for (std::uint32_t mip = 0; mip < 4; ++mip) {
     for (std::uint32_t layer = 0; layer < 3; ++layer) {
       const auto end = at + static_cast<std::ptrdiff_t>(texels_a_layer[mip] * 4);
-      EXPECT_EQ(*read_back(device(), to, 4, mip, layer), std::vector<std::byte>(at, end)) << mip << " " << layer;
+      EXPECT_EQ(*read_back(device(), to, 4, mip, layer), std::vector<std::byte>(at, end))
+          << mip << " " << layer;
       at = end;
     }
   }

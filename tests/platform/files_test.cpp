@@ -42,20 +42,20 @@ TEST(Files, ReadingStopsAtTheLimitEvenForEndlessFiles) {
 }
 
 TEST(Files, TheProgramsOwnFolderHoldsTheProgram) {
-  EXPECT_TRUE(fs::exists(executable_directory() / "skerry_tests"));
+  EXPECT_TRUE(fs::exists(executable_dir() / "skerry_tests"));
 }
 
 TEST(Files, XdgVariablesWinOverHomeUnlessRelative) {
-  ::setenv("HOME", "/home/someone", 1);
+  ::setenv("HOME", "/someone", 1);
   ::setenv("XDG_CACHE_HOME", "/cache", 1);
-  EXPECT_EQ(cache_directory(), "/cache/skerry");
+  EXPECT_EQ(cache_dir(), "/cache/skerry");
   ::setenv("XDG_CACHE_HOME", "relative", 1);
-  EXPECT_EQ(cache_directory(), "/home/someone/.cache/skerry");
+  EXPECT_EQ(cache_dir(), "/someone/.cache/skerry");
   ::unsetenv("XDG_CACHE_HOME");
   ::unsetenv("XDG_CONFIG_HOME");
   ::unsetenv("XDG_DATA_HOME");
-  EXPECT_EQ(config_directory(), "/home/someone/.config/skerry");
-  EXPECT_EQ(data_directory(), "/home/someone/.local/share/skerry");
+  EXPECT_EQ(config_dir(), "/someone/.config/skerry");
+  EXPECT_EQ(data_dir(), "/someone/.local/share/skerry");
 }
 
 }  // namespace

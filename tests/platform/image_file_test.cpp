@@ -19,8 +19,9 @@ class ImageFile : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(dir_); }
   void TearDown() override { fs::remove_all(dir_); }
-  fs::path dir_ = fs::path(testing::TempDir()) /
-                  ("skerry_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  fs::path dir_ =
+      fs::path(testing::TempDir()) /
+      ("skerry_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
 std::vector<std::uint8_t> random_bytes(std::size_t count) {
@@ -32,7 +33,8 @@ std::vector<std::uint8_t> random_bytes(std::size_t count) {
 
 TEST_F(ImageFile, RgbaAndItsTextsComeBackAsWritten) {
   const auto pixels = random_bytes(37 * 19 * 4);
-  const std::vector<PngText> text{{"Command", "skerry shot --seed 'a b'"}, {"Seed", "bl\xc3\xa5skj\xc3\xa6r"}};
+  const std::vector<PngText> text{{"Command", "skerry shot --seed 'a b'"},
+                                  {"Seed", "bl\xc3\xa5skj\xc3\xa6r"}};
   ASSERT_TRUE(write_png(dir_ / "a.png", {37, 19, 4, pixels}, text));
   const auto image = read_png(dir_ / "a.png");
   ASSERT_TRUE(image) << image.error().message;
@@ -106,7 +108,8 @@ TEST_F(ImageFile, EveryTruncationAndManyCorruptionsAreErrorsNotCrashes) {
 TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
   // libpng checks the limits after the chunk's CRC, so the header carries a right one.
   std::string png("\x89PNG\r\n\x1a\n", 8);
-  std::string ihdr("IHDR\x00\x01\x00\x00\x00\x01\x00\x00\x08\x06\x00\x00\x00", 17);  // 65536 x 65536
+  std::string ihdr("IHDR\x00\x01\x00\x00\x00\x01\x00\x00\x08\x06\x00\x00\x00",
+                   17);  // 65536 x 65536
   std::uint32_t crc = ~0u;
   for (const char c : ihdr) {
     crc ^= static_cast<std::uint8_t>(c);

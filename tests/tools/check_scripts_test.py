@@ -100,7 +100,7 @@ class CheckIncludes(unittest.TestCase):
 class CheckPaths(unittest.TestCase):
     def test_paths_of_a_developers_machine_are_found(self):
         # Put together here, or this file would be found itself.
-        for folder in ("work", "tmp", "home", "root"):
+        for folder in ("work", "tmp", "root"):
             with self.subTest(folder=folder):
                 status, output = run("check_paths", {"a/b.txt": f"first\nsee '/{folder}/c' for more\n"})
                 self.assertEqual((status, output), (1, f"a/b.txt:2: see '/{folder}/c' for more\n"))

@@ -151,8 +151,8 @@ bool same_mesh(const ChunkMesh& a, const ChunkMesh& b) {
                     });
 }
 
-/// Meshes with every kernel of this CPU, from ids and from a palette in descending order, and compares all of
-/// it with the naive faces.
+/// Meshes with every kernel of this CPU, from ids and from a palette in descending order, and
+/// compares all of it with the naive faces.
 class Mesher {
  public:
   void check(const Padded& chunk) {
@@ -162,9 +162,9 @@ class Mesher {
     if (covered != expected) {
       const auto [a, b] =
           std::mismatch(covered.begin(), covered.end(), expected.begin(), expected.end());
-      ADD_FAILURE() << covered.size() << " faces for " << expected.size() << "; first difference: "
-                    << (a == covered.end() ? "none" : describe(*a)) << " for "
-                    << (b == expected.end() ? "none" : describe(*b));
+      ADD_FAILURE() << covered.size() << " faces for " << expected.size()
+                    << "; first difference: " << (a == covered.end() ? "none" : describe(*a))
+                    << " for " << (b == expected.end() ? "none" : describe(*b));
     }
     expect_bounds(expected, mesh_);
     check_kernels(chunk);
@@ -198,10 +198,18 @@ class Mesher {
 };
 
 /// A few ids of each kind.
-constexpr std::array<BlockId, 12> kMixed = {
-    kAir,         kAir,          block::kStone,     block::kDirt,      block::kSand,
-    block::kOakLeaves, block::kPineLeaves, block::kTallGrass, block::kFlowerRed, block::kWater,
-    block::kGlass, block::kStone};
+constexpr std::array<BlockId, 12> kMixed = {kAir,
+                                            kAir,
+                                            block::kStone,
+                                            block::kDirt,
+                                            block::kSand,
+                                            block::kOakLeaves,
+                                            block::kPineLeaves,
+                                            block::kTallGrass,
+                                            block::kFlowerRed,
+                                            block::kWater,
+                                            block::kGlass,
+                                            block::kStone};
 
 /// Boxes of random blocks over each other: long runs, shared edges, nested kinds.
 Padded random_boxes(Chance& chance, std::span<const BlockId> ids, int boxes, int largest) {
@@ -276,7 +284,8 @@ TEST(Mesh, ChunkOfPlantsGivesTwoQuadsAVoxel) {
 
 TEST(Mesh, OneVoxelIsSixQuadsOnItsSides) {
   Mesher mesher;
-  for (const auto& [x, y, z] : {std::array{0, 0, 0}, std::array{63, 63, 63}, std::array{5, 0, 63}}) {
+  for (const auto& [x, y, z] :
+       {std::array{0, 0, 0}, std::array{63, 63, 63}, std::array{5, 0, 63}}) {
     Padded chunk;
     chunk.at(x, y, z) = block::kStone;
     mesher.check(chunk);
@@ -298,7 +307,8 @@ TEST(Mesh, SlabOfTwoIdsSplitsWhereTheyMeet) {
 TEST(Mesh, CheckerboardMergesNothing) {
   // 64^3 / 2 voxels with six free faces each.
   Padded chunk;
-  chunk.fill([](int x, int y, int z) { return (x + y + z) % 2 == 0 ? BlockId{block::kStone} : kAir; });
+  chunk.fill(
+      [](int x, int y, int z) { return (x + y + z) % 2 == 0 ? BlockId{block::kStone} : kAir; });
   Mesher mesher;
   mesher.check(chunk);
   EXPECT_EQ(mesher.mesh().quads.size(), kChunkVoxels / 2 * 6);
@@ -387,8 +397,9 @@ TEST(Mesh, CaveLikeChunksAreCoveredExactly) {
       const int sum = at(i, j, k) * (4 - (x + 1) % 4) + at(i + 1, j, k) * ((x + 1) % 4) +
                       at(i, j + 1, k) * ((y + 1) % 4) + at(i, j, k + 1) * ((z + 1) % 4);
       if (sum < 900) return kAir;
-      return sum < 1300 ? BlockId{block::kStone} : sum < 1500 ? BlockId{block::kDirt}
-                                                              : BlockId{block::kWater};
+      return sum < 1300   ? BlockId{block::kStone}
+             : sum < 1500 ? BlockId{block::kDirt}
+                          : BlockId{block::kWater};
     });
     mesher.check(chunk);
   }
@@ -398,7 +409,8 @@ TEST(Mesh, EveryBuiltInBlockKeepsItsIdAndRange) {
   Chance chance{6};
   Mesher mesher;
   Padded chunk;
-  chunk.fill([&](int, int, int) { return static_cast<BlockId>(chance.below(block::kBuiltInCount)); });
+  chunk.fill(
+      [&](int, int, int) { return static_cast<BlockId>(chance.below(block::kBuiltInCount)); });
   mesher.check(chunk);
 }
 

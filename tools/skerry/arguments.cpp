@@ -11,7 +11,9 @@
 namespace skerry::tools {
 namespace {
 
-Refusal usage(Error error) { return {kUsage, std::move(error)}; }
+Refusal usage(Error error) {
+  return {kUsage, std::move(error)};
+}
 
 std::string help_of(const CLI::App& command) {
   std::string path = command.get_name();
@@ -24,36 +26,51 @@ std::string help_of(const CLI::App& command) {
 std::optional<Refusal> refuse_world(const std::string& path) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) {
-    return Refusal{kFailed, {fmt::format("cannot open the world {}: it does not exist; use --seed for a new world",
-                                         game::quote_text(path))}};
+    return Refusal{
+        kFailed,
+        {fmt::format("cannot open the world {}: it does not exist; use --seed for a new world",
+                     game::quote_text(path))}};
   }
-  return Refusal{kFailed, {fmt::format("cannot open the world {}: this build cannot load saved worlds; use --seed",
-                                       game::quote_text(path))}};
+  return Refusal{
+      kFailed,
+      {fmt::format("cannot open the world {}: this build cannot load saved worlds; use --seed",
+                   game::quote_text(path))}};
 }
 
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneArguments& a) {
   command.add_option("--seed", a.text.seed, "World seed: a number or any text");
-  command.add_option("--world", a.world, "Saved world (this build cannot load one)")->type_name("PATH");
-  command.add_option("--scene", a.scene_file, "JSON file with a scene (docs/settings.md)")->type_name("FILE");
-  command.add_option("--camera", a.text.camera, "Place in blocks, then degrees (default: the seed's spawn view)")
+  command.add_option("--world", a.world, "Saved world (this build cannot load one)")
+      ->type_name("PATH");
+  command.add_option("--scene", a.scene_file, "JSON file with a scene (docs/settings.md)")
+      ->type_name("FILE");
+  command
+      .add_option("--camera", a.text.camera,
+                  "Place in blocks, then degrees (default: the seed's spawn view)")
       ->type_name("X,Y,Z,YAW,PITCH");
-  command.add_option("--fov", a.text.fov, "Vertical field of view, 0.1 to 175 (default 70)")->type_name("DEG");
+  command.add_option("--fov", a.text.fov, "Vertical field of view, 0.1 to 175 (default 70)")
+      ->type_name("DEG");
   command.add_option("--time", a.text.time, "Time of day (default 12:00)")->type_name("HH:MM[:SS]");
-  command.add_option("--size", a.text.size, "Picture or window size (default 1280x720)")->type_name("WxH");
-  command.add_option("--quality", a.text.quality, "low, medium, high or ultra (default medium)")->type_name("LEVEL");
+  command.add_option("--size", a.text.size, "Picture or window size (default 1280x720)")
+      ->type_name("WxH");
+  command.add_option("--quality", a.text.quality, "low, medium, high or ultra (default medium)")
+      ->type_name("LEVEL");
   command.add_option("--set", a.text.settings, "One setting (docs/settings.md); may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.add_option("--renderer", a.renderer, "Short for --set renderer=R")->type_name("R");
   command.add_option("--shading", a.shading, "Short for --set shading=S")->type_name("S");
-  command.add_option("--device", a.device, "Vulkan device, as 'skerry devices' counts (default: the best)")
+  command
+      .add_option("--device", a.device,
+                  "Vulkan device, as 'skerry devices' counts (default: the best)")
       ->type_name("N");
-  command.add_flag("--validate", a.validate, "Turn the Vulkan validation layer on; any message exits with 3");
+  command.add_flag("--validate", a.validate,
+                   "Turn the Vulkan validation layer on; any message exits with 3");
 }
 
-std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source, game::SceneOptions& scene) {
+std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
+                               game::SceneOptions& scene) {
   if (a.world) return refuse_world(*a.world);
   if (needs_source && !a.text.seed && !a.scene_file) {
     return usage({"there is nothing to draw: give --seed N or --scene FILE.json"});
@@ -64,7 +81,8 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source, game:
     if (!file) return Refusal{kFailed, file.error()};
     const auto parsed = game::parse_scene(*file);
     if (!parsed) {
-      return usage({fmt::format("cannot use {}: {}", game::quote_text(*a.scene_file), parsed.error().message)});
+      return usage({fmt::format("cannot use {}: {}", game::quote_text(*a.scene_file),
+                                parsed.error().message)});
     }
     from_file = *parsed;
   }
@@ -88,7 +106,8 @@ std::optional<Refusal> check_leftovers(const CLI::App& command) {
   if (leftovers.empty()) return std::nullopt;
   const std::string& first = leftovers.front();
   if (!first.starts_with("-")) {
-    return usage({fmt::format("did not expect {}: see {}", game::quote_text(first), help_of(command))});
+    return usage(
+        {fmt::format("did not expect {}: see {}", game::quote_text(first), help_of(command))});
   }
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
@@ -96,8 +115,9 @@ std::optional<Refusal> check_leftovers(const CLI::App& command) {
   }
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   const std::string_view typed = std::string_view(first).substr(0, first.find('='));
-  return usage({fmt::format("there is no option {}: did you mean '{}'? See {}", game::quote_text(typed),
-                            game::nearest_name(typed, candidates), help_of(command))});
+  return usage(
+      {fmt::format("there is no option {}: did you mean '{}'? See {}", game::quote_text(typed),
+                   game::nearest_name(typed, candidates), help_of(command))});
 }
 
 std::optional<Refusal> check_output(const std::optional<std::string>& path) {

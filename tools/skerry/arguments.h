@@ -1,4 +1,5 @@
-// The command line: options shared by sub-commands, and usage errors that name what was probably meant.
+// The command line: options shared by sub-commands, and usage errors that name what was probably
+// meant.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -25,8 +26,10 @@ struct SceneArguments {
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 
-/// Reads the scene file, checks every value. @param needs_source a seed, world or scene must be given.
-std::optional<Refusal> resolve(const SceneArguments& arguments, bool needs_source, game::SceneOptions& scene);
+/// Reads the scene file, checks every value. @param needs_source a seed, world or scene must be
+/// given.
+std::optional<Refusal> resolve(const SceneArguments& arguments, bool needs_source,
+                               game::SceneOptions& scene);
 
 /// Checks that a command was given nothing it does not know; names the nearest option.
 std::optional<Refusal> check_leftovers(const CLI::App& command);

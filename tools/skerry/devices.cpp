@@ -16,11 +16,16 @@ namespace {
 
 std::string_view type_name(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    default:
+      return "other";
   }
 }
 
@@ -31,8 +36,8 @@ std::string api_text(std::uint32_t version) {
 
 void print_text(const std::vector<gpu::DeviceInfo>& list) {
   for (const gpu::DeviceInfo& device : list) {
-    fmt::print("{}  {} ({}, Vulkan {}, {}): {}\n", device.index, device.name, type_name(device.type),
-               api_text(device.api_version), device.driver,
+    fmt::print("{}  {} ({}, Vulkan {}, {}): {}\n", device.index, device.name,
+               type_name(device.type), api_text(device.api_version), device.driver,
                device.missing.empty() ? std::string("usable")
                                       : fmt::format("lacks {}", fmt::join(device.missing, ", ")));
   }
@@ -64,10 +69,13 @@ int devices(bool json) {
   } else {
     print_text(*list);
   }
-  const bool usable = std::any_of(list->begin(), list->end(), [](const auto& d) { return d.missing.empty(); });
+  const bool usable =
+      std::any_of(list->begin(), list->end(), [](const auto& d) { return d.missing.empty(); });
   if (usable) return kDone;
-  return fail(kNoDevice, {"no Vulkan device can be used: each lacks what is listed above; install a newer driver, or "
-                          "mesa-vulkan-drivers for the CPU"});
+  return fail(
+      kNoDevice,
+      {"no Vulkan device can be used: each lacks what is listed above; install a newer driver, or "
+       "mesa-vulkan-drivers for the CPU"});
 }
 
 }  // namespace skerry::tools

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/platform/files.h"
 #include "game/parse.h"
 #include "tools/skerry/arguments.h"
 #include "tools/skerry/devices.h"
@@ -17,7 +16,9 @@
 namespace skerry::tools {
 namespace {
 
-int refuse(const Refusal& refusal) { return fail(refusal.status, refusal.error); }
+int refuse(const Refusal& refusal) {
+  return fail(refusal.status, refusal.error);
+}
 
 /// The sub-commands and what was typed for them.
 struct CommandLine {
@@ -47,8 +48,10 @@ CommandLine::CommandLine() {
   add_scene_options(*play, scene);
   shot = add("shot", "Draw one picture");
   add_scene_options(*shot, scene);
-  shot->add_option("--out", out, "Where the picture goes (default skerry.png)")->type_name("FILE.png");
-  shot->add_option("--stats", stats, "Write counts, times and a hash of the picture")->type_name("FILE.json");
+  shot->add_option("--out", out, "Where the picture goes (default skerry.png)")
+      ->type_name("FILE.png");
+  shot->add_option("--stats", stats, "Write counts, times and a hash of the picture")
+      ->type_name("FILE.json");
   shot->add_flag("--explain", explain, "Print what the frame ran, and what it left out and why");
   devices = add("devices", "List the Vulkan devices");
   devices->add_flag("--json", json, "As JSON");
@@ -81,15 +84,14 @@ int CommandLine::run_shot() {
 int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
-  // Without it the pipeline cache cannot be kept; that only costs time, so a failure is not worth a word.
-  (void)platform::make_dirs(platform::cache_directory());
   if (chosen == play) return run_play();
   if (chosen == shot) return run_shot();
   return tools::devices(json);
 }
 
 /// The first argument names a command, or is left out for play.
-Result<std::vector<std::string>> with_command(const CLI::App& app, std::vector<std::string> arguments) {
+Result<std::vector<std::string>> with_command(const CLI::App& app,
+                                              std::vector<std::string> arguments) {
   const std::string first = arguments.empty() ? "" : arguments.front();
   if (first == "-h" || first == "--help") return arguments;
   if (first.empty() || first.starts_with("-")) {
@@ -100,8 +102,8 @@ Result<std::vector<std::string>> with_command(const CLI::App& app, std::vector<s
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), first) != names.end()) return arguments;
   const std::vector<std::string_view> candidates(names.begin(), names.end());
-  return Error{fmt::format("there is no command {}: did you mean '{}'? See skerry --help", game::quote_text(first),
-                           game::nearest_name(first, candidates))};
+  return Error{fmt::format("there is no command {}: did you mean '{}'? See skerry --help",
+                           game::quote_text(first), game::nearest_name(first, candidates))};
 }
 
 int run(std::vector<std::string> typed) {
@@ -124,4 +126,6 @@ int run(std::vector<std::string> typed) {
 }  // namespace
 }  // namespace skerry::tools
 
-int main(int count, char** arguments) { return skerry::tools::run({arguments + 1, arguments + count}); }
+int main(int count, char** arguments) {
+  return skerry::tools::run({arguments + 1, arguments + count});
+}

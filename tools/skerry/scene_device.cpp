@@ -1,6 +1,7 @@
 #include "tools/skerry/scene_device.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "engine/platform/files.h"
 
@@ -9,15 +10,17 @@ namespace {
 
 /// Empty, for none, when the user has no folder for caches.
 std::string pipeline_cache_file() {
-  const std::filesystem::path folder = platform::cache_dir();
+  const std::filesystem::path folder = platform::cache_directory();
   if (folder.empty() || !platform::make_dirs(folder)) return {};
   return (folder / "pipelines.bin").string();
 }
 
 }  // namespace
 
-Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene) {
+Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene,
+                                                 std::vector<const char*> surface_extensions) {
   gpu::DeviceOptions options;
+  options.surface_extensions = std::move(surface_extensions);
   options.index = scene.device;
   options.validate = scene.validate;
   options.pipeline_cache_path = pipeline_cache_file();

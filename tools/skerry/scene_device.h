@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
@@ -11,7 +12,9 @@ namespace skerry::tools {
 inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kValidationMessage = 3, kNoDevice = 4;
 
 /// Opens the device a scene asks for, with the user's pipeline cache.
-Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene);
+/// @param surface_extensions instance extensions a window needs; empty: headless.
+Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene,
+                                                 std::vector<const char*> surface_extensions = {});
 
 /// Prints `skerry: message` on stderr and returns the status.
 int fail(int status, const Error& error);

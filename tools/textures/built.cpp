@@ -235,11 +235,9 @@ Canvas paint_thatch(Color base, bool ends, std::uint32_t seed) {
                 light = 0.34f + 0.22f * age + random.range(-0.12f, 0.12f);
     const auto [x, y] = spread_point(i, seed);
     if (ends) {
-      // Cut straw seen from its end: small rings.
-      for_dab({x, y, {1, 0}, 2.2f, 2.2f}, [&](int px, int py, float u, float v) {
-        tone.at(px, py) = u * u + v * v < 0.1f    ? light - 0.24f
-                          : u * u + v * v < 0.55f ? light + 0.12f
-                                                  : light - 0.12f;
+      // Cut straw seen from its end: round, with a dark rim.
+      for_dab({x, y, {1, 0}, 1.9f, 1.9f}, [&](int px, int py, float u, float v) {
+        tone.at(px, py) = u * u + v * v > 0.62f ? light - 0.16f : light + 0.06f - 0.1f * (u + v);
       });
     } else {
       for_dab({x, y, direction(random.range(0.21f, 0.29f)), random.range(3.0f, 6.0f), 0.62f},

@@ -6,12 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/render/block_textures.h"
 #include "tools/textures/painters.h"
-
-// GCC 12 takes BlockKind::kAir for a shadowing of world::kAir, although the enumeration is scoped.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
 #include "world/blocks.h"
-#pragma GCC diagnostic pop
 
 namespace skerry::textures {
 namespace {

@@ -175,7 +175,7 @@ Canvas paint_glow_shroom() {
     put_stroke(canvas, {root, 31.5f, root, (top + 32) * 0.5f, x, top, 2.6f, 2.0f}, stem, 0.3f,
                0.6f);
     for_dab({x, top, {1, 0}, wide, tall},
-            [&, x = x, top = top, tall = tall](int px, int py, float u, float) {
+            [&, top = top, tall = tall](int px, int py, float u, float) {
               const float down = (static_cast<float>(py) + 0.5f - top) / tall;
               if (down > 0.25f) return;
               const bool gills = down > 0.02f;

@@ -35,17 +35,6 @@ struct Site {
   int sphere;  ///< bounding radius at rest
 };
 
-/// Radius of the sphere about the lattice origin that holds the island's rock, trees and margins.
-int sphere_of(Archetype archetype, int radius) {
-  const Extent extent = extent_of(archetype, radius);
-  const int up = extent.top + kTreeRoom;
-  const int down = extent.depth + 8;
-  // The keel tapers: at its deepest the rock is narrow, so that the outline with half the depth is
-  // the widest corner.
-  const int wide = noise::length(radius + kBoxMargin, std::max(up, down));
-  return wide + 1;
-}
-
 int reach_of(const Site& site) {
   return site.sphere + (site.drift * 7 + 3) / 4;
 }
@@ -100,7 +89,7 @@ Site main_site(Cell cell, Rng& rng) {
     site.biome = kFriendly[static_cast<std::size_t>(rng.in(0, 3))];
     site.archetype = kOpen[static_cast<std::size_t>(rng.in(0, 2))];
   }
-  site.sphere = sphere_of(site.archetype, site.radius);
+  site.sphere = extent_of(site.archetype, site.radius).sphere;
   site.drift = home ? 2 : rng.in(2, 5);
   const int room = std::max(0, static_cast<int>(kCell / 2) - reach_of(site) - kClearance);
   const int wander = home ? 30 : std::min(room, 170);
@@ -115,8 +104,9 @@ std::vector<Site> group_of(std::uint64_t seed, Cell cell) {
   Rng rng(mix64(seed ^ mix64(static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15u ^
                              mix64(static_cast<std::uint64_t>(cell.z)))));
   std::vector<Site> group{main_site(cell, rng)};
+  const bool home = cell.x == 0 && cell.z == 0;
   const bool chain = rng.chance(120);
-  const int wanted = rng.in(2, 4);
+  const int wanted = home ? 4 : rng.in(1, 3) + (rng.chance(56) ? 1 : 0);
   int direction = rng.in(0, 1023);
   Site previous = group.front();
   for (int tries = 0; tries < 40 && static_cast<int>(group.size()) <= wanted; ++tries) {
@@ -128,7 +118,7 @@ std::vector<Site> group_of(std::uint64_t seed, Cell cell) {
                      ? group.front().biome
                      : static_cast<Biome>(rng.in(0, static_cast<int>(Biome::kCount) - 1));
     site.archetype = site.radius < 40 ? Archetype::kShard : archetype_for(site.biome, rng);
-    site.sphere = sphere_of(site.archetype, site.radius);
+    site.sphere = extent_of(site.archetype, site.radius).sphere;
     site.drift = rng.in(2, 5);
     const Site& from = chain ? previous : group.front();
     direction += chain ? rng.in(-130, 130) : rng.in(150, 420);
@@ -160,7 +150,7 @@ IslandSpec spec_of(std::uint64_t seed, Cell cell, std::size_t number, const Site
                  (centre.z + site.z) * kUnitsPerBlock};
   const Extent extent = extent_of(site.archetype, site.radius);
   const int side = site.radius + kBoxMargin;
-  spec.box_min = {-side, -extent.depth - 8, -side};
+  spec.box_min = {-side, -extent.depth - kKeelRoom, -side};
   spec.box_max = {side, extent.top + kTreeRoom, side};
   spec.bounding_radius = site.sphere;
   spec.archetype = static_cast<std::uint32_t>(site.archetype);

@@ -54,14 +54,14 @@ class Digger {
     const int length = rng_.in(18, std::clamp(plan_.shape.extent.radius / 2, 24, 90));
     const int slope = rng_.in(0, 90);
     for (int step = 0; step < length; ++step) {
-      hollow(x >> 8, floor >> 8, z >> 8, rng_.in(3, 4));
+      const bool through = step > 8 && !rock_around(x >> 8, (floor >> 8) + 2, z >> 8);
+      hollow(x >> 8, floor >> 8, z >> 8, rng_.in(3, 4), step < 8 || through);
+      if (through) return;  // came out on the far side: a tunnel
       direction += rng_.in(-34, 34);
       x += noise::cosine(direction) / 16;
       z += noise::sine(direction) / 16;
       if (step > 6) floor -= slope;
       if (step % 9 == 8) grow(x >> 8, floor >> 8, z >> 8, 2, block::kGlowFern);
-      if (!rock_around(x >> 8, (floor >> 8) + 2, z >> 8) && step > 8)
-        return;  // came out on the far side: a tunnel
     }
     chamber(x >> 8, floor >> 8, z >> 8);
   }
@@ -71,8 +71,8 @@ class Digger {
     return plan_.rock_at(x + 5, y, z) || plan_.rock_at(x - 5, y, z) || plan_.rock_at(x, y, z + 5);
   }
 
-  void hollow(int x, int floor, int z, int radius) {
-    plan_.holes.push_back({x, floor + radius - 2, z, radius, floor});
+  void hollow(int x, int floor, int z, int radius, bool open) {
+    plan_.holes.push_back({x, floor + radius - 2, z, radius, floor, open});
   }
 
   /// A hall with a level floor where mushrooms and crystals glow.
@@ -94,41 +94,49 @@ class Digger {
   void grow(int x, int floor, int z, int spread, BlockId plant) {
     const int px = x + rng_.in(-spread, spread);
     const int pz = z + rng_.in(-spread, spread);
-    for (int dx = -1; dx <= 1; ++dx) stamp(px + dx, floor - 1, pz, block::kMycelium, false);
-    stamp(px, floor, pz, plant, true);
+    for (int dx = -1; dx <= 1; ++dx) stamp(px + dx, floor - 1, pz, block::kMycelium, floor);
+    stamp(px, floor, pz, plant, floor);
   }
 
   void pillar(int x, int floor, int z) {
-    for (int y = rng_.in(2, 5); y >= -1; --y) stamp(x, floor + y, z, plan_.biome().crystal, y >= 0);
-    stamp(x + 1, floor, z, plan_.biome().crystal, true);
+    for (int y = rng_.in(2, 5); y >= 0; --y) stamp(x, floor + y, z, plan_.biome().crystal, floor);
+    stamp(x + 1, floor, z, plan_.biome().crystal, floor);
+    stamp(x, floor - 1, z, plan_.biome().crystal, floor);
   }
 
-  /// Only inside the cave, and only on solid floor.
-  void stamp(int x, int y, int z, BlockId id, bool into_air) {
-    const int roof = plan_.columns.has(x, z) ? plan_.columns.roof[plan_.columns.index(x, z)]
-                                             : Columns::kNoGround;
-    if (y + 1 >= std::min(roof, top_at(plan_.columns, x, z))) return;
-    pending_.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
-                        static_cast<std::int16_t>(z), id, into_air});
+  /// Below `floor` rock is replaced, above it air is filled.
+  void stamp(int x, int y, int z, BlockId id, int floor) {
+    const Stamp made{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
+                     static_cast<std::int16_t>(z), id, y >= floor};
+    pending_.push_back({made, floor});
   }
 
  public:
-  /// Keeps the stamps that ended up in the open, standing on rock: all holes must be known first.
+  /// Keeps the stamps that ended up inside a cave and above solid floor: all holes must be known
+  /// first.
   void settle() {
-    for (const Stamp& s : pending_) {
-      const int floor = s.into_air ? s.y : s.y + 1;
-      const bool open =
-          !plan_.solid_at(s.x, s.into_air ? s.y : floor, s.z) && plan_.rock_at(s.x, s.y, s.z);
-      const bool carried =
-          block_kind(s.id) != BlockKind::kPlant || plan_.solid_at(s.x, s.y - 1, s.z);
-      if (open && carried) plan_.stamps.push_back(s);
+    // Blocks before plants, so that no crystal takes root on a mushroom.
+    std::stable_partition(pending_.begin(), pending_.end(), [](const Pending& p) {
+      return block_kind(p.made.id) != BlockKind::kPlant;
+    });
+    for (const auto& [made, floor] : pending_) {
+      if (!plan_.columns.has(made.x, made.z)) continue;
+      const int roof = plan_.roof_of(plan_.holes.back(), plan_.columns.index(made.x, made.z));
+      const int open = std::max<int>(made.y, floor);
+      const bool dug = open + 1 < roof && plan_.rock_at(made.x, open, made.z) &&
+                       !plan_.solid_at(made.x, open, made.z);
+      if (dug && plan_.solid_at(made.x, floor - 1, made.z)) plan_.stamps.push_back(made);
     }
   }
 
  private:
+  struct Pending {
+    Stamp made;
+    int floor;
+  };
   IslandPlan& plan_;
   Rng& rng_;
-  std::vector<Stamp> pending_;
+  std::vector<Pending> pending_;
 };
 
 }  // namespace

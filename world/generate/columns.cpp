@@ -71,6 +71,7 @@ struct Builder {
   void raise(const Butte& butte);
   bool settle(Lake& lake) const;
   void dig(const Lake& lake);
+  int room_at(int x, int z) const;
   void finish_heights();
   void contain_water();
   void raggedness();
@@ -89,11 +90,6 @@ struct Builder {
            ++z)
         f(x, z, columns.index(x, z));
     }
-  }
-  /// Distance from a centre, Q8, in coordinates bent by the shift fields, so that no circle looks
-  /// like one.
-  int bent_distance(int x, int z, int cx, int cz) const {
-    return noise::length((x - cx) * kOne8 + shift_x.at(x, z), (z - cz) * kOne8 + shift_z.at(x, z));
   }
 };
 
@@ -222,8 +218,11 @@ void Builder::spikes(int spacing, int of_256, std::uint32_t seed) {
       if (!columns.has(x0, z0) || columns.inside[columns.index(x0, z0)] < 3) continue;
       const int length = (6 - columns.bottom[columns.index(x0, z0)]) * share / 128 + reach / 2;
       for_columns_near(x0, z0, reach, [&](int x, int z, std::size_t i) {
-        const int d = noise::length((x - x0) * kOne8, (z - z0) * kOne8);
-        if (d >= reach * kOne8 || columns.inside[i] < 0) return;
+        if (columns.inside[i] < 0) return;
+        const int squared = (x - x0) * (x - x0) + (z - z0) * (z - z0);
+        if (squared >= reach * reach) return;
+        const int d =
+            static_cast<int>(noise::isqrt(static_cast<std::uint64_t>(squared) * kOne8 * kOne8));
         const int t = kOne12 - d * 16 / reach;
         const int cone = (t + ((t * t) >> 12)) / 2;
         columns.bottom[i] = static_cast<std::int16_t>(columns.bottom[i] - ((length * cone) >> 12));
@@ -235,23 +234,32 @@ void Builder::spikes(int spacing, int of_256, std::uint32_t seed) {
 void Builder::raise(const Butte& butte) {
   const int ramp_x = noise::cosine(butte.ramp);
   const int ramp_z = noise::sine(butte.ramp);
-  for_columns_near(
-      butte.x, butte.z, butte.radius + shape.warp + 6, [&](int x, int z, std::size_t i) {
-        const int d = bent_distance(x, z, butte.x, butte.z);
-        const int within = butte.radius * kOne8 - d;
-        if (within <= 0) return;
-        int width = butte.cliff * kOne8;
-        if (d > 0) {
-          const std::int64_t along = (static_cast<std::int64_t>(x - butte.x) * ramp_x +
-                                      static_cast<std::int64_t>(z - butte.z) * ramp_z) *
-                                     kOne8;
-          const int facing = static_cast<int>(along / d);  // cosine of the angle to the ramp, Q12
-          const int share = smooth(std::clamp((facing - 3300) * 8, 0, kOne12));
-          width += (std::min(butte.ramp_width, butte.radius) - butte.cliff) * share / 16;
-        }
-        ground[i] += static_cast<int>(static_cast<std::int64_t>(butte.height) *
-                                      smooth(within * 16 / std::max(1, width / 256)) / 16);
-      });
+  const auto square = [](std::int64_t blocks) { return blocks * blocks * kOne8 * kOne8; };
+  const int widest = std::max(butte.cliff, std::min(butte.ramp_width, butte.radius));
+  const std::int64_t foot = square(butte.radius);
+  const std::int64_t table = square(butte.radius - widest);  // nearer than this, all is up
+  const int reach = butte.radius + shape.warp * 3 / 2 + 6;
+  for_columns_near(butte.x, butte.z, reach, [&](int x, int z, std::size_t i) {
+    if (columns.inside[i] < 0) return;
+    const std::int64_t bent_x = (x - butte.x) * kOne8 + shift_x.at(x, z);
+    const std::int64_t bent_z = (z - butte.z) * kOne8 + shift_z.at(x, z);
+    const std::int64_t squared = bent_x * bent_x + bent_z * bent_z;
+    if (squared >= foot) return;
+    if (squared <= table) {
+      ground[i] += butte.height * kOne8;
+      return;
+    }
+    const int d = std::max(1, noise::length(bent_x, bent_z));
+    const std::int64_t along = (static_cast<std::int64_t>(x - butte.x) * ramp_x +
+                                static_cast<std::int64_t>(z - butte.z) * ramp_z) *
+                               kOne8;
+    const int facing = static_cast<int>(along / d);  // cosine of the angle to the ramp, Q12
+    const int share = smooth(std::clamp((facing - 3300) * 8, 0, kOne12));
+    const int width =
+        butte.cliff * kOne8 + (std::min(butte.ramp_width, butte.radius) - butte.cliff) * share / 16;
+    const int risen = smooth((butte.radius * kOne8 - d) * 16 / std::max(1, width / kOne8));
+    ground[i] += butte.height * risen / 16;
+  });
 }
 
 /// Finds a radius at which the whole shore lies inland, and a level. False when there is no such
@@ -307,6 +315,16 @@ void Builder::dig(const Lake& lake) {
       });
 }
 
+/// How far up and down a column reaches before it, or a crown that leans out of it, would leave the
+/// bounding sphere.
+int Builder::room_at(int x, int z) const {
+  const int sphere = shape.extent.sphere;
+  const int flat = noise::length(x, z) + kBoxMargin + 2;
+  return flat < sphere ? static_cast<int>(noise::isqrt(
+                             static_cast<std::uint64_t>(sphere * sphere - flat * flat)))
+                       : 0;
+}
+
 void Builder::finish_heights() {
   for (std::size_t i = 0; i < ground.size(); ++i) {
     if (columns.inside[i] < 0) {
@@ -315,8 +333,13 @@ void Builder::finish_heights() {
       columns.water[i] = Columns::kDry;
       continue;
     }
-    const int top = std::clamp(ground[i] >> 8, -shape.extent.depth / 2, shape.extent.top);
-    const int bottom = std::min(-soft_limit(-columns.bottom[i], shape.extent.depth), top - 4);
+    const int room = room_at(static_cast<int>(i / columns.edge) - columns.half,
+                             static_cast<int>(i % columns.edge) - columns.half);
+    const int highest = std::min(shape.extent.top, room - kTreeRoom);
+    const int top = std::clamp(ground[i] >> 8, -shape.extent.depth / 2,
+                               std::max(highest, -shape.extent.depth / 2));
+    const int keel = soft_limit(-columns.bottom[i], std::min(shape.extent.depth, room - kKeelRoom));
+    const int bottom = std::min(-keel, top - 4);
     columns.top[i] = static_cast<std::int16_t>(top);
     columns.bottom[i] = static_cast<std::int16_t>(bottom);
     if (columns.water[i] <= top) columns.water[i] = Columns::kDry;
@@ -360,7 +383,7 @@ void Builder::contain_water() {
 /// exact heights.
 void Builder::raggedness() {
   constexpr int kGentle = 6;  // blocks of height within 2 cells: a slope, not a cliff
-  columns.max_shift = std::min(5 * kOne8, kOne8 + shape.extent.radius * 12);
+  columns.max_shift = std::min(9 * kOne8 / 2, kOne8 + shape.extent.radius * 12);
   const int cells = columns.edge / kStep;
   const auto cell = [cells](int i, int j) {
     return static_cast<std::size_t>(i) * cells + static_cast<std::size_t>(j);

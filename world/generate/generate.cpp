@@ -15,8 +15,9 @@ constexpr int kPadded = kChunkEdge + 2;
 constexpr int kLayer = kPadded * kPadded;
 constexpr int kLookAbove =
     6;  // layers read above the chunk, so that it knows how deep below the turf it starts
-constexpr int kLedgeTurf = 4;              // blocks under the top that may still bear turf
-constexpr int kFinestShifted = 1;          // coarser voxels are larger than the sideways shift
+constexpr int kLookBelow = 1;      // the lowest layer's plants need to know what they stand on
+constexpr int kLedgeTurf = 4;      // blocks under the top that may still bear turf
+constexpr int kFinestShifted = 1;  // coarser voxels are larger than the sideways shift
 constexpr std::int16_t kUnderground = 64;  // depth of rock below a cave: no turf there
 
 constexpr std::int16_t kDeepest = 2 * kUnderground;
@@ -69,6 +70,7 @@ class Filler {
   Row top_, bottom_, water_, roof_, cover_, skin_top_, skin_below_, below_depth_, top_depth_,
       depth_, solid_, carved_, layer_;
   std::array<std::int16_t, kLayer> rock_;
+  std::array<BlockId, kLayer> ground_below_;  // the layer under out
   std::vector<Ragged> ragged_;
   std::vector<Ball> solids_, holes_;
   std::vector<sideways::Shift> corners_;
@@ -86,9 +88,11 @@ Filler::Filler(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId
   const int y = canvas_.y0 << level;
   const int z = canvas_.z0 << level;
   const int above = kLookAbove << level;
+  const int below = kLookBelow << level;
   const auto near = [&](const Ball& b) {
     return b.x + b.radius >= x && b.x - b.radius < x + size && b.z + b.radius >= z &&
-           b.z - b.radius < z + size && b.y + b.radius >= y && b.y - b.radius < y + size + above;
+           b.z - b.radius < z + size && b.y + b.radius >= y - below &&
+           b.y - b.radius < y + size + above;
   };
   std::copy_if(plan.solids.begin(), plan.solids.end(), std::back_inserter(solids_), near);
   std::copy_if(plan.holes.begin(), plan.holes.end(), std::back_inserter(holes_), near);
@@ -259,9 +263,11 @@ void Filler::paint_layer(int y, BlockId* out) {
 
 void Filler::fill() {
   gather();
-  for (int j = kPadded - 1 + kLookAbove; j >= 0; --j) {
+  for (int j = kPadded - 1 + kLookAbove; j >= -kLookBelow; --j) {
     const int y = block_of(canvas_.y0 + j);
-    BlockId* out = j < kPadded ? &out_[static_cast<std::size_t>(j) * kLayer] : nullptr;
+    BlockId* out = j >= kPadded ? nullptr
+                   : j < 0      ? ground_below_.data()
+                                : &out_[static_cast<std::size_t>(j) * kLayer];
     if (y >= high_ || y < low_) {
       if (out != nullptr) std::fill_n(out, kLayer, kAir);
       continue;
@@ -318,9 +324,10 @@ void Filler::plants() {
   const BiomeType& biome = plan_.biome();
   for (int i = 0; i < kLayer; ++i) {
     const int y = top_[i] - canvas_.y0;
-    if (y < 1 || y >= kPadded) continue;
+    if (y < 0 || y >= kPadded) continue;
     BlockId& voxel = out_[static_cast<std::size_t>(y) * kLayer + i];
-    const BlockId ground = out_[static_cast<std::size_t>(y - 1) * kLayer + i];
+    const BlockId ground = y > 0 ? out_[static_cast<std::size_t>(y - 1) * kLayer + i]
+                                 : ground_below_[static_cast<std::size_t>(i)];
     if (voxel != kAir) continue;
     if (ground != block::kGrass && ground != block::kDryGrass && ground != block::kMycelium &&
         ground != block::kRedSand)

@@ -44,18 +44,24 @@ int lerp12(int a, int b, int t) {
   return a + (((b - a) * t) >> 12);
 }
 
-}  // namespace
-
-std::uint32_t isqrt(std::uint64_t n) {
+/// Newton from above: the start is at least the root, and each step stays so until it stops
+/// falling.
+template <class Unsigned>
+std::uint32_t newton_root(Unsigned n) {
   if (n == 0) return 0;
-  // Newton from above: the start is at least the root, and each step stays so until it stops
-  // falling.
-  std::uint64_t root = std::uint64_t{1} << ((std::bit_width(n) + 1) / 2);
+  auto root = static_cast<Unsigned>(Unsigned{1} << ((std::bit_width(n) + 1) / 2));
   for (;;) {
-    const std::uint64_t next = (root + n / root) / 2;
+    const Unsigned next = (root + n / root) / 2;
     if (next >= root) return static_cast<std::uint32_t>(root);
     root = next;
   }
+}
+
+}  // namespace
+
+std::uint32_t isqrt(std::uint64_t n) {
+  // Short divisions are several times as fast as long ones, and nearly all lengths fit.
+  return n >> 32 == 0 ? newton_root(static_cast<std::uint32_t>(n)) : newton_root(n);
 }
 
 int sine(int angle) {

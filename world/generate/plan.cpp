@@ -94,8 +94,7 @@ void plan_arches(IslandPlan& plan) {
       const int to_foot = std::min(i, steps - i) * 4 / steps;  // 0 at the feet, 2 in the middle
       const int swell = noise::gradient2(plan.shape.seed + 91, i * noise::kOne8, 0, 9) *
                         arch.thickness / (4 * noise::kOne12);
-      const int top = std::min(y0 + (y1 - y0) * i / steps + bow,
-                               plan.shape.extent.top + kTreeRoom - kTreeHeight);
+      const int top = std::min(y0 + (y1 - y0) * i / steps + bow, plan.shape.extent.top);
       const int radius = std::max(2, arch.thickness + 1 - to_foot + swell);
       plan.solids.push_back({arch.x0 + (arch.x1 - arch.x0) * i / steps, top - radius,
                              arch.z0 + (arch.z1 - arch.z0) * i / steps, radius,
@@ -166,8 +165,8 @@ void plan_crystals(IslandPlan& plan) {
         if (!columns.has(x, z)) continue;
         const std::size_t i = columns.index(x, z);
         if (columns.ragged[i] > 0 || columns.inside[i] < 4) continue;
-        for (int d = -1; d < length && columns.bottom[i] - 1 - d >= -plan.shape.extent.depth - 6;
-             ++d) {
+        for (int d = -1;
+             d < length && columns.bottom[i] - 1 - d > -plan.shape.extent.depth - kKeelRoom; ++d) {
           plan.stamps.push_back({static_cast<std::int16_t>(x),
                                  static_cast<std::int16_t>(columns.bottom[i] - 1 - d),
                                  static_cast<std::int16_t>(z), crystal, d >= 0});

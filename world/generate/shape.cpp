@@ -198,8 +198,12 @@ Extent extent_of(Archetype archetype, int radius) {
                                       {60, 64}, {78, 84}, {72, 70}, {60, 120}, {50, 76}};
   static_assert(std::size(kShares) == static_cast<std::size_t>(Archetype::kCount));
   const Share share = kShares[static_cast<std::size_t>(archetype)];
-  return {radius, std::min(150, 12 + radius * share.top / 100),
-          std::min(210, 12 + radius * share.depth / 100)};
+  Extent extent{radius, std::min(150, 12 + radius * share.top / 100),
+                std::min(210, 12 + radius * share.depth / 100), 0};
+  const int tall = std::max(extent.top + kTreeRoom, extent.depth + kKeelRoom);
+  // Wide enough for cliffs a third as tall as the whole at the outline; the columns keep within it.
+  extent.sphere = std::max(tall, noise::length(radius + kBoxMargin, tall / 3)) + 3;
+  return extent;
 }
 
 Shape shape_of(const IslandSpec& spec) {

@@ -26,12 +26,15 @@ enum class Archetype : std::uint8_t {
 inline constexpr int kBoxMargin = 10;
 /// Room above the highest ground for trees and arches.
 inline constexpr int kTreeRoom = 30;
+/// Room below the deepest rock for hanging crystals.
+inline constexpr int kKeelRoom = 8;
 
 /// Limits of an island's rock, in blocks from the lattice origin.
 struct Extent {
   int radius;  ///< of the outline, horizontally
   int top;     ///< no ground is higher
   int depth;   ///< no rock is lower than -depth
+  int sphere;  ///< radius about the lattice origin that holds everything, trees and crystals too
 };
 Extent extent_of(Archetype archetype, int radius);
 

@@ -13,7 +13,7 @@ namespace skerry::world {
 namespace sideways {
 
 inline constexpr int kCell = 16;       ///< horizontal lattice spacing, blocks
-inline constexpr int kCellHeight = 6;  ///< vertical lattice spacing, blocks
+inline constexpr int kCellHeight = 8;  ///< vertical lattice spacing, blocks
 
 struct Shift {
   int x, z;  ///< Q12 share of the largest shift, -4096..4096

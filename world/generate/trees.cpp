@@ -98,7 +98,7 @@ class Painter {
       const int dy = y - 2 * cy;
       const int dz = z - 2 * cz;
       const int squared = (dx * dx + dz * dz) * 256 / (ax * ax) + dy * dy * 256 / (ay * ay);
-      return squared < 256 - roughness(x, y, z, 110);
+      return squared < 256 - roughness(x, y, z, 84);
     });
   }
 
@@ -184,8 +184,15 @@ void draw_palm(const Tree& tree, const Painter& paint) {
   const auto lean_at = [&](int y, int part) { return bend * part * y / h * y / h / noise::kOne12; };
   const int top_x = lean_at(h, noise::cosine(lean));
   const int top_z = lean_at(h, noise::sine(lean));
-  for (int y = 0; y <= h; ++y)
-    paint.log(lean_at(y, noise::cosine(lean)), y, lean_at(y, noise::sine(lean)));
+  for (int y = 0; y <= h; ++y) {
+    const int x = lean_at(y, noise::cosine(lean));
+    const int z = lean_at(y, noise::sine(lean));
+    const int x_before = lean_at(y - 1, noise::cosine(lean));
+    const int z_before = lean_at(y - 1, noise::sine(lean));
+    paint.log(x, y, z);
+    paint.log(x_before, y, z_before);  // where it leans over, logs meet face to face
+    paint.log(x_before, y, z);
+  }
   paint.ball(top_x, h + 1, top_z, 1, 0);
   const int r = tree.spread;
   paint.fill(kTreeReach, h - 3, h + 3, [&](int x, int y, int z) {
@@ -194,11 +201,11 @@ void draw_palm(const Tree& tree, const Painter& paint) {
     const int d = noise::length(dx, dz);
     if (d > 2 * r + 1) return false;
     const int droop = 2 * h + 3 - d * d / (3 * r);  // half blocks
-    if (std::abs(y - droop) > 1) return false;
+    if (std::abs(y - droop) > 2) return false;
     // On one of eight rays: along an axis or a diagonal.
     const int off_axis = std::min(std::abs(dx), std::abs(dz));
     const int off_diagonal = std::abs(std::abs(dx) - std::abs(dz));
-    return off_axis <= 1 || off_diagonal <= 1 || d <= 3;
+    return off_axis <= 1 || off_diagonal <= 2 || d <= 3;
   });
 }
 

@@ -25,7 +25,12 @@ inline constexpr int kVoxelStepX = kPaddedEdge;                // from a voxel t
 inline constexpr int kVoxelStepY = kPaddedEdge * kPaddedEdge;  // and to its +y neighbour
 
 /// Kinds as bits, so that a table lookup answers several questions at once.
-enum KindFlag : std::uint8_t { kFlagOpaque = 1, kFlagCutout = 2, kFlagTranslucent = 4, kFlagPlant = 8 };
+enum KindFlag : std::uint8_t {
+  kFlagOpaque = 1,
+  kFlagCutout = 2,
+  kFlagTranslucent = 4,
+  kFlagPlant = 8
+};
 inline constexpr std::uint8_t kFlagsSeeThrough = kFlagCutout | kFlagTranslucent | kFlagPlant;
 
 std::uint8_t kind_flag(BlockId id);
@@ -40,8 +45,8 @@ struct alignas(64) Plane {
 };
 
 struct Planes {
-  Plane opaque;                 // with shell
-  Plane above_z, below_z;       // the +z, -z neighbour is opaque; inner rows only
+  Plane opaque;            // with shell
+  Plane above_z, below_z;  // the +z, -z neighbour is opaque; inner rows only
   // Same id as the next voxel along the axis (from -1 along it) and, same_below_z, as the one
   // before. Only rows with a face to draw are kept up to date.
   Plane same_x, same_y, same_z, same_below_z;
@@ -63,10 +68,10 @@ struct ByteSet {
 
 /// What a voxel byte means.
 struct ByteTable {
-  alignas(64) std::array<std::uint8_t, 256> flags{};      // KindFlag
-  alignas(64) std::array<std::uint16_t, 256 + 2> ids{};   // block id; gathers read 4 bytes
+  alignas(64) std::array<std::uint8_t, 256> flags{};     // KindFlag
+  alignas(64) std::array<std::uint16_t, 256 + 2> ids{};  // block id; gathers read 4 bytes
   ByteSet opaque, see_through;
-  bool narrow = true;                                     // no byte in use reaches 64
+  bool narrow = true;  // no byte in use reaches 64
   void set(unsigned byte, BlockId id);
 };
 

@@ -21,8 +21,7 @@ SKERRY_MESH_TARGET inline std::uint64_t sign_bits(__m256i low, __m256i high) {
 }
 
 SKERRY_MESH_TARGET inline __m256i twice(const std::array<std::uint8_t, 16>& half) {
-  return _mm256_broadcastsi128_si256(
-      _mm_load_si128(reinterpret_cast<const __m128i*>(half.data())));
+  return _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(half.data())));
 }
 
 // Which bytes belong to a set: the low nibble picks a set of high nibbles, the high nibble a bit of

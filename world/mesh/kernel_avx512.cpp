@@ -17,7 +17,9 @@
 namespace skerry::world::mesh_detail {
 namespace {
 
-SKERRY_MESH_TARGET inline __m512i load(const void* bytes) { return _mm512_loadu_si512(bytes); }
+SKERRY_MESH_TARGET inline __m512i load(const void* bytes) {
+  return _mm512_loadu_si512(bytes);
+}
 
 // Looks up the kinds of 64 voxels at once.
 class RowReader {
@@ -63,8 +65,8 @@ SKERRY_MESH_TARGET inline std::uint64_t nonzero_words(const std::uint64_t* words
 SKERRY_MESH_TARGET inline void set_bytes(std::uint8_t* bytes, std::uint64_t mask,
                                          std::uint8_t value) {
   // Load, blend and store: a masked store would stall the load that follows.
-  const __m512i set = _mm512_mask_mov_epi8(load(bytes), mask,
-                                           _mm512_set1_epi8(static_cast<char>(value)));
+  const __m512i set =
+      _mm512_mask_mov_epi8(load(bytes), mask, _mm512_set1_epi8(static_cast<char>(value)));
   _mm512_storeu_si512(bytes, set);
 }
 
@@ -100,8 +102,8 @@ SKERRY_MESH_TARGET inline unsigned emit_lists(shared::Quad* out, const Emission&
   const __m512i mul_b = _mm512_set1_epi32(static_cast<int>(emission.mul_b));
   const __m512i mul_c = _mm512_set1_epi32(static_cast<int>(emission.mul_c));
   // Low half of a lane: geometry. High half: material.
-  const __m512i base = _mm512_set1_epi64(static_cast<long long>(
-      std::uint64_t{emission.face_bits} << 32 | emission.base));
+  const __m512i base = _mm512_set1_epi64(
+      static_cast<long long>(std::uint64_t{emission.face_bits} << 32 | emission.base));
   for (unsigned done = 0;;) {
     // The high halves of the products are 0, so 32-bit sums never touch the material.
     const __m512i from_a = _mm512_mullo_epi32(widen(a), mul_a);

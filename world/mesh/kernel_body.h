@@ -71,10 +71,10 @@ SKERRY_MESH_TARGET inline void build_same(const Voxels& voxels, Planes& planes) 
     alignas(64) std::uint64_t faces[kEdge];
     const std::uint64_t* opaque = planes.opaque.row(y);
     for (int x = 0; x < kEdge; x += kLanes) {
-      const Lanes surrounded =
-          lanes_anywhere(opaque + x + 1) & lanes_anywhere(opaque + x - 1) &
-          lanes(planes.opaque.row(y + 1) + x) & lanes(planes.opaque.row(y - 1) + x) &
-          lanes(planes.above_z.row(y) + x) & lanes(planes.below_z.row(y) + x);
+      const Lanes surrounded = lanes_anywhere(opaque + x + 1) & lanes_anywhere(opaque + x - 1) &
+                               lanes(planes.opaque.row(y + 1) + x) &
+                               lanes(planes.opaque.row(y - 1) + x) &
+                               lanes(planes.above_z.row(y) + x) & lanes(planes.below_z.row(y) + x);
       lanes(faces + x) = lanes(opaque + x) & ~surrounded;
     }
     for (std::uint64_t rows = nonzero_words(faces); rows != 0; rows &= rows - 1) {
@@ -140,22 +140,34 @@ struct Sweep {
   // Words that hide the faces of row (0, y).
   const std::uint64_t* opaque_neighbour(int y) const {
     switch (face) {
-      case 0: return planes.opaque.row(y) + 1;
-      case 1: return planes.opaque.row(y) - 1;
-      case 2: return planes.opaque.row(y + 1);
-      case 3: return planes.opaque.row(y - 1);
-      case 4: return planes.above_z.row(y);
-      default: return planes.below_z.row(y);
+      case 0:
+        return planes.opaque.row(y) + 1;
+      case 1:
+        return planes.opaque.row(y) - 1;
+      case 2:
+        return planes.opaque.row(y + 1);
+      case 3:
+        return planes.opaque.row(y - 1);
+      case 4:
+        return planes.above_z.row(y);
+      default:
+        return planes.below_z.row(y);
     }
   }
   const std::uint64_t* same_neighbour(int y) const {
     switch (face) {
-      case 0: return planes.same_x.row(y);
-      case 1: return planes.same_x.row(y) - 1;
-      case 2: return planes.same_y.row(y);
-      case 3: return planes.same_y.row(y - 1);
-      case 4: return planes.same_z.row(y);
-      default: return planes.same_below_z.row(y);
+      case 0:
+        return planes.same_x.row(y);
+      case 1:
+        return planes.same_x.row(y) - 1;
+      case 2:
+        return planes.same_y.row(y);
+      case 3:
+        return planes.same_y.row(y - 1);
+      case 4:
+        return planes.same_z.row(y);
+      default:
+        return planes.same_below_z.row(y);
     }
   }
 };
@@ -256,7 +268,8 @@ SKERRY_MESH_TARGET inline void sweep_x(Sweep& sweep) {
     }
     shared::Quad* out = sweep.sink.reserve(kEdge * kEdge);
     const shared::Quad* const begin = out;
-    Emission emission(*sweep.voxels.table, sweep.face, 64u - (1u << 24), 4096u - (1u << 18), 1u << 18);
+    Emission emission(*sweep.voxels.table, sweep.face, 64u - (1u << 24), 4096u - (1u << 18),
+                      1u << 18);
     for (std::uint64_t rows = nonzero_words(step.visit); rows != 0; rows &= rows - 1) {
       const int x = __builtin_ctzll(rows);
       set_bytes(first_y[x], step.begun[x], static_cast<std::uint8_t>(y));
@@ -296,7 +309,8 @@ SKERRY_MESH_TARGET inline void sweep_y(Sweep& sweep) {
     }
     shared::Quad* out = sweep.sink.reserve(kEdge * kEdge);
     const shared::Quad* const begin = out;
-    Emission emission(*sweep.voxels.table, sweep.face, 1u - (1u << 18), 4096u - (1u << 24), 1u << 24);
+    Emission emission(*sweep.voxels.table, sweep.face, 1u - (1u << 18), 4096u - (1u << 24),
+                      1u << 24);
     for (std::uint64_t rows = nonzero_words(step.visit); rows != 0; rows &= rows - 1) {
       const int x = __builtin_ctzll(rows);
       set_bytes(first_x, step.begun[x], static_cast<std::uint8_t>(x));
@@ -374,14 +388,21 @@ SKERRY_MESH_TARGET Extent mesh_face(const Planes& planes, const Plane& kind, boo
                                     unsigned face, const Voxels& voxels, QuadSink& sink) {
   Sweep sweep{planes, kind, own_id_hides, face, voxels, sink, {}};
   switch (face / 2) {
-    case 0: sweep_x(sweep); break;
-    case 1: sweep_y(sweep); break;
-    default: sweep_z(sweep); break;
+    case 0:
+      sweep_x(sweep);
+      break;
+    case 1:
+      sweep_y(sweep);
+      break;
+    default:
+      sweep_z(sweep);
+      break;
   }
   return sweep.extent;
 }
 
-SKERRY_MESH_TARGET bool narrow(std::span<const BlockId> ids, std::uint8_t* bytes, BlockId& largest) {
+SKERRY_MESH_TARGET bool narrow(std::span<const BlockId> ids, std::uint8_t* bytes,
+                               BlockId& largest) {
   unsigned seen = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     bytes[i] = static_cast<std::uint8_t>(ids[i]);

@@ -173,11 +173,16 @@ namespace mesh_detail {
 
 std::uint8_t kind_flag(BlockId id) {
   switch (block_kind(id)) {
-    case BlockKind::kOpaque: return kFlagOpaque;
-    case BlockKind::kCutout: return kFlagCutout;
-    case BlockKind::kTranslucent: return kFlagTranslucent;
-    case BlockKind::kPlant: return kFlagPlant;
-    case BlockKind::kAir: break;
+    case BlockKind::kOpaque:
+      return kFlagOpaque;
+    case BlockKind::kCutout:
+      return kFlagCutout;
+    case BlockKind::kTranslucent:
+      return kFlagTranslucent;
+    case BlockKind::kPlant:
+      return kFlagPlant;
+    case BlockKind::kAir:
+      break;
   }
   return 0;
 }

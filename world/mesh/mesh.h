@@ -15,7 +15,8 @@ struct ChunkMesh {
   std::vector<shared::Quad> quads;
   std::array<std::uint32_t, shared::kRangeCount> range_end{};
   std::array<std::uint8_t, 3> bounds_min{};  ///< tight box of the faces in voxels, 0..64
-  std::array<std::uint8_t, 3> bounds_max{};  ///< its upper corner; a lone flat face gives a flat box
+  std::array<std::uint8_t, 3>
+      bounds_max{};  ///< its upper corner; a lone flat face gives a flat box
 };
 
 /// Working memory of mesh_chunk; one a thread, reused between calls.

@@ -1,0 +1,25 @@
+#pragma once
+#include "engine/gpu/frame_graph.h"
+
+namespace skerry::render {
+
+/// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may be of both kinds.
+struct Tiles {
+  gpu::BufferRef dispatches;  ///< shared::TileDispatch[2]
+  gpu::BufferRef lists;       ///< uint[2][tile]
+};
+
+enum class TileKind : std::uint32_t { kCovered = 0, kOpen = 1 };
+
+/// Sorts tiles by whether any of their pixels has, or has not, a surface word.
+/// @param words R32_UINT, 0 where there is nothing. @param name of the pass.
+Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const char* name,
+                     gpu::ImageRef words, VkExtent2D size);
+
+/// Declares what dispatch_tiles() uses.
+void declare_tiles(gpu::PassBuilder& builder, const Tiles& tiles);
+
+/// Runs the bound pipeline, one that includes tiles.glsl, on the tiles of one kind.
+void dispatch_tiles(gpu::Commands& commands, const Tiles& tiles, TileKind kind);
+
+}  // namespace skerry::render

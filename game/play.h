@@ -1,0 +1,17 @@
+#pragma once
+#include <volk.h>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/platform/window.h"
+#include "game/options.h"
+
+namespace skerry::game {
+
+/// The main loop: plays in a window until it is closed. Keys: docs/controls.md.
+/// @param surface of the window, made with the device's instance; the caller destroys it
+/// afterwards. Errors: the device cannot present to the window, or runs out of memory.
+Result<void> play(platform::Window& window, gpu::Device& device, VkSurfaceKHR surface,
+                  const SceneOptions& options);
+
+}  // namespace skerry::game

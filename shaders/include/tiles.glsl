@@ -1,0 +1,20 @@
+// Which pixel an invocation of a tile-listed pass works on (classify_tiles.comp). Needs before the include: `frame`.
+#ifndef SKERRY_TILES_GLSL
+#define SKERRY_TILES_GLSL
+
+layout(scalar, binding = 20) readonly buffer Tiles { uint tiles[]; };
+layout(scalar, binding = 21) readonly buffer Dispatches { TileDispatch dispatches[2]; };
+layout(push_constant) uniform Push { uint kind; } push;  // of tiles: 0 covered, 1 open
+
+// @return false where there is no such tile or the picture has no such pixel; `pixel` is then some valid pixel.
+bool tile_pixel(out uvec2 pixel) {
+  uvec2 count = (frame.size + 7u) / 8u;
+  uint slot = gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x;
+  bool here = slot < dispatches[push.kind].tiles;
+  uint tile = tiles[push.kind * count.x * count.y + (here ? slot : 0u)];
+  pixel = uvec2(tile % count.x, tile / count.x) * 8u + gl_LocalInvocationID.xy;
+  here = here && all(lessThan(pixel, frame.size));
+  pixel = min(pixel, frame.size - 1u);
+  return here;
+}
+#endif

@@ -1,0 +1,74 @@
+#include "game/controls.h"
+
+#include <gtest/gtest.h>
+
+namespace skerry::game {
+namespace {
+
+using platform::Input;
+using platform::Key;
+
+TEST(Controls, OppositeKeysCancel) {
+  Input input;
+  for (const Key key : {Key::kW, Key::kS, Key::kD}) input.set_key(key, true);
+  EXPECT_EQ(intent_of(input.take()).move, glm::dvec2(1.0, 0.0));
+}
+
+TEST(Controls, AJumpTappedBetweenFramesStillJumps) {
+  Input input;
+  input.set_key(Key::kSpace, true);
+  input.set_key(Key::kSpace, false);
+  EXPECT_TRUE(intent_of(input.take()).jump);
+  EXPECT_FALSE(intent_of(input.take()).jump);
+}
+
+TEST(Controls, ThePointerTurnsTheHeadTheWayItMoves) {
+  Player player({}, 0.0, 0.0, 0.0);
+  Input input;
+  input.move_pointer({0.0, 0.0});
+  input.move_pointer({10.0, 20.0});  // right and down
+  look(player, input.take(), 70.0);
+  class Nothing : public Surroundings {
+    void islands_near(world::WorldPos, double, double,
+                      std::vector<std::uint64_t>& out) const override {
+      out.clear();
+    }
+    std::optional<world::Pose> pose(std::uint64_t, double) const override { return std::nullopt; }
+    std::optional<world::BlockId> block(std::uint64_t, world::IVec3) const override {
+      return std::nullopt;
+    }
+  } nothing;
+  EXPECT_LT(player.eye(nothing).yaw_deg, 0.0);    // right of south is west: yaw falls
+  EXPECT_LT(player.eye(nothing).pitch_deg, 0.0);  // down
+}
+
+TEST(Controls, ViewDistanceStepsStayInRangeAndComeBack) {
+  EXPECT_EQ(stepped_view_distance(1000, 1), 1250u);
+  EXPECT_EQ(stepped_view_distance(1250, -1), 1000u);
+  EXPECT_EQ(stepped_view_distance(40, -9), kMinViewDistance);
+  EXPECT_EQ(stepped_view_distance(16000, 9), kMaxViewDistance);
+  EXPECT_GT(stepped_view_distance(kMinViewDistance, 1), kMinViewDistance);
+}
+
+TEST(Controls, QualityStepsStopAtTheEnds) {
+  EXPECT_EQ(stepped_quality(Quality::kLow, -1), Quality::kLow);
+  EXPECT_EQ(stepped_quality(Quality::kLow, 1), Quality::kMedium);
+  EXPECT_EQ(stepped_quality(Quality::kUltra, 1), Quality::kUltra);
+}
+
+TEST(DayClock, ShowsTheGivenTimeUntilTurnedThenWholeStepsAroundMidnight) {
+  DayClock clock(86399);
+  clock.turn(1.5);
+  EXPECT_EQ(clock.time_of_day_s(), 0);
+  clock.turn(-2.0);
+  EXPECT_EQ(clock.time_of_day_s(), 86390);
+  DayClock still(45296);
+  EXPECT_EQ(still.time_of_day_s(), 45296);
+  still.turn(5.0);
+  EXPECT_EQ(still.time_of_day_s(), 45296);
+  for (int i = 0; i < 600; ++i) still.turn(1.0 / 6.0);
+  EXPECT_EQ(still.time_of_day_s(), 45400);
+}
+
+}  // namespace
+}  // namespace skerry::game

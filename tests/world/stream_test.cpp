@@ -1,0 +1,320 @@
+#include "world/stream.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "world/generate/generate.h"
+
+namespace skerry::world {
+namespace {
+
+constexpr std::size_t kAllQuads = ~std::size_t{0};
+
+/// What a consumer of the updates holds, with the rules of StreamUpdate checked.
+class Consumer {
+ public:
+  void take(StreamUpdate update) {
+    for (const SectionKey& key : update.removed) {
+      EXPECT_EQ(held_.erase(key), 1u) << "removed a section that was not there";
+    }
+    for (ReadySection& section : update.ready) {
+      EXPECT_FALSE(section.mesh.quads.empty());
+      order_.push_back(section.key);
+      EXPECT_TRUE(held_.emplace(section.key, std::move(section.mesh)).second) << "added twice";
+    }
+  }
+  const std::map<SectionKey, ChunkMesh>& held() const { return held_; }
+  const std::vector<SectionKey>& order() const { return order_; }
+  std::set<std::int32_t> levels_of(std::uint64_t island) const {
+    std::set<std::int32_t> levels;
+    for (const auto& [key, mesh] : held_) {
+      if (key.island == island) levels.insert(key.level);
+    }
+    return levels;
+  }
+  std::set<std::uint64_t> islands() const {
+    std::set<std::uint64_t> ids;
+    for (const auto& [key, mesh] : held_) ids.insert(key.island);
+    return ids;
+  }
+
+ private:
+  std::map<SectionKey, ChunkMesh> held_;
+  std::vector<SectionKey> order_;
+};
+
+bool same_mesh(const ChunkMesh& a, const ChunkMesh& b) {
+  return a.range_end == b.range_end && a.bounds_min == b.bounds_min &&
+         a.bounds_max == b.bounds_max &&
+         std::equal(a.quads.begin(), a.quads.end(), b.quads.begin(), b.quads.end(),
+                    [](const shared::Quad& p, const shared::Quad& q) {
+                      return p.geometry == q.geometry && p.material == q.material;
+                    });
+}
+
+void expect_same(const std::map<SectionKey, ChunkMesh>& a,
+                 const std::map<SectionKey, ChunkMesh>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), [](const auto& p, const auto& q) {
+    return p.first == q.first && same_mesh(p.second, q.second);
+  }));
+}
+
+/// A camera at the home island of seed 1, and distances small enough for a test.
+struct Scene {
+  WorldDesc desc{.seed = 1};
+  StreamView view;
+  StreamSettings settings{.view_distance_blocks = 320.0, .detail_distance_blocks = 40.0};
+  explicit Scene(const WorldDesc& world_desc = {.seed = 1}) : desc(world_desc) {
+    const World world(desc);
+    view.camera = moved(world.origin(), {0.0, 60.0, 0.0});
+  }
+};
+
+Consumer load(const Scene& scene, int threads) {
+  World world(scene.desc);
+  Jobs jobs(threads);
+  Streamer streamer(world, jobs);
+  streamer.update(scene.view, scene.settings);
+  streamer.wait_until_complete();
+  Consumer consumer;
+  consumer.take(streamer.poll(kAllQuads));
+  EXPECT_TRUE(streamer.complete());
+  return consumer;
+}
+
+/// Runs frames until all is handed out.
+void finish(Streamer& streamer, Consumer& consumer) {
+  streamer.wait_until_complete();
+  while (!streamer.complete()) consumer.take(streamer.poll(kAllQuads));
+}
+
+TEST(StreamLevel, DoublesWithDistance) {
+  EXPECT_EQ(level_at(-50.0, 100.0), 0);  // inside the sphere
+  EXPECT_EQ(level_at(99.9, 100.0), 0);
+  EXPECT_EQ(level_at(100.0, 100.0), 1);
+  EXPECT_EQ(level_at(199.9, 100.0), 1);
+  EXPECT_EQ(level_at(200.0, 100.0), 2);
+  EXPECT_EQ(level_at(400.0, 100.0), 3);
+  EXPECT_EQ(level_at(800.0, 100.0), 4);
+  EXPECT_EQ(level_at(1e9, 100.0), 4);
+}
+
+TEST(Stream, DeliversWhatTheGeneratorAndTheMesherGive) {
+  const Scene scene;
+  const Consumer consumer = load(scene, 2);
+  World world(scene.desc);
+  std::map<SectionKey, ChunkMesh> expected;
+  MeshScratch scratch;
+  std::vector<BlockId> padded(kPaddedVoxels);
+  const double reach = scene.settings.view_distance_blocks;
+  for (const IslandSpec& spec : world.islands_near(scene.view.camera, reach, 0.0)) {
+    const glm::dvec3 away = difference_blocks(pose_at(spec, 0.0).origin, scene.view.camera);
+    const double distance = std::sqrt(glm::dot(away, away)) - spec.bounding_radius;
+    const int level = level_at(distance, scene.settings.detail_distance_blocks);
+    const IslandGenerator generator(spec);
+    for (const IVec3& chunk : generator.chunks(level)) {
+      generator.generate_padded(chunk, level, padded);
+      ChunkMesh mesh;
+      mesh_chunk(padded, scratch, mesh);
+      if (!mesh.quads.empty()) expected[{spec.id, chunk, level}] = std::move(mesh);
+    }
+  }
+  EXPECT_GT(consumer.islands().size(), 1u);
+  expect_same(consumer.held(), expected);
+}
+
+TEST(Stream, OrderAndContentDoNotDependOnThreads) {
+  const Scene scene;
+  const Consumer one = load(scene, 1), eight = load(scene, 8);
+  EXPECT_GT(one.held().size(), 20u);
+  EXPECT_EQ(one.order(), eight.order());
+  expect_same(one.held(), eight.held());
+}
+
+TEST(Stream, AWorldOffsetChangesNothing) {
+  const Scene near,
+      far({.seed = 1, .offset_blocks = {std::int64_t{1} << 40, 0, -(std::int64_t{1} << 24)}});
+  expect_same(load(near, 2).held(), load(far, 2).held());
+}
+
+TEST(Stream, AnEmptyWorldIsCompleteAtOnce) {
+  const Scene scene({.seed = 1, .island_limit = 0});
+  EXPECT_TRUE(load(scene, 2).held().empty());
+}
+
+TEST(Stream, TheQuadBudgetHoldsUpToOneSection) {
+  const Scene scene;
+  World world(scene.desc);
+  Jobs jobs(2);
+  Streamer streamer(world, jobs);
+  streamer.update(scene.view, scene.settings);
+  streamer.wait_until_complete();
+  constexpr std::size_t kBudget = 5000;
+  Consumer consumer;
+  for (int frame = 0; !streamer.complete(); ++frame) {
+    ASSERT_LT(frame, 10000);
+    StreamUpdate update = streamer.poll(kBudget);
+    ASSERT_FALSE(update.ready.empty());
+    std::size_t before_last = 0;
+    for (std::size_t i = 0; i + 1 < update.ready.size(); ++i) {
+      before_last += update.ready[i].mesh.quads.size();
+    }
+    EXPECT_LT(before_last, kBudget);
+    consumer.take(std::move(update));
+  }
+  expect_same(consumer.held(), load(scene, 2).held());
+}
+
+TEST(Stream, ALevelIsReplacedInOneUpdate) {
+  Scene scene;
+  scene.desc.island_limit = 1;
+  World world(scene.desc);
+  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
+  Jobs jobs(4);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  streamer.update(scene.view, scene.settings);
+  finish(streamer, consumer);
+  EXPECT_EQ(consumer.levels_of(home), std::set<std::int32_t>{0});
+  scene.settings.detail_distance_blocks = 0.0;  // everything at the coarsest level
+  const glm::dvec3 out{0.0, 400.0, 0.0};
+  scene.settings.view_distance_blocks = 1000.0;
+  scene.view.camera = moved(scene.view.camera, out);
+  std::set<std::int32_t> seen;
+  for (bool done = false; !done;) {
+    streamer.update(scene.view, scene.settings);
+    done = streamer.complete();
+    consumer.take(streamer.poll(1));
+    const std::set<std::int32_t> levels = consumer.levels_of(home);
+    ASSERT_EQ(levels.size(), 1u) << "the island was torn";
+    seen.insert(*levels.begin());
+  }
+  EXPECT_EQ(seen, (std::set<std::int32_t>{0, 4}));
+  expect_same(consumer.held(), load(scene, 1).held());
+}
+
+TEST(Stream, FlyingAwayRemovesAndReturningRestores) {
+  const Scene scene;
+  World world(scene.desc);
+  Jobs jobs(4);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  StreamView view = scene.view;
+  streamer.update(view, scene.settings);
+  finish(streamer, consumer);
+  EXPECT_GT(world.usage().chunks, 0u);
+  view.camera = moved(view.camera, {0.0, 3000.0, 0.0});
+  streamer.update(view, scene.settings);
+  finish(streamer, consumer);
+  EXPECT_TRUE(consumer.held().empty());
+  EXPECT_EQ(world.usage().chunks, 0u);
+  streamer.update(scene.view, scene.settings);
+  finish(streamer, consumer);
+  expect_same(consumer.held(), load(scene, 1).held());
+}
+
+TEST(Stream, AHurriedFlightEndsWithNothingButWhatIsNear) {
+  const Scene scene;
+  World world(scene.desc);
+  Jobs jobs(4);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  StreamView view = scene.view;
+  for (int frame = 0; frame < 60; ++frame) {  // work is cancelled all the time
+    view.camera = moved(view.camera, {37.0, 0.0, 11.0});
+    streamer.update(view, scene.settings);
+    consumer.take(streamer.poll(20000));
+  }
+  finish(streamer, consumer);
+  // Hysteresis may keep an island up to 5% beyond; nothing within may be missing.
+  for (const IslandSpec& spec : world.islands_near(view.camera, 320.0, 0.0)) {
+    EXPECT_TRUE(consumer.islands().contains(spec.id));
+  }
+  std::set<std::uint64_t> allowed;
+  for (const IslandSpec& spec : world.islands_near(view.camera, 320.0 * 1.06, 0.0)) {
+    allowed.insert(spec.id);
+  }
+  for (const std::uint64_t id : consumer.islands()) EXPECT_TRUE(allowed.contains(id));
+}
+
+TEST(Stream, DriftBringsIslandsIn) {
+  // Find an island whose distance at rest and at another time lie on both sides of a limit.
+  const World world({.seed = 1});
+  const WorldPos camera = world.origin();
+  const IslandSpec far = world.islands_near(camera, 500.0, 0.0).back();
+  const auto distance = [&](double time_s) {
+    const glm::dvec3 away = difference_blocks(pose_at(far, time_s).origin, camera);
+    return std::sqrt(glm::dot(away, away)) - far.bounding_radius;
+  };
+  double nearest = distance(0.0), nearest_time = 0.0;
+  for (double time = 0.0; time < far.drift_period_s; time += 1.0) {
+    if (distance(time) < nearest) nearest = distance(nearest_time = time);
+  }
+  ASSERT_LT(nearest + 0.5, distance(0.0));
+  const StreamSettings settings{.view_distance_blocks = nearest + 0.25,
+                                .detail_distance_blocks = 1.0};
+  Scene scene;
+  scene.settings = settings;
+  scene.view.camera = camera;
+  EXPECT_FALSE(load(scene, 4).islands().contains(far.id));
+  scene.view.time_s = nearest_time;
+  EXPECT_TRUE(load(scene, 4).islands().contains(far.id));
+}
+
+TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
+  Scene scene;
+  scene.desc.island_limit = 1;
+  World world(scene.desc);
+  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
+  Jobs jobs(2);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  streamer.update(scene.view, scene.settings);
+  finish(streamer, consumer);
+  // Dig out the first solid voxel found on a chunk's border, and put a lamp high in the air.
+  IVec3 solid{63, 0, 0};
+  for (solid.y = 80; world.block_at(home, solid).value_or(kAir) == kAir; --solid.y) {
+    ASSERT_GT(solid.y, -300);
+  }
+  ASSERT_TRUE(world.set_block(home, solid, kAir));
+  ASSERT_TRUE(world.set_block(home, {5, 640, 5}, block::kLamp));
+  EXPECT_EQ(world.block_at(home, solid), kAir);
+  streamer.update(scene.view, scene.settings);
+  EXPECT_FALSE(streamer.complete());
+  streamer.wait_until_complete();
+  StreamUpdate update = streamer.poll(kAllQuads);
+  std::set<IVec3> changed;
+  for (const ReadySection& section : update.ready) changed.insert(section.key.chunk);
+  EXPECT_TRUE(changed.contains(chunk_of(solid)));
+  EXPECT_TRUE(changed.contains(chunk_of({64, solid.y, 0})));
+  EXPECT_TRUE(changed.contains(IVec3{0, 10, 0}));
+  consumer.take(std::move(update));
+  EXPECT_EQ(consumer.held().at({home, {0, 10, 0}, 0}).quads.size(), 6u);  // a lone cube
+  // Removing the lamp removes its section.
+  ASSERT_TRUE(world.set_block(home, {5, 640, 5}, kAir));
+  streamer.update(scene.view, scene.settings);
+  finish(streamer, consumer);
+  EXPECT_FALSE(consumer.held().contains({home, {0, 10, 0}, 0}));
+}
+
+TEST(Stream, DestructionInTheMiddleOfWorkIsClean) {
+  const Scene scene;
+  World world(scene.desc);
+  Jobs jobs(4);
+  for (std::size_t chunks = 0; chunks < 12; chunks += 2) {
+    Streamer streamer(world, jobs);
+    streamer.update(scene.view, scene.settings);
+    while (streamer.stats().chunks_made < chunks) std::this_thread::yield();
+    EXPECT_GT(streamer.stats().tasks_left, 0u);
+  }
+  jobs.wait();
+}
+
+}  // namespace
+}  // namespace skerry::world

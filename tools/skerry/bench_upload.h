@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace skerry::tools {
+
+struct BenchUploadOptions {
+  std::optional<std::uint32_t> device;
+  bool validate = false;
+  std::optional<std::filesystem::path> json;
+};
+
+/// Times 8 MiB through each way of gpu::Uploader, once in writes of the sizes chunk meshes have and
+/// once in 64 KiB pieces. Rows: device, path, writes_of, writes, bytes, then for record (CPU:
+/// queueing and recording), gpu, and total (from the first write until the GPU is done) ms_median,
+/// ms_p10, ms_p90; gb_per_s of total and of gpu (null where the GPU does nothing).
+/// @return exit status.
+int bench_upload(const BenchUploadOptions& options);
+
+}  // namespace skerry::tools
