@@ -81,6 +81,8 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(SectionTransform, z)),
       STRUCT(CullStats, MEMBER(CullStats, sections_in), MEMBER(CullStats, sections_passed),
              MEMBER(CullStats, draws), MEMBER(CullStats, quads)),
+      STRUCT(TileDispatch, MEMBER(TileDispatch, groups_x), MEMBER(TileDispatch, groups_y),
+             MEMBER(TileDispatch, groups_z), MEMBER(TileDispatch, tiles)),
       STRUCT(PixelStats, MEMBER(PixelStats, non_finite), MEMBER(PixelStats, black)),
       STRUCT(SkyBody, MEMBER(SkyBody, to_body), MEMBER(SkyBody, perez_a), MEMBER(SkyBody, perez_b),
              MEMBER(SkyBody, perez_c), MEMBER(SkyBody, perez_d), MEMBER(SkyBody, perez_e),
