@@ -314,6 +314,23 @@ TEST(Mesh, CheckerboardMergesNothing) {
   EXPECT_EQ(mesher.mesh().quads.size(), kChunkVoxels / 2 * 6);
 }
 
+TEST(Mesh, ALoneFlatFaceHasAFlatBox) {
+  // Solid everywhere but for one layer of the shell: one 64 x 64 face, at 64 or at 0.
+  Mesher mesher;
+  for (std::size_t face = 0; face < 6; ++face) {
+    const std::size_t axis = face / 2;
+    const int open = face % 2 == 0 ? 64 : -1;
+    Padded chunk;
+    chunk.fill([&](int x, int y, int z) {
+      return std::array{x, y, z}[axis] == open ? kAir : BlockId{block::kStone};
+    });
+    mesher.check(chunk);
+    EXPECT_EQ(mesher.mesh().quads.size(), 1u);
+    EXPECT_EQ(mesher.mesh().bounds_min[axis], std::max(open, 0));
+    EXPECT_EQ(mesher.mesh().bounds_max[axis], std::max(open, 0));
+  }
+}
+
 TEST(Mesh, NeighbourAcrossTheBorderHidesAFace) {
   Padded chunk;
   chunk.at(63, 0, 63) = block::kStone;

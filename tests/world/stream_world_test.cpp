@@ -150,6 +150,16 @@ TEST(World, EditsOutliveTheirChunk) {
   EXPECT_TRUE(world.take_edits().empty());
 }
 
+TEST(World, AChunkMadeBeforeAnEditIsKeptWithIt) {
+  World world({.seed = 4});
+  const IslandSpec home = home_of(world);
+  const Chunk made_before(block::kStone);
+  ASSERT_TRUE(world.set_block(home.id, {-1, 2, 3}, block::kLamp));
+  world.keep_chunk(home.id, {-1, 0, 0}, made_before);
+  EXPECT_EQ(world.block_at(home.id, {-1, 2, 3}), block::kLamp);
+  EXPECT_EQ(world.block_at(home.id, {-2, 2, 3}), block::kStone);
+}
+
 TEST(World, EditsShowInShellsAndAtTheCentreOfCoarseVoxels) {
   World world({.seed = 4});
   const IslandSpec home = home_of(world);
