@@ -9,6 +9,8 @@
 #include <glm/mat3x3.hpp>
 #include <numbers>
 
+#include "engine/render/cascades.h"
+
 namespace skerry::render {
 namespace {
 
@@ -66,6 +68,12 @@ glm::dvec2 zenith_chromaticity(double theta) {
   return {value(kRows[0]), value(kRows[1])};
 }
 
+/// The paper's model under a body above 13 degrees. Its fit turns pale and brown under a lower one,
+/// so from 13 down to -3 degrees a twilight takes over and carries on: a dome overhead, a band all
+/// around the horizon and a fire about the body's azimuth. All follow zenith_radiance(), so they
+/// fade smoothly and end at -18 degrees. About the horizon by day lies a bright haze, and what is
+/// looked down into is lit by the same sky. These colours were chosen by eye, behind the tone
+/// curve.
 /// @param light the body's light over the sun's at the same altitude, linear RGB.
 shared::SkyBody sky_body(glm::dvec3 to_body, glm::dvec3 light) {
   shared::SkyBody body;
@@ -136,15 +144,22 @@ shared::SkyConstants sky_constants(const Celestial& sky) {
   // moonlit land shall stand out from its sky.
   constexpr glm::dvec3 kMoonSky{0.62, 0.50, 0.42};
   c.moon = sky_body(sky.to_moon, kMoonSky * moonlight(sky.moon_phase));
-  // The mean of mu^a over a disc is 2 / (2 + a): with it, the darkened disc sends the sun's whole
+  // A linear law's mean over the disc is 1 - u / 3: the darkened disc sends the sun's whole
   // irradiance.
-  constexpr glm::dvec3 kLimb{0.397, 0.503, 0.652};
-  const double disc = kPi * std::pow(std::sin(static_cast<double>(shared::kDiscRadius)), 2.0);
-  c.sun_disc = kPi / disc * (1.0 + 0.5 * kLimb) * transmittance_to_zenith(sky.to_sun.y);
+  const glm::dvec3 limb(shared::kLimbRed, shared::kLimbGreen, shared::kLimbBlue);
+  const double sine = std::sin(static_cast<double>(shared::kDiscRadius));
+  c.sun_disc = transmittance_to_zenith(sky.to_sun.y) / (sine * sine * (1.0 - limb / 3.0));
   // By day the moon's ground is an eighth of white (its albedo); at night, as an eye would, it is
   // seen darker, or no display could show its face.
   const double night = 1.0 - smooth_step(-12.0, 2.0, altitude_deg(sky.to_sun.y));
   c.moon_disc = glm::mix(0.12, 0.013, night) * transmittance_to_zenith(sky.to_moon.y);
+  const std::array<glm::dvec3, 3> sun = light_axes(sky.to_sun), moon = light_axes(sky.to_moon);
+  c.sun_right = sun[0] / sine;
+  c.sun_up = sun[1] / sine;
+  c.moon_right = moon[0] / sine;
+  c.moon_up = moon[1] / sine;
+  c.moon_lit = glm::dvec3(glm::dot(moon[0], sky.to_sun), glm::dot(moon[1], sky.to_sun),
+                          -glm::dot(sky.to_moon, sky.to_sun));
   const glm::mat3 rows = glm::transpose(sky.sky_from_world);
   c.sky_x = rows[0];
   c.sky_y = rows[1];

@@ -1,6 +1,7 @@
 #include "engine/render/tiles.h"
 
 #include <cstddef>
+#include <string>
 
 #include "shaders/shared/frame.h"
 
@@ -18,7 +19,7 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
   out.lists = graph.create(gpu::BufferDesc{"tile lists", std::uint64_t{2} * columns * rows * 4, 0,
                                            gpu::Memory::kDevice});
   graph.add_pass(
-      "clear_tiles",
+      std::string(name) + "_clear",
       [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
       [dispatches = out.dispatches](gpu::Commands& c) {
         for (std::uint64_t kind = 0; kind < 2; ++kind) {

@@ -1,6 +1,5 @@
-// The sky's light: the daylight model, its table, the discs of sun and moon. Units and axes:
-// docs/conventions.md. sky_radiance() is the twin of engine/render/sky_model.cpp, where the sources
-// are named; a test compares them.
+// The daylight model and its table. Units and axes: docs/conventions.md. sky_radiance() is the twin
+// of engine/render/sky_model.cpp, where the sources are named; a test compares them.
 #ifndef SKERRY_SKY_GLSL
 #define SKERRY_SKY_GLSL
 #include "shared/sky.h"
@@ -68,84 +67,12 @@ vec3 sample_sky(sampler2D lut, vec3 dir) {
   return textureLod(lut, (sky_lut_from_dir(dir) * (size - 1.0) + 0.5) / size, 0.0).rgb;
 }
 
-// Where dir meets a disc about `centre`: x to the celestial west, y to the pole, in disc radii; z
-// the depth of the near half of its sphere, 0 at the limb.
-vec3 disc_place(vec3 dir, vec3 centre, vec3 pole) {
-  vec3 right = normalize(cross(pole, centre));
-  vec2 p = vec2(dot(dir, right), dot(dir, cross(centre, right))) / sin(kDiscRadius);
-  return vec3(p, sqrt(max(0.0, 1.0 - dot(p, p))));
-}
-
-// Share of a pixel that the disc at disc_place p fills.
-float disc_cover(vec3 p, float pixel_angle) {
-  return clamp((1.0 - length(p.xy)) * (kDiscRadius / pixel_angle) + 0.5, 0.0, 1.0);
-}
-
-// The lower sky's mist swallows what stands in it.
-float above_horizon(vec3 dir) {
-  return smoothstep(-0.015, 0.010, dir.y);
-}
-
-// Smooth noise on a lattice, 0..1; a hash of integers, so every device makes the same moon.
+// A hash of integers, so that every device makes the same stars.
 uint sky_hash(uvec3 v) {
   uint h = v.x * 1664525u + v.y * 1013904223u + v.z * 374761393u;
   h = (h ^ (h >> 15)) * 2246822519u;
   h = (h ^ (h >> 13)) * 3266489917u;
   return h ^ (h >> 16);
-}
-
-float sky_noise(vec3 p) {
-  vec3 cell = floor(p);
-  vec3 f = p - cell;
-  f = f * f * (3.0 - 2.0 * f);
-  uvec3 c = uvec3(ivec3(cell));
-  float sum = 0.0;
-  for (uint i = 0u; i < 8u; ++i) {
-    uvec3 corner = uvec3(i & 1u, (i >> 1) & 1u, i >> 2);
-    vec3 w = mix(1.0 - f, f, vec3(corner));
-    sum += w.x * w.y * w.z * float(sky_hash(c + corner) >> 8);
-  }
-  return sum / 16777215.0;
-}
-
-// Radiance of the sun's disc at p. Limb darkening: power law of Hestroffer and Magnan 1998,
-// exponents at 700, 550 and 440 nm.
-vec3 sun_disc(vec3 p, SkyConstants sky) {
-  return sky.sun_disc * pow(vec3(max(p.z, 0.05)), vec3(0.397, 0.503, 0.652));
-}
-
-// Radiance of the moon's disc at p: ground lit from the sun's direction (Lommel and Seeliger,
-// without limb darkening when full), with maria.
-vec3 moon_disc(vec3 p, SkyConstants sky) {
-  vec3 right = normalize(cross(sky.sky_z, sky.moon.to_body));
-  vec3 normal = p.x * right + p.y * cross(sky.moon.to_body, right) - p.z * sky.moon.to_body;
-  float lit = max(0.0, dot(normal, sky.sun.to_body));
-  float maria = 0.5 * sky_noise(p * 1.6 + 11.0) + 0.3 * sky_noise(p * 3.7 + 5.0) +
-                0.2 * sky_noise(p * 9.1 + 3.0);
-  float ground = mix(0.40, 1.0, smoothstep(0.34, 0.66, maria));
-  return sky.moon_disc * (ground * 2.0 * lit / max(lit + p.z, 1e-3));
-}
-
-// Radiance of both discs in front of the sky, for a pixel of pixel_angle [rad].
-vec3 discs(vec3 dir, SkyConstants sky, float pixel_angle) {
-  vec3 colour = vec3(0.0);
-  float near = cos(kDiscRadius + pixel_angle);
-  // Loops, not branches: lavapipe skips an empty loop but runs both sides of a branch.
-  for (int once = dot(dir, sky.sun.to_body) > near ? 1 : 0; once > 0; --once) {
-    vec3 p = disc_place(dir, sky.sun.to_body, sky.sky_z);
-    colour += sun_disc(p, sky) * disc_cover(p, pixel_angle);
-  }
-  for (int once = dot(dir, sky.moon.to_body) > near ? 1 : 0; once > 0; --once) {
-    vec3 p = disc_place(dir, sky.moon.to_body, sky.sky_z);
-    colour += moon_disc(p, sky) * disc_cover(p, pixel_angle);
-  }
-  return colour * above_horizon(dir);
-}
-
-// Share of the pixel behind which the moon hides the stars, lit or not.
-float moon_cover(vec3 dir, SkyConstants sky, float pixel_angle) {
-  if (dot(dir, sky.moon.to_body) <= 0.99) return 0.0;
-  return disc_cover(disc_place(dir, sky.moon.to_body, sky.sky_z), pixel_angle);
 }
 
 #endif

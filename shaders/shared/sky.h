@@ -16,6 +16,11 @@ SHARED_CONST uint kSkyLutGroup = 8u;  // edge of a workgroup of bake_sky.comp
 SHARED_CONST float kDiscEnlargement = 3.0f;
 SHARED_CONST float kDiscRadius = 3.0f * 0.004625f;  // [rad]
 
+// Limb darkening of the sun, linear law 1 - u (1 - mu), u at about 700, 550 and 440 nm.
+SHARED_CONST float kLimbRed = 0.45f;
+SHARED_CONST float kLimbGreen = 0.56f;
+SHARED_CONST float kLimbBlue = 0.72f;
+
 // One body's share of the daylight model (Preetham, Shirley, Smits 1999). Components of the Perez
 // terms: luminance Y, chromaticities x, y.
 struct SkyBody {
@@ -39,7 +44,12 @@ struct SkyConstants {
   SkyBody moon;
   vec3 sun_disc;   // radiance in the middle of the disc
   vec3 moon_disc;  // radiance of its fully lit ground
-  vec3 sky_x;      // rows of sky_from_world: the frame in which the stars stand still
+  vec3 sun_right;  // across the disc and towards the celestial pole, over the sine of kDiscRadius
+  vec3 sun_up;
+  vec3 moon_right;
+  vec3 moon_up;
+  vec3 moon_lit;  // towards the sun in the moon's frame: right, up, towards the eye
+  vec3 sky_x;     // rows of sky_from_world: the frame in which the stars stand still
   vec3 sky_y;
   vec3 sky_z;
   float stars;  // 0 by day .. 1 in a dark night

@@ -25,10 +25,11 @@ class TestShader {
     const std::string source = (folder / name_).string(), full = source + ".full.spv",
                       small = source + ".spv";
     std::ofstream(source) << "#version 460\n#extension GL_EXT_scalar_block_layout : require\n"
+                             "#extension GL_GOOGLE_include_directive : require\n"
                           << glsl;
     const std::string compile =
         "glslangValidator --target-env vulkan1.2 -g -Od --quiet -I" SKERRY_SOURCE_DIR
-        "/shaders/shared " +
+        "/shaders -I" SKERRY_SOURCE_DIR "/shaders/shared " +
         source + " -o " + full;
     const std::string optimise = "spirv-opt -O --strip-debug " + full + " -o " + small;
     if (std::system(compile.c_str()) != 0 || std::system(optimise.c_str()) != 0) {

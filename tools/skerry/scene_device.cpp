@@ -10,7 +10,7 @@ namespace {
 
 /// Empty, for none, when the user has no folder for caches.
 std::string pipeline_cache_file() {
-  const std::filesystem::path folder = platform::cache_directory();
+  const std::filesystem::path folder = platform::cache_dir();
   if (folder.empty() || !platform::make_dirs(folder)) return {};
   return (folder / "pipelines.bin").string();
 }

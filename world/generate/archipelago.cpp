@@ -106,7 +106,8 @@ std::vector<Site> group_of(std::uint64_t seed, Cell cell) {
   std::vector<Site> group{main_site(cell, rng)};
   const bool home = cell.x == 0 && cell.z == 0;
   const bool chain = rng.chance(120);
-  const int wanted = home ? 4 : rng.in(1, 3) + (rng.chance(56) ? 1 : 0);
+  const int crowd = rng.chance(56) ? 1 : 0;
+  const int wanted = home ? 4 : crowd + rng.in(1, 3);
   int direction = rng.in(0, 1023);
   Site previous = group.front();
   for (int tries = 0; tries < 40 && static_cast<int>(group.size()) <= wanted; ++tries) {

@@ -85,8 +85,11 @@ class Digger {
       plan_.holes.push_back({cx, floor + r / 3, cz, r, floor, false});
       for (int k = 0; k < r; ++k)
         grow(cx, floor, cz, r, rng_.chance(150) ? block::kGlowShroom : block::kGlowFern);
-      for (int k = rng_.in(1, 3); k > 0; --k)
-        pillar(cx + rng_.in(-r, r), floor, cz + rng_.in(-r, r));
+      for (int k = rng_.in(1, 3); k > 0; --k) {
+        const int px = cx + rng_.in(-r, r);
+        const int pz = cz + rng_.in(-r, r);
+        pillar(px, floor, pz);
+      }
     }
   }
 

@@ -57,4 +57,7 @@ void plan_caves(IslandPlan& plan);
 void plan_trees(IslandPlan& plan);
 void plan_crystals(IslandPlan& plan);
 
+/// The voxels of IslandGenerator::generate_padded.
+bool fill_padded(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId> out);
+
 }  // namespace skerry::world

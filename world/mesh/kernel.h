@@ -75,6 +75,12 @@ struct ByteTable {
   void set(unsigned byte, BlockId id);
 };
 
+/// One bit for each of 64 voxels along z.
+struct RowKinds {
+  std::uint64_t opaque, see_through;
+  std::uint64_t above_z, below_z;  ///< the +z, -z neighbour is opaque
+};
+
 /// The voxels of one call.
 struct Voxels {
   const std::uint8_t* bytes = nullptr;  // kPaddedVoxels of them

@@ -6,7 +6,7 @@
 #include "world/mesh/kernel.h"
 
 #define SKERRY_MESH_TARGET __attribute__((target("avx2,bmi,bmi2")))
-#include "world/mesh/scalar_emission.h"
+#include "world/mesh/scalar_primitives.h"
 
 namespace skerry::world::mesh_detail {
 namespace {
@@ -54,22 +54,20 @@ class RowReader {
  public:
   SKERRY_MESH_TARGET explicit RowReader(const ByteTable& table)
       : opaque_(table.opaque), see_through_(table.see_through), flags_(table.flags) {}
-  SKERRY_MESH_TARGET void kinds(const std::uint8_t* bytes, std::uint64_t& opaque,
-                                std::uint64_t& see_through) const {
+  SKERRY_MESH_TARGET RowKinds kinds(const std::uint8_t* bytes) const {
     const __m256i low = load_half(bytes, 0), high = load_half(bytes, 1);
-    opaque = opaque_.match(low, high);
-    see_through = see_through_.match(low, high);
+    return with_neighbours(flags_, bytes, opaque_.match(low, high), see_through_.match(low, high));
   }
   SKERRY_MESH_TARGET std::uint64_t flag(const std::uint8_t* bytes, std::uint8_t flag) const {
-    std::uint64_t bits = 0;
-    for (int z = 0; z < kEdge; ++z) bits |= std::uint64_t{(flags_[bytes[z]] & flag) != 0} << z;
-    return bits;
+    if (flag == kFlagOpaque) return opaque_.match(load_half(bytes, 0), load_half(bytes, 1));
+    return flag_bits(flags_, bytes, flag);
   }
 
  private:
   SetMatcher opaque_, see_through_;
   const std::array<std::uint8_t, 256>& flags_;
 };
+using NarrowReader = RowReader;
 
 SKERRY_MESH_TARGET inline std::uint64_t row_equal(const std::uint8_t* a, const std::uint8_t* b) {
   return sign_bits(_mm256_cmpeq_epi8(load_half(a, 0), load_half(b, 0)),

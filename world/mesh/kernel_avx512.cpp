@@ -21,33 +21,53 @@ SKERRY_MESH_TARGET inline __m512i load(const void* bytes) {
   return _mm512_loadu_si512(bytes);
 }
 
-// Looks up the kinds of 64 voxels at once.
-class RowReader {
+// table[byte] for 64 bytes at once.
+class WideLookUp {
  public:
-  SKERRY_MESH_TARGET explicit RowReader(const ByteTable& table)
-      : flags_{load(table.flags.data()), load(table.flags.data() + 64),
-               load(table.flags.data() + 128), load(table.flags.data() + 192)} {}
-
-  SKERRY_MESH_TARGET void kinds(const std::uint8_t* bytes, std::uint64_t& opaque,
-                                std::uint64_t& see_through) const {
-    const __m512i flags = look_up(bytes);
-    opaque = _mm512_test_epi8_mask(flags, _mm512_set1_epi8(kFlagOpaque));
-    see_through = _mm512_test_epi8_mask(flags, _mm512_set1_epi8(kFlagsSeeThrough));
-  }
-  SKERRY_MESH_TARGET std::uint64_t flag(const std::uint8_t* bytes, std::uint8_t flag) const {
-    return _mm512_test_epi8_mask(look_up(bytes), _mm512_set1_epi8(static_cast<char>(flag)));
+  SKERRY_MESH_TARGET explicit WideLookUp(const std::uint8_t* table)
+      : quarters_{load(table), load(table + 64), load(table + 128), load(table + 192)} {}
+  SKERRY_MESH_TARGET __m512i operator()(__m512i bytes) const {
+    const __m512i low = _mm512_permutex2var_epi8(quarters_[0], bytes, quarters_[1]);
+    const __m512i high = _mm512_permutex2var_epi8(quarters_[2], bytes, quarters_[3]);
+    return _mm512_mask_mov_epi8(low, _mm512_movepi8_mask(bytes), high);
   }
 
  private:
-  SKERRY_MESH_TARGET __m512i look_up(const std::uint8_t* bytes) const {
-    const __m512i index = load(bytes);
-    const __m512i low = _mm512_permutex2var_epi8(flags_[0], index, flags_[1]);
-    const __m512i high = _mm512_permutex2var_epi8(flags_[2], index, flags_[3]);
-    return _mm512_mask_mov_epi8(low, _mm512_movepi8_mask(index), high);
+  __m512i quarters_[4];
+};
+
+class NarrowLookUp {
+ public:
+  SKERRY_MESH_TARGET explicit NarrowLookUp(const std::uint8_t* table) : table_(load(table)) {}
+  SKERRY_MESH_TARGET __m512i operator()(__m512i bytes) const {
+    return _mm512_permutexvar_epi8(bytes, table_);
   }
 
-  __m512i flags_[4];
+ private:
+  __m512i table_;
 };
+
+template <class LookUp>
+class Reader {
+ public:
+  SKERRY_MESH_TARGET explicit Reader(const ByteTable& table) : flags_(table.flags.data()) {}
+  SKERRY_MESH_TARGET RowKinds kinds(const std::uint8_t* bytes) const {
+    const __m512i flags = flags_(load(bytes));
+    return {has(flags, kFlagOpaque), has(flags, kFlagsSeeThrough), flag(bytes + 1, kFlagOpaque),
+            flag(bytes - 1, kFlagOpaque)};
+  }
+  SKERRY_MESH_TARGET std::uint64_t flag(const std::uint8_t* bytes, std::uint8_t flag) const {
+    return has(flags_(load(bytes)), flag);
+  }
+
+ private:
+  SKERRY_MESH_TARGET static std::uint64_t has(__m512i flags, std::uint8_t flag) {
+    return _mm512_test_epi8_mask(flags, _mm512_set1_epi8(static_cast<char>(flag)));
+  }
+  LookUp flags_;
+};
+using RowReader = Reader<WideLookUp>;
+using NarrowReader = Reader<NarrowLookUp>;
 
 SKERRY_MESH_TARGET inline std::uint64_t row_equal(const std::uint8_t* a, const std::uint8_t* b) {
   return _mm512_cmpeq_epi8_mask(load(a), load(b));

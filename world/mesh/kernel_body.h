@@ -1,21 +1,27 @@
 // The mesher's steps, compiled once for each instruction set: the including file defines
 // SKERRY_MESH_TARGET (its target attribute) and the primitives named below, then includes this.
 //
-//   RowReader(table).kinds(bytes, opaque, see_through)  one bit for each of 64 voxels
-//   RowReader(table).flag(bytes, flag)                  likewise, for one KindFlag
+//   RowReader(table).kinds(bytes)       RowKinds of 64 voxels
+//   RowReader(table).flag(bytes, flag)  one bit for each of 64 voxels: has the KindFlag
+//   NarrowReader                        RowReader for tables whose bytes stay below 64
 //   row_equal(a, b)                bit i: a[i] == b[i], 64 bytes
 //   nonzero_words(words)           bit i: words[i] != 0, 64 words
 //   set_bytes(bytes, mask, value)  bytes[i] = value where bit i is set
 //   emit_runs, emit_columns        see Emission
+#include <cstring>
+
 #include "world/mesh/kernel.h"
+
+// Vectors are returned by value: the calling convention it warns of matters to nobody, because all
+// of this is internal to one file.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace skerry::world::mesh_detail {
 namespace {
 
 // Eight words, one for each of eight neighbouring x. Every compiler we build with lowers these
 // vectors to what the target has.
-using Lanes = std::uint64_t __attribute__((vector_size(64)));
-using LanesAnywhere = std::uint64_t __attribute__((vector_size(64), aligned(8), may_alias));
+using Lanes = std::uint64_t __attribute__((vector_size(64), may_alias));
 constexpr int kLanes = 8;
 // How far ahead of use voxels are asked for: a page, where the CPU's own prefetching stops. On a
 // Zen 5 it takes a third off the time of an island's chunk that comes from the last-level cache.
@@ -27,8 +33,10 @@ SKERRY_MESH_TARGET inline Lanes& lanes(std::uint64_t* aligned) {
 SKERRY_MESH_TARGET inline const Lanes& lanes(const std::uint64_t* aligned) {
   return *reinterpret_cast<const Lanes*>(aligned);
 }
-SKERRY_MESH_TARGET inline const LanesAnywhere& lanes_anywhere(const std::uint64_t* words) {
-  return *reinterpret_cast<const LanesAnywhere*>(words);
+SKERRY_MESH_TARGET inline Lanes lanes_anywhere(const std::uint64_t* words) {
+  Lanes loaded;
+  std::memcpy(&loaded, words, sizeof loaded);
+  return loaded;
 }
 
 // All eight words, or-ed together.
@@ -38,28 +46,40 @@ SKERRY_MESH_TARGET inline std::uint64_t combined(Lanes& words) {
   return words[0] | words[1];
 }
 
-// Kinds of every voxel, and opacity across the z borders. Reads each byte once, in order.
+template <class Reader>
+SKERRY_MESH_TARGET inline void build_shell_row(const Reader& reader, const Voxels& voxels,
+                                               Planes& planes, int x, int y) {
+  planes.opaque.row(y)[x] = reader.flag(voxels.row(x, y), kFlagOpaque);
+}
+
+// Kinds of every voxel, and opacity across the z borders. Reads the chunk once, in order.
+template <class Reader>
 SKERRY_MESH_TARGET inline void build_kinds(const Voxels& voxels, Planes& planes) {
-  const RowReader reader(*voxels.table);
-  const auto& flags = voxels.table->flags;
-  std::uint64_t any_opaque = 0, any_see_through = 0, opaque, see_through;
-  for (int y = -1; y <= kEdge; ++y) {
-    const bool inner = y >= 0 && y < kEdge;
-    for (int x = inner ? -1 : 0; x < (inner ? kEdge + 1 : kEdge); ++x) {
-      const std::uint8_t* bytes = voxels.row(x, y);
+  const Reader reader(*voxels.table);
+  std::uint64_t any_opaque = 0, any_see_through = 0;
+  for (int x = 0; x < kEdge; ++x) build_shell_row(reader, voxels, planes, x, -1);
+  for (int y = 0; y < kEdge; ++y) {
+    build_shell_row(reader, voxels, planes, -1, y);
+    std::uint64_t* const opaque = planes.opaque.row(y);
+    std::uint64_t* const above_z = planes.above_z.row(y);
+    std::uint64_t* const below_z = planes.below_z.row(y);
+    std::uint64_t* const see_through = planes.see_through.row(y);
+    const std::uint8_t* bytes = voxels.row(0, y);
+    for (int x = 0; x < kEdge; ++x, bytes += kVoxelStepX) {
+      // Rows are 66 bytes apart: one line a row would leave gaps.
       __builtin_prefetch(bytes + kPrefetchBytes);
-      reader.kinds(bytes, opaque, see_through);
-      planes.opaque.row(y)[x] = opaque;
-      if (!inner || x < 0 || x == kEdge) continue;
-      const std::uint64_t before = flags[bytes[-1]] & kFlagOpaque;
-      const std::uint64_t after = flags[bytes[kEdge]] & kFlagOpaque;
-      planes.see_through.row(y)[x] = see_through;
-      planes.above_z.row(y)[x] = opaque >> 1 | after << 63;
-      planes.below_z.row(y)[x] = opaque << 1 | before;
-      any_opaque |= opaque;
-      any_see_through |= see_through;
+      __builtin_prefetch(bytes + kPrefetchBytes + 64);
+      const RowKinds row = reader.kinds(bytes);
+      opaque[x] = row.opaque;
+      above_z[x] = row.above_z;
+      below_z[x] = row.below_z;
+      see_through[x] = row.see_through;
+      any_opaque |= row.opaque;
+      any_see_through |= row.see_through;
     }
+    build_shell_row(reader, voxels, planes, kEdge, y);
   }
+  for (int x = 0; x < kEdge; ++x) build_shell_row(reader, voxels, planes, x, kEdge);
   planes.any_opaque = any_opaque;
   planes.any_see_through = any_see_through;
 }
@@ -118,7 +138,11 @@ SKERRY_MESH_TARGET inline void split_see_through(const Voxels& voxels, Planes& p
 }
 
 SKERRY_MESH_TARGET void build_planes(const Voxels& voxels, Planes& planes) {
-  build_kinds(voxels, planes);
+  if (voxels.table->narrow) {
+    build_kinds<NarrowReader>(voxels, planes);
+  } else {
+    build_kinds<RowReader>(voxels, planes);
+  }
   if (planes.any_opaque != 0) build_same(voxels, planes);
   if (planes.any_see_through != 0) {
     split_see_through(voxels, planes);

@@ -5,7 +5,7 @@
 #include "world/mesh/kernel.h"
 
 #define SKERRY_MESH_TARGET
-#include "world/mesh/scalar_emission.h"
+#include "world/mesh/scalar_primitives.h"
 
 namespace skerry::world::mesh_detail {
 namespace {
@@ -13,23 +13,23 @@ namespace {
 class RowReader {
  public:
   explicit RowReader(const ByteTable& table) : flags_(table.flags) {}
-  void kinds(const std::uint8_t* bytes, std::uint64_t& opaque, std::uint64_t& see_through) const {
-    opaque = see_through = 0;
+  RowKinds kinds(const std::uint8_t* bytes) const {
+    std::uint64_t opaque = 0, see_through = 0;
     for (int z = 0; z < kEdge; ++z) {
       const std::uint64_t flags = flags_[bytes[z]];
       opaque |= (flags & kFlagOpaque) << z;
       see_through |= std::uint64_t{(flags & kFlagsSeeThrough) != 0} << z;
     }
+    return with_neighbours(flags_, bytes, opaque, see_through);
   }
   std::uint64_t flag(const std::uint8_t* bytes, std::uint8_t flag) const {
-    std::uint64_t bits = 0;
-    for (int z = 0; z < kEdge; ++z) bits |= std::uint64_t{(flags_[bytes[z]] & flag) != 0} << z;
-    return bits;
+    return flag_bits(flags_, bytes, flag);
   }
 
  private:
   const std::array<std::uint8_t, 256>& flags_;
 };
+using NarrowReader = RowReader;
 
 inline std::uint64_t row_equal(const std::uint8_t* a, const std::uint8_t* b) {
   std::uint64_t bits = 0;

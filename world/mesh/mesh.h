@@ -51,7 +51,7 @@ void mesh_chunk(std::span<const BlockId> voxels, MeshScratch& scratch, ChunkMesh
 /// Same, for chunks with at most 256 different ids: `voxels` index `palette`. Reads half the
 /// memory, and takes no time when the palette tells that nothing can be seen (all of it opaque, or
 /// one id that is no plant).
-/// @param palette distinct ids; indices at or above its size count as air.
+/// @param palette distinct ids; @pre every index is below its size.
 void mesh_chunk(std::span<const std::uint8_t> voxels, std::span<const BlockId> palette,
                 MeshScratch& scratch, ChunkMesh& out);
 

@@ -137,10 +137,10 @@ struct Voxels {
 };
 
 TEST(Generate, VoxelsHashToTheRecordedValues) {
-  EXPECT_EQ(hash_of_seed(0, 1), 0x0u);
-  EXPECT_EQ(hash_of_seed(1, 1), 0x0u);
-  EXPECT_EQ(hash_of_seed(kLastSeed, 1), 0x0u);
-  EXPECT_EQ(hash_of_seed(seed_from_text("skerry"), 1), 0x0u);
+  EXPECT_EQ(hash_of_seed(0, 1), 0x5b1927be914b66a6u);
+  EXPECT_EQ(hash_of_seed(1, 1), 0x31216cd4f5a7b843u);
+  EXPECT_EQ(hash_of_seed(kLastSeed, 1), 0x8f3354f1dbf54097u);
+  EXPECT_EQ(hash_of_seed(seed_from_text("skerry"), 1), 0x48e4be8eebbf737au);
 }
 
 TEST(Generate, ThreadsDoNotChangeVoxels) {

@@ -1,9 +1,25 @@
-// The emission step one quad at a time, for instruction sets without byte compression. Included
-// like kernel_body.h, after SKERRY_MESH_TARGET is defined.
+// Primitives one voxel or quad at a time, for instruction sets without byte permutations and
+// compression. Included like kernel_body.h, after SKERRY_MESH_TARGET is defined.
 #include "world/mesh/emission.h"
 
 namespace skerry::world::mesh_detail {
 namespace {
+
+SKERRY_MESH_TARGET inline std::uint64_t flag_bits(const std::array<std::uint8_t, 256>& flags,
+                                                  const std::uint8_t* bytes, std::uint8_t flag) {
+  std::uint64_t bits = 0;
+  for (int z = 0; z < kEdge; ++z) bits |= std::uint64_t{(flags[bytes[z]] & flag) != 0} << z;
+  return bits;
+}
+
+// Adds what lies beyond the row's ends to its kinds.
+SKERRY_MESH_TARGET inline RowKinds with_neighbours(const std::array<std::uint8_t, 256>& flags,
+                                                   const std::uint8_t* bytes, std::uint64_t opaque,
+                                                   std::uint64_t see_through) {
+  const std::uint64_t before = flags[bytes[-1]] & kFlagOpaque;
+  const std::uint64_t after = flags[bytes[kEdge]] & kFlagOpaque;
+  return {opaque, see_through, opaque >> 1 | after << 63, opaque << 1 | before};
+}
 
 SKERRY_MESH_TARGET inline void set_bytes(std::uint8_t* bytes, std::uint64_t mask,
                                          std::uint8_t value) {
