@@ -14,23 +14,22 @@ constexpr double kMargin =
     64.0;  // blocks around what the player can reach in which islands are known
 constexpr double kLoadRadius = 12.0;  // blocks around the player in which chunks are loaded
 
-bool inside(const world::IVec3& v, const world::IVec3& min, const world::IVec3& max) {
-  return v.x >= min.x && v.y >= min.y && v.z >= min.z && v.x < max.x && v.y < max.y && v.z < max.z;
-}
-
 world::IVec3 floored(const glm::dvec3& p) {
   const glm::ivec3 v(glm::floor(p));
   return {v.x, v.y, v.z};
 }
 
-/// Whether any of a chunk's voxels is in an island's box.
-bool touches_box(const world::IVec3& chunk, const world::IslandSpec& spec) {
-  const auto apart = [](int c, int min, int max) {
-    return (c + 1) * world::kChunkEdge <= min || c * world::kChunkEdge >= max;
-  };
-  return !apart(chunk.x, spec.box_min.x, spec.box_max.x) &&
-         !apart(chunk.y, spec.box_min.y, spec.box_max.y) &&
-         !apart(chunk.z, spec.box_min.z, spec.box_max.z);
+/// The lowest voxel that a chunk and an island's box share, if any.
+std::optional<world::IVec3> shared_voxel(const world::IVec3& chunk, const world::IslandSpec& spec) {
+  const auto lowest = [](int c, int min) { return std::max(c * world::kChunkEdge, min); };
+  const world::IVec3 voxel{lowest(chunk.x, spec.box_min.x), lowest(chunk.y, spec.box_min.y),
+                           lowest(chunk.z, spec.box_min.z)};
+  const auto in = [](int v, int c, int max) { return v < (c + 1) * world::kChunkEdge && v < max; };
+  if (!in(voxel.x, chunk.x, spec.box_max.x) || !in(voxel.y, chunk.y, spec.box_max.y) ||
+      !in(voxel.z, chunk.z, spec.box_max.z)) {
+    return std::nullopt;
+  }
+  return voxel;
 }
 
 }  // namespace
@@ -87,9 +86,8 @@ void WorldSurroundings::load_chunks(const world::IslandSpec& spec, world::WorldP
   for (world::IVec3 chunk{0, first.y, 0}; chunk.y <= last.y; ++chunk.y) {
     for (chunk.x = first.x; chunk.x <= last.x; ++chunk.x) {
       for (chunk.z = first.z; chunk.z <= last.z; ++chunk.z) {
-        const world::IVec3 corner{chunk.x * world::kChunkEdge, chunk.y * world::kChunkEdge,
-                                  chunk.z * world::kChunkEdge};
-        if (!touches_box(chunk, spec) || world_.block_at(spec.id, corner)) continue;
+        const std::optional<world::IVec3> voxel = shared_voxel(chunk, spec);
+        if (!voxel || world_.block_at(spec.id, *voxel)) continue;
         loader_.request(spec.id, chunk);
       }
     }
@@ -120,9 +118,6 @@ std::optional<world::Pose> WorldSurroundings::pose(std::uint64_t island, double 
 
 std::optional<world::BlockId> WorldSurroundings::block(std::uint64_t island,
                                                        world::IVec3 voxel) const {
-  const world::IslandSpec* spec = spec_of(island);
-  // Outside the box there is nothing to load, and nothing to be held by.
-  if (!spec || !inside(voxel, spec->box_min, spec->box_max)) return world::kAir;
   return world_.block_at(island, voxel);
 }
 

@@ -138,7 +138,10 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"shot", "--seed", "1", "--shading", "pbrr"}, {"'pbr'"}},
       {{"--no-such"}, {"'--no-such'"}},
       {{"devices", "--jsno"}, {"'--json'"}},
-      {{"bench"}, {"bench"}},
+      {{"bench"}, {"mesh, generate, upload, cull or frame"}},
+      {{"bench", "mehs"}, {"'mesh'"}},
+      {{"bench", "mesh", "--inptu", "x"}, {"'--input'"}},
+      {{"bench", "cull", "--device", "-1"}, {"--device"}},
       {{"bench", "frame"}, {"--seed"}},
       {{"shot", "--seed", "1", "--set", std::string(100000, 'x')}, {"'xxx"}},
   };
@@ -162,6 +165,8 @@ TEST(CommandLine, FilesThatCannotBeUsedExitWithOne) {
                  "stats");
   expect_refusal(run({"shot", "--scene", "/no/such.json"}), 1, {"/no/such.json"}, "scene");
   expect_refusal(run({"shot", "--world", "/no/such/world"}), 1, {"does not exist"}, "world");
+  expect_refusal(run({"bench", "mesh", "--input", "/no/such"}), 1, {"/no/such"}, "bench input");
+  expect_refusal(run({"bench", "cull", "--json", "/no/such/a.json"}), 1, {"a.json"}, "bench json");
   expect_refusal(run({"--world", "/"}), 1, {"cannot load saved worlds"}, "play world");
 }
 

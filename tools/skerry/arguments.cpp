@@ -93,11 +93,15 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
   if (!made) return usage(made.error());
   scene = *std::move(made);
   scene.validate = a.validate;
-  if (a.device) {
-    const auto index = game::parse_integer(*a.device, "--device", 0, 1023);
-    if (!index) return usage(index.error());
-    scene.device = static_cast<std::uint32_t>(*index);
-  }
+  return parse_device(a.device, scene.device);
+}
+
+std::optional<Refusal> parse_device(const std::optional<std::string>& text,
+                                    std::optional<std::uint32_t>& index) {
+  if (!text) return std::nullopt;
+  const auto parsed = game::parse_integer(*text, "--device", 0, 1023);
+  if (!parsed) return usage(parsed.error());
+  index = static_cast<std::uint32_t>(*parsed);
   return std::nullopt;
 }
 

@@ -31,6 +31,10 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments);
 std::optional<Refusal> resolve(const SceneArguments& arguments, bool needs_source,
                                game::SceneOptions& scene);
 
+/// Reads --device, if given, into `index`.
+std::optional<Refusal> parse_device(const std::optional<std::string>& text,
+                                    std::optional<std::uint32_t>& index);
+
 /// Checks that a command was given nothing it does not know; names the nearest option.
 std::optional<Refusal> check_leftovers(const CLI::App& command);
 

@@ -2,12 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "game/parse.h"
 #include "tools/skerry/arguments.h"
+#include "tools/skerry/bench_commands.h"
 #include "tools/skerry/devices.h"
 #include "tools/skerry/play_command.h"
 #include "tools/skerry/scene_device.h"
@@ -31,6 +33,7 @@ struct CommandLine {
   std::optional<std::string> stats;
   bool explain = false;
   bool json = false;
+  std::optional<BenchCommands> bench;
 
   CommandLine();
   int run();
@@ -53,6 +56,7 @@ CommandLine::CommandLine() {
   shot->add_option("--stats", stats, "Write counts, times and a hash of the picture")
       ->type_name("FILE.json");
   shot->add_flag("--explain", explain, "Print what the frame ran, and what it left out and why");
+  bench.emplace(app);
   devices = add("devices", "List the Vulkan devices");
   devices->add_flag("--json", json, "As JSON");
 }
@@ -83,6 +87,7 @@ int CommandLine::run_shot() {
 
 int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
+  if (chosen == bench->command()) return bench->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();
   if (chosen == shot) return run_shot();

@@ -1,0 +1,108 @@
+#include "tools/skerry/bench_commands.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string_view>
+
+#include "game/parse.h"
+#include "tools/skerry/bench_cull.h"
+#include "tools/skerry/bench_frame.h"
+#include "tools/skerry/bench_generate.h"
+#include "tools/skerry/bench_mesh.h"
+#include "tools/skerry/bench_upload.h"
+#include "tools/skerry/scene_device.h"
+
+namespace skerry::tools {
+namespace {
+
+int refuse(const Refusal& refusal) {
+  return fail(refusal.status, refusal.error);
+}
+
+std::optional<std::filesystem::path> path_of(const std::optional<std::string>& text) {
+  if (!text) return std::nullopt;
+  return *text;
+}
+
+}  // namespace
+
+BenchCommands::BenchCommands(CLI::App& app)
+    : bench_(app.add_subcommand("bench", "Measure how fast a part of the program is")) {
+  bench_->allow_extras();
+  bench_->footer("");
+  mesh_ = add("mesh", "Time the mesher");
+  mesh_->add_option("--input", input_, "Folder of .bin voxel sets (default: chunks of seed 1)")
+      ->type_name("DIR");
+  generate_ = add("generate", "Time the world generator");
+  upload_ = add("upload", "Time the three ways of sending data to the GPU");
+  add_device_options(*upload_);
+  cull_ = add("cull", "Time culling on the GPU");
+  add_device_options(*cull_);
+  frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
+  add_scene_options(*frame_, scene_);
+}
+
+CLI::App* BenchCommands::add(const char* name, const char* description) {
+  CLI::App* command = bench_->add_subcommand(name, description);
+  command->allow_extras();
+  command->footer("");
+  command->add_option("--json", json_, "Write the rows as JSON")->type_name("FILE");
+  return command;
+}
+
+void BenchCommands::add_device_options(CLI::App& command) {
+  command.add_option("--device", device_, "Vulkan device, as 'skerry devices' counts")
+      ->type_name("N");
+  command.add_flag("--validate", validate_, "Turn the Vulkan validation layer on");
+}
+
+int BenchCommands::run() {
+  if (bench_->get_subcommands().empty()) return refuse_unknown();
+  const CLI::App* chosen = bench_->get_subcommands().front();
+  if (const auto refusal = check_leftovers(*bench_)) return refuse(*refusal);
+  if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
+  if (chosen == frame_) return run_frame();
+  if (const auto refusal = check_output(json_)) return refuse(*refusal);
+  if (chosen == mesh_) return run_mesh();
+  if (chosen == generate_) return bench_generate({path_of(json_)});
+  return run_on_device(*chosen);
+}
+
+int BenchCommands::refuse_unknown() const {
+  constexpr std::string_view kNames[] = {"mesh", "generate", "upload", "cull", "frame"};
+  const std::vector<std::string> leftovers = bench_->remaining();
+  if (leftovers.empty()) {
+    return fail(kUsage, {"bench does not say what: give mesh, generate, upload, cull or frame"});
+  }
+  return fail(kUsage,
+              {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
+                           game::quote_text(leftovers.front()),
+                           game::nearest_name(leftovers.front(), kNames))});
+}
+
+int BenchCommands::run_mesh() {
+  if (input_ && !std::filesystem::is_directory(*input_)) {
+    return fail(kFailed, {fmt::format("cannot read the voxel sets in {}: it is no folder; give the "
+                                      "folder that bench/mesh/gen.cpp filled",
+                                      game::quote_text(*input_))});
+  }
+  return bench_mesh({path_of(input_), path_of(json_)});
+}
+
+int BenchCommands::run_on_device(const CLI::App& chosen) {
+  std::optional<std::uint32_t> device;
+  if (const auto refusal = parse_device(device_, device)) return refuse(*refusal);
+  if (&chosen == upload_) return bench_upload({device, validate_, path_of(json_)});
+  return bench_cull({device, validate_, path_of(json_)});
+}
+
+int BenchCommands::run_frame() {
+  BenchFrameOptions options;
+  if (const auto refusal = resolve(scene_, true, options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_output(json_)) return refuse(*refusal);
+  options.json = path_of(json_);
+  return bench_frame(options);
+}
+
+}  // namespace skerry::tools

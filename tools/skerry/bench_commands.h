@@ -1,0 +1,41 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "tools/skerry/arguments.h"
+
+namespace skerry::tools {
+
+/// `skerry bench mesh|generate|upload|cull|frame`: options, and which function each calls.
+class BenchCommands {
+ public:
+  /// Adds `bench` and its sub-commands.
+  explicit BenchCommands(CLI::App& app);
+  BenchCommands(const BenchCommands&) = delete;
+  BenchCommands& operator=(const BenchCommands&) = delete;
+
+  const CLI::App* command() const { return bench_; }
+  /// @pre `bench` was given. @return the exit status.
+  int run();
+
+ private:
+  CLI::App* add(const char* name, const char* description);
+  void add_device_options(CLI::App& command);
+  int run_mesh();
+  int run_on_device(const CLI::App& chosen);
+  int run_frame();
+  int refuse_unknown() const;
+
+  CLI::App* bench_;
+  CLI::App* mesh_;
+  CLI::App* generate_;
+  CLI::App* upload_;
+  CLI::App* cull_;
+  CLI::App* frame_;
+  std::optional<std::string> input_, json_, device_;
+  bool validate_ = false;
+  SceneArguments scene_;
+};
+
+}  // namespace skerry::tools
