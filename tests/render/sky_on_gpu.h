@@ -33,15 +33,18 @@ inline glm::dvec3 decoded(const Texel& t) {
 }
 
 /// What the shading passes do with a ray into the open, to radiance.
-inline constexpr const char* kSeeSky = R"(
-#include "include/common.glsl"
-#include "shared/sky.h"
+inline constexpr const char* kSeeSky =
+    "#include \"include/common.glsl\"\n"
+    "#include \"shared/sky.h\"\n"
+    R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) uniform Sky { SkyConstants sky; };
 layout(binding = 2) uniform sampler2D sky_lut;
 layout(binding = 3, rgba16f) writeonly uniform image2D radiance;
-#include "include/stars.glsl"
+)"
+    "#include \"include/stars.glsl\"\n"
+    R"(
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, frame.size))) return;
@@ -50,8 +53,9 @@ void main() {
 })";
 
 /// Tone curve and encoding, without and with dither.
-inline constexpr const char* kDevelop = R"(
-#include "include/tonemap.glsl"
+inline constexpr const char* kDevelop =
+    "#include \"include/tonemap.glsl\"\n"
+    R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, rgba16f) readonly uniform image2D radiance;
 layout(binding = 1, rgba8) writeonly uniform image2D picture;
