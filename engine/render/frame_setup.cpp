@@ -1,6 +1,7 @@
 #include "engine/render/frame_setup.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -36,6 +37,14 @@ shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body, st
   return out;
 }
 
+/// Extinction of clear air, taken back as the brighter body sets: haze is lit by it, and must not end in a step when it is gone.
+float haze_per_block(const Celestial& sky) {
+  constexpr float kClearAir = 0.0005f, kFullAt = 0.05f;
+  const float sun = glm::dot(sky.sun_irradiance, glm::vec3(1.0f / 3.0f));
+  const float moon = glm::dot(sky.moon_irradiance, glm::vec3(1.0f / 3.0f)) / static_cast<float>(kMoonToSun);
+  return kClearAir * glm::smoothstep(0.0f, kFullAt, sky.sun_casts ? sun : moon);
+}
+
 void append_islands(std::vector<shared::IslandTransform>& out, std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
 }
@@ -67,6 +76,8 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.pcf_radius_blocks = settings.shadow_filter_blocks;
   f.bodies[0] = shader_body(input.sky.to_sun, input.sky.sun_irradiance, 0, cascades);
   f.bodies[1] = shader_body(input.sky.to_moon, input.sky.moon_irradiance, 1, cascades);
+
+  f.haze_per_block = haze_per_block(input.sky);
 
   shared::CullView view{};
   for (std::size_t i = 0; i < camera.planes.size(); ++i) view.planes[i] = camera.planes[i];

@@ -30,6 +30,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         b.read(surfaces, Use::kComputeRead);
         b.read(depth, Use::kComputeSampled);
         b.read(scene.block_textures, Use::kComputeSampled);
+        b.read(scene.sky_lut, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
@@ -43,6 +44,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         c.storage(5, surfaces);
         c.sampled(6, depth, scene.point_sampler);
         c.sampled(7, scene.block_textures, scene.block_sampler);
+        c.sampled(8, scene.sky_lut, scene.lut_sampler);
         c.storage(9, target);
         if (maps) c.sampled(12, maps, scene.point_sampler);
         dispatch_tiles(c, tiles, TileKind::kCovered);

@@ -24,6 +24,25 @@ vec3 received(Body body, vec3 p, vec3 normal) {
   return n_dot_l > 0.0 ? body.irradiance * (visibility * (frame.shading_flat != 0u ? 1.0 : n_dot_l)) : vec3(0.0);
 }
 
+float light_in_air(Body body, vec3 p) {
+#ifdef SKERRY_SHADOWS
+  return air_visibility(body, p);
+#else
+  return 1.0;
+#endif
+}
+
+// What the air between eye and surface does to a surface's radiance: it takes a part away and sends light of its own, the colour of the sky behind,
+// as far as sun or moon reach it at three places along the way. No haze where they do not: a cave stays black.
+vec3 seen_through_air(vec3 radiance, vec3 p) {
+  if (kBodies == 0u) return radiance;
+  Body body = frame.bodies[(kBodies & 1u) != 0u ? 0 : 1];
+  float lit = (light_in_air(body, p * 0.2) + light_in_air(body, p * 0.5) + light_in_air(body, p * 0.8)) * (1.0 / 3.0);
+  float distance = length(p);
+  float clear = exp(-frame.haze_per_block * distance);
+  return radiance * clear + sample_sky(sky_lut, p / distance) * (lit * (1.0 - clear));
+}
+
 // Radiance a diffuse surface sends out under sun and moon. No ambient term: what no light reaches is exactly 0.
 vec3 shade_diffuse(Surface s) {
   vec3 light = vec3(0.0);

@@ -1,6 +1,7 @@
 // Body of shade_surfaces*.comp: light for the pixels that show a surface, by tiles. One include, several programs: a frame without shadow
 // maps has no image to bind for them, and a frame without later passes writes its picture at once.
 #include "include/common.glsl"
+#include "shared/sky.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -11,6 +12,7 @@ layout(scalar, binding = 4) buffer Stats { PixelStats stats; };
 layout(binding = 5, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = 6) uniform sampler2D depths;
 layout(binding = 7) uniform sampler2DArray block_textures;
+layout(binding = 8) uniform sampler2D sky_lut;
 #ifdef SKERRY_SHADOWS
 layout(binding = 12) uniform sampler2DArray shadow_maps;
 #include "include/shadow.glsl"
@@ -21,6 +23,7 @@ layout(constant_id = 0) const uint kTextureTaps = 2u;
 #include "include/tiles.glsl"
 #include "include/output.glsl"
 #include "include/surface.glsl"
+#include "include/sky.glsl"
 #include "include/lighting.glsl"
 
 void main() {
@@ -29,6 +32,7 @@ void main() {
   uint word = imageLoad(surfaces, ivec2(pixel)).r;
   float depth = texelFetch(depths, ivec2(pixel), 0).r;
   // Pixels of sky go along as some surface near the eye; they are not stored.
-  vec3 colour = shade_diffuse(resolve_surface(word, word != 0u ? depth : 1.0, pixel_ray(pixel), kTextureTaps));
+  Surface surface = resolve_surface(word, word != 0u ? depth : 1.0, pixel_ray(pixel), kTextureTaps);
+  vec3 colour = seen_through_air(shade_diffuse(surface), surface.position);
   put_pixel(pixel, colour, here && word != 0u);
 }

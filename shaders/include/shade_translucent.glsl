@@ -41,8 +41,8 @@ layout(constant_id = 0) const uint kLayers = 3u;
 
 #include "include/tiles.glsl"
 #include "include/surface.glsl"
-#include "include/lighting.glsl"
 #include "include/sky.glsl"
+#include "include/lighting.glsl"
 #include "include/water.glsl"
 
 void main() {

@@ -64,4 +64,15 @@ float body_visibility(Body body, vec3 p, vec3 normal, float n_dot_l) {
   }
   return known * visibility;
 }
+
+// Whether a body's light reaches a point in the air: one texel, 0 or 1.
+float air_visibility(Body body, vec3 p) {
+  float distance = length(p);
+  uint base = body.first_cascade;
+  uint index = uint(distance > frame.cascades[base].radius) + uint(distance > frame.cascades[base + 1u].radius) +
+               uint(distance > frame.cascades[base + 2u].radius);
+  Cascade c = pick_cascade(base, index);
+  vec3 map = vec3(dot(c.map_from_world_x, vec4(p, 1.0)), dot(c.map_from_world_y, vec4(p, 1.0)), dot(c.map_from_world_z, vec4(p, 1.0)));
+  return map.z >= texelFetch(shadow_maps, ivec3(ivec2(floor(map.xy)), int(c.layer)), 0).r ? 1.0 : 0.0;
+}
 #endif

@@ -1,5 +1,6 @@
 // Body of show_channel*.comp: one channel of the G-buffer, or one term of the light, in place of the lit scene. docs/conventions.md.
 #include "include/common.glsl"
+#include "shared/sky.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -9,6 +10,7 @@ layout(scalar, binding = 2) uniform Materials { Material materials[kMaxMaterials
 layout(binding = 3, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = 4) uniform sampler2D depths;
 layout(binding = 5) uniform sampler2DArray block_textures;
+layout(binding = 8) uniform sampler2D sky_lut;
 layout(binding = 6, rgba8) writeonly uniform image2D picture;
 #ifdef SKERRY_SHADOWS
 layout(binding = 7) uniform sampler2DArray shadow_maps;
@@ -18,6 +20,7 @@ layout(binding = 7) uniform sampler2DArray shadow_maps;
 layout(constant_id = 0) const uint kChannel = 1u;  // render::DebugView
 
 #include "include/surface.glsl"
+#include "include/sky.glsl"
 #include "include/lighting.glsl"
 #include "include/tonemap.glsl"
 
