@@ -88,6 +88,7 @@ class Session {
   bool overlay_shown_ = false;
   bool culling_frozen_ = false;
   bool screenshot_wanted_ = false;
+  bool pointer_wanted_ = true;  // captured while the window has the focus
   std::vector<float> frame_ms_;
   double since_title_s_ = 0.0;
 };
@@ -96,7 +97,6 @@ Result<void> Session::start(VkSurfaceKHR surface) {
   auto presenter = Presenter::create(device_, surface, overlay_.font());
   if (!presenter) return presenter.error();
   presenter_ = *std::move(presenter);
-  window_.capture_pointer(true);
   return {};
 }
 
@@ -128,14 +128,10 @@ void Session::act(const platform::InputFrame& input, double seconds) {
 }
 
 void Session::act_on_pointer(const platform::InputFrame& input) {
-  if (!window_.focused()) window_.capture_pointer(false);
-  if (input.pressed(Key::kMouseLeft)) window_.capture_pointer(true);
-  if (!input.pressed(Key::kEscape)) return;
-  if (window_.pointer_captured()) {
-    window_.capture_pointer(false);
-  } else {
-    window_.close();
-  }
+  if (input.pressed(Key::kMouseLeft)) pointer_wanted_ = true;
+  // Without it, the pointer belongs to the person: then the key means the window.
+  if (input.pressed(Key::kEscape) && !std::exchange(pointer_wanted_, false)) window_.close();
+  window_.capture_pointer(pointer_wanted_ && window_.focused());
 }
 
 void Session::act_on_picture_keys(const platform::InputFrame& input, double seconds) {
