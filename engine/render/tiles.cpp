@@ -42,9 +42,9 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
         c.storage(0, words);
         c.storage(1, out.dispatches);
         c.storage(2, out.lists);
-        const struct { std::uint32_t width, height; } push{size.width, size.height};
+        const struct { std::uint32_t width, height, columns, rows; } push{size.width, size.height, columns, rows};
         c.push(push);
-        c.dispatch(columns, rows, 1);
+        c.dispatch(gpu::Commands::groups(columns * rows, 64), 1, 1);
       });
   return out;
 }

@@ -34,7 +34,7 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
 
 // One of a body's cascades. Selected among values that every pixel loads alike, because on lavapipe a load with its own address for each pixel
 // costs as much as a dozen selections.
-Cascade pick_cascade(uint base, uint index) {
+Cascade pick_cascade(const uint base, uint index) {
   Cascade c = frame.cascades[base];
   if (index == 1u) c = frame.cascades[base + 1u];
   if (index == 2u) c = frame.cascades[base + 2u];
@@ -44,9 +44,9 @@ Cascade pick_cascade(uint base, uint index) {
 
 // 0 in shadow, 1 in full light. Cascades are spheres around the camera; over the last fifth of its radius each fades into the next.
 // Past the last cascade nothing is known, so nothing is lit.
-float body_visibility(Body body, vec3 p, vec3 normal, float n_dot_l) {
+// `base` is the body's first cascade and a constant, so that cascades are loaded alike by all pixels.
+float cascades_visibility(const uint base, vec3 p, vec3 normal, float n_dot_l) {
   float distance = length(p);
-  uint base = body.first_cascade;
   uint index = uint(distance > frame.cascades[base].radius) + uint(distance > frame.cascades[base + 1u].radius) +
                uint(distance > frame.cascades[base + 2u].radius) + uint(distance > frame.cascades[base + 3u].radius);
   float known = index < kCascadeCount ? 1.0 : 0.0;
@@ -66,9 +66,8 @@ float body_visibility(Body body, vec3 p, vec3 normal, float n_dot_l) {
 }
 
 // Whether a body's light reaches a point in the air: one texel, 0 or 1.
-float air_visibility(Body body, vec3 p) {
+float air_visibility(const uint base, vec3 p) {
   float distance = length(p);
-  uint base = body.first_cascade;
   uint index = uint(distance > frame.cascades[base].radius) + uint(distance > frame.cascades[base + 1u].radius) +
                uint(distance > frame.cascades[base + 2u].radius);
   Cascade c = pick_cascade(base, index);

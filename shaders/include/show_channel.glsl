@@ -46,10 +46,10 @@ vec3 channel(uint word, float depth, vec3 ray) {
   if (kChannel == 4u) return hashed_colour(surface_block(word) | (surface_island(word) << 16));
   if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * frame.exposure));
   if (kChannel == 6u) return vec3(fract(log2(view_distance(depth, frame.near_plane))));
-  Body body = frame.bodies[frame.bodies[0].cascade_count != 0u ? 0 : 1];
+  Body body = frame.bodies[(kBodies & 1u) != 0u ? 0 : 1];
   if (kChannel == 7u) return hashed_colour(cascade_at(body, length(s.position)) + 3u) * 0.6 + 0.4 * s.albedo;
   float n_dot_l = dot(s.normal, body.to_light);
-  return vec3(n_dot_l > 0.0 && body.cascade_count != 0u ? light_visibility(body, s.position, s.normal, n_dot_l) : 0.0);
+  return vec3(n_dot_l > 0.0 && body.cascade_count != 0u ? light_visibility(0u, s.position, s.normal, n_dot_l) : 0.0);
 }
 
 void main() {

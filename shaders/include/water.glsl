@@ -47,9 +47,9 @@ struct Reach {   // what sun and moon bring to a point of a surface
   float any;     // largest visibility: where neither body is seen, the sky is not taken for granted either
 };
 
-void add_light(inout Reach r, Body body, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+void add_light(inout Reach r, Body body, const uint first_cascade, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
   float n_dot_l = dot(n, body.to_light);
-  float visibility = n_dot_l > 0.0 ? light_visibility(body, p, n, n_dot_l) : 0.0;
+  float visibility = n_dot_l > 0.0 ? light_visibility(first_cascade, p, n, n_dot_l) : 0.0;
   r.light += body.irradiance * (visibility * max(n_dot_l, 0.0));
   r.mirrored += visibility * glitter(body, shading_normal, to_eye, roughness);
   r.any = max(r.any, visibility);
@@ -57,8 +57,8 @@ void add_light(inout Reach r, Body body, vec3 p, vec3 n, vec3 shading_normal, ve
 
 Reach light_at(vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
   Reach r = Reach(vec3(0.0), vec3(0.0), 0.0);
-  if ((kBodies & 1u) != 0u) add_light(r, frame.bodies[0], p, n, shading_normal, to_eye, roughness);
-  if ((kBodies & 2u) != 0u) add_light(r, frame.bodies[1], p, n, shading_normal, to_eye, roughness);
+  if ((kBodies & 1u) != 0u) add_light(r, frame.bodies[0], 0u, p, n, shading_normal, to_eye, roughness);
+  if ((kBodies & 2u) != 0u) add_light(r, frame.bodies[1], kMoonCascade, p, n, shading_normal, to_eye, roughness);
   return r;
 }
 
