@@ -69,11 +69,17 @@ void find_missing_extensions(VkPhysicalDevice device, bool surface,
     missing.emplace_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     return;
   }
+  auto subgroup =
+      vk_struct<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
   auto push = vk_struct<VkPhysicalDevicePushDescriptorPropertiesKHR>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR, &subgroup);
   auto properties =
       vk_struct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &push);
   vkGetPhysicalDeviceProperties2(device, &properties);
+  if ((subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) == 0 ||
+      (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0) {
+    missing.emplace_back("subgroup arithmetic in compute shaders");
+  }
   if (push.maxPushDescriptors < kPushDescriptors) missing.emplace_back("maxPushDescriptors >= 32");
   if (properties.properties.limits.maxPushConstantsSize < kPushConstantBytes) {
     missing.emplace_back("maxPushConstantsSize >= 128");

@@ -37,7 +37,8 @@ struct Celestial {
 /// relative to the zenith (Preetham 1999, appendix A1: Rayleigh, aerosol and ozone, turbidity 2.5,
 /// air mass of Kasten and Young 1989), times the part of the disc above the horizon: 0 below -0.3
 /// degrees. The moon's is kMoonToSun times that, times Lambert's phase law of a sphere, less 1% so
-/// that thin crescents cast no light.
+/// that thin crescents cast no light; it fades out while the sun climbs to 5.7 degrees, beside
+/// which it could not be seen.
 Celestial celestial_at(double time_of_day_s, double moon_phase);
 
 /// The moon's light over the sun's at the same altitude, linear RGB, bluish. 0 about the new moon.
