@@ -9,7 +9,7 @@
 namespace skerry::game {
 namespace {
 
-constexpr float kPanelWidth = 380.0f;  // pixels
+constexpr float kPanelWidth = 370.0f;  // pixels
 constexpr float kGraphHeight = 60.0f;
 constexpr std::size_t kMemoryRows = 12;  // the rest is summed up
 
@@ -64,26 +64,39 @@ void show_memory(std::span<const gpu::MemoryUse> memory) {
   });
 }
 
-void show(const OverlayFacts& facts, float height) {
-  ImGui::SetNextWindowPos(ImVec2(8.0f, 8.0f));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(kPanelWidth, 0.0f),
-                                      ImVec2(kPanelWidth, std::max(32.0f, height - 16.0f)));
+/// A translucent panel in the upper left or right corner, as high as its contents or the picture.
+template <class F>
+void panel(const char* id, bool right, const ImVec2& picture, const F& contents) {
+  constexpr float kGap = 8.0f;
+  const float pivot = right ? 1.0f : 0.0f;
+  ImGui::SetNextWindowPos(ImVec2(right ? picture.x - kGap : kGap, kGap), ImGuiCond_Always,
+                          ImVec2(pivot, 0.0f));
+  ImGui::SetNextWindowSizeConstraints(
+      ImVec2(kPanelWidth, 0.0f), ImVec2(kPanelWidth, std::max(32.0f, picture.y - 2.0f * kGap)));
   ImGui::SetNextWindowBgAlpha(0.6f);
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration |
                                       ImGuiWindowFlags_AlwaysAutoResize |
                                       ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings;
-  ImGui::Begin("overlay", nullptr, kFlags);
-  show_frames(facts);
-  for (const std::string& line : facts.lines) text(line);
-  table("counts", "counts", [&] {
-    for (const auto& count : facts.counts) row(count.name, fmt::format("{:>12}", count.value));
-  });
-  table("passes", fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
-    for (const gpu::PassTime& pass : facts.passes)
-      row(pass.name, fmt::format("{:9.3f} ms", pass.ms));
-  });
-  show_memory(facts.memory);
+  ImGui::Begin(id, nullptr, kFlags);
+  contents();
   ImGui::End();
+}
+
+void show(const OverlayFacts& facts, const ImVec2& picture) {
+  panel("state", false, picture, [&] {
+    show_frames(facts);
+    for (const std::string& line : facts.lines) text(line);
+    table("counts", "counts", [&] {
+      for (const auto& count : facts.counts) row(count.name, fmt::format("{:>12}", count.value));
+    });
+  });
+  panel("gpu", true, picture, [&] {
+    table("passes", fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
+      for (const gpu::PassTime& pass : facts.passes)
+        row(pass.name, fmt::format("{:9.3f} ms", pass.ms));
+    });
+    show_memory(facts.memory);
+  });
 }
 
 /// ImGui's indexed lists as plain triangles, each with its clip rectangle's index.
@@ -138,7 +151,7 @@ OverlayTriangles Overlay::layout(const OverlayFacts& facts, std::uint32_t width,
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = std::max(static_cast<float>(seconds), 1e-6f);
   ImGui::NewFrame();
-  show(facts, io.DisplaySize.y);
+  show(facts, io.DisplaySize);
   ImGui::Render();
   return flatten(*ImGui::GetDrawData());
 }

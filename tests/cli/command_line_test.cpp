@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -27,8 +28,9 @@ struct Outcome {
 /// A scratch folder that goes with its owner.
 class Folder {
  public:
-  Folder() : path_(fs::path(testing::TempDir()) / ("skerry_cli_" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
+  Folder() {
+    std::string name = (fs::path(testing::TempDir()) / "skerry_cli_XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
   }
   ~Folder() { fs::remove_all(path_); }
   Folder(const Folder&) = delete;

@@ -33,7 +33,7 @@ TEST(Overlay, LaysTrianglesOutWithinTheirClipsAndThePicture) {
     ASSERT_LT(vertex.clip, triangles.clips.size());
     ASSERT_TRUE(vertex.uv.x >= 0.0f && vertex.uv.x <= 1.0f && vertex.uv.y >= 0.0f &&
                 vertex.uv.y <= 1.0f);
-    ASSERT_TRUE(vertex.position.x >= 0.0f && vertex.position.x <= 600.0f) << vertex.position.x;
+    ASSERT_TRUE(vertex.position.x >= 0.0f && vertex.position.x <= 1280.0f) << vertex.position.x;
   }
 }
 
