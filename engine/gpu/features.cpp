@@ -69,8 +69,8 @@ void find_missing_extensions(VkPhysicalDevice device, bool surface,
     missing.emplace_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     return;
   }
-  auto subgroup =
-      vk_struct<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
+  auto subgroup = vk_struct<VkPhysicalDeviceSubgroupProperties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
   auto push = vk_struct<VkPhysicalDevicePushDescriptorPropertiesKHR>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR, &subgroup);
   auto properties =

@@ -24,11 +24,13 @@ struct CameraView {
   glm::mat4 clip_from_world;
   glm::vec3 right, up, forward;  ///< unit axes
   float tan_half_x = 1.0f, tan_half_y = 1.0f;
-  /// Left, right, bottom, top, near and one plane that is always inside: dot(xyz, p) + w >= 0 inside.
+  /// Left, right, bottom, top, near and one plane that is always inside: dot(xyz, p) + w >= 0
+  /// inside.
   std::array<glm::vec4, 6> planes{};
 };
 
-/// @param width, height of the picture [pixels], > 0. Reverse-Z, infinite far plane, y flipped: clip space is Vulkan's.
+/// @param width, height of the picture [pixels], > 0. Reverse-Z, infinite far plane, y flipped:
+/// clip space is Vulkan's.
 CameraView view_of(const Camera& camera, std::uint32_t width, std::uint32_t height);
 
 }  // namespace skerry::render

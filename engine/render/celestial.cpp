@@ -130,11 +130,11 @@ Celestial celestial_at(double time_of_day_s, double moon_phase) {
   sky.to_moon = on_equator(turns - sky.moon_phase);
   sky.moon_lit_fraction = static_cast<float>(0.5 * (1.0 - unit_circle(sky.moon_phase).x));
   sky.sun_irradiance = direct_irradiance(sky.to_sun.y);
-  // By day moonlight is below 1/400 of what the sun gives and cannot be seen; fading it out saves the moon's shadow maps.
+  // By day moonlight is below 1/400 of what the sun gives and cannot be seen; fading it out saves
+  // the moon's shadow maps.
   const double sun_height = std::clamp(sky.to_sun.y / kMoonFadesAtSine, 0.0, 1.0);
   const double moon_left = 1.0 - sun_height * sun_height * (3.0 - 2.0 * sun_height);
-  sky.moon_irradiance =
-      moon_left * moonlight(sky.moon_phase) * direct_irradiance(sky.to_moon.y);
+  sky.moon_irradiance = moon_left * moonlight(sky.moon_phase) * direct_irradiance(sky.to_moon.y);
   sky.sun_casts = any(sky.sun_irradiance);
   sky.moon_casts = any(sky.moon_irradiance);
   const glm::dmat3 rows(sky.to_sun, glm::cross(kCelestialPole, sky.to_sun), kCelestialPole);

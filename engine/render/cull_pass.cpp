@@ -7,16 +7,20 @@ namespace {
 
 using gpu::Use;
 
-std::uint64_t list_index(std::uint32_t view, DrawList list) { return std::uint64_t{view} * shared::kListCount + static_cast<std::uint32_t>(list); }
+std::uint64_t list_index(std::uint32_t view, DrawList list) {
+  return std::uint64_t{view} * shared::kListCount + static_cast<std::uint32_t>(list);
+}
 
 }  // namespace
 
-CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene, const CullIn& in) {
+CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                            const SceneRefs& scene, const CullIn& in) {
   const std::uint32_t groups = gpu::Commands::groups(in.section_slots, shared::kCullGroup);
   const std::uint32_t lists = in.views * shared::kListCount;
-  // A list's ranges make at most four runs a section (six faces and the plants, every second one visible), and splitting a run adds at
-  // most one draw for every kMaxQuadsPerDraw quads.
-  const auto max_draws = static_cast<std::uint32_t>(4ull * in.section_slots + in.quads / shared::kMaxQuadsPerDraw);
+  // A list's ranges make at most four runs a section (six faces and the plants, every second one
+  // visible), and splitting a run adds at most one draw for every kMaxQuadsPerDraw quads.
+  const auto max_draws =
+      static_cast<std::uint32_t>(4ull * in.section_slots + in.quads / shared::kMaxQuadsPerDraw);
   const auto words = [&](const char* name, std::uint64_t count) {
     return graph.create(gpu::BufferDesc{name, count * 4, 0, gpu::Memory::kDevice});
   };
@@ -24,27 +28,35 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, c
   gpu::BufferRef totals = words("cull totals", std::uint64_t{lists} * groups);
   CulledDraws out;
   out.max_draws = max_draws;
-  out.commands = graph.create(gpu::BufferDesc{"draw commands", std::uint64_t{lists} * max_draws * sizeof(shared::DrawCommand), 0, gpu::Memory::kDevice});
+  out.commands = graph.create(gpu::BufferDesc{
+      "draw commands", std::uint64_t{lists} * max_draws * sizeof(shared::DrawCommand), 0,
+      gpu::Memory::kDevice});
   out.counts = words("draw counts", lists);
-  out.transforms = graph.create(gpu::BufferDesc{
-      "section transforms", std::uint64_t{in.views} * in.section_slots * sizeof(shared::SectionTransform), 0, gpu::Memory::kDevice});
+  out.transforms = graph.create(
+      gpu::BufferDesc{"section transforms",
+                      std::uint64_t{in.views} * in.section_slots * sizeof(shared::SectionTransform),
+                      0, gpu::Memory::kDevice});
   out.section_slots = in.section_slots;
-  out.stats = graph.create(gpu::BufferDesc{"cull stats", in.views * sizeof(shared::CullStats), 0, gpu::Memory::kDevice});
+  out.stats = graph.create(
+      gpu::BufferDesc{"cull stats", in.views * sizeof(shared::CullStats), 0, gpu::Memory::kDevice});
 
   graph.add_pass(
-      "clear_cull_stats", [&](gpu::PassBuilder& b) { out.stats = b.write(out.stats, Use::kTransferWrite); },
+      "clear_cull_stats",
+      [&](gpu::PassBuilder& b) { out.stats = b.write(out.stats, Use::kTransferWrite); },
       [stats = out.stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
 
   graph.add_pass(
       "cull_sections",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.sections, scene.view_islands, scene.views}) b.read(ref, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {scene.sections, scene.view_islands, scene.views})
+          b.read(ref, Use::kComputeRead);
         masks = b.write(masks, Use::kComputeWrite);
         totals = b.write(totals, Use::kComputeWrite);
         out.stats = b.write(out.stats, Use::kComputeWrite);
         out.transforms = b.write(out.transforms, Use::kComputeWrite);
       },
-      [scene, masks, totals, stats = out.stats, transforms = out.transforms, in, groups, &pipeline = pipelines.get(gpu::ComputeDesc{"cull_sections.comp", {}})](gpu::Commands& c) {
+      [scene, masks, totals, stats = out.stats, transforms = out.transforms, in, groups,
+       &pipeline = pipelines.get(gpu::ComputeDesc{"cull_sections.comp", {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.sections);
         c.storage(1, scene.view_islands);
@@ -53,7 +65,9 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, c
         c.storage(4, totals);
         c.storage(5, stats);
         c.storage(6, transforms);
-        const struct { std::uint32_t section_count, group_count, islands_per_view; } push{in.section_slots, groups, scene.islands_per_view};
+        const struct {
+          std::uint32_t section_count, group_count, islands_per_view;
+        } push{in.section_slots, groups, scene.islands_per_view};
         c.push(push);
         c.dispatch(groups, in.views, 1);
       });
@@ -64,7 +78,8 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, c
         totals = b.write(totals, Use::kComputeWrite);
         out.counts = b.write(out.counts, Use::kComputeWrite);
       },
-      [totals, counts = out.counts, lists, groups, max_draws, &pipeline = pipelines.get(gpu::ComputeDesc{"cull_scan.comp", {}})](gpu::Commands& c) {
+      [totals, counts = out.counts, lists, groups, max_draws,
+       &pipeline = pipelines.get(gpu::ComputeDesc{"cull_scan.comp", {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, totals);
         c.storage(1, counts);
@@ -76,7 +91,8 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, c
   graph.add_pass(
       "cull_emit",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.sections, masks, totals, scene.views}) b.read(ref, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {scene.sections, masks, totals, scene.views})
+          b.read(ref, Use::kComputeRead);
         out.commands = b.write(out.commands, Use::kComputeWrite);
       },
       [scene, masks, totals, commands = out.commands, in, groups, max_draws,
@@ -87,7 +103,9 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, c
         c.storage(2, totals);
         c.storage(3, scene.views);
         c.storage(4, commands);
-        const struct { std::uint32_t section_count, group_count, max_draws; } push{in.section_slots, groups, max_draws};
+        const struct {
+          std::uint32_t section_count, group_count, max_draws;
+        } push{in.section_slots, groups, max_draws};
         c.push(push);
         c.dispatch(groups, in.views, 1);
       });
@@ -102,7 +120,8 @@ void declare_draws(gpu::PassBuilder& builder, const SceneRefs& scene, const Cull
   builder.read(draws.transforms, Use::kVertexRead);
 }
 
-void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws, std::uint32_t view, DrawList list) {
+void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
+               std::uint32_t view, DrawList list) {
   commands.storage(0, scene.quads);
   commands.storage(1, draws.transforms);
   const struct {
@@ -112,7 +131,9 @@ void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraw
   commands.push(push);
   commands.index_buffer(scene.indices, VK_INDEX_TYPE_UINT16);
   const std::uint64_t index = list_index(view, list);
-  commands.draw_indirect_count(draws.commands, index * draws.max_draws * sizeof(shared::DrawCommand), draws.counts, index * 4, draws.max_draws);
+  commands.draw_indirect_count(draws.commands,
+                               index * draws.max_draws * sizeof(shared::DrawCommand), draws.counts,
+                               index * 4, draws.max_draws);
 }
 
 }  // namespace skerry::render

@@ -15,20 +15,23 @@ struct CullIn {
 
 /// Indirect draws of every view and list, in section order.
 struct CulledDraws {
-  gpu::BufferRef commands;  ///< shared::DrawCommand[view][list][max_draws]
-  gpu::BufferRef counts;    ///< uint[view][list]
-  gpu::BufferRef stats;     ///< shared::CullStats[view]
+  gpu::BufferRef commands;    ///< shared::DrawCommand[view][list][max_draws]
+  gpu::BufferRef counts;      ///< uint[view][list]
+  gpu::BufferRef stats;       ///< shared::CullStats[view]
   gpu::BufferRef transforms;  ///< shared::SectionTransform[view][section]
   std::uint32_t section_slots = 0;
   std::uint32_t max_draws = 0;
 };
 
-/// Frustum and face-direction culling on the GPU for all views at once: three compute passes (sections, scan, emit). The order of draws does not
-/// depend on thread timing. Conservative: tested against brute force.
-CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene, const CullIn& in);
+/// Frustum and face-direction culling on the GPU for all views at once: three compute passes
+/// (sections, scan, emit). The order of draws does not depend on thread timing. Conservative:
+/// tested against brute force.
+CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                            const SceneRefs& scene, const CullIn& in);
 
 /// Records one list of one view into a pass with the right pipeline and bindings set.
-void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws, std::uint32_t view, DrawList list);
+void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
+               std::uint32_t view, DrawList list);
 
 /// Declares what draw_list() uses.
 void declare_draws(gpu::PassBuilder& builder, const SceneRefs& scene, const CulledDraws& draws);

@@ -4,7 +4,8 @@ namespace skerry::render {
 
 using gpu::Use;
 
-Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, Shaded shaded, gpu::Image& picture) {
+Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                           Shaded shaded, gpu::Image& picture) {
   gpu::ImageRef out = graph.import(picture);
   const gpu::ImageRef radiance = shaded.radiance();
   graph.add_pass(
@@ -15,27 +16,33 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         out = b.write(out, Use::kComputeWrite);
       },
-      [scene, radiance, out, &pipeline = pipelines.get(gpu::ComputeDesc{"develop.comp", {}})](gpu::Commands& c) {
+      [scene, radiance, out,
+       &pipeline = pipelines.get(gpu::ComputeDesc{"develop.comp", {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.pixel_stats);
         c.storage(2, radiance);
         c.storage(9, out);
-        c.dispatch(gpu::Commands::groups(scene.size.width, 8), gpu::Commands::groups(scene.size.height, 8), 1);
+        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
+                   gpu::Commands::groups(scene.size.height, 8), 1);
       });
   return Developed(out);
 }
 
-Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
+Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                 SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
                                  DebugView view, gpu::Image& picture) {
   gpu::ImageRef out = graph.import(picture);
-  const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth(), maps = shadows.maps();
+  const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth(),
+                      maps = shadows.maps();
   const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{maps ? "show_channel.comp" : "show_channel_unshadowed.comp", {{0, static_cast<std::uint32_t>(view)}, {8, scene.bodies}}});
+      pipelines.get(gpu::ComputeDesc{maps ? "show_channel.comp" : "show_channel_unshadowed.comp",
+                                     {{0, static_cast<std::uint32_t>(view)}, {8, scene.bodies}}});
   graph.add_pass(
       "show_channel",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials}) b.read(ref, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
         b.read(surfaces, Use::kComputeRead);
         b.read(depth, Use::kComputeSampled);
         b.read(scene.block_textures, Use::kComputeSampled);
@@ -52,7 +59,8 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
         c.sampled(5, scene.block_textures, scene.block_sampler);
         c.storage(6, out);
         if (maps) c.sampled(7, maps, scene.point_sampler);
-        c.dispatch(gpu::Commands::groups(scene.size.width, 8), gpu::Commands::groups(scene.size.height, 8), 1);
+        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
+                   gpu::Commands::groups(scene.size.height, 8), 1);
       });
   return Developed(out);
 }

@@ -12,9 +12,11 @@ namespace skerry::render {
 /// Radiance to picture: exposure, tone curve, sRGB; or a debug view of what the frame holds.
 struct DevelopPass {
   /// @param picture RGBA8 storage image of the frame's size.
-  static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, Shaded shaded, gpu::Image& picture);
-  static Developed add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
-                             DebugView view, gpu::Image& picture);
+  static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                       Shaded shaded, gpu::Image& picture);
+  static Developed add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                             const Geometry& geometry, const Shadows& shadows, DebugView view,
+                             gpu::Image& picture);
 };
 
 }  // namespace skerry::render

@@ -9,7 +9,8 @@ namespace skerry::render {
 namespace {
 
 glm::dvec3 blocks_between(const FixedPos& to, const FixedPos& from) {
-  return {static_cast<double>(to[0] - from[0]) / 65536.0, static_cast<double>(to[1] - from[1]) / 65536.0,
+  return {static_cast<double>(to[0] - from[0]) / 65536.0,
+          static_cast<double>(to[1] - from[1]) / 65536.0,
           static_cast<double>(to[2] - from[2]) / 65536.0};
 }
 
@@ -28,7 +29,8 @@ shared::Cascade shader_cascade(const ActiveCascade& active, int map_size) {
   return out;
 }
 
-shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body, std::span<const ActiveCascade> cascades) {
+shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body,
+                         std::span<const ActiveCascade> cascades) {
   shared::Body out{};
   out.to_light = glm::vec3(to_light);
   out.irradiance = irradiance;
@@ -37,28 +39,35 @@ shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body, st
   return out;
 }
 
-/// Extinction of clear air, taken back as the brighter body sets: haze is lit by it, and must not end in a step when it is gone.
+/// Extinction of clear air, taken back as the brighter body sets: haze is lit by it, and must not
+/// end in a step when it is gone.
 float haze_per_block(const Celestial& sky) {
   constexpr float kClearAir = 0.0005f, kFullAt = 0.05f;
   const float sun = glm::dot(sky.sun_irradiance, glm::vec3(1.0f / 3.0f));
-  const float moon = glm::dot(sky.moon_irradiance, glm::vec3(1.0f / 3.0f)) / static_cast<float>(kMoonToSun);
+  const float moon =
+      glm::dot(sky.moon_irradiance, glm::vec3(1.0f / 3.0f)) / static_cast<float>(kMoonToSun);
   return kClearAir * glm::smoothstep(0.0f, kFullAt, sky.sun_casts ? sun : moon);
 }
 
-void append_islands(std::vector<shared::IslandTransform>& out, std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
+void append_islands(std::vector<shared::IslandTransform>& out,
+                    std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
 }
 
-glm::vec3 unpack_box(std::uint32_t packed) { return {packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u}; }
+glm::vec3 unpack_box(std::uint32_t packed) {
+  return {packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u};
+}
 
 }  // namespace
 
 shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to) {
   const glm::dmat3 axes = glm::mat3_cast(island.rotation);
-  return {glm::vec3(axes[0]), glm::vec3(axes[1]), glm::vec3(axes[2]), glm::vec3(blocks_between(island.origin, relative_to))};
+  return {glm::vec3(axes[0]), glm::vec3(axes[1]), glm::vec3(axes[2]),
+          glm::vec3(blocks_between(island.origin, relative_to))};
 }
 
-FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, std::span<const ActiveCascade> cascades) {
+FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+                         std::span<const ActiveCascade> cascades) {
   FrameTables out;
   const CameraView camera = view_of(input.camera, size.width, size.height);
   shared::FrameConstants& f = out.constants;
@@ -90,13 +99,16 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
     f.cascades[active.layer] = shader_cascade(active, settings.shadow_map_size);
     if (!active.redraw) continue;
     shared::CullView light{};
-    for (std::size_t i = 0; i < active.cascade.planes.size(); ++i) light.planes[i] = active.cascade.planes[i];
-    light.planes[5] = glm::vec4(0, 0, 0, 1);  // casters beyond the range are flattened onto it, so none may be culled there
+    for (std::size_t i = 0; i < active.cascade.planes.size(); ++i)
+      light.planes[i] = active.cascade.planes[i];
+    light.planes[5] = glm::vec4(
+        0, 0, 0, 1);  // casters beyond the range are flattened onto it, so none may be culled there
     light.eye = glm::vec3(active.body == 0 ? input.sky.to_sun : input.sky.to_moon);
     light.orthographic = 1;
     light.enabled = 1;
     out.views.push_back(light);
-    // Relative to the map's own centre, a function of its key alone: a map drawn again in the same window is equal to the last bit.
+    // Relative to the map's own centre, a function of its key alone: a map drawn again in the same
+    // window is equal to the last bit.
     out.matrices.push_back(active.cascade.clip_from_centre);
     append_islands(out.islands, input.islands, active.cascade.centre);
   }
@@ -109,18 +121,25 @@ void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& 
   view.eye -= moved;
 }
 
-bool translucent_in_view(std::span<const shared::Section> sections, std::span<const shared::IslandTransform> islands, const shared::CullView& view) {
+bool translucent_in_view(std::span<const shared::Section> sections,
+                         std::span<const shared::IslandTransform> islands,
+                         const shared::CullView& view) {
   for (const shared::Section& s : sections) {
-    if (s.range_end[shared::kRangeCount - 1] == s.range_end[shared::kRangeTranslucent - 1]) continue;
+    if (s.range_end[shared::kRangeCount - 1] == s.range_end[shared::kRangeTranslucent - 1])
+      continue;
     const shared::IslandTransform& t = islands[s.island];
     const float voxel = static_cast<float>(1u << s.voxel_size_log2);
-    const glm::vec3 low = glm::vec3(s.origin) + unpack_box(s.bounds_min) * voxel, high = glm::vec3(s.origin) + unpack_box(s.bounds_max) * voxel;
+    const glm::vec3 low = glm::vec3(s.origin) + unpack_box(s.bounds_min) * voxel,
+                    high = glm::vec3(s.origin) + unpack_box(s.bounds_max) * voxel;
     const glm::vec3 centre = 0.5f * (low + high), half = 0.5f * (high - low);
-    const glm::vec3 world = t.axis_x * centre.x + t.axis_y * centre.y + t.axis_z * centre.z + t.translation;
+    const glm::vec3 world =
+        t.axis_x * centre.x + t.axis_y * centre.y + t.axis_z * centre.z + t.translation;
     bool inside = true;
     for (const glm::vec4& plane : view.planes) {
       const glm::vec3 n(plane);
-      const float reach = std::abs(glm::dot(n, t.axis_x)) * half.x + std::abs(glm::dot(n, t.axis_y)) * half.y + std::abs(glm::dot(n, t.axis_z)) * half.z;
+      const float reach = std::abs(glm::dot(n, t.axis_x)) * half.x +
+                          std::abs(glm::dot(n, t.axis_y)) * half.y +
+                          std::abs(glm::dot(n, t.axis_z)) * half.z;
       inside = inside && glm::dot(n, world) + plane.w + reach >= -1e-3f * (1.0f + reach);
     }
     if (inside) return true;

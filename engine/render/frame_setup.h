@@ -7,23 +7,28 @@
 
 namespace skerry::render {
 
-/// The per-frame tables as they are uploaded; view 0 is the camera, then one for each cascade drawn afresh.
+/// The per-frame tables as they are uploaded; view 0 is the camera, then one for each cascade drawn
+/// afresh.
 struct FrameTables {
   shared::FrameConstants constants{};
   std::vector<shared::CullView> views;
-  std::vector<glm::mat4> matrices;                 ///< clip_from_source, one a view
-  std::vector<shared::IslandTransform> islands;    ///< [view][island], each view's relative to its own source
+  std::vector<glm::mat4> matrices;  ///< clip_from_source, one a view
+  std::vector<shared::IslandTransform>
+      islands;  ///< [view][island], each view's relative to its own source
 };
 
 /// An island relative to a point. The subtraction is exact; only the result becomes float.
 shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to);
 
-FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, std::span<const ActiveCascade> cascades);
+FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+                         std::span<const ActiveCascade> cascades);
 
 /// Planes of a view at `frozen`, for a camera that has since moved to `now`.
 void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& now);
 
 /// Whether any resident section with translucent quads touches the camera's frustum.
-bool translucent_in_view(std::span<const shared::Section> sections, std::span<const shared::IslandTransform> islands, const shared::CullView& view);
+bool translucent_in_view(std::span<const shared::Section> sections,
+                         std::span<const shared::IslandTransform> islands,
+                         const shared::CullView& view);
 
 }  // namespace skerry::render

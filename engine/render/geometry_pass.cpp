@@ -4,14 +4,24 @@ namespace skerry::render {
 
 using gpu::Use;
 
-Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene, const CulledDraws& draws, bool cutouts) {
-  gpu::ImageRef surfaces = graph.create(gpu::ImageDesc{.name = "surfaces", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
-  gpu::ImageRef depth = graph.create(gpu::ImageDesc{.name = "depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
+Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                           const SceneRefs& scene, const CulledDraws& draws, bool cutouts) {
+  gpu::ImageRef surfaces = graph.create(
+      gpu::ImageDesc{.name = "surfaces", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
+  gpu::ImageRef depth = graph.create(
+      gpu::ImageDesc{.name = "depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
 
-  gpu::GraphicsDesc opaque{.vertex = "draw_quads.vert", .fragment = "write_surface.frag", .constants = {}, .color_formats = {VK_FORMAT_R32_UINT},
+  gpu::GraphicsDesc opaque{.vertex = "draw_quads.vert",
+                           .fragment = "write_surface.frag",
+                           .constants = {},
+                           .color_formats = {VK_FORMAT_R32_UINT},
                            .depth_format = VK_FORMAT_D32_SFLOAT};
-  gpu::GraphicsDesc cutout{.vertex = "draw_quads.vert", .fragment = "write_cutout.frag", .constants = {{0, 1}}, .color_formats = {VK_FORMAT_R32_UINT},
-                           .depth_format = VK_FORMAT_D32_SFLOAT, .cull = VK_CULL_MODE_NONE};
+  gpu::GraphicsDesc cutout{.vertex = "draw_quads.vert",
+                           .fragment = "write_cutout.frag",
+                           .constants = {{0, 1}},
+                           .color_formats = {VK_FORMAT_R32_UINT},
+                           .depth_format = VK_FORMAT_D32_SFLOAT,
+                           .cull = VK_CULL_MODE_NONE};
   const gpu::Pipeline& opaque_pipeline = pipelines.get(opaque);
   const gpu::Pipeline* cutout_pipeline = cutouts ? &pipelines.get(cutout) : nullptr;
 

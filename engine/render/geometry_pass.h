@@ -4,11 +4,13 @@
 
 namespace skerry::render {
 
-/// Draws opaque and cut-out quads of the camera's view: 4 bytes of surface word and 4 of depth a pixel. Position comes back from the depth, the exact
-/// normal from word and island, albedo from position and block textures (docs/decisions/0002).
+/// Draws opaque and cut-out quads of the camera's view: 4 bytes of surface word and 4 of depth a
+/// pixel. Position comes back from the depth, the exact normal from word and island, albedo from
+/// position and block textures (docs/decisions/0002).
 struct GeometryPass {
   /// @param cutouts false leaves the pass's alpha-tested half out.
-  static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene, const CulledDraws& draws, bool cutouts);
+  static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                      const CulledDraws& draws, bool cutouts);
 };
 
 }  // namespace skerry::render

@@ -12,8 +12,9 @@
 namespace skerry::render {
 namespace {
 
-constexpr VkBufferUsageFlags kTableUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr VkBufferUsageFlags kTableUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 constexpr std::uint32_t kFirstSections = 1024;
 constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
 
@@ -23,7 +24,8 @@ std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, s
 
 /// A bigger buffer with the old one's bytes. Waits for the GPU: growth is rare, and doubles.
 Result<gpu::Buffer> grown(gpu::Device& device, gpu::Buffer& old, std::uint64_t size_bytes) {
-  Result<gpu::Buffer> bigger = device.create_buffer({old.name(), size_bytes, kTableUsage, gpu::Memory::kDevice});
+  Result<gpu::Buffer> bigger =
+      device.create_buffer({old.name(), size_bytes, kTableUsage, gpu::Memory::kDevice});
   if (!bigger) return bigger;
   device.run_now([&](VkCommandBuffer commands) {
     auto barrier = gpu::vk_struct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
@@ -44,13 +46,16 @@ Result<gpu::Buffer> grown(gpu::Device& device, gpu::Buffer& old, std::uint64_t s
 
 }  // namespace
 
-Result<std::unique_ptr<GeometryStore>> GeometryStore::create(gpu::Device& device, std::uint32_t arena_quads) {
+Result<std::unique_ptr<GeometryStore>> GeometryStore::create(gpu::Device& device,
+                                                             std::uint32_t arena_quads) {
   std::unique_ptr<GeometryStore> store(new GeometryStore(device, arena_quads));
   Result<gpu::Buffer> quads =
-      device.create_buffer({"quad arena", std::uint64_t{arena_quads} * sizeof(shared::Quad), kTableUsage, gpu::Memory::kDevice});
+      device.create_buffer({"quad arena", std::uint64_t{arena_quads} * sizeof(shared::Quad),
+                            kTableUsage, gpu::Memory::kDevice});
   if (!quads) return quads.error();
   Result<gpu::Buffer> sections =
-      device.create_buffer({"section table", kFirstSections * sizeof(shared::Section), kTableUsage, gpu::Memory::kDevice});
+      device.create_buffer({"section table", kFirstSections * sizeof(shared::Section), kTableUsage,
+                            gpu::Memory::kDevice});
   if (!sections) return sections.error();
   store->quads_ = *std::move(quads);
   store->sections_ = *std::move(sections);
@@ -58,7 +63,8 @@ Result<std::unique_ptr<GeometryStore>> GeometryStore::create(gpu::Device& device
   return store;
 }
 
-Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section section, std::span<const shared::Quad> quads) {
+Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section section,
+                                     std::span<const shared::Quad> quads) {
   SKERRY_ASSERT(!quads.empty() && quads.size() == section.range_end[shared::kRangeCount - 1]);
   const auto wanted = static_cast<std::uint32_t>(quads.size());
   Result<gpu::ArenaRange> range = arena_.allocate(wanted);
@@ -80,32 +86,41 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   records_[slot] = section;
   scratch_.assign(quads.begin(), quads.end());
   for (shared::Quad& quad : scratch_) quad.material |= section.island << kIslandShift;
-  uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad), std::span<const shared::Quad>(scratch_));
-  uploader.write(sections_, std::uint64_t{slot} * sizeof(shared::Section), std::span<const shared::Section>(&section, 1));
+  uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad),
+                 std::span<const shared::Quad>(scratch_));
+  uploader.write(sections_, std::uint64_t{slot} * sizeof(shared::Section),
+                 std::span<const shared::Section>(&section, 1));
   count(section, 1);
   return SectionId{slot};
 }
 
 void GeometryStore::remove(gpu::Uploader& uploader, SectionId id) {
-  SKERRY_ASSERT(id.slot < records_.size() && records_[id.slot].range_end[shared::kRangeCount - 1] != 0);
+  SKERRY_ASSERT(id.slot < records_.size() &&
+                records_[id.slot].range_end[shared::kRangeCount - 1] != 0);
   const shared::Section old = records_[id.slot];
   count(old, -1);
   records_[id.slot] = {};
-  uploader.write(sections_, std::uint64_t{id.slot} * sizeof(shared::Section), std::span<const shared::Section>(&records_[id.slot], 1));
+  uploader.write(sections_, std::uint64_t{id.slot} * sizeof(shared::Section),
+                 std::span<const shared::Section>(&records_[id.slot], 1));
   arena_.free({old.first_quad, old.range_end[shared::kRangeCount - 1]}, device_->next_value());
   free_slots_.push_back(id.slot);
 }
 
-void GeometryStore::collect() { arena_.collect(device_->completed_value()); }
+void GeometryStore::collect() {
+  arena_.collect(device_->completed_value());
+}
 
 Result<void> GeometryStore::grow_arena(std::uint32_t at_least) {
-  const std::uint64_t most = std::min<std::uint64_t>(device_->limits().max_storage_range / sizeof(shared::Quad), 1u << 29);
+  const std::uint64_t most =
+      std::min<std::uint64_t>(device_->limits().max_storage_range / sizeof(shared::Quad), 1u << 29);
   const std::uint64_t now = arena_.capacity();
   const std::uint64_t next = std::min(most, std::max(now * 2, now + at_least));
   if (next < now + at_least)
-    return Error{fmt::format("quad arena is full: a chunk needs {} more quads, {} of {} are in use and the device allows {}; "
-                             "lower view.distance or view.detail",
-                             at_least, arena_.used(), now, most)};
+    return Error{
+        fmt::format("quad arena is full: a chunk needs {} more quads, {} of {} are in use and the "
+                    "device allows {}; "
+                    "lower view.distance or view.detail",
+                    at_least, arena_.used(), now, most)};
   Result<gpu::Buffer> bigger = grown(*device_, quads_, next * sizeof(shared::Quad));
   if (!bigger) return bigger.error();
   quads_ = *std::move(bigger);
@@ -115,7 +130,8 @@ Result<void> GeometryStore::grow_arena(std::uint32_t at_least) {
 
 Result<void> GeometryStore::grow_sections() {
   const std::uint32_t next = section_capacity_ * 2;
-  Result<gpu::Buffer> bigger = grown(*device_, sections_, std::uint64_t{next} * sizeof(shared::Section));
+  Result<gpu::Buffer> bigger =
+      grown(*device_, sections_, std::uint64_t{next} * sizeof(shared::Section));
   if (!bigger) return bigger.error();
   sections_ = *std::move(bigger);
   section_capacity_ = next;
@@ -123,8 +139,10 @@ Result<void> GeometryStore::grow_sections() {
 }
 
 void GeometryStore::count(const shared::Section& section, std::int64_t sign) {
-  cutout_quads_ += static_cast<std::uint64_t>(sign * range_quads(section, shared::kRangeCutout, shared::kRangeTranslucent));
-  translucent_quads_ += static_cast<std::uint64_t>(sign * range_quads(section, shared::kRangeTranslucent, shared::kRangeCount));
+  cutout_quads_ += static_cast<std::uint64_t>(
+      sign * range_quads(section, shared::kRangeCutout, shared::kRangeTranslucent));
+  translucent_quads_ += static_cast<std::uint64_t>(
+      sign * range_quads(section, shared::kRangeTranslucent, shared::kRangeCount));
   ++version_;
 }
 

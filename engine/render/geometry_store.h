@@ -22,16 +22,21 @@ struct SectionId {
   bool operator==(const SectionId&) const = default;
 };
 
-/// Everything drawable that stays on the GPU between frames: quads in one arena, one section record a chunk mesh. Writes go through the
-/// uploader's queue, a section's quads before its record, so the GPU never sees a record whose quads are missing.
+/// Everything drawable that stays on the GPU between frames: quads in one arena, one section record
+/// a chunk mesh. Writes go through the uploader's queue, a section's quads before its record, so
+/// the GPU never sees a record whose quads are missing.
 class GeometryStore {
  public:
-  /// @param arena_quads capacity to begin with; it doubles when full, up to the device's largest storage buffer.
-  static Result<std::unique_ptr<GeometryStore>> create(gpu::Device& device, std::uint32_t arena_quads);
+  /// @param arena_quads capacity to begin with; it doubles when full, up to the device's largest
+  /// storage buffer.
+  static Result<std::unique_ptr<GeometryStore>> create(gpu::Device& device,
+                                                       std::uint32_t arena_quads);
 
-  /// Queues a chunk mesh. @param section its record; first_quad is filled in here. @param quads not empty.
-  /// Errors when the arena is full and cannot grow: what is needed, what there is, what to lower.
-  Result<SectionId> add(gpu::Uploader& uploader, shared::Section section, std::span<const shared::Quad> quads);
+  /// Queues a chunk mesh. @param section its record; first_quad is filled in here. @param quads not
+  /// empty. Errors when the arena is full and cannot grow: what is needed, what there is, what to
+  /// lower.
+  Result<SectionId> add(gpu::Uploader& uploader, shared::Section section,
+                        std::span<const shared::Quad> quads);
   /// Its quads may be overwritten once the GPU has finished everything submitted so far.
   void remove(gpu::Uploader& uploader, SectionId id);
   /// Once a frame, before recording: reclaims what the GPU has let go of.
@@ -41,7 +46,9 @@ class GeometryStore {
   gpu::Buffer& sections() { return sections_; }
   /// Section slots in use or once used: what culling looks at.
   std::uint32_t section_slots() const { return static_cast<std::uint32_t>(records_.size()); }
-  std::uint32_t sections_resident() const { return section_slots() - static_cast<std::uint32_t>(free_slots_.size()); }
+  std::uint32_t sections_resident() const {
+    return section_slots() - static_cast<std::uint32_t>(free_slots_.size());
+  }
   std::uint64_t quads_resident() const { return arena_.used(); }
   std::uint64_t translucent_quads() const { return translucent_quads_; }
   std::uint64_t cutout_quads() const { return cutout_quads_; }
@@ -50,7 +57,8 @@ class GeometryStore {
   std::uint64_t version() const { return version_; }
 
  private:
-  GeometryStore(gpu::Device& device, std::uint32_t arena_quads) : device_(&device), arena_(arena_quads) {}
+  GeometryStore(gpu::Device& device, std::uint32_t arena_quads)
+      : device_(&device), arena_(arena_quads) {}
   Result<void> grow_arena(std::uint32_t at_least);
   Result<void> grow_sections();
   void count(const shared::Section& section, std::int64_t sign);
@@ -58,7 +66,7 @@ class GeometryStore {
   gpu::Device* device_;
   gpu::OffsetArena arena_;
   gpu::Buffer quads_, sections_;
-  std::vector<shared::Section> records_;   // CPU copy, one a slot; free slots have no ranges
+  std::vector<shared::Section> records_;  // CPU copy, one a slot; free slots have no ranges
   std::vector<std::uint32_t> free_slots_;
   std::vector<shared::Quad> scratch_;
   std::uint32_t section_capacity_ = 0;

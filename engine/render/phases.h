@@ -5,16 +5,19 @@
 
 namespace skerry::render {
 
-// A frame's phases as types: geometry -> shaded -> developed. Each can only be had from the pass that makes it, is handed on by
-// move, and is used up by the next phase. Sampling what was not written, or running a phase twice or out of order, does not compile.
+// A frame's phases as types: geometry -> shaded -> developed. Each can only be had from the pass
+// that makes it, is handed on by move, and is used up by the next phase. Sampling what was not
+// written, or running a phase twice or out of order, does not compile.
 
 /// The G-buffer is complete: what surface is at each pixel, and how far.
 class Geometry {
  public:
   Geometry(Geometry&&) = default;
   Geometry& operator=(Geometry&&) = default;
-  gpu::ImageRef surfaces() const { return surfaces_; }  ///< R32_UINT, pack_surface() of shaders/include/common.glsl; 0 where there is sky
-  gpu::ImageRef depth() const { return depth_; }        ///< D32, reverse-Z
+  gpu::ImageRef surfaces() const {
+    return surfaces_;
+  }  ///< R32_UINT, pack_surface() of shaders/include/common.glsl; 0 where there is sky
+  gpu::ImageRef depth() const { return depth_; }  ///< D32, reverse-Z
 
  private:
   friend struct GeometryPass;

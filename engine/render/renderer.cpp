@@ -22,17 +22,19 @@ namespace skerry::render {
 namespace {
 
 constexpr std::uint32_t kFramesInFlight = 2;
-constexpr VkBufferUsageFlags kTable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-constexpr std::array<const char*, 8> kShadowPassNames{"draw_shadow_sun_0",  "draw_shadow_sun_1",  "draw_shadow_sun_2",  "draw_shadow_sun_3",
-                                                      "draw_shadow_moon_0", "draw_shadow_moon_1", "draw_shadow_moon_2", "draw_shadow_moon_3"};
+constexpr VkBufferUsageFlags kTable =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr std::array<const char*, 8> kShadowPassNames{
+    "draw_shadow_sun_0",  "draw_shadow_sun_1",  "draw_shadow_sun_2",  "draw_shadow_sun_3",
+    "draw_shadow_moon_0", "draw_shadow_moon_1", "draw_shadow_moon_2", "draw_shadow_moon_3"};
 
 /// What one frame in flight owns.
 struct Slot {
-  std::uint64_t value = 0;       // timeline value that completes it; 0: not in flight
-  gpu::Buffer readback;          // CullStats[kViewCount], then PixelStats
-  std::uint32_t views = 0;       // entries of CullStats that the frame wrote
-  bool pixels = false;           // whether it wrote PixelStats
+  std::uint64_t value = 0;  // timeline value that completes it; 0: not in flight
+  gpu::Buffer readback;     // CullStats[kViewCount], then PixelStats
+  std::uint32_t views = 0;  // entries of CullStats that the frame wrote
+  bool pixels = false;      // whether it wrote PixelStats
 };
 
 constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::CullStats);
@@ -41,23 +43,35 @@ constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::
 
 struct Renderer::State {
   State(gpu::Device& d, const RendererDesc& desc)
-      : device(d), pipelines(d), graph(&d), frame_uploader(d, desc.upload_path), mesh_uploader(d, desc.upload_path), shadows(d),
-        ring(d, kFramesInFlight), upload_budget(desc.upload_budget_bytes) {}
+      : device(d),
+        pipelines(d),
+        graph(&d),
+        frame_uploader(d, desc.upload_path),
+        mesh_uploader(d, desc.upload_path),
+        shadows(d),
+        ring(d, kFramesInFlight),
+        upload_budget(desc.upload_budget_bytes) {}
 
   Result<void> create(const RendererDesc& desc);
-  Result<gpu::Buffer> table(const char* name, std::uint64_t size_bytes) { return device.create_buffer({name, size_bytes, kTable, gpu::Memory::kDevice}); }
+  Result<gpu::Buffer> table(const char* name, std::uint64_t size_bytes) {
+    return device.create_buffer({name, size_bytes, kTable, gpu::Memory::kDevice});
+  }
   Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
   Result<void> resize_picture(VkExtent2D size);
   template <class T>
   Result<void> upload(gpu::Buffer& to, const char* name, std::span<const T> values);
-  Result<void> upload_tables(const FrameTables& tables, std::size_t island_count, const shared::SkyConstants& sky);
+  Result<void> upload_tables(const FrameTables& tables, std::size_t island_count,
+                             const shared::SkyConstants& sky);
   void take_report(std::uint32_t slot_index);
   SceneRefs import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables);
-  void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
-             std::span<const ActiveCascade> cascades, const shared::SkyConstants& sky_now, Slot& slot);
-  Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws, const RenderSettings& settings, const FrameInput& input,
+  void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+             const FrameTables& tables, std::span<const ActiveCascade> cascades,
+             const shared::SkyConstants& sky_now, Slot& slot);
+  Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws,
+                      const RenderSettings& settings, const FrameInput& input,
                       std::span<const ActiveCascade> cascades);
-  void add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats, std::uint32_t views);
+  void add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats,
+                    std::uint32_t views);
 
   gpu::Device& device;
   gpu::Pipelines pipelines;
@@ -77,9 +91,11 @@ struct Renderer::State {
   std::optional<std::pair<shared::CullView, FixedPos>> frozen;
 };
 
-Result<void> Renderer::State::reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes) {
+Result<void> Renderer::State::reserve(gpu::Buffer& buffer, const char* name,
+                                      std::uint64_t size_bytes) {
   if (buffer && buffer.size_bytes() >= size_bytes) return {};
-  Result<gpu::Buffer> made = table(name, buffer ? std::max(size_bytes, buffer.size_bytes() * 2) : size_bytes);
+  Result<gpu::Buffer> made =
+      table(name, buffer ? std::max(size_bytes, buffer.size_bytes() * 2) : size_bytes);
   if (!made) return made.error();
   buffer = *std::move(made);
   return {};
@@ -87,7 +103,9 @@ Result<void> Renderer::State::reserve(gpu::Buffer& buffer, const char* name, std
 
 template <class T>
 Result<void> Renderer::State::upload(gpu::Buffer& to, const char* name, std::span<const T> values) {
-  if (Result<void> ok = reserve(to, name, std::max<std::size_t>(values.size_bytes(), sizeof(T))); !ok) return ok;
+  if (Result<void> ok = reserve(to, name, std::max<std::size_t>(values.size_bytes(), sizeof(T)));
+      !ok)
+    return ok;
   if (!values.empty()) frame_uploader.write(to, 0, values);
   return {};
 }
@@ -100,30 +118,41 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
   std::vector<std::uint16_t> index(shared::kMaxQuadsPerDraw * 6);
   for (std::uint32_t quad = 0; quad < shared::kMaxQuadsPerDraw; ++quad)
     for (std::uint32_t i = 0; i < 6; ++i)
-      index[quad * 6 + i] = static_cast<std::uint16_t>(quad * 4 + std::array<std::uint32_t, 6>{0, 1, 2, 0, 2, 3}[i]);
+      index[quad * 6 + i] =
+          static_cast<std::uint16_t>(quad * 4 + std::array<std::uint32_t, 6>{0, 1, 2, 0, 2, 3}[i]);
   Result<gpu::Buffer> made = device.create_buffer(
-      {"quad indices", index.size() * 2, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kDevice});
+      {"quad indices", index.size() * 2,
+       VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kDevice});
   if (!made) return made.error();
   indices = *std::move(made);
   frame_uploader.write(indices, 0, std::span<const std::uint16_t>(index));
   if (Result<void> ok = upload(materials, "materials", desc.materials); !ok) return ok;
-  if (Result<void> ok = reserve(pixel_stats, "pixel stats", sizeof(shared::PixelStats)); !ok) return ok;
+  if (Result<void> ok = reserve(pixel_stats, "pixel stats", sizeof(shared::PixelStats)); !ok)
+    return ok;
 
   const BlockTextures textures = render::block_textures();
-  Result<gpu::Image> image = device.create_image({.name = "block textures", .format = VK_FORMAT_R8G8B8A8_SRGB, .extent = {textures.edge, textures.edge},
-                                                  .mips = textures.mips, .layers = textures.layers,
-                                                  .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, .array = true});
+  Result<gpu::Image> image =
+      device.create_image({.name = "block textures",
+                           .format = VK_FORMAT_R8G8B8A8_SRGB,
+                           .extent = {textures.edge, textures.edge},
+                           .mips = textures.mips,
+                           .layers = textures.layers,
+                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                           .array = true});
   if (!image) return image.error();
   block_textures = *std::move(image);
   if (Result<void> ok = frame_uploader.fill_image(block_textures, textures.texels); !ok) return ok;
 
-  image = device.create_image({.name = "sky table", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = {shared::kSkyLutWidth, shared::kSkyLutHeight},
+  image = device.create_image({.name = "sky table",
+                               .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                               .extent = {shared::kSkyLutWidth, shared::kSkyLutHeight},
                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT});
   if (!image) return image.error();
   sky_lut = *std::move(image);
 
   const std::array<std::pair<VkSampler*, gpu::SamplerDesc>, 3> samplers{{
-      {&block_sampler, {.mip = VK_SAMPLER_MIPMAP_MODE_LINEAR, .address = VK_SAMPLER_ADDRESS_MODE_REPEAT}},
+      {&block_sampler,
+       {.mip = VK_SAMPLER_MIPMAP_MODE_LINEAR, .address = VK_SAMPLER_ADDRESS_MODE_REPEAT}},
       {&lut_sampler, {}},
       {&point_sampler, {.mag = VK_FILTER_NEAREST, .min = VK_FILTER_NEAREST}},
   }};
@@ -133,8 +162,9 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
     *sampler = *got;
   }
   for (Slot& slot : slots) {
-    Result<gpu::Buffer> readback = device.create_buffer(
-        {"frame stats", kPixelStatsOffset + sizeof(shared::PixelStats), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kReadback});
+    Result<gpu::Buffer> readback =
+        device.create_buffer({"frame stats", kPixelStatsOffset + sizeof(shared::PixelStats),
+                              VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kReadback});
     if (!readback) return readback.error();
     slot.readback = *std::move(readback);
   }
@@ -142,25 +172,36 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
 }
 
 Result<void> Renderer::State::resize_picture(VkExtent2D size) {
-  if (picture && picture.desc().extent.width == size.width && picture.desc().extent.height == size.height) return {};
+  if (picture && picture.desc().extent.width == size.width &&
+      picture.desc().extent.height == size.height)
+    return {};
   const std::uint32_t most = device.limits().max_image_edge;
   if (size.width == 0 || size.height == 0 || size.width > most || size.height > most)
-    return Error{fmt::format("cannot draw a picture of {}x{} pixels: the device takes 1 to {} along an edge; choose another --size", size.width,
-                             size.height, most)};
+    return Error{
+        fmt::format("cannot draw a picture of {}x{} pixels: the device takes 1 to {} along an "
+                    "edge; choose another --size",
+                    size.width, size.height, most)};
   picture = {};
-  Result<gpu::Image> image = device.create_image(
-      {.name = "picture", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = size, .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+  Result<gpu::Image> image =
+      device.create_image({.name = "picture",
+                           .format = VK_FORMAT_R8G8B8A8_UNORM,
+                           .extent = size,
+                           .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
   if (!image) return image.error();
   picture = *std::move(image);
   return {};
 }
 
-Result<void> Renderer::State::upload_tables(const FrameTables& tables, std::size_t island_count, const shared::SkyConstants& sky_now) {
+Result<void> Renderer::State::upload_tables(const FrameTables& tables, std::size_t island_count,
+                                            const shared::SkyConstants& sky_now) {
   const std::array<Result<void>, 5> done{
-      upload(frame, "frame constants", std::span<const shared::FrameConstants>(&tables.constants, 1)),
+      upload(frame, "frame constants",
+             std::span<const shared::FrameConstants>(&tables.constants, 1)),
       upload(sky, "sky constants", std::span<const shared::SkyConstants>(&sky_now, 1)),
-      upload(islands, "island transforms", std::span<const shared::IslandTransform>(tables.islands).first(island_count)),
-      upload(view_islands, "view island transforms", std::span<const shared::IslandTransform>(tables.islands)),
+      upload(islands, "island transforms",
+             std::span<const shared::IslandTransform>(tables.islands).first(island_count)),
+      upload(view_islands, "view island transforms",
+             std::span<const shared::IslandTransform>(tables.islands)),
       upload(views, "cull views", std::span<const shared::CullView>(tables.views)),
   };
   for (const Result<void>& one : done)
@@ -168,7 +209,8 @@ Result<void> Renderer::State::upload_tables(const FrameTables& tables, std::size
   return {};
 }
 
-SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables) {
+SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size,
+                                        const FrameTables& tables) {
   SceneRefs s;
   s.frame = graph.import(frame);
   s.sky = graph.import(sky);
@@ -193,7 +235,8 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size
   return s;
 }
 
-Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& draws, const RenderSettings& settings, const FrameInput& input,
+Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& draws,
+                                     const RenderSettings& settings, const FrameInput& input,
                                      std::span<const ActiveCascade> cascades) {
   std::vector<ShadowDraw> redraw;
   std::uint32_t view = 1;
@@ -202,20 +245,24 @@ Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& 
     if (c.redraw)
       redraw.push_back({view++, c.layer, name});
     else
-      graph.leave_out(name, "kept from an earlier frame: light, window, geometry and islands have not moved");
+      graph.leave_out(
+          name, "kept from an earlier frame: light, window, geometry and islands have not moved");
   }
   const std::array<bool, 2> up{input.sky.sun_casts, input.sky.moon_casts};
   for (std::size_t body = 0; body < 2; ++body) {
     const char* name = body == 0 ? "draw_shadow_sun" : "draw_shadow_moon";
     if (!up[body])
-      graph.leave_out(name, body == 0 ? "the sun is below the horizon" : "the moon is below the horizon or gives no light");
+      graph.leave_out(name, body == 0 ? "the sun is below the horizon"
+                                      : "the moon is below the horizon or gives no light");
     else if (!settings.shadows)
       graph.leave_out(name, "shadow.enabled=0");
   }
-  return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw, geometry->cutout_quads() > 0);
+  return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw,
+                         geometry->cutout_quads() > 0);
 }
 
-void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats, std::uint32_t view_count) {
+void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
+                                   const gpu::BufferRef* cull_stats, std::uint32_t view_count) {
   gpu::BufferRef to = graph.import(slot.readback);
   slot.views = cull_stats ? view_count : 0;
   graph.add_pass(
@@ -225,24 +272,31 @@ void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene, const gpu
         b.read(scene.pixel_stats, gpu::Use::kTransferRead);
         to = b.write(to, gpu::Use::kTransferWrite);
       },
-      [to, stats = cull_stats ? *cull_stats : gpu::BufferRef{}, pixels = scene.pixel_stats, view_count](gpu::Commands& c) {
+      [to, stats = cull_stats ? *cull_stats : gpu::BufferRef{}, pixels = scene.pixel_stats,
+       view_count](gpu::Commands& c) {
         if (stats) c.copy(stats, to, 0, 0, view_count * sizeof(shared::CullStats));
         c.copy(pixels, to, 0, kPixelStatsOffset, sizeof(shared::PixelStats));
       });
   graph.add_pass(
-      "stats_to_cpu", [&](gpu::PassBuilder& b) {
+      "stats_to_cpu",
+      [&](gpu::PassBuilder& b) {
         b.read(to, gpu::Use::kHostRead);
         b.keep();
       },
       [](gpu::Commands&) {});
 }
 
-void Renderer::State::build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size, const FrameTables& tables,
-                            std::span<const ActiveCascade> cascades, const shared::SkyConstants& sky_now, Slot& slot) {
+void Renderer::State::build(const FrameInput& input, const RenderSettings& settings,
+                            VkExtent2D size, const FrameTables& tables,
+                            std::span<const ActiveCascade> cascades,
+                            const shared::SkyConstants& sky_now, Slot& slot) {
   graph.begin();
   SceneRefs scene = import_scene(input, size, tables);
   graph.add_pass(
-      "clear_pixel_stats", [&](gpu::PassBuilder& b) { scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite); },
+      "clear_pixel_stats",
+      [&](gpu::PassBuilder& b) {
+        scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite);
+      },
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
   const ShadeIn shade_in{settings.texture_taps, sky_now.stars > 0.0f};
   const bool sky_moved = !baked_sky || std::memcmp(&*baked_sky, &sky_now, sizeof(sky_now)) != 0;
@@ -254,23 +308,28 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
 
   const auto view_count = static_cast<std::uint32_t>(tables.views.size());
   if (geometry->sections_resident() == 0) {
-    for (const char* name : {"cull_sections", "draw_geometry", "draw_shadow_sun", "draw_shadow_moon", "shade_surfaces", "shade_translucent"})
+    for (const char* name : {"cull_sections", "draw_geometry", "draw_shadow_sun",
+                             "draw_shadow_moon", "shade_surfaces", "shade_translucent"})
       graph.leave_out(name, "no geometry is resident");
     (void)ShadePass::add_sky_only(graph, pipelines, scene, shade_in, picture);
     add_readback(slot, scene, nullptr, 0);
     return;
   }
-  const CulledDraws draws = add_cull_passes(graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
-  Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, geometry->cutout_quads() > 0);
+  const CulledDraws draws = add_cull_passes(
+      graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
+  Geometry surfaces =
+      GeometryPass::add(graph, pipelines, scene, draws, geometry->cutout_quads() > 0);
   Shadows maps = add_shadows(scene, draws, settings, input, cascades);
   if (settings.debug_view != DebugView::kNone) {
-    (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view, picture);
+    (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view,
+                                 picture);
     graph.leave_out("shade_surfaces", "a debug view is shown");
   } else {
     const char* no_translucent = nullptr;
     if (input.camera_medium == 0 && geometry->translucent_quads() == 0)
       no_translucent = "no translucent block is resident";
-    else if (input.camera_medium == 0 && !translucent_in_view(geometry->records(), tables.islands, tables.views[0]))
+    else if (input.camera_medium == 0 &&
+             !translucent_in_view(geometry->records(), tables.islands, tables.views[0]))
       no_translucent = "no translucent block is in view";
     if (no_translucent) {
       graph.leave_out("shade_translucent", no_translucent);
@@ -278,8 +337,9 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       (void)ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture);
     } else {
       Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, shade_in);
-      shaded = TranslucentPass::add(graph, pipelines, scene, draws, surfaces, maps, std::move(shaded), settings.translucent_layers,
-                                    input.camera_medium != 0);
+      shaded =
+          TranslucentPass::add(graph, pipelines, scene, draws, surfaces, maps, std::move(shaded),
+                               settings.translucent_layers, input.camera_medium != 0);
       (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
     }
   }
@@ -325,16 +385,18 @@ Renderer::~Renderer() {
     if (slot.value != 0) s.device.wait(slot.value);
 }
 
-Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
-                                     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
-                                     std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
+Result<std::uint64_t> Renderer::draw(
+    const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+    const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
+    std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
   State& s = *state_;
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
   if (Result<void> ok = s.resize_picture(size); !ok) return ok.error();
 
-  const Result<std::span<const ActiveCascade>> cascades = s.geometry->sections_resident() == 0
-                                                              ? std::span<const ActiveCascade>{}
-                                                              : s.shadows.update(input, settings, s.geometry->version());
+  const Result<std::span<const ActiveCascade>> cascades =
+      s.geometry->sections_resident() == 0
+          ? std::span<const ActiveCascade>{}
+          : s.shadows.update(input, settings, s.geometry->version());
   if (!cascades) return cascades.error();
   FrameTables tables = build_tables(input, settings, size, *cascades);
   if (!input.freeze_culling)
@@ -346,7 +408,8 @@ Result<std::uint64_t> Renderer::draw(const FrameInput& input, const RenderSettin
     shift_view(tables.views[0], s.frozen->second, input.camera.position);
   }
   const shared::SkyConstants sky_now = sky_constants(input.sky);
-  if (Result<void> ok = s.upload_tables(tables, input.islands.size(), sky_now); !ok) return ok.error();
+  if (Result<void> ok = s.upload_tables(tables, input.islands.size(), sky_now); !ok)
+    return ok.error();
 
   const gpu::FrameRing::Frame frame = s.ring.begin();
   Slot& slot = s.slots[frame.slot];
@@ -375,13 +438,29 @@ void Renderer::finish() {
   }
 }
 
-GeometryStore& Renderer::geometry() { return *state_->geometry; }
-void Renderer::set_upload_budget(std::uint64_t bytes) { state_->upload_budget = bytes; }
-gpu::Uploader& Renderer::mesh_uploader() { return state_->mesh_uploader; }
-const gpu::FrameGraph& Renderer::graph() const { return state_->graph; }
-int Renderer::pipelines_created() const { return state_->pipelines.created(); }
-gpu::Image& Renderer::picture() { return state_->picture; }
-const std::optional<FrameReport>& Renderer::report() const { return state_->report; }
-void Renderer::forget_shadows() { state_->shadows.forget(); }
+GeometryStore& Renderer::geometry() {
+  return *state_->geometry;
+}
+void Renderer::set_upload_budget(std::uint64_t bytes) {
+  state_->upload_budget = bytes;
+}
+gpu::Uploader& Renderer::mesh_uploader() {
+  return state_->mesh_uploader;
+}
+const gpu::FrameGraph& Renderer::graph() const {
+  return state_->graph;
+}
+int Renderer::pipelines_created() const {
+  return state_->pipelines.created();
+}
+gpu::Image& Renderer::picture() {
+  return state_->picture;
+}
+const std::optional<FrameReport>& Renderer::report() const {
+  return state_->report;
+}
+void Renderer::forget_shadows() {
+  state_->shadows.forget();
+}
 
 }  // namespace skerry::render

@@ -31,16 +31,18 @@ struct IslandPlacement {
   double bounding_radius = 0.0;             ///< blocks about the origin
 };
 
-/// Everything that decides one picture besides the resident geometry. Plain values, const once built.
+/// Everything that decides one picture besides the resident geometry. Plain values, const once
+/// built.
 struct FrameInput {
   Camera camera;
   FixedPos anchor{};  ///< moves with the world's offset; pictures depend on differences to it alone
   std::span<const IslandPlacement> islands;  ///< at most shared::kMaxIslands
   Celestial sky{};
-  float exposure_ev = 0.0f;        ///< picture = tone curve(radiance * 2^-EV)
-  double time_s = 0.0;             ///< seconds of play: water ripples
-  std::uint32_t camera_medium = 0; ///< block id the camera is in, if translucent; else 0
-  bool freeze_culling = false;     ///< keep culling with the camera of the frame in which this became true
+  float exposure_ev = 0.0f;         ///< picture = tone curve(radiance * 2^-EV)
+  double time_s = 0.0;              ///< seconds of play: water ripples
+  std::uint32_t camera_medium = 0;  ///< block id the camera is in, if translucent; else 0
+  bool freeze_culling =
+      false;  ///< keep culling with the camera of the frame in which this became true
 };
 
 /// Numbers of a frame the GPU has finished.
@@ -55,11 +57,12 @@ struct FrameReport {
 struct RendererDesc {
   std::span<const shared::Material> materials;  ///< indexed by block id
   gpu::UploadPath upload_path = gpu::UploadPath::kUpdateBuffer;
-  std::uint64_t upload_budget_bytes = 4u << 20; ///< chunk meshes a frame
-  std::uint32_t arena_quads = 1u << 20;         ///< to begin with
+  std::uint64_t upload_budget_bytes = 4u << 20;  ///< chunk meshes a frame
+  std::uint32_t arena_quads = 1u << 20;          ///< to begin with
 };
 
-/// Draws frames: owns what lives longer than one (geometry, textures, shadow maps, the picture) and assembles each frame's graph.
+/// Draws frames: owns what lives longer than one (geometry, textures, shadow maps, the picture) and
+/// assembles each frame's graph.
 class Renderer {
  public:
   static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererDesc& desc);
@@ -69,15 +72,19 @@ class Renderer {
   gpu::Uploader& mesh_uploader();
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);
-  const gpu::FrameGraph& graph() const;      ///< of the last frame, for --explain
+  const gpu::FrameGraph& graph() const;  ///< of the last frame, for --explain
   int pipelines_created() const;
 
   /// Records and submits one frame. Two are in flight; waits for the one before last.
-  /// @param after records into the same command buffer behind the frame, e.g. the copy to a window; @param waits, signals for the swapchain.
-  /// @return the timeline value that completes the frame. Errors: size over the device's limit, out of memory.
-  Result<std::uint64_t> draw(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
-                             const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},
-                             std::span<const VkSemaphoreSubmitInfo> waits = {}, std::span<const VkSemaphoreSubmitInfo> signals = {});
+  /// @param after records into the same command buffer behind the frame, e.g. the copy to a window;
+  /// @param waits, signals for the swapchain.
+  /// @return the timeline value that completes the frame. Errors: size over the device's limit, out
+  /// of memory.
+  Result<std::uint64_t> draw(
+      const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+      const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},
+      std::span<const VkSemaphoreSubmitInfo> waits = {},
+      std::span<const VkSemaphoreSubmitInfo> signals = {});
 
   /// RGBA8 picture of the last frame.
   gpu::Image& picture();

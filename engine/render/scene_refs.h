@@ -8,18 +8,21 @@
 
 namespace skerry::render {
 
-/// What most passes of a frame read. Filled once by the renderer; passes that write replace the reference by its new version.
+/// What most passes of a frame read. Filled once by the renderer; passes that write replace the
+/// reference by its new version.
 struct SceneRefs {
-  gpu::BufferRef frame;           ///< shared::FrameConstants
-  gpu::BufferRef sky;             ///< shared::SkyConstants
-  gpu::BufferRef islands;         ///< shared::IslandTransform[island], relative to the camera
-  gpu::BufferRef view_islands;    ///< shared::IslandTransform[view][island], each view's relative to its own centre
-  std::span<const glm::mat4> clip_from_source;  ///< one a view; lives until the graph has been executed
-  gpu::BufferRef views;           ///< shared::CullView[view]
-  gpu::BufferRef materials;       ///< shared::Material[block id]
-  gpu::BufferRef quads, sections; ///< the geometry store
-  gpu::BufferRef indices;         ///< 16-bit: 0 1 2 0 2 3, 4 5 6 ...
-  gpu::BufferRef pixel_stats;     ///< shared::PixelStats
+  gpu::BufferRef frame;         ///< shared::FrameConstants
+  gpu::BufferRef sky;           ///< shared::SkyConstants
+  gpu::BufferRef islands;       ///< shared::IslandTransform[island], relative to the camera
+  gpu::BufferRef view_islands;  ///< shared::IslandTransform[view][island], each view's relative to
+                                ///< its own centre
+  std::span<const glm::mat4>
+      clip_from_source;            ///< one a view; lives until the graph has been executed
+  gpu::BufferRef views;            ///< shared::CullView[view]
+  gpu::BufferRef materials;        ///< shared::Material[block id]
+  gpu::BufferRef quads, sections;  ///< the geometry store
+  gpu::BufferRef indices;          ///< 16-bit: 0 1 2 0 2 3, 4 5 6 ...
+  gpu::BufferRef pixel_stats;      ///< shared::PixelStats
   gpu::ImageRef block_textures, sky_lut;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::uint32_t islands_per_view = 0;

@@ -4,17 +4,28 @@
 namespace skerry::render {
 
 /// What the picture shows instead of the lit scene.
-enum class DebugView : std::uint8_t { kNone, kAlbedo, kNormal, kPosition, kMetadata, kEmissive, kDepth, kCascades, kShadow };
+enum class DebugView : std::uint8_t {
+  kNone,
+  kAlbedo,
+  kNormal,
+  kPosition,
+  kMetadata,
+  kEmissive,
+  kDepth,
+  kCascades,
+  kShadow
+};
 
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
   double view_distance_blocks = 1000.0;
   bool shadows = true;
-  int shadow_map_size = 2048;       ///< texels along an edge of each cascade, 64..16384
-  float shadow_filter_blocks = 0.06f;  ///< smallest radius of the shadow filter; never under 1.5 texels
-  bool flat_shading = false;        ///< shadow result times light colour, no N.L
-  int texture_taps = 2;             ///< samples along the long side of a texture footprint, 1..16
-  int translucent_layers = 3;       ///< nearest surfaces of water and glass kept a pixel, 1..4
+  int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
+  float shadow_filter_blocks =
+      0.06f;                   ///< smallest radius of the shadow filter; never under 1.5 texels
+  bool flat_shading = false;   ///< shadow result times light colour, no N.L
+  int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
+  int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   DebugView debug_view = DebugView::kNone;
 };
 

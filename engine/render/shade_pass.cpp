@@ -14,7 +14,8 @@ using gpu::Use;
 gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                     const Geometry& geometry, const Shadows& shadows, const ShadeIn& in,
                     gpu::ImageRef target, bool to_picture) {
-  const Tiles tiles = classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size);
+  const Tiles tiles =
+      classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size);
   const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth();
   const gpu::ImageRef maps = shadows.maps();
   const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
@@ -78,10 +79,8 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
 
 Shaded ShadePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                       const Geometry& geometry, const Shadows& shadows, const ShadeIn& in) {
-  const gpu::ImageRef radiance =
-      graph.create(gpu::ImageDesc{.name = "radiance",
-                                  .format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                  .extent = scene.size});
+  const gpu::ImageRef radiance = graph.create(gpu::ImageDesc{
+      .name = "radiance", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = scene.size});
   return Shaded(shade(graph, pipelines, scene, geometry, shadows, in, radiance, false));
 }
 
@@ -96,8 +95,8 @@ Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipe
 Developed ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                   SceneRefs& scene, const ShadeIn& in, gpu::Image& picture) {
   gpu::ImageRef target = graph.import(picture);
-  const gpu::Pipeline& pipeline = pipelines.get(
-      gpu::ComputeDesc{"shade_sky_everywhere.comp", {{0, in.stars ? 1u : 0u}}});
+  const gpu::Pipeline& pipeline =
+      pipelines.get(gpu::ComputeDesc{"shade_sky_everywhere.comp", {{0, in.stars ? 1u : 0u}}});
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {

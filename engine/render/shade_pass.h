@@ -23,8 +23,8 @@ struct ShadePass {
                                   SceneRefs& scene, const Geometry& geometry,
                                   const Shadows& shadows, const ShadeIn& in, gpu::Image& picture);
   /// A frame without geometry: sky alone.
-  static Developed add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                SceneRefs& scene, const ShadeIn& in, gpu::Image& picture);
+  static Developed add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                                const ShadeIn& in, gpu::Image& picture);
 };
 
 }  // namespace skerry::render

@@ -9,26 +9,36 @@
 namespace skerry::render {
 namespace {
 
-/// How far a point of the island can have moved against the anchor between two placements [blocks], at most.
-double movement(const IslandPlacement& a, const FixedPos& anchor_a, const IslandPlacement& b, const FixedPos& anchor_b) {
+/// How far a point of the island can have moved against the anchor between two placements [blocks],
+/// at most.
+double movement(const IslandPlacement& a, const FixedPos& anchor_a, const IslandPlacement& b,
+                const FixedPos& anchor_b) {
   glm::dvec3 shift;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    shift[i] = static_cast<double>((b.origin[k] - anchor_b[k]) - (a.origin[k] - anchor_a[k])) / 65536.0;
+    shift[i] =
+        static_cast<double>((b.origin[k] - anchor_b[k]) - (a.origin[k] - anchor_a[k])) / 65536.0;
   }
-  // A rotation by angle t moves a point at distance r by 2 r sin(t / 2); |q - q'| = 2 sin(t / 4) for the nearer of q' and -q'.
+  // A rotation by angle t moves a point at distance r by 2 r sin(t / 2); |q - q'| = 2 sin(t / 4)
+  // for the nearer of q' and -q'.
   const glm::dquat same = glm::dot(a.rotation, b.rotation) < 0.0 ? -b.rotation : b.rotation;
   const double quarter = 0.5 * glm::length(a.rotation - same);
   return glm::length(shift) + 4.0 * quarter * std::max(a.bounding_radius, b.bounding_radius);
 }
 
-/// Casters further than this above a cascade are flattened onto the map's near side by depth clamping, so nothing is lost.
-double caster_reach(const RenderSettings& settings) { return 2.0 * settings.view_distance_blocks + 512.0; }
+/// Casters further than this above a cascade are flattened onto the map's near side by depth
+/// clamping, so nothing is lost.
+double caster_reach(const RenderSettings& settings) {
+  return 2.0 * settings.view_distance_blocks + 512.0;
+}
 
 }  // namespace
 
-Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& input, const RenderSettings& settings, std::uint64_t geometry_version) {
-  const std::array<bool, 2> casting{settings.shadows && input.sky.sun_casts, settings.shadows && input.sky.moon_casts};
+Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& input,
+                                                          const RenderSettings& settings,
+                                                          std::uint64_t geometry_version) {
+  const std::array<bool, 2> casting{settings.shadows && input.sky.sun_casts,
+                                    settings.shadows && input.sky.moon_casts};
   active_.clear();
   if (!casting[0] && !casting[1]) {
     maps_ = {};
@@ -40,8 +50,13 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
   if (casting != casting_ || map_size_ != settings.shadow_map_size || !maps_) {
     maps_ = {};
     const auto edge = static_cast<std::uint32_t>(settings.shadow_map_size);
-    Result<gpu::Image> image = device_->create_image({.name = "shadow maps", .format = VK_FORMAT_D32_SFLOAT, .extent = {edge, edge}, .layers = layers,
-                                                      .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, .array = true});
+    Result<gpu::Image> image = device_->create_image(
+        {.name = "shadow maps",
+         .format = VK_FORMAT_D32_SFLOAT,
+         .extent = {edge, edge},
+         .layers = layers,
+         .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+         .array = true});
     if (!image) return image.error();
     maps_ = *std::move(image);
     casting_ = casting;
@@ -58,7 +73,8 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
     in.near_blocks = 1.0;
     in.far_blocks = settings.view_distance_blocks;
     in.caster_reach_blocks = caster_reach(settings);
-    in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_filter_blocks) + 8.0 * settings.view_distance_blocks / settings.shadow_map_size;
+    in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_filter_blocks) +
+                       8.0 * settings.view_distance_blocks / settings.shadow_map_size;
     in.map_size = settings.shadow_map_size;
     const std::array<Cascade, kCascadeCount> cascades = make_cascades(in);
     for (int i = 0; i < kCascadeCount; ++i, ++layer) {
@@ -66,17 +82,26 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
       Kept& kept = kept_[layer];
       active.redraw = !still_right(kept, active.cascade, input, geometry_version);
       if (active.redraw)
-        kept = {true, active.cascade.key, geometry_version, {input.islands.begin(), input.islands.end()}, input.anchor};
+        kept = {true,
+                active.cascade.key,
+                geometry_version,
+                {input.islands.begin(), input.islands.end()},
+                input.anchor};
       active_.push_back(active);
     }
   }
   return std::span<const ActiveCascade>(active_);
 }
 
-bool ShadowMaps::still_right(const Kept& kept, const Cascade& cascade, const FrameInput& input, std::uint64_t geometry_version) const {
-  if (!kept.valid || kept.key != cascade.key || kept.geometry_version != geometry_version || kept.islands.size() != input.islands.size()) return false;
+bool ShadowMaps::still_right(const Kept& kept, const Cascade& cascade, const FrameInput& input,
+                             std::uint64_t geometry_version) const {
+  if (!kept.valid || kept.key != cascade.key || kept.geometry_version != geometry_version ||
+      kept.islands.size() != input.islands.size())
+    return false;
   for (std::size_t i = 0; i < input.islands.size(); ++i)
-    if (movement(kept.islands[i], kept.anchor, input.islands[i], input.anchor) > 0.25 * static_cast<double>(cascade.texel_blocks)) return false;
+    if (movement(kept.islands[i], kept.anchor, input.islands[i], input.anchor) >
+        0.25 * static_cast<double>(cascade.texel_blocks))
+      return false;
   return true;
 }
 

@@ -29,14 +29,17 @@ struct ActiveCascade {
   Cascade cascade;
 };
 
-/// The shadow maps and what each of them shows. Bodies below the horizon have no cascades, and without any the array itself is given back.
-/// A map is kept while its window, its light, the geometry and the islands stay: islands may have moved by a quarter of a texel.
+/// The shadow maps and what each of them shows. Bodies below the horizon have no cascades, and
+/// without any the array itself is given back. A map is kept while its window, its light, the
+/// geometry and the islands stay: islands may have moved by a quarter of a texel.
 class ShadowMaps {
  public:
   explicit ShadowMaps(gpu::Device& device) : device_(&device) {}
 
   /// Decides this frame's cascades. @return all that are active, sun first. Errors: out of memory.
-  Result<std::span<const ActiveCascade>> update(const FrameInput& input, const RenderSettings& settings, std::uint64_t geometry_version);
+  Result<std::span<const ActiveCascade>> update(const FrameInput& input,
+                                                const RenderSettings& settings,
+                                                std::uint64_t geometry_version);
   /// Null when nothing casts.
   gpu::Image* maps() { return maps_ ? &maps_ : nullptr; }
   void forget();
@@ -49,7 +52,8 @@ class ShadowMaps {
     std::vector<IslandPlacement> islands;
     FixedPos anchor{};
   };
-  bool still_right(const Kept& kept, const Cascade& cascade, const FrameInput& input, std::uint64_t geometry_version) const;
+  bool still_right(const Kept& kept, const Cascade& cascade, const FrameInput& input,
+                   std::uint64_t geometry_version) const;
 
   gpu::Device* device_;
   gpu::Image maps_;

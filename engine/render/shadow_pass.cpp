@@ -4,15 +4,26 @@ namespace skerry::render {
 
 using gpu::Use;
 
-Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene, const CulledDraws& draws, gpu::Image* maps,
+Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                        const CulledDraws& draws, gpu::Image* maps,
                         std::span<const ShadowDraw> cascades, bool cutouts) {
   if (!maps) return Shadows({});
   gpu::ImageRef ref = graph.import(*maps);
-  // Only what faces the light is drawn, so back faces never cast; casters nearer to the light than the map's range are flattened onto it.
-  const gpu::GraphicsDesc opaque{.vertex = "draw_quads.vert", .fragment = "", .constants = {}, .color_formats = {},
-                                 .depth_format = VK_FORMAT_D32_SFLOAT, .depth_clamp = true};
-  const gpu::GraphicsDesc cutout{.vertex = "draw_quads.vert", .fragment = "write_cutout.frag", .constants = {{0, 1}, {1, 0}}, .color_formats = {},
-                                 .depth_format = VK_FORMAT_D32_SFLOAT, .cull = VK_CULL_MODE_NONE, .depth_clamp = true};
+  // Only what faces the light is drawn, so back faces never cast; casters nearer to the light than
+  // the map's range are flattened onto it.
+  const gpu::GraphicsDesc opaque{.vertex = "draw_quads.vert",
+                                 .fragment = "",
+                                 .constants = {},
+                                 .color_formats = {},
+                                 .depth_format = VK_FORMAT_D32_SFLOAT,
+                                 .depth_clamp = true};
+  const gpu::GraphicsDesc cutout{.vertex = "draw_quads.vert",
+                                 .fragment = "write_cutout.frag",
+                                 .constants = {{0, 1}, {1, 0}},
+                                 .color_formats = {},
+                                 .depth_format = VK_FORMAT_D32_SFLOAT,
+                                 .cull = VK_CULL_MODE_NONE,
+                                 .depth_clamp = true};
   for (const ShadowDraw& cascade : cascades) {
     const gpu::Pipeline& opaque_pipeline = pipelines.get(opaque);
     const gpu::Pipeline* cutout_pipeline = cutouts ? &pipelines.get(cutout) : nullptr;

@@ -17,10 +17,12 @@ struct ShadowDraw {
   const char* name = "";    ///< pass name, contains "shadow"
 };
 
-/// Depth of what the light sees, one pass a cascade. Opaque quads need no fragment shader; cut-outs are alpha-tested.
+/// Depth of what the light sees, one pass a cascade. Opaque quads need no fragment shader; cut-outs
+/// are alpha-tested.
 struct ShadowPass {
   /// @param maps the kept D32 array, or null when nothing casts.
-  static Shadows add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene, const CulledDraws& draws, gpu::Image* maps,
+  static Shadows add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                     const CulledDraws& draws, gpu::Image* maps,
                      std::span<const ShadowDraw> cascades, bool cutouts);
 };
 

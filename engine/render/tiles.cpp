@@ -42,7 +42,9 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
         c.storage(0, words);
         c.storage(1, out.dispatches);
         c.storage(2, out.lists);
-        const struct { std::uint32_t width, height, columns, rows; } push{size.width, size.height, columns, rows};
+        const struct {
+          std::uint32_t width, height, columns, rows;
+        } push{size.width, size.height, columns, rows};
         c.push(push);
         c.dispatch(gpu::Commands::groups(columns * rows, 64), 1, 1);
       });
@@ -59,7 +61,8 @@ void dispatch_tiles(gpu::Commands& commands, const Tiles& tiles, TileKind kind) 
   commands.storage(20, tiles.lists);
   commands.storage(21, tiles.dispatches);
   commands.push(static_cast<std::uint32_t>(kind));
-  commands.dispatch_indirect(tiles.dispatches, static_cast<std::uint64_t>(kind) * sizeof(shared::TileDispatch));
+  commands.dispatch_indirect(tiles.dispatches,
+                             static_cast<std::uint64_t>(kind) * sizeof(shared::TileDispatch));
 }
 
 }  // namespace skerry::render

@@ -3,7 +3,8 @@
 
 namespace skerry::render {
 
-/// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may be of both kinds.
+/// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may
+/// be of both kinds.
 struct Tiles {
   gpu::BufferRef dispatches;  ///< shared::TileDispatch[2]
   gpu::BufferRef lists;       ///< uint[2][tile]

@@ -8,9 +8,11 @@ namespace skerry::render {
 
 using gpu::Use;
 
-Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene, const CulledDraws& draws, const Geometry& geometry,
+Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                            const CulledDraws& draws, const Geometry& geometry,
                             const Shadows& shadows, Shaded shaded, int layers, bool inside_medium) {
-  static constexpr std::array<const char*, 4> kNames{"draw_translucent_0", "draw_translucent_1", "draw_translucent_2", "draw_translucent_3"};
+  static constexpr std::array<const char*, 4> kNames{"draw_translucent_0", "draw_translucent_1",
+                                                     "draw_translucent_2", "draw_translucent_3"};
   const auto count = static_cast<std::uint32_t>(layers);
   struct Layer {
     gpu::ImageRef surfaces, depth;
@@ -20,12 +22,18 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
   for (std::uint32_t k = 0; k < count; ++k) {
     gpu::ImageRef& words = layer[k].surfaces;
     gpu::ImageRef& depth = layer[k].depth;
-    words = graph.create(gpu::ImageDesc{.name = "translucent surfaces", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
-    depth = graph.create(gpu::ImageDesc{.name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
+    words = graph.create(gpu::ImageDesc{
+        .name = "translucent surfaces", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
+    depth = graph.create(gpu::ImageDesc{
+        .name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
     const gpu::ImageRef previous = k == 0 ? opaque_depth : layer[k - 1].depth;
-    const gpu::Pipeline& pipeline = pipelines.get(gpu::GraphicsDesc{.vertex = "draw_quads.vert", .fragment = "write_layer.frag",
-                                                                    .constants = {{1, k == 0 ? 1u : 0u}}, .color_formats = {VK_FORMAT_R32_UINT},
-                                                                    .depth_format = VK_FORMAT_D32_SFLOAT, .cull = VK_CULL_MODE_NONE});
+    const gpu::Pipeline& pipeline =
+        pipelines.get(gpu::GraphicsDesc{.vertex = "draw_quads.vert",
+                                        .fragment = "write_layer.frag",
+                                        .constants = {{1, k == 0 ? 1u : 0u}},
+                                        .color_formats = {VK_FORMAT_R32_UINT},
+                                        .depth_format = VK_FORMAT_D32_SFLOAT,
+                                        .cull = VK_CULL_MODE_NONE});
     graph.add_pass(
         kNames[k],
         [&](gpu::PassBuilder& b) {
@@ -43,27 +51,33 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         });
   }
 
-  // Inside a medium every pixel is looked at through it; else only those with a translucent surface.
-  const Tiles tiles = classify_tiles(graph, pipelines, "classify_translucent_tiles", layer[0].surfaces, scene.size);
+  // Inside a medium every pixel is looked at through it; else only those with a translucent
+  // surface.
+  const Tiles tiles =
+      classify_tiles(graph, pipelines, "classify_translucent_tiles", layer[0].surfaces, scene.size);
   gpu::ImageRef radiance = shaded.radiance();
   const gpu::ImageRef maps = shadows.maps();
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{maps ? "shade_translucent.comp" : "shade_translucent_unshadowed.comp", {{0, count}, {8, scene.bodies}}});
+  const gpu::Pipeline& pipeline = pipelines.get(
+      gpu::ComputeDesc{maps ? "shade_translucent.comp" : "shade_translucent_unshadowed.comp",
+                       {{0, count}, {8, scene.bodies}}});
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials}) b.read(ref, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
         for (std::uint32_t k = 0; k < count; ++k) {
           b.read(layer[k].surfaces, Use::kComputeRead);
           b.read(layer[k].depth, Use::kComputeSampled);
         }
-        for (const gpu::ImageRef ref : {opaque_depth, scene.sky_lut, scene.block_textures}) b.read(ref, Use::kComputeSampled);
+        for (const gpu::ImageRef ref : {opaque_depth, scene.sky_lut, scene.block_textures})
+          b.read(ref, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [scene, layer, count, tiles, inside_medium, opaque_depth, maps, radiance, &pipeline](gpu::Commands& c) {
+      [scene, layer, count, tiles, inside_medium, opaque_depth, maps, radiance,
+       &pipeline](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
@@ -74,7 +88,8 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         c.storage(9, radiance);
         if (maps) c.sampled(10, maps, scene.point_sampler);
         c.sampled(11, scene.block_textures, scene.block_sampler);
-        // Layers that are not kept are never read; they are bound to the first so that every binding is valid.
+        // Layers that are not kept are never read; they are bound to the first so that every
+        // binding is valid.
         for (std::uint32_t k = 0; k < 4; ++k) {
           const Layer& bound = layer[k < count ? k : 0];
           c.storage(12 + k, bound.surfaces);

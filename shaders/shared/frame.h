@@ -1,16 +1,20 @@
-// What one frame tells the GPU. Spaces and units: docs/conventions.md ("world" is relative to the camera, in blocks).
+// What one frame tells the GPU. Spaces and units: docs/conventions.md ("world" is relative to the
+// camera, in blocks).
 #ifndef SKERRY_SHARED_FRAME_H
 #define SKERRY_SHARED_FRAME_H
 #include "types.h"
 SHARED_BEGIN
 
-SHARED_CONST uint kBodyCount = 2u;           // 0 the sun, 1 the moon
-SHARED_CONST uint kCascadeCount = 4u;        // a body
-SHARED_CONST uint kViewCount = 9u;           // 0 the camera, then cascades of the sun (1..4) and of the moon (5..8)
-SHARED_CONST uint kListCount = 3u;           // draw lists a view: 0 opaque, 1 cut-out and plants, 2 translucent
-SHARED_CONST uint kMaxIslands = 1024u;       // resident at once; their transforms fit in a 64 KiB uniform buffer
-SHARED_CONST uint kMaxQuadsPerDraw = 16384u; // 4 vertices a quad, 16-bit indices
-SHARED_CONST uint kCullGroup = 256u;         // sections a culling work group looks at
+SHARED_CONST uint kBodyCount = 2u;     // 0 the sun, 1 the moon
+SHARED_CONST uint kCascadeCount = 4u;  // a body
+SHARED_CONST uint kViewCount =
+    9u;  // 0 the camera, then cascades of the sun (1..4) and of the moon (5..8)
+SHARED_CONST uint kListCount =
+    3u;  // draw lists a view: 0 opaque, 1 cut-out and plants, 2 translucent
+SHARED_CONST uint kMaxIslands =
+    1024u;  // resident at once; their transforms fit in a 64 KiB uniform buffer
+SHARED_CONST uint kMaxQuadsPerDraw = 16384u;  // 4 vertices a quad, 16-bit indices
+SHARED_CONST uint kCullGroup = 256u;          // sections a culling work group looks at
 
 // A directional light that is above the horizon; irradiance 0 otherwise.
 struct Body {
@@ -33,16 +37,17 @@ struct Cascade {
 
 struct FrameConstants {
   mat4 clip_from_world;
-  vec3 ray_right;    // camera axes; ray_right and ray_up are scaled by the tangent of the half field of view
+  vec3 ray_right;  // camera axes; ray_right and ray_up are scaled by the tangent of the half field
+                   // of view
   vec3 ray_up;
   vec3 ray_forward;
-  vec2 pixel_to_ndc; // 2 / image size
-  uvec2 size;        // image [pixels]
-  float near_plane;  // blocks
-  float exposure;    // display = tone curve(radiance * exposure)
-  float time_s;      // seconds of play, reduced to one hour, for water ripples
-  uint shading_flat; // 1: shadow result times light colour, no N.L
-  uint camera_medium;// block id the camera is in: 0 air, else a translucent block
+  vec2 pixel_to_ndc;        // 2 / image size
+  uvec2 size;               // image [pixels]
+  float near_plane;         // blocks
+  float exposure;           // display = tone curve(radiance * exposure)
+  float time_s;             // seconds of play, reduced to one hour, for water ripples
+  uint shading_flat;        // 1: shadow result times light colour, no N.L
+  uint camera_medium;       // block id the camera is in: 0 air, else a translucent block
   float pcf_radius_blocks;  // smallest radius of the shadow filter [blocks]
   float haze_per_block;     // extinction of clear air [1/block]
   Body bodies[kBodyCount];
@@ -57,7 +62,8 @@ struct CullView {
   uint enabled;       // 0: nothing is drawn in this view
 };
 
-// Source-relative world from voxel coordinates of one section: p.x = dot(x, (v, 1)). The source is the view's own centre.
+// Source-relative world from voxel coordinates of one section: p.x = dot(x, (v, 1)). The source is
+// the view's own centre.
 struct SectionTransform {
   vec4 x;
   vec4 y;
@@ -72,8 +78,9 @@ struct CullStats {
   uint quads;            // drawn
 };
 
-SHARED_CONST uint kTileEdge = 8u;      // pixels
-SHARED_CONST uint kTileRow = 32768u;   // tiles in one row of an indirect dispatch; 65,535 is the least a device must take
+SHARED_CONST uint kTileEdge = 8u;  // pixels
+SHARED_CONST uint kTileRow =
+    32768u;  // tiles in one row of an indirect dispatch; 65,535 is the least a device must take
 
 // One kind's tiles: arguments of vkCmdDispatchIndirect, then how many tiles they are for.
 struct TileDispatch {

@@ -1,18 +1,20 @@
-// Voxel geometry as the GPU sees it: quads, sections (one resident chunk mesh each), islands, materials.
-// Axes, faces and winding: docs/conventions.md.
+// Voxel geometry as the GPU sees it: quads, sections (one resident chunk mesh each), islands,
+// materials. Axes, faces and winding: docs/conventions.md.
 #ifndef SKERRY_SHARED_GEOMETRY_H
 #define SKERRY_SHARED_GEOMETRY_H
 #include "types.h"
 SHARED_BEGIN
 
-// Faces: axis * 2 + (negative ? 1 : 0): 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z. 6 and 7: the two diagonals of a plant.
-// A face's in-plane axes (u, v): x faces (z, y); y faces (x, z); z faces (x, y).
+// Faces: axis * 2 + (negative ? 1 : 0): 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z. 6 and 7: the two
+// diagonals of a plant. A face's in-plane axes (u, v): x faces (z, y); y faces (x, z); z faces (x,
+// y).
 SHARED_CONST uint kFaceCount = 6u;
 SHARED_CONST uint kChunkEdge = 64u;  // voxels along a chunk's edge
 
 SHARED_CONST uint kMaxMaterials = 1024u;  // block ids with a look of their own
 
-// Quad ranges of a section, in this order in memory. Opaque and cut-out go to the G-buffer, translucent to layers.
+// Quad ranges of a section, in this order in memory. Opaque and cut-out go to the G-buffer,
+// translucent to layers.
 SHARED_CONST uint kRangeOpaque = 0u;        // 6 ranges, one a face
 SHARED_CONST uint kRangeCutout = 6u;        // 6 ranges, one a face
 SHARED_CONST uint kRangePlant = 12u;        // 1 range, faces 6 and 7, drawn from both sides
@@ -21,22 +23,25 @@ SHARED_CONST uint kRangeCount = 19u;
 
 // One merged rectangle of faces, 8 bytes.
 struct Quad {
-  uint geometry;  // bits 0-5 x, 6-11 y, 12-17 z: the lowest voxel, chunk-local; 18-23 extent along u minus 1; 24-29 along v minus 1
-  uint material;  // bits 0-15 block id, 16-18 face, 19-30 index into the island table (0 from the mesher, set on upload)
+  uint geometry;  // bits 0-5 x, 6-11 y, 12-17 z: the lowest voxel, chunk-local; 18-23 extent along
+                  // u minus 1; 24-29 along v minus 1
+  uint material;  // bits 0-15 block id, 16-18 face, 19-30 index into the island table (0 from the
+                  // mesher, set on upload)
 };
 
 // One resident chunk mesh. Its quads are first_quad .. first_quad + range_end[kRangeCount - 1].
 struct Section {
-  ivec3 origin;         // lattice position of the chunk's lowest corner [blocks]
-  uint island;          // index into the island table
-  uint voxel_size_log2; // a voxel's edge is 2^this blocks (0: full detail)
-  uint first_quad;      // index into the quad arena
-  uint bounds_min;      // tight box of the faces, voxels: bits 0-6 x, 7-13 y, 14-20 z (0..64)
-  uint bounds_max;      // same packing, exclusive upper corner
+  ivec3 origin;          // lattice position of the chunk's lowest corner [blocks]
+  uint island;           // index into the island table
+  uint voxel_size_log2;  // a voxel's edge is 2^this blocks (0: full detail)
+  uint first_quad;       // index into the quad arena
+  uint bounds_min;       // tight box of the faces, voxels: bits 0-6 x, 7-13 y, 14-20 z (0..64)
+  uint bounds_max;       // same packing, exclusive upper corner
   uint range_end[kRangeCount];  // running ends of the ranges, relative to first_quad
 };
 
-// Camera-relative world from island lattice: p = x * axis_x + y * axis_y + z * axis_z + translation [blocks].
+// Camera-relative world from island lattice: p = x * axis_x + y * axis_y + z * axis_z + translation
+// [blocks].
 struct IslandTransform {
   vec3 axis_x;
   vec3 axis_y;
@@ -49,12 +54,14 @@ struct Material {
   uint layer_side;    // layer of the block texture array for faces +-x, +-z and plants
   uint layer_top;     // for +y
   uint layer_bottom;  // for -y
-  uint emission;      // luminous emission, half float in bits 0-15: radiance = albedo * this [the unit of sun radiance]
-  vec3 absorption;    // translucent kinds: extinction per block of path [1/block]; else 0
-  float roughness;    // 0..1 perceptual
+  uint emission;  // luminous emission, half float in bits 0-15: radiance = albedo * this [the unit
+                  // of sun radiance]
+  vec3 absorption;  // translucent kinds: extinction per block of path [1/block]; else 0
+  float roughness;  // 0..1 perceptual
 };
 
-// Arguments of vkCmdDrawIndexedIndirect (VkDrawIndexedIndirectCommand). firstInstance carries the section index.
+// Arguments of vkCmdDrawIndexedIndirect (VkDrawIndexedIndirectCommand). firstInstance carries the
+// section index.
 struct DrawCommand {
   uint index_count;
   uint instance_count;

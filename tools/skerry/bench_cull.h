@@ -12,8 +12,8 @@ struct BenchCullOptions {
   std::optional<std::filesystem::path> json;
 };
 
-/// Times the culling passes over 1,000 to 400,000 sections spread around the camera. Rows: sections, passed, ms_median, ms_p10, ms_p90,
-/// sections_per_ms. @return exit status.
+/// Times the culling passes over 1,000 to 400,000 sections spread around the camera. Rows:
+/// sections, passed, ms_median, ms_p10, ms_p90, sections_per_ms. @return exit status.
 int bench_cull(const BenchCullOptions& options);
 
 }  // namespace skerry::tools

@@ -11,8 +11,9 @@ struct BenchFrameOptions {
   std::optional<std::filesystem::path> json;
 };
 
-/// Times whole frames of a loaded scene in a loop with a slowly turning camera. Prints a row and writes it as JSON: name, size, distance, shadows,
-/// ms_median, ms_p10, ms_p99, fps_median, gpu_ms{}. @return exit status.
+/// Times whole frames of a loaded scene in a loop with a slowly turning camera. Prints a row and
+/// writes it as JSON: name, size, distance, shadows, ms_median, ms_p10, ms_p99, fps_median,
+/// gpu_ms{}. @return exit status.
 int bench_frame(const BenchFrameOptions& options);
 
 }  // namespace skerry::tools

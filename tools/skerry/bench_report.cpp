@@ -18,7 +18,8 @@ Spread spread_of(std::vector<double> samples) {
   return {rank(0.10), rank(0.50), rank(0.90), rank(0.99)};
 }
 
-Result<void> write_rows(const std::optional<std::filesystem::path>& file, const nlohmann::ordered_json& rows) {
+Result<void> write_rows(const std::optional<std::filesystem::path>& file,
+                        const nlohmann::ordered_json& rows) {
   if (!file) return {};
   return platform::write_text(*file, nlohmann::ordered_json{{"rows", rows}}.dump(2) + "\n");
 }

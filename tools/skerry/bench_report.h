@@ -17,6 +17,7 @@ struct Spread {
 Spread spread_of(std::vector<double> samples);
 
 /// Writes `{"rows": rows}` when a file is wanted.
-Result<void> write_rows(const std::optional<std::filesystem::path>& file, const nlohmann::ordered_json& rows);
+Result<void> write_rows(const std::optional<std::filesystem::path>& file,
+                        const nlohmann::ordered_json& rows);
 
 }  // namespace skerry::tools

@@ -35,7 +35,9 @@ int fail(int status, const Error& error) {
 int status_after(const gpu::Device& device) {
   const int count = device.validation_message_count();
   if (count == 0) return kDone;
-  return fail(kValidationMessage, {std::to_string(count) + " validation messages were printed above; this is a bug in Skerry or the driver"});
+  return fail(kValidationMessage,
+              {std::to_string(count) +
+               " validation messages were printed above; this is a bug in Skerry or the driver"});
 }
 
 }  // namespace skerry::tools

@@ -13,7 +13,8 @@ struct ShotOptions {
   bool explain = false;                        ///< print what the frame ran and what it left out
 };
 
-/// One deterministic picture. @return the exit status of the command-line contract; failures print one line on stderr.
+/// One deterministic picture. @return the exit status of the command-line contract; failures print
+/// one line on stderr.
 int shot(const ShotOptions& options);
 
 }  // namespace skerry::tools
