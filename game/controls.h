@@ -18,9 +18,9 @@ std::uint32_t stepped_view_distance(std::uint32_t blocks, int steps);
 /// The next level up or down; the ends stay.
 Quality stepped_quality(Quality quality, int steps);
 
-/// Time of day that a held key turns, in whole steps of ten seconds, wrapped at midnight. Between
-/// steps the sun stands still, so that kept shadow maps serve on and a screenshot's command can
-/// name the time exactly.
+/// Time of day as it runs or a held key turns it, in whole steps of ten seconds, wrapped at
+/// midnight. Between steps the sun stands still, so that kept shadow maps serve on and a
+/// screenshot's command can name the time exactly.
 class DayClock {
  public:
   explicit DayClock(int time_of_day_s) : shown_s_(time_of_day_s), exact_s_(time_of_day_s) {}

@@ -30,7 +30,9 @@ constexpr double kIdleWait = 0.05;        // seconds between looks at a window t
 constexpr double kTitlePeriod = 0.5;      // seconds
 constexpr std::size_t kFramesKept = 240;  // for the overlay's graph
 constexpr double kDayTurn = 1800.0;       // seconds of day a second that T or Y is held
-constexpr double kFlySpeedNotch = 1.25;   // factor a notch of the wheel
+constexpr double kDayRate =
+    24.0;  // seconds of day a second when it is left alone: a day is an hour
+constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
 
 render::FixedPos fixed(const world::WorldPos& p) {
   return {p.x, p.y, p.z};
@@ -87,6 +89,7 @@ class Session {
   std::unique_ptr<Presenter> presenter_;
   bool overlay_shown_ = false;
   bool culling_frozen_ = false;
+  bool day_stands_ = false;
   bool screenshot_wanted_ = false;
   bool pointer_wanted_ = true;  // captured while the window has the focus
   std::vector<float> frame_ms_;
@@ -151,7 +154,9 @@ void Session::act_on_picture_keys(const platform::InputFrame& input, double seco
     settings.shadow_size = level.shadow_size;
   }
   const int later = input.down(Key::kT) - input.down(Key::kY);
+  if (input.pressed(Key::kP)) day_stands_ = !day_stands_;
   if (later != 0) day_.turn(later * kDayTurn * seconds);
+  if (later == 0 && !day_stands_) day_.turn(kDayRate * seconds);
 }
 
 void Session::move(const platform::InputFrame& input, double seconds) {
