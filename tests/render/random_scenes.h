@@ -108,6 +108,11 @@ inline bool box_meets(const Box& box, std::span<const glm::dvec4> planes) {
   return false;
 }
 
+inline Camera camera_at(glm::dvec3 blocks, double yaw_deg, double pitch_deg,
+                        double fov_deg = 70.0) {
+  return {fixed_at(blocks), yaw_deg, pitch_deg, fov_deg};
+}
+
 /// Axes of a camera, from docs/conventions.md alone; not for one that looks straight up or down.
 struct Axes {
   glm::dvec3 right, up, forward;

@@ -1,0 +1,211 @@
+#pragma once
+#include <array>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/readback.h"
+#include "engine/gpu/uploader.h"
+#include "engine/render/cull_pass.h"
+#include "engine/render/frame_setup.h"
+#include "engine/render/geometry_pass.h"
+#include "engine/render/geometry_store.h"
+#include "engine/render/shadow_maps.h"
+#include "engine/render/shadow_pass.h"
+#include "tests/gpu/compile_glsl.h"
+#include "tests/gpu/test_device.h"
+#include "tests/render/random_scenes.h"
+#include "tests/render/voxel_chunks.h"
+
+namespace skerry::render {
+
+/// The renderer's own passes, one by one, with what they write read back. Opaque blocks only.
+class PassesOnGpu : public gpu::GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    if (HasFatalFailure()) return;
+    shaders_.assign(gpu::embedded_shaders().begin(), gpu::embedded_shaders().end());
+    shaders_.push_back(copy_layer_.embedded());
+    pipelines_ = std::make_unique<gpu::Pipelines>(device(), shaders_);
+    graph_ = std::make_unique<gpu::FrameGraph>(&device());
+    uploader_ = std::make_unique<gpu::Uploader>(device(), gpu::UploadPath::kUpdateBuffer);
+    shadows_ = std::make_unique<ShadowMaps>(device());
+    Result<std::unique_ptr<GeometryStore>> store = GeometryStore::create(device(), 1u << 12);
+    ASSERT_TRUE(store) << store.error().message;
+    store_ = *std::move(store);
+    std::vector<std::uint16_t> index(shared::kMaxQuadsPerDraw * 6);
+    constexpr std::array<unsigned, 6> kCorners{0, 1, 2, 0, 2, 3};
+    for (std::size_t i = 0; i < index.size(); ++i)
+      index[i] = static_cast<std::uint16_t>(i / 6 * 4 + kCorners[i % 6]);
+    indices_ = buffer("quad indices", index.size() * 2,
+                      VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    uploader_->write(indices_, 0, std::span<const std::uint16_t>(index));
+  }
+  void TearDown() override {
+    tables_.clear();
+    indices_ = {};
+    store_.reset();
+    shadows_.reset();
+    uploader_.reset();
+    graph_.reset();
+    pipelines_.reset();
+    GpuTest::TearDown();
+  }
+
+  GeometryStore& store() { return *store_; }
+  gpu::Uploader& uploader() { return *uploader_; }
+  ShadowMaps& shadows() { return *shadows_; }
+
+  struct Drawn {
+    std::vector<std::uint32_t> words;  ///< G-buffer words, rows from the top
+    std::vector<float> depth;
+    shared::CullStats stats{};
+  };
+  /// Culls and draws the camera's view.
+  Drawn drawn(const FrameInput& input, VkExtent2D size) {
+    const FrameTables tables = build_tables(input, {}, size, {});
+    const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
+    gpu::Buffer words = back("words", pixels * 4), depth = back("depth values", pixels * 4),
+                stats = back("stats", sizeof(shared::CullStats));
+    const SceneRefs scene = begin(input, size, tables);
+    const CulledDraws draws = cull(scene, 1);
+    const Geometry geometry = GeometryPass::add(*graph_, *pipelines_, scene, draws, false);
+    const gpu::ImageRef surfaces = geometry.surfaces(), depths = geometry.depth();
+    gpu::BufferRef words_ref = graph_->import(words), depth_ref = graph_->import(depth),
+                   stats_ref = graph_->import(stats);
+    graph_->add_pass(
+        "read_back",
+        [&](gpu::PassBuilder& b) {
+          b.read(surfaces, gpu::Use::kTransferRead);
+          b.read(depths, gpu::Use::kTransferRead);
+          b.read(draws.stats, gpu::Use::kTransferRead);
+          for (gpu::BufferRef* ref : {&words_ref, &depth_ref, &stats_ref})
+            *ref = b.write(*ref, gpu::Use::kTransferWrite);
+        },
+        [=, from_stats = draws.stats](gpu::Commands& c) {
+          c.copy(surfaces, words_ref);
+          c.copy(depths, depth_ref);
+          c.copy(from_stats, stats_ref, 0, 0, sizeof(shared::CullStats));
+        });
+    run();
+    Drawn out;
+    out.words = contents<std::uint32_t>(words);
+    out.depth = contents<float>(depth);
+    out.stats = contents<shared::CullStats>(stats)[0];
+    return out;
+  }
+
+  struct DrawnMaps {
+    std::vector<bool> redrawn;  ///< a cascade
+    std::vector<float> texels;  ///< of all layers
+  };
+  /// Brings the shadow maps up to date and reads all of them.
+  DrawnMaps shadow_maps(const FrameInput& input, const RenderSettings& settings) {
+    const auto cascades = shadows_->update(input, settings, store_->version());
+    EXPECT_TRUE(cascades);
+    DrawnMaps out;
+    std::vector<ShadowDraw> redraw;
+    for (const ActiveCascade& c : *cascades) {
+      out.redrawn.push_back(c.redraw);
+      if (c.redraw)
+        redraw.push_back({static_cast<std::uint32_t>(redraw.size()) + 1, c.layer, "draw_shadow"});
+    }
+    constexpr VkExtent2D kSize{8, 8};
+    const FrameTables tables = build_tables(input, settings, kSize, *cascades);
+    const SceneRefs scene = begin(input, kSize, tables);
+    const CulledDraws draws = cull(scene, static_cast<std::uint32_t>(tables.views.size()));
+    const Shadows maps =
+        ShadowPass::add(*graph_, *pipelines_, scene, draws, shadows_->maps(), redraw, false);
+    const auto edge = static_cast<std::uint32_t>(settings.shadow_map_size);
+    const auto layers = static_cast<std::uint32_t>(out.redrawn.size());
+    gpu::Buffer texels = back("texels", std::uint64_t{edge} * edge * layers * 4);
+    gpu::BufferRef to = graph_->import(texels);
+    const VkSampler sampler = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
+    graph_->add_pass(
+        "copy_maps",
+        [&](gpu::PassBuilder& b) {
+          b.read(maps.maps(), gpu::Use::kComputeSampled);
+          to = b.write(to, gpu::Use::kComputeWrite);
+        },
+        [&, from = maps.maps()](gpu::Commands& c) {
+          c.bind(pipelines_->get(gpu::ComputeDesc{"copy_layer.comp", {}}));
+          c.sampled(0, from, sampler);
+          c.storage(1, to);
+          c.dispatch(edge / 8, edge / 8, layers);
+        });
+    run();
+    out.texels = contents<float>(texels);
+    return out;
+  }
+
+ private:
+  gpu::Buffer back(const char* name, std::uint64_t bytes) {
+    return buffer(name, bytes,
+                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                      VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  }
+  template <class T>
+  std::vector<T> contents(gpu::Buffer& from) {
+    const Result<std::vector<std::byte>> bytes =
+        gpu::read_back(device(), from, 0, from.size_bytes());
+    EXPECT_TRUE(bytes);
+    std::vector<T> values(from.size_bytes() / sizeof(T));
+    std::memcpy(values.data(), bytes->data(), values.size() * sizeof(T));
+    return values;
+  }
+  template <class T>
+  gpu::BufferRef table(const char* name, const std::vector<T>& values) {
+    gpu::Buffer& made =
+        *tables_.emplace_back(std::make_unique<gpu::Buffer>(back(name, values.size() * sizeof(T))));
+    uploader_->write(made, 0, std::span<const T>(values));
+    return graph_->import(made);
+  }
+  SceneRefs begin(const FrameInput& input, VkExtent2D size, const FrameTables& tables) {
+    tables_.clear();
+    graph_->begin();
+    SceneRefs scene;
+    scene.view_islands = table("view island transforms", tables.islands);
+    scene.views = table("cull views", tables.views);
+    scene.clip_from_source = tables.matrices;
+    scene.quads = graph_->import(store_->quads());
+    scene.sections = graph_->import(store_->sections());
+    scene.indices = graph_->import(indices_);
+    scene.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
+    scene.size = size;
+    return scene;
+  }
+  CulledDraws cull(const SceneRefs& scene, std::uint32_t views) {
+    return add_cull_passes(*graph_, *pipelines_, scene,
+                           {store_->section_slots(), store_->quads_resident(), views});
+  }
+  void run() {
+    graph_->compile();
+    device().run_now([&](VkCommandBuffer commands) {
+      uploader_->record(commands, UINT64_MAX);
+      graph_->execute(commands, 0);
+    });
+  }
+
+  static constexpr const char* kCopyLayer = R"(
+    layout(local_size_x = 8, local_size_y = 8) in;
+    layout(binding = 0) uniform sampler2DArray maps;
+    layout(scalar, binding = 1) writeonly buffer To { float texels[]; };
+    void main() {
+      uvec3 at = gl_GlobalInvocationID, size = gl_NumWorkGroups * uvec3(8, 8, 1);
+      texels[(at.z * size.y + at.y) * size.x + at.x] = texelFetch(maps, ivec3(at), 0).r;
+    })";
+  gpu::TestShader copy_layer_{"copy_layer.comp", kCopyLayer};
+  std::vector<gpu::EmbeddedShader> shaders_;
+  std::unique_ptr<gpu::Pipelines> pipelines_;
+  std::unique_ptr<gpu::FrameGraph> graph_;
+  std::unique_ptr<gpu::Uploader> uploader_;
+  std::unique_ptr<ShadowMaps> shadows_;
+  std::unique_ptr<GeometryStore> store_;
+  gpu::Buffer indices_;
+  std::vector<std::unique_ptr<gpu::Buffer>> tables_;
+};
+
+}  // namespace skerry::render
