@@ -1,0 +1,61 @@
+#!/usr/bin/env -S python3 -B
+"""The same scene gives the same bytes, whatever must not matter: another run, the number of worker
+threads, the way meshes are uploaded, and how far from the origin the world is.
+
+    same_bytes_test.py SKERRY FOLDER
+"""
+import json
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+from shots import SCENES, Refused, shoot
+
+OFFSETS = ((0, 0, 0), (16777216, 0, 0), (1099511627000, 1099511627000, -1099511627000))
+
+
+def decimal(value):
+    """An exact decimal number; camera places of the scenes end after a few digits."""
+    text = f"{abs(value.numerator) * 10**6 // value.denominator:07d}"
+    return f"{'-' if value < 0 else ''}{text[:-6]}.{text[-6:]}"
+
+
+def moved(scene, offset):
+    """Arguments that move a scene's world and camera."""
+    x, y, z, yaw, pitch = json.loads(scene.read_text(encoding="utf-8"))["camera"]
+    place = [decimal(Fraction(str(at)) + by) for at, by in zip((x, y, z), offset)]
+    return ["--camera", ",".join(place + [str(yaw), str(pitch)]),
+            "--set", "world.offset=" + ",".join(map(str, offset))]
+
+
+def variants(scene):
+    yield "again", []
+    for threads in (1, 8):
+        yield f"{threads}_threads", ["--set", f"jobs.threads={threads}"]
+    for path in ("update", "staging", "mapped"):
+        yield path, ["--set", f"upload.path={path}"]
+    for number, offset in enumerate(OFFSETS):
+        yield f"offset_{number}", moved(scene, offset)
+
+
+def main(skerry, folder):
+    wrong = []
+    for name in ("water", "tropical"):
+        scene = SCENES / f"{name}.json"
+        shot = ["--scene", scene]
+        _, first = shoot(skerry, Path(folder), name, shot)
+        for variant, arguments in variants(scene):
+            _, stats = shoot(skerry, Path(folder), f"{name}_{variant}", shot + arguments)
+            same = stats["image_sha256"] == first["image_sha256"]
+            print(f"{name} {variant}: {'same' if same else 'DIFFERENT'}")
+            if not same:
+                wrong.append(f"{name}_{variant}")
+    if wrong:
+        raise Refused(f"not the bytes of the first picture: {', '.join(wrong)}; see {folder}")
+
+
+if __name__ == "__main__":
+    try:
+        main(*sys.argv[1:])
+    except Refused as why:
+        sys.exit(f"same_bytes_test: {why}")
