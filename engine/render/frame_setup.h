@@ -23,6 +23,9 @@ shared::IslandTransform transform_of(const IslandPlacement& island, const FixedP
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
                          std::span<const ActiveCascade> cascades);
 
+/// Whether the sun's or the moon's disc may touch the picture: a cone about the view axis.
+bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame);
+
 /// Planes of a view at `frozen`, for a camera that has since moved to `now`.
 void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& now);
 

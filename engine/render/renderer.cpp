@@ -298,7 +298,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
         scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite);
       },
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
-  const ShadeIn shade_in{settings.texture_taps, sky_now.stars > 0.0f};
+  const ShadeIn shade_in{settings.texture_taps, sky_now.stars > 0.0f,
+                         disc_in_view(input.sky, tables.constants)};
   const bool sky_moved = !baked_sky || std::memcmp(&*baked_sky, &sky_now, sizeof(sky_now)) != 0;
   baked_sky = sky_now;
   if (sky_moved)
