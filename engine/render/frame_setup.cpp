@@ -96,6 +96,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   view.enabled = 1;
   out.views.push_back(view);
   out.matrices.push_back(camera.clip_from_world);
+  out.edge_growth.push_back(2.0f * camera.tan_half_x / (128.0f * static_cast<float>(size.width)));
   append_islands(out.islands, input.islands, input.camera.position);
 
   for (const ActiveCascade& active : cascades) {
@@ -113,6 +114,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
     // Relative to the map's own centre, a function of its key alone: a map drawn again in the same
     // window is equal to the last bit.
     out.matrices.push_back(active.cascade.clip_from_centre);
+    out.edge_growth.push_back(active.cascade.texel_blocks / 128.0f);
     append_islands(out.islands, input.islands, active.cascade.centre);
   }
   return out;

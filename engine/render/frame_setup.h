@@ -13,6 +13,9 @@ struct FrameTables {
   shared::FrameConstants constants{};
   std::vector<shared::CullView> views;
   std::vector<glm::mat4> matrices;  ///< clip_from_source, one a view
+  /// How much quads grow in their plane to cover T-junctions, one a view: 1/128 pixel, in blocks a
+  /// block of distance along the view axis; of an orthographic view in blocks.
+  std::vector<float> edge_growth;
   std::vector<shared::IslandTransform>
       islands;  ///< [view][island], each view's relative to its own source
 };

@@ -217,6 +217,7 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size
   s.islands = graph.import(islands);
   s.view_islands = graph.import(view_islands);
   s.clip_from_source = tables.matrices;
+  s.edge_growth = tables.edge_growth;
   s.views = graph.import(views);
   s.materials = graph.import(materials);
   s.quads = graph.import(geometry->quads());
