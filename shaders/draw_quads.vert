@@ -9,6 +9,7 @@ layout(scalar, binding = 1) readonly buffer Transforms { SectionTransform transf
 layout(push_constant, scalar) uniform Push {
   mat4 clip_from_source;  // of this view
   uint first_transform;   // of this view
+  float growth;           // see below, blocks a block of distance (of an orthographic view: blocks)
 } push;
 
 layout(constant_id = 0) const bool kTextured = false;  // cut-outs need texture coordinates
@@ -36,7 +37,14 @@ void main() {
   vec3 offset = axis == 0u ? vec3(plane, v, u) : axis == 1u ? vec3(u, plane, v) : axis == 2u ? vec3(u, v, plane) : vec3(u, v, plus ? u : 1.0 - u);
   vec3 voxel = low + offset;
   SectionTransform t = transforms[push.first_transform + gl_InstanceIndex];
+  // Merged quads meet in T-junctions, and vertices snap to 1/256 pixel, so that light shines through between them. Every quad grows in its
+  // own plane by 1/128 pixel; in voxels, where its plane stays exact.
   vec4 p = vec4(dot(t.x, vec4(voxel, 1.0)), dot(t.y, vec4(voxel, 1.0)), dot(t.z, vec4(voxel, 1.0)), 1.0);
+  float distance = dot(vec4(push.clip_from_source[0].w, push.clip_from_source[1].w, push.clip_from_source[2].w, push.clip_from_source[3].w), p);
+  float by = max(distance, 0.05) * push.growth * inversesqrt(dot(vec3(t.x.x, t.y.x, t.z.x), vec3(t.x.x, t.y.x, t.z.x)));
+  float by_u = u > 0.0 ? by : -by, by_v = v > 0.0 ? by : -by;
+  voxel += axis == 0u ? vec3(0.0, by_v, by_u) : axis == 1u ? vec3(by_u, 0.0, by_v) : axis == 2u ? vec3(by_u, by_v, 0.0) : vec3(0.0);
+  p = vec4(dot(t.x, vec4(voxel, 1.0)), dot(t.y, vec4(voxel, 1.0)), dot(t.z, vec4(voxel, 1.0)), 1.0);
   gl_Position = push.clip_from_source * p;
   out_surface = quad.y | kSurfaceHere;
   out_uv = vec2(0.0);

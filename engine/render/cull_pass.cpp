@@ -127,7 +127,8 @@ void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraw
   const struct {
     glm::mat4 clip_from_source;
     std::uint32_t first_transform;
-  } push{scene.clip_from_source[view], view * draws.section_slots};
+    float edge_growth;
+  } push{scene.clip_from_source[view], view * draws.section_slots, scene.edge_growth[view]};
   commands.push(push);
   commands.index_buffer(scene.indices, VK_INDEX_TYPE_UINT16);
   const std::uint64_t index = list_index(view, list);

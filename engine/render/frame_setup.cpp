@@ -1,9 +1,12 @@
 #include "engine/render/frame_setup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+
+#include "shaders/shared/sky.h"
 
 namespace skerry::render {
 namespace {
@@ -93,6 +96,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   view.enabled = 1;
   out.views.push_back(view);
   out.matrices.push_back(camera.clip_from_world);
+  out.edge_growth.push_back(2.0f * camera.tan_half_x / (128.0f * static_cast<float>(size.width)));
   append_islands(out.islands, input.islands, input.camera.position);
 
   for (const ActiveCascade& active : cascades) {
@@ -110,9 +114,23 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
     // Relative to the map's own centre, a function of its key alone: a map drawn again in the same
     // window is equal to the last bit.
     out.matrices.push_back(active.cascade.clip_from_centre);
+    out.edge_growth.push_back(active.cascade.texel_blocks / 128.0f);
     append_islands(out.islands, input.islands, active.cascade.centre);
   }
   return out;
+}
+
+bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame) {
+  const glm::vec3 corner = frame.ray_forward + frame.ray_right + frame.ray_up;
+  // Discs are drawn a pixel beyond their edge; twice the radius covers that at any usual size.
+  const float pixel = frame.pixel_to_ndc.y * glm::length(frame.ray_up);
+  const float reach = std::acos(std::clamp(1.0f / glm::length(corner), 0.0f, 1.0f)) +
+                      2.0f * shared::kDiscRadius + 2.0f * pixel;
+  const auto seen = [&](glm::dvec3 to_body) {
+    const float cosine = glm::dot(glm::vec3(to_body), frame.ray_forward);
+    return std::acos(std::clamp(cosine, -1.0f, 1.0f)) <= reach;
+  };
+  return seen(sky.to_sun) || seen(sky.to_moon);
 }
 
 void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& now) {

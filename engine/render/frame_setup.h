@@ -13,6 +13,9 @@ struct FrameTables {
   shared::FrameConstants constants{};
   std::vector<shared::CullView> views;
   std::vector<glm::mat4> matrices;  ///< clip_from_source, one a view
+  /// How much quads grow in their plane to cover T-junctions, one a view: 1/128 pixel, in blocks a
+  /// block of distance along the view axis; of an orthographic view in blocks.
+  std::vector<float> edge_growth;
   std::vector<shared::IslandTransform>
       islands;  ///< [view][island], each view's relative to its own source
 };
@@ -22,6 +25,9 @@ shared::IslandTransform transform_of(const IslandPlacement& island, const FixedP
 
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
                          std::span<const ActiveCascade> cascades);
+
+/// Whether the sun's or the moon's disc may touch the picture: a cone about the view axis.
+bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame);
 
 /// Planes of a view at `frozen`, for a camera that has since moved to `now`.
 void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& now);

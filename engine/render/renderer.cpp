@@ -217,6 +217,7 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size
   s.islands = graph.import(islands);
   s.view_islands = graph.import(view_islands);
   s.clip_from_source = tables.matrices;
+  s.edge_growth = tables.edge_growth;
   s.views = graph.import(views);
   s.materials = graph.import(materials);
   s.quads = graph.import(geometry->quads());
@@ -298,7 +299,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
         scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite);
       },
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
-  const ShadeIn shade_in{settings.texture_taps, sky_now.stars > 0.0f};
+  const ShadeIn shade_in{settings.texture_taps, sky_now.stars > 0.0f,
+                         disc_in_view(input.sky, tables.constants)};
   const bool sky_moved = !baked_sky || std::memcmp(&*baked_sky, &sky_now, sizeof(sky_now)) != 0;
   baked_sky = sky_now;
   if (sky_moved)

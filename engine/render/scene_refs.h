@@ -16,6 +16,7 @@ struct SceneRefs {
   gpu::BufferRef islands;       ///< shared::IslandTransform[island], relative to the camera
   gpu::BufferRef view_islands;  ///< shared::IslandTransform[view][island], each view's relative to
                                 ///< its own centre
+  std::span<const float> edge_growth;  ///< one a view, see FrameTables; lives as long
   std::span<const glm::mat4>
       clip_from_source;            ///< one a view; lives until the graph has been executed
   gpu::BufferRef views;            ///< shared::CullView[view]

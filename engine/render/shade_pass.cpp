@@ -50,8 +50,8 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         if (maps) c.sampled(12, maps, scene.point_sampler);
         dispatch_tiles(c, tiles, TileKind::kCovered);
       });
-  const gpu::Pipeline& sky_pipeline =
-      pipelines.get(gpu::ComputeDesc{"shade_sky" + suffix, {{0, in.stars ? 1u : 0u}}});
+  const gpu::Pipeline& sky_pipeline = pipelines.get(
+      gpu::ComputeDesc{"shade_sky" + suffix, {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
@@ -95,8 +95,8 @@ Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipe
 Developed ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                   SceneRefs& scene, const ShadeIn& in, gpu::Image& picture) {
   gpu::ImageRef target = graph.import(picture);
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{"shade_sky_everywhere.comp", {{0, in.stars ? 1u : 0u}}});
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      "shade_sky_everywhere.comp", {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {

@@ -11,6 +11,7 @@ namespace skerry::render {
 struct ShadeIn {
   int texture_taps = 2;  ///< samples along the long side of a texture footprint
   bool stars = false;    ///< whether any star can be seen
+  bool discs = true;     ///< whether the sun's or the moon's disc may be in the picture
 };
 
 /// Light for every pixel, in compute, by tiles: surfaces under sun and moon, sky elsewhere.

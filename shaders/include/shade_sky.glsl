@@ -13,6 +13,7 @@ layout(binding = 5, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = 8) uniform sampler2D sky_lut;
 
 layout(constant_id = 0) const bool kStars = true;  // false by day
+layout(constant_id = 1) const bool kDiscs = true;  // false when neither sun nor moon is in the picture
 
 #ifndef SKERRY_EVERYWHERE
 #include "include/tiles.glsl"
@@ -30,5 +31,5 @@ void main() {
   bool here = tile_pixel(pixel);
   here = here && imageLoad(surfaces, ivec2(pixel)).r == 0u;
 #endif
-  put_pixel(pixel, sky_seen(normalize(pixel_ray(pixel)), kStars), here);
+  put_pixel(pixel, sky_seen(normalize(pixel_ray(pixel)), kStars, kDiscs), here);
 }

@@ -4,10 +4,10 @@
 #define SKERRY_SHADOW_GLSL
 
 // 1 where the light reaches the receiver's plane at one texel.
-float shadow_tap(vec2 offset, vec3 map, vec2 slope, float bias, uint layer) {
+float shadow_tap(vec2 offset, vec3 map, vec2 slope, float bias, float most, uint layer) {
   vec2 texel = floor(map.xy + offset);
-  float plane_depth = map.z + dot(slope, texel + 0.5 - map.xy);
-  return plane_depth + bias >= texelFetch(shadow_maps, ivec3(ivec2(texel), int(layer)), 0).r ? 1.0 : 0.0;
+  float plane_depth = map.z + min(dot(slope, texel + 0.5 - map.xy) + bias, most);
+  return plane_depth >= texelFetch(shadow_maps, ivec3(ivec2(texel), int(layer)), 0).r ? 1.0 : 0.0;
 }
 
 // Share of the filter's taps that see the light, 0..1.
@@ -23,12 +23,15 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
   float per_texel = -cascade.depth_per_block * texel * texel / max(n_dot_l, 0.02);
   vec2 slope = per_texel * vec2(dot(cascade.map_from_world_x.xyz, normal), dot(cascade.map_from_world_y.xyz, normal));
   float bias = cascade.depth_per_block * (0.004 + 0.02 * texel) + 0.016 * (abs(slope.x) + abs(slope.y));
+  // The receiver's plane is followed towards the light by less than the thinnest wall (one block): what stands behind a wall stays dark.
+  float most = cascade.depth_per_block * max(0.9, 8.0 * texel);
   float radius = max(frame.pcf_radius_blocks / texel, 1.5);
+  radius *= clamp((most - bias - 0.5 * (abs(slope.x) + abs(slope.y))) / (length(slope) * radius), 0.0, 1.0);
   // Unrolled by hand: an array of offsets would live in memory.
-  float lit = shadow_tap(vec2(-0.326, -0.406) * radius, map, slope, bias, cascade.layer) + shadow_tap(vec2(-0.840, -0.074) * radius, map, slope, bias, cascade.layer) +
-              shadow_tap(vec2(-0.203, 0.621) * radius, map, slope, bias, cascade.layer) + shadow_tap(vec2(0.519, 0.767) * radius, map, slope, bias, cascade.layer) +
-              shadow_tap(vec2(0.962, -0.195) * radius, map, slope, bias, cascade.layer) + shadow_tap(vec2(0.473, -0.480) * radius, map, slope, bias, cascade.layer) +
-              shadow_tap(vec2(0.185, -0.893) * radius, map, slope, bias, cascade.layer) + shadow_tap(vec2(0.507, 0.064) * radius, map, slope, bias, cascade.layer);
+  float lit = shadow_tap(vec2(-0.326, -0.406) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(-0.840, -0.074) * radius, map, slope, bias, most, cascade.layer) +
+              shadow_tap(vec2(-0.203, 0.621) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(0.519, 0.767) * radius, map, slope, bias, most, cascade.layer) +
+              shadow_tap(vec2(0.962, -0.195) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(0.473, -0.480) * radius, map, slope, bias, most, cascade.layer) +
+              shadow_tap(vec2(0.185, -0.893) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(0.507, 0.064) * radius, map, slope, bias, most, cascade.layer);
   return lit * 0.125;
 }
 

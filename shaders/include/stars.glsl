@@ -78,12 +78,13 @@ vec3 stars(vec3 dir, float pixel_angle) {
   return star_field(d, pixel_angle, cells) * (seen * (1.0 - moon_hides(dir, pixel_angle)));
 }
 
-// Everything a ray into the open sees: sky, discs, and stars unless it is day. dir is unit.
-vec3 sky_seen(vec3 dir, bool with_stars) {
+// Everything a ray into the open sees: sky, stars unless it is day, discs if they may be in the picture. dir is unit.
+vec3 sky_seen(vec3 dir, bool with_stars, bool with_discs) {
   // A pixel's mean angle: off the axis it covers the cube of the cosine of the middle one's sky.
   float c = max(0.1, dot(dir, frame.ray_forward));
   float pixel_angle = frame.pixel_to_ndc.y * length(frame.ray_up) * c * sqrt(c);
-  vec3 colour = sample_sky(sky_lut, dir) + discs(dir, pixel_angle);
+  vec3 colour = sample_sky(sky_lut, dir);
+  if (with_discs) colour += discs(dir, pixel_angle);
   if (with_stars) colour += stars(dir, pixel_angle);
   return colour;
 }

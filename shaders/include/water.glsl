@@ -62,11 +62,16 @@ Reach light_at(vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness
   return r;
 }
 
-// Radiance a stretch of medium sends towards the eye when it is lit by `light`: single scattering with an isotropic phase, half of the
-// scattered light lost on its own way through the medium.
+// A medium scatters this share of its mean absorption, white.
+const float kScattering = 0.3;
+
+vec3 scattering(Material medium) { return vec3(kScattering * dot(medium.absorption, vec3(1.0 / 3.0))); }
+vec3 extinction(Material medium) { return medium.absorption + scattering(medium); }
+
+// Radiance a stretch of medium sends towards the eye when `light` falls on it: single scattering, isotropic phase 1 / (4 pi).
 vec3 scattered(Material medium, vec3 light, float path) {
-  vec3 albedo = exp(-3.0 * medium.absorption);  // what little a clear medium scatters has the colour it lets through
-  return 0.05 * albedo * light * (1.0 - exp(-medium.absorption * path - 0.04 * path));
+  vec3 total = max(extinction(medium), vec3(1e-6));
+  return scattering(medium) / total * light * (0.25 * kInvPi) * (1.0 - exp(-total * path));
 }
 
 vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
@@ -85,7 +90,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     if (medium != 0u) {
       Material m = materials[medium];
       colour += through * scattered(m, light_in, next - at);
-      through *= exp(-m.absorption * (next - at));
+      through *= exp(-extinction(m) * (next - at));
     }
     uint block = surface_block(word), face = surface_face(word);
     IslandTransform island = islands[surface_island(word)];
@@ -117,7 +122,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     float end = opaque > 0.0 ? view_distance(opaque, frame.near_plane) * ray_length : 1e4;
     Material m = materials[medium];
     colour += through * scattered(m, light_in, max(end - at, 0.0));
-    through *= exp(-m.absorption * max(end - at, 0.0));
+    through *= exp(-extinction(m) * max(end - at, 0.0));
   }
   return colour + through * behind;
 }

@@ -86,6 +86,38 @@ TEST_F(Darkness, ASealedRoomStaysBlackAtLowQuality) {
   expect_black({25.3, 24.1, 26.2}, 0, settings);
 }
 
+// Where light grazes a wall, the shadow filter's plane reaches far along it.
+TEST_F(Darkness, ASealedRoomIsBlackUnderASunThatGrazesItsWalls) {
+  add(room(20, 30, 1, 0), {0, 0, 0}, {1, 1, 1});
+  expect_black({25.3, 24.1, 26.2}, 0, {}, {{90, 0}, {60, 17.2}, {5, 200}, {0.5, 310}});
+}
+
+// A roof of quads of all sizes has T-junctions at nearly every corner; no light may come through.
+TEST_F(Darkness, ASealedRoomUnderARoofOfManyKindsIsBlack) {
+  add(
+      [](int x, int y, int z) -> world::BlockId {
+        const world::BlockId block = room(4, 60, 3, 0)(x, y, z);
+        if (block != world::block::kStone) return block;
+        return (x * 7 + z * 13 + x * z / 5) % 5 < 2 ? world::block::kStone : world::block::kDirt;
+      },
+      {0, 0, 0}, {1, 1, 1});
+  expect_black({25.3, 24.1, 26.2}, 0, {});
+}
+
+// As far as the coarsest of the shadow maps, whose texels are larger than the walls are thick.
+TEST_F(Darkness, ASealedHallIsBlackToItsFarEnd) {
+  add(
+      [](int x, int y, int z) -> world::BlockId {
+        const auto inside = [&](int more) {
+          return std::min(x, y) >= 20 - more && std::max(x, y) < 44 + more && z >= 20 - more &&
+                 z < 620 + more;
+        };
+        return inside(1) && !inside(0) ? world::block::kStone : world::block::kAirBlock;
+      },
+      {0, 0, 0}, {1, 1, 10});
+  expect_black({32.3, 32.1, 26.2}, 0, {});
+}
+
 TEST_F(Darkness, ANightWithoutMoonIsBlackOnEverySurface) {
   add(room(0, 64, 0, 10), {0, 0, 0}, {1, 1, 1});
   const std::vector<IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};

@@ -143,6 +143,30 @@ TEST_F(GBuffer, DistanceFromDepthIsExactFromTenCentimetresToAHundredKilometres) 
   EXPECT_GT(pixels, 60 * 2000);
 }
 
+// Seen from above, ground of two kinds in a checkered and striped pattern has T-junctions at nearly
+// every corner; the sky must not shine through any.
+TEST_F(GBuffer, QuadsOfAllSizesLeaveNoCracksBetweenThem) {
+  add_chunk(
+      store(), uploader(),
+      [](int x, int y, int z) -> world::BlockId {
+        if (y >= 0) return world::block::kAirBlock;
+        return (x * 7 + z * 13 + x * z / 5) % 5 < 2 ? world::block::kStone : world::block::kDirt;
+      },
+      {0, -1, 0}, 0);
+  RandomPlaces random(3);
+  const std::vector<IslandPlacement> islands{
+      {{}, glm::angleAxis(0.37, glm::dvec3(0.0, 1.0, 0.0)), 100.0}};
+  FrameInput input;
+  input.islands = islands;
+  for (int i = 0; i < 100; ++i) {
+    const glm::dvec3 place{32.0 + random.uniform(-8, 8), random.uniform(3, 12),
+                           32.0 + random.uniform(-8, 8)};
+    input.camera = camera_at(islands[0].rotation * place, random.uniform(0, 360), -85.0, 60.0);
+    const Drawn drawn = this->drawn(input, {320, 240});
+    EXPECT_EQ(std::count(drawn.words.begin(), drawn.words.end(), 0u), 0) << "view " << i;
+  }
+}
+
 /// A random handful of solid boxes in a chunk.
 BlockAt random_boxes(RandomPlaces& random, glm::ivec3 corner) {
   struct Solid {

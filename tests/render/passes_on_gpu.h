@@ -170,6 +170,7 @@ class PassesOnGpu : public gpu::GpuTest {
     scene.view_islands = table("view island transforms", tables.islands);
     scene.views = table("cull views", tables.views);
     scene.clip_from_source = tables.matrices;
+    scene.edge_growth = tables.edge_growth;
     scene.quads = graph_->import(store_->quads());
     scene.sections = graph_->import(store_->sections());
     scene.indices = graph_->import(indices_);

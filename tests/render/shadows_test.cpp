@@ -37,6 +37,10 @@ struct Height {
   std::uint32_t voxel_size_log2;  // of the plane: wide enough to fill the view
 };
 
+void PrintTo(const Height& height, std::ostream* out) {
+  *out << height.blocks << " blocks";
+}
+
 class OpenPlane : public SunShadows, public testing::WithParamInterface<Height> {};
 
 TEST_P(OpenPlane, IsFullyLitUnderEverySun) {

@@ -48,7 +48,7 @@ layout(binding = 3, rgba16f) writeonly uniform image2D radiance;
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, frame.size))) return;
-  vec3 colour = sky_seen(normalize(pixel_ray(pixel)), true);
+  vec3 colour = sky_seen(normalize(pixel_ray(pixel)), true, true);
   imageStore(radiance, ivec2(pixel), vec4(colour, 1.0));
 })";
 
