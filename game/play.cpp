@@ -138,7 +138,10 @@ void Session::act_on_pointer(const platform::InputFrame& input) {
 }
 
 void Session::act_on_picture_keys(const platform::InputFrame& input, double seconds) {
-  if (input.pressed(Key::kF2)) screenshot_wanted_ = true;
+  if (input.pressed(Key::kF2)) {
+    screenshot_wanted_ = true;
+    view_->renderer().forget_shadows();  // so that the command draws the same shadows again
+  }
   if (input.pressed(Key::kF3)) overlay_shown_ = !overlay_shown_;
   if (input.pressed(Key::kF8)) culling_frozen_ = !culling_frozen_;
   if (input.pressed(Key::kF11)) window_.toggle_fullscreen();

@@ -13,6 +13,7 @@ namespace skerry::game {
 namespace {
 
 constexpr std::size_t kMaxPolledQuads = 200'000;  // taken from the workers in one frame
+constexpr double kReachStep = 128.0;              // blocks
 constexpr std::uint32_t kFirstArenaQuads = 1u << 19;
 
 std::vector<shared::Material> material_table() {
@@ -125,6 +126,9 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
   streamer_->update(
       {place(camera.position), forward_of(camera), world_time_s},
       {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)});
+  // What was taken in must be on the GPU before more is: memory stays bounded, and an island's slot
+  // is not handed on while sections that name it can still be drawn.
+  if (renderer_->mesh_uploader().pending_bytes() != 0) return {};
   return take_in(streamer_->poll(kMaxPolledQuads));
 }
 
@@ -191,9 +195,18 @@ world::BlockId SceneView::medium_at(const render::Camera& camera, double world_t
   return world::kAir;
 }
 
-render::RenderSettings SceneView::render_settings() const {
+render::RenderSettings SceneView::render_settings(
+    const render::FixedPos& camera, std::span<const render::IslandPlacement> islands) const {
+  // An island is in as a whole once any of it is within view distance; shadows must reach its far
+  // side. In steps, because every step draws all shadow maps anew.
+  double reach = settings_.view_distance;
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    if (islands_[i].sections == 0) continue;
+    const glm::dvec3 offset = world::difference_blocks(place(islands[i].origin), place(camera));
+    reach = std::max(reach, glm::length(offset) + islands[i].bounding_radius);
+  }
   render::RenderSettings out;
-  out.view_distance_blocks = settings_.view_distance;
+  out.view_distance_blocks = std::ceil(reach / kReachStep) * kReachStep;
   out.shadows = settings_.shadow_enabled;
   out.shadow_map_size = static_cast<int>(settings_.shadow_size);
   out.flat_shading = settings_.shading == Shading::kFlat;
@@ -217,7 +230,8 @@ Result<std::uint64_t> SceneView::draw(
   input.time_s = moment.world_time_s;
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;
-  return renderer_->draw(input, render_settings(), size, after, waits, signals);
+  return renderer_->draw(input, render_settings(moment.camera.position, islands), size, after,
+                         waits, signals);
 }
 
 }  // namespace skerry::game

@@ -63,7 +63,8 @@ class SceneView {
   std::vector<render::IslandPlacement> placements(double world_time_s) const;
   /// Id of the translucent block the camera is in, or air.
   world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
-  render::RenderSettings render_settings() const;
+  render::RenderSettings render_settings(const render::FixedPos& camera,
+                                         std::span<const render::IslandPlacement> islands) const;
 
   struct IslandEntry {
     world::IslandSpec spec;

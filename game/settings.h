@@ -46,7 +46,7 @@ struct Settings {
   UploadMode upload_path = UploadMode::kUpdate;
   std::uint64_t upload_budget_bytes = 8u << 20;  ///< a frame, 65536 .. 2^30
   std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
-  std::uint32_t water_layers = 3;  ///< nearest translucent surfaces kept a pixel, 1 .. 4
+  std::uint32_t water_layers = 2;  ///< nearest translucent surfaces kept a pixel, 1 .. 4
   bool operator==(const Settings&) const = default;
 };
 

@@ -20,7 +20,7 @@ void list_tile(uint kind, uint tile) {
 
 // One invocation a tile: no barriers, which lavapipe pays for dearly.
 void main() {
-  uint tile = gl_GlobalInvocationID.x;
+  uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (tile >= push.tile_count.x * push.tile_count.y) return;
   ivec2 low = ivec2(tile % push.tile_count.x, tile / push.tile_count.x) * int(kTileEdge);
   ivec2 last = ivec2(push.size) - 1;

@@ -90,6 +90,7 @@ const std::vector<IslandSpec>& Streamer::State::islands_around(const StreamView&
     around.reach = reach;
     around.centre = view.camera;
     around.islands = world.islands_near(view.camera, reach + kSlackBlocks, view.time_s);
+    if (around.islands.size() > kMaxStreamedIslands) around.islands.resize(kMaxStreamedIslands);
   }
   return around.islands;
 }

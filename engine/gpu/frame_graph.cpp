@@ -179,6 +179,10 @@ const std::vector<LeftOut>& FrameGraph::left_out() const {
   return state_->left_out;
 }
 
+std::optional<Error> FrameGraph::allocation_failure() const {
+  return state_->pool.failure();
+}
+
 std::vector<MemoryUse> FrameGraph::transient_memory() const {
   return state_->pool.memory();
 }

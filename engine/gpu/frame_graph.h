@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -173,6 +174,9 @@ class FrameGraph {
   /// Culls, checks versions, assigns resources, plans barriers. An error is a programmer's mistake
   /// and is fatal, with the pass's name.
   void compile();
+  /// Why an image or buffer could not be made by the last compile(), if so; then execute() must not
+  /// be called. The next begin() starts afresh.
+  std::optional<Error> allocation_failure() const;
   /// Records everything into `commands`. @param frame_slot which of the frames in flight (0, 1,
   /// ...), for timer queries.
   void execute(VkCommandBuffer commands, std::uint32_t frame_slot);

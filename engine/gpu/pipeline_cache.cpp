@@ -1,5 +1,7 @@
 #include "engine/gpu/pipeline_cache.h"
 
+#include <unistd.h>
+
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -48,7 +50,7 @@ void save_pipeline_cache(const std::string& path, std::span<const std::byte> byt
   std::error_code error;
   const fs::path parent = fs::path(path).parent_path();
   if (!parent.empty()) fs::create_directories(parent, error);
-  const std::string temporary = path + ".tmp";
+  const std::string temporary = path + "." + std::to_string(::getpid()) + ".tmp";
   {
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file.write(reinterpret_cast<const char*>(bytes.data()),

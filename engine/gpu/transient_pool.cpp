@@ -30,6 +30,7 @@ void release(Entries& entries) {
 }  // namespace
 
 void TransientPool::begin_frame() {
+  failure_.reset();
   release(images_);
   release(buffers_);
 }
@@ -37,7 +38,7 @@ void TransientPool::begin_frame() {
 template <class Entries, class Desc>
 auto& TransientPool::take_from(Entries& entries, const Desc& desc) {
   for (auto& entry : entries) {
-    if (!entry->taken && entry->desc == desc) {
+    if (!entry->taken && entry->desc == desc && (entry->object || !device_)) {
       entry->taken = true;
       return entry->object;
     }
@@ -48,8 +49,10 @@ auto& TransientPool::take_from(Entries& entries, const Desc& desc) {
   entry->taken = true;
   if (device_) {
     auto made = create(*device_, desc);
-    if (!made) gpu_fatal(made.error().message);
-    entry->object = *std::move(made);
+    if (made)
+      entry->object = *std::move(made);
+    else
+      failure_ = made.error();
   }
   entries.push_back(std::move(entry));
   return entries.back()->object;

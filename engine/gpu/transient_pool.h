@@ -1,8 +1,10 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/resources.h"
 
@@ -20,6 +22,8 @@ class TransientPool {
   Image& take(const ImageDesc& desc);
   Buffer& take(const BufferDesc& desc);
   std::vector<MemoryUse> memory() const;  ///< of those taken this frame
+  /// Why something taken this frame could not be made: what take() returned for it owns nothing.
+  const std::optional<Error>& failure() const { return failure_; }
 
  private:
   template <class Desc, class Object>
@@ -32,6 +36,7 @@ class TransientPool {
   template <class Entries, class Desc>
   auto& take_from(Entries& entries, const Desc& desc);
   Device* device_;
+  std::optional<Error> failure_;
   // Entries stay at their addresses while the vectors grow: passes hold references to the objects.
   std::vector<std::unique_ptr<Entry<ImageDesc, Image>>> images_;
   std::vector<std::unique_ptr<Entry<BufferDesc, Buffer>>> buffers_;

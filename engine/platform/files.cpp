@@ -73,12 +73,23 @@ fs::path xdg_dir(const char* variable, const char* below_home) {
 
 Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
   struct stat info {};
-  if (::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode)) return write_error(path, EISDIR);
-  const fs::path temporary = temporary_of(path);
+  const bool exists = ::stat(path.c_str(), &info) == 0;
+  if (exists && S_ISDIR(info.st_mode)) return write_error(path, EISDIR);
+  if (exists && !S_ISREG(info.st_mode)) {
+    // A device or a pipe is written to; a rename would put a file in its place.
+    File special(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (special.get() < 0) return write_error(path, errno);
+    const int code = write_all(special, bytes);
+    return code == 0 ? Result<void>{} : write_error(path, code);
+  }
+  std::error_code unresolved;
+  const fs::path target =
+      fs::is_symlink(path, unresolved) ? fs::weakly_canonical(path, unresolved) : path;
+  const fs::path temporary = temporary_of(target);
   File file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file.get() < 0) return write_error(path, errno);
   int code = write_all(file, bytes);
-  if (code == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) code = errno;
+  if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) code = errno;
   if (code == 0) return {};
   ::unlink(temporary.c_str());
   return write_error(path, code);
@@ -91,7 +102,10 @@ Result<void> write_text(const fs::path& path, std::string_view text) {
 Result<void> check_writable(const fs::path& path) {
   if (path.empty()) return write_error(path, ENOENT);
   struct stat info {};
-  if (::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode)) return write_error(path, EISDIR);
+  const bool exists = ::stat(path.c_str(), &info) == 0;
+  if (exists && S_ISDIR(info.st_mode)) return write_error(path, EISDIR);
+  if (exists && !S_ISREG(info.st_mode))
+    return ::access(path.c_str(), W_OK) == 0 ? Result<void>{} : write_error(path, errno);
   const fs::path temporary = temporary_of(path);
   const File file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file.get() < 0) return write_error(path, errno);

@@ -423,6 +423,11 @@ Result<std::uint64_t> Renderer::draw(
   if (s.mesh_uploader.pending_bytes() != 0) s.shadows.forget();
   s.build(input, settings, size, tables, *cascades, sky_now, slot);
   s.graph.compile();
+  if (const std::optional<Error> failure = s.graph.allocation_failure()) {
+    s.ring.submit();
+    s.shadows.forget();
+    return *failure;
+  }
   s.graph.execute(frame.commands, frame.slot);
   if (after) after(frame.commands, s.picture);
   slot.value = s.ring.submit(waits, signals);

@@ -18,7 +18,8 @@ enum class DebugView : std::uint8_t {
 
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
-  double view_distance_blocks = 1000.0;
+  double view_distance_blocks =
+      1000.0;  ///< all that is drawn lies within; the last cascade reaches as far
   bool shadows = true;
   int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
   float shadow_filter_blocks =

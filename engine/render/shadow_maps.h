@@ -9,6 +9,7 @@
 #include "engine/gpu/resources.h"
 #include "engine/render/cascades.h"
 #include "engine/render/celestial.h"
+#include "engine/render/renderer.h"
 #include "engine/render/settings.h"
 
 namespace skerry::gpu {
@@ -16,9 +17,6 @@ class Device;
 }
 
 namespace skerry::render {
-
-struct FrameInput;
-struct IslandPlacement;
 
 /// A body's cascade this frame.
 struct ActiveCascade {

@@ -1,5 +1,6 @@
 #include "engine/render/tiles.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -46,7 +47,9 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
           std::uint32_t width, height, columns, rows;
         } push{size.width, size.height, columns, rows};
         c.push(push);
-        c.dispatch(gpu::Commands::groups(columns * rows, 64), 1, 1);
+        const std::uint32_t groups = gpu::Commands::groups(columns * rows, 64);
+        c.dispatch(std::min(groups, shared::kTileRow),
+                   gpu::Commands::groups(groups, shared::kTileRow), 1);
       });
   return out;
 }

@@ -48,6 +48,8 @@ layout(constant_id = 0) const uint kLayers = 3u;
 void main() {
   uvec2 pixel;
   bool here = tile_pixel(pixel);
+  // A mixed tile is in both lists: each list does its own pixels.
+  here = here && (layer_surface(0u, ivec2(pixel)) != 0u) == (push.kind == 0u);
   vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
   vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);

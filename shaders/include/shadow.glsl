@@ -23,10 +23,11 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
   float per_texel = -cascade.depth_per_block * texel * texel / max(n_dot_l, 0.02);
   vec2 slope = per_texel * vec2(dot(cascade.map_from_world_x.xyz, normal), dot(cascade.map_from_world_y.xyz, normal));
   float bias = cascade.depth_per_block * (0.004 + 0.02 * texel) + 0.016 * (abs(slope.x) + abs(slope.y));
-  // The receiver's plane is followed towards the light by less than the thinnest wall (one block): what stands behind a wall stays dark.
+  // The receiver's plane is followed towards the light by less than the thinnest wall (one block) where texels are small enough for that, so that
+  // what stands behind a wall stays dark; where they are not, by the eight texels that the plane needs.
   float most = cascade.depth_per_block * max(0.9, 8.0 * texel);
   float radius = max(frame.pcf_radius_blocks / texel, 1.5);
-  radius *= clamp((most - bias - 0.5 * (abs(slope.x) + abs(slope.y))) / (length(slope) * radius), 0.0, 1.0);
+  radius *= clamp((most - bias - 0.5 * (abs(slope.x) + abs(slope.y))) / max(length(slope) * radius, 1e-12), 0.0, 1.0);
   // Unrolled by hand: an array of offsets would live in memory.
   float lit = shadow_tap(vec2(-0.326, -0.406) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(-0.840, -0.074) * radius, map, slope, bias, most, cascade.layer) +
               shadow_tap(vec2(-0.203, 0.621) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(0.519, 0.767) * radius, map, slope, bias, most, cascade.layer) +
@@ -69,12 +70,20 @@ float cascades_visibility(const uint base, vec3 p, vec3 normal, float n_dot_l) {
 }
 
 // Whether a body's light reaches a point in the air: one texel, 0 or 1. Taken from the coarsest map that cannot leak: inside closed walls
-// of one block every texel centre nearer than a block sees the walls, and the nearest centre is within 0.71 texels.
+// of one block every texel centre nearer than a block sees the walls, and the nearest centre is within 0.71 texels. Points beyond that map take
+// the next coarser one: only a closed room as large as that could leak.
 float air_visibility(const uint base, vec3 p) {
-  bool coarsest = frame.cascades[base + 3u].texel_blocks <= 1.3 || dot(p, p) > frame.cascades[base + 2u].radius * frame.cascades[base + 2u].radius;
-  Cascade c = frame.cascades[base + 3u];
-  if (!coarsest) c = frame.cascades[base + 2u];
+  const float kTightTexel = 1.3;
+  float distance = length(p);
+  uint tight = frame.cascades[base + 3u].texel_blocks <= kTightTexel
+                   ? 3u
+                   : frame.cascades[base + 2u].texel_blocks <= kTightTexel ? 2u : frame.cascades[base + 1u].texel_blocks <= kTightTexel ? 1u : 0u;
+  uint first = uint(distance > frame.cascades[base].radius) + uint(distance > frame.cascades[base + 1u].radius) +
+               uint(distance > frame.cascades[base + 2u].radius);
+  Cascade c = pick_cascade(base, max(tight, first));
   vec3 map = vec3(dot(c.map_from_world_x, vec4(p, 1.0)), dot(c.map_from_world_y, vec4(p, 1.0)), dot(c.map_from_world_z, vec4(p, 1.0)));
-  return map.z >= texelFetch(shadow_maps, ivec3(ivec2(floor(map.xy)), int(c.layer)), 0).r ? 1.0 : 0.0;
+  bool known = distance <= frame.cascades[base + 3u].radius;
+  ivec2 texel = known ? ivec2(floor(map.xy)) : ivec2(0);
+  return known && map.z >= texelFetch(shadow_maps, ivec3(texel, int(c.layer)), 0).r ? 1.0 : 0.0;
 }
 #endif

@@ -8,6 +8,7 @@ const float kWaterIndex = 1.333;
 float fresnel(float cosine, bool leaving, float n) {
   float r0 = (n - 1.0) / (n + 1.0);
   r0 *= r0;
+  cosine = clamp(cosine, 0.0, 1.0);
   if (leaving) {  // past the critical angle everything is reflected
     float sine2 = n * n * (1.0 - cosine * cosine);
     if (sine2 >= 1.0) return 1.0;
@@ -31,7 +32,8 @@ vec3 rippled_normal(vec3 lattice, float distance) {
 
 // Light of sun and moon mirrored by a wavy surface: GGX lobe of the waves too small to draw.
 vec3 glitter(Body body, vec3 n, vec3 to_eye, float roughness) {
-  vec3 h = normalize(body.to_light + to_eye);
+  vec3 sum = body.to_light + to_eye;
+  vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-12));
   float a2 = roughness * roughness * roughness * roughness;
   float n_dot_h = max(dot(n, h), 0.0), n_dot_l = max(dot(n, body.to_light), 0.0), n_dot_v = max(dot(n, to_eye), 1e-3);
   float d = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;

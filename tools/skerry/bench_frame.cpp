@@ -35,6 +35,8 @@ double peak_rss_mib() {
 int bench_frame(const BenchFrameOptions& options) {
   Result<std::unique_ptr<gpu::Device>> device = open_device(options.scene);
   if (!device) return fail(kNoDevice, device.error());
+  if (Result<void> fits = check_size(**device, options.scene.size); !fits)
+    return fail(kUsage, fits.error());
   Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(**device, options.scene);
   if (!view) return fail(kFailed, view.error());
   const double world_time_s = options.scene.settings.world_time_s;

@@ -21,7 +21,10 @@ Spread spread_of(std::vector<double> samples) {
 Result<void> write_rows(const std::optional<std::filesystem::path>& file,
                         const nlohmann::ordered_json& rows) {
   if (!file) return {};
-  return platform::write_text(*file, nlohmann::ordered_json{{"rows", rows}}.dump(2) + "\n");
+  return platform::write_text(*file,
+                              nlohmann::ordered_json{{"rows", rows}}.dump(
+                                  2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+                                  "\n");
 }
 
 }  // namespace skerry::tools

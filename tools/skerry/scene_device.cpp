@@ -1,5 +1,7 @@
 #include "tools/skerry/scene_device.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <utility>
 
@@ -25,6 +27,14 @@ Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene
   options.validate = scene.validate;
   options.pipeline_cache_path = pipeline_cache_file();
   return gpu::Device::create(options);
+}
+
+Result<void> check_size(const gpu::Device& device, const game::PictureSize& size) {
+  const std::uint32_t most = device.limits().max_image_edge;
+  if (size.width <= most && size.height <= most) return {};
+  return Error{fmt::format(
+      "--size {}x{} is too large: {} takes up to {} pixels along an edge; choose a smaller size",
+      size.width, size.height, device.info().name, most)};
 }
 
 int fail(int status, const Error& error) {

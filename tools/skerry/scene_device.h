@@ -16,6 +16,9 @@ inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kValidationMessage = 3,
 Result<std::unique_ptr<gpu::Device>> open_device(const game::SceneOptions& scene,
                                                  std::vector<const char*> surface_extensions = {});
 
+/// Whether the device can draw a picture of this size; the error is for exit status kUsage.
+Result<void> check_size(const gpu::Device& device, const game::PictureSize& size);
+
 /// Prints `skerry: message` on stderr and returns the status.
 int fail(int status, const Error& error);
 

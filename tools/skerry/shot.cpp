@@ -96,17 +96,17 @@ void print_explanation(const render::Renderer& renderer, const render::FrameRepo
 }  // namespace
 
 int shot(const ShotOptions& options) {
+  if (options.stats && std::filesystem::weakly_canonical(options.out) ==
+                           std::filesystem::weakly_canonical(*options.stats))
+    return fail(kUsage, {"--out and --stats name the same file; give two"});
   Stopwatch watch, total;
   ordered_json cpu_ms;
   Result<std::unique_ptr<gpu::Device>> device = open_device(options.scene);
   if (!device) return fail(kNoDevice, device.error());
   cpu_ms["device"] = watch.lap();
   const VkExtent2D size{options.scene.size.width, options.scene.size.height};
-  const std::uint32_t most = (*device)->limits().max_image_edge;
-  if (size.width > most || size.height > most)
-    return fail(kUsage, {fmt::format("--size {}x{} is too large: {} takes up to {} pixels along an "
-                                     "edge; choose a smaller size",
-                                     size.width, size.height, (*device)->info().name, most)});
+  if (Result<void> fits = check_size(**device, options.scene.size); !fits)
+    return fail(kUsage, fits.error());
 
   Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(**device, options.scene);
   if (!view) return fail(kFailed, view.error());
@@ -144,7 +144,10 @@ int shot(const ShotOptions& options) {
   if (options.stats) {
     const ordered_json j =
         stats_json(**device, **view, *renderer.report(), size, sha256_hex(*pixels), cpu_ms);
-    if (Result<void> written = platform::write_text(*options.stats, j.dump(2) + "\n"); !written)
+    if (Result<void> written = platform::write_text(
+            *options.stats,
+            j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+        !written)
       return fail(kFailed, written.error());
   }
   if (renderer.report()->pixels.non_finite != 0)
