@@ -30,7 +30,7 @@ vec3 received(Body body, const uint first_cascade, vec3 p, vec3 normal) {
 vec3 seen_through_air(vec3 radiance, vec3 p) {
   if (kBodies == 0u) return radiance;
   // The sun's cascades, or the moon's when it is alone: the first either way.
-  float lit = (light_in_air(0u, p * 0.2) + light_in_air(0u, p * 0.5) + light_in_air(0u, p * 0.8)) * (1.0 / 3.0);
+  float lit = light_in_air(0u, p);
   float distance = length(p);
   float clear = exp(-frame.haze_per_block * distance);
   return radiance * clear + sample_sky(sky_lut, p / distance) * (lit * (1.0 - clear));
