@@ -211,7 +211,7 @@ render::RenderSettings SceneView::render_settings(
   out.shadow_map_size = static_cast<int>(settings_.shadow_size);
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
-  out.debug_view = static_cast<render::DebugView>(settings_.debug_view);
+  out.debug_view = settings_.debug_view;
   return out;
 }
 

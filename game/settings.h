@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/render/settings.h"
 
 namespace skerry::game {
 
@@ -15,17 +16,7 @@ inline constexpr std::uint32_t kMinViewDistance = 32, kMaxViewDistance = 16384; 
 
 enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
 enum class Shading : std::uint8_t { kPbr, kFlat };
-enum class DebugView : std::uint8_t {
-  kNone,
-  kAlbedo,
-  kNormal,
-  kPosition,
-  kMetadata,
-  kEmissive,
-  kDepth,
-  kCascades,
-  kShadow
-};
+using render::DebugView;
 enum class UploadMode : std::uint8_t { kUpdate, kStaging, kMapped };
 
 /// Everything `--set` reaches, with the defaults of quality `medium`. docs/settings.md says what
