@@ -16,6 +16,7 @@ struct FrameTables {
   /// How much quads grow in their plane to cover T-junctions, one a view: 1/128 pixel, in blocks a
   /// block of distance along the view axis; of an orthographic view in blocks.
   std::vector<float> edge_growth;
+  bool translucent_in_view = false;  ///< whether water or glass may show; filled in by the renderer
   std::vector<shared::IslandTransform>
       islands;  ///< [view][island], each view's relative to its own source
 };

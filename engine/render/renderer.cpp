@@ -330,8 +330,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
     const char* no_translucent = nullptr;
     if (input.camera_medium == 0 && geometry->translucent_quads() == 0)
       no_translucent = "no translucent block is resident";
-    else if (input.camera_medium == 0 &&
-             !translucent_in_view(geometry->records(), tables.islands, tables.views[0]))
+    else if (input.camera_medium == 0 && !tables.translucent_in_view)
       no_translucent = "no translucent block is in view";
     if (no_translucent) {
       graph.leave_out("shade_translucent", no_translucent);
@@ -401,6 +400,10 @@ Result<std::uint64_t> Renderer::draw(
           : s.shadows.update(input, settings, s.geometry->version());
   if (!cascades) return cascades.error();
   FrameTables tables = build_tables(input, settings, size, *cascades);
+  // Asked of the true camera: a frozen one changes what is drawn, never which passes a picture has.
+  tables.translucent_in_view =
+      s.geometry->translucent_quads() > 0 &&
+      translucent_in_view(s.geometry->records(), tables.islands, tables.views[0]);
   if (!input.freeze_culling)
     s.frozen.reset();
   else if (!s.frozen)
