@@ -31,6 +31,33 @@ struct IslandPlacement {
   double bounding_radius = 0.0;             ///< blocks about the origin
 };
 
+/// What a frame can be asked to copy out for measuring, besides the picture.
+enum class Capture : std::uint8_t {
+  kRadiance,   ///< RGBA16F, before exposure
+  kDepth,      ///< D32, reverse-Z; absent from a frame without geometry
+  kSurfaces,   ///< R32_UINT, the G-buffer's words; absent likewise
+  kShadowMaps  ///< D32 layers, all cascades of the sun, then of the moon; absent when nothing casts
+};
+
+/// An image copied out of a frame: texels of its own format, rows from the top, layer by layer.
+struct Captured {
+  VkExtent2D size{};
+  std::uint32_t layers = 0;  ///< 0: the frame had no such image
+  std::vector<std::byte> texels;
+};
+
+/// A texel broken on purpose, to see that no pass hands on what is not finite.
+struct Fault {
+  enum class In : std::uint8_t {
+    kSkyTable,       ///< before anything samples it
+    kShaded,         ///< scene radiance, before water is looked through
+    kLookedThrough,  ///< scene radiance, before it is developed
+  };
+  In in = In::kShaded;
+  glm::uvec2 texel{};
+  float value = 0.0f;  ///< of all four channels
+};
+
 /// Everything that decides one picture besides the resident geometry. Plain values, const once
 /// built.
 struct FrameInput {
@@ -42,7 +69,9 @@ struct FrameInput {
   double time_s = 0.0;              ///< seconds of play: water ripples
   std::uint32_t camera_medium = 0;  ///< block id the camera is in, if translucent; else 0
   bool freeze_culling =
-      false;  ///< keep culling with the camera of the frame in which this became true
+      false;             ///< keep culling with the camera of the frame in which this became true
+  bool capture = false;  ///< copy out what Capture names; the picture is made by way of radiance
+  std::optional<Fault> fault;  ///< implies the way by radiance, too
 };
 
 /// Numbers of a frame the GPU has finished.
@@ -88,6 +117,8 @@ class Renderer {
 
   /// RGBA8 picture of the last frame.
   gpu::Image& picture();
+  /// What the last frame, drawn with FrameInput::capture, has copied out. Waits for it.
+  Result<Captured> captured(Capture what);
   /// The newest frame that has completed; empty before the third draw unless finish() was called.
   const std::optional<FrameReport>& report() const;
   /// Waits for all frames and takes in their numbers.
