@@ -101,6 +101,14 @@ bool decode_header(png_structp png, png_infop info, Stream& stream) {
   png_set_chunk_malloc_max(png, 1 << 20);
   png_set_chunk_cache_max(png, 64);
   png_read_info(png, info);
+  // Deflate makes at most 1032 bytes of one (zlib's technical details), so a short file cannot hold
+  // a large picture, whatever it states: refused before memory is taken.
+  const std::uint64_t width = png_get_image_width(png, info);
+  const std::uint64_t height = png_get_image_height(png, info);
+  const std::uint64_t row_bits = width * png_get_bit_depth(png, info) * png_get_channels(png, info);
+  if ((row_bits + 7) / 8 * height > 1032 * stream.in.size())
+    png_error(png, "it is too short for the size it states");
+  if (width * height > kMaxPngPixels) png_error(png, "it has more than 2^27 pixels");
   png_set_expand(png);
   png_set_scale_16(png);
   png_set_gray_to_rgb(png);

@@ -105,11 +105,13 @@ TEST_F(ImageFile, EveryTruncationAndManyCorruptionsAreErrorsNotCrashes) {
   }
 }
 
-TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
-  // libpng checks the limits after the chunk's CRC, so the header carries a right one.
+/// The beginning of a PNG of RGBA8. libpng checks its limits after the chunk's CRC, so it is right.
+std::string png_header(std::uint32_t width, std::uint32_t height) {
   std::string png("\x89PNG\r\n\x1a\n", 8);
-  std::string ihdr("IHDR\x00\x01\x00\x00\x00\x01\x00\x00\x08\x06\x00\x00\x00",
-                   17);  // 65536 x 65536
+  std::string ihdr = "IHDR";
+  for (const std::uint32_t edge : {width, height})
+    for (int shift = 24; shift >= 0; shift -= 8) ihdr += static_cast<char>(edge >> shift);
+  ihdr += std::string("\x08\x06\x00\x00\x00", 5);
   std::uint32_t crc = ~0u;
   for (const char c : ihdr) {
     crc ^= static_cast<std::uint8_t>(c);
@@ -118,10 +120,23 @@ TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
   crc = ~crc;
   png += std::string("\x00\x00\x00\x0d", 4) + ihdr;
   for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(crc >> shift);
-  ASSERT_TRUE(write_text(dir_ / "huge.png", png));
+  return png;
+}
+
+TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
+  ASSERT_TRUE(write_text(dir_ / "huge.png", png_header(65536, 65536)));
   const auto image = read_png(dir_ / "huge.png");
   ASSERT_FALSE(image);
   EXPECT_NE(image.error().message.find("IHDR"), std::string::npos) << image.error().message;
+}
+
+TEST_F(ImageFile, ASizeThatTheFileCannotHoldIsRefusedBeforeMemoryIsTaken) {
+  // The rows' chunk begins, so that libpng has read all it wants to know.
+  ASSERT_TRUE(write_text(dir_ / "short.png",
+                         png_header(32768, 32768) + std::string("\x00\x00\x00\x08IDAT", 8)));
+  const auto image = read_png(dir_ / "short.png");
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.error().message.find("too short"), std::string::npos) << image.error().message;
 }
 
 }  // namespace
