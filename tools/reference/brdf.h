@@ -14,9 +14,9 @@ inline constexpr double kWaterIndex = 1.333;
 /// everything is reflected.
 double fresnel(double cosine, bool leaving, double index);
 
-/// Value of the Cook-Torrance lobe: D F G / (4 (n.l) (n.v)), with the distribution of GGX (Walter et
-/// al. 2007, alpha = roughness^2), Smith's shadowing as Schlick fits it (k = alpha / 2), and fresnel()
-/// above. All vectors unit. 0 where l or v is behind the surface.
+/// Value of the Cook-Torrance lobe: D F G / (4 (n.l) (n.v)), with the distribution of GGX (Walter
+/// et al. 2007, alpha = roughness^2), Smith's shadowing as Schlick fits it (k = alpha / 2), and
+/// fresnel() above. All vectors unit. 0 where l or v is behind the surface.
 double mirror_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, double roughness,
                    double index);
 /// The same without the Fresnel factor.

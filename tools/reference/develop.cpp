@@ -8,9 +8,9 @@
 namespace skerry::reference {
 namespace {
 
-/// ACES as S. Hill fits it (BakingLab, 2016): to the display transform's primaries, a rational curve
-/// for the reference and output transforms, and back. The curve's constant of -0.000090537 is left
-/// out, so that black stays black.
+/// ACES as S. Hill fits it (BakingLab, 2016): to the display transform's primaries, a rational
+/// curve for the reference and output transforms, and back. The curve's constant of -0.000090537 is
+/// left out, so that black stays black.
 glm::dvec3 tone_mapped(glm::dvec3 exposed) {
   // Rows as published; glm takes columns, so vectors multiply from the left.
   constexpr glm::dmat3 kInput{0.59719, 0.35458, 0.04823, 0.07600, 0.90834,

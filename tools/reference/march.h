@@ -70,8 +70,8 @@ void march(const Volume& volume, glm::dvec3 origin, glm::dvec3 direction, double
       const int x = v[0] & 63, y = v[1] & 63, z = v[2] & 63;
       const std::uint32_t uniform = chunk->uniform_id(x, y, z);
       size = uniform == world::kAir ? BrickChunk::kBrickEdge : 1;
-      id = uniform == BrickChunk::kMixed ? chunk->at(x, y, z)
-                                         : static_cast<world::BlockId>(uniform);
+      id =
+          uniform == BrickChunk::kMixed ? chunk->at(x, y, z) : static_cast<world::BlockId>(uniform);
     }
     if (id != previous && visit.crossed({t, previous, id, entered, positive[entered], voxel}))
       return;

@@ -79,19 +79,18 @@ double moon_ground(glm::dvec2 p) {
     const double w = std::max(0.0, 1.0 - glm::dot(d, d));
     return w * (2.0 - w);
   };
-  const double dark = plain(-0.22, 0.52, 0.36) + plain(0.22, 0.45, 0.26) +
-                      plain(0.40, 0.16, 0.28) + plain(-0.55, 0.10, 0.42) +
-                      plain(-0.20, -0.32, 0.30) + plain(0.66, 0.30, 0.15) +
-                      plain(0.58, -0.08, 0.22);
+  const double dark = plain(-0.22, 0.52, 0.36) + plain(0.22, 0.45, 0.26) + plain(0.40, 0.16, 0.28) +
+                      plain(-0.55, 0.10, 0.42) + plain(-0.20, -0.32, 0.30) +
+                      plain(0.66, 0.30, 0.15) + plain(0.58, -0.08, 0.22);
   return 1.0 - 0.52 * std::min(1.0, dark) + 0.12 * plain(-0.10, -0.68, 0.12);
 }
 
 // --- Stars: each face of a cube is divided into kCells^2 cells of about equal solid angle.
 
 constexpr int kCells = 64;
-constexpr double kShare = 0.24;          // of a face's middle cells hold a star
-constexpr double kBrightest = 6.0e-7;    // magnitude 0 [radiance * sr]
-constexpr double kFaintest = 2.5e-3;     // magnitude 6.5 over magnitude 0
+constexpr double kShare = 0.24;        // of a face's middle cells hold a star
+constexpr double kBrightest = 6.0e-7;  // magnitude 0 [radiance * sr]
+constexpr double kFaintest = 2.5e-3;   // magnitude 6.5 over magnitude 0
 constexpr double kFootprintPixels = 1.6;
 
 struct Star {
@@ -186,8 +185,7 @@ glm::dvec3 star_radiance(glm::dvec3 direction, double pixel_angle, const Sky& sk
   if (seen == 0.0) return glm::dvec3(0.0);
   const CubePlace place = cube_place(sky.sky_from_world * direction);
   // Half a cell is 0.37 of a middle one at its narrowest; a star reaches no further.
-  const double radius =
-      std::min(kFootprintPixels * pixel_angle, 0.37 * 2.0 / (1.25 * kCells));
+  const double radius = std::min(kFootprintPixels * pixel_angle, 0.37 * 2.0 / (1.25 * kCells));
   const int u0 = static_cast<int>(std::floor(place.at.x - 0.5)),
             v0 = static_cast<int>(std::floor(place.at.y - 0.5));
   glm::dvec3 sum(0.0);
@@ -195,8 +193,7 @@ glm::dvec3 star_radiance(glm::dvec3 direction, double pixel_angle, const Sky& sk
     const std::optional<Star> star = star_of_cell(place.face, u0 + (i & 1), v0 + (i >> 1));
     if (!star) continue;
     const glm::dvec2 d = place.at - star->place;
-    const double angle2 =
-        glm::dot(place.metric, glm::dvec3(d.x * d.x, d.x * d.y, d.y * d.y));
+    const double angle2 = glm::dot(place.metric, glm::dvec3(d.x * d.x, d.x * d.y, d.y * d.y));
     const double w = std::max(0.0, 1.0 - angle2 / (radius * radius));
     sum += star->flux * (3.0 * w * w / (kPi * radius * radius));
   }

@@ -46,7 +46,10 @@ class Lens {
 class PixelEstimator {
  public:
   PixelEstimator(const Scene& scene, const ReferenceSettings& settings, const Tracer& tracer)
-      : scene_(scene), settings_(settings), tracer_(tracer), shader_(scene, tracer),
+      : scene_(scene),
+        settings_(settings),
+        tracer_(tracer),
+        shader_(scene, tracer),
         lens_(scene.view) {}
 
   Pixel estimate(std::uint32_t x, std::uint32_t y) const {

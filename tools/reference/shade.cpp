@@ -52,9 +52,8 @@ void Shader::arrive(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler, Take&
     if (distance == 0.0) continue;
     // Seen from outside, the sphere is a cone of even radiance intensity / (pi r^2).
     const double sine = std::min(1.0, light.radius / distance);
-    const double spread = distance <= light.radius
-                              ? 2.0
-                              : sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
+    const double spread =
+        distance <= light.radius ? 2.0 : sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
     const glm::dvec3 to_light = Frame(to_middle / distance).world(in_cone(pair, spread));
     if (glm::dot(normal, to_light) <= 0.0) continue;
     if (tracer_.hidden(point, to_light, std::max(0.0, distance - light.radius))) continue;
@@ -114,8 +113,7 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 
                                : on_plane(hit, tracer_.lattice_point(hit.island, glm::dvec3(0.0)),
                                           tracer_.lattice_vector(hit.island, fine));
   const glm::dvec3 albedo(BlockTexels::shared().texel(hit.block, hit.face, place));
-  const glm::dvec3 reflected =
-      irradiance(point, normal, sampler) * (albedo / kPi) * openness(hit);
+  const glm::dvec3 reflected = irradiance(point, normal, sampler) * (albedo / kPi) * openness(hit);
   return reflected + albedo * static_cast<double>(world::block_types()[hit.block].emission);
 }
 
@@ -210,10 +208,9 @@ Shader::Reach Shader::reach(glm::dvec3 point, glm::dvec3 normal, glm::dvec3 shad
   reach.light = from_environment(point, normal, sampler);
   arrive(point, normal, sampler, [&](const Arrival& light) {
     reach.light += light.irradiance * glm::dot(normal, light.to_light);
-    reach.mirrored +=
-        light.irradiance *
-        (mirror_lobe(shading_normal, light.to_light, to_eye, roughness, kWaterIndex) *
-         std::max(0.0, glm::dot(shading_normal, light.to_light)));
+    reach.mirrored += light.irradiance *
+                      (mirror_lobe(shading_normal, light.to_light, to_eye, roughness, kWaterIndex) *
+                       std::max(0.0, glm::dot(shading_normal, light.to_light)));
     reach.any = reach.any || light.body;
   });
   return reach;
@@ -269,8 +266,8 @@ void Shader::pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3
     const glm::dvec3 place = on_plane(layer, tracer_.lattice_point(layer.island, glm::dvec3(0.0)),
                                       tracer_.lattice_vector(layer.island, fine));
     const glm::dvec4 texel = BlockTexels::shared().texel(layer.block, layer.face, place);
-    passage.radiance += passage.through * texel.a * glm::dvec3(texel) / kPi * reached.light;
-    passage.through *= 1.0 - texel.a;
+    passage.radiance += passage.through * texel.w * glm::dvec3(texel) / kPi * reached.light;
+    passage.through *= 1.0 - texel.w;
   }
   passage.light_in = reached.light;
   passage.medium = entering ? layer.block : world::kAir;

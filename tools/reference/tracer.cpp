@@ -65,8 +65,7 @@ struct Seeing {
     if (from == BlockKind::kOpaque) return false;  // seen from inside: nothing is drawn there
     if (to == BlockKind::kOpaque || to == BlockKind::kCutout) {
       const Meeting met = meeting(c, c.to, c.voxel);
-      if (to == BlockKind::kOpaque ||
-          BlockTexels::shared().covers(c.to, met.face, met.lattice)) {
+      if (to == BlockKind::kOpaque || BlockTexels::shared().covers(c.to, met.face, met.lattice)) {
         out.hit = met;
         return true;
       }

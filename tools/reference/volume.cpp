@@ -59,22 +59,21 @@ Volume::Volume(IVec3 box_min, IVec3 box_max, Fill fill)
 
 Volume::~Volume() = default;
 
-std::shared_ptr<const Volume> Volume::from_voxels(
-    IVec3 box_min, IVec3 box_max, const std::function<BlockId(IVec3)>& block_at) {
-  return std::make_shared<Volume>(
-      box_min, box_max, [=](IVec3 chunk, std::span<BlockId> out) {
-        for (int y = 0; y < world::kChunkEdge; ++y) {
-          for (int x = 0; x < world::kChunkEdge; ++x) {
-            for (int z = 0; z < world::kChunkEdge; ++z) {
-              const IVec3 v{chunk.x * 64 + x, chunk.y * 64 + y, chunk.z * 64 + z};
-              const bool inside = v.x >= box_min.x && v.x < box_max.x && v.y >= box_min.y &&
-                                  v.y < box_max.y && v.z >= box_min.z && v.z < box_max.z;
-              out[world::voxel_index(x, y, z)] = inside ? block_at(v) : world::kAir;
-            }
-          }
+std::shared_ptr<const Volume> Volume::from_voxels(IVec3 box_min, IVec3 box_max,
+                                                  const std::function<BlockId(IVec3)>& block_at) {
+  return std::make_shared<Volume>(box_min, box_max, [=](IVec3 chunk, std::span<BlockId> out) {
+    for (int y = 0; y < world::kChunkEdge; ++y) {
+      for (int x = 0; x < world::kChunkEdge; ++x) {
+        for (int z = 0; z < world::kChunkEdge; ++z) {
+          const IVec3 v{chunk.x * 64 + x, chunk.y * 64 + y, chunk.z * 64 + z};
+          const bool inside = v.x >= box_min.x && v.x < box_max.x && v.y >= box_min.y &&
+                              v.y < box_max.y && v.z >= box_min.z && v.z < box_max.z;
+          out[world::voxel_index(x, y, z)] = inside ? block_at(v) : world::kAir;
         }
-        return true;
-      });
+      }
+    }
+    return true;
+  });
 }
 
 BlockId Volume::block_at(IVec3 voxel) const {
