@@ -17,6 +17,8 @@ constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "map
 constexpr std::array<std::string_view, 2> kRendererNames{"deferred", "auto"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
 
+constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
+
 constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024},
                                                {"medium", 1000, 192, 2048},
                                                {"high", 2000, 320, 4096},
@@ -108,6 +110,12 @@ Result<void> parse_shadow_size(std::string_view text, Settings& s) {
   return {};
 }
 
+Result<void> parse_shadow_taps(std::string_view text, Settings& s) {
+  const auto name = parse_name(text, "shadow.taps", kTapNames);
+  if (!name) return name.error();
+  return into(parse_integer(kTapNames[*name], "shadow.taps", 1, 32), s.shadow_taps);
+}
+
 /// Both accepted names choose the one renderer there is.
 Result<void> parse_renderer(std::string_view text, Settings&) {
   if (text == "forward" || text == "reference") {
@@ -157,6 +165,19 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) { return std::string(s.shadow_enabled ? "1" : "0"); }},
     {"shadow.size", "a power of two, 256 to 8192", "Texels along the edge of one shadow map.",
      parse_shadow_size, [](const Settings& s) { return std::to_string(s.shadow_size); }},
+    {"shadow.cascades", "1 to 4",
+     "Shadow maps a light has. Fewer cover the same view distance with larger texels.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "shadow.cascades", 1, 4), s.shadow_cascades);
+     },
+     [](const Settings& s) { return std::to_string(s.shadow_cascades); }},
+    {"shadow.taps", "1, 4, 8, 16 or 32", "Texels of the shadow map that a pixel compares with.",
+     parse_shadow_taps, [](const Settings& s) { return std::to_string(s.shadow_taps); }},
+    {"texture.taps", "1 to 16", "Samples along the long side of a slanted texture, at most.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "texture.taps", 1, 16), s.texture_taps);
+     },
+     [](const Settings& s) { return std::to_string(s.texture_taps); }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {

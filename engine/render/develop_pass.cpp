@@ -1,5 +1,7 @@
 #include "engine/render/develop_pass.h"
 
+#include "engine/render/light_constants.h"
+
 namespace skerry::render {
 
 using gpu::Use;
@@ -35,9 +37,9 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   gpu::ImageRef out = graph.import(picture);
   const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth(),
                       maps = shadows.maps();
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{maps ? "show_channel.comp" : "show_channel_unshadowed.comp",
-                                     {{0, static_cast<std::uint32_t>(view)}, {8, scene.bodies}}});
+  const gpu::Pipeline& pipeline = pipelines.get(
+      gpu::ComputeDesc{maps ? "show_channel.comp" : "show_channel_unshadowed.comp",
+                       with_light({{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps})});
   graph.add_pass(
       "show_channel",
       [&](gpu::PassBuilder& b) {

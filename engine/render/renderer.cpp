@@ -70,7 +70,8 @@ struct Renderer::State {
   Result<void> upload_tables(const FrameTables& tables, std::size_t island_count,
                              const shared::SkyConstants& sky);
   void take_report(std::uint32_t slot_index);
-  SceneRefs import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables);
+  SceneRefs import_scene(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+                         const FrameTables& tables);
   void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
              const FrameTables& tables, std::span<const ActiveCascade> cascades,
              const shared::SkyConstants& sky_now, Slot& slot);
@@ -219,8 +220,8 @@ Result<void> Renderer::State::upload_tables(const FrameTables& tables, std::size
   return {};
 }
 
-SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size,
-                                        const FrameTables& tables) {
+SceneRefs Renderer::State::import_scene(const FrameInput& input, const RenderSettings& settings,
+                                        VkExtent2D size, const FrameTables& tables) {
   SceneRefs s;
   s.frame = graph.import(frame);
   s.sky = graph.import(sky);
@@ -241,6 +242,8 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size
   s.point_sampler = point_sampler;
   s.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
   s.size = size;
+  s.shadow_taps = static_cast<std::uint32_t>(settings.shadow_taps);
+  s.shadow_cascades = static_cast<std::uint32_t>(settings.shadow_cascades);
   for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
     if (tables.constants.bodies[body].irradiance != glm::vec3(0.0f)) s.bodies |= 1u << body;
   return s;
@@ -310,7 +313,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
                             std::span<const ActiveCascade> cascades,
                             const shared::SkyConstants& sky_now, Slot& slot) {
   graph.begin();
-  SceneRefs scene = import_scene(input, size, tables);
+  SceneRefs scene = import_scene(input, settings, size, tables);
   graph.add_pass(
       "clear_pixel_stats",
       [&](gpu::PassBuilder& b) {

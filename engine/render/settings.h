@@ -22,6 +22,8 @@ struct RenderSettings {
       1000.0;  ///< all that is drawn lies within; the last cascade reaches as far
   bool shadows = true;
   int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
+  int shadow_cascades = 4;     ///< maps a light has, 1..4; however few reach as far
+  int shadow_taps = 8;         ///< of the shadow filter: 1, 4, 8, 16 or 32
   float shadow_filter_blocks =
       0.06f;                   ///< smallest radius of the shadow filter; never under 1.5 texels
   bool flat_shading = false;   ///< shadow result times light colour, no N.L

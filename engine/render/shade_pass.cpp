@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "engine/render/light_constants.h"
 #include "engine/render/tiles.h"
 #include "shaders/shared/frame.h"
 
@@ -19,9 +20,9 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth();
   const gpu::ImageRef maps = shadows.maps();
   const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
-  const gpu::Pipeline& surface_pipeline = pipelines.get(
-      gpu::ComputeDesc{(maps ? "shade_surfaces" : "shade_surfaces_unshadowed") + suffix,
-                       {{0, static_cast<std::uint32_t>(in.texture_taps)}, {8, scene.bodies}}});
+  const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
+      (maps ? "shade_surfaces" : "shade_surfaces_unshadowed") + suffix,
+      with_light({{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene, bool{maps})});
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
