@@ -214,6 +214,7 @@ render::RenderSettings SceneView::render_settings(
   out.texture_taps = static_cast<int>(settings_.texture_taps);
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
+  out.gbuffer = settings_.gbuffer;
   out.debug_view = settings_.debug_view;
   return out;
 }
