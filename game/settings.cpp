@@ -14,7 +14,8 @@ constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
 constexpr std::array<std::string_view, 9> kDebugViewNames{
     "none", "albedo", "normal", "position", "metadata", "emissive", "depth", "cascades", "shadow"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
-constexpr std::array<std::string_view, 2> kRendererNames{"deferred", "auto"};
+constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
+constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
 
 constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct16",
@@ -120,14 +121,11 @@ Result<void> parse_shadow_taps(std::string_view text, Settings& s) {
   return into(parse_integer(kTapNames[*name], "shadow.taps", 1, 32), s.shadow_taps);
 }
 
-/// Both accepted names choose the one renderer there is.
-Result<void> parse_renderer(std::string_view text, Settings&) {
-  if (text == "forward" || text == "reference") {
-    return Error{fmt::format("renderer={} is not in this build: use deferred or auto", text)};
+Result<void> parse_renderer(std::string_view text, Settings& s) {
+  if (text == "forward") {
+    return Error{"renderer=forward is not in this build: use deferred, auto or reference"};
   }
-  const auto name = parse_name(text, "renderer", kRendererNames);
-  if (!name) return name.error();
-  return {};
+  return into_name(parse_name(text, "renderer", kRendererNames), s.renderer);
 }
 
 constexpr SettingKey kKeys[] = {
@@ -211,8 +209,13 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return s.exposure_ev ? fmt::format("{}", *s.exposure_ev) : std::string("auto");
      }},
-    {"renderer", "deferred or auto", "How the picture is made. This build has one way: deferred.",
-     parse_renderer, [](const Settings&) { return std::string("auto"); }},
+    {"renderer", "deferred, auto or reference",
+     "How the picture is made: on the GPU, or exactly on the CPU (screenshots only). auto is "
+     "deferred.",
+     parse_renderer,
+     [](const Settings& s) {
+       return std::string(kRendererNames[static_cast<std::size_t>(s.renderer)]);
+     }},
     {"shading", "pbr or flat",
      "flat: light colour times shadow, without the surface's angle to the light.",
      [](std::string_view t, Settings& s) {
@@ -254,6 +257,20 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "water.layers", 1, 4), s.water_layers);
      },
      [](const Settings& s) { return std::to_string(s.water_layers); }},
+    {"reference.samples", "1 to 65536", "Samples a pixel of renderer=reference.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "reference.samples", 1, 65536), s.reference_samples);
+     },
+     [](const Settings& s) { return std::to_string(s.reference_samples); }},
+    {"reference.filter", "pixel or centre",
+     "Whether renderer=reference averages geometry over the pixel or samples it at the centre, as "
+     "the GPU does.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "reference.filter", kFilterNames), s.reference_filter);
+     },
+     [](const Settings& s) {
+       return std::string(kFilterNames[static_cast<std::size_t>(s.reference_filter)]);
+     }},
 };
 
 }  // namespace

@@ -71,6 +71,7 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 int CommandLine::run_play() {
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
   return play_command(options);
 }
 
