@@ -95,6 +95,9 @@ TEST(Settings, EveryKeyReadsBackWhatItPrints) {
                                  "shading=flat",
                                  "debug.view=emissive",
                                  "upload.path=mapped",
+                                 "renderer=reference",
+                                 "reference.samples=9",
+                                 "reference.filter=centre",
                                  "upload.budget=65536",
                                  "jobs.threads=8",
                                  "water.layers=4"}) {
