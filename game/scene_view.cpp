@@ -230,6 +230,7 @@ Result<std::uint64_t> SceneView::draw(
   input.time_s = moment.world_time_s;
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;
+  input.capture = moment.capture;
   return renderer_->draw(input, render_settings(moment.camera.position, islands), size, after,
                          waits, signals);
 }

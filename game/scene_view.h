@@ -48,6 +48,7 @@ class SceneView {
     double time_of_day_s = 43200.0;
     double world_time_s = 0.0;
     bool freeze_culling = false;
+    bool capture = false;  ///< see render::FrameInput
   };
   /// See render::Renderer::draw.
   Result<std::uint64_t> draw(

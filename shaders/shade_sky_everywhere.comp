@@ -1,6 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A frame without any geometry: sky alone, straight to the picture. docs/conventions.md.
-#define SKERRY_TO_PICTURE
+// A frame without any geometry: sky alone, to radiance. docs/conventions.md.
 #define SKERRY_EVERYWHERE
 #include "include/shade_sky.glsl"

@@ -202,9 +202,21 @@ void Commands::copy(ImageRef from, BufferRef to) {
   require(to.id, to.version, VK_ACCESS_2_TRANSFER_WRITE_BIT);
   const Image& source = image(from);
   VkBufferImageCopy region{};
-  region.imageSubresource = {source.aspect(), 0, 0, 1};
+  region.imageSubresource = {source.aspect(), 0, 0, source.desc().layers};
   region.imageExtent = {source.desc().extent.width, source.desc().extent.height, 1};
   vkCmdCopyImageToBuffer(commands_, source.handle(), layout_of(from), buffer(to).handle(), 1,
+                         &region);
+}
+
+void Commands::copy_texel(BufferRef from, ImageRef to, VkOffset2D at) {
+  require(from.id, from.version, VK_ACCESS_2_TRANSFER_READ_BIT);
+  require(to.id, to.version, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  const Image& target = image(to);
+  VkBufferImageCopy region{};
+  region.imageSubresource = {target.aspect(), 0, 0, 1};
+  region.imageOffset = {at.x, at.y, 0};
+  region.imageExtent = {1, 1, 1};
+  vkCmdCopyBufferToImage(commands_, buffer(from).handle(), target.handle(), layout_of(to), 1,
                          &region);
 }
 

@@ -119,7 +119,8 @@ class Commands {
   void fill(BufferRef buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t value);
   void copy(BufferRef from, BufferRef to, std::uint64_t from_offset, std::uint64_t to_offset,
             std::uint64_t size);
-  void copy(ImageRef from, BufferRef to);  ///< mip 0, layer 0, tightly packed
+  void copy(ImageRef from, BufferRef to);  ///< mip 0, all layers, tightly packed
+  void copy_texel(BufferRef from, ImageRef to, VkOffset2D at);  ///< of mip 0, layer 0
   void clear(ImageRef image, VkClearColorValue value);
   VkCommandBuffer raw() const { return commands_; }
   const Image& image(ImageRef ref) const;

@@ -48,6 +48,7 @@ class Shaded {
  private:
   friend struct ShadePass;
   friend struct TranslucentPass;
+  friend struct FaultPass;
   explicit Shaded(gpu::ImageRef radiance) : radiance_(radiance) {}
   gpu::ImageRef radiance_;
 };

@@ -7,6 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/frame_ring.h"
 #include "engine/render/block_textures.h"
+#include "engine/render/capture.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
 #include "engine/render/frame_setup.h"
@@ -37,6 +38,11 @@ struct Slot {
   bool pixels = false;      // whether it wrote PixelStats
 };
 
+/// Whether the picture takes the way over a radiance image though no pass comes between.
+bool by_radiance(const FrameInput& input) {
+  return input.capture || input.fault.has_value();
+}
+
 constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::CullStats);
 
 }  // namespace
@@ -49,6 +55,7 @@ struct Renderer::State {
         frame_uploader(d, desc.upload_path),
         mesh_uploader(d, desc.upload_path),
         shadows(d),
+        captures(d),
         ring(d, kFramesInFlight),
         upload_budget(desc.upload_budget_bytes) {}
 
@@ -70,6 +77,7 @@ struct Renderer::State {
   Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws,
                       const RenderSettings& settings, const FrameInput& input,
                       std::span<const ActiveCascade> cascades);
+  void finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input);
   void add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats,
                     std::uint32_t views);
 
@@ -79,6 +87,7 @@ struct Renderer::State {
   gpu::Uploader frame_uploader, mesh_uploader;
   std::unique_ptr<GeometryStore> geometry;
   ShadowMaps shadows;
+  Captures captures;
   gpu::FrameRing ring;
   std::uint64_t upload_budget;
   gpu::Buffer frame, sky, islands, view_islands, views, materials, indices, pixel_stats;
@@ -146,7 +155,8 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
   image = device.create_image({.name = "sky table",
                                .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                .extent = {shared::kSkyLutWidth, shared::kSkyLutHeight},
-                               .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT});
+                               .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                                        VK_IMAGE_USAGE_TRANSFER_DST_BIT});
   if (!image) return image.error();
   sky_lut = *std::move(image);
 
@@ -262,6 +272,14 @@ Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& 
                          geometry->cutout_quads() > 0);
 }
 
+/// Copies radiance out if asked to, and develops it.
+void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input) {
+  if (input.fault && input.fault->in == Fault::In::kLookedThrough)
+    shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
+  if (input.capture) captures.add(graph, Capture::kRadiance, shaded.radiance());
+  (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
+}
+
 void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
                                    const gpu::BufferRef* cull_stats, std::uint32_t view_count) {
   gpu::BufferRef to = graph.import(slot.readback);
@@ -308,12 +326,20 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   else
     graph.leave_out("bake_sky", "sun and moon have not moved since the table was made");
 
+  if (input.fault && input.fault->in == Fault::In::kSkyTable) {
+    scene.sky_lut = FaultPass::add(graph, scene.sky_lut, *input.fault);
+    baked_sky.reset();
+  }
+
   const auto view_count = static_cast<std::uint32_t>(tables.views.size());
   if (geometry->sections_resident() == 0) {
     for (const char* name : {"cull_sections", "draw_geometry", "draw_shadow_sun",
                              "draw_shadow_moon", "shade_surfaces", "shade_translucent"})
       graph.leave_out(name, "no geometry is resident");
-    (void)ShadePass::add_sky_only(graph, pipelines, scene, shade_in, picture);
+    if (by_radiance(input))
+      finish_picture(scene, ShadePass::add_sky_only(graph, pipelines, scene, shade_in), input);
+    else
+      (void)ShadePass::add_sky_only_to_picture(graph, pipelines, scene, shade_in, picture);
     add_readback(slot, scene, nullptr, 0);
     return;
   }
@@ -332,17 +358,25 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       no_translucent = "no translucent block is resident";
     else if (input.camera_medium == 0 && !tables.translucent_in_view)
       no_translucent = "no translucent block is in view";
-    if (no_translucent) {
-      graph.leave_out("shade_translucent", no_translucent);
+    if (no_translucent) graph.leave_out("shade_translucent", no_translucent);
+    if (no_translucent && !by_radiance(input)) {
       graph.leave_out("develop", "nothing comes between shading and picture");
       (void)ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture);
     } else {
       Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, shade_in);
-      shaded =
-          TranslucentPass::add(graph, pipelines, scene, draws, surfaces, maps, std::move(shaded),
-                               settings.translucent_layers, input.camera_medium != 0);
-      (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
+      if (input.fault && input.fault->in == Fault::In::kShaded)
+        shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
+      if (!no_translucent)
+        shaded =
+            TranslucentPass::add(graph, pipelines, scene, draws, surfaces, maps, std::move(shaded),
+                                 settings.translucent_layers, input.camera_medium != 0);
+      finish_picture(scene, std::move(shaded), input);
     }
+  }
+  if (input.capture) {
+    captures.add(graph, Capture::kDepth, surfaces.depth());
+    captures.add(graph, Capture::kSurfaces, surfaces.surfaces());
+    if (maps.maps()) captures.add(graph, Capture::kShadowMaps, maps.maps());
   }
   add_readback(slot, scene, &draws.stats, view_count);
 }
@@ -399,6 +433,11 @@ Result<std::uint64_t> Renderer::draw(
           ? std::span<const ActiveCascade>{}
           : s.shadows.update(input, settings, s.geometry->version());
   if (!cascades) return cascades.error();
+  if (input.capture)
+    if (Result<void> ok = s.captures.begin(size, s.geometry->sections_resident() != 0,
+                                           cascades->empty() ? nullptr : s.shadows.maps());
+        !ok)
+      return ok.error();
   FrameTables tables = build_tables(input, settings, size, *cascades);
   // Asked of the true camera: a frozen one changes what is drawn, never which passes a picture has.
   tables.translucent_in_view =
@@ -465,6 +504,10 @@ int Renderer::pipelines_created() const {
 }
 gpu::Image& Renderer::picture() {
   return state_->picture;
+}
+Captured Renderer::captured(Capture what) {
+  finish();
+  return state_->captures.take(what);
 }
 const std::optional<FrameReport>& Renderer::report() const {
   return state_->report;

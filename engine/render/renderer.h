@@ -118,7 +118,7 @@ class Renderer {
   /// RGBA8 picture of the last frame.
   gpu::Image& picture();
   /// What the last frame, drawn with FrameInput::capture, has copied out. Waits for it.
-  Result<Captured> captured(Capture what);
+  Captured captured(Capture what);
   /// The newest frame that has completed; empty before the third draw unless finish() was called.
   const std::optional<FrameReport>& report() const;
   /// Waits for all frames and takes in their numbers.

@@ -75,28 +75,12 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   return target;
 }
 
-}  // namespace
-
-Shaded ShadePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                      const Geometry& geometry, const Shadows& shadows, const ShadeIn& in) {
-  const gpu::ImageRef radiance = graph.create(gpu::ImageDesc{
-      .name = "radiance", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = scene.size});
-  return Shaded(shade(graph, pipelines, scene, geometry, shadows, in, radiance, false));
-}
-
-Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                    SceneRefs& scene, const Geometry& geometry,
-                                    const Shadows& shadows, const ShadeIn& in,
-                                    gpu::Image& picture) {
-  return Developed(
-      shade(graph, pipelines, scene, geometry, shadows, in, graph.import(picture), true));
-}
-
-Developed ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                  SceneRefs& scene, const ShadeIn& in, gpu::Image& picture) {
-  gpu::ImageRef target = graph.import(picture);
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      "shade_sky_everywhere.comp", {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
+/// Sky for every pixel into `target`. @return its last version.
+gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                   SceneRefs& scene, const ShadeIn& in, gpu::ImageRef target,
+                                   const char* shader) {
+  const gpu::Pipeline& pipeline =
+      pipelines.get(gpu::ComputeDesc{shader, {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
@@ -115,7 +99,41 @@ Developed ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipeli
         c.dispatch(gpu::Commands::groups(scene.size.width, shared::kTileEdge),
                    gpu::Commands::groups(scene.size.height, shared::kTileEdge), 1);
       });
-  return Developed(target);
+  return target;
+}
+
+gpu::ImageRef radiance(gpu::FrameGraph& graph, const SceneRefs& scene) {
+  return graph.create(gpu::ImageDesc{
+      .name = "radiance", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = scene.size});
+}
+
+}  // namespace
+
+Shaded ShadePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                      const Geometry& geometry, const Shadows& shadows, const ShadeIn& in) {
+  return Shaded(
+      shade(graph, pipelines, scene, geometry, shadows, in, radiance(graph, scene), false));
+}
+
+Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                    SceneRefs& scene, const Geometry& geometry,
+                                    const Shadows& shadows, const ShadeIn& in,
+                                    gpu::Image& picture) {
+  return Developed(
+      shade(graph, pipelines, scene, geometry, shadows, in, graph.import(picture), true));
+}
+
+Shaded ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                               const ShadeIn& in) {
+  return Shaded(shade_sky_everywhere(graph, pipelines, scene, in, radiance(graph, scene),
+                                     "shade_sky_everywhere.comp"));
+}
+
+Developed ShadePass::add_sky_only_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                             SceneRefs& scene, const ShadeIn& in,
+                                             gpu::Image& picture) {
+  return Developed(shade_sky_everywhere(graph, pipelines, scene, in, graph.import(picture),
+                                        "shade_sky_everywhere_to_picture.comp"));
 }
 
 }  // namespace skerry::render

@@ -23,9 +23,12 @@ struct ShadePass {
   static Developed add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                   SceneRefs& scene, const Geometry& geometry,
                                   const Shadows& shadows, const ShadeIn& in, gpu::Image& picture);
-  /// A frame without geometry: sky alone.
-  static Developed add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                                const ShadeIn& in, gpu::Image& picture);
+  /// A frame without geometry: sky alone, to scene radiance or straight to the picture.
+  static Shaded add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                             const ShadeIn& in);
+  static Developed add_sky_only_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                           SceneRefs& scene, const ShadeIn& in,
+                                           gpu::Image& picture);
 };
 
 }  // namespace skerry::render

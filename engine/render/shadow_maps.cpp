@@ -55,7 +55,8 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
          .format = VK_FORMAT_D32_SFLOAT,
          .extent = {edge, edge},
          .layers = layers,
-         .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+         .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
          .array = true});
     if (!image) return image.error();
     maps_ = *std::move(image);

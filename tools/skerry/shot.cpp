@@ -1,17 +1,14 @@
 #include "tools/skerry/shot.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/check.h"
-#include "engine/gpu/readback.h"
 #include "engine/platform/files.h"
 #include "engine/platform/image_file.h"
-#include "game/scene_view.h"
+#include "tools/skerry/draw_scene.h"
 #include "tools/skerry/scene_device.h"
 
 namespace skerry::tools {
@@ -34,23 +31,14 @@ class Stopwatch {
   Clock::time_point last_ = Clock::now();
 };
 
-std::string sha256_hex(std::span<const std::byte> bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int size = 0;
-  EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr);
-  std::string hex;
-  for (unsigned int i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
-  return hex;
-}
-
-ordered_json stats_json(const gpu::Device& device, game::SceneView& view,
-                        const render::FrameReport& report, VkExtent2D size, std::string image_hash,
+ordered_json stats_json(const gpu::Device& device, game::SceneView& view, const Drawn& drawn,
                         const ordered_json& cpu_ms) {
+  const render::FrameReport& report = drawn.report;
   ordered_json j;
   j["device"] = device.info().name;
   j["driver"] = device.info().driver;
-  j["size"] = {size.width, size.height};
-  j["image_sha256"] = std::move(image_hash);
+  j["size"] = {drawn.size.width, drawn.size.height};
+  j["image_sha256"] = sha256_hex(drawn.rgba);
   ordered_json passes = ordered_json::object();
   for (const gpu::PassTime& pass : report.passes) passes[pass.name] = pass.ms;
   j["gpu_ms"] = {{"total", report.gpu_ms}, {"passes", passes}};
@@ -73,8 +61,8 @@ ordered_json stats_json(const gpu::Device& device, game::SceneView& view,
   j["pipelines_created"] = view.renderer().pipelines_created();
   j["barriers"] = view.renderer().graph().barrier_count();
   j["non_finite_pixels"] = report.pixels.non_finite;
-  j["black_fraction"] =
-      static_cast<double>(report.pixels.black) / (static_cast<double>(size.width) * size.height);
+  j["black_fraction"] = static_cast<double>(report.pixels.black) /
+                        (static_cast<double>(drawn.size.width) * drawn.size.height);
   return j;
 }
 
@@ -108,53 +96,34 @@ int shot(const ShotOptions& options) {
   if (Result<void> fits = check_size(**device, options.scene.size); !fits)
     return fail(kUsage, fits.error());
 
-  Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(**device, options.scene);
-  if (!view) return fail(kFailed, view.error());
-  cpu_ms["renderer"] = watch.lap();
-  const render::Camera camera = (*view)->start_camera();
-  const double world_time_s = options.scene.settings.world_time_s;
-  if (Result<void> loaded = (*view)->load_completely(camera, world_time_s); !loaded)
-    return fail(kFailed, loaded.error());
+  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(**device, options.scene);
+  if (!drawer) return fail(kFailed, drawer.error());
   cpu_ms["world"] = watch.lap();
-  const game::SceneView::Moment moment{camera, static_cast<double>(options.scene.time_of_day_s),
-                                       world_time_s, false};
-  if (Result<std::uint64_t> drawn = (*view)->draw(moment, size); !drawn)
-    return fail(kFailed, drawn.error());
-  render::Renderer& renderer = (*view)->renderer();
-  renderer.finish();
+  const Result<Drawn> drawn = (*drawer)->draw();
+  if (!drawn) return fail(kFailed, drawn.error());
   cpu_ms["draw"] = watch.lap();
-
-  Result<std::vector<std::byte>> pixels = gpu::read_back(**device, renderer.picture(), 4);
-  if (!pixels) return fail(kFailed, pixels.error());
-  const platform::PixelView image{
-      size.width,
-      size.height,
-      4,
-      {reinterpret_cast<const std::uint8_t*>(pixels->data()), pixels->size()}};
-  game::SceneOptions reproduced = options.scene;
+  const platform::PixelView image{size.width, size.height, 4, drawn->rgba};
   const std::array<platform::PngText, 2> text{
-      {{"Software", "Skerry"}, {"Command", game::shot_command(reproduced)}}};
+      {{"Software", "Skerry"}, {"Command", game::shot_command(options.scene)}}};
   if (Result<void> written = platform::write_png(options.out, image, text); !written)
     return fail(kFailed, written.error());
   cpu_ms["write"] = watch.lap();
   cpu_ms["total"] = total.lap();
 
-  SKERRY_ASSERT(renderer.report().has_value());
-  if (options.explain) print_explanation(renderer, *renderer.report());
+  if (options.explain) print_explanation((*drawer)->view().renderer(), drawn->report);
   if (options.stats) {
-    const ordered_json j =
-        stats_json(**device, **view, *renderer.report(), size, sha256_hex(*pixels), cpu_ms);
+    const ordered_json j = stats_json(**device, (*drawer)->view(), *drawn, cpu_ms);
     if (Result<void> written = platform::write_text(
             *options.stats,
             j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
         !written)
       return fail(kFailed, written.error());
   }
-  if (renderer.report()->pixels.non_finite != 0)
+  if (drawn->report.pixels.non_finite != 0)
     return fail(kFailed,
                 {fmt::format(
                     "{} pixels were not finite in some pass; this is a bug in Skerry or the driver",
-                    renderer.report()->pixels.non_finite)});
+                    drawn->report.pixels.non_finite)});
   return status_after(**device);
 }
 
