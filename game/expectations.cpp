@@ -40,7 +40,8 @@ std::optional<std::uint32_t> whole_number(const json& value, std::uint32_t max) 
 Result<void> read_tolerance_entry(const std::string& name, const json& value, Tolerance& into) {
   if (name == kThreshold) {
     const auto threshold = whole_number(value, 255);
-    if (!threshold) return kind_error("tolerance.channel_threshold", "a whole number from 0 to 255");
+    if (!threshold)
+      return kind_error("tolerance.channel_threshold", "a whole number from 0 to 255");
     into.channel_threshold = *threshold;
     return {};
   }
@@ -103,8 +104,7 @@ bool leaves_something(std::span<const Mask> masks, const PictureSize& size) {
 }
 
 bool is_plain(std::string_view text) {
-  return std::none_of(text.begin(), text.end(),
-                      [](unsigned char c) { return c < 32 || c == 127; });
+  return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; });
 }
 
 }  // namespace

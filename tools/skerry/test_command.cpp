@@ -55,8 +55,8 @@ std::ptrdiff_t print_summary(const std::vector<Row>& rows, int runs, double seco
     differing += row.pictures > 1 ? 1 : 0;
     print_row(row);
   }
-  fmt::print("{} of {} scenes passed in {:.1f} s\n", static_cast<std::ptrdiff_t>(rows.size()) - failed,
-             rows.size(), seconds);
+  fmt::print("{} of {} scenes passed in {:.1f} s\n",
+             static_cast<std::ptrdiff_t>(rows.size()) - failed, rows.size(), seconds);
   if (runs > 1) {
     fmt::print("{} runs of each: {} failed; {} scenes gave more than one picture\n", runs,
                failed_runs, differing);
@@ -100,7 +100,8 @@ std::optional<Refusal> TestCommand::check_typed() {
     return Refusal{merge_ ? kUsage : kFailed,
                    {"there is nothing to test: give scene files or folders of them"}};
   }
-  if (merge_ && (approve_ || shard_text_ || device_text_ || jobs_text_ || repeat_text_ || validate_))
+  if (merge_ &&
+      (approve_ || shard_text_ || device_text_ || jobs_text_ || repeat_text_ || validate_))
     return usage({"--merge draws nothing: leave out the options that say how to draw"});
   if (shard_text_) {
     const Result<Shard> shard = parse_shard(*shard_text_);
@@ -140,8 +141,9 @@ std::optional<Refusal> TestCommand::read_set(std::vector<TestScene>& scenes,
   in_set = scenes.size();
   scenes = shard_of(std::move(scenes), shard_);
   if (!scenes.empty()) return std::nullopt;
-  return Refusal{kFailed, {fmt::format("shard {}/{} holds none of {} scenes: use fewer shards",
-                                       shard_.index, shard_.count, in_set)}};
+  return Refusal{kFailed,
+                 {fmt::format("shard {}/{} holds none of {} scenes: use fewer shards", shard_.index,
+                              shard_.count, in_set)}};
 }
 
 int TestCommand::draw_and_judge() {
@@ -234,9 +236,10 @@ Result<void> TestCommand::copy_pictures(const std::vector<Results>& shards) cons
     const fs::path from = fs::path(paths_[i]).parent_path() / shards[i].html;
     std::error_code code;
     if (shards[i].html.empty() || !fs::is_directory(from, code)) {
-      return Error{fmt::format("cannot find the pictures of {}: give its shard --html, and keep the "
-                               "folder where it was beside the file",
-                               game::quote_text(paths_[i]))};
+      return Error{
+          fmt::format("cannot find the pictures of {}: give its shard --html, and keep the "
+                      "folder where it was beside the file",
+                      game::quote_text(paths_[i]))};
     }
     for (const Row& row : shards[i].rows) {
       // Names come from a file, and must not lead out of the folders.

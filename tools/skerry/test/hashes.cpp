@@ -81,9 +81,10 @@ Result<Hashes> read_hashes(const fs::path& file) {
     hashes[scene] = hash.get<std::string>();
   }
   if (from.is_object() && hashes.size() == from.size()) return hashes;
-  return Error{fmt::format("cannot use the approved hashes in {}: they are no object of SHA-256 by "
-                           "scene; delete the file and run skerry test --approve",
-                           game::quote_text(file.string()))};
+  return Error{
+      fmt::format("cannot use the approved hashes in {}: they are no object of SHA-256 by "
+                  "scene; delete the file and run skerry test --approve",
+                  game::quote_text(file.string()))};
 }
 
 Result<void> write_hashes(const fs::path& file, const Hashes& hashes) {

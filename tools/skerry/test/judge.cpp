@@ -114,8 +114,7 @@ Result<std::string> approve(const TestScene& scene, const Shown& shown,
   const std::array<platform::PngText, 3> text{{{"Software", "Skerry"},
                                                {"Command", game::shot_command(scene.scene)},
                                                {std::string(kDriverText), shown.driver}}};
-  const Result<void> written =
-      platform::write_png(scene.reference(), view_of(shown.picture), text);
+  const Result<void> written = platform::write_png(scene.reference(), view_of(shown.picture), text);
   if (!written) return written.error();
   outcome.replaced = true;
   if (!comparable) return std::string("a new reference");

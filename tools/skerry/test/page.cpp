@@ -58,7 +58,8 @@ std::string_view hash_word(const Row& row) {
 
 std::string table_row(const Row& row) {
   return fmt::format(
-      "<tr><td><a href=\"#{}\">{}</a></td><td class={}>{}</td><td>{}</td>{}<td>{:.2f} s</td></tr>\n",
+      "<tr><td><a href=\"#{}\">{}</a></td><td class={}>{}</td><td>{}</td>{}<td>{:.2f} "
+      "s</td></tr>\n",
       address(row.scene), escape_markup(row.scene), verdict_name(row.verdict),
       verdict_name(row.verdict), hash_word(row), numbers(row), row.seconds);
 }
@@ -96,9 +97,9 @@ class Figures {
 
 std::string section(const Row& row, const fs::path& folder) {
   const Figures figures(folder, row.scene);
-  std::string out = fmt::format("<h2 id=\"{}\">{} <span class={}>{}</span></h2>\n",
-                                address(row.scene), escape_markup(row.scene),
-                                verdict_name(row.verdict), verdict_name(row.verdict));
+  std::string out =
+      fmt::format("<h2 id=\"{}\">{} <span class={}>{}</span></h2>\n", address(row.scene),
+                  escape_markup(row.scene), verdict_name(row.verdict), verdict_name(row.verdict));
   if (!row.message.empty()) out += fmt::format("<p>{}</p>\n", escape_markup(row.message));
   if (row.runs > 1) {
     out += fmt::format("<p>{} of {} runs failed; {} different pictures</p>\n", row.failed_runs,

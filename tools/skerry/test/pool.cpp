@@ -92,9 +92,10 @@ void Pool::start_worker() {
   std::fflush(nullptr);  // or the child would write it again
   const pid_t process = piped ? ::fork() : -1;
   if (process < 0) {
-    result_.refusal = Refusal{
-        kFailed, {fmt::format("cannot start a process to draw in: {}; close other programs",
-                              std::strerror(errno))}};
+    result_.refusal =
+        Refusal{kFailed,
+                {fmt::format("cannot start a process to draw in: {}; close other programs",
+                             std::strerror(errno))}};
     return;
   }
   if (process == 0) {

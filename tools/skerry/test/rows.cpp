@@ -81,10 +81,11 @@ Result<void> check_shards(std::span<const Results> shards) {
     const std::string name = fmt::format("{}/{}", part.shard.index, part.shard.count);
     if (part.shard.count != shards.front().shard.count ||
         part.scenes_in_set != shards.front().scenes_in_set) {
-      return Error{fmt::format("cannot merge shard {} of {} scenes with shard {}/{} of {}: give the "
-                               "shards of one run",
-                               name, part.scenes_in_set, shards.front().shard.index,
-                               shards.front().shard.count, shards.front().scenes_in_set)};
+      return Error{
+          fmt::format("cannot merge shard {} of {} scenes with shard {}/{} of {}: give the "
+                      "shards of one run",
+                      name, part.scenes_in_set, shards.front().shard.index,
+                      shards.front().shard.count, shards.front().scenes_in_set)};
     }
     if (!seen.insert(part.shard.index).second)
       return Error{fmt::format("cannot merge shard {} with itself: give each file once", name)};
@@ -129,7 +130,7 @@ ordered_json row_json(const Row& row) {
   out["flip_p99"] = number_or_null(row.found, &Difference::flip_p99);
   out["flip_max"] = number_or_null(row.found, &Difference::flip_max);
   out["psnr"] = row.found && std::isfinite(row.found->psnr_db) ? ordered_json(row.found->psnr_db)
-                                                              : ordered_json(nullptr);
+                                                               : ordered_json(nullptr);
   out["pixels_over"] = number_or_null(row.found, &Difference::pixels_over);
   out["largest"] = row.found ? ordered_json(row.found->largest) : ordered_json(nullptr);
   out["seconds"] = row.seconds;
@@ -186,8 +187,9 @@ Result<Results> merge(std::span<const Results> shards) {
             [](const Row& a, const Row& b) { return a.scene < b.scene; });
   for (std::size_t i = 1; i < all.rows.size(); ++i) {
     if (all.rows[i - 1].scene != all.rows[i].scene) continue;
-    return Error{fmt::format("cannot merge: two shards hold the scene {}; give the shards of one run",
-                             game::quote_text(all.rows[i].scene))};
+    return Error{
+        fmt::format("cannot merge: two shards hold the scene {}; give the shards of one run",
+                    game::quote_text(all.rows[i].scene))};
   }
   if (all.rows.size() == all.scenes_in_set) return all;
   return Error{fmt::format("cannot merge: the shards hold {} of {} scenes; run them again",
@@ -213,8 +215,9 @@ std::string junit_xml(const Results& results) {
 
 std::string escape_markup(std::string_view text) {
   // Through JSON, whose writer replaces what is no UTF-8.
-  const std::string valid = json::parse(
-      json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+  const std::string valid =
+      json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
+          .get<std::string>();
   std::string out;
   for (const char c : valid) {
     switch (c) {

@@ -45,7 +45,8 @@ fs::path TestScene::reference() const {
 Result<Shard> parse_shard(std::string_view text) {
   const std::vector<std::string> parts = game::split(text, '/');
   if (parts.size() != 2) {
-    return Error{fmt::format("--shard cannot be {}: give I/N, such as 1/4", game::quote_text(text))};
+    return Error{
+        fmt::format("--shard cannot be {}: give I/N, such as 1/4", game::quote_text(text))};
   }
   const auto count = game::parse_integer(parts[1], "the number of shards", 1, kMaxShards);
   if (!count) return count.error();
@@ -67,10 +68,9 @@ Result<std::vector<fs::path>> find_scenes(std::span<const std::string> paths) {
   for (const fs::path& file : files) {
     const auto [entry, fresh] = by_name.try_emplace(file.stem().string(), file);
     if (fresh || fs::equivalent(entry->second, file, code)) continue;
-    return Error{fmt::format("two scenes are called {}: rename one of {} and {}",
-                             game::quote_text(entry->first),
-                             game::quote_text(entry->second.string()),
-                             game::quote_text(file.string()))};
+    return Error{fmt::format(
+        "two scenes are called {}: rename one of {} and {}", game::quote_text(entry->first),
+        game::quote_text(entry->second.string()), game::quote_text(file.string()))};
   }
   std::vector<fs::path> sorted;
   for (const auto& [name, file] : by_name) sorted.push_back(file);

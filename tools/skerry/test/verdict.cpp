@@ -125,7 +125,8 @@ bool is_black(const platform::PngImage& picture) {
     const auto channels = picture.pixels.begin() + static_cast<std::ptrdiff_t>(i);
     bright += *std::max_element(channels, channels + 3) >= kBright ? 1 : 0;
   }
-  return static_cast<double>(bright) < kLeastBright * static_cast<double>(picture.pixels.size()) / 4;
+  return static_cast<double>(bright) <
+         kLeastBright * static_cast<double>(picture.pixels.size()) / 4;
 }
 
 std::vector<std::uint8_t> amplified_difference(const platform::PngImage& reference,
