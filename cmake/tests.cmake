@@ -18,6 +18,19 @@ if(cpu_test_sources)
   target_compile_definitions(skerry_cpu_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
 endif()
 
+# The parsers of what comes from outside, with what they need and no more: built under sanitizers.
+set(fuzz_sources tests/fuzz/targets.cpp game/options.cpp game/parse.cpp game/settings.cpp engine/platform/files.cpp engine/platform/image_file.cpp)
+list(TRANSFORM fuzz_sources PREPEND ${CMAKE_SOURCE_DIR}/)
+function(skerry_fuzz_program name main)
+  add_executable(${name} EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/${main} ${fuzz_sources})
+  target_link_libraries(${name} PRIVATE skerry_world nlohmann_json::nlohmann_json PNG::PNG)
+endfunction()
+skerry_fuzz_program(skerry_fuzz_short mutate_main.cpp)
+if(SKERRY_SANITIZE MATCHES fuzzer)  # Clang's
+  skerry_fuzz_program(skerry_fuzz libfuzzer.cpp)
+  target_link_options(skerry_fuzz PRIVATE -fsanitize=fuzzer)
+endif()
+
 # The rules of the tree itself.
 add_test(NAME tools.check_includes COMMAND ${CMAKE_SOURCE_DIR}/tools/check_includes)
 add_test(NAME tools.check_paths COMMAND ${CMAKE_SOURCE_DIR}/tools/check_paths)
