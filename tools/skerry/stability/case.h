@@ -35,6 +35,8 @@ struct Case {
 };
 
 // One table a group; all of them, in this order, are what `skerry stability` runs.
+std::span<const Case> coordinates_cases();
+std::span<const Case> projection_cases();
 std::span<const Case> shadows_cases();
 std::span<const Case> exposure_cases();
 std::span<const Case> physics_cases();
