@@ -18,6 +18,10 @@ constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "re
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
 
+constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct16",
+                                                       "rgb8",  "rgb10a2", "rgba16f"};
+constexpr std::array<std::string_view, 3> kPositionNames{"depth", "rgba16f", "rgba32f"};
+constexpr std::array<std::string_view, 2> kDepthNames{"d32", "d16"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024},
@@ -176,6 +180,30 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "texture.taps", 1, 16), s.texture_taps);
      },
      [](const Settings& s) { return std::to_string(s.texture_taps); }},
+    {"gbuffer.normal", "exact, oct8, oct16, rgb8, rgb10a2 or rgba16f",
+     "For measuring: how normals are kept between drawing and shading. exact: not at all.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "gbuffer.normal", kNormalNames), s.gbuffer.normal);
+     },
+     [](const Settings& s) {
+       return std::string(kNormalNames[static_cast<std::size_t>(s.gbuffer.normal)]);
+     }},
+    {"gbuffer.position", "depth, rgba16f or rgba32f",
+     "For measuring: where shading takes positions from.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "gbuffer.position", kPositionNames), s.gbuffer.position);
+     },
+     [](const Settings& s) {
+       return std::string(kPositionNames[static_cast<std::size_t>(s.gbuffer.position)]);
+     }},
+    {"gbuffer.depth", "d32 or d16",
+     "For measuring: bits of a depth. With 16, positions are wrong by blocks in the distance.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "gbuffer.depth", kDepthNames), s.gbuffer.depth);
+     },
+     [](const Settings& s) {
+       return std::string(kDepthNames[static_cast<std::size_t>(s.gbuffer.depth)]);
+     }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {

@@ -39,6 +39,7 @@ struct Settings {
   std::uint32_t shadow_cascades = 4;  ///< maps a light has, 1 .. 4
   std::uint32_t shadow_taps = 8;      ///< of the shadow filter: 1, 4, 8, 16 or 32
   std::uint32_t texture_taps = 2;     ///< along the long side of a texture footprint, 1 .. 16
+  render::GBufferStore gbuffer;       ///< for measuring
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;

@@ -128,6 +128,20 @@ bool decode_rows(png_structp png, png_infop info, png_bytepp rows) {
   return true;
 }
 
+/// Whether every chunk up to IEND lies within the file. libpng takes memory for the length that a
+/// chunk states before it reads any of it (its own limit is only a warning).
+bool chunks_fit(std::string_view file) {
+  for (std::size_t at = 8; file.size() - at >= 12;) {
+    std::uint64_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      length = length << 8 | static_cast<std::uint8_t>(file[at + i]);
+    if (length > file.size() - at - 12) return false;
+    if (file.substr(at + 4, 4) == "IEND") return true;
+    at += 12 + static_cast<std::size_t>(length);
+  }
+  return false;
+}
+
 /// A libpng reader that is destroyed with its scope.
 struct Reader {
   explicit Reader(Stream& stream)
@@ -172,6 +186,7 @@ Result<PngImage> read_png(const std::filesystem::path& path) {
   if (file->size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(file->data()), 0, 8) != 0) {
     return failed("it is not a PNG");
   }
+  if (!chunks_fit(*file)) return failed("it is cut short, or a chunk states a wrong length");
   Stream stream;
   stream.in = *file;
   Reader reader(stream);

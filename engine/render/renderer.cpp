@@ -11,6 +11,7 @@
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
 #include "engine/render/frame_setup.h"
+#include "engine/render/gbuffer_formats.h"
 #include "engine/render/geometry_pass.h"
 #include "engine/render/shade_pass.h"
 #include "engine/render/shadow_maps.h"
@@ -348,8 +349,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   }
   const CulledDraws draws = add_cull_passes(
       graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
-  Geometry surfaces =
-      GeometryPass::add(graph, pipelines, scene, draws, geometry->cutout_quads() > 0);
+  Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws,
+                                        geometry->cutout_quads() > 0, settings.gbuffer);
   Shadows maps = add_shadows(scene, draws, settings, input, cascades);
   if (settings.debug_view != DebugView::kNone) {
     (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view,
@@ -377,7 +378,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
     }
   }
   if (input.capture) {
-    captures.add(graph, Capture::kDepth, surfaces.depth());
+    if (settings.gbuffer.depth == DepthStore::kD32)
+      captures.add(graph, Capture::kDepth, surfaces.depth());
     captures.add(graph, Capture::kSurfaces, surfaces.surfaces());
     if (maps.maps()) captures.add(graph, Capture::kShadowMaps, maps.maps());
   }
@@ -430,6 +432,7 @@ Result<std::uint64_t> Renderer::draw(
   State& s = *state_;
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
   if (Result<void> ok = s.resize_picture(size); !ok) return ok.error();
+  if (Result<void> ok = check_store(s.device, settings.gbuffer); !ok) return ok.error();
 
   const Result<std::span<const ActiveCascade>> cascades =
       s.geometry->sections_resident() == 0

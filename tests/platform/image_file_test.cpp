@@ -124,16 +124,28 @@ std::string png_header(std::uint32_t width, std::uint32_t height) {
 }
 
 TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
-  ASSERT_TRUE(write_text(dir_ / "huge.png", png_header(65536, 65536)));
+  const std::string end("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+  ASSERT_TRUE(write_text(dir_ / "huge.png", png_header(65536, 65536) + end));
   const auto image = read_png(dir_ / "huge.png");
   ASSERT_FALSE(image);
   EXPECT_NE(image.error().message.find("IHDR"), std::string::npos) << image.error().message;
 }
 
+TEST_F(ImageFile, AChunkLongerThanTheFileIsRefusedBeforeMemoryIsTaken) {
+  ASSERT_TRUE(write_png(dir_ / "a.png", {2, 2, 4, random_bytes(16)}));
+  std::string png = *read_text(dir_ / "a.png", 1 << 20);
+  // Between the pixels and the end: text of 1.9 GB.
+  png.insert(png.size() - 12, std::string("\x75\x30\x00\x25tEXtx", 9));
+  ASSERT_TRUE(write_text(dir_ / "text.png", png));
+  const auto image = read_png(dir_ / "text.png");
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.error().message.find("chunk"), std::string::npos) << image.error().message;
+}
+
 TEST_F(ImageFile, ASizeThatTheFileCannotHoldIsRefusedBeforeMemoryIsTaken) {
-  // The rows' chunk begins, so that libpng has read all it wants to know.
-  ASSERT_TRUE(write_text(dir_ / "short.png",
-                         png_header(32768, 32768) + std::string("\x00\x00\x00\x08IDAT", 8)));
+  // An empty chunk of rows and the end's, so that libpng has read all it wants to know.
+  const std::string rest("\0\0\0\0IDAT\x35\xAF\x06\x1E\0\0\0\0IEND\xAE\x42\x60\x82", 24);
+  ASSERT_TRUE(write_text(dir_ / "short.png", png_header(32768, 32768) + rest));
   const auto image = read_png(dir_ / "short.png");
   ASSERT_FALSE(image);
   EXPECT_NE(image.error().message.find("too short"), std::string::npos) << image.error().message;

@@ -14,6 +14,8 @@
 #include "tools/skerry/play_command.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/shot.h"
+#include "tools/skerry/stability/command.h"
+#include "tools/skerry/test_command.h"
 
 namespace skerry::tools {
 namespace {
@@ -34,6 +36,8 @@ struct CommandLine {
   bool explain = false;
   bool json = false;
   std::optional<BenchCommands> bench;
+  std::optional<TestCommand> test;
+  std::optional<StabilityCommand> stability;
 
   CommandLine();
   int run();
@@ -56,7 +60,9 @@ CommandLine::CommandLine() {
   shot->add_option("--stats", stats, "Write counts, times and a hash of the picture")
       ->type_name("FILE.json");
   shot->add_flag("--explain", explain, "Print what the frame ran, and what it left out and why");
+  test.emplace(app);
   bench.emplace(app);
+  stability.emplace(app);
   devices = add("devices", "List the Vulkan devices");
   devices->add_flag("--json", json, "As JSON");
 }
@@ -89,6 +95,8 @@ int CommandLine::run_shot() {
 int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
   if (chosen == bench->command()) return bench->run();
+  if (chosen == test->command()) return test->run();
+  if (chosen == stability->command()) return stability->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();
   if (chosen == shot) return run_shot();
