@@ -82,6 +82,7 @@ Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_
 #ifdef SKERRY_STORED
   if (kNormalCode != kNormalExact && word != 0u) s.normal = normal_from_texel(texelFetch(stored_normals, pixel, 0), kNormalCode);
 #endif
+  s.plant = surface_face(word) >= kFaceCount;
   s.albedo = surface_texel(word, ray, t, max_taps).rgb;
   s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
   return s;

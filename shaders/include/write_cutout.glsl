@@ -17,7 +17,9 @@ void main() {
   Material material = materials[surface_block(in_surface)];
   uint face = surface_face(in_surface);
   uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
-  if (texture(block_textures, vec3(in_uv, float(layer))).a < 0.5) discard;
+  // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.
+  bool behind = face < kFaceCount && !gl_FrontFacing;
+  if (behind || texture(block_textures, vec3(in_uv, float(layer))).a < 0.5) discard;
   if (kWriteSurface) out_surface = in_surface;
 #ifdef SKERRY_STORED
   write_stored(in_surface);
