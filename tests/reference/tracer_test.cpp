@@ -278,7 +278,8 @@ TEST(ReferenceTracer, APlantDoesNotShadeItselfButItsNeighbour) {
     // Somewhere on the nearer plant, and light from where the other one stands.
     tracer.trace({-1.0, place(random), place(random)}, {1.0, 0.0, 0.0}, trace);
     if (!trace.hit || trace.hit->voxel.x != 0) continue;
-    const glm::dvec3 point = trace.hit->lattice, light(0.8, 0.6, 0.0);
+    const glm::dvec3 point = trace.hit->lattice;
+    const glm::dvec3 light = glm::normalize(glm::dvec3(1.0, 0.1, 0.0));
     const BruteForce other({{{1, 0, 0}, world::block::kTallGrass}});
     const bool shaded = !other.meetings(point, light, true).empty();
     EXPECT_EQ(tracer.hidden(point, light, kFar, &*trace.hit), shaded);
