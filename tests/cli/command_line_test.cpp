@@ -137,6 +137,14 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"shot", "--seed", "1", "--set", "view.distence=5"}, {"'view.distance'"}},
       {{"shot", "--seed", "1", "--set", "nothing"}, {"KEY=VALUE"}},
       {{"shot", "--seed", "1", "--renderer", "forward"}, {"not in this build", "deferred"}},
+      {{"shot", "--seed", "1", "--renderer", "referense"}, {"'reference'"}},
+      {{"shot", "--seed", "1", "--set", "reference.samples=0"}, {"1", "65536"}},
+      {{"shot", "--seed", "1", "--renderer", "reference", "--set", "debug.view=depth"},
+       {"debug.view"}},
+      {{"shot", "--seed", "1", "--renderer", "reference", "--size", "65535x65535"},
+       {"--size", "pixels"}},
+      {{"play", "--renderer", "reference"}, {"skerry shot"}},
+      {{"bench", "frame", "--seed", "1", "--renderer", "reference"}, {"skerry shot"}},
       {{"shot", "--seed", "1", "--shading", "pbrr"}, {"'pbr'"}},
       {{"--no-such"}, {"'--no-such'"}},
       {{"devices", "--jsno"}, {"'--json'"}},
@@ -192,6 +200,24 @@ TEST(CommandLine, WithoutADriverTheStatusIsFour) {
   expect_refusal(run({"shot", "--seed", "1", "--out", (folder / "a.png").string()}, no_driver), 4,
                  {}, "shot");
   EXPECT_FALSE(fs::exists(folder / "a.png"));
+}
+
+TEST(CommandLine, AReferencePictureNeedsNoDriverAndIsTheSameOnAnyNumberOfThreads) {
+  const Folder folder;
+  const auto hash_with = [&](const char* threads) {
+    const Outcome outcome =
+        run({"shot", "--seed", "1", "--renderer", "reference", "--set", "reference.samples=2",
+             "--set", "view.distance=64", "--set", threads, "--size", "24x16", "--out",
+             (folder / "a.png").string(), "--stats", (folder / "a.json").string()},
+            {"VK_ICD_FILENAMES=/no/such/driver.json", "VK_DRIVER_FILES=/no/such/driver.json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "a.png"));
+    const auto stats = nlohmann::json::parse(text_of(folder / "a.json"));
+    EXPECT_EQ(stats["non_finite_pixels"], 0);
+    EXPECT_GT(stats["error"]["mean_standard_error"].get<double>(), 0.0);
+    return stats["image_sha256"].get<std::string>();
+  };
+  EXPECT_EQ(hash_with("jobs.threads=1"), hash_with("jobs.threads=3"));
 }
 
 TEST(CommandLine, ADeviceThatDoesNotExistIsStatusFour) {
