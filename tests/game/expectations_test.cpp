@@ -47,17 +47,31 @@ TEST(Expectations, MistakesAreNamedInOneLine) {
   EXPECT_NE(error_of(R"("tolerence": {})").find("'tolerance'"), std::string::npos);
   EXPECT_NE(error_of(R"("expect_dark": true)").find("'expects_dark'"), std::string::npos);
   EXPECT_NE(error_of(R"("tolerance": {"flip_maen": 0})").find("'flip_mean'"), std::string::npos);
-  for (const char* fields :
-       {R"("tolerance": 1)", R"("tolerance": {"flip_mean": -0.1})",
-        R"("tolerance": {"flip_mean": 1.1})", R"("tolerance": {"flip_mean": "0.1"})",
-        R"("tolerance": {"flip_mean": null})", R"("tolerance": {"flip_mean": NaN})",
-        R"("tolerance": {"flip_mean": 1e999})", R"("tolerance": {"channel_threshold": 256})",
-        R"("tolerance": {"channel_threshold": 1.5})", R"("tolerance": {"channel_threshold": -1})",
-        R"("expects_dark": 1)", R"("expects_dark": "yes")", R"("masks": {})", R"("masks": [1])",
-        R"("masks": [[1, 2, 3]])", R"("masks": [[1, 2, 3, 4, 5]])", R"("masks": [[-1, 0, 3, 4]])",
-        R"("masks": [[0, 0, 0, 4]])", R"("masks": [[0, 0, 4, 0]])", R"("masks": [[0, 0, 1e9, 4]])",
-        R"("masks": [[0.5, 0, 1, 4]])", R"("masks": [["0", 0, 1, 4]])", R"("description": 5)",
-        R"("description": "")", R"("description": "two\nlines")"}) {
+  for (const char* fields : {R"("tolerance": 1)",
+                             R"("tolerance": {"flip_mean": -0.1})",
+                             R"("tolerance": {"flip_mean": 1.1})",
+                             R"("tolerance": {"flip_mean": "0.1"})",
+                             R"("tolerance": {"flip_mean": null})",
+                             R"("tolerance": {"flip_mean": NaN})",
+                             R"("tolerance": {"flip_mean": 1e999})",
+                             R"("tolerance": {"channel_threshold": 256})",
+                             R"("tolerance": {"channel_threshold": 1.5})",
+                             R"("tolerance": {"channel_threshold": -1})",
+                             R"("expects_dark": 1)",
+                             R"("expects_dark": "yes")",
+                             R"("masks": {})",
+                             R"("masks": [1])",
+                             R"("masks": [[1, 2, 3]])",
+                             R"("masks": [[1, 2, 3, 4, 5]])",
+                             R"("masks": [[-1, 0, 3, 4]])",
+                             R"("masks": [[0, 0, 0, 4]])",
+                             R"("masks": [[0, 0, 4, 0]])",
+                             R"("masks": [[0, 0, 1e9, 4]])",
+                             R"("masks": [[0.5, 0, 1, 4]])",
+                             R"("masks": [["0", 0, 1, 4]])",
+                             R"("description": 5)",
+                             R"("description": "")",
+                             R"("description": "two\nlines")"}) {
     EXPECT_EQ(error_of(fields).find('\n'), std::string::npos) << fields;
   }
 }
