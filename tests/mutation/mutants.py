@@ -74,7 +74,8 @@ MUTANTS = (
     Mutant("no_waves", "water is flat", "shaders/include/water.glsl", "slope *= exp(-distance * 0.02);", "slope *= 0.0;",
            "underwater_up water"),
     Mutant("water_before_everything", "water shows through what is before it", "shaders/write_layer.frag",
-           "if (z <= texelFetch(opaque_depth, pixel, 0).r) discard;", "", "highland autumn marsh"),
+           "if (z <= texelFetch(opaque_depth, pixel, 0).r) discard;",
+           "if (z <= texelFetch(opaque_depth, pixel, 0).r - 1.0) discard;", "highland autumn marsh"),
     Mutant("water_faces_turned", "a water surface's back is taken for its front", "shaders/write_layer.frag",
            "gl_FrontFacing ? in_surface : in_surface ^ kOppositeFace", "in_surface", "underwater_up underwater"),
     # Geometry
