@@ -209,10 +209,18 @@ render::RenderSettings SceneView::render_settings(
   out.view_distance_blocks = std::ceil(reach / kReachStep) * kReachStep;
   out.shadows = settings_.shadow_enabled;
   out.shadow_map_size = static_cast<int>(settings_.shadow_size);
+  out.shadow_cascades = static_cast<int>(settings_.shadow_cascades);
+  out.shadow_taps = static_cast<int>(settings_.shadow_taps);
+  out.texture_taps = static_cast<int>(settings_.texture_taps);
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
+  out.gbuffer = settings_.gbuffer;
   out.debug_view = settings_.debug_view;
   return out;
+}
+
+double SceneView::metered_ev(double time_of_day_s) const {
+  return render::auto_exposure_ev(render::celestial_at(time_of_day_s, settings_.moon_phase));
 }
 
 Result<std::uint64_t> SceneView::draw(
@@ -225,8 +233,8 @@ Result<std::uint64_t> SceneView::draw(
   input.anchor = fixed(world_->origin());
   input.islands = islands;
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
-  input.exposure_ev = settings_.exposure_ev ? static_cast<float>(*settings_.exposure_ev)
-                                            : render::auto_exposure_ev(input.sky);
+  const double adapted = moment.exposure_ev.value_or(metered_ev(moment.time_of_day_s));
+  input.exposure_ev = static_cast<float>(settings_.exposure_ev.value_or(adapted));
   input.time_s = moment.world_time_s;
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;

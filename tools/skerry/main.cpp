@@ -14,6 +14,7 @@
 #include "tools/skerry/play_command.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/shot.h"
+#include "tools/skerry/stability/command.h"
 #include "tools/skerry/test_command.h"
 
 namespace skerry::tools {
@@ -36,6 +37,7 @@ struct CommandLine {
   bool json = false;
   std::optional<BenchCommands> bench;
   std::optional<TestCommand> test;
+  std::optional<StabilityCommand> stability;
 
   CommandLine();
   int run();
@@ -60,6 +62,7 @@ CommandLine::CommandLine() {
   shot->add_flag("--explain", explain, "Print what the frame ran, and what it left out and why");
   test.emplace(app);
   bench.emplace(app);
+  stability.emplace(app);
   devices = add("devices", "List the Vulkan devices");
   devices->add_flag("--json", json, "As JSON");
 }
@@ -74,6 +77,7 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 int CommandLine::run_play() {
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
   return play_command(options);
 }
 
@@ -92,6 +96,7 @@ int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
   if (chosen == bench->command()) return bench->run();
   if (chosen == test->command()) return test->run();
+  if (chosen == stability->command()) return stability->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();
   if (chosen == shot) return run_shot();
