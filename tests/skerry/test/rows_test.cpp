@@ -129,12 +129,6 @@ TEST(Rows, FilesThatHoldNoResultsAreRefused) {
   EXPECT_FALSE(read_results(folder / "none.json"));
 }
 
-TEST(Rows, MarkupIsEscaped) {
-  EXPECT_EQ(escape_markup("<a b='c'>\"&\""), "&lt;a b=&#39;c&#39;&gt;&quot;&amp;&quot;");
-  const std::string safe = escape_markup(kHostile);
-  EXPECT_EQ(safe.find_first_of("<>\"'\x01\xff\n"), std::string::npos);
-}
-
 /// Whether Python's parsers take the text; they are other people's code.
 bool parses(const char* script, const std::string& text) {
   const Folder folder;
