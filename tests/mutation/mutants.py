@@ -20,7 +20,7 @@ class Mutant:
 MUTANTS = (
     # Light
     Mutant("moon_off", "the moon gives no light", "shaders/include/lighting.glsl",
-           "if ((kBodies & 2u) != 0u) light += received(frame.bodies[1], kMoonCascade, s.position, s.normal);", "",
+           "if ((kBodies & 2u) != 0u) light += received(s, frame.bodies[1], kMoonCascade);", "",
            "moonlit mycelium"),
     Mutant("normal_of_z_faces", "faces along z have the opposite normal", "shaders/include/common.glsl",
            "axis == 2u ? s : 0.0", "axis == 2u ? -s : 0.0", "debug_normal day"),
@@ -30,10 +30,10 @@ MUTANTS = (
            "unpackHalf2x16(materials[surface_block(word)].emission).x", "0.0", "lava_night cave"),
     # Shadows
     Mutant("cascade_shifted_a_texel", "the second cascade is read a texel beside", "shaders/include/shadow.glsl",
-           "if (index == 1u) c = frame.cascades[base + 1u];",
-           "if (index == 1u) { c = frame.cascades[base + 1u]; c.map_from_world_x.w += 1.0; }", "overhead day autumn"),
+           "index == 1u) c = frame.cascades[base + 1u];",
+           "index == 1u) { c = frame.cascades[base + 1u]; c.map_from_world_x.w += 1.0; }", "overhead day autumn"),
     Mutant("cascades_swapped", "the third cascade is read for the second", "shaders/include/shadow.glsl",
-           "if (index == 1u) c = frame.cascades[base + 1u];", "if (index == 1u) c = frame.cascades[base + 2u];",
+           "index == 1u) c = frame.cascades[base + 1u];", "index == 1u) c = frame.cascades[base + 2u];",
            "overhead day autumn"),
     Mutant("cascades_do_not_fade", "cascades end in a step", "shaders/include/shadow.glsl",
            "clamp((distance / cascade.radius - 0.8) / 0.2, 0.0, 1.0)", "0.0", "debug_shadow wide_view day"),
@@ -46,7 +46,7 @@ MUTANTS = (
     Mutant("receiver_plane_lost", "taps compare with one depth instead of the receiver's plane",
            "shaders/include/shadow.glsl", "dot(slope, texel + 0.5 - map.xy)", "0.0", "low_sun debug_shadow"),
     Mutant("shadow_tap_lost", "one of eight taps is taken twice for another", "shaders/include/shadow.glsl",
-           "vec2(0.507, 0.064)", "vec2(-0.326, -0.406)", "debug_shadow day closeup"),
+           "TAP(0.507, 0.064)", "TAP(-0.326, -0.406)", "debug_shadow day closeup"),
     Mutant("shadow_casters_lost", "what the camera does not see casts no shadow of a far sun",
            "engine/render/frame_setup.cpp", "light.planes[5] = glm::vec4(\n        0, 0, 0, 1);",
            "light.planes[5] = glm::vec4(\n        0, 0, 0, -1);", "day"),
@@ -102,7 +102,8 @@ MUTANTS = (
            "view.tan_half_x = static_cast<float>(tan_x);", "view.tan_half_x = static_cast<float>(tan_x * 1.01);",
            "overhead day"),
     # Textures
-    Mutant("alpha_threshold", "leaves and plants are thinner", "shaders/write_cutout.frag", ".a < 0.5", ".a < 0.8",
+    Mutant("alpha_threshold", "leaves and plants are thinner", "shaders/include/write_cutout.glsl",
+           ".a) < 0.5) discard;", ".a) < 0.8) discard;",
            "closeup quality_low blossom"),
     Mutant("mip_off_by_one", "textures are one level too coarse", "shaders/include/surface.glsl",
            "float lod = log2(", "float lod = 1.0 + log2(", "day underwater"),

@@ -67,8 +67,8 @@ TEST(Rows, TheContractsFieldsAreThere) {
 }
 
 TEST(Rows, WhatIsNoRowIsAnError) {
-  nlohmann::json json = row_json(row_of("day"));
-  for (const auto& [key, value] : nlohmann::json(json).items()) {
+  const nlohmann::json json = row_json(row_of("day"));
+  for (const auto& [key, value] : json.items()) {
     nlohmann::json without = json;
     without.erase(key);
     EXPECT_FALSE(row_from_json(without)) << key;
