@@ -44,11 +44,12 @@ Result<Rows> far_away(gpu::Device& device) {
   const auto at_origin = pictures_at(device, {});
   if (!at_origin) return at_origin.error();
   constexpr std::int64_t k24 = std::int64_t{1} << 24, k40 = std::int64_t{1} << 40;
-  const std::array<std::pair<const char*, Offset>, 5> places{{{"2^24", {k24, k24, k24}},
-                                                              {"-2^24", {-k24, -k24, -k24}},
-                                                              {"2^40", {k40, k40, k40}},
-                                                              {"-2^40", {-k40, -k40, -k40}},
-                                                              {"2^40, -3, -2^40", {k40, -3, -k40}}}};
+  const std::array<std::pair<const char*, Offset>, 5> places{
+      {{"2^24", {k24, k24, k24}},
+       {"-2^24", {-k24, -k24, -k24}},
+       {"2^40", {k40, k40, k40}},
+       {"-2^40", {-k40, -k40, -k40}},
+       {"2^40, -3, -2^40", {k40, -3, -k40}}}};
   Rows rows;
   for (const auto& [name, offset] : places) {
     const auto moved = pictures_at(device, offset);
@@ -74,8 +75,7 @@ Result<std::vector<std::vector<std::uint8_t>>> sequence(gpu::Device& device, con
   for (int i = 0; i < frames; ++i) {
     game::SceneView::Moment moment;
     moment.camera = view.start_camera();
-    moment.camera.position =
-        moved(moment.camera.position, step * i * glm::dvec3(1.0, 0.5, -0.7));
+    moment.camera.position = moved(moment.camera.position, step * i * glm::dvec3(1.0, 0.5, -0.7));
     moment.camera.yaw_deg += 0.01 * i;
     if (Result<std::uint64_t> drawn = view.draw(moment, {scene.size.width, scene.size.height});
         !drawn)

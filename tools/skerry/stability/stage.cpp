@@ -100,8 +100,7 @@ Result<Frame> Stage::draw(const render::FrameInput& input, const render::RenderS
   Frame frame;
   frame.size = size;
   frame.report = renderer_->report().value();
-  const Result<std::vector<std::byte>> picture =
-      gpu::read_back(device_, renderer_->picture(), 4);
+  const Result<std::vector<std::byte>> picture = gpu::read_back(device_, renderer_->picture(), 4);
   if (!picture) return picture.error();
   frame.rgba.resize(picture->size());
   std::memcpy(frame.rgba.data(), picture->data(), picture->size());
@@ -163,8 +162,7 @@ double non_finite_channels(std::span<const glm::vec3> pixels) {
 double different_pixels(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
   if (a.size() != b.size()) return std::numeric_limits<double>::quiet_NaN();
   double count = 0.0;
-  for (std::size_t i = 0; i + 4 <= a.size(); i += 4)
-    count += std::memcmp(&a[i], &b[i], 4) != 0;
+  for (std::size_t i = 0; i + 4 <= a.size(); i += 4) count += std::memcmp(&a[i], &b[i], 4) != 0;
   return count;
 }
 
