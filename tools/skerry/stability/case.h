@@ -44,6 +44,7 @@ std::span<const Case> media_cases();
 std::span<const Case> exposure_cases();
 std::span<const Case> physics_cases();
 std::span<const Case> time_cases();
+std::span<const Case> worlds_cases();
 
 /// Every case of the program.
 std::vector<Case> all_cases();
