@@ -209,8 +209,12 @@ render::RenderSettings SceneView::render_settings(
   out.view_distance_blocks = std::ceil(reach / kReachStep) * kReachStep;
   out.shadows = settings_.shadow_enabled;
   out.shadow_map_size = static_cast<int>(settings_.shadow_size);
+  out.shadow_cascades = static_cast<int>(settings_.shadow_cascades);
+  out.shadow_taps = static_cast<int>(settings_.shadow_taps);
+  out.texture_taps = static_cast<int>(settings_.texture_taps);
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
+  out.gbuffer = settings_.gbuffer;
   out.debug_view = settings_.debug_view;
   return out;
 }

@@ -14,8 +14,15 @@ constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
 constexpr std::array<std::string_view, 9> kDebugViewNames{
     "none", "albedo", "normal", "position", "metadata", "emissive", "depth", "cascades", "shadow"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
-constexpr std::array<std::string_view, 2> kRendererNames{"deferred", "auto"};
+constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
+constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
+
+constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct16",
+                                                       "rgb8",  "rgb10a2", "rgba16f"};
+constexpr std::array<std::string_view, 3> kPositionNames{"depth", "rgba16f", "rgba32f"};
+constexpr std::array<std::string_view, 2> kDepthNames{"d32", "d16"};
+constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024},
                                                {"medium", 1000, 192, 2048},
@@ -108,14 +115,17 @@ Result<void> parse_shadow_size(std::string_view text, Settings& s) {
   return {};
 }
 
-/// Both accepted names choose the one renderer there is.
-Result<void> parse_renderer(std::string_view text, Settings&) {
-  if (text == "forward" || text == "reference") {
-    return Error{fmt::format("renderer={} is not in this build: use deferred or auto", text)};
-  }
-  const auto name = parse_name(text, "renderer", kRendererNames);
+Result<void> parse_shadow_taps(std::string_view text, Settings& s) {
+  const auto name = parse_name(text, "shadow.taps", kTapNames);
   if (!name) return name.error();
-  return {};
+  return into(parse_integer(kTapNames[*name], "shadow.taps", 1, 32), s.shadow_taps);
+}
+
+Result<void> parse_renderer(std::string_view text, Settings& s) {
+  if (text == "forward") {
+    return Error{"renderer=forward is not in this build: use deferred, auto or reference"};
+  }
+  return into_name(parse_name(text, "renderer", kRendererNames), s.renderer);
 }
 
 constexpr SettingKey kKeys[] = {
@@ -157,13 +167,55 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) { return std::string(s.shadow_enabled ? "1" : "0"); }},
     {"shadow.size", "a power of two, 256 to 8192", "Texels along the edge of one shadow map.",
      parse_shadow_size, [](const Settings& s) { return std::to_string(s.shadow_size); }},
+    {"shadow.cascades", "1 to 4",
+     "Shadow maps a light has. Fewer cover the same view distance with larger texels.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "shadow.cascades", 1, 4), s.shadow_cascades);
+     },
+     [](const Settings& s) { return std::to_string(s.shadow_cascades); }},
+    {"shadow.taps", "1, 4, 8, 16 or 32", "Texels of the shadow map that a pixel compares with.",
+     parse_shadow_taps, [](const Settings& s) { return std::to_string(s.shadow_taps); }},
+    {"texture.taps", "1 to 16", "Samples along the long side of a slanted texture, at most.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "texture.taps", 1, 16), s.texture_taps);
+     },
+     [](const Settings& s) { return std::to_string(s.texture_taps); }},
+    {"gbuffer.normal", "exact, oct8, oct16, rgb8, rgb10a2 or rgba16f",
+     "For measuring: how normals are kept between drawing and shading. exact: not at all.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "gbuffer.normal", kNormalNames), s.gbuffer.normal);
+     },
+     [](const Settings& s) {
+       return std::string(kNormalNames[static_cast<std::size_t>(s.gbuffer.normal)]);
+     }},
+    {"gbuffer.position", "depth, rgba16f or rgba32f",
+     "For measuring: where shading takes positions from.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "gbuffer.position", kPositionNames), s.gbuffer.position);
+     },
+     [](const Settings& s) {
+       return std::string(kPositionNames[static_cast<std::size_t>(s.gbuffer.position)]);
+     }},
+    {"gbuffer.depth", "d32 or d16",
+     "For measuring: bits of a depth. With 16, positions are wrong by blocks in the distance.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "gbuffer.depth", kDepthNames), s.gbuffer.depth);
+     },
+     [](const Settings& s) {
+       return std::string(kDepthNames[static_cast<std::size_t>(s.gbuffer.depth)]);
+     }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {
        return s.exposure_ev ? fmt::format("{}", *s.exposure_ev) : std::string("auto");
      }},
-    {"renderer", "deferred or auto", "How the picture is made. This build has one way: deferred.",
-     parse_renderer, [](const Settings&) { return std::string("auto"); }},
+    {"renderer", "deferred, auto or reference",
+     "How the picture is made: on the GPU, or exactly on the CPU (screenshots only). auto is "
+     "deferred.",
+     parse_renderer,
+     [](const Settings& s) {
+       return std::string(kRendererNames[static_cast<std::size_t>(s.renderer)]);
+     }},
     {"shading", "pbr or flat",
      "flat: light colour times shadow, without the surface's angle to the light.",
      [](std::string_view t, Settings& s) {
@@ -205,6 +257,20 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "water.layers", 1, 4), s.water_layers);
      },
      [](const Settings& s) { return std::to_string(s.water_layers); }},
+    {"reference.samples", "1 to 65536", "Samples a pixel of renderer=reference.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "reference.samples", 1, 65536), s.reference_samples);
+     },
+     [](const Settings& s) { return std::to_string(s.reference_samples); }},
+    {"reference.filter", "pixel or centre",
+     "Whether renderer=reference averages geometry over the pixel or samples it at the centre, as "
+     "the GPU does.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "reference.filter", kFilterNames), s.reference_filter);
+     },
+     [](const Settings& s) {
+       return std::string(kFilterNames[static_cast<std::size_t>(s.reference_filter)]);
+     }},
 };
 
 }  // namespace

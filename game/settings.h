@@ -16,6 +16,11 @@ inline constexpr std::uint32_t kMinViewDistance = 32, kMaxViewDistance = 16384; 
 
 enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
 enum class Shading : std::uint8_t { kPbr, kFlat };
+/// How the picture is made. kReference: on the CPU, exactly and slowly; screenshots only.
+enum class RendererKind : std::uint8_t { kDeferred, kAuto, kReference };
+/// kPixel: everything averaged over the pixel. kCentre: geometry through the pixel's centre alone,
+/// as the GPU samples it, light and textures still averaged.
+enum class ReferenceFilter : std::uint8_t { kPixel, kCentre };
 using render::DebugView;
 enum class UploadMode : std::uint8_t { kUpdate, kStaging, kMapped };
 
@@ -31,13 +36,20 @@ struct Settings {
   std::uint32_t view_detail = 192;     ///< blocks drawn at full detail, 32 .. 4096
   bool shadow_enabled = true;
   std::uint32_t shadow_size = 2048;   ///< texels along a cascade's edge, power of two, 256 .. 8192
+  std::uint32_t shadow_cascades = 4;  ///< maps a light has, 1 .. 4
+  std::uint32_t shadow_taps = 8;      ///< of the shadow filter: 1, 4, 8, 16 or 32
+  std::uint32_t texture_taps = 2;     ///< along the long side of a texture footprint, 1 .. 16
+  render::GBufferStore gbuffer;       ///< for measuring
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
+  RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;
   DebugView debug_view = DebugView::kNone;
   UploadMode upload_path = UploadMode::kUpdate;
   std::uint64_t upload_budget_bytes = 8u << 20;  ///< a frame, 65536 .. 2^30
   std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
-  std::uint32_t water_layers = 2;  ///< nearest translucent surfaces kept a pixel, 1 .. 4
+  std::uint32_t water_layers = 2;        ///< nearest translucent surfaces kept a pixel, 1 .. 4
+  std::uint32_t reference_samples = 64;  ///< a pixel, 1 .. 65536
+  ReferenceFilter reference_filter = ReferenceFilter::kPixel;
   bool operator==(const Settings&) const = default;
 };
 

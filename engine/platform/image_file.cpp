@@ -101,6 +101,14 @@ bool decode_header(png_structp png, png_infop info, Stream& stream) {
   png_set_chunk_malloc_max(png, 1 << 20);
   png_set_chunk_cache_max(png, 64);
   png_read_info(png, info);
+  // Deflate makes at most 1032 bytes of one (zlib's technical details), so a short file cannot hold
+  // a large picture, whatever it states: refused before memory is taken.
+  const std::uint64_t width = png_get_image_width(png, info);
+  const std::uint64_t height = png_get_image_height(png, info);
+  const std::uint64_t row_bits = width * png_get_bit_depth(png, info) * png_get_channels(png, info);
+  if ((row_bits + 7) / 8 * height > 1032 * stream.in.size())
+    png_error(png, "it is too short for the size it states");
+  if (width * height > kMaxPngPixels) png_error(png, "it has more than 2^27 pixels");
   png_set_expand(png);
   png_set_scale_16(png);
   png_set_gray_to_rgb(png);
@@ -118,6 +126,20 @@ bool decode_rows(png_structp png, png_infop info, png_bytepp rows) {
   png_read_image(png, rows);
   png_read_end(png, info);
   return true;
+}
+
+/// Whether every chunk up to IEND lies within the file. libpng takes memory for the length that a
+/// chunk states before it reads any of it (its own limit is only a warning).
+bool chunks_fit(std::string_view file) {
+  for (std::size_t at = 8; file.size() - at >= 12;) {
+    std::uint64_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      length = length << 8 | static_cast<std::uint8_t>(file[at + i]);
+    if (length > file.size() - at - 12) return false;
+    if (file.substr(at + 4, 4) == "IEND") return true;
+    at += 12 + static_cast<std::size_t>(length);
+  }
+  return false;
 }
 
 /// A libpng reader that is destroyed with its scope.
@@ -164,6 +186,7 @@ Result<PngImage> read_png(const std::filesystem::path& path) {
   if (file->size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(file->data()), 0, 8) != 0) {
     return failed("it is not a PNG");
   }
+  if (!chunks_fit(*file)) return failed("it is cut short, or a chunk states a wrong length");
   Stream stream;
   stream.in = *file;
   Reader reader(stream);

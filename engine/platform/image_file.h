@@ -37,6 +37,7 @@ struct PngImage {
 /// Limits of read_png, so that a small hostile file cannot ask for much memory.
 inline constexpr std::uint64_t kMaxPngFileBytes = std::uint64_t{1} << 28;
 inline constexpr std::uint32_t kMaxPngEdge = 1u << 15;
+inline constexpr std::uint64_t kMaxPngPixels = std::uint64_t{1} << 27;  ///< 512 MiB
 
 /// Errors: unreadable, not a PNG, damaged, beyond the limits.
 Result<PngImage> read_png(const std::filesystem::path& path);

@@ -139,15 +139,14 @@ Cascade make_cascade(const CascadeInput& in, const std::array<glm::dvec3, 3>& ax
 
 }  // namespace
 
-std::array<double, kCascadeCount> cascade_radii(double near_blocks, double far_blocks) {
+std::vector<double> cascade_radii(double near_blocks, double far_blocks, int count) {
   // F. Zhang et al., Parallel-Split Shadow Maps for Large-Scale Virtual Environments, VRCIA 2006.
-  std::array<double, kCascadeCount> radii;
-  for (int i = 0; i < kCascadeCount; ++i) {
-    const double t = static_cast<double>(i + 1) / kCascadeCount;
+  std::vector<double> radii;
+  for (int i = 0; i < count; ++i) {
+    const double t = static_cast<double>(i + 1) / count;
     const double logarithmic = near_blocks * std::pow(far_blocks / near_blocks, t);
     const double uniform = near_blocks + (far_blocks - near_blocks) * t;
-    radii[static_cast<std::size_t>(i)] =
-        kSplitLambda * logarithmic + (1.0 - kSplitLambda) * uniform;
+    radii.push_back(kSplitLambda * logarithmic + (1.0 - kSplitLambda) * uniform);
   }
   radii.back() = far_blocks;
   return radii;
@@ -164,7 +163,7 @@ std::array<glm::dvec3, 3> light_axes(glm::dvec3 to_light) {
   return {right, glm::cross(back, right), back};
 }
 
-std::array<Cascade, kCascadeCount> make_cascades(const CascadeInput& input) {
+std::vector<Cascade> make_cascades(const CascadeInput& input) {
   SKERRY_ASSERT(std::isfinite(glm::dot(input.to_light, input.to_light)) &&
                 glm::dot(input.to_light, input.to_light) > 0.0);
   SKERRY_ASSERT(input.near_blocks > 0.0 && input.near_blocks < input.far_blocks &&
@@ -172,12 +171,11 @@ std::array<Cascade, kCascadeCount> make_cascades(const CascadeInput& input) {
   SKERRY_ASSERT(input.caster_reach_blocks >= 0.0 && input.caster_reach_blocks <= 1e7);
   SKERRY_ASSERT(input.filter_blocks >= 0.0 && input.filter_blocks <= 1e6);
   SKERRY_ASSERT(input.map_size >= 64 && input.map_size <= 16384);
+  SKERRY_ASSERT(input.count >= 1 && input.count <= kCascadeCount);
   const std::array<glm::dvec3, 3> axes = light_axes(input.to_light);
-  const std::array<double, kCascadeCount> radii =
-      cascade_radii(input.near_blocks, input.far_blocks);
-  std::array<Cascade, kCascadeCount> cascades;
-  for (std::size_t i = 0; i < cascades.size(); ++i)
-    cascades[i] = make_cascade(input, axes, radii[i]);
+  std::vector<Cascade> cascades;
+  for (const double radius : cascade_radii(input.near_blocks, input.far_blocks, input.count))
+    cascades.push_back(make_cascade(input, axes, radius));
   return cascades;
 }
 

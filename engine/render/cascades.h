@@ -4,10 +4,11 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <vector>
 
 namespace skerry::render {
 
-inline constexpr int kCascadeCount = 4;
+inline constexpr int kCascadeCount = 4;  ///< a light has at most
 
 /// A place in the world, units of 1/65536 block (world::WorldPos without the dependency). |each| <=
 /// 2^57.
@@ -27,6 +28,8 @@ struct CascadeInput {
   double filter_blocks =
       0.25;  ///< how far the shadow filter and the normal offset reach from the shaded point
   int map_size = 2048;  ///< texels along an edge, 64..16384
+  int count =
+      kCascadeCount;  ///< of cascades, 1..kCascadeCount; few cover the same with coarser maps
 };
 
 /// What a shadow map shows. Two equal keys of one light give the same map, so a map may be kept
@@ -61,7 +64,7 @@ struct Cascade {
 
 /// Radii of the cascades [blocks]: the practical split (Zhang 2006), lambda 0.75, between near and
 /// far; the last is far exactly.
-std::array<double, kCascadeCount> cascade_radii(double near_blocks, double far_blocks);
+std::vector<double> cascade_radii(double near_blocks, double far_blocks, int count);
 
 /// Right, up and backward (towards the light) axes of a light's view, orthonormal and right-handed.
 /// Right is celestial pole x light: continuous wherever a sun or moon can stand, and everywhere
@@ -71,7 +74,7 @@ std::array<glm::dvec3, 3> light_axes(glm::dvec3 to_light);
 /// Cascades as spheres about the camera. Each map's centre is snapped to a grid of 1/16 of its
 /// width (whole texels) that is fixed in the world and turned to the light: moving the camera moves
 /// the window by whole texels or not at all. Snapping is exact in 128-bit integers at any distance.
-/// Asserts finite input, 0 < near < far, map_size in range.
-std::array<Cascade, kCascadeCount> make_cascades(const CascadeInput& input);
+/// Asserts finite input, 0 < near < far, map_size and count in range.
+std::vector<Cascade> make_cascades(const CascadeInput& input);
 
 }  // namespace skerry::render

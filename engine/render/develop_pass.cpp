@@ -1,5 +1,10 @@
 #include "engine/render/develop_pass.h"
 
+#include <string>
+
+#include "engine/render/gbuffer_formats.h"
+#include "engine/render/light_constants.h"
+
 namespace skerry::render {
 
 using gpu::Use;
@@ -33,29 +38,27 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
                                  SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
                                  DebugView view, gpu::Image& picture) {
   gpu::ImageRef out = graph.import(picture);
-  const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth(),
-                      maps = shadows.maps();
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{maps ? "show_channel.comp" : "show_channel_unshadowed.comp",
-                                     {{0, static_cast<std::uint32_t>(view)}, {8, scene.bodies}}});
+  const SurfaceReads surfaces(geometry);
+  const gpu::ImageRef maps = shadows.maps();
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      std::string("show_channel") + (maps ? "" : "_unshadowed") + surfaces.suffix() + ".comp",
+      surfaces.with_store(with_light({{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps}))});
   graph.add_pass(
       "show_channel",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
-        b.read(surfaces, Use::kComputeRead);
-        b.read(depth, Use::kComputeSampled);
+        surfaces.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
         out = b.write(out, Use::kComputeWrite);
       },
-      [&pipeline, scene, surfaces, depth, maps, out](gpu::Commands& c) {
+      [&pipeline, scene, surfaces, maps, out](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
         c.storage(2, scene.materials);
-        c.storage(3, surfaces);
-        c.sampled(4, depth, scene.point_sampler);
+        surfaces.bind(c, scene.point_sampler, 3, 4);
         c.sampled(5, scene.block_textures, scene.block_sampler);
         c.storage(6, out);
         if (maps) c.sampled(7, maps, scene.point_sampler);

@@ -9,8 +9,9 @@ namespace skerry::render {
 /// position and block textures (docs/decisions/0002).
 struct GeometryPass {
   /// @param cutouts false leaves the pass's alpha-tested half out.
+  /// @param store what is written besides the word, see gbuffer_formats.h.
   static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                      const CulledDraws& draws, bool cutouts);
+                      const CulledDraws& draws, bool cutouts, const GBufferStore& store);
 };
 
 }  // namespace skerry::render

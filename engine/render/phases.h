@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "engine/gpu/frame_graph.h"
+#include "engine/render/settings.h"
 
 namespace skerry::render {
 
@@ -17,12 +18,17 @@ class Geometry {
   gpu::ImageRef surfaces() const {
     return surfaces_;
   }  ///< R32_UINT, pack_surface() of shaders/include/common.glsl; 0 where there is sky
-  gpu::ImageRef depth() const { return depth_; }  ///< D32, reverse-Z
+  gpu::ImageRef depth() const { return depth_; }          ///< reverse-Z
+  gpu::ImageRef normals() const { return normals_; }      ///< empty when they are not kept
+  gpu::ImageRef positions() const { return positions_; }  ///< likewise
+  const GBufferStore& store() const { return store_; }    ///< how each is kept
+  bool stored() const { return normals_ || positions_; }
 
  private:
   friend struct GeometryPass;
-  Geometry(gpu::ImageRef surfaces, gpu::ImageRef depth) : surfaces_(surfaces), depth_(depth) {}
-  gpu::ImageRef surfaces_, depth_;
+  Geometry() = default;
+  gpu::ImageRef surfaces_, depth_, normals_, positions_;
+  GBufferStore store_;
 };
 
 /// Shadow maps of every body that casts are drawn; or there are none.

@@ -11,6 +11,7 @@
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
 #include "engine/render/frame_setup.h"
+#include "engine/render/gbuffer_formats.h"
 #include "engine/render/geometry_pass.h"
 #include "engine/render/shade_pass.h"
 #include "engine/render/shadow_maps.h"
@@ -70,7 +71,8 @@ struct Renderer::State {
   Result<void> upload_tables(const FrameTables& tables, std::size_t island_count,
                              const shared::SkyConstants& sky);
   void take_report(std::uint32_t slot_index);
-  SceneRefs import_scene(const FrameInput& input, VkExtent2D size, const FrameTables& tables);
+  SceneRefs import_scene(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+                         const FrameTables& tables);
   void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
              const FrameTables& tables, std::span<const ActiveCascade> cascades,
              const shared::SkyConstants& sky_now, Slot& slot);
@@ -219,8 +221,8 @@ Result<void> Renderer::State::upload_tables(const FrameTables& tables, std::size
   return {};
 }
 
-SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size,
-                                        const FrameTables& tables) {
+SceneRefs Renderer::State::import_scene(const FrameInput& input, const RenderSettings& settings,
+                                        VkExtent2D size, const FrameTables& tables) {
   SceneRefs s;
   s.frame = graph.import(frame);
   s.sky = graph.import(sky);
@@ -241,6 +243,8 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, VkExtent2D size
   s.point_sampler = point_sampler;
   s.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
   s.size = size;
+  s.shadow_taps = static_cast<std::uint32_t>(settings.shadow_taps);
+  s.shadow_cascades = static_cast<std::uint32_t>(settings.shadow_cascades);
   for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
     if (tables.constants.bodies[body].irradiance != glm::vec3(0.0f)) s.bodies |= 1u << body;
   return s;
@@ -310,7 +314,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
                             std::span<const ActiveCascade> cascades,
                             const shared::SkyConstants& sky_now, Slot& slot) {
   graph.begin();
-  SceneRefs scene = import_scene(input, size, tables);
+  SceneRefs scene = import_scene(input, settings, size, tables);
   graph.add_pass(
       "clear_pixel_stats",
       [&](gpu::PassBuilder& b) {
@@ -345,8 +349,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   }
   const CulledDraws draws = add_cull_passes(
       graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
-  Geometry surfaces =
-      GeometryPass::add(graph, pipelines, scene, draws, geometry->cutout_quads() > 0);
+  Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws,
+                                        geometry->cutout_quads() > 0, settings.gbuffer);
   Shadows maps = add_shadows(scene, draws, settings, input, cascades);
   if (settings.debug_view != DebugView::kNone) {
     (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view,
@@ -374,7 +378,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
     }
   }
   if (input.capture) {
-    captures.add(graph, Capture::kDepth, surfaces.depth());
+    if (settings.gbuffer.depth == DepthStore::kD32)
+      captures.add(graph, Capture::kDepth, surfaces.depth());
     captures.add(graph, Capture::kSurfaces, surfaces.surfaces());
     if (maps.maps()) captures.add(graph, Capture::kShadowMaps, maps.maps());
   }
@@ -427,6 +432,7 @@ Result<std::uint64_t> Renderer::draw(
   State& s = *state_;
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
   if (Result<void> ok = s.resize_picture(size); !ok) return ok.error();
+  if (Result<void> ok = check_store(s.device, settings.gbuffer); !ok) return ok.error();
 
   const Result<std::span<const ActiveCascade>> cascades =
       s.geometry->sections_resident() == 0

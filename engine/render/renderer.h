@@ -34,7 +34,7 @@ struct IslandPlacement {
 /// What a frame can be asked to copy out for measuring, besides the picture.
 enum class Capture : std::uint8_t {
   kRadiance,   ///< RGBA16F, before exposure
-  kDepth,      ///< D32, reverse-Z; absent from a frame without geometry
+  kDepth,      ///< D32, reverse-Z; absent from a frame without geometry, or with another depth
   kSurfaces,   ///< R32_UINT, the G-buffer's words; absent likewise
   kShadowMaps  ///< D32 layers, all cascades of the sun, then of the moon; absent when nothing casts
 };

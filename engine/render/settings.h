@@ -16,17 +16,36 @@ enum class DebugView : std::uint8_t {
   kShadow
 };
 
+/// How the G-buffer keeps a surface's normal. Not at all is exact: the normal then comes from the
+/// face and its island. The others are for measuring what storing it would cost and lose.
+enum class NormalStore : std::uint8_t { kExact, kOct8, kOct16, kRgb8, kRgb10a2, kRgba16f };
+/// Where a surface's position comes from: its depth, or an image of positions relative to the
+/// camera.
+enum class PositionStore : std::uint8_t { kDepth, kRgba16f, kRgba32f };
+enum class DepthStore : std::uint8_t { kD32, kD16 };
+
+/// What the G-buffer holds besides the word of each surface.
+struct GBufferStore {
+  NormalStore normal = NormalStore::kExact;
+  PositionStore position = PositionStore::kDepth;
+  DepthStore depth = DepthStore::kD32;
+  bool operator==(const GBufferStore&) const = default;
+};
+
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
   double view_distance_blocks =
       1000.0;  ///< all that is drawn lies within; the last cascade reaches as far
   bool shadows = true;
   int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
+  int shadow_cascades = 4;     ///< maps a light has, 1..4; however few reach as far
+  int shadow_taps = 8;         ///< of the shadow filter: 1, 4, 8, 16 or 32
   float shadow_filter_blocks =
       0.06f;                   ///< smallest radius of the shadow filter; never under 1.5 texels
   bool flat_shading = false;   ///< shadow result times light colour, no N.L
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
+  GBufferStore gbuffer;
   DebugView debug_view = DebugView::kNone;
 };
 

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "engine/render/gbuffer_formats.h"
+#include "engine/render/light_constants.h"
 #include "engine/render/tiles.h"
 #include "shaders/shared/frame.h"
 
@@ -16,34 +18,33 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
                     gpu::ImageRef target, bool to_picture) {
   const Tiles tiles =
       classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size);
-  const gpu::ImageRef surfaces = geometry.surfaces(), depth = geometry.depth();
+  const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
   const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
-  const gpu::Pipeline& surface_pipeline = pipelines.get(
-      gpu::ComputeDesc{(maps ? "shade_surfaces" : "shade_surfaces_unshadowed") + suffix,
-                       {{0, static_cast<std::uint32_t>(in.texture_taps)}, {8, scene.bodies}}});
+  const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
+      std::string("shade_surfaces") + (maps ? "" : "_unshadowed") + surfaces.suffix() + suffix,
+      surfaces.with_store(
+          with_light({{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene, bool{maps}))});
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
-        b.read(surfaces, Use::kComputeRead);
-        b.read(depth, Use::kComputeSampled);
+        surfaces.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         b.read(scene.sky_lut, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&surface_pipeline, scene, tiles, surfaces, depth, maps, target](gpu::Commands& c) {
+      [&surface_pipeline, scene, tiles, surfaces, maps, target](gpu::Commands& c) {
         c.bind(surface_pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
         c.storage(2, scene.materials);
         c.storage(4, scene.pixel_stats);
-        c.storage(5, surfaces);
-        c.sampled(6, depth, scene.point_sampler);
+        surfaces.bind(c, scene.point_sampler, 5, 6);
         c.sampled(7, scene.block_textures, scene.block_sampler);
         c.sampled(8, scene.sky_lut, scene.lut_sampler);
         c.storage(9, target);
@@ -52,22 +53,23 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       });
   const gpu::Pipeline& sky_pipeline = pipelines.get(
       gpu::ComputeDesc{"shade_sky" + suffix, {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
+  const gpu::ImageRef words = geometry.surfaces();
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.sky}) b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
-        b.read(surfaces, Use::kComputeRead);
+        b.read(words, Use::kComputeRead);
         b.read(scene.sky_lut, Use::kComputeSampled);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&sky_pipeline, scene, tiles, surfaces, target](gpu::Commands& c) {
+      [&sky_pipeline, scene, tiles, words, target](gpu::Commands& c) {
         c.bind(sky_pipeline);
         c.storage(0, scene.frame);
         c.storage(3, scene.sky);
         c.storage(4, scene.pixel_stats);
-        c.storage(5, surfaces);
+        c.storage(5, words);
         c.sampled(8, scene.sky_lut, scene.lut_sampler);
         c.storage(9, target);
         dispatch_tiles(c, tiles, TileKind::kOpen);

@@ -46,8 +46,10 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
     forget();
     return std::span<const ActiveCascade>{};
   }
-  const std::uint32_t layers = (casting[0] ? 4u : 0u) + (casting[1] ? 4u : 0u);
-  if (casting != casting_ || map_size_ != settings.shadow_map_size || !maps_) {
+  const auto cascades = static_cast<std::uint32_t>(settings.shadow_cascades);
+  const std::uint32_t layers = cascades * ((casting[0] ? 1u : 0u) + (casting[1] ? 1u : 0u));
+  if (casting != casting_ || !maps_ || map_size_ != settings.shadow_map_size ||
+      maps_.desc().layers != layers) {
     maps_ = {};
     const auto edge = static_cast<std::uint32_t>(settings.shadow_map_size);
     Result<gpu::Image> image = device_->create_image(
@@ -67,6 +69,7 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
   std::uint32_t layer = 0;
   for (int body = 0; body < 2; ++body) {
     if (!casting[static_cast<std::size_t>(body)]) continue;
+    int index = 0;
     CascadeInput in;
     in.to_light = body == 0 ? input.sky.to_sun : input.sky.to_moon;
     in.camera = input.camera.position;
@@ -77,9 +80,9 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
     in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_filter_blocks) +
                        8.0 * settings.view_distance_blocks / settings.shadow_map_size;
     in.map_size = settings.shadow_map_size;
-    const std::array<Cascade, kCascadeCount> cascades = make_cascades(in);
-    for (int i = 0; i < kCascadeCount; ++i, ++layer) {
-      ActiveCascade active{body, i, layer, true, cascades[static_cast<std::size_t>(i)]};
+    in.count = settings.shadow_cascades;
+    for (const Cascade& cascade : make_cascades(in)) {
+      ActiveCascade active{body, index++, layer, true, cascade};
       Kept& kept = kept_[layer];
       active.redraw = !still_right(kept, active.cascade, input, geometry_version);
       if (active.redraw)
@@ -89,6 +92,7 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
                 {input.islands.begin(), input.islands.end()},
                 input.anchor};
       active_.push_back(active);
+      ++layer;
     }
   }
   return std::span<const ActiveCascade>(active_);

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "engine/render/light_constants.h"
 #include "engine/render/tiles.h"
 
 namespace skerry::render {
@@ -59,7 +60,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
   const gpu::ImageRef maps = shadows.maps();
   const gpu::Pipeline& pipeline = pipelines.get(
       gpu::ComputeDesc{maps ? "shade_translucent.comp" : "shade_translucent_unshadowed.comp",
-                       {{0, count}, {8, scene.bodies}}});
+                       with_light({{0, count}}, scene, bool{maps})});
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {

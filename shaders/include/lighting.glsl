@@ -7,13 +7,14 @@ const float kInvPi = 0.31830988618;
 
 // Which bodies give light: bit 0 the sun, bit 1 the moon. A constant, so that the other body costs nothing.
 layout(constant_id = 8) const uint kBodies = 3u;
-// The moon's cascades come after the sun's, if there are any.
-const uint kMoonCascade = (kBodies & 1u) != 0u ? kCascadeCount : 0u;
 
 #ifdef SKERRY_SHADOWS
+// The moon's cascades come after the sun's, if there are any.
+const uint kMoonCascade = (kBodies & 1u) != 0u ? kCascades : 0u;
 #define light_visibility(first_cascade, p, normal, n_dot_l) cascades_visibility(first_cascade, p, normal, n_dot_l)
 #define light_in_air(first_cascade, p) air_visibility(first_cascade, p)
 #else
+const uint kMoonCascade = 0u;
 #define light_visibility(first_cascade, p, normal, n_dot_l) 1.0
 #define light_in_air(first_cascade, p) 1.0
 #endif

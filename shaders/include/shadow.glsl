@@ -1,7 +1,10 @@
-// How much of a body's light reaches a point: cascaded shadow maps, 8 taps on a Poisson disc.
+// How much of a body's light reaches a point: cascaded shadow maps, filtered by taps on a disc.
 // Needs before the include: `frame` (FrameConstants) and `shadow_maps` (sampler2DArray of reverse depth, nearest filter).
 #ifndef SKERRY_SHADOW_GLSL
 #define SKERRY_SHADOW_GLSL
+
+layout(constant_id = 9) const uint kShadowTaps = 8u;             // 1, 4, 8, 16 or 32
+layout(constant_id = 10) const uint kCascades = kCascadeCount;  // a body has, 1 to kCascadeCount
 
 // 1 where the light reaches the receiver's plane at one texel.
 float shadow_tap(vec2 offset, vec3 map, vec2 slope, float bias, float most, uint layer) {
@@ -28,22 +31,43 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
   float most = cascade.depth_per_block * max(0.9, 8.0 * texel);
   float radius = max(frame.pcf_radius_blocks / texel, 1.5);
   radius *= clamp((most - bias - 0.5 * (abs(slope.x) + abs(slope.y))) / max(length(slope) * radius, 1e-12), 0.0, 1.0);
-  // Unrolled by hand: an array of offsets would live in memory.
-  float lit = shadow_tap(vec2(-0.326, -0.406) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(-0.840, -0.074) * radius, map, slope, bias, most, cascade.layer) +
-              shadow_tap(vec2(-0.203, 0.621) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(0.519, 0.767) * radius, map, slope, bias, most, cascade.layer) +
-              shadow_tap(vec2(0.962, -0.195) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(0.473, -0.480) * radius, map, slope, bias, most, cascade.layer) +
-              shadow_tap(vec2(0.185, -0.893) * radius, map, slope, bias, most, cascade.layer) + shadow_tap(vec2(0.507, 0.064) * radius, map, slope, bias, most, cascade.layer);
-  return lit * 0.125;
+  // Unrolled by hand: an array of offsets would live in memory. Each set holds the smaller one before it; what it adds lies at the centroids of
+  // the disc's parts nearest to it (Lloyd), the earlier points fixed.
+#define TAP(x, y) shadow_tap(vec2(x, y) * radius, map, slope, bias, most, cascade.layer)
+  if (kShadowTaps == 1u) return TAP(0.0, 0.0);
+  float lit = TAP(-0.326, -0.406) + TAP(-0.203, 0.621) + TAP(0.473, -0.480) + TAP(0.507, 0.064);
+  if (kShadowTaps >= 8u)
+    lit += TAP(-0.840, -0.074) + TAP(0.519, 0.767) + TAP(0.962, -0.195) + TAP(0.185, -0.893);
+  if (kShadowTaps >= 16u)
+    lit += TAP(0.018, 0.018) + TAP(0.244, 0.406) + TAP(0.075, 0.827) + TAP(-0.465, -0.682) +
+           TAP(0.084, -0.431) + TAP(0.701, -0.492) + TAP(-0.655, 0.461) + TAP(-0.394, 0.103);
+  if (kShadowTaps >= 32u)
+    lit += TAP(0.363, -0.183) + TAP(-0.788, 0.194) + TAP(0.184, -0.634) + TAP(-0.775, 0.515) +
+           TAP(-0.195, 0.876) + TAP(0.815, 0.081) + TAP(0.760, 0.429) + TAP(0.506, 0.379) +
+           TAP(-0.152, -0.793) + TAP(-0.473, 0.709) + TAP(-0.368, 0.365) + TAP(0.278, 0.672) +
+           TAP(-0.055, 0.344) + TAP(-0.701, -0.395) + TAP(-0.315, -0.150) + TAP(0.471, -0.739);
+#undef TAP
+  return lit * (1.0 / float(kShadowTaps));
 }
 
 // One of a body's cascades. Selected among values that every pixel loads alike, because on lavapipe a load with its own address for each pixel
 // costs as much as a dozen selections.
 Cascade pick_cascade(const uint base, uint index) {
   Cascade c = frame.cascades[base];
-  if (index == 1u) c = frame.cascades[base + 1u];
-  if (index == 2u) c = frame.cascades[base + 2u];
-  if (index == 3u) c = frame.cascades[base + 3u];
+  if (kCascades > 1u && index == 1u) c = frame.cascades[base + 1u];
+  if (kCascades > 2u && index == 2u) c = frame.cascades[base + 2u];
+  if (kCascades > 3u && index == 3u) c = frame.cascades[base + 3u];
   return c;
+}
+
+// How many of a body's first `of` cascades end nearer than a distance.
+uint cascades_within(const uint base, const uint of, float distance) {
+  uint count = 0u;
+  if (of > 0u) count += uint(distance > frame.cascades[base].radius);
+  if (of > 1u) count += uint(distance > frame.cascades[base + 1u].radius);
+  if (of > 2u) count += uint(distance > frame.cascades[base + 2u].radius);
+  if (of > 3u) count += uint(distance > frame.cascades[base + 3u].radius);
+  return count;
 }
 
 // 0 in shadow, 1 in full light. Cascades are spheres around the camera; over the last fifth of its radius each fades into the next.
@@ -51,12 +75,11 @@ Cascade pick_cascade(const uint base, uint index) {
 // `base` is the body's first cascade and a constant, so that cascades are loaded alike by all pixels.
 float cascades_visibility(const uint base, vec3 p, vec3 normal, float n_dot_l) {
   float distance = length(p);
-  uint index = uint(distance > frame.cascades[base].radius) + uint(distance > frame.cascades[base + 1u].radius) +
-               uint(distance > frame.cascades[base + 2u].radius) + uint(distance > frame.cascades[base + 3u].radius);
-  float known = index < kCascadeCount ? 1.0 : 0.0;
+  uint index = cascades_within(base, kCascades, distance);
+  float known = index < kCascades ? 1.0 : 0.0;
   Cascade cascade = pick_cascade(base, index);
   // The last cascade has no successor to fade into.
-  float to_next = index < kCascadeCount - 1u ? clamp((distance / cascade.radius - 0.8) / 0.2, 0.0, 1.0) : 0.0;
+  float to_next = index < kCascades - 1u ? clamp((distance / cascade.radius - 0.8) / 0.2, 0.0, 1.0) : 0.0;
   float visibility = 0.0;
   float weight = 1.0 - to_next;
   // A second round only where some pixel fades.
@@ -80,12 +103,12 @@ float air_tap(Cascade c, vec3 p) {
 float air_visibility(const uint base, vec3 p) {
   const float kTightTexel = 1.3;
   float distance = length(p);
-  uint tight = frame.cascades[base + 3u].texel_blocks <= kTightTexel
-                   ? 3u
-                   : frame.cascades[base + 2u].texel_blocks <= kTightTexel ? 2u : frame.cascades[base + 1u].texel_blocks <= kTightTexel ? 1u : 0u;
-  uint first = uint(distance > frame.cascades[base].radius) + uint(distance > frame.cascades[base + 1u].radius) +
-               uint(distance > frame.cascades[base + 2u].radius);
-  bool known = distance <= frame.cascades[base + 3u].radius;
+  uint tight = 0u;
+  if (kCascades > 1u && frame.cascades[base + 1u].texel_blocks <= kTightTexel) tight = 1u;
+  if (kCascades > 2u && frame.cascades[base + 2u].texel_blocks <= kTightTexel) tight = 2u;
+  if (kCascades > 3u && frame.cascades[base + 3u].texel_blocks <= kTightTexel) tight = 3u;
+  uint first = cascades_within(base, kCascades - 1u, distance);
+  bool known = distance <= frame.cascades[base + kCascades - 1u].radius;
   Cascade c = pick_cascade(base, max(tight, first));
   vec3 inside = known ? p : vec3(0.0);
   float lit = air_tap(c, inside * 0.2) + air_tap(c, inside * 0.5) + air_tap(c, inside * 0.8);

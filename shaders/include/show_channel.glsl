@@ -37,8 +37,8 @@ uint cascade_at(Body body, float distance) {
   return c;
 }
 
-vec3 channel(uint word, float depth, vec3 ray) {
-  Surface s = resolve_surface(word, depth, ray, 1u);
+vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
+  Surface s = resolve_surface(word, pixel, depth, ray, 1u);
   if (kChannel == 1u) return srgb_encode(s.albedo);
   if (kChannel == 2u) return s.normal * 0.5 + 0.5;
   // Position in its island's lattice: red, green, blue repeat every block along x, y, z.
@@ -57,6 +57,6 @@ void main() {
   if (any(greaterThanEqual(pixel, frame.size))) return;
   uint word = imageLoad(surfaces, ivec2(pixel)).r;
   vec3 colour = vec3(0.0);
-  if (word != 0u) colour = channel(word, texelFetch(depths, ivec2(pixel), 0).r, pixel_ray(pixel));
+  if (word != 0u) colour = channel(word, ivec2(pixel), surface_depth(texelFetch(depths, ivec2(pixel), 0).r), pixel_ray(pixel));
   imageStore(picture, ivec2(pixel), vec4(clamp(colour, 0.0, 1.0), 1.0));
 }

@@ -5,6 +5,16 @@
 
 const float kTextureEdge = 32.0;  // texels a block
 
+layout(constant_id = 6) const bool kDepth16 = false;  // depth was kept in 16 bits
+#ifdef SKERRY_STORED
+#include "include/stored.glsl"
+layout(constant_id = 4) const uint kNormalCode = 0u;
+layout(constant_id = 5) const bool kPositionStored = false;
+// Where one of them is not kept, some image is bound that is never read.
+layout(binding = 13) uniform sampler2D stored_normals;
+layout(binding = 14) uniform sampler2D stored_positions;
+#endif
+
 // Texture coordinates of a lattice point on a face [blocks], v downwards.
 vec2 face_uv(uint face, vec3 lattice) {
   return face >= 6u ? vec2(lattice.x, -lattice.y)
@@ -54,11 +64,24 @@ vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   return plane_texel(layer, face, lattice_from_world(island, ray * t), lattice_from_world_vector(island, ray), right, up, normal, t, max_taps);
 }
 
-Surface resolve_surface(uint word, float depth, vec3 ray, uint max_taps) {
+// Depth of a surface. What 16 bits round to 0 lies half a step before infinity.
+float surface_depth(float depth) { return kDepth16 ? max(depth, 0.5 / 65535.0) : depth; }
+
+// @param pixel where the word is from. @param depth of the surface, greater than 0.
+Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_taps) {
   float t = view_distance(depth, frame.near_plane);
   Surface s;
   s.position = ray * t;
+#ifdef SKERRY_STORED
+  if (kPositionStored && word != 0u) {
+    s.position = texelFetch(stored_positions, pixel, 0).xyz;
+    t = dot(s.position, frame.ray_forward);
+  }
+#endif
   s.normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
+#ifdef SKERRY_STORED
+  if (kNormalCode != kNormalExact && word != 0u) s.normal = normal_from_texel(texelFetch(stored_normals, pixel, 0), kNormalCode);
+#endif
   s.albedo = surface_texel(word, ray, t, max_taps).rgb;
   s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
   return s;

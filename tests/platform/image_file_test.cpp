@@ -105,11 +105,13 @@ TEST_F(ImageFile, EveryTruncationAndManyCorruptionsAreErrorsNotCrashes) {
   }
 }
 
-TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
-  // libpng checks the limits after the chunk's CRC, so the header carries a right one.
+/// The beginning of a PNG of RGBA8. libpng checks its limits after the chunk's CRC, so it is right.
+std::string png_header(std::uint32_t width, std::uint32_t height) {
   std::string png("\x89PNG\r\n\x1a\n", 8);
-  std::string ihdr("IHDR\x00\x01\x00\x00\x00\x01\x00\x00\x08\x06\x00\x00\x00",
-                   17);  // 65536 x 65536
+  std::string ihdr = "IHDR";
+  for (const std::uint32_t edge : {width, height})
+    for (int shift = 24; shift >= 0; shift -= 8) ihdr += static_cast<char>(edge >> shift);
+  ihdr += std::string("\x08\x06\x00\x00\x00", 5);
   std::uint32_t crc = ~0u;
   for (const char c : ihdr) {
     crc ^= static_cast<std::uint8_t>(c);
@@ -118,10 +120,35 @@ TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
   crc = ~crc;
   png += std::string("\x00\x00\x00\x0d", 4) + ihdr;
   for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(crc >> shift);
-  ASSERT_TRUE(write_text(dir_ / "huge.png", png));
+  return png;
+}
+
+TEST_F(ImageFile, AHugeStatedSizeIsRefusedBeforeMemoryIsTaken) {
+  const std::string end("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+  ASSERT_TRUE(write_text(dir_ / "huge.png", png_header(65536, 65536) + end));
   const auto image = read_png(dir_ / "huge.png");
   ASSERT_FALSE(image);
   EXPECT_NE(image.error().message.find("IHDR"), std::string::npos) << image.error().message;
+}
+
+TEST_F(ImageFile, AChunkLongerThanTheFileIsRefusedBeforeMemoryIsTaken) {
+  ASSERT_TRUE(write_png(dir_ / "a.png", {2, 2, 4, random_bytes(16)}));
+  std::string png = *read_text(dir_ / "a.png", 1 << 20);
+  // Between the pixels and the end: text of 1.9 GB.
+  png.insert(png.size() - 12, std::string("\x75\x30\x00\x25tEXtx", 9));
+  ASSERT_TRUE(write_text(dir_ / "text.png", png));
+  const auto image = read_png(dir_ / "text.png");
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.error().message.find("chunk"), std::string::npos) << image.error().message;
+}
+
+TEST_F(ImageFile, ASizeThatTheFileCannotHoldIsRefusedBeforeMemoryIsTaken) {
+  // An empty chunk of rows and the end's, so that libpng has read all it wants to know.
+  const std::string rest("\0\0\0\0IDAT\x35\xAF\x06\x1E\0\0\0\0IEND\xAE\x42\x60\x82", 24);
+  ASSERT_TRUE(write_text(dir_ / "short.png", png_header(32768, 32768) + rest));
+  const auto image = read_png(dir_ / "short.png");
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.error().message.find("too short"), std::string::npos) << image.error().message;
 }
 
 }  // namespace

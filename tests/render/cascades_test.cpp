@@ -70,11 +70,22 @@ std::vector<glm::dvec3> special_directions() {
 }
 
 TEST(CascadeRadii, AreThePracticalSplitAndEndAtTheViewDistance) {
-  const auto radii = cascade_radii(1.0, 1000.0);
+  const auto radii = cascade_radii(1.0, 1000.0, 4);
   // Half way: 0.75 * sqrt(1 * 1000) + 0.25 * (1 + 999 / 2).
   EXPECT_NEAR(radii[1], 0.75 * std::sqrt(1000.0) + 0.25 * 500.5, 1e-9);
   EXPECT_EQ(radii[3], 1000.0);
   for (std::size_t i = 1; i < radii.size(); ++i) EXPECT_GT(radii[i], radii[i - 1]);
+}
+
+TEST(CascadeRadii, OfEveryCountEndAtTheViewDistance) {
+  for (int count = 1; count <= kCascadeCount; ++count) {
+    CascadeInput in;
+    in.count = count;
+    const std::vector<Cascade> cascades = make_cascades(in);
+    ASSERT_EQ(cascades.size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(cascades.back().radius, static_cast<float>(in.far_blocks));
+  }
+  EXPECT_LT(cascade_radii(1.0, 1000.0, 4)[0], cascade_radii(1.0, 1000.0, 2)[0]);
 }
 
 TEST(LightAxes, AreOrthonormalAndRightHandedForEveryDirection) {

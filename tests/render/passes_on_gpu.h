@@ -72,7 +72,7 @@ class PassesOnGpu : public gpu::GpuTest {
                 stats = back("stats", sizeof(shared::CullStats));
     const SceneRefs scene = begin(input, size, tables);
     const CulledDraws draws = cull(scene, 1);
-    const Geometry geometry = GeometryPass::add(*graph_, *pipelines_, scene, draws, false);
+    const Geometry geometry = GeometryPass::add(*graph_, *pipelines_, scene, draws, false, {});
     const gpu::ImageRef surfaces = geometry.surfaces(), depths = geometry.depth();
     gpu::BufferRef words_ref = graph_->import(words), depth_ref = graph_->import(depth),
                    stats_ref = graph_->import(stats);

@@ -16,7 +16,7 @@ struct ErrorMap {
 
 /// FLIP of two pictures as displayed. Source: P. Andersson et al., FLIP: A Difference Evaluator for
 /// Alternating Images, HPG 2020. Symmetric; 0 exactly where pictures are equal.
-/// @param reference, test linear colour 0..1 of equal size (asserted).
+/// @param reference, test linear colour 0..1 of equal size (asserted); clamped, NaN is black.
 ErrorMap flip_ldr(const Picture& reference, const Picture& test,
                   double pixels_per_degree = kPixelsPerDegree);
 
@@ -26,11 +26,13 @@ struct ExposureRange {
   int count = 2;  ///< evenly spaced, both ends included
 };
 
-/// Where the reference's tone-mapped picture goes from almost white to almost black (P. Andersson
-/// et al., Visualizing Errors in Rendered High Dynamic Range Images, Eurographics 2021, section 4).
+/// From the exposure that shows the reference's brightest pixel almost white (0.85 after the tone
+/// curve) to the one that shows its median so; one exposure a stop, at least two (P. Andersson et
+/// al., Visualizing Errors in Rendered High Dynamic Range Images, Eurographics 2021, section 4).
 /// The paper takes the median luminance; here it is that of the pixels that are not black, because
 /// in a world that is dark by default the median of all is often 0. An all-black reference takes
-/// the range from `test`; two black pictures have the single stop 0.
+/// the range from `test`; two black pictures have the single stop 0. Pixels that are not finite do
+/// not count.
 ExposureRange exposure_range(const Picture& reference, const Picture& test);
 
 /// HDR-FLIP: the largest flip_ldr over the exposures, a pixel; tone curve: the paper's ACES fit.

@@ -96,6 +96,11 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
   return parse_device(a.device, scene.device);
 }
 
+std::optional<Refusal> check_draws_frames(const game::SceneOptions& scene) {
+  if (scene.settings.renderer != game::RendererKind::kReference) return std::nullopt;
+  return usage({"renderer=reference draws screenshots only: use skerry shot, or deferred"});
+}
+
 std::optional<Refusal> parse_device(const std::optional<std::string>& text,
                                     std::optional<std::uint32_t>& index) {
   if (!text) return std::nullopt;

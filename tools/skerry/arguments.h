@@ -31,6 +31,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments);
 std::optional<Refusal> resolve(const SceneArguments& arguments, bool needs_source,
                                game::SceneOptions& scene);
 
+/// Checks that a command's frames can be drawn: the reference renderer draws screenshots only.
+std::optional<Refusal> check_draws_frames(const game::SceneOptions& scene);
 /// Reads --device, if given, into `index`.
 std::optional<Refusal> parse_device(const std::optional<std::string>& text,
                                     std::optional<std::uint32_t>& index);

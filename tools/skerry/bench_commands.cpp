@@ -100,6 +100,7 @@ int BenchCommands::run_on_device(const CLI::App& chosen) {
 int BenchCommands::run_frame() {
   BenchFrameOptions options;
   if (const auto refusal = resolve(scene_, true, options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options.scene)) return refuse(*refusal);
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   options.json = path_of(json_);
   return bench_frame(options);

@@ -15,6 +15,7 @@
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/shot.h"
 #include "tools/skerry/stability/command.h"
+#include "tools/skerry/test_command.h"
 
 namespace skerry::tools {
 namespace {
@@ -35,6 +36,7 @@ struct CommandLine {
   bool explain = false;
   bool json = false;
   std::optional<BenchCommands> bench;
+  std::optional<TestCommand> test;
   std::optional<StabilityCommand> stability;
 
   CommandLine();
@@ -58,6 +60,7 @@ CommandLine::CommandLine() {
   shot->add_option("--stats", stats, "Write counts, times and a hash of the picture")
       ->type_name("FILE.json");
   shot->add_flag("--explain", explain, "Print what the frame ran, and what it left out and why");
+  test.emplace(app);
   bench.emplace(app);
   stability.emplace(app);
   devices = add("devices", "List the Vulkan devices");
@@ -74,6 +77,7 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 int CommandLine::run_play() {
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
   return play_command(options);
 }
 
@@ -91,6 +95,7 @@ int CommandLine::run_shot() {
 int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
   if (chosen == bench->command()) return bench->run();
+  if (chosen == test->command()) return test->run();
   if (chosen == stability->command()) return stability->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();

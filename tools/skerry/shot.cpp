@@ -10,6 +10,7 @@
 #include "engine/platform/image_file.h"
 #include "tools/skerry/draw_scene.h"
 #include "tools/skerry/scene_device.h"
+#include "tools/skerry/shot_reference.h"
 
 namespace skerry::tools {
 namespace {
@@ -87,6 +88,8 @@ int shot(const ShotOptions& options) {
   if (options.stats && std::filesystem::weakly_canonical(options.out) ==
                            std::filesystem::weakly_canonical(*options.stats))
     return fail(kUsage, {"--out and --stats name the same file; give two"});
+  if (options.scene.settings.renderer == game::RendererKind::kReference)
+    return shot_reference(options);
   Stopwatch watch, total;
   ordered_json cpu_ms;
   Result<std::unique_ptr<gpu::Device>> device = open_device(options.scene);

@@ -1,0 +1,15 @@
+#include "engine/render/light_constants.h"
+
+namespace skerry::render {
+
+std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
+                                          const SceneRefs& scene, bool shadows) {
+  own.push_back({8, scene.bodies});
+  if (shadows) {
+    own.push_back({9, scene.shadow_taps});
+    own.push_back({10, scene.shadow_cascades});
+  }
+  return own;
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,25 @@
+// Body of write_cutout*.frag: leaves and plants, the same as opaque geometry where the texture's alpha covers the pixel.
+#include "include/common.glsl"
+#ifdef SKERRY_STORED
+#include "include/write_stored.glsl"
+#endif
+
+layout(scalar, binding = 4) uniform Materials { Material materials[kMaxMaterials]; };
+layout(binding = 5) uniform sampler2DArray block_textures;
+
+layout(constant_id = 1) const bool kWriteSurface = true;  // false in shadow passes, which have depth only
+
+layout(location = 0) flat in uint in_surface;
+layout(location = 1) in vec2 in_uv;
+layout(location = 0) out uint out_surface;
+
+void main() {
+  Material material = materials[surface_block(in_surface)];
+  uint face = surface_face(in_surface);
+  uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
+  if (texture(block_textures, vec3(in_uv, float(layer))).a < 0.5) discard;
+  if (kWriteSurface) out_surface = in_surface;
+#ifdef SKERRY_STORED
+  write_stored(in_surface);
+#endif
+}

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace skerry::measure {
+
+/// One measured setting.
+struct ChartPoint {
+  std::string label;                                   ///< text
+  double time = 0.0, time_low = 0.0, time_high = 0.0;  ///< finite, >= 0; low <= time <= high
+  double error = 0.0;                                  ///< finite, >= 0
+  std::vector<std::string> defaults;                   ///< quality levels whose default this is
+  bool off_front = false;  ///< a default that should not be one; drawn as such
+};
+
+/// Error against time. All strings are text.
+struct Chart {
+  std::string title, time_label, error_label;
+  std::vector<ChartPoint> points;
+};
+
+/// The chart as a whole SVG document, light or dark as the reader's system is: points with their
+/// spread in time, labels, the Pareto front as a staircase, defaults ringed. An axis is logarithmic
+/// where its values span a decade or more; an error of 0 then has a line of its own at the bottom.
+std::string svg_chart(const Chart& chart);
+
+/// Evenly spaced round numbers within [low, high], about `wanted` of them. @pre low < high.
+std::vector<double> linear_ticks(double low, double high, int wanted);
+/// 1, 2 and 5 times powers of ten within [low, high]; powers of ten alone when those are many.
+std::vector<double> log_ticks(double low, double high);
+
+}  // namespace skerry::measure

@@ -1,0 +1,43 @@
+// Pages of numbers and pictures for people. All output is well-formed XML too. What is called
+// `markup` is taken as it is; every other string is text and is escaped.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace skerry::measure {
+
+/// Text as element content or attribute value: markup characters become entities, what XML forbids
+/// (control characters, bytes that are no UTF-8) becomes U+FFFD.
+std::string escape(std::string_view text);
+
+struct Attribute {
+  std::string_view name;
+  std::string_view value;
+};
+
+/// `<name attributes>markup</name>`.
+std::string element(std::string_view name, std::span<const Attribute> attributes,
+                    std::string_view markup);
+std::string element(std::string_view name, std::string_view markup);
+/// A text in an element with a class.
+std::string labelled(std::string_view name, std::string_view css_class, std::string_view text);
+
+/// A file beside the page, shown with its pixels unsmoothed. @param source a relative path.
+std::string image(std::string_view source, std::string_view alternative);
+/// A picture with a line of text below.
+std::string figure(std::string_view source, std::string_view caption);
+
+/// A table. Cells are markup; a row's class (may be empty) selects its looks: "bad", "good",
+/// "warn", "mark".
+struct TableRow {
+  std::vector<std::string> cells;
+  std::string_view css_class;
+};
+std::string table(std::span<const std::string_view> headings, std::span<const TableRow> rows);
+
+/// A whole page with the style that the above needs, light or dark as the reader's system is.
+std::string page(std::string_view title, std::string_view body_markup);
+
+}  // namespace skerry::measure

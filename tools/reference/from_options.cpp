@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/render/celestial.h"
+#include "engine/render/sky_model.h"
+#include "game/player.h"
+#include "tools/reference/march.h"
+#include "tools/reference/reference.h"
+#include "world/mesh/mesh.h"
+#include "world/stream.h"
+#include "world/world.h"
+
+namespace skerry::reference {
+namespace {
+
+using world::BlockId;
+using world::IVec3;
+
+game::CameraPlace camera_place(const game::SceneOptions& options, const world::World& world) {
+  if (options.camera) return *options.camera;
+  const world::Spawn spawn = world.spawn();
+  return {world::moved(spawn.feet, {0.0, game::kEyeHeight, 0.0}), spawn.yaw_deg, spawn.pitch_deg};
+}
+
+View view_of(const game::SceneOptions& options, const game::CameraPlace& camera) {
+  const double yaw = glm::radians(camera.yaw_deg), pitch = glm::radians(camera.pitch_deg);
+  View view;
+  view.forward = {std::sin(yaw) * std::cos(pitch), std::sin(pitch),
+                  std::cos(yaw) * std::cos(pitch)};
+  view.right = {-std::cos(yaw), 0.0, std::sin(yaw)};
+  view.up = glm::cross(view.right, view.forward);
+  view.tan_half_y = std::tan(0.5 * glm::radians(options.fov_deg));
+  view.width = options.size.width;
+  view.height = options.size.height;
+  return view;
+}
+
+/// An island's voxels at full detail, generated chunk by chunk as rays come there.
+std::shared_ptr<const Volume> voxels_of(std::shared_ptr<world::World> world,
+                                        const world::IslandSpec& spec) {
+  return std::make_shared<Volume>(
+      spec.box_min, spec.box_max,
+      [world = std::move(world), id = spec.id](IVec3 chunk, std::span<BlockId> out) {
+        thread_local std::vector<BlockId> padded(world::kPaddedVoxels);
+        if (!world->generate_padded(id, chunk, 0, padded)) return false;
+        world::chunk_from_padded(padded).unpack(out);
+        return true;
+      });
+}
+
+/// The islands that are drawn: as the streamer takes them in for a first view.
+std::vector<Island> islands_of(const std::shared_ptr<world::World>& world,
+                               const game::SceneOptions& options, world::WorldPos camera) {
+  const double time_s = options.settings.world_time_s;
+  std::vector<world::IslandSpec> specs =
+      world->islands_near(camera, options.settings.view_distance, time_s);
+  if (specs.size() > world::kMaxStreamedIslands) specs.resize(world::kMaxStreamedIslands);
+  std::vector<Island> islands;
+  for (const world::IslandSpec& spec : specs) {
+    const world::Pose pose = world::pose_at(spec, time_s);
+    islands.push_back({voxels_of(world, spec), glm::mat3_cast(pose.rotation),
+                       world::difference_blocks(pose.origin, camera)});
+  }
+  return islands;
+}
+
+/// The translucent block about the eye, or air.
+BlockId medium_at_eye(const std::vector<Island>& islands) {
+  for (const Island& island : islands) {
+    const glm::dvec3 eye = glm::transpose(island.rotation) * -island.origin;
+    const IVec3 voxel{floor_to_int(eye.x), floor_to_int(eye.y), floor_to_int(eye.z)};
+    const BlockId block = island.voxels->block_at(voxel);
+    if (world::block_kind(block) == world::BlockKind::kTranslucent) return block;
+  }
+  return world::kAir;
+}
+
+/// Extinction of clear air [1/block]: 0.0005, taken back as the body that lights it sets.
+/// docs/decisions/0009-haze-that-keeps-caves-black.md.
+double haze_per_block(const render::Celestial& sky) {
+  const glm::dvec3 light = sky.sun_casts ? glm::dvec3(sky.sun_irradiance)
+                                         : glm::dvec3(sky.moon_irradiance) / render::kMoonToSun;
+  const double t = std::clamp((light.x + light.y + light.z) / 3.0 / 0.05, 0.0, 1.0);
+  return 0.0005 * t * t * (3.0 - 2.0 * t);
+}
+
+void add_sky(const game::SceneOptions& options, const render::Celestial& sky, double body_radius,
+             Scene& scene) {
+  scene.sky = Sky{render::sky_constants(sky), glm::dmat3(sky.sky_from_world)};
+  if (sky.sun_casts)
+    scene.bodies.push_back({sky.to_sun, glm::dvec3(sky.sun_irradiance), body_radius});
+  if (sky.moon_casts)
+    scene.bodies.push_back({sky.to_moon, glm::dvec3(sky.moon_irradiance), body_radius});
+  scene.haze_per_block = haze_per_block(sky);
+  scene.shadows = options.settings.shadow_enabled;
+  scene.flat_shading = options.settings.shading == game::Shading::kFlat;
+}
+
+}  // namespace
+
+ReferenceSettings settings_from(const game::SceneOptions& options) {
+  ReferenceSettings settings;
+  settings.samples = options.settings.reference_samples;
+  settings.filter = options.settings.reference_filter;
+  settings.threads = static_cast<int>(options.settings.jobs_threads);
+  return settings;
+}
+
+Result<ReferencePicture> render_reference(const game::SceneOptions& options,
+                                          const ReferenceSettings& settings,
+                                          const Progress& progress) {
+  if (options.settings.debug_view != game::DebugView::kNone)
+    return Error{"debug.view has no reference picture: use debug.view=none or renderer=deferred"};
+  const auto world = std::make_shared<world::World>(
+      world::WorldDesc{world::seed_from_text(options.seed_text), options.settings.world_offset,
+                       options.settings.world_islands});
+  const game::CameraPlace camera = camera_place(options, *world);
+  const render::Celestial sky =
+      render::celestial_at(options.time_of_day_s, options.settings.moon_phase);
+  Scene scene;
+  scene.view = view_of(options, camera);
+  scene.islands = islands_of(world, options, camera.position);
+  scene.view.medium = medium_at_eye(scene.islands);
+  scene.time_s = options.settings.world_time_s;
+  add_sky(options, sky, settings.body_radius, scene);
+  ReferencePicture picture = render(scene, settings, progress);
+  const double stops = options.settings.exposure_ev.value_or(render::auto_exposure_ev(sky));
+  picture.exposure = std::exp2(-stops);
+  return picture;
+}
+
+}  // namespace skerry::reference

@@ -1,0 +1,59 @@
+// The picture that the renderer's approximations are judged by: double precision, exact visibility,
+// written from the formulas and not from the shaders. docs/reference.md.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "engine/core/jobs.h"
+#include "engine/core/result.h"
+#include "game/options.h"
+#include "tools/measure/picture.h"
+#include "tools/reference/scene.h"
+
+namespace skerry::reference {
+
+/// The real radius of sun and moon in the sky [rad].
+inline constexpr double kBodyRadius = 0.00465;
+
+struct ReferenceSettings {
+  std::uint32_t samples = 64;  ///< a pixel, 1 .. 65536
+  game::ReferenceFilter filter = game::ReferenceFilter::kPixel;
+  double body_radius = kBodyRadius;  ///< of sun and moon [rad]; 0: hard shadows
+  int threads = 0;                   ///< 0: one a core. The picture does not depend on it.
+};
+
+/// Settings as the options' keys reference.* and jobs.threads give them.
+ReferenceSettings settings_from(const game::SceneOptions& options);
+
+/// Radiance before exposure, and how far from its limit it is expected to be.
+struct ReferencePicture {
+  measure::Picture radiance;
+  /// Standard error of the mean of each pixel and channel, from independent batches of samples.
+  /// Empty with one sample, which tells nothing about its error.
+  std::vector<glm::vec3> standard_error;
+  std::optional<double> mean_error;  ///< of all pixels and channels of standard_error
+  double exposure = 1.0;             ///< picture = develop(radiance * exposure)
+  std::uint32_t non_finite_pixels = 0;
+  std::size_t islands = 0, chunks = 0;  ///< looked at
+  double seconds = 0.0;
+};
+
+/// Told the share done, 0..1, now and then, from one thread at a time.
+using Progress = std::function<void(double share)>;
+
+/// Draws a scene made by hand. @pre the scene's numbers are finite; 1 <= samples <= 65536.
+ReferencePicture render(const Scene& scene, const ReferenceSettings& settings,
+                        const Progress& progress = {});
+
+/// Draws what `skerry shot` draws. The camera's place is exact; islands are at full detail.
+/// Errors: a debug view is asked for.
+Result<ReferencePicture> render_reference(const game::SceneOptions& options,
+                                          const ReferenceSettings& settings,
+                                          const Progress& progress = {});
+
+/// Exposure, tone curve and sRGB to 8 bits, RGBA, rows from the top, without dither.
+std::vector<std::uint8_t> develop(const measure::Picture& radiance, double exposure);
+
+}  // namespace skerry::reference

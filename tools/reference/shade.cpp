@@ -1,0 +1,291 @@
+#include "tools/reference/shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "tools/reference/brdf.h"
+#include "tools/reference/open_sky.h"
+#include "tools/reference/textures.h"
+
+namespace skerry::reference {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// How far off their surface rays begin [blocks]: far more than rounding, far less than a texel.
+constexpr double kOffSurface = 1e-7;
+
+/// The point of a face's plane that a direction from the eye meets, in the lattice.
+glm::dvec3 on_plane(const Meeting& hit, glm::dvec3 eye, glm::dvec3 direction) {
+  const int axis = axis_of_face(hit.face);
+  const double side = hit.face == 6 ? -1.0 : 1.0;  // plants: x - z or x + z is constant
+  const auto along = [&](glm::dvec3 v) { return axis == 3 ? v.x + side * v.z : v[axis]; };
+  const double speed = along(direction);
+  if (speed == 0.0) return hit.lattice;
+  return eye + direction * ((along(hit.lattice) - along(eye)) / speed);
+}
+
+}  // namespace
+
+// --- Light that arrives
+
+bool Shader::body_seen(glm::dvec3 point, glm::dvec3 to_light) const {
+  return !scene_.shadows || !tracer_.hidden(point, to_light);
+}
+
+/// Calls take(Arrival) for each light that one sample finds unhidden and before the surface.
+template <class Take>
+void Shader::arrive(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler, Take&& take) const {
+  for (const Body& body : scene_.bodies) {
+    const glm::dvec2 pair = sampler.next();
+    const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
+    const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(pair, spread));
+    if (glm::dot(normal, to_light) <= 0.0 || !body_seen(point, to_light)) continue;
+    take(Arrival{to_light, body.irradiance, true});
+  }
+  for (const SphereLight& light : scene_.lights) {
+    const glm::dvec2 pair = sampler.next();
+    const glm::dvec3 to_middle = light.position - point;
+    const double distance = glm::length(to_middle);
+    if (distance == 0.0) continue;
+    // Seen from outside, the sphere is a cone of even radiance intensity / (pi r^2).
+    const double sine = std::min(1.0, light.radius / distance);
+    const double spread =
+        distance <= light.radius ? 2.0 : sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
+    const glm::dvec3 to_light = Frame(to_middle / distance).world(in_cone(pair, spread));
+    if (glm::dot(normal, to_light) <= 0.0) continue;
+    if (tracer_.hidden(point, to_light, std::max(0.0, distance - light.radius))) continue;
+    const glm::dvec3 irradiance =
+        light.radius == 0.0 ? light.intensity / (distance * distance)
+                            : light.intensity * (2.0 * spread / (light.radius * light.radius));
+    take(Arrival{to_light, irradiance, false});
+  }
+}
+
+glm::dvec3 Shader::from_environment(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler) const {
+  if (scene_.environment == glm::dvec3(0.0)) return glm::dvec3(0.0);
+  const glm::dvec3 direction = Frame(normal).world(by_cosine(sampler.next()));
+  return tracer_.hidden(point, direction) ? glm::dvec3(0.0) : scene_.environment * kPi;
+}
+
+glm::dvec3 Shader::irradiance(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler) const {
+  glm::dvec3 sum = from_environment(point, normal, sampler);
+  arrive(point, normal, sampler, [&](const Arrival& light) {
+    const bool flat = scene_.flat_shading && light.body;
+    sum += light.irradiance * (flat ? 1.0 : glm::dot(normal, light.to_light));
+  });
+  return sum;
+}
+
+glm::dvec3 Shader::behind_voxels(glm::dvec3 direction) const {
+  return scene_.sky ? sky_behind(direction, *scene_.sky) : scene_.environment;
+}
+
+// --- Surfaces and air
+
+double Shader::openness(const Meeting& hit) const {
+  const int axis = axis_of_face(hit.face);
+  if (scene_.corner_occlusion == 0.0 || axis == 3) return 1.0;
+  const int u = axis == 0 ? 2 : 0, v = axis == 1 ? 2 : 1;
+  const glm::ivec3 front(hit.voxel.x, hit.voxel.y, hit.voxel.z);
+  bool stands[9];
+  for (int i = 0; i < 9; ++i) {
+    glm::ivec3 at = front;
+    at[axis] += hit.face % 2 == 0 ? 1 : -1;
+    at[u] += i % 3 - 1;
+    at[v] += i / 3 - 1;
+    stands[i] = world::block_kind(tracer_.block_at(hit.island, {at.x, at.y, at.z})) ==
+                world::BlockKind::kOpaque;
+  }
+  const glm::dvec3 inside = hit.lattice - glm::dvec3(front);
+  return 1.0 - scene_.corner_occlusion * (1.0 - corner_openness({inside[u], inside[v]}, stands));
+}
+
+glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,
+                           Sampler& sampler) const {
+  const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
+  glm::dvec3 point = direction * hit.t;
+  if (axis_of_face(hit.face) != 3) point += normal * kOffSurface;
+  const glm::dvec3 place = fine == direction
+                               ? hit.lattice
+                               : on_plane(hit, tracer_.lattice_point(hit.island, glm::dvec3(0.0)),
+                                          tracer_.lattice_vector(hit.island, fine));
+  const glm::dvec3 albedo(BlockTexels::shared().texel(hit.block, hit.face, place));
+  const glm::dvec3 reflected = irradiance(point, normal, sampler) * (albedo / kPi) * openness(hit);
+  return reflected + albedo * static_cast<double>(world::block_types()[hit.block].emission);
+}
+
+glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,
+                               Sampler& sampler) const {
+  const double extinction = scene_.haze_per_block;
+  if (extinction == 0.0 || scene_.bodies.empty()) return radiance;
+  const double clear = std::exp(-extinction * distance), lost = -std::expm1(-extinction * distance);
+  // One place on the way, as likely as the air there is the last to scatter what the eye sees.
+  const double at = -std::log1p(-sampler.next().x * lost) / extinction;
+  const Body& body = scene_.bodies.front();
+  const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
+  const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(sampler.next(), spread));
+  const bool lit = body_seen(direction * std::min(at, distance), to_light);
+  return radiance * clear + (lit ? behind_voxels(direction) * lost : glm::dvec3(0.0));
+}
+
+Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
+                  Sampler& sampler) const {
+  Seen seen;
+  if (trace.hit) {
+    seen.radiance = through_air(surface(*trace.hit, direction, fine, sampler), direction,
+                                trace.hit->t, sampler);
+  } else {
+    seen.radiance = behind_voxels(direction);
+    seen.open = glm::dvec3(1.0);
+    if (scene_.sky) {
+      seen.radiance += disc_radiance(fine, *scene_.sky);
+      if (moon_hides_stars(fine, *scene_.sky)) seen.open = glm::dvec3(0.0);
+    }
+  }
+  if (trace.layers.empty() && scene_.view.medium == world::kAir) return seen;
+  return through_media(trace, direction, fine, seen, sampler);
+}
+
+// --- Water and glass
+
+/// What lights bring to a point of a translucent surface.
+struct Shader::Reach {
+  glm::dvec3 light{0.0};     // irradiance
+  glm::dvec3 mirrored{0.0};  // towards the eye
+  bool any = false;          // whether sun or moon is seen: the sky is then taken to be, too
+};
+
+/// A ray's way through media so far.
+struct Shader::Passage {
+  glm::dvec3 radiance{0.0}, through{1.0};
+  glm::dvec3 light_in{0.0};  // irradiance on the medium it is in
+  world::BlockId medium = world::kAir;
+  double at = 0.0;
+
+  /// Goes on inside the medium, if it is in one.
+  void advance(double to) {
+    if (medium != world::kAir) {
+      const auto& a = world::block_types()[medium].absorption;
+      const glm::dvec3 absorption(a[0], a[1], a[2]);
+      radiance += through * scattered_in(absorption, light_in, to - at);
+      through *= transmitted_by(absorption, to - at);
+    }
+    at = to;
+  }
+};
+
+namespace {
+
+/// A medium scatters this share of its mean absorption, the same at all wavelengths.
+glm::dvec3 scattering_of(glm::dvec3 absorption) {
+  constexpr double kShare = 0.3;
+  return glm::dvec3(kShare * (absorption.x + absorption.y + absorption.z) / 3.0);
+}
+
+glm::dvec3 exp3(glm::dvec3 v) {
+  return {std::exp(v.x), std::exp(v.y), std::exp(v.z)};
+}
+
+}  // namespace
+
+glm::dvec3 scattered_in(glm::dvec3 absorption, glm::dvec3 irradiance, double length_blocks) {
+  const glm::dvec3 scattering = scattering_of(absorption), extinction = absorption + scattering;
+  if (extinction.x <= 0.0 || extinction.y <= 0.0 || extinction.z <= 0.0) return glm::dvec3(0.0);
+  return scattering / extinction * irradiance * (1.0 - exp3(extinction * -length_blocks)) /
+         (4.0 * kPi);
+}
+
+glm::dvec3 transmitted_by(glm::dvec3 absorption, double length_blocks) {
+  return exp3((absorption + scattering_of(absorption)) * -length_blocks);
+}
+
+Shader::Reach Shader::reach(glm::dvec3 point, glm::dvec3 normal, glm::dvec3 shading_normal,
+                            glm::dvec3 to_eye, double roughness, Sampler& sampler) const {
+  Reach reach;
+  reach.light = from_environment(point, normal, sampler);
+  arrive(point, normal, sampler, [&](const Arrival& light) {
+    reach.light += light.irradiance * glm::dot(normal, light.to_light);
+    reach.mirrored += light.irradiance *
+                      (mirror_lobe(shading_normal, light.to_light, to_eye, roughness, kWaterIndex) *
+                       std::max(0.0, glm::dot(shading_normal, light.to_light)));
+    reach.any = reach.any || light.body;
+  });
+  return reach;
+}
+
+/// Small waves on level water: the gradient of four sines of the lattice, whose periods divide an
+/// hour. They fade with the distance, for far ones are smaller than a pixel.
+glm::dvec3 Shader::rippled_normal(const Meeting& layer) const {
+  struct Wave {
+    double x, z, slope;
+  };
+  constexpr Wave kWaves[] = {
+      {0.83, 0.31, 0.022}, {-0.47, 1.13, 0.018}, {1.91, -1.27, 0.011}, {-2.3, -2.9, 0.007}};
+  const double fading = std::exp(-0.02 * layer.t);
+  double slope_x = 0.0, slope_z = 0.0;
+  for (const Wave& wave : kWaves) {
+    const double length = std::hypot(wave.x, wave.z);
+    const double turns_per_s = std::floor(30.0 * length) / 100.0;
+    const double phase = wave.x * layer.lattice.x + wave.z * layer.lattice.z +
+                         2.0 * kPi * std::fmod(scene_.time_s * turns_per_s, 1.0);
+    slope_x += wave.x / length * wave.slope * std::cos(phase) * fading;
+    slope_z += wave.z / length * wave.slope * std::cos(phase) * fading;
+  }
+  const glm::dvec3 lattice = glm::normalize(glm::dvec3(-slope_x, 1.0, -slope_z));
+  return scene_.islands[layer.island].rotation * lattice * (layer.face == 2 ? 1.0 : -1.0);
+}
+
+/// A surface of water or glass: Fresnel's share of the sky is mirrored (from inside: of the medium
+/// itself), lights glitter, what the texture covers is a diffuse surface, the rest goes through
+/// unbent.
+void Shader::pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine,
+                          Passage& passage, Sampler& sampler) const {
+  const world::BlockType& type = world::block_types()[layer.block];
+  const glm::dvec3 to_eye = -direction, normal = tracer_.normal(layer.island, layer.face);
+  const bool entering = passage.medium != layer.block;
+  const bool wavy = layer.block == world::block::kWater && axis_of_face(layer.face) == 1;
+  const glm::dvec3 shading = wavy ? rippled_normal(layer) : normal;
+  const double reflected =
+      fresnel(std::clamp(glm::dot(shading, to_eye), 0.02, 1.0), !entering, kWaterIndex);
+  constexpr double kLeastRoughness = 0.06;  // of the waves too small to draw
+  const Reach reached = reach(layer.t * direction + normal * kOffSurface, normal, shading, to_eye,
+                              std::max<double>(type.roughness, kLeastRoughness), sampler);
+  glm::dvec3 mirrored(0.0);
+  if (!entering) {
+    const glm::dvec3 absorption(type.absorption[0], type.absorption[1], type.absorption[2]);
+    mirrored = scattered_in(absorption, passage.light_in, 1e3);
+  } else if (reached.any || !scene_.sky) {
+    mirrored = behind_voxels(direction - 2.0 * glm::dot(direction, shading) * shading);
+  }
+  passage.radiance += passage.through * (reached.mirrored + reflected * mirrored);
+  passage.through *= 1.0 - reflected;
+  if (!wavy) {
+    const glm::dvec3 place = on_plane(layer, tracer_.lattice_point(layer.island, glm::dvec3(0.0)),
+                                      tracer_.lattice_vector(layer.island, fine));
+    const glm::dvec4 texel = BlockTexels::shared().texel(layer.block, layer.face, place);
+    passage.radiance += passage.through * texel.w * glm::dvec3(texel) / kPi * reached.light;
+    passage.through *= 1.0 - texel.w;
+  }
+  passage.light_in = reached.light;
+  passage.medium = entering ? layer.block : world::kAir;
+}
+
+Seen Shader::through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,
+                           Sampler& sampler) const {
+  constexpr double kOpenWater = 1e4;  // blocks: a medium that the ray never leaves
+  Passage passage;
+  passage.medium = scene_.view.medium;
+  if (passage.medium != world::kAir)  // the light half a block ahead stands for all of it
+    passage.light_in = irradiance(direction * 0.5, glm::dvec3(0.0, 1.0, 0.0), sampler);
+  for (const Meeting& layer : trace.layers) {
+    passage.advance(layer.t);
+    pass_surface(layer, direction, fine, passage, sampler);
+  }
+  passage.advance(trace.hit ? trace.hit->t : std::max(kOpenWater, passage.at));
+  return {passage.radiance + passage.through * behind.radiance, passage.through * behind.open};
+}
+
+}  // namespace skerry::reference

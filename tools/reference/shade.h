@@ -1,0 +1,70 @@
+#pragma once
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "tools/reference/sampler.h"
+#include "tools/reference/scene.h"
+#include "tools/reference/tracer.h"
+
+namespace skerry::reference {
+
+/// What a ray brings to the eye.
+struct Seen {
+  glm::dvec3 radiance{0.0};  ///< of everything but stars
+  glm::dvec3 open{0.0};      ///< share of the stars' light that comes through
+};
+
+/// The light of a scene, estimated by one sample of everything that must be averaged.
+class Shader {
+ public:
+  Shader(const Scene& scene, const Tracer& tracer) : scene_(scene), tracer_(tracer) {}
+
+  /// @param trace what the ray from the eye along `direction` meets.
+  /// @param fine where in the pixel textures and discs are looked at; `direction`, unless geometry
+  ///   is sampled more coarsely than they are.
+  Seen look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Sampler& sampler) const;
+
+  /// Irradiance at a point of a surface. @param normal unit; nothing comes from behind it.
+  glm::dvec3 irradiance(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler) const;
+
+ private:
+  /// One light as it arrives at a point.
+  struct Arrival {
+    glm::dvec3 to_light;
+    glm::dvec3 irradiance;  ///< of a surface facing it
+    bool body = false;      ///< sun or moon
+  };
+  struct Reach;
+  struct Passage;
+
+  template <class Take>
+  void arrive(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler, Take&& take) const;
+  bool body_seen(glm::dvec3 point, glm::dvec3 to_light) const;
+  glm::dvec3 from_environment(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler) const;
+  glm::dvec3 behind_voxels(glm::dvec3 direction) const;
+
+  glm::dvec3 surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,
+                     Sampler& sampler) const;
+  double openness(const Meeting& hit) const;
+  glm::dvec3 through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,
+                         Sampler& sampler) const;
+
+  Seen through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,
+                     Sampler& sampler) const;
+  void pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine, Passage& passage,
+                    Sampler& sampler) const;
+  Reach reach(glm::dvec3 point, glm::dvec3 normal, glm::dvec3 shading_normal, glm::dvec3 to_eye,
+              double roughness, Sampler& sampler) const;
+  glm::dvec3 rippled_normal(const Meeting& layer) const;
+
+  const Scene& scene_;
+  const Tracer& tracer_;
+};
+
+/// Radiance that a stretch of medium scatters towards the eye under an irradiance: once, evenly to
+/// all sides. @param absorption [1/block].
+glm::dvec3 scattered_in(glm::dvec3 absorption, glm::dvec3 irradiance, double length_blocks);
+/// What is left of light after a stretch of medium.
+glm::dvec3 transmitted_by(glm::dvec3 absorption, double length_blocks);
+
+}  // namespace skerry::reference

@@ -1,0 +1,63 @@
+#pragma once
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "tools/reference/scene.h"
+
+namespace skerry::reference {
+
+/// A face that a ray meets, turned towards where the ray comes from.
+struct Meeting {
+  double t = 0.0;  ///< along the ray
+  std::size_t island = 0;
+  world::BlockId block = world::kAir;
+  int face = 0;          ///< docs/conventions.md
+  world::IVec3 voxel;    ///< of the block
+  glm::dvec3 lattice{};  ///< the point
+};
+
+/// What a ray from the eye meets.
+struct Trace {
+  std::vector<Meeting> layers;  ///< surfaces of water and glass before `hit`, by t
+  std::optional<Meeting> hit;   ///< the first opaque or cut-out surface or plant
+};
+
+inline constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// Rays against all islands of a scene. Safe on any thread.
+class Tracer {
+ public:
+  explicit Tracer(const std::vector<Island>& islands);
+
+  /// What is seen along a ray: faces where a block meets one that does not hide it, from the front;
+  /// leaves where their texture is, from the front; plants from both sides.
+  /// @param direction unit. @param out replaced.
+  void trace(glm::dvec3 origin, glm::dvec3 direction, Trace& out) const;
+  /// Whether something stands between two points: what casts shadows, that is all but water and
+  /// glass. A leaf casts by the faces that see the light.
+  /// @param direction unit, towards the light. @param distance to the light.
+  bool hidden(glm::dvec3 origin, glm::dvec3 direction, double distance = kFar) const;
+
+  /// Unit normal of a face in the world; a plant's surfaces count as level.
+  glm::dvec3 normal(std::size_t island, int face) const;
+  glm::dvec3 lattice_vector(std::size_t island, glm::dvec3 world) const;
+  glm::dvec3 lattice_point(std::size_t island, glm::dvec3 world) const;
+  world::BlockId block_at(std::size_t island, world::IVec3 voxel) const;
+
+ private:
+  struct Placed {
+    const Volume* voxels;
+    glm::dmat3 rotation, lattice_from_world;
+    glm::dvec3 origin;
+    glm::dvec3 centre;  // of the box, world
+    double radius2;     // of the sphere about it
+  };
+  static bool may_meet(const Placed& island, glm::dvec3 origin, glm::dvec3 direction,
+                       double distance);
+  std::vector<Placed> islands_;
+};
+
+}  // namespace skerry::reference

@@ -1,0 +1,97 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "world/chunk.h"
+#include "world/coords.h"
+
+namespace skerry::reference {
+
+/// One chunk's voxels as 8^3 bricks, so that a ray crosses what is empty in long steps.
+class BrickChunk {
+ public:
+  static constexpr int kBrickEdge = 8;
+  /// @param voxels world::kChunkVoxels ids in world::voxel_index order.
+  explicit BrickChunk(std::span<const world::BlockId> voxels);
+
+  /// The id that fills the whole brick of a voxel, or kMixed.
+  static constexpr std::uint32_t kMixed = 0xffff'ffff;
+  std::uint32_t uniform_id(int x, int y, int z) const {
+    const std::uint32_t entry = bricks_[brick_of(x, y, z)];
+    return (entry & kStored) != 0 ? kMixed : entry;
+  }
+  world::BlockId at(int x, int y, int z) const {
+    const std::uint32_t entry = bricks_[brick_of(x, y, z)];
+    if ((entry & kStored) == 0) return static_cast<world::BlockId>(entry);
+    const int inside = (z & 7) | (x & 7) << 3 | (y & 7) << 6;
+    return voxels_[(entry & ~kStored) + static_cast<std::uint32_t>(inside)];
+  }
+  bool empty() const { return empty_; }
+
+ private:
+  static constexpr std::uint32_t kStored = 0x8000'0000;
+  static std::size_t brick_of(int x, int y, int z) {
+    return static_cast<std::size_t>(z >> 3 | (x >> 3) << 3 | (y >> 3) << 6);
+  }
+
+  std::array<std::uint32_t, 512> bricks_{};  // an id, or kStored and where its voxels begin
+  std::vector<world::BlockId> voxels_;
+  bool empty_ = true;
+};
+
+/// The voxels of one lattice, made chunk by chunk when a ray first comes there. Safe on any thread.
+class Volume {
+ public:
+  /// Fills a chunk: world::kChunkVoxels ids in world::voxel_index order. Must give the same ids
+  /// whenever it is asked, from any thread. @return false: all air, `out` is not looked at.
+  using Fill = std::function<bool(world::IVec3 chunk, std::span<world::BlockId> out)>;
+
+  /// @param box_min, box_max voxels outside [min, max) are air.
+  Volume(world::IVec3 box_min, world::IVec3 box_max, Fill fill);
+  /// From a function of the voxel. For small scenes made by hand.
+  static std::shared_ptr<const Volume> from_voxels(
+      world::IVec3 box_min, world::IVec3 box_max,
+      const std::function<world::BlockId(world::IVec3)>& block_at);
+  ~Volume();
+  Volume(const Volume&) = delete;
+  Volume& operator=(const Volume&) = delete;
+
+  world::IVec3 box_min() const { return box_min_; }
+  world::IVec3 box_max() const { return box_max_; }
+  /// The chunk that holds a voxel; nullptr: it holds nothing but air.
+  const BrickChunk* chunk_at(world::IVec3 voxel) const {
+    const int x = (voxel.x >> 6) - first_.x, y = (voxel.y >> 6) - first_.y,
+              z = (voxel.z >> 6) - first_.z;
+    if (x < 0 || y < 0 || z < 0 || x >= count_.x || y >= count_.y || z >= count_.z) return nullptr;
+    Slot& slot = slots_[static_cast<std::size_t>(z + count_.z * (x + count_.x * y))];
+    const int state = slot.state.load(std::memory_order_acquire);
+    if (state == kEmpty) return nullptr;
+    return state == kMade ? slot.chunk.get() : make(slot, {x, y, z});
+  }
+  world::BlockId block_at(world::IVec3 voxel) const;
+  /// Chunks asked for so far, empty ones included.
+  std::size_t chunks_made() const { return chunks_made_.load(std::memory_order_relaxed); }
+
+ private:
+  enum : int { kUnmade, kEmpty, kMade };
+  struct Slot {
+    std::atomic<int> state = kUnmade;
+    std::mutex making;
+    std::unique_ptr<const BrickChunk> chunk;
+  };
+  const BrickChunk* make(Slot& slot, world::IVec3 place) const;
+
+  const world::IVec3 box_min_, box_max_;
+  world::IVec3 first_, count_;  // chunks
+  const Fill fill_;
+  std::unique_ptr<Slot[]> slots_;
+  mutable std::atomic<std::size_t> chunks_made_ = 0;
+};
+
+}  // namespace skerry::reference
