@@ -45,17 +45,10 @@ endif()
 add_test(NAME window.play COMMAND ${CMAKE_SOURCE_DIR}/tests/window/play_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.play PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 
-# Pictures: each of tests/scenes against its reference, and what must not change a byte. build/image keeps what was drawn.
-add_executable(skerry_compare_images ${CMAKE_SOURCE_DIR}/tests/image/compare_images.cpp)
-target_link_libraries(skerry_compare_images PRIVATE skerry_platform)
-file(GLOB scene_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/scenes/*.json)
-foreach(scene ${scene_files})
-  get_filename_component(name ${scene} NAME_WE)
-  add_test(NAME image.${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/image/check_scene
-    $<TARGET_FILE:skerry> $<TARGET_FILE:skerry_compare_images> ${scene} ${CMAKE_BINARY_DIR}/image)
-  set_tests_properties(image.${name} PROPERTIES TIMEOUT 120)
-endforeach()
+# Pictures: tests/scenes against their references, in processes of its own; and what must not change a byte. build/image keeps what was drawn.
+add_test(NAME image.scenes COMMAND skerry test ${CMAKE_SOURCE_DIR}/tests/scenes --validate
+  --html ${CMAKE_BINARY_DIR}/image/scenes --junit ${CMAKE_BINARY_DIR}/image/scenes.xml)
+set_tests_properties(image.scenes PROPERTIES TIMEOUT 600 PROCESSORS 2)
 add_test(NAME image.same_bytes COMMAND ${CMAKE_SOURCE_DIR}/tests/image/same_bytes_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/image/same_bytes)
 set_tests_properties(image.same_bytes PROPERTIES TIMEOUT 300)
-add_test(NAME image.compare_images COMMAND ${CMAKE_SOURCE_DIR}/tests/image/compare_images_test.py $<TARGET_FILE:skerry_compare_images>)

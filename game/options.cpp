@@ -55,8 +55,17 @@ Result<void> read_settings(const json& value, SceneText& scene) {
   return {};
 }
 
+Error unknown_field(const std::string& key) {
+  std::vector<std::string_view> names(kFields.begin(), kFields.end());
+  names.insert(names.end(), std::begin(kExpectationFields), std::end(kExpectationFields));
+  return Error{fmt::format("the scene has an unknown field {}: did you mean '{}'?", quote_text(key),
+                           nearest_name(key, names))};
+}
+
 Result<void> read_field(const std::string& key, const json& value, SceneText& scene) {
   if (key == "settings") return read_settings(value, scene);
+  if (std::count(std::begin(kExpectationFields), std::end(kExpectationFields), key) != 0)
+    return read_expectation(key, value, scene.expectations);
   if (key == "camera") {
     Result<std::string> camera = camera_text(value);
     if (!camera) return camera.error();
@@ -66,10 +75,7 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
   std::optional<std::string>* const texts[] = {&scene.seed, nullptr,     &scene.fov,
                                                &scene.time, &scene.size, &scene.quality};
   const auto field = std::find(kFields.begin(), kFields.end(), key);
-  if (field == kFields.end()) {
-    return Error{fmt::format("the scene has an unknown field {}: did you mean '{}'?",
-                             quote_text(key), nearest_name(key, kFields))};
-  }
+  if (field == kFields.end()) return unknown_field(key);
   const auto text = scalar_text(value);
   if (!text || value.is_boolean()) return field_error(key, "a string or a number");
   *texts[field - kFields.begin()] = *text;

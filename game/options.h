@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "game/expectations.h"
 #include "game/parse.h"
 #include "game/settings.h"
 
@@ -29,14 +30,16 @@ struct SceneOptions {
 struct SceneText {
   std::optional<std::string> seed, camera, fov, time, size, quality;
   std::vector<std::string> settings;  ///< KEY=VALUE, later ones win
+  Expectations expectations;          ///< of a scene file; no concern of make_scene
 };
 
 /// The longest scene file worth reading.
 inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 
 /// Reads a scene: a JSON object with the fields seed, camera (five numbers or strings), fov, time,
-/// size, quality and settings (an object). Errors: no JSON, an unknown field (names the nearest), a
-/// value of the wrong kind. Values are checked by make_scene.
+/// size, quality and settings (an object), and those of Expectations. Errors: no JSON, an unknown
+/// field (names the nearest), a value of the wrong kind. Values are checked by make_scene, masks by
+/// check_masks.
 Result<SceneText> parse_scene(std::string_view json_text);
 
 /// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied

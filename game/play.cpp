@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/render/exposure.h"
 #include "game/controls.h"
 #include "game/overlay.h"
 #include "game/player.h"
@@ -58,7 +59,8 @@ class Session {
         view_(std::move(view)),
         player_(player_at(view_->start_camera(), options.settings.world_time_s)),
         around_(view_->world()),
-        day_(options.time_of_day_s) {
+        day_(options.time_of_day_s),
+        exposure_ev_(view_->metered_ev(options.time_of_day_s)) {
     // A place that was asked for is a view, most often in the air.
     if (options.camera) player_.set_mode(MoveMode::kFly);
   }
@@ -85,6 +87,7 @@ class Session {
   Player player_;
   WorldSurroundings around_;
   DayClock day_;
+  double exposure_ev_;  // what the eye has adapted to by now
   Overlay overlay_;
   std::unique_ptr<Presenter> presenter_;
   bool overlay_shown_ = false;
@@ -128,6 +131,7 @@ void Session::act(const platform::InputFrame& input, double seconds) {
     player_.set_mode(player_.mode() == MoveMode::kFly ? MoveMode::kWalk : MoveMode::kFly);
   }
   move(input, seconds);
+  exposure_ev_ = render::adapted_ev(exposure_ev_, view_->metered_ev(day_.time_of_day_s()), seconds);
 }
 
 void Session::act_on_pointer(const platform::InputFrame& input) {
@@ -179,6 +183,7 @@ SceneView::Moment Session::moment() const {
   moment.time_of_day_s = day_.time_of_day_s();
   moment.world_time_s = player_.world_time_s();
   moment.freeze_culling = culling_frozen_;
+  moment.exposure_ev = exposure_ev_;
   return moment;
 }
 
@@ -206,6 +211,11 @@ Result<bool> Session::draw(double seconds) {
   scene_.time_of_day_s = day_.time_of_day_s();
   scene_.settings = view_->settings();
   scene_.settings.world_time_s = now.world_time_s;
+  // A command adapts to nothing, so F2 names the exposure while the eye is on its way.
+  const double metered_ev = view_->metered_ev(now.time_of_day_s);
+  if (!scene_.settings.exposure_ev &&
+      static_cast<float>(exposure_ev_) != static_cast<float>(metered_ev))
+    scene_.settings.exposure_ev = exposure_ev_;
   return true;
 }
 

@@ -12,10 +12,6 @@ namespace {
 // Islands turn about +y only (world::IslandSpec), so "up" and gravity are the same in every
 // lattice.
 
-constexpr double kGravity =
-    25.0;  // blocks/s^2; brisker than nature's, as a jump of 1.25 blocks wants
-constexpr double kJumpSpeed =
-    7.9;  // blocks/s: rises sqrt-law to kJumpSpeed^2 / (2 kGravity) = 1.25 blocks
 constexpr double kFallSpeedLimit = 80.0;                                  // blocks/s
 constexpr double kWalkSpeed = 4.5, kSprintSpeed = 8.0, kSwimSpeed = 2.5;  // blocks/s
 constexpr double kSwimRise = 3.5, kSink = -1.5;  // blocks/s, with and without stroke

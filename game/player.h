@@ -42,6 +42,9 @@ enum class MoveMode : std::uint8_t { kWalk, kFly };
 /// frame rate.
 inline constexpr int kTicksPerSecond = 120;
 inline constexpr double kTickSeconds = 1.0 / kTicksPerSecond;
+inline constexpr double kGravity = 25.0;  ///< blocks/s^2; brisker than nature's, as jumps want
+/// Blocks/s at take-off: rises to kJumpSpeed^2 / (2 kGravity) = 1.25 blocks.
+inline constexpr double kJumpSpeed = 7.9;
 inline constexpr double kEyeHeight = 1.62;                           ///< blocks above the feet
 inline constexpr double kMinFlySpeed = 1.0, kMaxFlySpeed = 10000.0;  ///< blocks/s
 

@@ -219,6 +219,10 @@ render::RenderSettings SceneView::render_settings(
   return out;
 }
 
+double SceneView::metered_ev(double time_of_day_s) const {
+  return render::auto_exposure_ev(render::celestial_at(time_of_day_s, settings_.moon_phase));
+}
+
 Result<std::uint64_t> SceneView::draw(
     const Moment& moment, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
@@ -229,8 +233,8 @@ Result<std::uint64_t> SceneView::draw(
   input.anchor = fixed(world_->origin());
   input.islands = islands;
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
-  input.exposure_ev = settings_.exposure_ev ? static_cast<float>(*settings_.exposure_ev)
-                                            : render::auto_exposure_ev(input.sky);
+  const double adapted = moment.exposure_ev.value_or(metered_ev(moment.time_of_day_s));
+  input.exposure_ev = static_cast<float>(settings_.exposure_ev.value_or(adapted));
   input.time_s = moment.world_time_s;
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;

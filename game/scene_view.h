@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,8 @@ class SceneView {
   /// Takes in what the workers have ready, within the frame's budget; never waits.
   /// Errors: the quad arena is full.
   Result<void> stream(const render::Camera& camera, double world_time_s);
+  /// Exposure that the light of a time of day asks for [stops].
+  double metered_ev(double time_of_day_s) const;
   /// Whether everything within view distance has been handed to the renderer.
   bool complete() const { return streamer_->complete(); }
 
@@ -48,9 +51,10 @@ class SceneView {
     double time_of_day_s = 43200.0;
     double world_time_s = 0.0;
     bool freeze_culling = false;
-    bool capture = false;  ///< see render::FrameInput
+    bool capture = false;                    ///< see render::FrameInput
+    std::optional<double> exposure_ev = {};  ///< what the eye has adapted to; none: metered now
   };
-  /// See render::Renderer::draw.
+  /// See render::Renderer::draw. A fixed exposure in the settings goes over the moment's.
   Result<std::uint64_t> draw(
       const Moment& moment, VkExtent2D size,
       const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},

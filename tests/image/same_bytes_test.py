@@ -5,13 +5,28 @@ threads, the way meshes are uploaded, and how far from the origin the world is.
     same_bytes_test.py SKERRY FOLDER
 """
 import json
+import subprocess
 import sys
 from fractions import Fraction
 from pathlib import Path
 
-from shots import SCENES, Refused, shoot
-
+SCENES = Path(__file__).resolve().parent.parent / "scenes"
 OFFSETS = ((0, 0, 0), (16777216, 0, 0), (1099511627000, 1099511627000, -1099511627000))
+
+
+class Refused(Exception):
+    """The program said no, in one line."""
+
+
+def shoot(skerry, folder, name, arguments):
+    """Draws one picture under the validation layer. Returns the numbers of --stats."""
+    folder.mkdir(parents=True, exist_ok=True)
+    stats = folder / f"{name}.json"
+    done = subprocess.run([skerry, "shot", *arguments, "--validate", "--out", folder / f"{name}.png",
+                           "--stats", stats], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Refused(f"shot ended with status {done.returncode}:\n{done.stdout}{done.stderr}")
+    return json.loads(stats.read_text(encoding="utf-8"))
 
 
 def decimal(value):
@@ -43,9 +58,9 @@ def main(skerry, folder):
     for name in ("water", "tropical"):
         scene = SCENES / f"{name}.json"
         shot = ["--scene", scene]
-        _, first = shoot(skerry, Path(folder), name, shot)
+        first = shoot(skerry, Path(folder), name, shot)
         for variant, arguments in variants(scene):
-            _, stats = shoot(skerry, Path(folder), f"{name}_{variant}", shot + arguments)
+            stats = shoot(skerry, Path(folder), f"{name}_{variant}", shot + arguments)
             same = stats["image_sha256"] == first["image_sha256"]
             print(f"{name} {variant}: {'same' if same else 'DIFFERENT'}")
             if not same:

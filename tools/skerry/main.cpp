@@ -15,6 +15,8 @@
 #include "tools/skerry/report/report_command.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/shot.h"
+#include "tools/skerry/stability/command.h"
+#include "tools/skerry/test_command.h"
 
 namespace skerry::tools {
 namespace {
@@ -37,6 +39,8 @@ struct CommandLine {
   std::optional<BenchCommands> bench;
   std::optional<ReportCommand> report;
   std::vector<std::string> typed;  ///< all arguments, the command first
+  std::optional<TestCommand> test;
+  std::optional<StabilityCommand> stability;
 
   CommandLine();
   int run();
@@ -60,7 +64,9 @@ CommandLine::CommandLine() {
       ->type_name("FILE.json");
   shot->add_flag("--explain", explain, "Print what the frame ran, and what it left out and why");
   report.emplace(app);
+  test.emplace(app);
   bench.emplace(app);
+  stability.emplace(app);
   devices = add("devices", "List the Vulkan devices");
   devices->add_flag("--json", json, "As JSON");
 }
@@ -94,6 +100,8 @@ int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
   if (chosen == bench->command()) return bench->run();
   if (chosen == report->command()) return report->run(typed);
+  if (chosen == test->command()) return test->run();
+  if (chosen == stability->command()) return stability->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();
   if (chosen == shot) return run_shot();

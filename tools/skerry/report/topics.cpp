@@ -9,10 +9,10 @@ constexpr ReportScene kScenes[] = {
     {"day", "a meadow in the morning", R"({"seed": 1, "time": "10:30"})"},
     {"low_sun", "long shadows before sunset",
      R"({"seed": 6, "time": "17:35", "camera": [-60, 145, 279, 90, -8]})"},
-    {"water", "a shore",
-     R"({"seed": 4, "time": "12:00", "camera": [181.29, 30.64, 14.98, 15, -12]})"},
-    {"far", "down over many islands",
-     R"({"seed": 1, "time": "15:00", "camera": [-150, 260, -150, 45, -40]})"},
+    {"water", "a lake in the sun",
+     R"({"seed": 5, "time": "11:00", "camera": [52.25, 17.5, 52.75, 225, -25]})"},
+    {"far", "islands to the horizon",
+     R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
 };
 
 constexpr TopicPoint kShadowSizes[] = {{"256", "shadow.size=256"},

@@ -1,0 +1,92 @@
+#include "tools/skerry/stability/command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "tools/skerry/arguments.h"
+#include "tools/skerry/bench_report.h"
+#include "tools/skerry/scene_device.h"
+#include "tools/skerry/stability/run.h"
+
+namespace skerry::tools {
+namespace {
+
+/// One line on a terminal that is written over; elsewhere nothing.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::span<const stability::Case> cases)
+      : cases_(cases), shown_(isatty(STDERR_FILENO) == 1) {}
+  void show(std::size_t done) const {
+    if (!shown_) return;
+    constexpr std::size_t kWidth = 30;
+    const std::string bar(kWidth * done / cases_.size(), '#');
+    fmt::print(stderr, "\r[{:<{}}] {}/{} {:<32}", bar, kWidth, done, cases_.size(),
+               cases_[done].name);
+    std::fflush(stderr);
+  }
+  void clear() const {
+    if (shown_) fmt::print(stderr, "\r{:79}\r", "");
+  }
+
+ private:
+  std::span<const stability::Case> cases_;
+  bool shown_;
+};
+
+}  // namespace
+
+StabilityCommand::StabilityCommand(CLI::App& app)
+    : command_(app.add_subcommand("stability", "Run extremes against their bounds")) {
+  command_->allow_extras();
+  command_->footer("");
+  command_->add_option("CASE", cases_, "Cases or groups to run (default: all)");
+  command_->add_option("--json", json_, "Write the rows as JSON")->type_name("FILE");
+  command_->add_option("--device", device_, "Vulkan device, as 'skerry devices' counts")
+      ->type_name("N");
+  command_->add_flag("--validate", validate_, "Turn the Vulkan validation layer on");
+  command_->add_flag("--list", list_, "Print the names of the cases and stop");
+}
+
+int StabilityCommand::run() {
+  if (const auto refusal = check_leftovers(*command_)) return fail(refusal->status, refusal->error);
+  const std::vector<stability::Case> all = stability::all_cases();
+  const Result<std::vector<stability::Case>> cases = stability::chosen_cases(all, cases_);
+  if (!cases) return fail(kUsage, cases.error());
+  game::SceneOptions scene;
+  if (const auto refusal = parse_device(device_, scene.device))
+    return fail(refusal->status, refusal->error);
+  if (const auto refusal = check_output(json_)) return fail(refusal->status, refusal->error);
+  if (list_) {
+    for (const stability::Case& one : *cases) fmt::print("{}\n", one.name);
+    return kDone;
+  }
+  scene.validate = validate_;
+  std::unique_ptr<gpu::Device> device;
+  if (std::any_of(cases->begin(), cases->end(),
+                  [](const auto& one) { return one.needs_device(); })) {
+    Result<std::unique_ptr<gpu::Device>> opened = open_device(scene);
+    if (!opened) return fail(kNoDevice, opened.error());
+    device = *std::move(opened);
+  }
+  const ProgressBar bar(*cases);
+  const std::vector<stability::Outcome> outcomes =
+      stability::run_cases(*cases, device.get(), [&](std::size_t done) { bar.show(done); });
+  bar.clear();
+  fmt::print("{}", stability::table_of(outcomes));
+  const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
+                                    [](const auto& one) { return !one.row.pass(); });
+  fmt::print("{} rows, {} failed{}\n", outcomes.size(), failed,
+             device ? ", on " + device->info().name : std::string());
+  std::optional<std::filesystem::path> file;
+  if (json_) file = *json_;
+  if (Result<void> written = write_rows(file, stability::rows_of(outcomes)); !written)
+    return fail(kFailed, written.error());
+  if (device && device->validation_message_count() > 0) return status_after(*device);
+  return stability::status_of(outcomes);
+}
+
+}  // namespace skerry::tools

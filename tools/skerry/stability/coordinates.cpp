@@ -1,0 +1,120 @@
+// A seed's world, seen from its middle and from the ends of what coordinates can hold.
+#include <array>
+#include <cmath>
+
+#include "engine/gpu/readback.h"
+#include "tools/skerry/draw_scene.h"
+#include "tools/skerry/stability/case.h"
+#include "tools/skerry/stability/stage.h"
+
+namespace skerry::tools::stability {
+namespace {
+
+using Offset = std::array<std::int64_t, 3>;
+
+game::SceneOptions scene_at(const Offset& offset) {
+  game::SceneOptions scene;
+  scene.seed_text = "1";
+  scene.size = {160, 90};
+  scene.quality = game::Quality::kLow;
+  scene.settings = game::settings_of(scene.quality);
+  scene.settings.view_distance = 160;
+  scene.settings.world_offset = offset;
+  return scene;
+}
+
+/// A picture of the seed's spawn in a world that is moved by `offset`, by day and by moonlight.
+Result<std::vector<std::vector<std::uint8_t>>> pictures_at(gpu::Device& device,
+                                                           const Offset& offset) {
+  std::vector<std::vector<std::uint8_t>> out;
+  for (const int time_of_day_s : {12 * 3600, 18 * 3600, 0}) {
+    game::SceneOptions scene = scene_at(offset);
+    scene.time_of_day_s = time_of_day_s;
+    Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
+    if (!drawer) return drawer.error();
+    Result<Drawn> drawn = (*drawer)->draw();
+    if (!drawn) return drawn.error();
+    if (drawn->report.camera.quads == 0) return Error{"the spawn view shows no block"};
+    out.push_back(std::move(drawn->rgba));
+  }
+  return out;
+}
+
+Result<Rows> far_away(gpu::Device& device) {
+  const auto at_origin = pictures_at(device, {});
+  if (!at_origin) return at_origin.error();
+  constexpr std::int64_t k24 = std::int64_t{1} << 24, k40 = std::int64_t{1} << 40;
+  const std::array<std::pair<const char*, Offset>, 5> places{
+      {{"2^24", {k24, k24, k24}},
+       {"-2^24", {-k24, -k24, -k24}},
+       {"2^40", {k40, k40, k40}},
+       {"-2^40", {-k40, -k40, -k40}},
+       {"2^40, -3, -2^40", {k40, -3, -k40}}}};
+  Rows rows;
+  for (const auto& [name, offset] : places) {
+    const auto moved = pictures_at(device, offset);
+    if (!moved) return moved.error();
+    double different = 0.0;
+    for (std::size_t i = 0; i < moved->size(); ++i)
+      different += different_pixels((*moved)[i], (*at_origin)[i]);
+    rows.push_back({std::string("pixels unlike those at 0, camera and world at ") + name +
+                        " blocks, noon, dusk and moon",
+                    0.0, different});
+  }
+  return rows;
+}
+
+/// Pictures from a camera that moves by `step` blocks a frame.
+Result<std::vector<std::vector<std::uint8_t>>> sequence(gpu::Device& device, const Offset& offset,
+                                                        double step, int frames) {
+  const game::SceneOptions scene = scene_at(offset);
+  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
+  if (!drawer) return drawer.error();
+  game::SceneView& view = (*drawer)->view();
+  std::vector<std::vector<std::uint8_t>> out;
+  for (int i = 0; i < frames; ++i) {
+    game::SceneView::Moment moment;
+    moment.camera = view.start_camera();
+    moment.camera.position = moved(moment.camera.position, step * i * glm::dvec3(1.0, 0.5, -0.7));
+    moment.camera.yaw_deg += 0.01 * i;
+    if (Result<std::uint64_t> drawn = view.draw(moment, {scene.size.width, scene.size.height});
+        !drawn)
+      return drawn.error();
+    view.renderer().finish();
+    Result<std::vector<std::byte>> bytes = gpu::read_back(device, view.renderer().picture(), 4);
+    if (!bytes) return bytes.error();
+    const auto* first = reinterpret_cast<const std::uint8_t*>(bytes->data());
+    out.emplace_back(first, first + bytes->size());
+  }
+  if (out.front() == out.back()) return Error{"the camera's motion does not show"};
+  return out;
+}
+
+Result<Rows> jitter(gpu::Device& device) {
+  constexpr std::int64_t k40 = std::int64_t{1} << 40;
+  constexpr int kFrames = 32;
+  Rows rows;
+  for (const double step : {0.001, 1.0 / static_cast<double>(world::kUnitsPerBlock)}) {
+    const auto near = sequence(device, {}, step, kFrames);
+    if (!near) return near.error();
+    const auto far = sequence(device, {k40, -k40, k40}, step, kFrames);
+    if (!far) return far.error();
+    double different = 0.0;
+    for (std::size_t i = 0; i < near->size(); ++i)
+      different += different_pixels((*near)[i], (*far)[i]);
+    rows.push_back({std::string("pixels of 32 frames unlike those at 0, at 2^40, camera moving ") +
+                        (step == 0.001 ? "0.001 block" : "1/65536 block") + " a frame",
+                    0.0, different});
+  }
+  return rows;
+}
+
+constexpr Case kCases[] = {{"coordinates.far_away", far_away}, {"coordinates.jitter", jitter}};
+
+}  // namespace
+
+std::span<const Case> coordinates_cases() {
+  return kCases;
+}
+
+}  // namespace skerry::tools::stability

@@ -1,0 +1,103 @@
+// The eye's adaptation at time steps and targets that no frame has.
+#include "engine/render/exposure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/skerry/stability/case.h"
+
+namespace skerry::tools::stability {
+namespace {
+
+using render::adapted_ev;
+
+constexpr double kBlack = -20.0, kBlinding = 20.0;  // stops, the ends of what can be set
+// A result is rounded a few times at a magnitude of at most 40 (the difference of the ends), where
+// a double's half unit in the last place is 2^-48.
+const double kRounding = 4.0 * std::ldexp(1.0, -48);
+
+/// From 0 and 1e-12 to 1e6 s, eight steps a decade.
+std::vector<double> time_steps() {
+  std::vector<double> steps{0.0};
+  for (int i = -12 * 8; i <= 6 * 8; ++i) steps.push_back(std::pow(10.0, i / 8.0));
+  return steps;
+}
+
+Result<Rows> steps() {
+  double beyond = 0.0, backwards = 0.0, unmoved = 0.0, short_of_target = 0.0;
+  for (const auto& [from, to] : {std::pair{kBlack, kBlinding}, std::pair{kBlinding, kBlack}}) {
+    double last = from;
+    for (const double dt : time_steps()) {
+      const double ev = adapted_ev(from, to, dt);
+      beyond = std::max({beyond, kBlack - ev, ev - kBlinding});
+      backwards = std::max(backwards, std::abs(last - to) < std::abs(ev - to) ? 1.0 : 0.0);
+      last = ev;
+    }
+    unmoved = std::max(unmoved, std::abs(adapted_ev(from, to, 0.0) - from));
+    short_of_target = std::max(short_of_target, std::abs(last - to));
+  }
+  return Rows{{"stops beyond the targets, dt 0 to 1e6 s", 0.0, beyond},
+              {"longer waits that end farther from the target", 0.0, backwards},
+              {"stops moved in no time", 0.0, unmoved},
+              {"stops left after 1e6 s", 0.0, short_of_target}};
+}
+
+/// Frames that are black and blinding by turns. Each must move towards its own target, and the pair
+/// must settle: from cycle to cycle the place at the cycle's end moves less and less.
+Result<Rows> alternating() {
+  double wrong_way = 0.0, beyond = 0.0, growth = 0.0;
+  for (const double dt : time_steps()) {
+    double ev = 0.0, cycle_end = 0.0, last_move = HUGE_VAL;
+    for (int frame = 0; frame < 400; ++frame) {
+      const double target = frame % 2 == 0 ? kBlack : kBlinding;
+      const double next = adapted_ev(ev, target, dt);
+      wrong_way += (next - ev) * (target - ev) < 0.0;
+      beyond = std::max({beyond, kBlack - next, next - kBlinding});
+      ev = next;
+      if (frame % 2 == 0) continue;
+      const double move = std::abs(ev - cycle_end);
+      growth = std::max(growth, move - last_move);
+      last_move = move;
+      cycle_end = ev;
+    }
+  }
+  return Rows{{"frames that move away from their target", 0.0, wrong_way},
+              {"stops beyond the targets, black and blinding by turns", 0.0, beyond},
+              {"stops a cycle moves the exposure more than the cycle before", kRounding, growth}};
+}
+
+Result<Rows> splitting() {
+  // n roundings, each of at most kRounding: what a split of n parts may be off by.
+  double most = 0.0;
+  for (const double whole_s : {1e-3, 0.1, 1.0, 10.0, 1e3}) {
+    for (const int parts : {2, 7, 1000, 100000}) {
+      for (const auto& [from, to] : {std::pair{kBlack, kBlinding}, std::pair{kBlinding, kBlack}}) {
+        double ev = from;
+        for (int i = 0; i < parts; ++i) ev = adapted_ev(ev, to, whole_s / parts);
+        most = std::max(most, std::abs(ev - adapted_ev(from, to, whole_s)) / parts);
+      }
+    }
+  }
+  return Rows{{"stops a part that splitting a time changes, 2 to 100,000 parts", kRounding, most}};
+}
+
+Result<Rows> nothing_metered() {
+  double moved = 0.0;
+  for (const double target : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+    for (const double dt : time_steps())
+      moved = std::max(moved, adapted_ev(-3.25, target, dt) == -3.25 ? 0.0 : 1.0);
+  return Rows{{"times a target of NaN or infinity was followed", 0.0, moved}};
+}
+
+constexpr Case kCases[] = {{"exposure.steps", steps},
+                           {"exposure.alternating", alternating},
+                           {"exposure.splitting", splitting},
+                           {"exposure.nothing_metered", nothing_metered}};
+
+}  // namespace
+
+std::span<const Case> exposure_cases() {
+  return kCases;
+}
+
+}  // namespace skerry::tools::stability

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "game/player.h"
+#include "world/blocks.h"
+#include "world/coords.h"
+#include "world/island.h"
+
+namespace skerry::tools::stability {
+
+/// Surroundings made of functions: islands' poses of time and blocks of voxels.
+class PlaceToPlay : public game::Surroundings {
+ public:
+  struct Island {
+    std::function<world::Pose(double time_s)> pose;
+    std::function<world::BlockId(world::IVec3)> block;
+    double radius = 256.0;  ///< blocks about the lattice origin
+  };
+  explicit PlaceToPlay(Island island) { islands_.push_back(std::move(island)); }
+
+  void islands_near(world::WorldPos place, double radius_blocks, double time_s,
+                    std::vector<std::uint64_t>& out) const override;
+  std::optional<world::Pose> pose(std::uint64_t island, double time_s) const override;
+  std::optional<world::BlockId> block(std::uint64_t island, world::IVec3 voxel) const override;
+
+  /// A place in the first island's lattice.
+  glm::dvec3 lattice(world::WorldPos place, double time_s) const;
+
+ private:
+  std::vector<Island> islands_;
+};
+
+/// A pose that stays, turns about +y at `spin` rad/s and drifts along a circle of 10 blocks at
+/// `drift` rad/s.
+std::function<world::Pose(double)> moving(double spin, double drift);
+
+/// Volume of a player's box at `feet` inside solids [blocks^3], counted voxel by voxel and
+/// independent of the sweep that moves players.
+double volume_in_solids(const PlaceToPlay& around, const glm::dvec3& feet);
+
+}  // namespace skerry::tools::stability

@@ -1,0 +1,83 @@
+// A renderer and a scene of few blocks, for cases that no seed holds.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/render/renderer.h"
+#include "shaders/shared/geometry.h"
+#include "world/blocks.h"
+#include "world/coords.h"
+#include "world/mesh/mesh.h"
+
+namespace skerry::tools::stability {
+
+/// The block at a voxel of an island's lattice [voxels of the level].
+using BlockAt = std::function<world::BlockId(int x, int y, int z)>;
+
+/// The look of every built-in block, as the game tells the renderer.
+std::vector<shared::Material> built_in_materials();
+
+/// A chunk meshed as the game does it, and its record without island and quads' place.
+struct MeshedChunk {
+  shared::Section section{};
+  std::vector<shared::Quad> quads;  ///< may be none
+};
+MeshedChunk mesh_chunk_of(const BlockAt& block_at, world::IVec3 chunk,
+                          std::uint32_t voxel_size_log2 = 0);
+
+/// What a drawn frame gave.
+struct Frame {
+  VkExtent2D size{};
+  std::vector<std::uint8_t> rgba;    ///< the picture, rows from the top
+  std::vector<glm::vec3> radiance;   ///< with FrameInput::capture, as are those below
+  std::vector<float> depth;          ///< empty without geometry
+  std::vector<std::uint32_t> words;  ///< of the G-buffer
+  std::vector<float> shadow_maps;    ///< layer by layer
+  render::FrameReport report;
+};
+
+class Stage {
+ public:
+  /// @param materials empty: built_in_materials().
+  static Result<std::unique_ptr<Stage>> create(gpu::Device& device,
+                                               std::span<const shared::Material> materials = {});
+
+  /// Adds all chunks of a box of chunks, [low, high), that have a face.
+  Result<void> add(const BlockAt& block_at, world::IVec3 low, world::IVec3 high,
+                   std::uint32_t island = 0, std::uint32_t voxel_size_log2 = 0);
+  /// Draws, waits and copies out.
+  Result<Frame> draw(const render::FrameInput& input, const render::RenderSettings& settings,
+                     VkExtent2D size);
+  render::Renderer& renderer() { return *renderer_; }
+
+ private:
+  explicit Stage(gpu::Device& device) : device_(device) {}
+  gpu::Device& device_;
+  std::unique_ptr<render::Renderer> renderer_;
+};
+
+render::FixedPos fixed_at(const glm::dvec3& blocks);
+/// A place moved by whole and broken blocks.
+render::FixedPos moved(const render::FixedPos& place, const glm::dvec3& blocks);
+render::Camera camera_at(const glm::dvec3& blocks, double yaw_deg, double pitch_deg,
+                         double fov_deg = 70.0);
+/// Ray through a pixel's centre, one block long along the view axis, in double precision.
+/// Written from docs/conventions.md, not from what the renderer does.
+glm::dvec3 ray_of(const render::Camera& camera, VkExtent2D size, std::uint32_t x, std::uint32_t y);
+
+/// Noon's light from any direction, without a moon.
+render::Celestial sun_towards(const glm::dvec3& to_sun);
+/// No light at all.
+render::Celestial darkness();
+
+/// Channels that are not finite.
+double non_finite_channels(std::span<const glm::vec3> pixels);
+/// Pixels of two pictures of one size that are not byte-identical; NaN when the sizes differ.
+double different_pixels(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
+
+}  // namespace skerry::tools::stability

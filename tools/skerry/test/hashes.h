@@ -1,0 +1,36 @@
+// The exact pictures that have been approved, driver by driver.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+
+namespace skerry::tools {
+
+/// Names what decides a picture's last bits, as part of a file name: driver and version, and for
+/// drivers that run on the CPU its vector width and vendor.
+std::string driver_key(const gpu::DeviceInfo& device);
+
+/// Vendor of this machine's processor as it names itself, else "unknown".
+std::string cpu_vendor();
+
+/// SHA-256 by scene.
+using Hashes = std::map<std::string, std::string>;
+
+/// The file beside a folder's scenes that holds a driver's hashes.
+std::filesystem::path hash_file(const std::filesystem::path& scenes, std::string_view driver);
+
+/// Empty when there is no file. Errors: unreadable; not an object of 64 hexadecimal digits.
+Result<Hashes> read_hashes(const std::filesystem::path& file);
+/// Sorted, one scene a line.
+Result<void> write_hashes(const std::filesystem::path& file, const Hashes& hashes);
+
+/// Takes a scene's hash out of the files of all drivers but one: their pictures belong to a
+/// reference that is no more.
+Result<void> forget_others(const std::filesystem::path& scenes, std::string_view driver,
+                           const std::string& scene);
+
+}  // namespace skerry::tools

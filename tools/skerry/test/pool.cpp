@@ -1,0 +1,228 @@
+#include "tools/skerry/test/pool.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <list>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tools/skerry/scene_device.h"
+#include "tools/skerry/test/worker.h"
+
+namespace skerry::tools {
+namespace {
+
+/// A child process that draws, and the pipes to and from it.
+struct Worker {
+  pid_t process = -1;
+  int jobs = -1;     ///< scenes to draw are written here
+  int results = -1;  ///< lines come from here
+  std::string unread;
+  bool greeted = false;
+  std::optional<std::size_t> scene;  ///< it draws now
+};
+
+/// "signal 11", "status 3".
+std::string end_of(int status) {
+  if (WIFSIGNALED(status)) return fmt::format("signal {}", WTERMSIG(status));
+  return fmt::format("status {}", WEXITSTATUS(status));
+}
+
+class Pool {
+ public:
+  Pool(std::span<const TestScene> scenes, const PoolOptions& options,
+       const std::function<void(std::size_t, const Outcome&)>& done)
+      : scenes_(scenes),
+        options_(options),
+        done_(done),
+        cores_(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
+        left_(scenes.size() * static_cast<std::size_t>(options.runs)) {
+    const auto most = static_cast<int>(std::min<std::size_t>(left_, 1024));
+    planned_ = std::min(options.processes.value_or(cores_), most);
+  }
+  ~Pool() {
+    for (Worker& worker : workers_) {
+      ::kill(worker.process, SIGKILL);
+      end(worker);
+    }
+  }
+
+  PoolResult run() {
+    start_worker();
+    while (!workers_.empty() && !result_.refusal) wait_for_lines();
+    return result_;
+  }
+
+ private:
+  void start_worker();
+  [[noreturn]] void become_worker(int jobs, int results);
+  void wait_for_lines();
+  bool take_in(Worker& worker);
+  void take_line(Worker& worker, const std::string& line);
+  void greet(const Greeting& greeting);
+  void give_job(Worker& worker);
+  void lose(Worker& worker);
+  int end(Worker& worker);
+
+  std::span<const TestScene> scenes_;
+  const PoolOptions& options_;
+  const std::function<void(std::size_t, const Outcome&)>& done_;
+  int cores_;
+  int planned_ = 1;   // processes, if the device is a CPU
+  std::size_t left_;  // jobs not given out yet
+  std::size_t next_ = 0;
+  bool met_ = false;  // a worker has said that there is a device
+  std::list<Worker> workers_;
+  PoolResult result_;
+};
+
+void Pool::start_worker() {
+  int jobs[2], results[2];
+  const bool piped = ::pipe(jobs) == 0 && ::pipe(results) == 0;
+  std::fflush(nullptr);  // or the child would write it again
+  const pid_t process = piped ? ::fork() : -1;
+  if (process < 0) {
+    result_.refusal =
+        Refusal{kFailed,
+                {fmt::format("cannot start a process to draw in: {}; close other programs",
+                             std::strerror(errno))}};
+    return;
+  }
+  if (process == 0) {
+    ::close(jobs[1]);
+    ::close(results[0]);
+    become_worker(jobs[0], results[1]);
+  }
+  ::close(jobs[0]);
+  ::close(results[1]);
+  Worker worker;
+  worker.process = process;
+  worker.jobs = jobs[1];
+  worker.results = results[0];
+  workers_.push_back(std::move(worker));
+}
+
+void Pool::become_worker(int jobs, int results) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // A sibling sees the end of its jobs only when nobody else holds its pipe.
+  for (const Worker& sibling : workers_) {
+    ::close(sibling.jobs);
+    ::close(sibling.results);
+  }
+  serve(jobs, results, scenes_, options_, std::max(1, cores_ / planned_));
+  std::fflush(nullptr);
+  ::_exit(0);
+}
+
+void Pool::wait_for_lines() {
+  std::vector<pollfd> waiting;
+  for (const Worker& worker : workers_) waiting.push_back({worker.results, POLLIN, 0});
+  if (::poll(waiting.data(), waiting.size(), -1) < 0) return;  // a signal; ask again
+  auto worker = workers_.begin();
+  for (const pollfd& seen : waiting) {  // workers started meanwhile stand behind these
+    const auto now = worker++;
+    if (seen.revents == 0 || take_in(*now)) continue;
+    lose(*now);
+    workers_.erase(now);
+  }
+}
+
+/// @return false when the worker has closed its end.
+bool Pool::take_in(Worker& worker) {
+  char block[1 << 14];
+  const ssize_t got = ::read(worker.results, block, sizeof block);
+  if (got < 0) return errno == EINTR;
+  if (got == 0) return false;
+  worker.unread.append(block, static_cast<std::size_t>(got));
+  for (std::size_t end = 0; (end = worker.unread.find('\n')) != std::string::npos;) {
+    const std::string line = worker.unread.substr(0, end);
+    worker.unread.erase(0, end + 1);
+    take_line(worker, line);
+  }
+  return true;
+}
+
+void Pool::take_line(Worker& worker, const std::string& line) {
+  if (!worker.greeted) {
+    worker.greeted = true;
+    greet(greeting_of(line));
+    if (!result_.refusal) give_job(worker);
+  } else if (worker.scene) {
+    const std::size_t scene = *std::exchange(worker.scene, std::nullopt);
+    done_(scene, outcome_of(line));
+    give_job(worker);
+  } else {
+    result_.validation_messages += farewell_of(line).validation_messages;
+  }
+}
+
+/// The first greeting tells whether more processes are worth it.
+void Pool::greet(const Greeting& greeting) {
+  if (!greeting.error.empty()) {
+    result_.refusal = Refusal{kNoDevice, {greeting.error}};
+    return;
+  }
+  if (std::exchange(met_, true)) return;
+  const int wanted = greeting.on_cpu || options_.processes ? planned_ : 1;
+  for (int i = 1; i < wanted && !result_.refusal; ++i) start_worker();
+}
+
+void Pool::give_job(Worker& worker) {
+  if (left_ == 0) {
+    ::close(std::exchange(worker.jobs, -1));
+    return;
+  }
+  --left_;
+  worker.scene = next_++ % scenes_.size();
+  const std::string line = fmt::format("{}\n", *worker.scene);
+  // A worker that has died meanwhile is noticed when its results end.
+  [[maybe_unused]] const ssize_t written = ::write(worker.jobs, line.data(), line.size());
+}
+
+/// Takes leave of a worker that has closed its end, in peace or by accident.
+void Pool::lose(Worker& worker) {
+  const int status = end(worker);
+  if (!worker.greeted && !result_.refusal) {
+    result_.refusal =
+        Refusal{kNoDevice,
+                {fmt::format("opening the Vulkan device ended the process by {}; try another "
+                             "--device, or update the driver",
+                             end_of(status))}};
+  }
+  if (!worker.scene) return;
+  const std::string why = fmt::format("drawing it ended the process by {}", end_of(status));
+  done_(*worker.scene, {failed_row(scenes_[*worker.scene], why), {}, false});
+  if (left_ > 0) start_worker();
+}
+
+int Pool::end(Worker& worker) {
+  if (worker.jobs >= 0) ::close(std::exchange(worker.jobs, -1));
+  if (worker.results >= 0) ::close(std::exchange(worker.results, -1));
+  int status = 0;
+  while (::waitpid(worker.process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+}  // namespace
+
+PoolResult run_pool(std::span<const TestScene> scenes, const PoolOptions& options,
+                    const std::function<void(std::size_t scene, const Outcome&)>& done) {
+  // Writing to a worker that has died must not end this process.
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  PoolResult result = Pool(scenes, options, done).run();
+  std::signal(SIGPIPE, before);
+  return result;
+}
+
+}  // namespace skerry::tools

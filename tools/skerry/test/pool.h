@@ -1,0 +1,34 @@
+// Processes that draw and judge scenes side by side.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "tools/skerry/arguments.h"
+#include "tools/skerry/test/judge.h"
+
+namespace skerry::tools {
+
+struct PoolOptions {
+  std::optional<std::uint32_t> device;
+  bool validate = false;
+  std::optional<int> processes;  ///< none: one a core on a CPU device, else one
+  int runs = 1;                  ///< every scene is drawn afresh so many times
+  JudgeOptions judge;
+};
+
+struct PoolResult {
+  std::optional<Refusal> refusal;  ///< there is no device, or no process to use it
+  int validation_messages = 0;
+};
+
+/// Draws and judges every scene. Each process keeps one device and its pipelines for all of its
+/// scenes. A process that dies fails its scene; another takes its place.
+/// @param done is told each outcome as it comes, with the scene's index. The order is the scenes'
+/// with one process, else any.
+/// @pre this process has no thread but its main one: the others are forked from it.
+PoolResult run_pool(std::span<const TestScene> scenes, const PoolOptions& options,
+                    const std::function<void(std::size_t scene, const Outcome&)>& done);
+
+}  // namespace skerry::tools

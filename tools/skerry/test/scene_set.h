@@ -1,0 +1,43 @@
+// The scenes a test is asked to judge: found, read, checked and split before anything is drawn.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "game/options.h"
+
+namespace skerry::tools {
+
+/// One scene file.
+struct TestScene {
+  std::string name;  ///< the file's, without its ending
+  std::filesystem::path file;
+  game::SceneOptions scene;
+  game::Expectations expected;
+
+  /// The reference picture lies beside the scene.
+  std::filesystem::path reference() const;
+};
+
+/// Part `index` (from 1) of `count`.
+struct Shard {
+  std::size_t index = 1, count = 1;
+  bool operator==(const Shard&) const = default;
+};
+
+/// "I/N". Errors: not that, or not 1 <= I <= N <= 10000.
+Result<Shard> parse_shard(std::string_view text);
+
+/// The scene files that paths name: files, and the *.json in folders (not below them). Sorted by
+/// name, each once. Errors: no such path, no scene at all, two files of one name.
+Result<std::vector<std::filesystem::path>> find_scenes(std::span<const std::string> paths);
+
+/// Reads and checks one scene. Errors name the file.
+Result<TestScene> read_scene(const std::filesystem::path& file);
+
+/// Every count-th of the scenes, from the index-th on.
+std::vector<TestScene> shard_of(std::vector<TestScene> scenes, const Shard& shard);
+
+}  // namespace skerry::tools

@@ -1,0 +1,136 @@
+#include "tools/skerry/test/worker.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/check.h"
+#include "engine/core/clock.h"
+#include "tools/skerry/draw_scene.h"
+#include "tools/skerry/scene_device.h"
+
+namespace skerry::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+std::string dumped(const ordered_json& value) {
+  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// One device for many scenes.
+class Artist {
+ public:
+  Artist(gpu::Device& device, const JudgeOptions& options, int threads)
+      : device_(device), options_(options), threads_(threads), driver_(driver_key(device.info())) {}
+
+  Outcome draw_and_judge(const TestScene& scene) {
+    const Stopwatch watch;
+    Outcome outcome = outcome_of_scene(scene);
+    outcome.row.driver = driver_;
+    outcome.row.seconds = watch.seconds();
+    return outcome;
+  }
+
+ private:
+  Outcome outcome_of_scene(const TestScene& scene) {
+    const Result<Hashes> approved = read_hashes(hash_file(scene.file.parent_path(), driver_));
+    if (!approved) return {failed_row(scene, approved.error().message), {}, false};
+    game::SceneOptions options = scene.scene;
+    if (options.settings.jobs_threads == 0)
+      options.settings.jobs_threads = static_cast<std::uint32_t>(threads_);
+    Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device_, options);
+    if (!drawer) return {failed_row(scene, drawer.error().message), {}, false};
+    Result<Drawn> drawn = (*drawer)->draw();
+    if (!drawn) return {failed_row(scene, drawn.error().message), {}, false};
+    Shown shown;
+    shown.picture = {drawn->size.width, drawn->size.height, std::move(drawn->rgba), {}};
+    shown.non_finite = drawn->report.pixels.non_finite;
+    shown.driver = driver_;
+    return judge(scene, shown, *approved, options_);
+  }
+
+  gpu::Device& device_;
+  const JudgeOptions& options_;
+  int threads_;  // 0: one a core
+  std::string driver_;
+};
+
+class Lines {
+ public:
+  explicit Lines(int descriptor) : file_(::fdopen(descriptor, "w")) { SKERRY_ASSERT(file_); }
+  ~Lines() { std::fclose(file_); }
+  Lines(const Lines&) = delete;
+  Lines& operator=(const Lines&) = delete;
+  void write(const std::string& line) {
+    std::fputs(line.c_str(), file_);
+    std::fflush(file_);
+  }
+
+ private:
+  std::FILE* file_;
+};
+
+}  // namespace
+
+void serve(int jobs, int results, std::span<const TestScene> scenes, const PoolOptions& options,
+           int threads) {
+  Lines out(results);
+  // Mesa's CPU driver asks this; what the user has set stays.
+  ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+  game::SceneOptions wanted;
+  wanted.device = options.device;
+  wanted.validate = options.validate;
+  Result<std::unique_ptr<gpu::Device>> device = open_device(wanted);
+  if (!device) {
+    out.write(line_of(Greeting{device.error().message, false}));
+    return;
+  }
+  const bool on_cpu = (*device)->info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  out.write(line_of(Greeting{{}, on_cpu}));
+  Artist artist(**device, options.judge, on_cpu ? threads : 0);
+  std::FILE* in = ::fdopen(jobs, "r");
+  SKERRY_ASSERT(in);
+  for (unsigned long index = 0; std::fscanf(in, "%lu", &index) == 1;) {
+    SKERRY_ASSERT(index < scenes.size());
+    out.write(line_of(artist.draw_and_judge(scenes[index])));
+  }
+  std::fclose(in);
+  out.write(line_of(Farewell{(*device)->validation_message_count()}));
+}
+
+std::string line_of(const Greeting& greeting) {
+  return dumped({{"error", greeting.error}, {"on_cpu", greeting.on_cpu}});
+}
+
+std::string line_of(const Outcome& outcome) {
+  return dumped(
+      {{"row", row_json(outcome.row)}, {"hash", outcome.hash}, {"replaced", outcome.replaced}});
+}
+
+std::string line_of(const Farewell& farewell) {
+  return dumped({{"validation_messages", farewell.validation_messages}});
+}
+
+Greeting greeting_of(const std::string& line) {
+  const json from = json::parse(line);
+  return {from.at("error").get<std::string>(), from.at("on_cpu").get<bool>()};
+}
+
+Outcome outcome_of(const std::string& line) {
+  const json from = json::parse(line);
+  Result<Row> row = row_from_json(from.at("row"));
+  SKERRY_ASSERT(row);
+  return {*std::move(row), from.at("hash").get<std::string>(), from.at("replaced").get<bool>()};
+}
+
+Farewell farewell_of(const std::string& line) {
+  return {json::parse(line).at("validation_messages").get<int>()};
+}
+
+}  // namespace skerry::tools

@@ -1,0 +1,32 @@
+#pragma once
+#include <span>
+
+#include "tools/skerry/test/pool.h"
+
+namespace skerry::tools {
+
+/// What a drawing process says first, once: a device, or why there is none.
+struct Greeting {
+  std::string error;  ///< empty: a device is open
+  bool on_cpu = false;
+};
+/// And last.
+struct Farewell {
+  int validation_messages = 0;
+};
+
+/// The body of a drawing process: reads indices of scenes from `jobs`, a line each, until that
+/// ends, and writes lines of JSON to `results`: a greeting, an outcome a job, a farewell.
+/// @param threads the processor's threads this process may use when the device is the CPU.
+void serve(int jobs, int results, std::span<const TestScene> scenes, const PoolOptions& options,
+           int threads);
+
+/// Each a line of JSON and back. @pre of the second: the line came from the first.
+std::string line_of(const Greeting& greeting);
+std::string line_of(const Outcome& outcome);
+std::string line_of(const Farewell& farewell);
+Greeting greeting_of(const std::string& line);
+Outcome outcome_of(const std::string& line);
+Farewell farewell_of(const std::string& line);
+
+}  // namespace skerry::tools
