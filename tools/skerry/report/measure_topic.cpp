@@ -61,8 +61,8 @@ class Sweep {
                 *std::move(drawn->radiance)};
   }
 
-  Result<double> frame_ms(std::size_t point) {
-    Result<std::vector<render::FrameReport>> reports = drawer(point).time(1);
+  Result<double> frame_ms(std::size_t point, bool keep_shadows) {
+    Result<std::vector<render::FrameReport>> reports = drawer(point).time(1, keep_shadows);
     if (!reports) return reports.error();
     return reports->front().gpu_ms;
   }
@@ -79,14 +79,15 @@ class Sweep {
 };
 
 /// Frame times of every point, measured in turns.
-Result<std::vector<std::vector<double>>> time_frames(Sweep& sweep, std::size_t points,
+Result<std::vector<std::vector<double>>> time_frames(Sweep& sweep, const Topic& topic,
                                                      const std::function<void(double)>& progress) {
+  const std::size_t points = topic.points.size();
   std::vector<std::vector<double>> ms(points);
   double round_ms = 0.0;  // of the round that warms up
   int rounds = 0;
   for (int round = -1; round < rounds; ++round) {
     for (std::size_t p = 0; p < points; ++p) {
-      const Result<double> frame = sweep.frame_ms(p);
+      const Result<double> frame = sweep.frame_ms(p, topic.cost == CostOf::kShading);
       if (!frame) return frame.error();
       if (round < 0)
         round_ms += *frame;
@@ -179,7 +180,7 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
   }
   Result<std::vector<std::vector<double>>> ms =
       topic.cost == CostOf::kUpload ? time_uploads(session.device(), topic)
-                                    : time_frames(*sweep, points, [&](double share) {
+                                    : time_frames(*sweep, topic, [&](double share) {
                                         progress(0.5 + 0.4 * share, what + ": times");
                                       });
   if (!ms) return ms.error();

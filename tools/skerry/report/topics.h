@@ -28,8 +28,9 @@ enum class Judge : std::uint8_t {
 
 /// What a point costs.
 enum class CostOf : std::uint8_t {
-  kFrame,   ///< GPU time of a whole frame, every shadow map drawn afresh
-  kUpload,  ///< time from the first write of 8 MiB of chunk meshes until the GPU has them
+  kFrame,    ///< GPU time of a whole frame, every shadow map drawn afresh
+  kShading,  ///< GPU time of a frame that keeps the shadow maps of the one before
+  kUpload,   ///< time from the first write of 8 MiB of chunk meshes until the GPU has them
 };
 
 struct Topic {

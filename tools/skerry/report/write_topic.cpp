@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "engine/platform/files.h"
 #include "tools/measure/chart.h"
@@ -63,8 +64,15 @@ std::string_view judge_name(Judge judge) {
 }
 
 std::string_view cost_name(CostOf cost) {
-  return cost == CostOf::kFrame ? "GPU time of a frame [ms]"
-                                : "upload of 8 MiB of chunk meshes [ms]";
+  switch (cost) {
+    case CostOf::kFrame:
+      return "GPU time of a frame [ms]";
+    case CostOf::kShading:
+      return "GPU time of a frame that keeps its shadow maps [ms]";
+    case CostOf::kUpload:
+      return "upload of 8 MiB of chunk meshes [ms]";
+  }
+  return "";
 }
 
 std::string number(double value) {
@@ -233,17 +241,18 @@ std::vector<Defect> defects_of(const TopicResult& result) {
   std::vector<Defect> defects;
   for (const PointRow& row : result.rows) {
     if (!row.defaults.empty() && row.standing != Standing::kOnFront) {
-      const PointRow* better = nullptr;
-      for (const PointRow& other : result.rows)
-        if (other.ms.median <= row.ms.median && other.errors.flip_mean <= row.errors.flip_mean &&
-            &other != &row && (!better || other.errors.flip_mean < better->errors.flip_mean))
-          better = &other;
+      const PointRow& better =
+          *std::ranges::min_element(result.rows, {}, [&row](const PointRow& other) {
+            const bool beats = other.ms.median <= row.ms.median &&
+                               other.errors.flip_mean <= row.errors.flip_mean && &other != &row;
+            return std::tuple(!beats, other.errors.flip_mean, other.ms.median);
+          });
       defects.push_back(
           {fmt::format("{}: the default '{}' of {} is {}: {:.3f} ms and FLIP {:.5f}, while '{}' "
                        "takes {:.3f} ms at FLIP {:.5f}",
                        result.topic->name, row.point->label, fmt::join(row.defaults, ", "),
                        name_of(row.standing), row.ms.median, row.errors.flip_mean,
-                       better->point->label, better->ms.median, better->errors.flip_mean),
+                       better.point->label, better.ms.median, better.errors.flip_mean),
            row.standing == Standing::kOffFront});
     }
     if (result.topic->judge == Judge::kEqual && !row.same_bytes)
