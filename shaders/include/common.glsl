@@ -36,7 +36,6 @@ struct Surface {
   vec3 normal;    // world, unit, exact: it comes from the island's axes
   vec3 albedo;    // linear
   vec3 emitted;   // radiance
-  bool plant;     // one of a plant's diagonals
   vec3 in_voxel;  // of a plant: position in its voxel's cube, 0..1
   vec3 axis_x;    // island axes in the world
   vec3 axis_y;

@@ -5,6 +5,7 @@
 
 const float kInvPi = 0.31830988618;
 
+layout(constant_id = 11) const bool kHaze = true;
 // Which bodies give light: bit 0 the sun, bit 1 the moon. A constant, so that the other body costs nothing.
 layout(constant_id = 8) const uint kBodies = 3u;
 
@@ -43,7 +44,7 @@ vec3 received(Surface s, Body body, const uint first_cascade) {
 // What the air between eye and surface does to a surface's radiance: it takes a part away and sends light of its own, the colour of the sky behind,
 // as far as sun or moon reach it at three places along the way. No haze where they do not: a cave stays black.
 vec3 seen_through_air(vec3 radiance, vec3 p) {
-  if (kBodies == 0u) return radiance;
+  if (kBodies == 0u || !kHaze) return radiance;
   // The sun's cascades, or the moon's when it is alone: the first either way.
   float lit = light_in_air(0u, p);
   float distance = length(p);
