@@ -237,8 +237,9 @@ class PassesOnGpu : public gpu::GpuTest {
       uvec3 at = gl_GlobalInvocationID, size = gl_NumWorkGroups * uvec3(8, 8, 1);
       texels[(at.z * size.y + at.y) * size.x + at.x] = texelFetch(maps, ivec3(at), 0).r;
     })";
-  static constexpr const char* kDecode = R"(
-    #include "include/stored.glsl"
+  static constexpr const char* kDecode =
+      "#include \"include/stored.glsl\"\n"
+      R"(
     layout(local_size_x = 8, local_size_y = 8) in;
     layout(constant_id = 4) const uint kNormalCode = 0u;
     layout(binding = 13) uniform sampler2D normals;
