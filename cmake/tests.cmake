@@ -57,3 +57,6 @@ set_tests_properties(image.same_bytes PROPERTIES TIMEOUT 300)
 add_test(NAME stability.all COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/stability_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/stability)
 set_tests_properties(stability.all PROPERTIES TIMEOUT 900)
+
+# Each deliberate breakage of tests/mutation still fits the code; the run of all of them builds for a quarter of an hour and is no part of this.
+add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --check)

@@ -82,18 +82,6 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
   return {};
 }
 
-/// In single quotes unless every character is harmless to a shell.
-std::string shell_word(std::string_view text) {
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
-           c == '.' || c == ',' || c == '-' || c == '+' || c == ':' || c == '=' || c == '/';
-  });
-  if (plain) return std::string(text);
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 /// The field given last, if any.
 const std::string* chosen(const std::optional<std::string>& under,
                           const std::optional<std::string>& over) {
@@ -111,6 +99,17 @@ Result<void> apply_settings(const SceneText& under, const SceneText& over, Setti
 }
 
 }  // namespace
+
+std::string shell_word(std::string_view text) {
+  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+           c == '.' || c == ',' || c == '-' || c == '+' || c == ':' || c == '=' || c == '/';
+  });
+  if (plain) return std::string(text);
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
 
 Result<SceneText> parse_scene(std::string_view json_text) {
   const json root = json::parse(json_text, nullptr, false);

@@ -46,6 +46,9 @@ Result<SceneText> parse_scene(std::string_view json_text);
 /// first.
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over);
 
+/// A word of a command line: in single quotes unless every character is harmless to a shell.
+std::string shell_word(std::string_view text);
+
 /// The command that draws this scene again, quoted for a shell. Without a camera it names none: the
 /// seed's spawn view is the default.
 std::string shot_command(const SceneOptions& scene);

@@ -215,6 +215,7 @@ render::RenderSettings SceneView::render_settings(
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
   out.gbuffer = settings_.gbuffer;
+  out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   return out;
 }

@@ -121,6 +121,26 @@ Result<void> parse_shadow_taps(std::string_view text, Settings& s) {
   return into(parse_integer(kTapNames[*name], "shadow.taps", 1, 32), s.shadow_taps);
 }
 
+Result<void> parse_leave_out(std::string_view text, Settings& s) {
+  render::FeatureSet set;
+  if (text != "none") {
+    for (const std::string& part : split(text, '+')) {
+      const auto name = parse_name(part, "leave.out", render::kFeatureNames);
+      if (!name) return name.error();
+      set.add(static_cast<render::Feature>(*name));
+    }
+  }
+  s.leave_out = set;
+  return {};
+}
+
+std::string print_leave_out(const Settings& s) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < render::kFeatureNames.size(); ++i)
+    if (s.leave_out.has(static_cast<render::Feature>(i))) names.push_back(render::kFeatureNames[i]);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, "+"));
+}
+
 Result<void> parse_renderer(std::string_view text, Settings& s) {
   if (text == "forward") {
     return Error{"renderer=forward is not in this build: use deferred, auto or reference"};
@@ -232,6 +252,8 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kDebugViewNames[static_cast<std::size_t>(s.debug_view)]);
      }},
+    {"leave.out", "none, or of sun, moon, water, cutouts, stars, discs, haze, joined by +",
+     "Draws as if the scene had none of these.", parse_leave_out, print_leave_out},
     {"upload.path", "update, staging or mapped",
      "How meshes travel to the GPU: vkCmdUpdateBuffer, copies, mapped memory.",
      [](std::string_view t, Settings& s) {

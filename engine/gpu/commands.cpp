@@ -28,6 +28,10 @@ void Commands::require(std::uint32_t id, std::uint32_t version, VkAccessFlags2 a
   if ((access & ~declared) != 0) state.fail(pass, id, "it declared for another use");
 }
 
+FrameCounts& Commands::counted() const {
+  return graph_.state_->recorded;
+}
+
 VkImageLayout Commands::layout_of(ImageRef ref) const {
   const auto& merged = graph_.state_->passes[pass_].merged;
   const auto found = std::find_if(merged.begin(), merged.end(),
@@ -132,6 +136,7 @@ void Commands::flush_bindings() {
     write.pBufferInfo = &bound.buffer;
     write.pImageInfo = &bound.image;
   }
+  counted().descriptor_writes += count;
   if (count > 0)
     vkCmdPushDescriptorSetKHR(commands_, pipeline_->bind_point, pipeline_->layout, 0, count,
                               writes.data());
@@ -140,12 +145,14 @@ void Commands::flush_bindings() {
 
 void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   flush_bindings();
+  ++counted().dispatches;
   vkCmdDispatch(commands_, x, y, z);
 }
 
 void Commands::dispatch_indirect(BufferRef arguments, std::uint64_t offset_bytes) {
   require(arguments.id, arguments.version, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
   flush_bindings();
+  ++counted().dispatches;
   vkCmdDispatchIndirect(commands_, buffer(arguments).handle(), offset_bytes);
 }
 
@@ -156,6 +163,7 @@ void Commands::index_buffer(BufferRef ref, VkIndexType type) {
 
 void Commands::draw(std::uint32_t vertices, std::uint32_t instances) {
   flush_bindings();
+  ++counted().draws;
   vkCmdDraw(commands_, vertices, instances, 0, 0);
 }
 
@@ -164,6 +172,7 @@ void Commands::draw_indirect_count(BufferRef commands, std::uint64_t offset_byte
   require(commands.id, commands.version, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
   require(count.id, count.version, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
   flush_bindings();
+  ++counted().draws;
   vkCmdDrawIndexedIndirectCount(commands_, buffer(commands).handle(), offset_bytes,
                                 buffer(count).handle(), count_offset_bytes, max_draws,
                                 sizeof(VkDrawIndexedIndirectCommand));
@@ -173,19 +182,9 @@ void Commands::set_depth_bias(float constant, float slope) {
   vkCmdSetDepthBias(commands_, constant, 0.0f, slope);
 }
 
-void Commands::viewport(VkRect2D area) {
-  const VkViewport viewport{static_cast<float>(area.offset.x),
-                            static_cast<float>(area.offset.y),
-                            static_cast<float>(area.extent.width),
-                            static_cast<float>(area.extent.height),
-                            0.0f,
-                            1.0f};
-  vkCmdSetViewport(commands_, 0, 1, &viewport);
-  vkCmdSetScissor(commands_, 0, 1, &area);
-}
-
 void Commands::fill(BufferRef ref, std::uint64_t offset, std::uint64_t size, std::uint32_t value) {
   require(ref.id, ref.version, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  ++counted().copies;
   vkCmdFillBuffer(commands_, buffer(ref).handle(), offset, size, value);
 }
 
@@ -194,6 +193,7 @@ void Commands::copy(BufferRef from, BufferRef to, std::uint64_t from_offset,
   require(from.id, from.version, VK_ACCESS_2_TRANSFER_READ_BIT);
   require(to.id, to.version, VK_ACCESS_2_TRANSFER_WRITE_BIT);
   const VkBufferCopy region{from_offset, to_offset, size};
+  ++counted().copies;
   vkCmdCopyBuffer(commands_, buffer(from).handle(), buffer(to).handle(), 1, &region);
 }
 
@@ -204,6 +204,7 @@ void Commands::copy(ImageRef from, BufferRef to) {
   VkBufferImageCopy region{};
   region.imageSubresource = {source.aspect(), 0, 0, source.desc().layers};
   region.imageExtent = {source.desc().extent.width, source.desc().extent.height, 1};
+  ++counted().copies;
   vkCmdCopyImageToBuffer(commands_, source.handle(), layout_of(from), buffer(to).handle(), 1,
                          &region);
 }
@@ -216,6 +217,7 @@ void Commands::copy_texel(BufferRef from, ImageRef to, VkOffset2D at) {
   region.imageSubresource = {target.aspect(), 0, 0, 1};
   region.imageOffset = {at.x, at.y, 0};
   region.imageExtent = {1, 1, 1};
+  ++counted().copies;
   vkCmdCopyBufferToImage(commands_, buffer(from).handle(), target.handle(), layout_of(to), 1,
                          &region);
 }
@@ -225,6 +227,7 @@ void Commands::clear(ImageRef ref, VkClearColorValue value) {
   const Image& target = image(ref);
   const VkImageSubresourceRange all{target.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
                                     VK_REMAINING_ARRAY_LAYERS};
+  ++counted().copies;
   vkCmdClearColorImage(commands_, target.handle(), layout_of(ref), &value, 1, &all);
 }
 

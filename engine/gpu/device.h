@@ -41,7 +41,6 @@ struct DeviceLimits {
   std::uint32_t max_image_edge = 0;     ///< pixels, 2D
   std::uint32_t max_draw_count = 0;     ///< of an indirect draw
   float timestamp_period_ns = 0.0f;     ///< 0: the queue cannot measure
-  std::uint64_t min_storage_alignment = 1;
 };
 
 /// Bytes of device memory by what they are for.

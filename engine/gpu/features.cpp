@@ -176,7 +176,6 @@ DeviceLimits read_limits(VkPhysicalDevice device) {
   out.max_image_edge = limits.maxImageDimension2D;
   out.max_draw_count = limits.maxDrawIndirectCount;
   out.timestamp_period_ns = has_timestamps(device) ? limits.timestampPeriod : 0.0f;
-  out.min_storage_alignment = limits.minStorageBufferOffsetAlignment;
   return out;
 }
 

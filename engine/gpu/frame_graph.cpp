@@ -87,6 +87,7 @@ void FrameGraph::begin() {
   state_->resources.clear();
   state_->passes.clear();
   state_->left_out.clear();
+  state_->recorded = {};
   state_->compiled = false;
   state_->pool.begin_frame();
 }
@@ -187,10 +188,19 @@ std::vector<MemoryUse> FrameGraph::transient_memory() const {
   return state_->pool.memory();
 }
 
-std::uint32_t FrameGraph::barrier_count() const {
-  std::size_t count = 0;
-  for (const auto& pass : state_->passes) count += pass.before.size() + pass.behind.size();
-  return static_cast<std::uint32_t>(count);
+FrameCounts FrameGraph::counts() const {
+  FrameCounts out = state_->recorded;
+  for (const auto& pass : state_->passes) {
+    out.passes += pass.alive ? 1 : 0;
+    out.barriers += static_cast<std::uint32_t>(pass.before.size() + pass.behind.size());
+  }
+  for (const auto& resource : state_->resources) {
+    if (resource.imported || resource.last_pass == State::kNoPass) continue;
+    ++(resource.is_image ? out.images : out.buffers);
+    out.transient_bytes +=
+        resource.is_image ? resource.image->allocated_bytes() : resource.buffer->allocated_bytes();
+  }
+  return out;
 }
 
 // --- State: checks and culling ---

@@ -68,6 +68,20 @@ struct LeftOut {
   std::string why;
 };
 
+/// What a frame asks of the GPU.
+struct FrameCounts {
+  std::uint32_t passes = 0;               ///< kept ones
+  std::uint32_t render_passes = 0;        ///< of them, begun with attachments
+  std::uint32_t barriers = 0;             ///< of images and buffers
+  std::uint32_t dispatches = 0;           ///< direct and indirect
+  std::uint32_t draws = 0;                ///< calls; an indirect one counts once
+  std::uint32_t copies = 0;               ///< fills and clears, too
+  std::uint32_t descriptor_writes = 0;    ///< bindings pushed
+  std::uint32_t images = 0, buffers = 0;  ///< made for this frame alone
+  std::uint64_t transient_bytes = 0;      ///< of their memory
+  bool operator==(const FrameCounts&) const = default;
+};
+
 /// Declares one pass. Only what is declared here may be used while recording.
 class PassBuilder {
  public:
@@ -115,7 +129,6 @@ class Commands {
   void draw_indirect_count(BufferRef commands, std::uint64_t offset_bytes, BufferRef count,
                            std::uint64_t count_offset_bytes, std::uint32_t max_draws);
   void set_depth_bias(float constant, float slope);
-  void viewport(VkRect2D area);  ///< default: the attachments' extent
   void fill(BufferRef buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t value);
   void copy(BufferRef from, BufferRef to, std::uint64_t from_offset, std::uint64_t to_offset,
             std::uint64_t size);
@@ -129,6 +142,7 @@ class Commands {
  private:
   friend class FrameGraph;
   Commands(FrameGraph& graph, std::uint32_t pass, VkCommandBuffer commands);
+  FrameCounts& counted() const;
   void require(std::uint32_t id, std::uint32_t version, VkAccessFlags2 access) const;
   VkImageLayout layout_of(ImageRef ref) const;
   [[noreturn]] void fail(const std::string& text) const;
@@ -186,7 +200,8 @@ class FrameGraph {
   std::vector<std::string> culled_names() const;  ///< added but unused
   const std::vector<LeftOut>& left_out() const;
   std::vector<MemoryUse> transient_memory() const;  ///< images and buffers made for this frame
-  std::uint32_t barrier_count() const;              ///< image + buffer barriers of this frame
+  /// Of this frame: what is planned once compiled, what is recorded once executed.
+  FrameCounts counts() const;
   /// GPU times of the frame last executed in this slot. @pre that frame has completed.
   std::vector<PassTime> times(std::uint32_t frame_slot);
 

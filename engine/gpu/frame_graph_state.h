@@ -100,7 +100,7 @@ struct FrameGraph::State {
   void carry_states();
 
   void record_barriers(VkCommandBuffer commands, const std::vector<Barrier>& barriers) const;
-  bool begin_rendering(VkCommandBuffer commands, const Pass& pass, std::uint32_t index) const;
+  bool begin_rendering(VkCommandBuffer commands, const Pass& pass, std::uint32_t index);
   void prepare_timers(VkCommandBuffer commands, std::uint32_t slot);
 
   Device* device;
@@ -109,6 +109,7 @@ struct FrameGraph::State {
   std::vector<Pass> passes;
   std::vector<LeftOut> left_out;
   std::map<std::uint32_t, Timers> timers;  // by frame slot
+  FrameCounts recorded;                    // what Commands and begin_rendering() count
   bool compiled = false;
 };
 

@@ -96,7 +96,7 @@ void FrameGraph::State::record_barriers(VkCommandBuffer commands,
 }
 
 bool FrameGraph::State::begin_rendering(VkCommandBuffer commands, const Pass& pass,
-                                        std::uint32_t index) const {
+                                        std::uint32_t index) {
   std::vector<VkRenderingAttachmentInfo> colors;
   auto depth = vk_struct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
   VkExtent2D extent{};
@@ -127,6 +127,7 @@ bool FrameGraph::State::begin_rendering(VkCommandBuffer commands, const Pass& pa
   info.pColorAttachments = colors.data();
   info.pDepthAttachment = depth.imageView ? &depth : nullptr;
   vkCmdBeginRendering(commands, &info);
+  ++recorded.render_passes;
   const VkViewport viewport{
       0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height), 0.0f, 1.0f};
   vkCmdSetViewport(commands, 0, 1, &viewport);

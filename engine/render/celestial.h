@@ -25,6 +25,8 @@ struct Celestial {
   float moon_lit_fraction = 0.0f;  ///< part of the disc that is lit, 0..1
   bool sun_casts = false;          ///< exactly when sun_irradiance is not zero
   bool moon_casts = false;         ///< exactly when moon_irradiance is not zero
+  bool sun_exists = true;          ///< false: no disc and no glow of it either
+  bool moon_exists = true;
   glm::mat3 sky_from_world;  ///< the frame in which the stars stand still: x at the sun, z at the
                              ///< celestial pole
 };

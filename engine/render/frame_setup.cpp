@@ -126,11 +126,14 @@ bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame) {
   const float pixel = frame.pixel_to_ndc.y * glm::length(frame.ray_up);
   const float reach = std::acos(std::clamp(1.0f / glm::length(corner), 0.0f, 1.0f)) +
                       2.0f * shared::kDiscRadius + 2.0f * pixel;
+  constexpr float kMist = 0.015f;  // sine of the depth below the horizon at which discs end
   const auto seen = [&](glm::dvec3 to_body) {
-    const float cosine = glm::dot(glm::vec3(to_body), frame.ray_forward);
+    const glm::vec3 body(to_body);
+    if (body.y < -(kMist + 2.0f * shared::kDiscRadius + 2.0f * pixel)) return false;
+    const float cosine = glm::dot(body, frame.ray_forward);
     return std::acos(std::clamp(cosine, -1.0f, 1.0f)) <= reach;
   };
-  return seen(sky.to_sun) || seen(sky.to_moon);
+  return (sky.sun_exists && seen(sky.to_sun)) || (sky.moon_exists && seen(sky.to_moon));
 }
 
 void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& now) {
@@ -139,12 +142,11 @@ void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& 
   view.eye -= moved;
 }
 
-bool translucent_in_view(std::span<const shared::Section> sections,
-                         std::span<const shared::IslandTransform> islands,
-                         const shared::CullView& view) {
+bool ranges_in_view(std::span<const shared::Section> sections,
+                    std::span<const shared::IslandTransform> islands, const shared::CullView& view,
+                    std::uint32_t first, std::uint32_t end) {
   for (const shared::Section& s : sections) {
-    if (s.range_end[shared::kRangeCount - 1] == s.range_end[shared::kRangeTranslucent - 1])
-      continue;
+    if (s.range_end[end - 1] == s.range_end[first - 1]) continue;
     const shared::IslandTransform& t = islands[s.island];
     const float voxel = static_cast<float>(1u << s.voxel_size_log2);
     const glm::vec3 low = glm::vec3(s.origin) + unpack_box(s.bounds_min) * voxel,

@@ -16,7 +16,6 @@ struct FrameTables {
   /// How much quads grow in their plane to cover T-junctions, one a view: 1/128 pixel, in blocks a
   /// block of distance along the view axis; of an orthographic view in blocks.
   std::vector<float> edge_growth;
-  bool translucent_in_view = false;  ///< whether water or glass may show; filled in by the renderer
   std::vector<shared::IslandTransform>
       islands;  ///< [view][island], each view's relative to its own source
 };
@@ -27,15 +26,17 @@ shared::IslandTransform transform_of(const IslandPlacement& island, const FixedP
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
                          std::span<const ActiveCascade> cascades);
 
-/// Whether the sun's or the moon's disc may touch the picture: a cone about the view axis.
+/// Whether the sun's or the moon's disc may touch the picture: a cone about the view axis. What has
+/// set is swallowed by mist.
 bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame);
 
 /// Planes of a view at `frozen`, for a camera that has since moved to `now`.
 void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& now);
 
-/// Whether any resident section with translucent quads touches the camera's frustum.
-bool translucent_in_view(std::span<const shared::Section> sections,
-                         std::span<const shared::IslandTransform> islands,
-                         const shared::CullView& view);
+/// Whether any section with quads of ranges [first, end) touches a view's frustum.
+/// @param islands relative to the camera.
+bool ranges_in_view(std::span<const shared::Section> sections,
+                    std::span<const shared::IslandTransform> islands, const shared::CullView& view,
+                    std::uint32_t first, std::uint32_t end);
 
 }  // namespace skerry::render

@@ -5,6 +5,7 @@ namespace skerry::render {
 std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
                                           const SceneRefs& scene, bool shadows) {
   own.push_back({8, scene.bodies});
+  if (!scene.haze && scene.bodies != 0) own.push_back({11, 0});
   if (shadows) {
     own.push_back({9, scene.shadow_taps});
     own.push_back({10, scene.shadow_cascades});

@@ -10,6 +10,7 @@
 #include "engine/render/capture.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
+#include "engine/render/frame_contents.h"
 #include "engine/render/frame_setup.h"
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/geometry_pass.h"
@@ -36,7 +37,9 @@ struct Slot {
   std::uint64_t value = 0;  // timeline value that completes it; 0: not in flight
   gpu::Buffer readback;     // CullStats[kViewCount], then PixelStats
   std::uint32_t views = 0;  // entries of CullStats that the frame wrote
-  bool pixels = false;      // whether it wrote PixelStats
+  gpu::FrameCounts counts{};
+  int pipelines_created = 0;
+  std::uint64_t memory_bytes = 0;
 };
 
 /// Whether the picture takes the way over a radiance image though no pass comes between.
@@ -74,10 +77,12 @@ struct Renderer::State {
   SceneRefs import_scene(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
                          const FrameTables& tables);
   void build(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
-             const FrameTables& tables, std::span<const ActiveCascade> cascades,
-             const shared::SkyConstants& sky_now, Slot& slot);
+             const FrameTables& tables, const FrameContents& contents,
+             std::span<const ActiveCascade> cascades, const shared::SkyConstants& sky_now,
+             Slot& slot);
+  void explain_absent(const FrameFeatures& features);
   Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws,
-                      const RenderSettings& settings, const FrameInput& input,
+                      const RenderSettings& settings, const FrameContents& contents,
                       std::span<const ActiveCascade> cascades);
   void finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input);
   void add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats,
@@ -251,29 +256,27 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, const RenderSet
 }
 
 Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& draws,
-                                     const RenderSettings& settings, const FrameInput& input,
+                                     const RenderSettings& settings, const FrameContents& contents,
                                      std::span<const ActiveCascade> cascades) {
   std::vector<ShadowDraw> redraw;
   std::uint32_t view = 1;
   for (const ActiveCascade& c : cascades) {
     const char* name = kShadowPassNames[static_cast<std::size_t>(c.body * kCascadeCount + c.index)];
-    if (c.redraw)
-      redraw.push_back({view++, c.layer, name});
-    else
+    if (c.redraw) {
+      redraw.push_back({view, c.layer, name, contents.cutouts_in_view[view]});
+      ++view;
+    } else
       graph.leave_out(
           name, "kept from an earlier frame: light, window, geometry and islands have not moved");
   }
-  const std::array<bool, 2> up{input.sky.sun_casts, input.sky.moon_casts};
-  for (std::size_t body = 0; body < 2; ++body) {
-    const char* name = body == 0 ? "draw_shadow_sun" : "draw_shadow_moon";
-    if (!up[body])
-      graph.leave_out(name, body == 0 ? "the sun is below the horizon"
-                                      : "the moon is below the horizon or gives no light");
+  for (const Feature body : {Feature::kSun, Feature::kMoon}) {
+    const char* name = body == Feature::kSun ? "draw_shadow_sun" : "draw_shadow_moon";
+    if (const char* why = contents.features.why_not(body))
+      graph.leave_out(name, why);
     else if (!settings.shadows)
       graph.leave_out(name, "shadow.enabled=0");
   }
-  return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw,
-                         geometry->cutout_quads() > 0);
+  return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw);
 }
 
 /// Copies radiance out if asked to, and develops it.
@@ -311,7 +314,7 @@ void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
 
 void Renderer::State::build(const FrameInput& input, const RenderSettings& settings,
                             VkExtent2D size, const FrameTables& tables,
-                            std::span<const ActiveCascade> cascades,
+                            const FrameContents& contents, std::span<const ActiveCascade> cascades,
                             const shared::SkyConstants& sky_now, Slot& slot) {
   graph.begin();
   SceneRefs scene = import_scene(input, settings, size, tables);
@@ -321,8 +324,11 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
         scene.pixel_stats = b.write(scene.pixel_stats, gpu::Use::kTransferWrite);
       },
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
-  const ShadeIn shade_in{settings.texture_taps, sky_now.stars > 0.0f,
-                         disc_in_view(input.sky, tables.constants)};
+  const FrameFeatures& features = contents.features;
+  explain_absent(features);
+  scene.haze = features.has(Feature::kHaze);
+  const ShadeIn shade_in{settings.texture_taps, features.has(Feature::kStars),
+                         features.has(Feature::kDiscs)};
   const bool sky_moved = !baked_sky || std::memcmp(&*baked_sky, &sky_now, sizeof(sky_now)) != 0;
   baked_sky = sky_now;
   if (sky_moved)
@@ -337,32 +343,37 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
 
   const auto view_count = static_cast<std::uint32_t>(tables.views.size());
   if (geometry->sections_resident() == 0) {
-    for (const char* name : {"cull_sections", "draw_geometry", "draw_shadow_sun",
-                             "draw_shadow_moon", "shade_surfaces", "shade_translucent"})
+    for (const char* name :
+         {"clear_cull_stats", "cull_sections", "cull_scan", "cull_emit", "draw_geometry",
+          "draw_shadow_sun", "draw_shadow_moon", "classify_tiles_clear", "classify_tiles",
+          "shade_surfaces", "draw_translucent", "classify_translucent_tiles", "shade_translucent"})
       graph.leave_out(name, "no geometry is resident");
-    if (by_radiance(input))
+    if (by_radiance(input)) {
       finish_picture(scene, ShadePass::add_sky_only(graph, pipelines, scene, shade_in), input);
-    else
+    } else {
+      graph.leave_out("develop", "nothing comes between shading and picture");
       (void)ShadePass::add_sky_only_to_picture(graph, pipelines, scene, shade_in, picture);
+    }
     add_readback(slot, scene, nullptr, 0);
     return;
   }
   const CulledDraws draws = add_cull_passes(
       graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
-  Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws,
-                                        geometry->cutout_quads() > 0, settings.gbuffer);
-  Shadows maps = add_shadows(scene, draws, settings, input, cascades);
+  Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, contents.cutouts_in_view[0],
+                                        settings.gbuffer);
+  Shadows maps = add_shadows(scene, draws, settings, contents, cascades);
   if (settings.debug_view != DebugView::kNone) {
     (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view,
                                  picture);
-    graph.leave_out("shade_surfaces", "a debug view is shown");
+    for (const char* name :
+         {"classify_tiles", "shade_surfaces", "shade_sky", "shade_translucent", "develop"})
+      graph.leave_out(name, "a debug view is shown");
   } else {
-    const char* no_translucent = nullptr;
-    if (input.camera_medium == 0 && geometry->translucent_quads() == 0)
-      no_translucent = "no translucent block is resident";
-    else if (input.camera_medium == 0 && !tables.translucent_in_view)
-      no_translucent = "no translucent block is in view";
-    if (no_translucent) graph.leave_out("shade_translucent", no_translucent);
+    const char* no_translucent = features.why_not(Feature::kWater);
+    if (no_translucent)
+      for (const char* name :
+           {"draw_translucent", "classify_translucent_tiles", "shade_translucent"})
+        graph.leave_out(name, no_translucent);
     if (no_translucent && !by_radiance(input)) {
       graph.leave_out("develop", "nothing comes between shading and picture");
       (void)ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture);
@@ -386,6 +397,12 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   add_readback(slot, scene, &draws.stats, view_count);
 }
 
+void Renderer::State::explain_absent(const FrameFeatures& features) {
+  for (std::size_t i = 0; i < kFeatureNames.size(); ++i)
+    if (const char* why = features.why_not(static_cast<Feature>(i)))
+      graph.leave_out(std::string(kFeatureNames[i]), why);
+}
+
 void Renderer::State::take_report(std::uint32_t slot_index) {
   Slot& slot = slots[slot_index];
   if (slot.value == 0) return;
@@ -406,6 +423,9 @@ void Renderer::State::take_report(std::uint32_t slot_index) {
     }
   }
   std::memcpy(&r.pixels, data + kPixelStatsOffset, sizeof(r.pixels));
+  r.counts = slot.counts;
+  r.pipelines_created = slot.pipelines_created;
+  r.memory_bytes = slot.memory_bytes;
   report = std::move(r);
   slot.value = 0;
 }
@@ -426,10 +446,13 @@ Renderer::~Renderer() {
 }
 
 Result<std::uint64_t> Renderer::draw(
-    const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+    const FrameInput& asked, const RenderSettings& settings, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
     std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
   State& s = *state_;
+  FrameInput input = asked;
+  input.sky = sky_without(asked.sky, settings.leave_out);
+  if (settings.leave_out.has(Feature::kWater)) input.camera_medium = 0;
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
   if (Result<void> ok = s.resize_picture(size); !ok) return ok.error();
   if (Result<void> ok = check_store(s.device, settings.gbuffer); !ok) return ok.error();
@@ -445,10 +468,8 @@ Result<std::uint64_t> Renderer::draw(
         !ok)
       return ok.error();
   FrameTables tables = build_tables(input, settings, size, *cascades);
-  // Asked of the true camera: a frozen one changes what is drawn, never which passes a picture has.
-  tables.translucent_in_view =
-      s.geometry->translucent_quads() > 0 &&
-      translucent_in_view(s.geometry->records(), tables.islands, tables.views[0]);
+  const shared::SkyConstants sky_now = sky_constants(input.sky);
+  const FrameContents contents = contents_of(input, settings, tables, sky_now, *s.geometry);
   if (!input.freeze_culling)
     s.frozen.reset();
   else if (!s.frozen)
@@ -457,7 +478,6 @@ Result<std::uint64_t> Renderer::draw(
     tables.views[0] = s.frozen->first;
     shift_view(tables.views[0], s.frozen->second, input.camera.position);
   }
-  const shared::SkyConstants sky_now = sky_constants(input.sky);
   if (Result<void> ok = s.upload_tables(tables, input.islands.size(), sky_now); !ok)
     return ok.error();
 
@@ -469,7 +489,7 @@ Result<std::uint64_t> Renderer::draw(
   s.mesh_uploader.record(frame.commands, s.upload_budget);
   // Maps drawn while meshes still wait for their turn will lack them.
   if (s.mesh_uploader.pending_bytes() != 0) s.shadows.forget();
-  s.build(input, settings, size, tables, *cascades, sky_now, slot);
+  s.build(input, settings, size, tables, contents, *cascades, sky_now, slot);
   s.graph.compile();
   if (const std::optional<Error> failure = s.graph.allocation_failure()) {
     s.ring.submit();
@@ -477,6 +497,9 @@ Result<std::uint64_t> Renderer::draw(
     return *failure;
   }
   s.graph.execute(frame.commands, frame.slot);
+  slot.counts = s.graph.counts();
+  slot.pipelines_created = s.pipelines.created();
+  slot.memory_bytes = s.device.memory_total();
   if (after) after(frame.commands, s.picture);
   slot.value = s.ring.submit(waits, signals);
   s.last_slot = frame.slot;

@@ -81,6 +81,9 @@ struct FrameReport {
   shared::CullStats camera{};
   shared::CullStats shadows{};  ///< sums over the cascades drawn
   shared::PixelStats pixels{};
+  gpu::FrameCounts counts{};       ///< of the frame's graph
+  int pipelines_created = 0;       ///< since the renderer was made
+  std::uint64_t memory_bytes = 0;  ///< of the device, in use when the frame was recorded
 };
 
 struct RendererDesc {

@@ -29,6 +29,7 @@ struct SceneRefs {
   std::uint32_t islands_per_view = 0;
   std::uint32_t bodies = 0;  ///< that give light: bit 0 the sun, bit 1 the moon
   std::uint32_t shadow_taps = 0, shadow_cascades = 0;  ///< of each body, see RenderSettings
+  bool haze = true;
   VkExtent2D size{};
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "engine/render/features.h"
+
 namespace skerry::render {
 
 /// What the picture shows instead of the lit scene.
@@ -46,6 +48,7 @@ struct RenderSettings {
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;
+  FeatureSet leave_out;  ///< absent even where the scene has them
   DebugView debug_view = DebugView::kNone;
 };
 

@@ -6,7 +6,7 @@ using gpu::Use;
 
 Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                         const CulledDraws& draws, gpu::Image* maps,
-                        std::span<const ShadowDraw> cascades, bool cutouts) {
+                        std::span<const ShadowDraw> cascades) {
   if (!maps) return Shadows({});
   gpu::ImageRef ref = graph.import(*maps);
   // Only what faces the light is drawn, so back faces never cast; casters nearer to the light than
@@ -26,12 +26,12 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
                                  .depth_clamp = true};
   for (const ShadowDraw& cascade : cascades) {
     const gpu::Pipeline& opaque_pipeline = pipelines.get(opaque);
-    const gpu::Pipeline* cutout_pipeline = cutouts ? &pipelines.get(cutout) : nullptr;
+    const gpu::Pipeline* cutout_pipeline = cascade.cutouts ? &pipelines.get(cutout) : nullptr;
     graph.add_pass(
         cascade.name,
         [&](gpu::PassBuilder& b) {
           declare_draws(b, scene, draws);
-          if (cutouts) {
+          if (cutout_pipeline) {
             b.read(scene.materials, Use::kFragmentRead);
             b.read(scene.block_textures, Use::kFragmentRead);
           }

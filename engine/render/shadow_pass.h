@@ -15,6 +15,7 @@ struct ShadowDraw {
   std::uint32_t view = 0;   ///< index of its matrix, island table and draw lists
   std::uint32_t layer = 0;  ///< of the map
   const char* name = "";    ///< pass name, contains "shadow"
+  bool cutouts = false;     ///< alpha-tested quads may be in it
 };
 
 /// Depth of what the light sees, one pass a cascade. Opaque quads need no fragment shader; cut-outs
@@ -23,7 +24,7 @@ struct ShadowPass {
   /// @param maps the kept D32 array, or null when nothing casts.
   static Shadows add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      const CulledDraws& draws, gpu::Image* maps,
-                     std::span<const ShadowDraw> cascades, bool cutouts);
+                     std::span<const ShadowDraw> cascades);
 };
 
 }  // namespace skerry::render

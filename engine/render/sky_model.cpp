@@ -139,11 +139,12 @@ glm::dvec3 body_radiance(glm::dvec3 dir, double up, const shared::SkyBody& body)
 
 shared::SkyConstants sky_constants(const Celestial& sky) {
   shared::SkyConstants c;
-  c.sun = sky_body(sky.to_sun, glm::dvec3(1.0));
+  c.sun = sky_body(sky.to_sun, glm::dvec3(sky.sun_exists ? 1.0 : 0.0));
   // Half of what the moon's light would give, and less blue: eyes see little colour then, and
   // moonlit land shall stand out from its sky.
   constexpr glm::dvec3 kMoonSky{0.62, 0.50, 0.42};
-  c.moon = sky_body(sky.to_moon, kMoonSky * moonlight(sky.moon_phase));
+  c.moon = sky_body(sky.to_moon,
+                    sky.moon_exists ? kMoonSky * moonlight(sky.moon_phase) : glm::dvec3(0.0));
   // A linear law's mean over the disc is 1 - u / 3: the darkened disc sends the sun's whole
   // irradiance.
   const glm::dvec3 limb(shared::kLimbRed, shared::kLimbGreen, shared::kLimbBlue);
@@ -153,6 +154,8 @@ shared::SkyConstants sky_constants(const Celestial& sky) {
   // seen darker, or no display could show its face.
   const double night = 1.0 - smooth_step(-12.0, 2.0, altitude_deg(sky.to_sun.y));
   c.moon_disc = glm::mix(0.12, 0.013, night) * transmittance_to_zenith(sky.to_moon.y);
+  if (!sky.sun_exists) c.sun_disc = glm::vec3(0.0f);
+  if (!sky.moon_exists) c.moon_disc = glm::vec3(0.0f);
   const std::array<glm::dvec3, 3> sun = light_axes(sky.to_sun), moon = light_axes(sky.to_moon);
   c.sun_right = sun[0] / sine;
   c.sun_up = sun[1] / sine;

@@ -20,6 +20,11 @@ vec3 face_normal(uint face) {
   return vec3(axis == 0u ? s : 0.0, axis == 1u ? s : 0.0, axis == 2u ? s : 0.0);
 }
 
+const float kTextureEdge = 32.0;  // texels a block
+
+// A plant's texture does not repeat: its top must not show below its foot. @param uv u 0..1, v -1..0.
+vec2 plant_uv(vec2 uv) { return clamp(uv, vec2(0.0, -1.0) + 0.5 / kTextureEdge, vec2(1.0, 0.0) - 0.5 / kTextureEdge); }
+
 vec3 world_from_lattice_vector(IslandTransform t, vec3 v) { return t.axis_x * v.x + t.axis_y * v.y + t.axis_z * v.z; }
 vec3 world_from_lattice(IslandTransform t, vec3 p) { return world_from_lattice_vector(t, p) + t.translation; }
 vec3 lattice_from_world_vector(IslandTransform t, vec3 v) { return vec3(dot(t.axis_x, v), dot(t.axis_y, v), dot(t.axis_z, v)); }
@@ -29,8 +34,13 @@ vec3 lattice_from_world(IslandTransform t, vec3 p) { return lattice_from_world_v
 struct Surface {
   vec3 position;  // world
   vec3 normal;    // world, unit, exact: it comes from the island's axes
+  bool plant;     // lit as if it were level, but it stands upright
   vec3 albedo;    // linear
   vec3 emitted;   // radiance
+  vec3 in_voxel;  // of a plant: position in its voxel's cube, 0..1
+  vec3 axis_x;    // island axes in the world
+  vec3 axis_y;
+  vec3 axis_z;
 };
 
 // Ray through a pixel's centre, scaled to one block along the view axis.

@@ -49,7 +49,7 @@ vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
   Body body = frame.bodies[(kBodies & 1u) != 0u ? 0 : 1];
   if (kChannel == 7u) return hashed_colour(cascade_at(body, length(s.position)) + 3u) * 0.6 + 0.4 * s.albedo;
   float n_dot_l = dot(s.normal, body.to_light);
-  return vec3(n_dot_l > 0.0 && body.cascade_count != 0u ? light_visibility(0u, s.position, s.normal, n_dot_l) : 0.0);
+  return vec3(n_dot_l > 0.0 && body.cascade_count != 0u ? surface_visibility(s, body.to_light, 0u, n_dot_l) : 0.0);
 }
 
 void main() {

@@ -3,8 +3,6 @@
 #ifndef SKERRY_SURFACE_GLSL
 #define SKERRY_SURFACE_GLSL
 
-const float kTextureEdge = 32.0;  // texels a block
-
 layout(constant_id = 6) const bool kDepth16 = false;  // depth was kept in 16 bits
 #ifdef SKERRY_STORED
 #include "include/stored.glsl"
@@ -14,6 +12,9 @@ layout(constant_id = 5) const bool kPositionStored = false;
 layout(binding = 13) uniform sampler2D stored_normals;
 layout(binding = 14) uniform sampler2D stored_positions;
 #endif
+
+// Of a plant: position in its voxel's cube, 0..1. Rounding at its foot must not take it for the voxel below.
+vec3 place_in_voxel(vec3 lattice) { return clamp(lattice - floor(lattice + vec3(0.0, 0.001, 0.0)), 0.0, 1.0); }
 
 // Texture coordinates of a lattice point on a face [blocks], v downwards.
 vec2 face_uv(uint face, vec3 lattice) {
@@ -30,14 +31,13 @@ vec2 crisp_uv(vec2 uv, vec2 texels_per_pixel) {
 
 // Block texture at a point of a plane. The footprint is worked out from neighbouring rays, since compute has no derivatives; along its
 // long side it is covered by up to `max_taps` samples.
-vec4 plane_texel(uint layer, uint face, vec3 lattice, vec3 ray_lattice, vec3 right_lattice, vec3 up_lattice, vec3 normal_lattice, float t,
+vec4 plane_texel(uint layer, uint face, vec2 uv, vec3 ray_lattice, vec3 right_lattice, vec3 up_lattice, vec3 normal_lattice, float t,
                  uint max_taps) {
   float facing = dot(normal_lattice, ray_lattice);
   facing = abs(facing) < 1e-6 ? 1e-6 : facing;
   // d(ray * t) along one pixel while staying on the plane.
   vec3 dx = t * (right_lattice - ray_lattice * (dot(normal_lattice, right_lattice) / facing));
   vec3 dy = t * (up_lattice - ray_lattice * (dot(normal_lattice, up_lattice) / facing));
-  vec2 uv = face_uv(face, lattice);
   vec2 uv_dx = face_uv(face, dx), uv_dy = face_uv(face, dy);
   float x2 = dot(uv_dx, uv_dx), y2 = dot(uv_dy, uv_dy);
   vec2 major = x2 > y2 ? uv_dx : uv_dy;
@@ -61,7 +61,9 @@ vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   vec3 normal = face >= 6u ? vec3(0.70710678, 0.0, face == 6u ? -0.70710678 : 0.70710678) : face_normal(face);
   vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.pixel_to_ndc.x;
   vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.pixel_to_ndc.y;
-  return plane_texel(layer, face, lattice_from_world(island, ray * t), lattice_from_world_vector(island, ray), right, up, normal, t, max_taps);
+  vec3 lattice = lattice_from_world(island, ray * t);
+  vec2 uv = face >= 6u ? plant_uv(face_uv(face, place_in_voxel(lattice))) : face_uv(face, lattice);
+  return plane_texel(layer, face, uv, lattice_from_world_vector(island, ray), right, up, normal, t, max_taps);
 }
 
 // Depth of a surface. What 16 bits round to 0 lies half a step before infinity.
@@ -82,6 +84,12 @@ Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_
 #ifdef SKERRY_STORED
   if (kNormalCode != kNormalExact && word != 0u) s.normal = normal_from_texel(texelFetch(stored_normals, pixel, 0), kNormalCode);
 #endif
+  IslandTransform island = islands[surface_island(word)];
+  s.plant = surface_face(word) >= 6u;
+  s.in_voxel = place_in_voxel(lattice_from_world(island, s.position));
+  s.axis_x = island.axis_x;
+  s.axis_y = island.axis_y;
+  s.axis_z = island.axis_z;
   s.albedo = surface_texel(word, ray, t, max_taps).rgb;
   s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
   return s;

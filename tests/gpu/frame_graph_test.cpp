@@ -69,6 +69,25 @@ TEST(FrameGraph, APassWhoseResultNobodyReadsIsLeftOutAndItsImageNotMade) {
   EXPECT_EQ(frame.graph.transient_memory()[0].name, "seen");
 }
 
+TEST(FrameGraph, WhatIsLeftOutIsNotCounted) {
+  Frame frame;
+  frame.writes("lonely", frame.graph.create(picture("unseen")));
+  const ImageRef seen = frame.writes("draw", frame.graph.create(picture("seen")));
+  const BufferRef words = frame.writes("fill", frame.graph.create(bytes("words")));
+  frame.reads("show", seen, Use::kComputeRead);
+  frame.reads("copy", words, Use::kTransferRead);
+  frame.run();
+  const FrameCounts counts = frame.graph.counts();
+  EXPECT_EQ(counts.passes, 4u);
+  EXPECT_EQ(counts.images, 1u);
+  EXPECT_EQ(counts.buffers, 1u);
+  // The image's way into a layout, and what each reader waits for.
+  EXPECT_EQ(counts.barriers, 3u);
+  EXPECT_EQ(counts.dispatches + counts.draws + counts.copies + counts.render_passes, 0u);
+  frame.graph.begin();
+  EXPECT_EQ(frame.graph.counts(), FrameCounts{});
+}
+
 TEST(FrameGraph, AChainIsLeftOutFromItsUnreadEnd) {
   Frame frame;
   const ImageRef first = frame.writes("a", frame.graph.create(picture("a")));
@@ -134,7 +153,7 @@ TEST(FrameGraph, LayersOfOneImageChainAndShareOneTransition) {
   frame.run();
   EXPECT_EQ(frame.graph.pass_names().size(), 5u);
   // One transition to attachment before the first layer, one to sampled after the last.
-  EXPECT_EQ(frame.graph.barrier_count(), 2u);
+  EXPECT_EQ(frame.graph.counts().barriers, 2u);
 }
 
 TEST(FrameGraph, DrawingALayerAgainWaitsForTheFirstTime) {
@@ -145,7 +164,7 @@ TEST(FrameGraph, DrawingALayerAgainWaitsForTheFirstTime) {
   map = frame.draws_layer("c", map, 1);
   frame.reads("light", map, Use::kComputeSampled);
   frame.run();
-  EXPECT_EQ(frame.graph.barrier_count(), 3u);
+  EXPECT_EQ(frame.graph.counts().barriers, 3u);
 }
 
 TEST(FrameGraph, ReadsAfterReadsInTheSameStageNeedNoBarrier) {
@@ -155,7 +174,7 @@ TEST(FrameGraph, ReadsAfterReadsInTheSameStageNeedNoBarrier) {
   frame.reads("r1", data, Use::kComputeRead);
   frame.reads("r2", data, Use::kComputeRead);
   frame.run();
-  EXPECT_EQ(frame.graph.barrier_count(), 1u);
+  EXPECT_EQ(frame.graph.counts().barriers, 1u);
 }
 
 TEST(FrameGraph, AReadInAnotherStageMustSeeTheWriteToo) {
@@ -165,7 +184,7 @@ TEST(FrameGraph, AReadInAnotherStageMustSeeTheWriteToo) {
   frame.reads("vertex", data, Use::kVertexRead);
   frame.reads("both", data, Use::kComputeRead);
   frame.run();
-  EXPECT_EQ(frame.graph.barrier_count(), 2u);
+  EXPECT_EQ(frame.graph.counts().barriers, 2u);
 }
 
 TEST(FrameGraph, AWriteAfterReadsWaits) {
@@ -176,7 +195,7 @@ TEST(FrameGraph, AWriteAfterReadsWaits) {
   data = frame.writes("write", data);
   data = frame.writes("again", data);
   frame.run();
-  EXPECT_EQ(frame.graph.barrier_count(), 2u);
+  EXPECT_EQ(frame.graph.counts().barriers, 2u);
 }
 
 TEST(FrameGraph, AFreshBufferNeedsNoBarrierAndAFreshImageOne) {
@@ -186,7 +205,7 @@ TEST(FrameGraph, AFreshBufferNeedsNoBarrierAndAFreshImageOne) {
   frame.writes("buffer", frame.graph.import(buffer));
   frame.writes("image", frame.graph.import(image));
   frame.run();
-  EXPECT_EQ(frame.graph.barrier_count(), 1u);
+  EXPECT_EQ(frame.graph.counts().barriers, 1u);
 }
 
 TEST(FrameGraph, TheCpuReadsAfterThePassThatWrites) {
@@ -197,7 +216,7 @@ TEST(FrameGraph, TheCpuReadsAfterThePassThatWrites) {
       "count", [&](PassBuilder& b) { b.read(b.write(ref, Use::kComputeWrite), Use::kHostRead); },
       nothing);
   frame.run();
-  EXPECT_EQ(frame.graph.barrier_count(), 1u);
+  EXPECT_EQ(frame.graph.counts().barriers, 1u);
   EXPECT_TRUE((kept.state.stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0);
   EXPECT_FALSE(kept.state.written);
 }
@@ -213,13 +232,14 @@ TEST(FrameGraph, ImportedStateIsCarriedToTheNextFrame) {
   frame.graph.begin();
   frame.reads("storage", frame.graph.import(kept), Use::kComputeRead);
   frame.run();
-  EXPECT_EQ(frame.graph.barrier_count(), 1u) << "the write of the frame before must become visible";
+  EXPECT_EQ(frame.graph.counts().barriers, 1u)
+      << "the write of the frame before must become visible";
   EXPECT_FALSE(kept.state.written);
 
   frame.graph.begin();
   frame.reads("storage", frame.graph.import(kept), Use::kComputeRead);
   frame.run();
-  EXPECT_EQ(frame.graph.barrier_count(), 0u);
+  EXPECT_EQ(frame.graph.counts().barriers, 0u);
 }
 
 TEST(FrameGraph, BarriersFollowWhatHappenedAfterCompile) {
@@ -227,12 +247,12 @@ TEST(FrameGraph, BarriersFollowWhatHappenedAfterCompile) {
   Buffer kept;
   frame.reads("read", frame.graph.import(kept), Use::kComputeRead);
   frame.graph.compile();
-  EXPECT_EQ(frame.graph.barrier_count(), 0u);
+  EXPECT_EQ(frame.graph.counts().barriers, 0u);
   kept.state.stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
   kept.state.access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
   kept.state.written = true;
   frame.graph.execute(VK_NULL_HANDLE, 0);
-  EXPECT_EQ(frame.graph.barrier_count(), 1u);
+  EXPECT_EQ(frame.graph.counts().barriers, 1u);
 }
 
 TEST(FrameGraph, ImportingTwiceGivesTheSameResourceAtItsNewestVersion) {

@@ -82,7 +82,16 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
       value = to;
     }
     run(graph);
-    EXPECT_EQ(graph.pass_names().size(), 4u);
+    const FrameCounts counts = graph.counts();
+    EXPECT_EQ(counts.passes, 4u);
+    EXPECT_EQ(counts.copies, 1u) << "the fill";
+    EXPECT_EQ(counts.dispatches, 3u);
+    EXPECT_EQ(counts.descriptor_writes, 6u) << "two bindings a dispatch";
+    // Each step waits for what it reads; later, each write for last frame's use of its buffer, too.
+    EXPECT_EQ(counts.barriers, frame == 0 ? 3u : 7u);
+    EXPECT_EQ(counts.draws + counts.render_passes, 0u);
+    EXPECT_EQ(counts.buffers, 3u);
+    EXPECT_GE(counts.transient_bytes, 3u * kCount * 4);
   }
   EXPECT_EQ(contents<std::uint32_t>(result),
             std::vector<std::uint32_t>(kCount, ((5 * 2 + 1) * 3 + 1) * 4 + 1));

@@ -38,7 +38,7 @@ TEST(Html, PageIsWellFormedWhateverTheTextsAre) {
   const std::string_view headings[] = {"setting", kHostile};
   const TableRow rows[] = {{{escape(kHostile), labelled("b", kHostile, kHostile)}, "bad"},
                            {{"1", "2"}, ""}};
-  const std::string body = element("h1", escape(kHostile)) + figure(kHostile, kHostile) +
+  const std::string body = element("h1", escape(kHostile)) + figure(kHostile, kHostile, kHostile) +
                            image(kHostile, kHostile) + table(headings, rows);
   const std::string html = page(kHostile, body);
   EXPECT_EQ(xml_fault(html), "");

@@ -246,7 +246,8 @@ TEST(TranslucentInView, AgreesWithClippingEveryBox) {
     const auto planes = frustum_of(camera, kSize.width, kSize.height);
     const Box box = box_of(sections[2], islands[sections[2].island], camera.position);
     const bool truth = box_meets(box, planes);
-    const bool answer = translucent_in_view(sections, transforms, view);
+    const bool answer =
+        ranges_in_view(sections, transforms, view, shared::kRangeTranslucent, shared::kRangeCount);
     if (truth) {
       EXPECT_TRUE(answer) << "lost a section that can be seen, round " << i;
       ++visible;
@@ -254,7 +255,8 @@ TEST(TranslucentInView, AgreesWithClippingEveryBox) {
       ++needless;
     }
     sections[2] = {};
-    EXPECT_FALSE(translucent_in_view(sections, transforms, view));
+    EXPECT_FALSE(
+        ranges_in_view(sections, transforms, view, shared::kRangeTranslucent, shared::kRangeCount));
   }
   EXPECT_GT(visible, kRounds / 20);
   // Boxes near two planes' meeting line pass the plane tests without touching the frustum.

@@ -219,7 +219,7 @@ class Drawing {
     const double height = note.empty() ? kLineHeight : 2 * kLineHeight;
     const double x = x_of(i), y = y_of(i);
     const Box box = place_label(x, y, width, height);
-    taken_.push_back(box);
+    taken_.push_back({box.x0 - 5.0, box.y0, box.x1 + 5.0, box.y1});
     const double near_x = std::clamp(x, box.x0, box.x1), near_y = std::clamp(y, box.y0, box.y1);
     if (std::hypot(near_x - x, near_y - y) > 24.0) out_ += line("leader", x, y, near_x, near_y);
     const bool left_of_point = (box.x0 + box.x1) / 2 < x;

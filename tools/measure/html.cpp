@@ -122,8 +122,8 @@ std::string image(std::string_view source, std::string_view alternative) {
   return fmt::format("<img src=\"{}\" alt=\"{}\"/>", escape(source), escape(alternative));
 }
 
-std::string figure(std::string_view source, std::string_view caption) {
-  const Attribute link{"href", source};
+std::string figure(std::string_view source, std::string_view target, std::string_view caption) {
+  const Attribute link{"href", target};
   return element("figure", element("a", {&link, 1}, image(source, caption)) +
                                element("figcaption", escape(caption)));
 }

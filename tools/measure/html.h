@@ -26,8 +26,8 @@ std::string labelled(std::string_view name, std::string_view css_class, std::str
 
 /// A file beside the page, shown with its pixels unsmoothed. @param source a relative path.
 std::string image(std::string_view source, std::string_view alternative);
-/// A picture with a line of text below.
-std::string figure(std::string_view source, std::string_view caption);
+/// A picture with a line of text below, that leads to `target` (the same picture, larger).
+std::string figure(std::string_view source, std::string_view target, std::string_view caption);
 
 /// A table. Cells are markup; a row's class (may be empty) selects its looks: "bad", "good",
 /// "warn", "mark".

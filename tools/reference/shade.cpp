@@ -112,7 +112,8 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 
                                ? hit.lattice
                                : on_plane(hit, tracer_.lattice_point(hit.island, glm::dvec3(0.0)),
                                           tracer_.lattice_vector(hit.island, fine));
-  const glm::dvec3 albedo(BlockTexels::shared().texel(hit.block, hit.face, place));
+  const glm::dvec3 albedo =
+      scene_.albedo.value_or(BlockTexels::shared().texel(hit.block, hit.face, place));
   const glm::dvec3 reflected = irradiance(point, normal, sampler) * (albedo / kPi) * openness(hit);
   return reflected + albedo * static_cast<double>(world::block_types()[hit.block].emission);
 }

@@ -116,7 +116,7 @@ Tracer::Tracer(const std::vector<Island>& islands) {
     const IVec3 low = island.voxels->box_min(), high = island.voxels->box_max();
     const glm::dvec3 a(low.x, low.y, low.z), b(high.x, high.y, high.z);
     const double radius = 0.5 * glm::length(b - a) + 2.0;  // with the voxel of air about it
-    islands_.push_back({island.voxels.get(), island.rotation, glm::transpose(island.rotation),
+    islands_.push_back({island.voxels, island.rotation, glm::transpose(island.rotation),
                         island.origin, island.rotation * (0.5 * (a + b)) + island.origin,
                         radius * radius});
   }

@@ -163,4 +163,11 @@ int bench_upload(const BenchUploadOptions& options) {
   return status_after(**device);
 }
 
+Result<std::vector<double>> upload_times(gpu::Device& device, gpu::UploadPath path) {
+  const auto* way = std::ranges::find(kWays, path, &Way::path);
+  Result<Times> times = measure(device, *way, chunk_meshes());
+  if (!times) return times.error();
+  return times->total_ms;
+}
+
 }  // namespace skerry::tools

@@ -2,6 +2,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/uploader.h"
 
 namespace skerry::tools {
 
@@ -17,5 +22,8 @@ struct BenchUploadOptions {
 /// ms_p10, ms_p90; gb_per_s of total and of gpu (null where the GPU does nothing).
 /// @return exit status.
 int bench_upload(const BenchUploadOptions& options);
+
+/// The total times [ms] of one way, in writes of the sizes chunk meshes have.
+Result<std::vector<double>> upload_times(gpu::Device& device, gpu::UploadPath path);
 
 }  // namespace skerry::tools

@@ -76,10 +76,10 @@ Result<Drawn> SceneDrawer::draw(bool with_radiance) {
   return out;
 }
 
-Result<std::vector<render::FrameReport>> SceneDrawer::time(int count) {
+Result<std::vector<render::FrameReport>> SceneDrawer::time(int count, bool keep_shadows) {
   std::vector<render::FrameReport> out;
   for (int i = 0; i < count; ++i) {
-    view_->renderer().forget_shadows();
+    if (!keep_shadows) view_->renderer().forget_shadows();
     if (Result<std::uint64_t> drawn = draw_frame(false); !drawn) return drawn.error();
     view_->renderer().finish();
     out.push_back(view_->renderer().report().value());

@@ -34,8 +34,8 @@ class SceneDrawer {
   /// which makes the frame take the way over a radiance image.
   Result<Drawn> draw(bool with_radiance = false);
   /// Draws `count` frames and waits for each; every shadow map and table is drawn afresh in each,
-  /// as in a screenshot.
-  Result<std::vector<render::FrameReport>> time(int count);
+  /// as in a screenshot. @param keep_shadows as in play: maps that still hold are kept.
+  Result<std::vector<render::FrameReport>> time(int count, bool keep_shadows = false);
   game::SceneView& view() { return *view_; }
 
  private:

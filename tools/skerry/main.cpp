@@ -12,6 +12,7 @@
 #include "tools/skerry/bench_commands.h"
 #include "tools/skerry/devices.h"
 #include "tools/skerry/play_command.h"
+#include "tools/skerry/report/report_command.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/shot.h"
 #include "tools/skerry/stability/command.h"
@@ -36,6 +37,8 @@ struct CommandLine {
   bool explain = false;
   bool json = false;
   std::optional<BenchCommands> bench;
+  std::optional<ReportCommand> report;
+  std::vector<std::string> typed;  ///< all arguments, the command first
   std::optional<TestCommand> test;
   std::optional<StabilityCommand> stability;
 
@@ -60,6 +63,7 @@ CommandLine::CommandLine() {
   shot->add_option("--stats", stats, "Write counts, times and a hash of the picture")
       ->type_name("FILE.json");
   shot->add_flag("--explain", explain, "Print what the frame ran, and what it left out and why");
+  report.emplace(app);
   test.emplace(app);
   bench.emplace(app);
   stability.emplace(app);
@@ -95,6 +99,7 @@ int CommandLine::run_shot() {
 int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
   if (chosen == bench->command()) return bench->run();
+  if (chosen == report->command()) return report->run(typed);
   if (chosen == test->command()) return test->run();
   if (chosen == stability->command()) return stability->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
@@ -124,6 +129,7 @@ int run(std::vector<std::string> typed) {
   CommandLine line;
   Result<std::vector<std::string>> arguments = with_command(line.app, std::move(typed));
   if (!arguments) return fail(kUsage, arguments.error());
+  line.typed = *arguments;
   std::reverse(arguments->begin(), arguments->end());  // as CLI11 wants it
   try {
     line.app.parse(*arguments);

@@ -59,8 +59,18 @@ ordered_json stats_json(const gpu::Device& device, game::SceneView& view, const 
   for (const gpu::MemoryUse& use : device.memory_use())
     by[use.name] = by.value(use.name, std::uint64_t{0}) + use.bytes;
   j["memory"] = {{"gpu_bytes", device.memory_total()}, {"by", by}};
-  j["pipelines_created"] = view.renderer().pipelines_created();
-  j["barriers"] = view.renderer().graph().barrier_count();
+  const gpu::FrameCounts& counts = report.counts;
+  j["counts"] = {{"passes", counts.passes},
+                 {"render_passes", counts.render_passes},
+                 {"dispatches", counts.dispatches},
+                 {"draws", counts.draws},
+                 {"copies", counts.copies},
+                 {"barriers", counts.barriers},
+                 {"descriptor_writes", counts.descriptor_writes},
+                 {"pipelines_created", report.pipelines_created},
+                 {"images", counts.images},
+                 {"buffers", counts.buffers},
+                 {"transient_bytes", counts.transient_bytes}};
   j["non_finite_pixels"] = report.pixels.non_finite;
   j["black_fraction"] = static_cast<double>(report.pixels.black) /
                         (static_cast<double>(drawn.size.width) * drawn.size.height);
@@ -74,10 +84,21 @@ void print_explanation(const render::Renderer& renderer, const render::FrameRepo
   fmt::print("images and buffers made for this frame:\n");
   for (const gpu::MemoryUse& use : renderer.graph().transient_memory())
     fmt::print("  {:<24} {:>12} bytes\n", use.name, use.bytes);
-  fmt::print("pipelines: {}\nbarriers: {}\nleft out:\n", renderer.pipelines_created(),
-             renderer.graph().barrier_count());
+  const gpu::FrameCounts& counts = report.counts;
+  fmt::print("counts:\n");
+  for (const auto& [name, count] : std::initializer_list<std::pair<const char*, std::uint64_t>>{
+           {"render passes", counts.render_passes},
+           {"dispatches", counts.dispatches},
+           {"draws", counts.draws},
+           {"copies", counts.copies},
+           {"barriers", counts.barriers},
+           {"descriptor writes", counts.descriptor_writes},
+           {"pipelines created", static_cast<std::uint64_t>(report.pipelines_created)}})
+    fmt::print("  {:<24} {:>12}\n", name, count);
+  fmt::print("left out:\n");
   for (const gpu::LeftOut& out : renderer.graph().left_out())
     fmt::print("  {:<24} {}\n", out.name, out.why);
+  fmt::print("  {:<24} a picture has none: it belongs to play\n", "overlay");
   for (const std::string& name : renderer.graph().culled_names())
     fmt::print("  {:<24} nothing reads what it writes\n", name);
 }

@@ -1,0 +1,52 @@
+#include "engine/render/frame_contents.h"
+
+#include <algorithm>
+
+namespace skerry::render {
+namespace {
+
+void find_water(FrameFeatures& features, const FrameInput& input, const FrameTables& tables,
+                const GeometryStore& geometry) {
+  if (input.camera_medium != 0 || !features.has(Feature::kWater)) return;
+  if (geometry.translucent_quads() == 0)
+    features.set_absent(Feature::kWater, "no translucent block is resident");
+  else if (!ranges_in_view(geometry.records(), tables.islands, tables.views[0],
+                           shared::kRangeTranslucent, shared::kRangeCount))
+    features.set_absent(Feature::kWater, "no translucent block is in view");
+}
+
+std::vector<bool> find_cutouts(FrameFeatures& features, const FrameTables& tables,
+                               const GeometryStore& geometry) {
+  std::vector<bool> in_view(tables.views.size(), false);
+  if (geometry.cutout_quads() == 0)
+    features.set_absent(Feature::kCutouts, "no cut-out block is resident");
+  if (!features.has(Feature::kCutouts)) return in_view;
+  for (std::size_t view = 0; view < in_view.size(); ++view)
+    in_view[view] = ranges_in_view(geometry.records(), tables.islands, tables.views[view],
+                                   shared::kRangeCutout, shared::kRangeTranslucent);
+  if (std::find(in_view.begin(), in_view.end(), true) == in_view.end())
+    features.set_absent(Feature::kCutouts, "no cut-out block is in view of camera or lights");
+  return in_view;
+}
+
+}  // namespace
+
+FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
+                          const FrameTables& tables, const shared::SkyConstants& sky,
+                          const GeometryStore& geometry) {
+  FrameContents out{FrameFeatures(settings.leave_out), {}};
+  FrameFeatures& features = out.features;
+  if (!input.sky.sun_casts) features.set_absent(Feature::kSun, "the sun is below the horizon");
+  if (!input.sky.moon_casts)
+    features.set_absent(Feature::kMoon, "the moon is below the horizon or gives no light");
+  if (!input.sky.sun_casts && !input.sky.moon_casts)
+    features.set_absent(Feature::kHaze, "there is no light for the air to scatter");
+  if (sky.stars == 0.0f) features.set_absent(Feature::kStars, "it is not dark enough");
+  if (!disc_in_view(input.sky, tables.constants))
+    features.set_absent(Feature::kDiscs, "sun and moon are outside the picture or have set");
+  find_water(features, input, tables, geometry);
+  out.cutouts_in_view = find_cutouts(features, tables, geometry);
+  return out;
+}
+
+}  // namespace skerry::render

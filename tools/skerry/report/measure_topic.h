@@ -1,0 +1,72 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "tools/measure/image.h"
+#include "tools/skerry/bench_report.h"
+#include "tools/skerry/report/report_session.h"
+#include "tools/skerry/report/topics.h"
+
+namespace skerry::tools {
+
+/// How far a picture is from the one it is judged by.
+struct PictureErrors {
+  double flip_mean = 0.0, flip_p99 = 0.0;  ///< of the pictures as shown
+  double hdr_flip_mean = 0.0;              ///< of radiance
+  double rel_mse = 0.0, psnr_db = 0.0;     ///< of radiance; psnr_db is infinite for equal ones
+};
+
+/// Whether a setting is worth its time.
+enum class Standing : std::uint8_t {
+  kOnFront,      ///< nothing is both faster and no worse, or better and no slower
+  kWithinNoise,  ///< something is, but the spreads of their times overlap
+  kOffFront      ///< something is, beyond the spread of the times
+};
+
+/// One point in one scene, or in all of them.
+struct PointRow {
+  const TopicPoint* point = nullptr;
+  Spread ms;
+  PictureErrors errors;
+  double change = 0.0;      ///< FLIP mean against the sweep's last point
+  bool same_bytes = false;  ///< as the last point's picture
+  Standing standing = Standing::kOnFront;
+  std::vector<std::string> defaults;  ///< quality levels
+};
+
+struct PointPictures {
+  measure::Image shown, flip, difference;
+};
+
+struct SceneRows {
+  std::string scene;
+  std::string command;                  ///< draws the scene with its own settings
+  int frames = 0;                       ///< timed for each point
+  std::vector<PointRow> rows;           ///< in the topic's order
+  std::vector<PointPictures> pictures;  ///< alike
+  std::optional<measure::Image> reference;
+  double reference_standard_error = 0.0;  ///< of its radiance
+};
+
+struct TopicResult {
+  const Topic* topic = nullptr;
+  std::vector<SceneRows> scenes;
+  /// Over the scenes: times and errors are means, flip_p99 the largest, psnr_db the least.
+  std::vector<PointRow> rows;
+};
+
+/// Draws every point of a topic in every scene, times them in turns, so that what else the machine
+/// does hits all alike, and compares. @param progress told 0..1 and what is being done.
+Result<TopicResult> measure_topic(ReportSession& session, const Topic& topic,
+                                  const std::function<void(double, std::string_view)>& progress);
+
+/// Fills in `standing` of rows that compete with each other.
+void judge_standing(std::vector<PointRow>& rows);
+
+/// "on the front", ...
+std::string_view name_of(Standing standing);
+
+}  // namespace skerry::tools

@@ -1,0 +1,77 @@
+#include "tools/skerry/report/report_session.h"
+
+#include "engine/core/check.h"
+#include "tools/reference/reference.h"
+
+namespace skerry::tools {
+namespace {
+
+constexpr game::PictureSize kCpuSize{160, 90}, kGpuSize{1920, 1080};
+constexpr const char* kOwnScene = "given";
+
+}  // namespace
+
+ReportSession::ReportSession(gpu::Device& device, const ReportRequest& request)
+    : device_(device), request_(request) {}
+
+std::vector<std::string> ReportSession::scenes_of(const Topic& topic) const {
+  if (request_.own_scene) return {kOwnScene};
+  return {topic.scenes.begin(), topic.scenes.end()};
+}
+
+Result<game::SceneOptions> ReportSession::scene(const std::string& name) const {
+  game::SceneOptions scene = request_.scene;
+  if (!request_.own_scene) {
+    const ReportScene* known = find_report_scene(name);
+    SKERRY_ASSERT(known != nullptr);
+    const Result<game::SceneText> text = game::parse_scene(known->json);
+    if (!text) return text.error();
+    Result<game::SceneOptions> made = game::make_scene(*text, request_.typed);
+    if (!made) return made.error();
+    made->device = scene.device;
+    made->validate = scene.validate;
+    scene = *std::move(made);
+  }
+  if (!request_.own_size)
+    scene.size = device_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU ? kCpuSize : kGpuSize;
+  return scene;
+}
+
+Result<const Judged*> ReportSession::reference(const game::SceneOptions& scene,
+                                               const std::function<void(double)>& progress) {
+  std::unique_ptr<Judged>& kept = references_[game::shot_command(scene)];
+  if (kept) return kept.get();
+  reference::ReferenceSettings settings = reference::settings_from(scene);
+  // The renderer samples geometry at pixel centres; smoother edges would drown every other error.
+  settings.filter = game::ReferenceFilter::kCentre;
+  Result<reference::ReferencePicture> made = reference::render_reference(scene, settings, progress);
+  if (!made) return made.error();
+  kept = std::make_unique<Judged>();
+  kept->shown = {made->radiance.width, made->radiance.height,
+                 reference::develop(made->radiance, made->exposure)};
+  kept->radiance = std::move(made->radiance);
+  kept->mean_standard_error = made->mean_error.value_or(0.0);
+  kept->seconds = made->seconds;
+  return kept.get();
+}
+
+Result<void> apply_point(std::string_view settings, game::Settings& into) {
+  for (const std::string& assignment : game::split(settings, ' '))
+    if (Result<void> done = game::apply_setting(assignment, into); !done) return done;
+  return {};
+}
+
+std::vector<std::string> levels_with_default(const TopicPoint& point) {
+  std::vector<std::string> levels;
+  for (const game::Quality quality :
+       {game::Quality::kLow, game::Quality::kMedium, game::Quality::kHigh, game::Quality::kUltra}) {
+    game::Settings settings = game::settings_of(quality);
+    const Result<void> applied = apply_point(point.settings, settings);
+    SKERRY_ASSERT(applied);
+    if (settings == game::settings_of(quality))
+      levels.emplace_back(game::quality_level(quality).name);
+  }
+  return levels;
+}
+
+}  // namespace skerry::tools

@@ -1,0 +1,64 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "game/options.h"
+#include "tools/measure/image.h"
+#include "tools/measure/picture.h"
+#include "tools/skerry/report/topics.h"
+
+namespace skerry::tools {
+
+/// What a report was asked to do.
+struct ReportRequest {
+  std::vector<const Topic*> topics;
+  std::string out;           ///< folder
+  game::SceneText typed;     ///< scene options of the command line
+  game::SceneOptions scene;  ///< as they resolve
+  bool own_scene = false;    ///< judge every topic in `scene` instead of the topic's own
+  bool own_size = false;     ///< a size was given
+  std::string command;       ///< as typed
+};
+
+/// A picture by the CPU reference.
+struct Judged {
+  measure::Picture radiance;  ///< before exposure
+  measure::Image shown;
+  double mean_standard_error = 0.0;  ///< of radiance; 0 when unknown
+  double seconds = 0.0;
+};
+
+/// What the topics of a run share: the device, the scenes, and the references, each made once.
+class ReportSession {
+ public:
+  ReportSession(gpu::Device& device, const ReportRequest& request);
+
+  gpu::Device& device() { return device_; }
+  const ReportRequest& request() const { return request_; }
+  /// Names of the scenes a topic is judged in.
+  std::vector<std::string> scenes_of(const Topic& topic) const;
+  /// A scene by such a name, with the size and the settings of this run.
+  Result<game::SceneOptions> scene(const std::string& name) const;
+  /// @param progress told 0..1. Errors: those of reference::render_reference.
+  Result<const Judged*> reference(const game::SceneOptions& scene,
+                                  const std::function<void(double)>& progress);
+
+ private:
+  gpu::Device& device_;
+  const ReportRequest& request_;
+  std::map<std::string, std::unique_ptr<Judged>> references_;  // by the command that draws it
+};
+
+/// Applies "KEY=VALUE KEY=VALUE" of a topic.
+Result<void> apply_point(std::string_view settings, game::Settings& into);
+
+/// The quality levels whose own settings a point does not change.
+std::vector<std::string> levels_with_default(const TopicPoint& point);
+
+}  // namespace skerry::tools

@@ -1,0 +1,107 @@
+#include "tools/skerry/report/topics.h"
+
+#include <algorithm>
+
+namespace skerry::tools {
+namespace {
+
+constexpr ReportScene kScenes[] = {
+    {"day", "a meadow in the morning", R"({"seed": 1, "time": "10:30"})"},
+    {"low_sun", "long shadows before sunset",
+     R"({"seed": 6, "time": "17:35", "camera": [-60, 145, 279, 90, -8]})"},
+    {"water", "a lake in the sun",
+     R"({"seed": 5, "time": "11:00", "camera": [52.25, 17.5, 52.75, 225, -25]})"},
+    {"far", "islands to the horizon",
+     R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
+};
+
+constexpr TopicPoint kShadowSizes[] = {{"256", "shadow.size=256"},
+                                       {"512", "shadow.size=512"},
+                                       {"1024", "shadow.size=1024"},
+                                       {"2048", "shadow.size=2048"},
+                                       {"4096", "shadow.size=4096"}};
+constexpr TopicPoint kShadowTaps[] = {{"1", "shadow.taps=1"},
+                                      {"4", "shadow.taps=4"},
+                                      {"8", "shadow.taps=8"},
+                                      {"16", "shadow.taps=16"},
+                                      {"32", "shadow.taps=32"}};
+constexpr TopicPoint kShadowCascades[] = {{"1", "shadow.cascades=1"},
+                                          {"2", "shadow.cascades=2"},
+                                          {"3", "shadow.cascades=3"},
+                                          {"4", "shadow.cascades=4"}};
+constexpr TopicPoint kNormals[] = {
+    {"oct8", "gbuffer.normal=oct8"},       {"rgb8", "gbuffer.normal=rgb8"},
+    {"rgb10a2", "gbuffer.normal=rgb10a2"}, {"oct16", "gbuffer.normal=oct16"},
+    {"rgba16f", "gbuffer.normal=rgba16f"}, {"exact", "gbuffer.normal=exact"}};
+constexpr TopicPoint kPositions[] = {{"depth, d16", "gbuffer.position=depth gbuffer.depth=d16"},
+                                     {"rgba16f", "gbuffer.position=rgba16f"},
+                                     {"depth, d32", "gbuffer.position=depth"},
+                                     {"rgba32f", "gbuffer.position=rgba32f"}};
+constexpr TopicPoint kDistances[] = {{"200", "view.distance=200"},
+                                     {"400", "view.distance=400"},
+                                     {"1000", "view.distance=1000"},
+                                     {"2000", "view.distance=2000"},
+                                     {"4000", "view.distance=4000"}};
+constexpr TopicPoint kDetails[] = {{"64", "view.detail=64"},   {"128", "view.detail=128"},
+                                   {"192", "view.detail=192"}, {"320", "view.detail=320"},
+                                   {"512", "view.detail=512"}, {"1024", "view.detail=1024"}};
+constexpr TopicPoint kTextureTaps[] = {{"1", "texture.taps=1"},
+                                       {"2", "texture.taps=2"},
+                                       {"4", "texture.taps=4"},
+                                       {"8", "texture.taps=8"},
+                                       {"16", "texture.taps=16"}};
+constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
+                                       {"2", "water.layers=2"},
+                                       {"3", "water.layers=3"},
+                                       {"4", "water.layers=4"}};
+constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
+                                       {"staging", "upload.path=staging"},
+                                       {"mapped", "upload.path=mapped"}};
+
+constexpr std::string_view kShadowScenes[] = {"day", "low_sun"};
+constexpr std::string_view kDay[] = {"day"};
+constexpr std::string_view kFar[] = {"far"};
+constexpr std::string_view kWater[] = {"water"};
+
+constexpr Topic kTopics[] = {
+    {"shadow_size", "texels along the edge of a shadow map", kShadowSizes, kShadowScenes},
+    {"shadow_taps", "texels of the shadow map that a pixel compares with", kShadowTaps,
+     kShadowScenes, Judge::kReference, CostOf::kShading},
+    {"shadow_cascades", "shadow maps a light has", kShadowCascades, kShadowScenes},
+    {"gbuffer_normal", "how normals are kept between drawing and shading", kNormals, kDay,
+     Judge::kLimit, CostOf::kShading},
+    {"gbuffer_position", "where shading takes positions from", kPositions, kDay, Judge::kLimit,
+     CostOf::kShading},
+    {"view_distance", "blocks up to which anything is drawn", kDistances, kFar, Judge::kReference,
+     CostOf::kFrame, true, "view.distance=4000"},
+    {"view_detail", "blocks up to which everything is drawn in full detail", kDetails, kFar,
+     Judge::kReference, CostOf::kFrame, true},
+    {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,
+     Judge::kReference, CostOf::kShading},
+    {"water_layers", "water and glass surfaces, one behind another, that a pixel shows",
+     kWaterLayers, kWater, Judge::kReference, CostOf::kShading},
+    {"upload_path", "how meshes travel to the GPU", kUploadPaths, kDay, Judge::kEqual,
+     CostOf::kUpload, true},
+};
+
+}  // namespace
+
+std::span<const ReportScene> report_scenes() {
+  return kScenes;
+}
+
+std::span<const Topic> topics() {
+  return kTopics;
+}
+
+const ReportScene* find_report_scene(std::string_view name) {
+  const auto* found = std::ranges::find(kScenes, name, &ReportScene::name);
+  return found == std::end(kScenes) ? nullptr : found;
+}
+
+const Topic* find_topic(std::string_view name) {
+  const auto* found = std::ranges::find(kTopics, name, &Topic::name);
+  return found == std::end(kTopics) ? nullptr : found;
+}
+
+}  // namespace skerry::tools

@@ -1,0 +1,299 @@
+#include "tools/skerry/report/write_topic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "engine/platform/files.h"
+#include "tools/measure/chart.h"
+#include "tools/measure/html.h"
+
+namespace skerry::tools {
+namespace {
+
+using measure::element;
+using measure::escape;
+using measure::labelled;
+using nlohmann::ordered_json;
+
+constexpr std::uint32_t kThumbnailWidth = 480;  ///< pixels, at most
+
+std::string field(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+std::string csv_line(std::string_view scene, int frames, const PointRow& row) {
+  const PictureErrors& e = row.errors;
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(scene),
+                     field(row.point->label), field(row.point->settings), row.ms.median, row.ms.p10,
+                     row.ms.p90, frames, e.flip_mean, e.flip_p99, e.hdr_flip_mean, e.rel_mse,
+                     e.psnr_db, row.change, row.same_bytes ? 1 : 0, field(joined(row.defaults)),
+                     field(name_of(row.standing)));
+}
+
+ordered_json row_json(const PointRow& row) {
+  const PictureErrors& e = row.errors;
+  return {{"point", row.point->label},      {"settings", row.point->settings},
+          {"ms_median", row.ms.median},     {"ms_p10", row.ms.p10},
+          {"ms_p90", row.ms.p90},           {"flip_mean", e.flip_mean},
+          {"flip_p99", e.flip_p99},         {"hdr_flip_mean", e.hdr_flip_mean},
+          {"rel_mse", e.rel_mse},           {"psnr_db", e.psnr_db},
+          {"change_flip_mean", row.change}, {"same_bytes_as_last", row.same_bytes},
+          {"default_of", row.defaults},     {"standing", name_of(row.standing)}};
+}
+
+std::string_view judge_name(Judge judge) {
+  switch (judge) {
+    case Judge::kReference:
+      return "the CPU reference";
+    case Judge::kLimit:
+      return "the most exact point of the sweep";
+    case Judge::kEqual:
+      return "the last point, which all must equal byte for byte";
+  }
+  return "";
+}
+
+std::string_view cost_name(CostOf cost) {
+  switch (cost) {
+    case CostOf::kFrame:
+      return "GPU time of a frame [ms]";
+    case CostOf::kShading:
+      return "GPU time of a frame that keeps its shadow maps [ms]";
+    case CostOf::kUpload:
+      return "upload of 8 MiB of chunk meshes [ms]";
+  }
+  return "";
+}
+
+std::string number(double value) {
+  if (std::isinf(value)) return "\xe2\x88\x9e";
+  return fmt::format("{:.4g}", value);
+}
+
+std::string rows_table(const std::vector<PointRow>& rows) {
+  constexpr std::string_view kHeadings[] = {
+      "setting", "ms median", "p10",    "p90",   "FLIP mean",  "FLIP p99", "HDR-FLIP",
+      "relMSE",  "PSNR dB",   "change", "bytes", "default of", "standing"};
+  std::vector<measure::TableRow> lines;
+  for (const PointRow& row : rows) {
+    const PictureErrors& e = row.errors;
+    measure::TableRow line;
+    line.cells = {element("code", escape(row.point->label)),
+                  fmt::format("{:.3f}", row.ms.median),
+                  fmt::format("{:.3f}", row.ms.p10),
+                  fmt::format("{:.3f}", row.ms.p90),
+                  number(e.flip_mean),
+                  number(e.flip_p99),
+                  number(e.hdr_flip_mean),
+                  number(e.rel_mse),
+                  number(e.psnr_db),
+                  number(row.change),
+                  row.same_bytes ? "equal" : "differ",
+                  escape(fmt::format("{}", fmt::join(row.defaults, ", "))),
+                  escape(name_of(row.standing))};
+    if (!row.defaults.empty())
+      line.css_class = row.standing == Standing::kOnFront    ? "mark good"
+                       : row.standing == Standing::kOffFront ? "mark bad"
+                                                             : "mark warn";
+    lines.push_back(std::move(line));
+  }
+  return measure::table(kHeadings, lines);
+}
+
+/// Writes a picture and, when it is large, a smaller one to show on the page.
+/// @return the figure.
+Result<std::string> write_figure(const std::filesystem::path& dir, const std::string& name,
+                                 const measure::Image& picture, std::string_view caption) {
+  const std::string file = name + ".png";
+  if (Result<void> done = measure::write_image(dir / file, picture); !done) return done.error();
+  if (picture.width <= kThumbnailWidth) return measure::figure(file, file, caption);
+  const std::string small = name + "-small.png";
+  const std::uint32_t factor = (picture.width + kThumbnailWidth - 1) / kThumbnailWidth;
+  if (Result<void> done = measure::write_image(dir / small, measure::shrink(picture, factor));
+      !done)
+    return done.error();
+  return measure::figure(small, file, caption);
+}
+
+std::string pictures_grid(const std::string& figures) {
+  const measure::Attribute css{"class", "pictures"};
+  return element("div", {&css, 1}, figures) + "\n";
+}
+
+Result<std::string> write_scene(const Topic& topic, const SceneRows& scene,
+                                const std::filesystem::path& dir) {
+  const ReportScene* known = find_report_scene(scene.scene);
+  std::string out = element("h3", escape(fmt::format("Scene {}{}{}", scene.scene, known ? ": " : "",
+                                                     known ? known->meaning : "")));
+  out += element("p", element("code", escape(scene.command)));
+  if (scene.reference)
+    out += labelled("p", "faint",
+                    fmt::format("Standard error of the reference: {:.3g} of its mean radiance.",
+                                scene.reference_standard_error));
+  out += rows_table(scene.rows);
+  const std::string stem = fmt::format("{}-{}", topic.name, scene.scene);
+  std::string shown, flips, differences;
+  if (scene.reference) {
+    Result<std::string> figure =
+        write_figure(dir, stem + "-reference", *scene.reference, "CPU reference");
+    if (!figure) return figure.error();
+    shown += *figure;
+  }
+  for (std::size_t p = 0; p < scene.rows.size(); ++p) {
+    const PointRow& row = scene.rows[p];
+    const PointPictures& pictures = scene.pictures[p];
+    const std::string name = fmt::format("{}-{}", stem, p);
+    const std::string note =
+        row.defaults.empty() ? "" : fmt::format(" (default: {})", fmt::join(row.defaults, ", "));
+    const auto add = [&](std::string& to, const char* suffix, const measure::Image& picture,
+                         const std::string& caption) -> Result<void> {
+      Result<std::string> figure = write_figure(dir, name + suffix, picture, caption);
+      if (!figure) return figure.error();
+      to += *figure;
+      return {};
+    };
+    const std::string label = std::string(row.point->label) + note;
+    if (Result<void> done = add(shown, "", pictures.shown, label); !done) return done.error();
+    if (Result<void> done = add(flips, "-flip", pictures.flip,
+                                fmt::format("{}: FLIP {:.4f}", label, row.errors.flip_mean));
+        !done)
+      return done.error();
+    if (Result<void> done = add(differences, "-difference", pictures.difference, label); !done)
+      return done.error();
+  }
+  const bool all_equal = std::ranges::all_of(scene.pictures, [](const PointPictures& pictures) {
+    return std::ranges::all_of(pictures.difference.rgba, [i = 0u](std::uint8_t byte) mutable {
+      return i++ % 4 == 3 || byte == 0;
+    });
+  });
+  out += pictures_grid(shown);
+  if (all_equal) return out + labelled("p", "good", "No picture differs in any byte.");
+  out += labelled("p", "faint", "FLIP: black 0, white 1") + pictures_grid(flips);
+  out += labelled("p", "faint", "Difference of the encoded bytes, 8 times") +
+         pictures_grid(differences);
+  return out;
+}
+
+}  // namespace
+
+std::string topic_csv(const TopicResult& result) {
+  std::string out =
+      "scene,point,settings,ms_median,ms_p10,ms_p90,frames,flip_mean,flip_p99,hdr_flip_mean,"
+      "rel_mse,psnr_db,change_flip_mean,same_bytes_as_last,default_of,standing\n";
+  int frames = 0;
+  for (const SceneRows& scene : result.scenes) {
+    for (const PointRow& row : scene.rows) out += csv_line(scene.scene, scene.frames, row);
+    frames += scene.frames;
+  }
+  for (const PointRow& row : result.rows) out += csv_line("all", frames, row);
+  return out;
+}
+
+ordered_json topic_json(const TopicResult& result) {
+  const Topic& topic = *result.topic;
+  ordered_json j{{"topic", topic.name},
+                 {"meaning", topic.meaning},
+                 {"judged_by", judge_name(topic.judge)},
+                 {"time", cost_name(topic.cost)}};
+  j["rows"] = ordered_json::array();
+  for (const PointRow& row : result.rows) j["rows"].push_back(row_json(row));
+  j["scenes"] = ordered_json::array();
+  for (const SceneRows& scene : result.scenes) {
+    ordered_json s{{"scene", scene.scene},
+                   {"command", scene.command},
+                   {"frames", scene.frames},
+                   {"reference_standard_error",
+                    scene.reference ? ordered_json(scene.reference_standard_error) : nullptr},
+                   {"rows", ordered_json::array()}};
+    for (const PointRow& row : scene.rows) s["rows"].push_back(row_json(row));
+    j["scenes"].push_back(std::move(s));
+  }
+  j["defects"] = ordered_json::array();
+  for (const Defect& defect : defects_of(result))
+    j["defects"].push_back({{"text", defect.text}, {"certain", defect.certain}});
+  return j;
+}
+
+std::string topic_svg(const TopicResult& result) {
+  const Topic& topic = *result.topic;
+  measure::Chart chart;
+  chart.title = fmt::format("{}: {}", topic.name, topic.meaning);
+  chart.time_label = fmt::format("{}, median and p10 to p90", cost_name(topic.cost));
+  chart.error_label = fmt::format("mean FLIP against {}", judge_name(topic.judge));
+  for (const PointRow& row : result.rows)
+    chart.points.push_back({std::string(row.point->label), row.ms.median, row.ms.p10, row.ms.p90,
+                            row.errors.flip_mean, row.defaults,
+                            !row.defaults.empty() && row.standing == Standing::kOffFront});
+  return measure::svg_chart(chart);
+}
+
+std::vector<Defect> defects_of(const TopicResult& result) {
+  std::vector<Defect> defects;
+  for (const PointRow& row : result.rows) {
+    if (!row.defaults.empty() && row.standing != Standing::kOnFront) {
+      const PointRow& better =
+          *std::ranges::min_element(result.rows, {}, [&row](const PointRow& other) {
+            const bool beats = other.ms.median <= row.ms.median &&
+                               other.errors.flip_mean <= row.errors.flip_mean && &other != &row;
+            return std::tuple(!beats, other.errors.flip_mean, other.ms.median);
+          });
+      defects.push_back(
+          {fmt::format("{}: the default '{}' of {} is {}: {:.3f} ms and FLIP {:.5f}, while '{}' "
+                       "takes {:.3f} ms at FLIP {:.5f}",
+                       result.topic->name, row.point->label, fmt::join(row.defaults, ", "),
+                       name_of(row.standing), row.ms.median, row.errors.flip_mean,
+                       better.point->label, better.ms.median, better.errors.flip_mean),
+           row.standing == Standing::kOffFront});
+    }
+    if (result.topic->judge == Judge::kEqual && !row.same_bytes)
+      defects.push_back(
+          {fmt::format("{}: the picture of '{}' must equal that of '{}' and does not",
+                       result.topic->name, row.point->label, result.rows.back().point->label)});
+  }
+  return defects;
+}
+
+Result<std::string> write_topic(const TopicResult& result, const std::filesystem::path& dir) {
+  const Topic& topic = *result.topic;
+  const std::string name(topic.name);
+  if (Result<void> done = platform::write_text(dir / (name + ".csv"), topic_csv(result)); !done)
+    return done.error();
+  if (Result<void> done =
+          platform::write_text(dir / (name + ".json"), topic_json(result).dump(2) + "\n");
+      !done)
+    return done.error();
+  if (Result<void> done = platform::write_text(dir / (name + ".svg"), topic_svg(result)); !done)
+    return done.error();
+
+  const measure::Attribute id{"id", name};
+  std::string out = element("h2", {&id, 1}, escape(name)) + "\n";
+  out +=
+      element("p", escape(fmt::format("{}. Errors are against {}; times are the {}.", topic.meaning,
+                                      judge_name(topic.judge), cost_name(topic.cost))));
+  for (const Defect& defect : defects_of(result))
+    out += labelled("p", defect.certain ? "bad" : "warn", defect.text) + "\n";
+  out += measure::image(name + ".svg", name + ": error against time") + "\n";
+  if (result.scenes.size() > 1) out += rows_table(result.rows);
+  out += fmt::format(
+      "<p class=\"faint\"><a href=\"{0}.csv\">{0}.csv</a>, <a href=\"{0}.json\">{0}.json</a>. "
+      "Change: mean FLIP against the last setting.</p>\n",
+      escape(name));
+  for (const SceneRows& scene : result.scenes) {
+    Result<std::string> part = write_scene(topic, scene, dir);
+    if (!part) return part.error();
+    out += *part;
+  }
+  return out;
+}
+
+}  // namespace skerry::tools
