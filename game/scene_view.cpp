@@ -211,6 +211,8 @@ render::RenderSettings SceneView::render_settings(
   out.shadow_map_size = static_cast<int>(settings_.shadow_size);
   out.shadow_cascades = static_cast<int>(settings_.shadow_cascades);
   out.shadow_taps = static_cast<int>(settings_.shadow_taps);
+  out.shadow_split = settings_.shadow_split;
+  out.shadow_filter_blocks = static_cast<float>(settings_.shadow_blur);
   out.texture_taps = static_cast<int>(settings_.texture_taps);
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);

@@ -195,6 +195,18 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) { return std::to_string(s.shadow_cascades); }},
     {"shadow.taps", "1, 4, 8, 16 or 32", "Texels of the shadow map that a pixel compares with.",
      parse_shadow_taps, [](const Settings& s) { return std::to_string(s.shadow_taps); }},
+    {"shadow.split", "0 to 1",
+     "How the maps share the view distance: 0 evenly, 1 each a multiple of the one before.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "shadow.split", 0.0, 1.0), s.shadow_split);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.shadow_split); }},
+    {"shadow.blur", "blocks, 0 to 1",
+     "Smallest radius of the shadow filter, which is 1.5 texels at least.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "shadow.blur", 0.0, 1.0), s.shadow_blur);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.shadow_blur); }},
     {"texture.taps", "1 to 16", "Samples along the long side of a slanted texture, at most.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "texture.taps", 1, 16), s.texture_taps);

@@ -16,7 +16,6 @@ constexpr double kUnitsPerBlock = 65536.0;
 constexpr int kAxisBits = 52;      // axes are rounded to multiples of 2^-52 for exact products
 constexpr int kSnapDivisor = 16;   // a snap step is this part of the map's width
 constexpr double kEdgeTexels = 4;  // spare texels for bilinear comparison
-constexpr double kSplitLambda = 0.75;
 
 using IntAxis = std::array<std::int64_t, 3>;
 
@@ -139,14 +138,14 @@ Cascade make_cascade(const CascadeInput& in, const std::array<glm::dvec3, 3>& ax
 
 }  // namespace
 
-std::vector<double> cascade_radii(double near_blocks, double far_blocks, int count) {
+std::vector<double> cascade_radii(double near_blocks, double far_blocks, int count, double split) {
   // F. Zhang et al., Parallel-Split Shadow Maps for Large-Scale Virtual Environments, VRCIA 2006.
   std::vector<double> radii;
   for (int i = 0; i < count; ++i) {
     const double t = static_cast<double>(i + 1) / count;
     const double logarithmic = near_blocks * std::pow(far_blocks / near_blocks, t);
     const double uniform = near_blocks + (far_blocks - near_blocks) * t;
-    radii.push_back(kSplitLambda * logarithmic + (1.0 - kSplitLambda) * uniform);
+    radii.push_back(split * logarithmic + (1.0 - split) * uniform);
   }
   radii.back() = far_blocks;
   return radii;
@@ -174,7 +173,8 @@ std::vector<Cascade> make_cascades(const CascadeInput& input) {
   SKERRY_ASSERT(input.count >= 1 && input.count <= kCascadeCount);
   const std::array<glm::dvec3, 3> axes = light_axes(input.to_light);
   std::vector<Cascade> cascades;
-  for (const double radius : cascade_radii(input.near_blocks, input.far_blocks, input.count))
+  for (const double radius :
+       cascade_radii(input.near_blocks, input.far_blocks, input.count, input.split))
     cascades.push_back(make_cascade(input, axes, radius));
   return cascades;
 }

@@ -28,6 +28,7 @@ struct CascadeInput {
   double filter_blocks =
       0.25;  ///< how far the shadow filter and the normal offset reach from the shaded point
   int map_size = 2048;  ///< texels along an edge, 64..16384
+  double split = 0.95;  ///< see cascade_radii
   int count =
       kCascadeCount;  ///< of cascades, 1..kCascadeCount; few cover the same with coarser maps
 };
@@ -62,9 +63,9 @@ struct Cascade {
   CascadeKey key;
 };
 
-/// Radii of the cascades [blocks]: the practical split (Zhang 2006), lambda 0.75, between near and
-/// far; the last is far exactly.
-std::vector<double> cascade_radii(double near_blocks, double far_blocks, int count);
+/// Radii of the cascades [blocks]: the practical split (Zhang 2006) between near and far; the last
+/// is far exactly. @param split lambda: 0 evenly spaced .. 1 each a constant multiple of the last.
+std::vector<double> cascade_radii(double near_blocks, double far_blocks, int count, double split);
 
 /// Right, up and backward (towards the light) axes of a light's view, orthonormal and right-handed.
 /// Right is celestial pole x light: continuous wherever a sun or moon can stand, and everywhere

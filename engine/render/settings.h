@@ -41,6 +41,7 @@ struct RenderSettings {
   bool shadows = true;
   int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
   int shadow_cascades = 4;     ///< maps a light has, 1..4; however few reach as far
+  double shadow_split = 0.95;  ///< 0 evenly spaced cascades .. 1 each a multiple of the last
   int shadow_taps = 8;         ///< of the shadow filter: 1, 4, 8, 16 or 32
   float shadow_filter_blocks =
       0.06f;                   ///< smallest radius of the shadow filter; never under 1.5 texels

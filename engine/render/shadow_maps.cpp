@@ -81,6 +81,7 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
                        8.0 * settings.view_distance_blocks / settings.shadow_map_size;
     in.map_size = settings.shadow_map_size;
     in.count = settings.shadow_cascades;
+    in.split = settings.shadow_split;
     for (const Cascade& cascade : make_cascades(in)) {
       ActiveCascade active{body, index++, layer, true, cascade};
       Kept& kept = kept_[layer];

@@ -91,6 +91,8 @@ TEST(Settings, EveryKeyReadsBackWhatItPrints) {
                                  "shadow.size=256",
                                  "shadow.cascades=3",
                                  "shadow.taps=32",
+                                 "shadow.split=0.5",
+                                 "shadow.blur=0.25",
                                  "texture.taps=16",
                                  "gbuffer.normal=rgb8",
                                  "gbuffer.position=rgba32f",

@@ -70,7 +70,7 @@ std::vector<glm::dvec3> special_directions() {
 }
 
 TEST(CascadeRadii, AreThePracticalSplitAndEndAtTheViewDistance) {
-  const auto radii = cascade_radii(1.0, 1000.0, 4);
+  const auto radii = cascade_radii(1.0, 1000.0, 4, 0.75);
   // Half way: 0.75 * sqrt(1 * 1000) + 0.25 * (1 + 999 / 2).
   EXPECT_NEAR(radii[1], 0.75 * std::sqrt(1000.0) + 0.25 * 500.5, 1e-9);
   EXPECT_EQ(radii[3], 1000.0);
@@ -85,7 +85,7 @@ TEST(CascadeRadii, OfEveryCountEndAtTheViewDistance) {
     ASSERT_EQ(cascades.size(), static_cast<std::size_t>(count));
     EXPECT_EQ(cascades.back().radius, static_cast<float>(in.far_blocks));
   }
-  EXPECT_LT(cascade_radii(1.0, 1000.0, 4)[0], cascade_radii(1.0, 1000.0, 2)[0]);
+  EXPECT_LT(cascade_radii(1.0, 1000.0, 4, 0.75)[0], cascade_radii(1.0, 1000.0, 2, 0.75)[0]);
 }
 
 TEST(LightAxes, AreOrthonormalAndRightHandedForEveryDirection) {

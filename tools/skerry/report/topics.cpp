@@ -25,6 +25,15 @@ constexpr TopicPoint kShadowTaps[] = {{"1", "shadow.taps=1"},
                                       {"8", "shadow.taps=8"},
                                       {"16", "shadow.taps=16"},
                                       {"32", "shadow.taps=32"}};
+constexpr TopicPoint kShadowSplits[] = {
+    {"0", "shadow.split=0"},     {"0.5", "shadow.split=0.5"},   {"0.75", "shadow.split=0.75"},
+    {"0.9", "shadow.split=0.9"}, {"0.95", "shadow.split=0.95"}, {"0.98", "shadow.split=0.98"},
+    {"1", "shadow.split=1"}};
+constexpr TopicPoint kShadowBlurs[] = {{"0", "shadow.blur=0"},
+                                       {"0.03", "shadow.blur=0.03"},
+                                       {"0.06", "shadow.blur=0.06"},
+                                       {"0.12", "shadow.blur=0.12"},
+                                       {"0.25", "shadow.blur=0.25"}};
 constexpr TopicPoint kShadowCascades[] = {{"1", "shadow.cascades=1"},
                                           {"2", "shadow.cascades=2"},
                                           {"3", "shadow.cascades=3"},
@@ -68,6 +77,10 @@ constexpr Topic kTopics[] = {
     {"shadow_taps", "texels of the shadow map that a pixel compares with", kShadowTaps,
      kShadowScenes, Judge::kReference, CostOf::kShading},
     {"shadow_cascades", "shadow maps a light has", kShadowCascades, kShadowScenes},
+    {"shadow_split", "how the maps of a light share the view distance", kShadowSplits,
+     kShadowScenes},
+    {"shadow_blur", "smallest radius of the shadow filter", kShadowBlurs, kShadowScenes,
+     Judge::kReference, CostOf::kShading},
     {"gbuffer_normal", "how normals are kept between drawing and shading", kNormals, kDay,
      Judge::kLimit, CostOf::kShading},
     {"gbuffer_position", "where shading takes positions from", kPositions, kDay, Judge::kLimit,
