@@ -10,8 +10,8 @@
 namespace skerry::render {
 
 /// Distance of the near plane [blocks]; there is no far plane. Reversed floating-point depth keeps
-/// its relative precision however near this is, and at 175 degrees the picture's corners are 40
-/// times as far as it: it must stay below 0.3 blocks, how near an eye gets to a wall, even there.
+/// its relative precision however near this is. At 175 degrees a wide picture's corners are 47
+/// times as far, which must stay below the 0.3 blocks that an eye keeps to walls.
 inline constexpr float kNearPlane = 0.005f;
 
 /// A pinhole camera. Axes and angles: docs/conventions.md.
