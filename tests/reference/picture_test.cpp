@@ -147,5 +147,13 @@ TEST(ReferenceScene, ADebugViewHasNoReference) {
   EXPECT_NE(refused.error().message.find("debug.view"), std::string::npos);
 }
 
+TEST(ReferenceScene, WhatIsLeftOutHasNoReference) {
+  game::SceneOptions options;
+  ASSERT_TRUE(game::apply_setting("leave.out=haze", options.settings));
+  const auto refused = render_reference(options, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("leave.out"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace skerry::reference

@@ -119,6 +119,8 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const Progress& progress) {
   if (options.settings.debug_view != game::DebugView::kNone)
     return Error{"debug.view has no reference picture: use debug.view=none or renderer=deferred"};
+  if (options.settings.leave_out != render::FeatureSet{})
+    return Error{"leave.out has no reference picture: use leave.out=none or renderer=deferred"};
   if (std::uint64_t{options.size.width} * options.size.height > kMaxPixels)
     return Error{fmt::format("--size {}x{} is too large: a reference picture has at most {} pixels",
                              options.size.width, options.size.height, kMaxPixels)};
