@@ -26,6 +26,7 @@ TEST(CommandLine, HelpIsThereOnEveryLevel) {
                                                     {"play", "--help"},
                                                     {"shot", "--help"},
                                                     {"devices", "--help"},
+                                                    {"report", "--help"},
                                                     {"shot", "-h"},
                                                     {"test", "--help"},
                                                     {"bench", "--help"},
@@ -66,6 +67,14 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"shot", "--seed", "1", "--set", "view.distence=5"}, {"'view.distance'"}},
       {{"shot", "--seed", "1", "--set", "nothing"}, {"KEY=VALUE"}},
       {{"shot", "--seed", "1", "--renderer", "forward"}, {"not in this build", "deferred"}},
+      {{"shot", "--seed", "1", "--renderer", "referense"}, {"'reference'"}},
+      {{"shot", "--seed", "1", "--set", "reference.samples=0"}, {"1", "65536"}},
+      {{"shot", "--seed", "1", "--renderer", "reference", "--set", "debug.view=depth"},
+       {"debug.view"}},
+      {{"shot", "--seed", "1", "--renderer", "reference", "--size", "65535x65535"},
+       {"--size", "pixels"}},
+      {{"play", "--renderer", "reference"}, {"skerry shot"}},
+      {{"bench", "frame", "--seed", "1", "--renderer", "reference"}, {"skerry shot"}},
       {{"shot", "--seed", "1", "--shading", "pbrr"}, {"'pbr'"}},
       {{"--no-such"}, {"'--no-such'"}},
       {{"devices", "--jsno"}, {"'--json'"}},
@@ -81,6 +90,10 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"bench", "mesh", "--inptu", "x"}, {"'--input'"}},
       {{"bench", "cull", "--device", "-1"}, {"--device"}},
       {{"bench", "frame"}, {"--seed"}},
+      {{"report", "shadow_sise", "--out", "/tmp"}, {"'shadow_sise'", "'shadow_size'"}},
+      {{"report", "leftout", "--out", "/tmp"}, {"'left_out'"}},
+      {{"report", "shadow_size"}, {"--out DIR"}},
+      {{"report", "--uot", "x"}, {"'--out'"}},
       {{"shot", "--seed", "1", "--set", std::string(100000, 'x')}, {"'xxx"}},
   };
   for (const auto& [arguments, parts] : cases)
@@ -89,7 +102,7 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
 
 TEST(CommandLine, WhatIsNotInThisBuildIsNotListed) {
   const Outcome help = run({"--help"});
-  for (const char* command : {"report", "stability", "vdb"}) {
+  for (const char* command : {"vdb"}) {
     EXPECT_EQ(help.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
     EXPECT_EQ(run({command}).status, 2) << command;
   }
@@ -105,6 +118,8 @@ TEST(CommandLine, FilesThatCannotBeUsedExitWithOne) {
   expect_refusal(run({"shot", "--world", "/no/such/world"}), 1, {"does not exist"}, "world");
   expect_refusal(run({"bench", "mesh", "--input", "/no/such"}), 1, {"/no/such"}, "bench input");
   expect_refusal(run({"bench", "cull", "--json", "/no/such/a.json"}), 1, {"a.json"}, "bench json");
+  expect_refusal(run({"report", "--out", "/no/such/report"}), 1, {"/no/such/report", "--out"},
+                 "report");
   expect_refusal(run({"--world", "/"}), 1, {"cannot load saved worlds"}, "play world");
 }
 
@@ -130,6 +145,24 @@ TEST(CommandLine, WithoutADriverTheStatusIsFour) {
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 
+TEST(CommandLine, AReferencePictureNeedsNoDriverAndIsTheSameOnAnyNumberOfThreads) {
+  const Folder folder;
+  const auto hash_with = [&](const char* threads) {
+    const Outcome outcome =
+        run({"shot", "--seed", "1", "--renderer", "reference", "--set", "reference.samples=2",
+             "--set", "view.distance=64", "--set", threads, "--size", "24x16", "--out",
+             (folder / "a.png").string(), "--stats", (folder / "a.json").string()},
+            {"VK_ICD_FILENAMES=/no/such/driver.json", "VK_DRIVER_FILES=/no/such/driver.json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "a.png"));
+    const auto stats = nlohmann::json::parse(text_of(folder / "a.json"));
+    EXPECT_EQ(stats["non_finite_pixels"], 0);
+    EXPECT_GT(stats["error"]["mean_standard_error"].get<double>(), 0.0);
+    return stats["image_sha256"].get<std::string>();
+  };
+  EXPECT_EQ(hash_with("jobs.threads=1"), hash_with("jobs.threads=3"));
+}
+
 TEST(CommandLine, ADeviceThatDoesNotExistIsStatusFour) {
   const Folder folder;
   expect_refusal(
@@ -153,6 +186,45 @@ TEST(CommandLine, PlayWithoutADisplaySaysSoAndNamesShot) {
                  {"display", "skerry shot"}, "no display");
   expect_refusal(run({}, {"DISPLAY=:987", "WAYLAND_DISPLAY"}), 1, {"display", "skerry shot"},
                  "wrong display");
+}
+
+TEST(CommandLine, AReportIsWholeOrNotThere) {
+  const Folder folder;
+  const fs::path dir = folder / "report";
+  const Outcome outcome = run({"report", "water_layers", "--size", "24x16", "--out", dir.string(),
+                               "--set", "reference.samples=1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("index.html"), std::string::npos);
+  for (const char* name :
+       {"index.html", "report.json", "water_layers.csv", "water_layers.json", "water_layers.svg",
+        "water_layers-water-reference.png", "water_layers-water-3.png",
+        "water_layers-water-3-flip.png", "water_layers-water-3-difference.png"})
+    EXPECT_TRUE(fs::is_regular_file(dir / name)) << name;
+  const auto json = nlohmann::json::parse(text_of(dir / "report.json"));
+  EXPECT_EQ(json["topics"].size(), 1u);
+  EXPECT_EQ(json["topics"][0]["rows"].size(), 4u);
+  EXPECT_TRUE(json["command"].get<std::string>().starts_with("skerry report water_layers --size"));
+  for (const auto& row : json["topics"][0]["scenes"][0]["rows"]) {
+    EXPECT_GT(row["ms_median"], 0.0);
+    EXPECT_GT(row["flip_mean"], 0.0);  // no GPU picture is the reference, to the last bit
+    EXPECT_LT(row["flip_mean"], 0.3);  // and none is another scene
+  }
+  const auto& last = json["topics"][0]["rows"].back();
+  EXPECT_EQ(last["change_flip_mean"], 0.0);
+  EXPECT_EQ(last["same_bytes_as_last"], true);
+}
+
+TEST(CommandLine, AReportThatFailsLeavesNothing) {
+  const Folder folder;
+  std::ofstream(folder / "thesis.txt") << "years";
+  expect_refusal(run({"report", "--out", folder.path().string()}), 1, {"no report", "--out"},
+                 "foreign folder");
+  const std::vector<std::string> no_driver{"VK_ICD_FILENAMES=/no/such/driver.json",
+                                           "VK_DRIVER_FILES=/no/such/driver.json"};
+  expect_refusal(run({"report", "--out", (folder / "report").string()}, no_driver), 4, {},
+                 "no driver");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+  EXPECT_EQ(text_of(folder / "thesis.txt"), "years");
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ MUTANTS = (
            "overhead day"),
     # Textures
     Mutant("alpha_threshold", "leaves and plants are thinner", "shaders/include/write_cutout.glsl",
-           ".a) < 0.5) discard;", ".a) < 0.8) discard;",
+           "alpha < 0.5", "alpha < 0.8",
            "closeup quality_low blossom"),
     Mutant("mip_off_by_one", "textures are one level too coarse", "shaders/include/surface.glsl",
            "float lod = log2(", "float lod = 1.0 + log2(", "day underwater"),

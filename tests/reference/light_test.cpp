@@ -20,7 +20,7 @@ double ground_irradiance(const Scene& scene, glm::dvec3 point, std::uint32_t cou
   double sum = 0.0;
   for (std::uint32_t i = 0; i < count; ++i) {
     Sampler sampler(7, 3, i);
-    sum += shader.irradiance(point, {0.0, 1.0, 0.0}, sampler).x;
+    sum += shader.irradiance({point, {0.0, 1.0, 0.0}}, sampler).x;
   }
   return sum / count;
 }

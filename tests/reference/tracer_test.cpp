@@ -70,7 +70,7 @@ class BruteForce {
     const double t = (through - glm::dot(normal, o - corner(voxel))) / glm::dot(normal, d);
     const glm::dvec3 p = o + d * t, local = p - corner(voxel);
     if (!(t > 0.0) || local.x < 0.0 || local.x > 1.0 || local.y < 0.0 || local.y > 1.0) return;
-    if (BlockTexels::shared().covers(id, face, p)) out.push_back({t, 0, id, face, voxel, p});
+    if (BlockTexels::shared().covers(id, face, local)) out.push_back({t, 0, id, face, voxel, p});
   }
 
   std::map<IVec3, BlockId> voxels_;
@@ -264,6 +264,30 @@ TEST(ReferenceTracer, ALeafIsThereWhereItsTextureIs) {
   }
   EXPECT_GT(covered, 300);
   EXPECT_LT(covered, 1000);
+}
+
+TEST(ReferenceTracer, APlantDoesNotShadeItselfButItsNeighbour) {
+  const Island two{Volume::from_voxels({0, 0, 0}, {2, 1, 1},
+                                       [](IVec3) { return BlockId{world::block::kTallGrass}; })};
+  const Tracer tracer({two});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0.0, 1.0);
+  Trace trace;
+  int itself = 0, neighbour = 0;
+  for (int i = 0; i < 500; ++i) {
+    // Somewhere on the nearer plant, and light from where the other one stands.
+    tracer.trace({-1.0, place(random), place(random)}, {1.0, 0.0, 0.0}, trace);
+    if (!trace.hit || trace.hit->voxel.x != 0) continue;
+    const glm::dvec3 point = trace.hit->lattice;
+    const glm::dvec3 light = glm::normalize(glm::dvec3(1.0, 0.1, 0.0));
+    const BruteForce other({{{1, 0, 0}, world::block::kTallGrass}});
+    const bool shaded = !other.meetings(point, light, true).empty();
+    EXPECT_EQ(tracer.hidden(point, light, kFar, &*trace.hit), shaded);
+    neighbour += shaded ? 1 : 0;
+    itself += tracer.hidden(point + light * 1e-6, light) && !shaded ? 1 : 0;
+  }
+  EXPECT_GT(neighbour, 5);
+  EXPECT_GT(itself, 5);
 }
 
 TEST(ReferenceTracer, ColoursOfATextureAreItsTexelsInLinearLight) {

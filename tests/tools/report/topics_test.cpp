@@ -48,9 +48,9 @@ TEST(Topics, PointsSetWhatTheySay) {
       EXPECT_TRUE(applied) << topic.name << ": " << applied.error().message;
       EXPECT_TRUE(labels.insert(point.label).second) << topic.name << ": " << point.label;
     }
+    if (topic.reference_settings.empty()) continue;
     game::Settings settings;
-    if (!topic.reference_settings.empty())
-      EXPECT_TRUE(apply_point(topic.reference_settings, settings)) << topic.name;
+    EXPECT_TRUE(apply_point(topic.reference_settings, settings)) << topic.name;
   }
 }
 

@@ -7,7 +7,8 @@
 #include "engine/core/clock.h"
 #include "engine/platform/files.h"
 #include "tools/measure/html.h"
-#include "tools/skerry/progress_bar.h"
+#include "tools/skerry/progress.h"
+#include "tools/skerry/report/left_out_topic.h"
 #include "tools/skerry/report/measure_topic.h"
 #include "tools/skerry/report/report_command.h"
 #include "tools/skerry/report/report_folder.h"
@@ -22,15 +23,27 @@ using measure::escape;
 using measure::labelled;
 using nlohmann::ordered_json;
 
-/// Everything about a run that is no topic's.
+/// Everything a run has found so far.
 struct Run {
   std::string date, device, driver, command;
   double seconds = 0.0;
   std::vector<Defect> defects;
+  std::string contents, parts;  ///< of the page: its list of topics, and those, as markup
+  ordered_json topics = ordered_json::array();
+
+  void add(std::string_view name, std::string_view meaning, const std::string& part,
+           ordered_json json, std::vector<Defect> found) {
+    const std::string target = fmt::format("#{}", name);
+    const measure::Attribute link{"href", target};
+    contents += element(
+        "li", element("a", {&link, 1}, escape(name)) + escape(fmt::format(": {}", meaning)));
+    parts += part;
+    topics.push_back(std::move(json));
+    for (Defect& defect : found) defects.push_back(std::move(defect));
+  }
 };
 
-std::string front_page(const Run& run, std::span<const Topic* const> topics,
-                       const std::string& parts) {
+std::string front_page(const Run& run) {
   std::string out = element("h1", "Error against run time") + "\n";
   out += element("p", element("code", escape(run.command)));
   out +=
@@ -41,43 +54,70 @@ std::string front_page(const Run& run, std::span<const Topic* const> topics,
                  "when no other is both faster and no worse, or better and no slower; a default "
                  "that is off its front should be changed. FLIP is the difference that a person "
                  "sees when two pictures alternate, 0 to 1.");
-  if (run.defects.empty())
-    out += labelled("p", "good", "Every default is on its front.");
-  else
-    for (const Defect& defect : run.defects)
-      out += labelled("p", defect.certain ? "bad" : "warn", defect.text) + "\n";
-  std::string links;
-  for (const Topic* topic : topics) {
-    const std::string target = fmt::format("#{}", topic->name);
-    const measure::Attribute link{"href", target};
-    links += element("li", element("a", {&link, 1}, escape(topic->name)) +
-                               escape(fmt::format(": {}", topic->meaning)));
-  }
-  return measure::page("Skerry: error against run time", out + element("ul", links) + "\n" + parts);
+  if (run.defects.empty()) out += labelled("p", "good", "Every default is on its front.");
+  for (const Defect& defect : run.defects)
+    out += labelled("p", defect.certain ? "bad" : "warn", defect.text) + "\n";
+  return measure::page("Skerry: error against run time",
+                       out + element("ul", run.contents) + "\n" + run.parts);
 }
 
-Result<void> write_front(const Run& run, const ReportRequest& request, const std::string& parts,
-                         ordered_json topics_json, const std::filesystem::path& dir) {
-  ordered_json j{{"device", run.device},   {"driver", run.driver},   {"date", run.date},
-                 {"command", run.command}, {"seconds", run.seconds}, {"defects", {}}};
+Result<void> write_front(const Run& run, const std::filesystem::path& dir) {
+  ordered_json j{{"device", run.device},
+                 {"driver", run.driver},
+                 {"date", run.date},
+                 {"command", run.command},
+                 {"seconds", run.seconds}};
   j["defects"] = ordered_json::array();
   for (const Defect& defect : run.defects)
     j["defects"].push_back({{"text", defect.text}, {"certain", defect.certain}});
-  j["topics"] = std::move(topics_json);
-  if (Result<void> done =
-          platform::write_text(dir / "index.html", front_page(run, request.topics, parts));
-      !done)
+  j["topics"] = run.topics;
+  if (Result<void> done = platform::write_text(dir / "index.html", front_page(run)); !done)
     return done;
   return platform::write_text(dir / kReportFile,
                               j.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
-void print_topic(const TopicResult& result, double seconds) {
-  fmt::print("{} ({:.1f} s)\n", result.topic->name, seconds);
-  for (const PointRow& row : result.rows)
-    fmt::print("  {:<16} {:>10.3f} ms ({:.3f} to {:.3f})  FLIP {:.5f}{}{}\n", row.point->label,
-               row.ms.median, row.ms.p10, row.ms.p90, row.errors.flip_mean,
-               row.defaults.empty() ? "" : "  default of ", fmt::join(row.defaults, ", "));
+Result<void> run_topic(ReportSession& session, const Topic& topic, const std::filesystem::path& dir,
+                       const std::function<void(double, std::string_view)>& progress, Run& run) {
+  Result<TopicResult> result = measure_topic(session, topic, progress);
+  if (!result) return result.error();
+  const Result<std::string> part = write_topic(*result, dir);
+  if (!part) return part.error();
+  run.add(topic.name, topic.meaning, *part, topic_json(*result), defects_of(*result));
+  return {};
+}
+
+Result<void> run_left_out(gpu::Device& device, const std::filesystem::path& dir,
+                          const std::function<void(double, std::string_view)>& progress, Run& run) {
+  Result<std::vector<LeftOutRow>> rows = measure_left_out_topic(device, progress);
+  if (!rows) return rows.error();
+  const Result<std::string> part = write_left_out(*rows, dir);
+  if (!part) return part.error();
+  run.add(kLeftOutTopic, kLeftOutMeaning, *part, left_out_json(*rows), defects_of(*rows));
+  return {};
+}
+
+/// All that was asked for, with a bar. Prints a line a topic when it is done.
+Result<void> run_topics(ReportSession& session, const std::filesystem::path& dir, Run& run) {
+  const ReportRequest& request = session.request();
+  const std::size_t count = request.topics.size() + (request.left_out ? 1 : 0);
+  for (std::size_t t = 0; t < count; ++t) {
+    const bool left_out = t == request.topics.size();
+    const Stopwatch watch;
+    Result<void> done;
+    {
+      ProgressBar bar;
+      const auto progress = [&](double share, std::string_view what) {
+        bar.show((static_cast<double>(t) + share) / static_cast<double>(count), what);
+      };
+      done = left_out ? run_left_out(session.device(), dir, progress, run)
+                      : run_topic(session, *request.topics[t], dir, progress, run);
+    }
+    if (!done) return done;
+    fmt::print("{} ({:.1f} s)\n", left_out ? kLeftOutTopic : request.topics[t]->name,
+               watch.seconds());
+  }
+  return {};
 }
 
 }  // namespace
@@ -89,37 +129,19 @@ int report(const ReportRequest& request) {
   Result<std::unique_ptr<gpu::Device>> device = open_device(request.scene);
   if (!device) return fail(kNoDevice, device.error());
   ReportSession session(**device, request);
-  Run run{fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))),
-          (*device)->info().name,
-          (*device)->info().driver,
-          request.command,
-          0.0,
-          {}};
-  std::string parts;
-  ordered_json topics_json = ordered_json::array();
-  ProgressBar bar;
-  for (std::size_t t = 0; t < request.topics.size(); ++t) {
-    const Stopwatch topic_watch;
-    Result<TopicResult> result =
-        measure_topic(session, *request.topics[t], [&](double share, std::string_view what) {
-          bar.show((static_cast<double>(t) + share) / static_cast<double>(request.topics.size()),
-                   what);
-        });
-    bar.clear();
-    if (!result) return fail(kFailed, result.error());
-    Result<std::string> part = write_topic(*result, folder->path());
-    if (!part) return fail(kFailed, part.error());
-    parts += *part;
-    topics_json.push_back(topic_json(*result));
-    for (Defect& defect : defects_of(*result)) run.defects.push_back(std::move(defect));
-    print_topic(*result, topic_watch.seconds());
-  }
+  Run run;
+  run.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
+  run.device = (*device)->info().name;
+  run.driver = (*device)->info().driver;
+  run.command = request.command;
+  if (Result<void> done = run_topics(session, folder->path(), run); !done)
+    return fail(kFailed, done.error());
   run.seconds = watch.seconds();
-  if (Result<void> done = write_front(run, request, parts, std::move(topics_json), folder->path());
-      !done)
+  if (Result<void> done = write_front(run, folder->path()); !done)
     return fail(kFailed, done.error());
   if (Result<void> done = folder->publish(); !done) return fail(kFailed, done.error());
-  for (const Defect& defect : run.defects) fmt::print("DEFECT {}\n", defect.text);
+  for (const Defect& defect : run.defects)
+    fmt::print("{}: {}\n", defect.certain ? "DEFECT" : "doubtful", defect.text);
   fmt::print("{}\n", (std::filesystem::path(request.out) / "index.html").string());
   return status_after(**device);
 }

@@ -6,6 +6,7 @@
 
 #include "engine/platform/files.h"
 #include "game/parse.h"
+#include "tools/skerry/report/left_out_topic.h"
 #include "tools/skerry/scene_device.h"
 
 namespace skerry::tools {
@@ -15,6 +16,7 @@ std::string topic_list() {
   std::string text = "Topics (default: all):\n";
   for (const Topic& topic : topics())
     text += fmt::format("  {:<18} {}\n", topic.name, topic.meaning);
+  text += fmt::format("  {:<18} {}\n", kLeftOutTopic, kLeftOutMeaning);
   return text + "Scenes are the topic's own unless --seed, --scene or --camera names one.";
 }
 
@@ -42,7 +44,13 @@ ReportCommand::ReportCommand(CLI::App& app)
 std::optional<Refusal> ReportCommand::read_topics(ReportRequest& request) const {
   std::vector<std::string_view> names;
   for (const Topic& topic : topics()) names.push_back(topic.name);
+  names.push_back(kLeftOutTopic);
+  request.left_out = topics_.empty();
   for (const std::string& name : topics_) {
+    if (name == kLeftOutTopic) {
+      request.left_out = true;
+      continue;
+    }
     const Topic* topic = find_topic(name);
     if (!topic)
       return Refusal{kUsage,
@@ -52,7 +60,7 @@ std::optional<Refusal> ReportCommand::read_topics(ReportRequest& request) const 
     if (std::ranges::find(request.topics, topic) == request.topics.end())
       request.topics.push_back(topic);
   }
-  if (request.topics.empty())
+  if (topics_.empty())
     for (const Topic& topic : topics()) request.topics.push_back(&topic);
   return std::nullopt;
 }

@@ -18,6 +18,7 @@ namespace skerry::tools {
 /// What a report was asked to do.
 struct ReportRequest {
   std::vector<const Topic*> topics;
+  bool left_out = false;     ///< kLeftOutTopic, too
   std::string out;           ///< folder
   game::SceneText typed;     ///< scene options of the command line
   game::SceneOptions scene;  ///< as they resolve

@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "tools/skerry/left_out.h"
+#include "tools/skerry/report/write_topic.h"
+
+namespace skerry::tools {
+
+/// The topic that sweeps nothing: scenes without a feature, drawn by the renderer as it is and by
+/// one that has none of the feature. Its scenes and sizes are its own.
+inline constexpr std::string_view kLeftOutTopic = "left_out";
+inline constexpr std::string_view kLeftOutMeaning = "what a scene does not have must cost nothing";
+
+/// @param progress told 0..1 and what is being done.
+Result<std::vector<LeftOutRow>> measure_left_out_topic(
+    gpu::Device& device, const std::function<void(double, std::string_view)>& progress);
+
+/// A row that is not equal in picture and counts on both sides.
+std::vector<Defect> defects_of(const std::vector<LeftOutRow>& rows);
+
+std::string left_out_csv(const std::vector<LeftOutRow>& rows);
+nlohmann::ordered_json left_out_json(const std::vector<LeftOutRow>& rows);
+/// Writes left_out.csv and left_out.json. @return the page's part, as markup.
+Result<std::string> write_left_out(const std::vector<LeftOutRow>& rows,
+                                   const std::filesystem::path& dir);
+
+}  // namespace skerry::tools
