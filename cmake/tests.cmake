@@ -52,3 +52,11 @@ set_tests_properties(image.scenes PROPERTIES TIMEOUT 600 PROCESSORS 2)
 add_test(NAME image.same_bytes COMMAND ${CMAKE_SOURCE_DIR}/tests/image/same_bytes_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/image/same_bytes)
 set_tests_properties(image.same_bytes PROPERTIES TIMEOUT 300)
+
+# Extremes against their bounds, as the program itself runs them.
+add_test(NAME stability.all COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/stability_test.py
+  $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/stability)
+set_tests_properties(stability.all PROPERTIES TIMEOUT 900)
+
+# Each deliberate breakage of tests/mutation still fits the code; the run of all of them builds for a quarter of an hour and is no part of this.
+add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --check)

@@ -17,7 +17,7 @@ namespace skerry::game {
 struct Tolerance {
   double flip_mean = 0.004;
   double flip_p99 = 0.08;
-  double flip_max = 0.5;
+  double flip_max = 1.0;                ///< one pixel on an edge may be anything
   double pixels_over = 0.005;           ///< share of pixels off by more than the next in a channel
   std::uint32_t channel_threshold = 8;  ///< of 255
   bool operator==(const Tolerance&) const = default;

@@ -1,5 +1,7 @@
 #include "engine/render/cull_pass.h"
 
+#include <fmt/format.h>
+
 #include "shaders/shared/geometry.h"
 
 namespace skerry::render {
@@ -13,14 +15,23 @@ std::uint64_t list_index(std::uint32_t view, DrawList list) {
 
 }  // namespace
 
+std::uint64_t most_draws(std::uint32_t section_slots, std::uint64_t quads) {
+  return 4ull * section_slots + quads / shared::kMaxQuadsPerDraw;
+}
+
+Result<void> check_draws(std::uint64_t most, const gpu::DeviceLimits& limits) {
+  if (most <= limits.max_draw_count) return {};
+  return Error{fmt::format(
+      "cannot draw the world at once: it may take {} indirect draws and this device allows {}; "
+      "lower view.distance",
+      most, limits.max_draw_count)};
+}
+
 CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const CullIn& in) {
   const std::uint32_t groups = gpu::Commands::groups(in.section_slots, shared::kCullGroup);
   const std::uint32_t lists = in.views * shared::kListCount;
-  // A list's ranges make at most four runs a section (six faces and the plants, every second one
-  // visible), and splitting a run adds at most one draw for every kMaxQuadsPerDraw quads.
-  const auto max_draws =
-      static_cast<std::uint32_t>(4ull * in.section_slots + in.quads / shared::kMaxQuadsPerDraw);
+  const auto max_draws = static_cast<std::uint32_t>(most_draws(in.section_slots, in.quads));
   const auto words = [&](const char* name, std::uint64_t count) {
     return graph.create(gpu::BufferDesc{name, count * 4, 0, gpu::Memory::kDevice});
   };

@@ -1,4 +1,6 @@
 #pragma once
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
 #include "engine/gpu/frame_graph.h"
 #include "engine/render/scene_refs.h"
 #include "shaders/shared/frame.h"
@@ -22,6 +24,14 @@ struct CulledDraws {
   std::uint32_t section_slots = 0;
   std::uint32_t max_draws = 0;
 };
+
+/// Indirect commands that one list of one view may need, at most. A list's ranges make at most four
+/// runs a section (six faces and the plants, every second one visible), and splitting a run adds at
+/// most one draw for every kMaxQuadsPerDraw quads.
+std::uint64_t most_draws(std::uint32_t section_slots, std::uint64_t quads);
+
+/// Whether the device draws that many indirectly at once; the error says what to lower.
+Result<void> check_draws(std::uint64_t most, const gpu::DeviceLimits& limits);
 
 /// Frustum and face-direction culling on the GPU for all views at once: three compute passes
 /// (sections, scan, emit). The order of draws does not depend on thread timing. Conservative:

@@ -365,8 +365,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   if (settings.debug_view != DebugView::kNone) {
     (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view,
                                  picture);
-    for (const char* name :
-         {"classify_tiles", "shade_surfaces", "shade_sky", "shade_translucent", "develop"})
+    for (const char* name : {"classify_tiles", "shade_surfaces", "shade_sky", "draw_translucent",
+                             "shade_translucent", "develop"})
       graph.leave_out(name, "a debug view is shown");
   } else {
     const char* no_translucent = features.why_not(Feature::kWater);
@@ -456,6 +456,10 @@ Result<std::uint64_t> Renderer::draw(
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
   if (Result<void> ok = s.resize_picture(size); !ok) return ok.error();
   if (Result<void> ok = check_store(s.device, settings.gbuffer); !ok) return ok.error();
+  if (Result<void> ok = check_draws(
+          most_draws(s.geometry->section_slots(), s.geometry->quads_resident()), s.device.limits());
+      !ok)
+    return ok.error();
 
   const Result<std::span<const ActiveCascade>> cascades =
       s.geometry->sections_resident() == 0

@@ -34,9 +34,9 @@ vec3 lattice_from_world(IslandTransform t, vec3 p) { return lattice_from_world_v
 struct Surface {
   vec3 position;  // world
   vec3 normal;    // world, unit, exact: it comes from the island's axes
+  bool plant;     // lit as if it were level, but it stands upright
   vec3 albedo;    // linear
   vec3 emitted;   // radiance
-  bool plant;     // one of a plant's diagonals
   vec3 in_voxel;  // of a plant: position in its voxel's cube, 0..1
   vec3 axis_x;    // island axes in the world
   vec3 axis_y;

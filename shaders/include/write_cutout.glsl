@@ -19,7 +19,10 @@ void main() {
   uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
   // A shadow map takes the finest texels: its filter averages what several of its own texels hit.
   vec3 uv = vec3(face >= 6u ? plant_uv(in_uv) : in_uv, float(layer));
-  if ((kWriteSurface ? texture(block_textures, uv).a : textureLod(block_textures, uv, 0.0).a) < 0.5) discard;
+  float alpha = kWriteSurface ? texture(block_textures, uv).a : textureLod(block_textures, uv, 0.0).a;
+  // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.
+  bool behind = face < kFaceCount && !gl_FrontFacing;
+  if (behind || alpha < 0.5) discard;
   if (kWriteSurface) out_surface = in_surface;
 #ifdef SKERRY_STORED
   write_stored(in_surface);

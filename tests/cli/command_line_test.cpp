@@ -1,91 +1,19 @@
 // Runs the program itself, as scripts do: exit statuses and the one line on stderr are its
 // contract.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "engine/platform/files.h"
+#include "tests/cli/run_program.h"
 
 namespace skerry {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-/// A scratch folder that goes with its owner.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::path(testing::TempDir()) / "skerry_cli_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path operator/(const char* name) const { return path_ / name; }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Runs `skerry arguments...`; `environment` holds NAME=VALUE, or NAME to unset.
-Outcome run(std::vector<std::string> arguments, const std::vector<std::string>& environment = {}) {
-  const Folder folder;
-  const fs::path out = folder / "out", err = folder / "err";
-  arguments.insert(arguments.begin(), SKERRY_BINARY_DIR "/skerry");
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
-    ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
-    for (const std::string& entry : environment) {
-      const std::size_t equals = entry.find('=');
-      if (equals == std::string::npos) {
-        ::unsetenv(entry.c_str());
-      } else {
-        ::setenv(entry.substr(0, equals).c_str(), entry.substr(equals + 1).c_str(), 1);
-      }
-    }
-    ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out),
-          text_of(err)};
-}
-
-/// One line `skerry: ...` on stderr, with all of `parts` in it, and this status.
-void expect_refusal(const Outcome& outcome, int status, const std::vector<std::string>& parts,
-                    const std::string& what) {
-  EXPECT_EQ(outcome.status, status) << what << ": " << outcome.err;
-  EXPECT_TRUE(outcome.err.starts_with("skerry: ")) << what << ": " << outcome.err;
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1)
-      << what << ": " << outcome.err;
-  for (const std::string& part : parts)
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << what << ": " << outcome.err;
-}
 
 std::string joined(const std::vector<std::string>& arguments) {
   std::string text;
@@ -100,6 +28,7 @@ TEST(CommandLine, HelpIsThereOnEveryLevel) {
                                                     {"devices", "--help"},
                                                     {"report", "--help"},
                                                     {"shot", "-h"},
+                                                    {"test", "--help"},
                                                     {"bench", "--help"},
                                                     {"bench", "mesh", "--help"},
                                                     {"bench", "generate", "--help"},
@@ -138,9 +67,24 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"shot", "--seed", "1", "--set", "view.distence=5"}, {"'view.distance'"}},
       {{"shot", "--seed", "1", "--set", "nothing"}, {"KEY=VALUE"}},
       {{"shot", "--seed", "1", "--renderer", "forward"}, {"not in this build", "deferred"}},
+      {{"shot", "--seed", "1", "--renderer", "referense"}, {"'reference'"}},
+      {{"shot", "--seed", "1", "--set", "reference.samples=0"}, {"1", "65536"}},
+      {{"shot", "--seed", "1", "--renderer", "reference", "--set", "debug.view=depth"},
+       {"debug.view"}},
+      {{"shot", "--seed", "1", "--renderer", "reference", "--size", "65535x65535"},
+       {"--size", "pixels"}},
+      {{"play", "--renderer", "reference"}, {"skerry shot"}},
+      {{"bench", "frame", "--seed", "1", "--renderer", "reference"}, {"skerry shot"}},
       {{"shot", "--seed", "1", "--shading", "pbrr"}, {"'pbr'"}},
       {{"--no-such"}, {"'--no-such'"}},
       {{"devices", "--jsno"}, {"'--json'"}},
+      {{"test", "x.json", "--aprove"}, {"'--approve'"}},
+      {{"test", "x.json", "--shard", "3/2"}, {"the shard", "'3'"}},
+      {{"test", "x.json", "--shard", "half"}, {"I/N"}},
+      {{"test", "x.json", "--jobs", "0"}, {"--jobs"}},
+      {{"test", "x.json", "--repeat", "-1"}, {"--repeat"}},
+      {{"test", "x.json", "--approve", "--repeat", "2"}, {"--repeat"}},
+      {{"test", "x.json", "--merge", "--validate"}, {"--merge"}},
       {{"bench"}, {"mesh, generate, upload, cull or frame"}},
       {{"bench", "mehs"}, {"'mesh'"}},
       {{"bench", "mesh", "--inptu", "x"}, {"'--input'"}},
@@ -158,7 +102,7 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
 
 TEST(CommandLine, WhatIsNotInThisBuildIsNotListed) {
   const Outcome help = run({"--help"});
-  for (const char* command : {"test", "report", "stability", "vdb"}) {
+  for (const char* command : {"vdb"}) {
     EXPECT_EQ(help.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
     EXPECT_EQ(run({command}).status, 2) << command;
   }
@@ -199,6 +143,24 @@ TEST(CommandLine, WithoutADriverTheStatusIsFour) {
   expect_refusal(run({"shot", "--seed", "1", "--out", (folder / "a.png").string()}, no_driver), 4,
                  {}, "shot");
   EXPECT_FALSE(fs::exists(folder / "a.png"));
+}
+
+TEST(CommandLine, AReferencePictureNeedsNoDriverAndIsTheSameOnAnyNumberOfThreads) {
+  const Folder folder;
+  const auto hash_with = [&](const char* threads) {
+    const Outcome outcome =
+        run({"shot", "--seed", "1", "--renderer", "reference", "--set", "reference.samples=2",
+             "--set", "view.distance=64", "--set", threads, "--size", "24x16", "--out",
+             (folder / "a.png").string(), "--stats", (folder / "a.json").string()},
+            {"VK_ICD_FILENAMES=/no/such/driver.json", "VK_DRIVER_FILES=/no/such/driver.json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "a.png"));
+    const auto stats = nlohmann::json::parse(text_of(folder / "a.json"));
+    EXPECT_EQ(stats["non_finite_pixels"], 0);
+    EXPECT_GT(stats["error"]["mean_standard_error"].get<double>(), 0.0);
+    return stats["image_sha256"].get<std::string>();
+  };
+  EXPECT_EQ(hash_with("jobs.threads=1"), hash_with("jobs.threads=3"));
 }
 
 TEST(CommandLine, ADeviceThatDoesNotExistIsStatusFour) {

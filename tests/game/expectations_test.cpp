@@ -1,9 +1,13 @@
 #include "game/expectations.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <random>
+#include <regex>
 
 #include "game/options.h"
 
@@ -74,6 +78,27 @@ TEST(Expectations, MistakesAreNamedInOneLine) {
                              R"("description": "two\nlines")"}) {
     EXPECT_EQ(error_of(fields).find('\n'), std::string::npos) << fields;
   }
+}
+
+TEST(Expectations, TheDocumentTellsTheDefaults) {
+  std::ifstream file(SKERRY_SOURCE_DIR "/docs/settings.md");
+  ASSERT_TRUE(file);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::regex entry("\\n- `([a-z_.0-9]+)` \\([^\\n]*?(?:, default ([a-z0-9.]+))?\\)");
+  std::map<std::string, std::string> documented;
+  for (std::sregex_iterator it(text.begin(), text.end(), entry), end; it != end; ++it)
+    documented[(*it)[1]] = (*it)[2];
+  const Tolerance t;
+  const std::map<std::string, std::string> expected{
+      {"description", ""},
+      {"expects_dark", "false"},
+      {"masks", ""},
+      {"tolerance.flip_mean", fmt::format("{}", t.flip_mean)},
+      {"tolerance.flip_p99", fmt::format("{}", t.flip_p99)},
+      {"tolerance.flip_max", fmt::format("{}", t.flip_max)},
+      {"tolerance.pixels_over", fmt::format("{}", t.pixels_over)},
+      {"tolerance.channel_threshold", fmt::format("{}", t.channel_threshold)}};
+  EXPECT_EQ(documented, expected);
 }
 
 TEST(Expectations, HugeListsAreRefused) {

@@ -1,4 +1,5 @@
 // What a scene does not have costs nothing: no pass, no memory, no pipeline.
+#include "engine/render/cull_pass.h"
 #include "tests/render/renderer_on_gpu.h"
 
 namespace skerry::render {
@@ -96,6 +97,84 @@ TEST_F(Features, WithoutTranslucentBlocksNothingIsDrawnForThem) {
   EXPECT_TRUE(has_pass("draw_translucent_0"));
   EXPECT_TRUE(has_pass("develop"));
   EXPECT_GT(renderer().pipelines_created(), pipelines);
+}
+
+// Everything a frame can consist of either runs or is named with a reason.
+TEST_F(Features, WhateverDoesNotRunIsExplained) {
+  const std::vector<std::string> known{"bake_sky",         "cull_sections",   "cull_emit",
+                                       "draw_geometry",    "draw_shadow_sun", "draw_shadow_moon",
+                                       "classify_tiles",   "shade_surfaces",  "shade_sky",
+                                       "draw_translucent", "develop",         "shade_translucent"};
+  const auto expect_explained = [&](const char* scene) {
+    for (const std::string& pass : known) {
+      const std::vector<gpu::LeftOut>& out = renderer().graph().left_out();
+      const bool named = std::any_of(out.begin(), out.end(), [&](const gpu::LeftOut& one) {
+        return one.name.starts_with(pass) && !one.why.empty();
+      });
+      EXPECT_TRUE(named || has_pass(pass)) << pass << " in " << scene;
+    }
+  };
+  const auto why = [&](std::string_view name) -> std::string {
+    for (const gpu::LeftOut& one : renderer().graph().left_out())
+      if (one.name == name) return one.why;
+    return {};
+  };
+  drawn(input(celestial_at(kNoon, 0.0)), {}, kSize);
+  expect_explained("an empty world");
+  add(ground, {0, -1, 0}, {1, 0, 1});
+  drawn(input(celestial_at(0.0, 0.0)), {}, kSize);
+  expect_explained("a night without moon");
+  EXPECT_EQ(why("sun"), why("draw_shadow_sun"));
+  EXPECT_NE(why("moon"), "");
+  EXPECT_NE(why("haze"), "");
+  EXPECT_NE(why("cutouts"), "");
+  EXPECT_EQ(why("stars"), "");
+  const FrameInput noon = input(celestial_at(kNoon, 0.0));
+  drawn(noon, {}, kSize);
+  expect_explained("a day with nothing translucent");
+  EXPECT_NE(why("water"), "");
+  drawn(noon, {}, kSize);
+  expect_explained("a second frame in which nothing moves");
+  EXPECT_NE(why("draw_shadow_sun_0"), "");
+  EXPECT_NE(why("bake_sky"), "");
+  RenderSettings off;
+  off.shadows = false;
+  drawn(noon, off, kSize);
+  expect_explained("a day without shadows");
+  off.debug_view = DebugView::kNormal;
+  drawn(noon, off, kSize);
+  expect_explained("a debug view");
+}
+
+// Leaves stand behind the camera: the light sees them, the picture does not.
+TEST_F(Features, CutOutsAreDrawnOnlyIntoViewsThatHaveThem) {
+  const auto leaves_behind = [](int x, int y, int z) -> world::BlockId {
+    if (y < 0) return world::block::kGrass;
+    return y < 3 && x < 4 && z < 4 ? world::block::kOakLeaves : world::block::kAirBlock;
+  };
+  add(ground, {0, -1, 0}, {1, 0, 3});
+  add(leaves_behind, {0, 0, 0}, {1, 1, 1});
+  FrameInput in = input(celestial_at(0.0, 0.0));
+  in.camera = camera_at({15.0, 8.0, 70.0}, 0.0, -30.0);
+  const FrameReport night = drawn(in, {}, kSize);
+  EXPECT_EQ(night.counts.draws, 1u) << "opaque quads of the picture";
+  in.sky = celestial_at(kNoon, 0.0);
+  EXPECT_GT(drawn(in, {}, kSize).counts.draws, 1u + 4u) << "leaves in shadow maps";
+  in.sky = celestial_at(0.0, 0.0);
+  in.camera.yaw_deg = 180.0;
+  EXPECT_EQ(drawn(in, {}, kSize).counts.draws, 2u);
+  RenderSettings without;
+  without.leave_out.add(Feature::kCutouts);
+  EXPECT_EQ(drawn(in, without, kSize).counts.draws, 1u);
+}
+
+TEST(DrawBound, IsCheckedAgainstTheDevice) {
+  gpu::DeviceLimits limits;
+  limits.max_draw_count = 65535;
+  EXPECT_TRUE(check_draws(most_draws(16000, 20'000'000), limits));
+  const Result<void> refused = check_draws(most_draws(16384, 0), limits);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("65535"), std::string::npos);
 }
 
 TEST_F(Features, OnlyAsManyLayersArePeeledAsAskedFor) {

@@ -10,6 +10,7 @@
 #include "engine/gpu/uploader.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/frame_setup.h"
+#include "engine/render/gbuffer_formats.h"
 #include "engine/render/geometry_pass.h"
 #include "engine/render/geometry_store.h"
 #include "engine/render/shadow_maps.h"
@@ -29,6 +30,7 @@ class PassesOnGpu : public gpu::GpuTest {
     if (HasFatalFailure()) return;
     shaders_.assign(gpu::embedded_shaders().begin(), gpu::embedded_shaders().end());
     shaders_.push_back(copy_layer_.embedded());
+    shaders_.push_back(decode_.embedded());
     pipelines_ = std::make_unique<gpu::Pipelines>(device(), shaders_);
     graph_ = std::make_unique<gpu::FrameGraph>(&device());
     uploader_ = std::make_unique<gpu::Uploader>(device(), gpu::UploadPath::kUpdateBuffer);
@@ -98,6 +100,43 @@ class PassesOnGpu : public gpu::GpuTest {
     return out;
   }
 
+  struct DrawnStored {
+    std::vector<glm::vec3> normals, positions;  ///< decoded as shading does
+  };
+  /// Draws the camera's view into a G-buffer that keeps normals and positions.
+  DrawnStored drawn_stored(const FrameInput& input, VkExtent2D size, const GBufferStore& store) {
+    const FrameTables tables = build_tables(input, {}, size, {});
+    const std::uint64_t bytes = std::uint64_t{size.width} * size.height * sizeof(glm::vec3);
+    gpu::Buffer normals = back("normal values", bytes), positions = back("position values", bytes);
+    SceneRefs scene = begin(input, size, tables);
+    scene.frame = table("frame constants", std::vector<shared::FrameConstants>{tables.constants});
+    std::vector<shared::IslandTransform> islands = tables.islands;
+    islands.resize(shared::kMaxIslands);
+    scene.islands = table("island transforms", islands);
+    const CulledDraws draws = cull(scene, 1);
+    const SurfaceReads surfaces(
+        GeometryPass::add(*graph_, *pipelines_, scene, draws, false, store));
+    gpu::BufferRef to_normals = graph_->import(normals), to_positions = graph_->import(positions);
+    const VkSampler point = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
+    graph_->add_pass(
+        "decode",
+        [&](gpu::PassBuilder& b) {
+          surfaces.declare(b);
+          to_normals = b.write(to_normals, gpu::Use::kComputeWrite);
+          to_positions = b.write(to_positions, gpu::Use::kComputeWrite);
+        },
+        [&](gpu::Commands& c) {
+          c.bind(pipelines_->get(gpu::ComputeDesc{"decode.comp", surfaces.with_store({})}));
+          c.sampled(13, surfaces.normals, point);
+          c.sampled(14, surfaces.positions, point);
+          c.storage(0, to_normals);
+          c.storage(1, to_positions);
+          c.dispatch(size.width / 8, size.height / 8, 1);
+        });
+    run();
+    return {contents<glm::vec3>(normals), contents<glm::vec3>(positions)};
+  }
+
   struct DrawnMaps {
     std::vector<bool> redrawn;  ///< a cascade
     std::vector<float> texels;  ///< of all layers
@@ -144,8 +183,8 @@ class PassesOnGpu : public gpu::GpuTest {
  private:
   gpu::Buffer back(const char* name, std::uint64_t bytes) {
     return buffer(name, bytes,
-                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                      VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   }
   template <class T>
   std::vector<T> contents(gpu::Buffer& from) {
@@ -198,6 +237,22 @@ class PassesOnGpu : public gpu::GpuTest {
       uvec3 at = gl_GlobalInvocationID, size = gl_NumWorkGroups * uvec3(8, 8, 1);
       texels[(at.z * size.y + at.y) * size.x + at.x] = texelFetch(maps, ivec3(at), 0).r;
     })";
+  static constexpr const char* kDecode =
+      "#include \"include/stored.glsl\"\n"
+      R"(
+    layout(local_size_x = 8, local_size_y = 8) in;
+    layout(constant_id = 4) const uint kNormalCode = 0u;
+    layout(binding = 13) uniform sampler2D normals;
+    layout(binding = 14) uniform sampler2D positions;
+    layout(scalar, binding = 0) writeonly buffer Normals { vec3 normal_of[]; };
+    layout(scalar, binding = 1) writeonly buffer Positions { vec3 position_of[]; };
+    void main() {
+      uvec2 at = gl_GlobalInvocationID.xy;
+      uint i = at.y * gl_NumWorkGroups.x * 8u + at.x;
+      normal_of[i] = normal_from_texel(texelFetch(normals, ivec2(at), 0), kNormalCode);
+      position_of[i] = texelFetch(positions, ivec2(at), 0).xyz;
+    })";
+  gpu::TestShader decode_{"decode.comp", kDecode};
   gpu::TestShader copy_layer_{"copy_layer.comp", kCopyLayer};
   std::vector<gpu::EmbeddedShader> shaders_;
   std::unique_ptr<gpu::Pipelines> pipelines_;

@@ -21,6 +21,9 @@ namespace {
 using world::BlockId;
 using world::IVec3;
 
+/// A picture and its errors take 24 bytes a pixel.
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 26;
+
 game::CameraPlace camera_place(const game::SceneOptions& options, const world::World& world) {
   if (options.camera) return *options.camera;
   const world::Spawn spawn = world.spawn();
@@ -116,6 +119,9 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const Progress& progress) {
   if (options.settings.debug_view != game::DebugView::kNone)
     return Error{"debug.view has no reference picture: use debug.view=none or renderer=deferred"};
+  if (std::uint64_t{options.size.width} * options.size.height > kMaxPixels)
+    return Error{fmt::format("--size {}x{} is too large: a reference picture has at most {} pixels",
+                             options.size.width, options.size.height, kMaxPixels)};
   const auto world = std::make_shared<world::World>(
       world::WorldDesc{world::seed_from_text(options.seed_text), options.settings.world_offset,
                        options.settings.world_islands});

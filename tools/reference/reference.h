@@ -48,7 +48,7 @@ ReferencePicture render(const Scene& scene, const ReferenceSettings& settings,
                         const Progress& progress = {});
 
 /// Draws what `skerry shot` draws. The camera's place is exact; islands are at full detail.
-/// Errors: a debug view is asked for.
+/// Errors: a debug view is asked for; more than 2^26 pixels.
 Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const ReferenceSettings& settings,
                                           const Progress& progress = {});

@@ -56,13 +56,14 @@ struct Scene {
   std::vector<Island> islands;
   std::vector<Body> bodies;
   std::vector<SphereLight> lights;
-  glm::dvec3 environment{0.0};    ///< radiance that comes from everywhere beyond the voxels
-  std::optional<Sky> sky;         ///< none: `environment` is what is seen behind the voxels
-  double haze_per_block = 0.0;    ///< extinction of clear air [1/block]
-  double time_s = 0.0;            ///< of the ripples on water
-  bool shadows = true;            ///< whether bodies are hidden by voxels
-  bool flat_shading = false;      ///< bodies: shadow times light, without the angle to the light
-  double corner_occlusion = 0.0;  ///< strength of the darkening in corners, 0..1
+  glm::dvec3 environment{0.0};       ///< radiance that comes from everywhere beyond the voxels
+  std::optional<Sky> sky;            ///< none: `environment` is what is seen behind the voxels
+  double haze_per_block = 0.0;       ///< extinction of clear air [1/block]
+  double time_s = 0.0;               ///< of the ripples on water
+  bool shadows = true;               ///< whether bodies are hidden by voxels
+  bool flat_shading = false;         ///< bodies: shadow times light, without the angle to the light
+  double corner_occlusion = 0.0;     ///< strength of the darkening in corners, 0..1
+  std::optional<glm::dvec3> albedo;  ///< of every surface, in place of the textures'
 };
 
 }  // namespace skerry::reference

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -17,37 +18,43 @@ constexpr double kPi = std::numbers::pi;
 /// How far off their surface rays begin [blocks]: far more than rounding, far less than a texel.
 constexpr double kOffSurface = 1e-7;
 
-/// The point of a face's plane that a direction from the eye meets, in the lattice.
+constexpr double kInside = 1e-9;  // of a voxel [blocks]
+
+/// The point of a face's plane that a direction from the eye meets, in the lattice. A plant's
+/// texture does not repeat, so that there the nearest point of the plant counts.
 glm::dvec3 on_plane(const Meeting& hit, glm::dvec3 eye, glm::dvec3 direction) {
   const int axis = axis_of_face(hit.face);
   const double side = hit.face == 6 ? -1.0 : 1.0;  // plants: x - z or x + z is constant
   const auto along = [&](glm::dvec3 v) { return axis == 3 ? v.x + side * v.z : v[axis]; };
   const double speed = along(direction);
   if (speed == 0.0) return hit.lattice;
-  return eye + direction * ((along(hit.lattice) - along(eye)) / speed);
+  const glm::dvec3 point = eye + direction * ((along(hit.lattice) - along(eye)) / speed);
+  if (axis != 3) return point;
+  const glm::dvec3 low(hit.voxel.x, hit.voxel.y, hit.voxel.z);
+  return glm::clamp(point, low + kInside, low + 1.0 - kInside);
 }
 
 }  // namespace
 
 // --- Light that arrives
 
-bool Shader::body_seen(glm::dvec3 point, glm::dvec3 to_light) const {
-  return !scene_.shadows || !tracer_.hidden(point, to_light);
+bool Shader::body_seen(const Receiver& at, glm::dvec3 to_light) const {
+  return !scene_.shadows || !tracer_.hidden(at.point, to_light, kFar, at.plant);
 }
 
 /// Calls take(Arrival) for each light that one sample finds unhidden and before the surface.
 template <class Take>
-void Shader::arrive(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler, Take&& take) const {
+void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
   for (const Body& body : scene_.bodies) {
     const glm::dvec2 pair = sampler.next();
     const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
     const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(pair, spread));
-    if (glm::dot(normal, to_light) <= 0.0 || !body_seen(point, to_light)) continue;
+    if (glm::dot(at.normal, to_light) <= 0.0 || !body_seen(at, to_light)) continue;
     take(Arrival{to_light, body.irradiance, true});
   }
   for (const SphereLight& light : scene_.lights) {
     const glm::dvec2 pair = sampler.next();
-    const glm::dvec3 to_middle = light.position - point;
+    const glm::dvec3 to_middle = light.position - at.point;
     const double distance = glm::length(to_middle);
     if (distance == 0.0) continue;
     // Seen from outside, the sphere is a cone of even radiance intensity / (pi r^2).
@@ -55,8 +62,9 @@ void Shader::arrive(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler, Take&
     const double spread =
         distance <= light.radius ? 2.0 : sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
     const glm::dvec3 to_light = Frame(to_middle / distance).world(in_cone(pair, spread));
-    if (glm::dot(normal, to_light) <= 0.0) continue;
-    if (tracer_.hidden(point, to_light, std::max(0.0, distance - light.radius))) continue;
+    if (glm::dot(at.normal, to_light) <= 0.0) continue;
+    if (tracer_.hidden(at.point, to_light, std::max(0.0, distance - light.radius), at.plant))
+      continue;
     const glm::dvec3 irradiance =
         light.radius == 0.0 ? light.intensity / (distance * distance)
                             : light.intensity * (2.0 * spread / (light.radius * light.radius));
@@ -64,17 +72,18 @@ void Shader::arrive(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler, Take&
   }
 }
 
-glm::dvec3 Shader::from_environment(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler) const {
+glm::dvec3 Shader::from_environment(const Receiver& at, Sampler& sampler) const {
   if (scene_.environment == glm::dvec3(0.0)) return glm::dvec3(0.0);
-  const glm::dvec3 direction = Frame(normal).world(by_cosine(sampler.next()));
-  return tracer_.hidden(point, direction) ? glm::dvec3(0.0) : scene_.environment * kPi;
+  const glm::dvec3 direction = Frame(at.normal).world(by_cosine(sampler.next()));
+  const bool hidden = tracer_.hidden(at.point, direction, kFar, at.plant);
+  return hidden ? glm::dvec3(0.0) : scene_.environment * kPi;
 }
 
-glm::dvec3 Shader::irradiance(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler) const {
-  glm::dvec3 sum = from_environment(point, normal, sampler);
-  arrive(point, normal, sampler, [&](const Arrival& light) {
+glm::dvec3 Shader::irradiance(const Receiver& at, Sampler& sampler) const {
+  glm::dvec3 sum = from_environment(at, sampler);
+  arrive(at, sampler, [&](const Arrival& light) {
     const bool flat = scene_.flat_shading && light.body;
-    sum += light.irradiance * (flat ? 1.0 : glm::dot(normal, light.to_light));
+    sum += light.irradiance * (flat ? 1.0 : glm::dot(at.normal, light.to_light));
   });
   return sum;
 }
@@ -106,14 +115,14 @@ double Shader::openness(const Meeting& hit) const {
 glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,
                            Sampler& sampler) const {
   const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
-  glm::dvec3 point = direction * hit.t;
-  if (axis_of_face(hit.face) != 3) point += normal * kOffSurface;
-  const glm::dvec3 place = fine == direction
-                               ? hit.lattice
-                               : on_plane(hit, tracer_.lattice_point(hit.island, glm::dvec3(0.0)),
-                                          tracer_.lattice_vector(hit.island, fine));
-  const glm::dvec3 albedo(BlockTexels::shared().texel(hit.block, hit.face, place));
-  const glm::dvec3 reflected = irradiance(point, normal, sampler) * (albedo / kPi) * openness(hit);
+  const bool plant = axis_of_face(hit.face) == 3;
+  Receiver at{direction * hit.t, normal, plant ? &hit : nullptr};
+  if (!plant) at.point += normal * kOffSurface;
+  const glm::dvec3 place = on_plane(hit, tracer_.lattice_point(hit.island, glm::dvec3(0.0)),
+                                    tracer_.lattice_vector(hit.island, fine));
+  const glm::dvec3 albedo =
+      scene_.albedo.value_or(BlockTexels::shared().texel(hit.block, hit.face, place));
+  const glm::dvec3 reflected = irradiance(at, sampler) * (albedo / kPi) * openness(hit);
   return reflected + albedo * static_cast<double>(world::block_types()[hit.block].emission);
 }
 
@@ -127,7 +136,7 @@ glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double
   const Body& body = scene_.bodies.front();
   const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
   const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(sampler.next(), spread));
-  const bool lit = body_seen(direction * std::min(at, distance), to_light);
+  const bool lit = body_seen({direction * std::min(at, distance), to_light}, to_light);
   return radiance * clear + (lit ? behind_voxels(direction) * lost : glm::dvec3(0.0));
 }
 
@@ -202,12 +211,12 @@ glm::dvec3 transmitted_by(glm::dvec3 absorption, double length_blocks) {
   return exp3((absorption + scattering_of(absorption)) * -length_blocks);
 }
 
-Shader::Reach Shader::reach(glm::dvec3 point, glm::dvec3 normal, glm::dvec3 shading_normal,
-                            glm::dvec3 to_eye, double roughness, Sampler& sampler) const {
+Shader::Reach Shader::reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye,
+                            double roughness, Sampler& sampler) const {
   Reach reach;
-  reach.light = from_environment(point, normal, sampler);
-  arrive(point, normal, sampler, [&](const Arrival& light) {
-    reach.light += light.irradiance * glm::dot(normal, light.to_light);
+  reach.light = from_environment(at, sampler);
+  arrive(at, sampler, [&](const Arrival& light) {
+    reach.light += light.irradiance * glm::dot(at.normal, light.to_light);
     reach.mirrored += light.irradiance *
                       (mirror_lobe(shading_normal, light.to_light, to_eye, roughness, kWaterIndex) *
                        std::max(0.0, glm::dot(shading_normal, light.to_light)));
@@ -251,7 +260,7 @@ void Shader::pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3
   const double reflected =
       fresnel(std::clamp(glm::dot(shading, to_eye), 0.02, 1.0), !entering, kWaterIndex);
   constexpr double kLeastRoughness = 0.06;  // of the waves too small to draw
-  const Reach reached = reach(layer.t * direction + normal * kOffSurface, normal, shading, to_eye,
+  const Reach reached = reach({layer.t * direction + normal * kOffSurface, normal}, shading, to_eye,
                               std::max<double>(type.roughness, kLeastRoughness), sampler);
   glm::dvec3 mirrored(0.0);
   if (!entering) {
@@ -279,7 +288,7 @@ Seen Shader::through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 
   Passage passage;
   passage.medium = scene_.view.medium;
   if (passage.medium != world::kAir)  // the light half a block ahead stands for all of it
-    passage.light_in = irradiance(direction * 0.5, glm::dvec3(0.0, 1.0, 0.0), sampler);
+    passage.light_in = irradiance({direction * 0.5, glm::dvec3(0.0, 1.0, 0.0)}, sampler);
   for (const Meeting& layer : trace.layers) {
     passage.advance(layer.t);
     pass_surface(layer, direction, fine, passage, sampler);

@@ -24,8 +24,13 @@ class Shader {
   ///   is sampled more coarsely than they are.
   Seen look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Sampler& sampler) const;
 
-  /// Irradiance at a point of a surface. @param normal unit; nothing comes from behind it.
-  glm::dvec3 irradiance(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler) const;
+  /// A place that light arrives at.
+  struct Receiver {
+    glm::dvec3 point, normal;        ///< unit; nothing comes from behind it
+    const Meeting* plant = nullptr;  ///< the plant it is on: its two planes stand for loose leaves,
+                                     ///< which do not shade each other
+  };
+  glm::dvec3 irradiance(const Receiver& at, Sampler& sampler) const;
 
  private:
   /// One light as it arrives at a point.
@@ -38,9 +43,9 @@ class Shader {
   struct Passage;
 
   template <class Take>
-  void arrive(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler, Take&& take) const;
-  bool body_seen(glm::dvec3 point, glm::dvec3 to_light) const;
-  glm::dvec3 from_environment(glm::dvec3 point, glm::dvec3 normal, Sampler& sampler) const;
+  void arrive(const Receiver& at, Sampler& sampler, Take&& take) const;
+  bool body_seen(const Receiver& at, glm::dvec3 to_light) const;
+  glm::dvec3 from_environment(const Receiver& at, Sampler& sampler) const;
   glm::dvec3 behind_voxels(glm::dvec3 direction) const;
 
   glm::dvec3 surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,
@@ -53,8 +58,8 @@ class Shader {
                      Sampler& sampler) const;
   void pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine, Passage& passage,
                     Sampler& sampler) const;
-  Reach reach(glm::dvec3 point, glm::dvec3 normal, glm::dvec3 shading_normal, glm::dvec3 to_eye,
-              double roughness, Sampler& sampler) const;
+  Reach reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye, double roughness,
+              Sampler& sampler) const;
   glm::dvec3 rippled_normal(const Meeting& layer) const;
 
   const Scene& scene_;

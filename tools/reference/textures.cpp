@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "engine/render/block_textures.h"
 
@@ -61,7 +62,10 @@ glm::dvec4 BlockTexels::texel(world::BlockId block, int face, glm::dvec3 point) 
 }
 
 bool BlockTexels::covers(world::BlockId block, int face, glm::dvec3 point) const {
-  const glm::dvec2 p = place_on_face(face, point) * static_cast<double>(edge_) - 0.5;
+  const double texel = 1.0 / static_cast<double>(edge_);
+  if (axis_of_face(face) == 3)
+    point = glm::clamp(point, glm::dvec3(0.5 * texel), glm::dvec3(1.0 - 0.5 * texel));
+  const glm::dvec2 p = place_on_face(face, point) / texel - 0.5;
   const glm::dvec2 low{std::floor(p.x), std::floor(p.y)};
   const double x = p.x - low.x, y = p.y - low.y;
   const std::size_t layer = layer_of(block, face);

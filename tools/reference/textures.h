@@ -23,7 +23,7 @@ class BlockTexels {
   /// a pixel average them.
   glm::dvec4 texel(world::BlockId block, int face, glm::dvec3 point) const;
   /// Whether a leaf or plant has something here: coverage, linear between texel centres, of at
-  /// least a half.
+  /// least a half. @param point of a plant: in its voxel, 0..1; its texture does not repeat.
   bool covers(world::BlockId block, int face, glm::dvec3 point) const;
 
  private:

@@ -15,9 +15,6 @@ using world::BlockId;
 using world::BlockKind;
 using world::IVec3;
 
-/// A plant's own quad, on which a ray may begin, is not met again [blocks].
-constexpr double kOnPlant = 1e-6;
-
 /// Face of a block that a ray crosses from outside.
 int face_met(int axis, bool positive) {
   return axis * 2 + (positive ? 1 : 0);
@@ -29,9 +26,9 @@ struct PlantMeeting {
   glm::dvec3 point;
 };
 
-/// The nearest covered point of a plant's two diagonals with t in (t_min, t_max).
+/// The nearest covered point of a plant's two diagonals with t in (0, t_max).
 std::optional<PlantMeeting> meet_plant(glm::dvec3 origin, glm::dvec3 direction, IVec3 voxel,
-                                       BlockId id, double t_min, double t_max) {
+                                       BlockId id, double t_max) {
   const glm::dvec3 corner(voxel.x, voxel.y, voxel.z);
   const glm::dvec3 o = origin - corner;
   std::optional<PlantMeeting> nearest;
@@ -41,7 +38,7 @@ std::optional<PlantMeeting> meet_plant(glm::dvec3 origin, glm::dvec3 direction, 
     const double speed = direction.x + side * direction.z;
     if (speed == 0.0) continue;
     const double t = (offset - (o.x + side * o.z)) / speed;
-    if (!(t > t_min && t < t_max)) continue;
+    if (!(t > 0.0 && t < t_max)) continue;
     const glm::dvec3 p = o + direction * t;
     if (p.x < 0.0 || p.x > 1.0 || p.y < 0.0 || p.y > 1.0) continue;
     if (nearest && nearest->t <= t) continue;
@@ -82,7 +79,7 @@ struct Seeing {
   }
   bool inside(IVec3 voxel, BlockId id, double, double) {
     if (world::block_kind(id) != BlockKind::kPlant) return false;
-    const auto met = meet_plant(origin, direction, voxel, id, 0.0, t_max);
+    const auto met = meet_plant(origin, direction, voxel, id, t_max);
     if (met) out.hit = Meeting{met->t, island, id, met->face, voxel, met->point};
     return met.has_value();
   }
@@ -92,6 +89,7 @@ struct Seeing {
 struct Shadowing {
   glm::dvec3 origin, direction;
   double t_max;
+  std::optional<IVec3> own_plant;
   bool hidden = false;
 
   bool crossed(const Crossing& c) {
@@ -103,8 +101,8 @@ struct Shadowing {
     return hidden;
   }
   bool inside(IVec3 voxel, BlockId id, double, double) {
-    hidden = world::block_kind(id) == BlockKind::kPlant &&
-             meet_plant(origin, direction, voxel, id, kOnPlant, t_max).has_value();
+    hidden = world::block_kind(id) == BlockKind::kPlant && own_plant != voxel &&
+             meet_plant(origin, direction, voxel, id, t_max).has_value();
     return hidden;
   }
 };
@@ -116,7 +114,7 @@ Tracer::Tracer(const std::vector<Island>& islands) {
     const IVec3 low = island.voxels->box_min(), high = island.voxels->box_max();
     const glm::dvec3 a(low.x, low.y, low.z), b(high.x, high.y, high.z);
     const double radius = 0.5 * glm::length(b - a) + 2.0;  // with the voxel of air about it
-    islands_.push_back({island.voxels.get(), island.rotation, glm::transpose(island.rotation),
+    islands_.push_back({island.voxels, island.rotation, glm::transpose(island.rotation),
                         island.origin, island.rotation * (0.5 * (a + b)) + island.origin,
                         radius * radius});
   }
@@ -151,10 +149,12 @@ void Tracer::trace(glm::dvec3 origin, glm::dvec3 direction, Trace& out) const {
                    [](const Meeting& a, const Meeting& b) { return a.t < b.t; });
 }
 
-bool Tracer::hidden(glm::dvec3 origin, glm::dvec3 direction, double distance) const {
+bool Tracer::hidden(glm::dvec3 origin, glm::dvec3 direction, double distance,
+                    const Meeting* from_plant) const {
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     if (!may_meet(islands_[i], origin, direction, distance)) continue;
-    Shadowing shadowing{lattice_point(i, origin), lattice_vector(i, direction), distance};
+    Shadowing shadowing{lattice_point(i, origin), lattice_vector(i, direction), distance, {}};
+    if (from_plant && from_plant->island == i) shadowing.own_plant = from_plant->voxel;
     march(*islands_[i].voxels, shadowing.origin, shadowing.direction, 0.0, distance, shadowing);
     if (shadowing.hidden) return true;
   }

@@ -39,7 +39,9 @@ class Tracer {
   /// Whether something stands between two points: what casts shadows, that is all but water and
   /// glass. A leaf casts by the faces that see the light.
   /// @param direction unit, towards the light. @param distance to the light.
-  bool hidden(glm::dvec3 origin, glm::dvec3 direction, double distance = kFar) const;
+  /// @param from_plant the plant that the ray begins on, which does not shade itself.
+  bool hidden(glm::dvec3 origin, glm::dvec3 direction, double distance = kFar,
+              const Meeting* from_plant = nullptr) const;
 
   /// Unit normal of a face in the world; a plant's surfaces count as level.
   glm::dvec3 normal(std::size_t island, int face) const;
@@ -49,7 +51,7 @@ class Tracer {
 
  private:
   struct Placed {
-    const Volume* voxels;
+    std::shared_ptr<const Volume> voxels;
     glm::dmat3 rotation, lattice_from_world;
     glm::dvec3 origin;
     glm::dvec3 centre;  // of the box, world

@@ -95,14 +95,5 @@ TEST(Verdict, APictureIsBlackUnlessOneInAHundredPixelsCanBeSeen) {
   EXPECT_TRUE(is_black(plain(1, 1, 0)));
 }
 
-TEST(Verdict, TheDifferencePictureShowsEightTimesWhatDiffers) {
-  const platform::PngImage reference = plain(2, 1, 100);
-  platform::PngImage actual = reference;
-  put(actual, 0, 0, 0, 103);
-  put(actual, 1, 0, 1, 0);
-  EXPECT_EQ(amplified_difference(reference, actual),
-            (std::vector<std::uint8_t>{24, 0, 0, 0, 255, 0}));
-}
-
 }  // namespace
 }  // namespace skerry::tools

@@ -38,9 +38,13 @@ struct Case {
 std::span<const Case> coordinates_cases();
 std::span<const Case> projection_cases();
 std::span<const Case> shadows_cases();
+std::span<const Case> finite_cases();
+std::span<const Case> light_cases();
+std::span<const Case> media_cases();
 std::span<const Case> exposure_cases();
 std::span<const Case> physics_cases();
 std::span<const Case> time_cases();
+std::span<const Case> worlds_cases();
 
 /// Every case of the program.
 std::vector<Case> all_cases();

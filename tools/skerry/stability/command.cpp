@@ -1,44 +1,17 @@
 #include "tools/skerry/stability/command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "tools/skerry/arguments.h"
 #include "tools/skerry/bench_report.h"
+#include "tools/skerry/progress.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/stability/run.h"
 
 namespace skerry::tools {
-namespace {
-
-/// One line on a terminal that is written over; elsewhere nothing.
-class ProgressBar {
- public:
-  explicit ProgressBar(std::span<const stability::Case> cases)
-      : cases_(cases), shown_(isatty(STDERR_FILENO) == 1) {}
-  void show(std::size_t done) const {
-    if (!shown_) return;
-    constexpr std::size_t kWidth = 30;
-    const std::string bar(kWidth * done / cases_.size(), '#');
-    fmt::print(stderr, "\r[{:<{}}] {}/{} {:<32}", bar, kWidth, done, cases_.size(),
-               cases_[done].name);
-    std::fflush(stderr);
-  }
-  void clear() const {
-    if (shown_) fmt::print(stderr, "\r{:79}\r", "");
-  }
-
- private:
-  std::span<const stability::Case> cases_;
-  bool shown_;
-};
-
-}  // namespace
-
 StabilityCommand::StabilityCommand(CLI::App& app)
     : command_(app.add_subcommand("stability", "Run extremes against their bounds")) {
   command_->allow_extras();
@@ -72,10 +45,13 @@ int StabilityCommand::run() {
     if (!opened) return fail(kNoDevice, opened.error());
     device = *std::move(opened);
   }
-  const ProgressBar bar(*cases);
-  const std::vector<stability::Outcome> outcomes =
-      stability::run_cases(*cases, device.get(), [&](std::size_t done) { bar.show(done); });
-  bar.clear();
+  std::vector<stability::Outcome> outcomes;
+  {
+    ProgressBar bar;
+    outcomes = stability::run_cases(*cases, device.get(), [&](std::size_t done) {
+      bar.show(static_cast<double>(done) / static_cast<double>(cases->size()), (*cases)[done].name);
+    });
+  }
   fmt::print("{}", stability::table_of(outcomes));
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
                                     [](const auto& one) { return !one.row.pass(); });

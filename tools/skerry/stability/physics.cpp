@@ -144,20 +144,20 @@ Result<Rows> standing() {
   constexpr double kDay = 86400.0, kWeek = 7.0 * kDay;
   // Both places are rounded to whole units on each axis: sqrt(3) half units each.
   const double rounding = std::sqrt(3.0) * kUnit;
-  const Rest day = stand(0.0, 0.0, 0.0, kDay);
-  Rest week;  // an hour out of each twelve of a week, on an island that turns and drifts
+  const Rest resting = stand(0.0, 0.0, 0.0, kWeek);
+  Rest on_moving;  // an hour out of each twelve of a week, on an island that turns and drifts
   for (double start_s = 0.0; start_s < kWeek; start_s += 0.5 * kDay) {
     const Rest part = stand(0.01, 0.02, start_s, 3600.0);
-    week = {std::max(week.moved, part.moved), std::max(week.speed, part.speed),
-            std::max(week.sunk, part.sunk)};
+    on_moving = {std::max(on_moving.moved, part.moved), std::max(on_moving.speed, part.speed),
+                 std::max(on_moving.sunk, part.sunk)};
   }
   return Rows{
-      {"blocks moved, standing a day of 10,368,000 ticks on a resting island", 0.0, day.moved},
-      {"blocks/s after standing a day", 0.0, day.speed},
+      {"blocks moved, standing a week of 72,576,000 ticks on a resting island", 0.0, resting.moved},
+      {"blocks/s after standing a week", 0.0, resting.speed},
       {"blocks moved, standing on a turning, drifting island, an hour in twelve of a week",
-       rounding, week.moved},
-      {"blocks/s after standing on it", 0.0, week.speed},
-      {"blocks sunk, standing on it", kUnit, week.sunk}};
+       rounding, on_moving.moved},
+      {"blocks/s after standing on it", 0.0, on_moving.speed},
+      {"blocks sunk, standing on it", kUnit, on_moving.sunk}};
 }
 
 /// Kinetic and potential energy a mass in an island's frame [blocks^2/s^2].

@@ -1,9 +1,12 @@
 // Fields of view, picture sizes and distances at their ends: depth must still tell where things
 // are.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
 
 #include "tools/skerry/stability/case.h"
@@ -48,14 +51,13 @@ render::RenderSettings settings() {
 
 struct DepthError {
   double over_allowed = 0.0;  ///< largest error over what is allowed where it is
-  double relative = 0.0;      ///< largest error of the distance over the distance
   double pixels = 0.0;        ///< that were compared
 };
 
 /// Compares captured depth with the exact distance to the plane y = 0 for the pixels that show it.
 /// Allowed: vertices snap to 1/256 pixel, so the plane's depth may be off by its slope times that
-/// on both axes; and sixteen roundings of the largest depth of a face. Faces reach behind the eye,
-/// so that is 1.
+/// on both axes; and sixteen roundings of the depth straight below the eye, the largest of the
+/// plane.
 void compare_ground(const Frame& frame, const Camera& camera, DepthError& error) {
   const double height = static_cast<double>(camera.position[1]) / 65536.0;
   const auto depth_at = [&](std::uint32_t x, std::uint32_t y) {
@@ -63,14 +65,14 @@ void compare_ground(const Frame& frame, const Camera& camera, DepthError& error)
   };
   const double slope_x = std::abs(depth_at(1, 0) - depth_at(0, 0));
   const double slope_y = std::abs(depth_at(0, 1) - depth_at(0, 0));
-  const double allowed = (slope_x + slope_y) / 256.0 + 16.0 * kHalfUlp;
+  const double below = static_cast<double>(render::kNearPlane) / height;
+  const double allowed = (slope_x + slope_y) / 256.0 + 16.0 * kHalfUlp * below;
   for (std::uint32_t y = 0; y < frame.size.height; ++y) {
     for (std::uint32_t x = 0; x < frame.size.width; ++x) {
       const std::size_t i = std::size_t{y} * frame.size.width + x;
       if (block_of(frame.words[i]) != kGrass || (frame.words[i] >> 16 & 7u) != 2u) continue;
       const double exact = depth_at(x, y), off = std::abs(frame.depth[i] - exact);
       error.over_allowed = std::max(error.over_allowed, off / allowed);
-      error.relative = std::max(error.relative, std::abs(exact / frame.depth[i] - 1.0));
       ++error.pixels;
     }
   }
@@ -101,11 +103,7 @@ Result<Rows> fields_of_view(gpu::Device& device) {
       compare_ground(*frame, camera, error);
       non_finite += non_finite_channels(frame->radiance);
     }
-    const std::string at = ", field of view " + std::to_string(fov).substr(0, fov < 1.0     ? 3
-                                                                              : fov < 10.0  ? 1
-                                                                              : fov < 100.0 ? 2
-                                                                                            : 3);
-    std::fprintf(stderr, "fov %g relative %g pixels %g\n", fov, error.relative, error.pixels);
+    const std::string at = fmt::format(", field of view {}", fov);
     rows.push_back({"depth error over what snapping and rounding allow" + at, 1.0,
                     error.pixels > 0.0 ? error.over_allowed : kNan});
     rows.push_back({"channels that are not finite" + at, 0.0, non_finite});
@@ -113,7 +111,167 @@ Result<Rows> fields_of_view(gpu::Device& device) {
   return rows;
 }
 
-constexpr Case kCases[] = {{"projection.fields_of_view", fields_of_view}};
+/// A wall of 64 x 64 voxels whose face towards -z is the lattice's plane z = 0.
+BlockAt wall_of(world::BlockId block) {
+  return [block](int x, int y, int z) {
+    return z == 0 && x >= 0 && x < 64 && y >= 0 && y < 64 ? block : world::kAir;
+  };
+}
+
+/// Edge of a voxel, as a power of two, of a wall wide enough to fill the view at a distance.
+std::uint32_t voxel_size_log2_at(double distance) {
+  return static_cast<std::uint32_t>(std::max(0.0, std::ceil(std::log2(distance / 8.0))));
+}
+
+/// Where a wall's lattice origin is so that its face is `distance` blocks along +z from the world's
+/// origin, its lowest x at `left` and its middle at the eye's height.
+IslandPlacement wall_at(double distance, double left) {
+  const double voxel = std::exp2(voxel_size_log2_at(distance));
+  IslandPlacement island{fixed_at({left, -32.0 * voxel, distance}), {1.0, 0.0, 0.0, 0.0}, 0.0};
+  island.bounding_radius = 128.0 * voxel;
+  return island;
+}
+
+constexpr std::array kDistances{0.01, 0.06, 1.0, 30.0, 1e3, 1e5, 1e6};
+
+/// Walls from 0.01 to 10^6 blocks in one picture, each nearer one covering less of it. Looking
+/// along +z, +x is on the left: every wall spans from its right end, right of the middle so that
+/// its side cannot be seen, to beyond the left border.
+Result<Rows> near_and_far(gpu::Device& device) {
+  auto stage = Stage::create(device);
+  if (!stage) return stage.error();
+  const Camera camera = camera_at({0.0, 0.0, 0.0}, 0.0, 0.0);
+  const VkExtent2D size{168, 94};
+  const double tan_x = std::tan(glm::radians(35.0)) * size.width / size.height;
+  std::vector<IslandPlacement> islands;
+  for (std::size_t i = 0; i < kDistances.size(); ++i) {
+    const double right_end = -static_cast<double>(i + 1) / kDistances.size();
+    const double distance = kDistances[i];
+    islands.push_back(wall_at(distance, right_end * tan_x * distance));
+    if (Result<void> added =
+            (*stage)->add(wall_of(kStone), {0, 0, 0}, {1, 1, 1}, static_cast<std::uint32_t>(i),
+                          voxel_size_log2_at(distance));
+        !added)
+      return added.error();
+  }
+  const auto frame = (*stage)->draw(input_of(camera, islands), settings(), size);
+  if (!frame) return frame.error();
+  double relative = 0.0;
+  std::array<double, kDistances.size()> seen{};
+  for (std::size_t i = 0; i < frame->words.size(); ++i) {
+    if (frame->words[i] == 0) continue;
+    const std::size_t wall = frame->words[i] >> 19 & 0xfffu;
+    // Places are whole units: the wall is where rounding put it.
+    const double exact = static_cast<double>(islands[wall].origin[2]) / 65536.0;
+    relative =
+        std::max(relative,
+                 std::abs(static_cast<double>(render::kNearPlane) / frame->depth[i] / exact - 1.0));
+    seen[wall] += 1.0;
+  }
+  const double fewest = *std::min_element(seen.begin(), seen.end());
+  // Each wall shows in a seventh of half the width, less a pixel for its border.
+  const double share = static_cast<double>((size.width / 2 / kDistances.size() - 1) * size.height);
+  // A wall square to the view has one depth: near / w, each rounded, w from three products and
+  // their sum, and three planar interpolations: eight roundings.
+  return Rows{{"relative error of distance, walls at 0.01 to 1e6 blocks in one picture",
+               8.0 * kHalfUlp, relative},
+              {"pixels missing of the wall that shows least", 0.0, std::max(0.0, share - fewest)},
+              {"channels that are not finite, 0.01 to 1e6 blocks", 0.0,
+               non_finite_channels(frame->radiance)}};
+}
+
+/// Draws two parallel walls and counts the pixels that the farther one wins.
+Result<double> lost_pixels(gpu::Device& device, double distance, double separation, double yaw_deg,
+                           double pitch_deg) {
+  double lost = 0.0;
+  // Either order of drawing: the one drawn last wins ties.
+  for (const std::size_t nearer : {0u, 1u}) {
+    auto stage = Stage::create(device);
+    if (!stage) return stage.error();
+    const std::uint32_t log2 = voxel_size_log2_at(4.0 * distance);
+    std::vector<IslandPlacement> islands;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      const double away = distance + (i == nearer ? 0.0 : separation);
+      const double voxel = std::exp2(log2);
+      islands.push_back(
+          {fixed_at({-32.0 * voxel, -32.0 * voxel, away}), {1.0, 0.0, 0.0, 0.0}, 128.0 * voxel});
+      if (Result<void> added =
+              (*stage)->add(wall_of(i == nearer ? kStone : kSand), {0, 0, 0}, {1, 1, 1}, i, log2);
+          !added)
+        return added.error();
+    }
+    const Camera camera = camera_at({0.0, 0.0, 0.0}, yaw_deg, pitch_deg);
+    const auto frame = (*stage)->draw(input_of(camera, islands), settings(), {256, 144});
+    if (!frame) return frame.error();
+    for (const std::uint32_t word : frame->words) lost += block_of(word) != kStone;
+  }
+  return lost;
+}
+
+Result<Rows> close_surfaces(gpu::Device& device) {
+  // Facing: depths are right to eight roundings (near_and_far), so distances 16 of them apart
+  // differ: d / 2^20. Tilted: vertices snap by up to 1/512 pixel on each axis. A pixel is
+  // 2 tan(35 degrees) / 144 = 0.0097 wide a block away; towards the planes' normal the rays' axes
+  // have 0.42 and 0.31 of that, and the corner that sees the planes most askew has a ray of 0.109:
+  // a distance changes by 0.065 d over a pixel on both axes, and by 2 * 0.065 d / 512 = d / 2^12
+  // for two snapped planes.
+  constexpr double kFacing = 1.0 / (1 << 20), kTilted = 1.0 / (1 << 12);
+  constexpr double kUnit = 1.0 / 65536.0;
+  double facing = 0.0, tilted = 0.0;
+  for (const double distance : {0.05, 1.0, 30.0, 1e3, 1e5, 1e6}) {
+    const auto flat =
+        lost_pixels(device, distance, std::max(distance * kFacing, 2.0 * kUnit), 0.0, 0.0);
+    if (!flat) return flat.error();
+    facing += *flat;
+    const auto steep =
+        lost_pixels(device, distance, std::max(distance * kTilted, 2.0 * kUnit), 25.0, -20.0);
+    if (!steep) return steep.error();
+    tilted += *steep;
+  }
+  return Rows{
+      {"pixels the farther of two facing walls wins, d/2^20 apart, d 0.05 to 1e6", 0.0, facing},
+      {"pixels the farther of two tilted walls wins, d/2^12 apart, d 0.05 to 1e6", 0.0, tilted}};
+}
+
+/// Pictures of every shape: the ground must be where it is, and every pixel written.
+Result<Rows> sizes(gpu::Device& device) {
+  auto stage = ground_stage(device);
+  if (!stage) return stage.error();
+  const std::vector<IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
+  const std::uint32_t most = device.limits().max_image_edge;
+  // Picture, G-buffer words and depth take 12 bytes a pixel: the square that fits 256 MiB.
+  const std::uint32_t square = std::min(most, 4729u);
+  const std::uint32_t wide = std::min(most, 16384u);
+  Rows rows;
+  for (const VkExtent2D size :
+       {VkExtent2D{1, 1}, {wide, 1}, {most, 3}, {3, most}, {square, square}}) {
+    FrameInput in = input_of(camera_at({0.37, 1.62, 0.21}, 33.0, -30.0), islands);
+    in.capture = size.width != square;  // radiance would take as much memory again
+    const auto frame = (*stage)->draw(in, settings(), size);
+    if (!frame) return frame.error();
+    double unwritten = 0.0;
+    for (std::size_t i = 3; i < frame->rgba.size(); i += 4) unwritten += frame->rgba[i] != 255;
+    const std::string of = fmt::format(", {}x{}", size.width, size.height);
+    rows.push_back({"pixels not written or not finite" + of, 0.0,
+                    unwritten + frame->report.pixels.non_finite});
+    if (!in.capture) continue;
+    DepthError error;
+    compare_ground(*frame, in.camera, error);
+    rows.push_back({"depth error over what snapping and rounding allow" + of, 1.0,
+                    error.pixels > 0.0 ? error.over_allowed : kNan});
+  }
+  double accepted = 0.0;
+  for (const VkExtent2D size : {VkExtent2D{0, 8}, {8, 0}, {most + 1, 8}, {8, most + 1}})
+    accepted += static_cast<bool>((*stage)->draw(input_of({}, islands), settings(), size));
+  rows.push_back(
+      {"pictures without pixels or over the device's limit that were drawn", 0.0, accepted});
+  return rows;
+}
+
+constexpr Case kCases[] = {{"projection.fields_of_view", fields_of_view},
+                           {"projection.near_and_far", near_and_far},
+                           {"projection.close_surfaces", close_surfaces},
+                           {"projection.sizes", sizes}};
 
 }  // namespace
 

@@ -7,7 +7,9 @@
 
 #include "engine/render/cascades.h"
 #include "engine/render/celestial.h"
+#include "game/controls.h"
 #include "tools/skerry/stability/case.h"
+#include "tools/skerry/stability/stage.h"
 
 namespace skerry::tools::stability {
 namespace {
@@ -93,7 +95,133 @@ Result<Rows> continuity() {
       {"radians an axis of the light turns while the sun moves by 1e-7 rad", kStep + 4e-15, most}};
 }
 
-constexpr Case kCases[] = {{"shadows.directions", directions}, {"shadows.continuity", continuity}};
+world::BlockId pillars(int x, int y, int z) {
+  const bool pillar = y < 12 && (x & 15) == 3 && (z & 15) == 5;
+  return y < 0 || pillar ? world::block::kStone : world::block::kAirBlock;
+}
+
+const std::vector<render::IslandPlacement>& one_island() {
+  static const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
+  return islands;
+}
+
+Result<std::unique_ptr<Stage>> pillar_stage(gpu::Device& device) {
+  auto stage = Stage::create(device);
+  if (!stage) return stage;
+  if (Result<void> added = (*stage)->add(pillars, {-1, -1, -1}, {1, 1, 1}); !added)
+    return added.error();
+  return stage;
+}
+
+render::FrameInput input_of(const render::Celestial& sky) {
+  render::FrameInput in;
+  in.camera = camera_at({1.3, 4.2, -7.7}, 30.0, -10.0);
+  in.islands = one_island();
+  in.sky = sky;
+  in.capture = true;
+  return in;
+}
+
+constexpr VkExtent2D kSize{96, 54};
+
+render::RenderSettings settings() {
+  render::RenderSettings out;
+  out.view_distance_blocks = 200.0;
+  out.shadow_map_size = 512;
+  return out;
+}
+
+Result<Rows> pictures(gpu::Device& device) {
+  auto stage = pillar_stage(device);
+  if (!stage) return stage.error();
+  double non_finite = 0.0, out_of_range = 0.0;
+  for (const glm::dvec3& to_sun : hard_directions()) {
+    const auto frame = (*stage)->draw(input_of(sun_towards(to_sun)), settings(), kSize);
+    if (!frame) return frame.error();
+    non_finite += non_finite_channels(frame->radiance) + frame->report.pixels.non_finite;
+    for (const float depth : frame->shadow_maps) out_of_range += !(depth >= 0.0f && depth <= 1.0f);
+  }
+  return Rows{{"channels or pixels not finite, sun at zenith, horizon, below, axes, poles", 0.0,
+               non_finite},
+              {"shadow texels outside 0..1, sun at zenith, horizon, below, axes, poles", 0.0,
+               out_of_range}};
+}
+
+/// What changes in the shadow maps over frames of a motion that must not show.
+struct Change {
+  double texels = 0.0, redrawn = 0.0;
+};
+Result<Change> change_over(Stage& stage, int frames, bool afresh,
+                           const std::function<render::FrameInput(int frame)>& input) {
+  Change change;
+  std::vector<float> first;
+  for (int i = 0; i < frames; ++i) {
+    if (afresh) stage.renderer().forget_shadows();
+    const auto frame = stage.draw(input(i), settings(), kSize);
+    if (!frame) return frame.error();
+    if (i == 0) first = frame->shadow_maps;
+    if (frame->shadow_maps.empty() || frame->shadow_maps.size() != first.size())
+      return Error{"there are no shadow maps to compare"};
+    if (i == 0) continue;
+    for (std::size_t k = 0; k < first.size(); ++k)
+      change.texels += first[k] != frame->shadow_maps[k];
+    for (const std::string& pass : stage.renderer().graph().pass_names())
+      change.redrawn += pass.starts_with("draw_shadow");
+  }
+  return change;
+}
+
+/// The camera moves by 1/64 of the smallest texel a frame, for 32 frames.
+Result<Rows> camera_motion(gpu::Device& device) {
+  auto stage = pillar_stage(device);
+  if (!stage) return stage.error();
+  const render::Celestial sky = sun_towards({0.4, 0.7, -0.5});
+  CascadeInput in;
+  in.far_blocks = settings().view_distance_blocks;
+  in.map_size = settings().shadow_map_size;
+  const double texel = static_cast<double>(render::make_cascades(in)[0].texel_blocks);
+  const auto input = [&](int frame) {
+    render::FrameInput moved_input = input_of(sky);
+    moved_input.camera.position =
+        moved(moved_input.camera.position, texel / 64.0 * frame * glm::dvec3(0.6, 0.3, 0.74));
+    return moved_input;
+  };
+  const auto afresh = change_over(**stage, 32, true, input);
+  if (!afresh) return afresh.error();
+  const auto kept = change_over(**stage, 32, false, input);
+  if (!kept) return kept.error();
+  return Rows{
+      {"shadow texels changed, camera moving 1/64 texel in each of 32 frames, drawn afresh", 0.0,
+       afresh->texels},
+      {"shadow maps drawn again while the camera moves by less than a texel", 0.0, kept->redrawn}};
+}
+
+/// The sun moves by 1e-7 rad a frame, as the clock of play turns it.
+Result<Rows> sun_motion(gpu::Device& device) {
+  auto stage = pillar_stage(device);
+  if (!stage) return stage.error();
+  constexpr double kStep = 1e-7 / (2.0 * std::numbers::pi) * render::kDaySeconds;
+  double texels = 0.0, redrawn = 0.0;
+  for (const bool afresh : {true, false}) {
+    game::DayClock clock(9 * 3600);
+    const auto input = [&](int) {
+      clock.turn(kStep);
+      return input_of(render::celestial_at(clock.time_of_day_s(), 0.5));
+    };
+    const auto change = change_over(**stage, 64, afresh, input);
+    if (!change) return change.error();
+    texels += change->texels;
+    if (!afresh) redrawn = change->redrawn;
+  }
+  return Rows{{"shadow texels changed, sun moving 1e-7 rad in each of 64 frames", 0.0, texels},
+              {"shadow maps drawn again, sun moving 1e-7 rad in each of 64 frames", 0.0, redrawn}};
+}
+
+constexpr Case kCases[] = {{"shadows.directions", directions},
+                           {"shadows.continuity", continuity},
+                           {"shadows.pictures", pictures},
+                           {"shadows.camera_motion", camera_motion},
+                           {"shadows.sun_motion", sun_motion}};
 
 }  // namespace
 

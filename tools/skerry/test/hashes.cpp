@@ -31,7 +31,7 @@ std::string file_name_part(std::string_view text) {
     }
   }
   while (!out.empty() && out.back() == '_') out.pop_back();
-  return out;
+  return out.empty() ? "unknown" : out;
 }
 
 bool is_hash(const nlohmann::json& value) {

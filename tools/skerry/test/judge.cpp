@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
+#include "tools/measure/image.h"
 #include "tools/skerry/draw_scene.h"
 
 namespace skerry::tools {
@@ -13,24 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kDriverText = "Driver";
-
-/// FLIP's errors as colours from black over violet and orange to pale yellow.
-std::vector<std::uint8_t> heat_colors(const measure::ErrorMap& map) {
-  constexpr float kStops[][3] = {
-      {0, 0, 4}, {81, 18, 124}, {183, 55, 121}, {252, 137, 97}, {252, 253, 191}};
-  std::vector<std::uint8_t> out;
-  out.reserve(map.errors.size() * 3);
-  for (const float error : map.errors) {
-    const float place = std::clamp(error, 0.0f, 1.0f) * 4.0f;
-    const auto stop = std::min<std::size_t>(static_cast<std::size_t>(place), 3);
-    const float share = place - static_cast<float>(stop);
-    for (int c = 0; c < 3; ++c) {
-      const float value = kStops[stop][c] * (1.0f - share) + kStops[stop + 1][c] * share;
-      out.push_back(static_cast<std::uint8_t>(value + 0.5f));
-    }
-  }
-  return out;
-}
+constexpr int kAmplification = 8;
 
 std::string driver_of(const platform::PngImage& picture) {
   for (const platform::PngText& text : picture.text) {
@@ -45,6 +28,10 @@ bool same_size(const platform::PngImage& a, const platform::PngImage& b) {
 
 platform::PixelView view_of(const platform::PngImage& picture) {
   return {picture.width, picture.height, 4, picture.pixels};
+}
+
+measure::Image image_of(const platform::PngImage& picture) {
+  return {picture.width, picture.height, picture.pixels};
 }
 
 /// Writes what a report shows of a scene, and takes away what an older report has left.
@@ -126,10 +113,11 @@ void write_report(ReportWriter& writer, const platform::PngImage* reference,
   writer.write(ReportPicture::kActual, view_of(picture));
   if (reference) writer.write(ReportPicture::kReference, view_of(*reference));
   if (!compared || compared->difference.equal()) return;
-  const std::vector<std::uint8_t> difference = amplified_difference(*reference, picture);
-  const std::vector<std::uint8_t> heat = heat_colors(compared->flip);
-  writer.write(ReportPicture::kDifference, {picture.width, picture.height, 3, difference});
-  writer.write(ReportPicture::kFlip, {picture.width, picture.height, 3, heat});
+  const measure::Image difference =
+      measure::amplified_difference(image_of(*reference), image_of(picture), kAmplification);
+  const measure::Image heat = measure::heat_map(compared->flip);
+  writer.write(ReportPicture::kDifference, {picture.width, picture.height, 4, difference.rgba});
+  writer.write(ReportPicture::kFlip, {picture.width, picture.height, 4, heat.rgba});
 }
 
 }  // namespace

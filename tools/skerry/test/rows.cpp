@@ -10,6 +10,7 @@
 #include "engine/core/check.h"
 #include "engine/platform/files.h"
 #include "game/parse.h"
+#include "tools/measure/html.h"
 
 namespace skerry::tools {
 namespace {
@@ -102,10 +103,10 @@ Result<void> check_shards(std::span<const Results> shards) {
 std::string junit_case(const Row& row) {
   const std::string head =
       fmt::format("    <testcase classname=\"scenes\" name=\"{}\" time=\"{:.3f}\"",
-                  escape_markup(row.scene), row.seconds);
+                  measure::escape(row.scene), row.seconds);
   if (!row.failed()) return head + "/>\n";
   return head + fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
-                            escape_markup(row.message), escape_markup(row.command));
+                            measure::escape(row.message), measure::escape(row.command));
 }
 
 }  // namespace
@@ -211,36 +212,6 @@ std::string junit_xml(const Results& results) {
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {}>\n  <testsuite {} errors=\"0\" "
       "skipped=\"0\" time=\"{:.3f}\">\n{}  </testsuite>\n</testsuites>\n",
       counts, counts, seconds, cases);
-}
-
-std::string escape_markup(std::string_view text) {
-  // Through JSON, whose writer replaces what is no UTF-8.
-  const std::string valid =
-      json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
-          .get<std::string>();
-  std::string out;
-  for (const char c : valid) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    }
-  }
-  return out;
 }
 
 }  // namespace skerry::tools

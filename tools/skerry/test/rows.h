@@ -60,7 +60,4 @@ Result<Results> merge(std::span<const Results> shards);
 /// JUnit's XML, as CI systems read it.
 std::string junit_xml(const Results& results);
 
-/// For text and attributes of XML and HTML: mark-up escaped, characters XML cannot hold replaced.
-std::string escape_markup(std::string_view text);
-
 }  // namespace skerry::tools

@@ -4,37 +4,21 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 
 #include "engine/core/check.h"
-#include "tools/measure/color.h"
+#include "tools/measure/image.h"
 
 namespace skerry::tools {
 namespace {
 
-constexpr int kAmplification = 8;
 constexpr int kBright = 16;            // a channel from here on can be told from black
 constexpr double kLeastBright = 0.01;  // share of pixels a picture that is not black has bright
 
-std::array<float, 256> decoding_table() {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i)
-    table[i] = static_cast<float>(measure::linear_from_srgb(static_cast<double>(i) / 255.0));
-  return table;
-}
-
 measure::Picture linear_picture(const platform::PngImage& image) {
-  static const std::array<float, 256> kTable = decoding_table();
-  measure::Picture picture{image.width, image.height, {}};
-  picture.pixels.reserve(image.pixels.size() / 4);
-  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
-    picture.pixels.emplace_back(kTable[image.pixels[i]], kTable[image.pixels[i + 1]],
-                                kTable[image.pixels[i + 2]]);
-  }
-  return picture;
+  return measure::picture_from({image.width, image.height, image.pixels});
 }
 
 /// Mean squared error of the channels becomes decibels below a peak of 1.
@@ -127,19 +111,6 @@ bool is_black(const platform::PngImage& picture) {
   }
   return static_cast<double>(bright) <
          kLeastBright * static_cast<double>(picture.pixels.size()) / 4;
-}
-
-std::vector<std::uint8_t> amplified_difference(const platform::PngImage& reference,
-                                               const platform::PngImage& actual) {
-  SKERRY_ASSERT(reference.pixels.size() == actual.pixels.size());
-  std::vector<std::uint8_t> out;
-  out.reserve(actual.pixels.size() / 4 * 3);
-  for (std::size_t i = 0; i < actual.pixels.size(); ++i) {
-    if (i % 4 == 3) continue;
-    const int off = std::abs(int{reference.pixels[i]} - int{actual.pixels[i]});
-    out.push_back(static_cast<std::uint8_t>(std::min(255, off * kAmplification)));
-  }
-  return out;
 }
 
 }  // namespace skerry::tools

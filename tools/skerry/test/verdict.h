@@ -1,8 +1,6 @@
 // Whether a picture is its reference's, in numbers and in words. Plain values; no device.
 #pragma once
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/platform/image_file.h"
@@ -36,9 +34,5 @@ std::string beyond(const Difference& found, const game::Tolerance& tolerance);
 
 /// Whether hardly a pixel can be told from black.
 bool is_black(const platform::PngImage& picture);
-
-/// Eight times what differs, RGB.
-std::vector<std::uint8_t> amplified_difference(const platform::PngImage& reference,
-                                               const platform::PngImage& actual);
 
 }  // namespace skerry::tools

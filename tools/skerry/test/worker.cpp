@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -42,8 +43,9 @@ class Artist {
     const Result<Hashes> approved = read_hashes(hash_file(scene.file.parent_path(), driver_));
     if (!approved) return {failed_row(scene, approved.error().message), {}, false};
     game::SceneOptions options = scene.scene;
-    if (options.settings.jobs_threads == 0)
-      options.settings.jobs_threads = static_cast<std::uint32_t>(threads_);
+    // TBB warns when a single thread is asked for; two of two processes on two cores do no harm.
+    if (options.settings.jobs_threads == 0 && threads_ > 0)
+      options.settings.jobs_threads = static_cast<std::uint32_t>(std::max(threads_, 2));
     Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device_, options);
     if (!drawer) return {failed_row(scene, drawer.error().message), {}, false};
     Result<Drawn> drawn = (*drawer)->draw();

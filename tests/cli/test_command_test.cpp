@@ -1,0 +1,171 @@
+// skerry test as scripts call it, on scenes small enough to be drawn in a moment.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/platform/files.h"
+#include "engine/platform/image_file.h"
+#include "tests/cli/run_program.h"
+
+namespace skerry {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class TestCommandLine : public testing::Test {
+ protected:
+  /// A picture of the sky alone.
+  void write_scene(const std::string& name, const std::string& more = "") {
+    const std::string text =
+        R"({"size": "48x27", "time": "16:00", "settings": {"world.islands": 0})" + more + "}";
+    ASSERT_TRUE(platform::write_text(scenes() / (name + ".json"), text));
+  }
+  fs::path scenes() const { return folder_.path(); }
+  fs::path out(const std::string& name) const { return out_ / name; }
+  Outcome test(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "test");
+    return run(std::move(arguments));
+  }
+  Outcome approve() { return test({scenes().string(), "--approve"}); }
+  json rows(const std::string& file) {
+    json rows = json::parse(text_of(out(file)))["rows"];
+    for (json& row : rows) row.erase("seconds");
+    return rows;
+  }
+
+  Folder folder_, out_;
+};
+
+TEST_F(TestCommandLine, WhatIsApprovedPassesAndWhatChangesFails) {
+  write_scene("sky");
+  const Outcome first = test({scenes().string()});
+  EXPECT_EQ(first.status, 1);
+  EXPECT_NE(first.out.find("no reference yet"), std::string::npos) << first.out;
+  EXPECT_EQ(approve().status, 0);
+  const Outcome second = test({scenes().string(), "--json", out("rows.json").string()});
+  EXPECT_EQ(second.status, 0) << second.out << second.err;
+  const json row = rows("rows.json")[0];
+  EXPECT_EQ(row["scene"], "sky");
+  EXPECT_EQ(row["verdict"], "pass");
+  EXPECT_EQ(row["hash_equal"], true);
+  EXPECT_TRUE(row["psnr"].is_null());
+  write_scene("sky", R"(, "fov": 30)");
+  const Outcome third = test({scenes().string(), "--json", out("rows.json").string()});
+  EXPECT_EQ(third.status, 1);
+  EXPECT_EQ(rows("rows.json")[0]["verdict"], "fail");
+  EXPECT_EQ(rows("rows.json")[0]["hash_equal"], false);
+  EXPECT_GT(rows("rows.json")[0]["flip_mean"], 0.0);
+}
+
+TEST_F(TestCommandLine, TheCommandOfARowDrawsItsPictureAgain) {
+  write_scene("sky");
+  ASSERT_EQ(approve().status, 0);
+  ASSERT_EQ(test({scenes().string(), "--json", out("rows.json").string()}).status, 0);
+  const std::string command = rows("rows.json")[0]["command"];
+  ASSERT_TRUE(command.starts_with("skerry shot "));
+  const std::string shell = SKERRY_BINARY_DIR "/" + command + " --out " + out("again.png").string();
+  ASSERT_EQ(std::system(shell.c_str()), 0) << shell;
+  EXPECT_EQ(platform::read_png(out("again.png"))->pixels,
+            platform::read_png(scenes() / "sky.png")->pixels);
+}
+
+TEST_F(TestCommandLine, ShardsMergeIntoTheWholeWithItsPictures) {
+  for (const char* name : {"a", "b", "c", "d", "e"})
+    write_scene(name, std::string(", \"fov\": ") + std::to_string(40 + name[0] % 8));
+  ASSERT_EQ(approve().status, 0);
+  const std::string all = scenes().string();
+  ASSERT_EQ(test({all, "--json", out("whole.json").string()}).status, 0);
+  std::vector<std::string> merge{"--merge"};
+  for (const char* index : {"1", "2", "3"}) {
+    const std::string file = out(index + std::string(".json")).string();
+    ASSERT_EQ(test({all, "--shard", index + std::string("/3"), "--json", file, "--html",
+                    out(std::string("html") + index).string()})
+                  .status,
+              0);
+    merge.push_back(file);
+  }
+  merge.insert(merge.end(), {"--json", out("merged.json").string(), "--html", out("html").string(),
+                             "--junit", out("junit.xml").string()});
+  const Outcome merged = test(merge);
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  EXPECT_EQ(rows("merged.json"), rows("whole.json"));
+  const std::string page = text_of(out("html/index.html"));
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    EXPECT_TRUE(fs::exists(out(std::string("html/") + name + ".actual.png"))) << name;
+    EXPECT_NE(page.find(std::string(name) + ".actual.png"), std::string::npos) << name;
+  }
+  EXPECT_NE(text_of(out("junit.xml")).find("tests=\"5\""), std::string::npos);
+}
+
+TEST_F(TestCommandLine, RepeatedRunsGiveOnePicture) {
+  write_scene("sky");
+  write_scene("wide", R"(, "fov": 120)");
+  ASSERT_EQ(approve().status, 0);
+  const Outcome outcome = test(
+      {scenes().string(), "--repeat", "3", "--jobs", "2", "--json", out("rows.json").string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const json& row : rows("rows.json")) {
+    EXPECT_EQ(row["runs"], 3);
+    EXPECT_EQ(row["failed_runs"], 0);
+    EXPECT_EQ(row["pictures"], 1);
+  }
+}
+
+TEST_F(TestCommandLine, NothingToTestIsAFailure) {
+  expect_refusal(test({}), 1, {"nothing to test"}, "no scenes");
+  expect_refusal(test({scenes().string()}), 1, {"no scene"}, "empty folder");
+  expect_refusal(test({"no/such.json"}), 1, {"no/such.json"}, "no file");
+  write_scene("sky");
+  expect_refusal(test({scenes().string(), "--shard", "2/2"}), 1, {"shard 2/2"}, "empty shard");
+}
+
+TEST_F(TestCommandLine, AMistakeInASceneIsAUsageErrorBeforeAnythingIsDrawn) {
+  write_scene("sky");
+  ASSERT_TRUE(platform::write_text(scenes() / "wrong.json", R"({"tolerence": {}})"));
+  expect_refusal(test({scenes().string(), "--approve"}), 2, {"wrong.json", "'tolerance'"}, "scene");
+  EXPECT_FALSE(fs::exists(scenes() / "sky.png"));
+}
+
+TEST_F(TestCommandLine, AFolderForReportsThatCannotBeWrittenIsAUsageError) {
+  write_scene("sky");
+  ASSERT_TRUE(platform::write_text(out("file"), "in the way"));
+  for (const std::string& html :
+       {out("file").string(), out("file/below").string(), std::string("/proc/skerry")}) {
+    expect_refusal(test({scenes().string(), "--approve", "--html", html}), 2, {}, html);
+    EXPECT_FALSE(fs::exists(scenes() / "sky.png"));
+  }
+  for (const char* option : {"--json", "--junit"})
+    expect_refusal(test({scenes().string(), option, "/no/such/folder/x"}), 1, {"x"}, option);
+}
+
+TEST_F(TestCommandLine, APictureTooLargeForTheDeviceFailsItsScene) {
+  write_scene("sky");
+  ASSERT_EQ(approve().status, 0);
+  ASSERT_TRUE(platform::write_text(scenes() / "huge.json", R"({"size": "65535x65535"})"));
+  const Outcome outcome = test({scenes().string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.out.find("fail: huge: "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("1 of 2 scenes passed"), std::string::npos) << outcome.out;
+}
+
+TEST_F(TestCommandLine, WithoutADeviceTheStatusIsFour) {
+  write_scene("sky");
+  expect_refusal(run({"test", scenes().string()}, {"VK_ICD_FILENAMES=/no/such/driver.json",
+                                                   "VK_DRIVER_FILES=/no/such/driver.json"}),
+                 4, {}, "no driver");
+  expect_refusal(test({scenes().string(), "--device", "999"}), 4, {"999"}, "device");
+}
+
+TEST_F(TestCommandLine, MergingWhatIsNoShardFails) {
+  expect_refusal(test({"--merge"}), 2, {"nothing to test"}, "nothing");
+  expect_refusal(test({"--merge", "no/such.json"}), 1, {"no/such.json"}, "no file");
+  ASSERT_TRUE(platform::write_text(out("x.json"), "{}"));
+  expect_refusal(test({"--merge", out("x.json").string()}), 1, {"x.json"}, "no rows");
+}
+
+}  // namespace
+}  // namespace skerry

@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/reference/made_scenes.h"
+#include "tools/reference/brdf.h"
+#include "tools/reference/shade.h"
+
+namespace skerry::reference {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Mean irradiance on level ground at a point, over a number of samples.
+double ground_irradiance(const Scene& scene, glm::dvec3 point, std::uint32_t count) {
+  const Tracer tracer(scene.islands);
+  const Shader shader(scene, tracer);
+  double sum = 0.0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Sampler sampler(7, 3, i);
+    sum += shader.irradiance({point, {0.0, 1.0, 0.0}}, sampler).x;
+  }
+  return sum / count;
+}
+
+TEST(ReferenceLight, ALitPlaneHasLambertsRadianceAtAnyDistanceAndAngle) {
+  for (const double height : {0.5, 10.0, 900.0}) {
+    for (const double angle : {0.0, 0.4, 1.1, 1.5}) {
+      Scene scene =
+          seen_from({0.5, height, 0.5}, {0.0, -1.0, 0.01}, {stone_floor()}, 6, 5.0 / height);
+      scene.albedo = glm::dvec3(0.8, 0.5, 0.2);
+      const glm::dvec3 irradiance(3.0, 2.0, 1.0);
+      scene.bodies = {{{std::sin(angle), std::cos(angle), 0.0}, irradiance, 0.0}};
+      const glm::dvec3 expected = irradiance * *scene.albedo / kPi * std::cos(angle);
+      for (const glm::vec3& seen : render(scene, samples(2)).radiance.pixels)
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 1e-6 * expected[c]);
+    }
+  }
+}
+
+TEST(ReferenceLight, FlatShadingLeavesTheAngleOut) {
+  Scene scene = seen_from({0.5, 5.0, 0.5}, {0.0, -1.0, 0.01}, {stone_floor()});
+  scene.bodies = {{{std::sin(1.2), std::cos(1.2), 0.0}, glm::dvec3(kPi), 0.0}};
+  scene.flat_shading = true;
+  for (const glm::vec3& seen : render(scene, samples(2)).radiance.pixels)
+    EXPECT_NEAR(seen.x, 1.0, 1e-6);
+}
+
+TEST(ReferenceLight, InAWhiteFurnaceABlockCannotBeTold) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.3, -0.4, 1.0},
+                          {single_block(world::block::kStone, {0.9, -1.2, 3.0})}, 16, 0.6);
+  scene.islands[0].rotation = glm::mat3_cast(glm::angleAxis(0.7, glm::dvec3(0.0, 1.0, 0.0)));
+  scene.environment = glm::dvec3(1.0);
+  for (const glm::vec3& seen : render(scene, samples(32)).radiance.pixels)
+    EXPECT_NEAR(seen.x, 1.0, 1e-6);
+  scene.albedo = glm::dvec3(0.5);
+  const ReferencePicture grey = render(scene, samples(32));
+  EXPECT_NEAR(std::min_element(grey.radiance.pixels.begin(), grey.radiance.pixels.end(),
+                               [](glm::vec3 a, glm::vec3 b) { return a.x < b.x; })
+                  ->x,
+              0.5, 1e-6);
+}
+
+TEST(ReferenceLight, FalloffOfAPointIsTheInverseSquare) {
+  for (const double height : {0.1, 1.0, 7.0, 1000.0}) {
+    Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+    scene.lights = {{{0.0, height, 0.0}, glm::dvec3(5.0), 0.0}};
+    EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 1), 5.0 / (height * height),
+                1e-12 / (height * height));
+    // Sideways by as much: cosine 1/sqrt(2), twice the square of the distance.
+    EXPECT_NEAR(ground_irradiance(scene, {height, 0.0, 0.0}, 1),
+                5.0 / (2.0 * height * height) * std::sqrt(0.5), 1e-12 / (height * height));
+  }
+}
+
+TEST(ReferenceLight, ASphereAboveTheGroundLightsItAsAPointInItsMiddle) {
+  for (const double radius : {0.01, 0.5, 1.9}) {
+    Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+    scene.lights = {{{0.0, 2.0, 0.0}, glm::dvec3(5.0), radius}};
+    EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 4096), 5.0 / 4.0, 2e-3) << radius;
+  }
+}
+
+TEST(ReferenceLight, AHiddenPointLightsNothing) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0},
+                          {single_block(world::block::kStone, {0.0, 3.0, 0.0})});
+  scene.lights = {{{0.0, 6.0, 0.0}, glm::dvec3(5.0), 0.0}};
+  EXPECT_EQ(ground_irradiance(scene, glm::dvec3(0.0), 1), 0.0);
+  scene.lights[0].position.y = 2.0;  // before the block
+  EXPECT_GT(ground_irradiance(scene, glm::dvec3(0.0), 1), 0.0);
+}
+
+TEST(ReferenceLight, ASealedRoomIsExactlyBlackUnderManySuns) {
+  const Island room{
+      Volume::from_voxels(
+          {-4, -4, -4}, {5, 5, 5},
+          [](world::IVec3 v) {
+            const bool wall = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) == 4;
+            return world::BlockId{wall ? world::block::kStone : world::block::kAirBlock};
+          }),
+      glm::mat3_cast(glm::angleAxis(0.3, glm::dvec3(0.0, 1.0, 0.0)))};
+  std::mt19937 random(5);
+  Scene scene = seen_from({0.2, 0.4, -0.3}, {1.0, 0.2, 0.4}, {room}, 24, 1.5);
+  for (int i = 0; i < 100; ++i)
+    scene.bodies.push_back({random_direction(random), glm::dvec3(1e6), kBodyRadius});
+  scene.lights = {{{30.0, 3.0, 0.0}, glm::dvec3(1e9), 1.0}};
+  scene.environment = glm::dvec3(1e6);
+  scene.haze_per_block = 0.1;
+  const ReferencePicture picture = render(scene, samples(4));
+  for (const glm::vec3& seen : picture.radiance.pixels) EXPECT_EQ(seen, glm::vec3(0.0f));
+}
+
+TEST(ReferenceLight, AHardShadowEndsAtTheAnalyticPlace) {
+  // The block spans x 0..1 and ends at y = 3; the sun stands 50 degrees high in -x.
+  const double height = glm::radians(50.0);
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0},
+                          {single_block(world::block::kStone, {0.5, 2.5, 0.5})});
+  scene.bodies = {{{-std::cos(height), std::sin(height), 0.0}, glm::dvec3(1.0), 0.0}};
+  const double from = 2.0 / std::tan(height), to = 1.0 + 3.0 / std::tan(height);
+  const auto lit = [&](double x) { return ground_irradiance(scene, {x, 0.0, 0.5}, 1) > 0.0; };
+  for (const double off : {1e-9, 1e-4, 0.3}) {
+    EXPECT_TRUE(lit(from - off));
+    EXPECT_FALSE(lit(from + off));
+    EXPECT_FALSE(lit(to - off));
+    EXPECT_TRUE(lit(to + off));
+  }
+}
+
+TEST(ReferenceLight, AnAreaSunsPenumbraIsTheVisiblePartOfItsDisc) {
+  // A wide slab whose straight edge at x = 0 hides what of the zenith's sun stands at x > 0.
+  const Island slab{Volume::from_voxels({0, 10, -20}, {20, 11, 20}, [](world::IVec3) {
+    return world::BlockId{world::block::kStone};
+  })};
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {slab});
+  scene.bodies = {{{0.0, 1.0, 0.0}, glm::dvec3(1.0), kBodyRadius}};
+  // Under the slab its lower edge hides the disc, beside it the upper one.
+  const double under = 10.0 * std::tan(kBodyRadius), beside = 11.0 * std::tan(kBodyRadius);
+  for (const double share : {-0.9, -0.5, 0.0, 0.3, 0.8}) {
+    // The edge cuts the disc at `share` of its radius: area of the segment beyond.
+    const double expected = 0.5 - (share * std::sqrt(1.0 - share * share) + std::asin(share)) / kPi;
+    const double x = share * (share < 0.0 ? beside : under);
+    EXPECT_NEAR(ground_irradiance(scene, {x, 0.0, 0.0}, 4096), expected, 2e-3) << share;
+  }
+  EXPECT_NEAR(ground_irradiance(scene, {-1.001 * beside, 0.0, 0.0}, 256), 1.0, 1e-4);
+  EXPECT_EQ(ground_irradiance(scene, {1.001 * under, 0.0, 0.0}, 256), 0.0);
+}
+
+TEST(ReferenceLight, HazeOfAnUnshadowedRayHasItsClosedForm) {
+  for (const double height : {1.0, 30.0, 5000.0}) {
+    Scene scene = seen_from({0.0, height, 0.0}, {0.0, -1.0, 0.0}, {stone_floor()}, 1, 1e-6);
+    scene.albedo = glm::dvec3(0.0);
+    scene.environment = glm::dvec3(2.0);
+    scene.bodies = {{{0.0, 1.0, 0.0}, glm::dvec3(1.0), kBodyRadius}};
+    scene.haze_per_block = 0.002;
+    const double expected = 2.0 * (1.0 - std::exp(-0.002 * height));
+    EXPECT_NEAR(render(scene, samples(4)).radiance.pixels[0].x, expected, 1e-6 * expected);
+  }
+}
+
+TEST(ReferenceLight, HazeIsLitOnlyWhereTheSunReachesIt) {
+  // A roof over x 10..30 of a way of 60 blocks along +x.
+  const Island roof{Volume::from_voxels(
+      {10, 5, -9}, {30, 6, 9}, [](world::IVec3) { return world::BlockId{world::block::kStone}; })};
+  const Island wall{Volume::from_voxels(
+      {60, -9, -9}, {61, 9, 9}, [](world::IVec3) { return world::BlockId{world::block::kStone}; })};
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {roof, wall}, 1, 1e-6);
+  scene.albedo = glm::dvec3(0.0);
+  scene.environment = glm::dvec3(1.0);
+  scene.bodies = {{{0.0, 1.0, 0.0}, glm::dvec3(1.0), 0.0}};
+  scene.haze_per_block = 0.03;
+  const auto clear = [](double blocks) { return std::exp(-0.03 * blocks); };
+  const double expected = 1.0 - clear(10.0) + clear(30.0) - clear(60.0);
+  EXPECT_NEAR(render(scene, samples(4096)).radiance.pixels[0].x, expected, 1e-3);
+}
+
+TEST(ReferenceLight, WaterTakesFresnelsAndBeersShare) {
+  // Two blocks of water over a lamp, looked down at.
+  const Island pool{Volume::from_voxels({-9, -3, -9}, {9, 0, 9}, [](world::IVec3 v) {
+    return world::BlockId{v.y == -3 ? world::block::kLamp : world::block::kWater};
+  })};
+  Scene scene = seen_from({0.5, 4.0, 0.5}, {0.0, -1.0, 0.0}, {pool}, 1, 1e-6);
+  const world::BlockType& water = world::block_types()[world::block::kWater];
+  const world::BlockType& lamp = world::block_types()[world::block::kLamp];
+  const float mean = (water.absorption[0] + water.absorption[1] + water.absorption[2]) / 3.0f;
+  const glm::vec3 seen = render(scene, samples(1)).radiance.pixels[0];
+  for (int c = 0; c < 3; ++c) {
+    const double extinction = water.absorption[static_cast<std::size_t>(c)] + 0.3 * mean;
+    const double reflected = std::pow(0.333 / 2.333, 2.0);
+    EXPECT_NEAR(seen[c], lamp.emission * (1.0 - reflected) * std::exp(-2.0 * extinction), 2e-6);
+  }
+}
+
+TEST(ReferenceLight, CornersDarkenAFaceByTheirStrength) {
+  // A step: the floor's edge at x = 0 lies under a wall that fills x < 0.
+  const Island step{Volume::from_voxels({-9, -2, -9}, {9, 3, 9}, [](world::IVec3 v) {
+    return world::BlockId{v.y < 0 || v.x < 0 ? world::block::kStone : world::block::kAirBlock};
+  })};
+  for (const double strength : {0.0, 0.5, 1.0}) {
+    Scene scene = seen_from({0.25, 4.0, 0.5}, {0.0, -1.0, 0.0}, {step}, 1, 1e-6);
+    scene.bodies = {{{0.0, 1.0, 0.0}, glm::dvec3(kPi), 0.0}};
+    scene.corner_occlusion = strength;
+    // At the wall both corners have it beside and across: openness 1/3, a block away 1.
+    const double openness = 1.0 / 3.0 + 0.25 * 2.0 / 3.0;
+    EXPECT_NEAR(render(scene, samples(1)).radiance.pixels[0].x, 1.0 - strength * (1.0 - openness),
+                1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace skerry::reference

@@ -1,0 +1,103 @@
+// Looking through glass that takes a millionth of the light, and through glass that takes all of
+// it.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "tools/skerry/stability/case.h"
+#include "tools/skerry/stability/stage.h"
+
+namespace skerry::tools::stability {
+namespace {
+
+using world::block::kAirBlock;
+using world::block::kGlass;
+using world::block::kLamp;
+
+constexpr VkExtent2D kSize{96, 54};
+constexpr double kEye = 0.5, kLamps = 40.0;  // z of the eye and of the wall of lamps
+
+/// Extinction a block of a medium with white absorption a: it scatters 0.3 of it besides
+/// (shaders/include/water.glsl).
+constexpr double kExtinctionPerAbsorption = 1.3;
+
+/// Radiance below which a half's steps would be coarse: what is compared is above.
+constexpr double kFaintest = 1.0 / 1024.0;
+
+struct Glass {
+  double front, back;  // z; the eye is inside when front is behind it
+};
+
+Result<Frame> look(gpu::Device& device, const Glass& glass, double absorption) {
+  std::vector<shared::Material> table = built_in_materials();
+  table[kGlass].absorption = glm::vec3(static_cast<float>(absorption));
+  table[kLamp].emission = glm::packHalf1x16(1.0f);
+  auto stage = Stage::create(device, table);
+  if (!stage) return stage.error();
+  const auto scene = [&](int, int, int z) -> world::BlockId {
+    if (z >= kLamps) return kLamp;
+    return z >= glass.front && z < glass.back ? kGlass : kAirBlock;
+  };
+  if (Result<void> added = (*stage)->add(scene, {-1, -1, -1}, {2, 2, 1}); !added)
+    return added.error();
+  render::FrameInput in;
+  in.camera = camera_at({32.5, 32.5, kEye}, 0.0, 0.0);
+  const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
+  in.islands = islands;
+  in.sky = darkness();  // nothing lights the glass itself: what is left is what came through
+  in.camera_medium = glass.front < kEye ? kGlass : 0;
+  in.capture = true;
+  return (*stage)->draw(in, {}, kSize);
+}
+
+/// The share of light that came through against exp(-tau), tau along each pixel's own ray.
+Result<Rows> through(gpu::Device& device, const Glass& glass, const std::string& what) {
+  // Glass that takes nothing shows what stands behind it, with the surfaces' own part.
+  const auto clear = look(device, glass, 0.0);
+  if (!clear) return clear.error();
+  const double depth = glass.back - std::max(glass.front, kEye);
+  const render::Camera camera = camera_at({}, 0.0, 0.0);
+  double off = 0.0, beyond = 0.0, compared = 0.0;
+  for (int decade = -6; decade <= 4; ++decade) {
+    const double tau_ahead = std::pow(10.0, decade);
+    const double absorption = tau_ahead / depth / kExtinctionPerAbsorption;
+    const auto frame = look(device, glass, absorption);
+    if (!frame) return frame.error();
+    for (std::uint32_t i = 0; i < clear->radiance.size(); ++i) {
+      const glm::dvec3 ray = ray_of(camera, kSize, i % kSize.width, i / kSize.width);
+      const double exact = std::exp(-tau_ahead * glm::length(ray));
+      for (int c = 0; c < 3; ++c) {
+        const double all = static_cast<double>(clear->radiance[i][c]);
+        if (all < kFaintest) continue;
+        const double share = static_cast<double>(frame->radiance[i][c]) / all;
+        off = std::max(off, std::abs(share - exact));
+        beyond += !(share >= 0.0 && share <= 1.0);
+        ++compared;
+      }
+    }
+  }
+  // The frame of a pane lets nothing through; most of a picture must not be frames.
+  if (compared < 0.5 * 11.0 * 3.0 * static_cast<double>(clear->radiance.size()))
+    return Error{"too few pixels show what stands behind the glass"};
+  return Rows{{"error of transmittance, optical depth 1e-6 to 1e4, " + what, 1e-3, off},
+              {"transmittances below 0 or above 1, " + what, 0.0, beyond}};
+}
+
+Result<Rows> inside(gpu::Device& device) {
+  return through(device, {-64.0, kLamps}, "eye inside the medium");
+}
+
+Result<Rows> slab(gpu::Device& device) {
+  return through(device, {8.0, 24.0}, "slab of 16 blocks");
+}
+
+constexpr Case kCases[] = {{"media.inside", inside}, {"media.slab", slab}};
+
+}  // namespace
+
+std::span<const Case> media_cases() {
+  return kCases;
+}
+
+}  // namespace skerry::tools::stability
