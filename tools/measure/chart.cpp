@@ -60,7 +60,7 @@ struct MarkLooks {
   std::string_view ring, note, words;
 };
 constexpr MarkLooks kMarks[] = {{"ring", "default", ""},
-                                {"doubt", "doubtful", " (off the front, if times are right)"},
+                                {"doubt", "doubtful", " (off the front?)"},
                                 {"wrong", "defect", " (off the front)"}};
 
 const MarkLooks& looks_of(const ChartPoint& point) {

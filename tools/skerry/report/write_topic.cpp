@@ -58,7 +58,7 @@ std::string_view judge_name(Judge judge) {
     case Judge::kLimit:
       return "the most exact point of the sweep";
     case Judge::kEqual:
-      return "the last point, which all must equal byte for byte";
+      return "the last point, to be equal";
   }
   return "";
 }
@@ -73,6 +73,13 @@ std::string_view cost_name(CostOf cost) {
       return "upload of 8 MiB of chunk meshes [ms]";
   }
   return "";
+}
+
+/// Short where a default is that of all levels.
+std::vector<std::string> chart_defaults(const PointRow& row) {
+  constexpr std::size_t kLevels = 4;
+  if (row.defaults.size() == kLevels) return {"all levels"};
+  return row.defaults;
 }
 
 measure::Mark mark_of(Standing standing) {
@@ -256,7 +263,7 @@ std::string topic_svg(const TopicResult& result) {
   chart.error_label = fmt::format("mean FLIP against {}", judge_name(topic.judge));
   for (const PointRow& row : result.rows)
     chart.points.push_back({std::string(row.point->label), row.ms.median, row.ms.p10, row.ms.p90,
-                            row.errors.flip_mean, row.defaults, mark_of(row.standing)});
+                            row.errors.flip_mean, chart_defaults(row), mark_of(row.standing)});
   return measure::svg_chart(chart);
 }
 
