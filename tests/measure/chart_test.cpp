@@ -12,7 +12,7 @@ Chart sweep(double error_factor) {
   Chart chart{"Shadow size", "GPU time [ms]", "FLIP", {}};
   double error = 0.2, time = 1.0;
   for (const char* label : {"256", "512", "1024", "2048", "4096"}) {
-    chart.points.push_back({label, time, 0.9 * time, 1.2 * time, error, {}, false});
+    chart.points.push_back({label, time, 0.9 * time, 1.2 * time, error, {}});
     error *= error_factor;
     time *= 1.5;
   }
@@ -41,7 +41,7 @@ TEST(Chart, IsWellFormedWhateverTheTextsAre) {
 
 TEST(Chart, ShowsEveryPointItsSpreadAndTheFront) {
   Chart chart = sweep(0.5);
-  chart.points.push_back({"worse", 9.0, 9.0, 9.0, 0.5, {"low", "medium"}, true});
+  chart.points.push_back({"worse", 9.0, 9.0, 9.0, 0.5, {"low", "medium"}, Mark::kWrong});
   const std::string svg = svg_chart(chart);
   EXPECT_EQ(count(svg, "class=\"on\""), 5u);
   EXPECT_EQ(count(svg, "class=\"off\""), 1u);
@@ -56,7 +56,7 @@ TEST(Chart, ShowsEveryPointItsSpreadAndTheFront) {
 TEST(Chart, DegenerateDataIsDrawn) {
   for (const double error : {0.0, 1e-9, 1.0}) {
     for (const double time : {0.0, 1e-6, 1e6}) {
-      const Chart one{"t", "x", "y", {{"only", time, time, time, error, {}, false}}};
+      const Chart one{"t", "x", "y", {{"only", time, time, time, error, {}}}};
       const std::string svg = svg_chart(one);
       EXPECT_EQ(xml_fault(svg), "");
       EXPECT_EQ(svg.find("nan"), std::string::npos) << svg;

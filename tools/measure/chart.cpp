@@ -31,8 +31,10 @@ constexpr std::string_view kStyle = R"(
   .on { fill: #0b6bcb; }
   .off { fill: #ffffff; stroke: #6b7480; stroke-width: 1.5; }
   .ring { fill: none; stroke: #0f7b45; stroke-width: 2.5; }
+  .doubt { fill: none; stroke: #b06a00; stroke-width: 2.5; }
   .wrong { fill: none; stroke: #c5221f; stroke-width: 2.5; }
   .default { font-weight: 600; fill: #0f7b45; }
+  .doubtful { font-weight: 600; fill: #b06a00; }
   .defect { font-weight: 600; fill: #c5221f; }
   @media (prefers-color-scheme: dark) {
     text { fill: #d7dce2; }
@@ -45,11 +47,25 @@ constexpr std::string_view kStyle = R"(
     .on { fill: #6cb1ff; }
     .off { fill: #15181c; stroke: #9aa4b1; }
     .ring { stroke: #5bd08f; }
+    .doubt { stroke: #f2b84b; }
     .wrong { stroke: #ff8a80; }
     .default { fill: #5bd08f; }
+    .doubtful { fill: #f2b84b; }
     .defect { fill: #ff8a80; }
   }
 )";
+
+/// How a mark is drawn and said.
+struct MarkLooks {
+  std::string_view ring, note, words;
+};
+constexpr MarkLooks kMarks[] = {{"ring", "default", ""},
+                                {"doubt", "doubtful", " (off the front?)"},
+                                {"wrong", "defect", " (off the front)"}};
+
+const MarkLooks& looks_of(const ChartPoint& point) {
+  return kMarks[static_cast<std::size_t>(point.mark)];
+}
 
 struct Box {
   double x0, y0, x1, y1;
@@ -169,8 +185,9 @@ class Drawing {
               line("spread", high, y - 4, high, y + 4);
       const bool on = std::find(front_.begin(), front_.end(), i) != front_.end();
       out_ += circle(on ? "on" : "off", x, y, 5);
-      if (!point.defaults.empty()) out_ += circle(point.off_front ? "wrong" : "ring", x, y, 10);
+      if (!point.defaults.empty()) out_ += circle(looks_of(point).ring, x, y, 10);
       taken_.push_back(around(x, y, point.defaults.empty() ? 7.0 : 12.0));
+      taken_.push_back({low, y - 4, high, y + 4});
     }
   }
 
@@ -212,8 +229,7 @@ class Drawing {
     const ChartPoint& point = chart_.points[i];
     std::string note;
     for (const std::string& level : point.defaults) note += (note.empty() ? "" : ", ") + level;
-    if (!note.empty()) note = "default: " + note;
-    if (point.off_front) note += " (off the front)";
+    if (!note.empty()) note = fmt::format("default: {}{}", note, looks_of(point).words);
     const double width =
         kCharWidth * static_cast<double>(std::max(characters(point.label), characters(note)));
     const double height = note.empty() ? kLineHeight : 2 * kLineHeight;
@@ -227,8 +243,7 @@ class Drawing {
     const char* anchor = left_of_point ? "end" : "start";
     out_ += text("label", at, box.y0 + 11.5, anchor, point.label);
     if (!note.empty())
-      out_ += text(point.off_front ? "defect" : "default", at, box.y0 + 11.5 + kLineHeight, anchor,
-                   note);
+      out_ += text(looks_of(point).note, at, box.y0 + 11.5 + kLineHeight, anchor, note);
   }
 
   const Chart& chart_;

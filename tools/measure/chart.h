@@ -1,8 +1,12 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace skerry::measure {
+
+/// How a point that is a default is marked.
+enum class Mark : std::uint8_t { kGood, kDoubtful, kWrong };
 
 /// One measured setting.
 struct ChartPoint {
@@ -10,7 +14,7 @@ struct ChartPoint {
   double time = 0.0, time_low = 0.0, time_high = 0.0;  ///< finite, >= 0; low <= time <= high
   double error = 0.0;                                  ///< finite, >= 0
   std::vector<std::string> defaults;                   ///< quality levels whose default this is
-  bool off_front = false;  ///< a default that should not be one; drawn as such
+  Mark mark = Mark::kGood;                             ///< of a default
 };
 
 /// Error against time. All strings are text.

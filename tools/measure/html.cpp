@@ -30,12 +30,13 @@ code { font: .88em/1.4 ui-monospace, monospace; overflow-wrap: anywhere; }
 .warn { color: var(--warn); }
 p.bad, p.warn, li.bad, td.bad { font-weight: 600; }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; margin: .6rem 0; font-variant-numeric: tabular-nums; }
-th, td { padding: .22rem .7rem; border-bottom: 1px solid var(--line); text-align: right;
+table { border-collapse: collapse; margin: .6rem 0; font-size: .9rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .22rem .55rem; border-bottom: 1px solid var(--line); text-align: right;
   white-space: nowrap; }
 th { color: var(--faint); font-weight: 600; vertical-align: bottom; }
 th:first-child, td:first-child { text-align: left; }
 tr.mark td { background: var(--soft); }
+tr.bad, tr.warn, tr.good { color: inherit; }
 tr.bad td:first-child { color: var(--bad); }
 tr.warn td:first-child { color: var(--warn); }
 tr.good td:first-child { color: var(--good); }

@@ -58,7 +58,7 @@ std::string_view judge_name(Judge judge) {
     case Judge::kLimit:
       return "the most exact point of the sweep";
     case Judge::kEqual:
-      return "the last point, which all must equal byte for byte";
+      return "the last point, to be equal";
   }
   return "";
 }
@@ -75,15 +75,46 @@ std::string_view cost_name(CostOf cost) {
   return "";
 }
 
+/// Short where a default is that of all levels.
+std::vector<std::string> chart_defaults(const PointRow& row) {
+  constexpr std::size_t kLevels = 4;
+  if (row.defaults.size() == kLevels) return {"all levels"};
+  return row.defaults;
+}
+
+measure::Mark mark_of(Standing standing) {
+  switch (standing) {
+    case Standing::kOnFront:
+      return measure::Mark::kGood;
+    case Standing::kWithinNoise:
+      return measure::Mark::kDoubtful;
+    case Standing::kOffFront:
+      return measure::Mark::kWrong;
+  }
+  return measure::Mark::kGood;
+}
+
 std::string number(double value) {
   if (std::isinf(value)) return "\xe2\x88\x9e";
   return fmt::format("{:.4g}", value);
 }
 
+std::string standing_cell(Standing standing) {
+  switch (standing) {
+    case Standing::kOnFront:
+      return "on";
+    case Standing::kWithinNoise:
+      return "off?";
+    case Standing::kOffFront:
+      return "off";
+  }
+  return "";
+}
+
 std::string rows_table(const std::vector<PointRow>& rows) {
   constexpr std::string_view kHeadings[] = {
       "setting", "ms median", "p10",    "p90",   "FLIP mean",  "FLIP p99", "HDR-FLIP",
-      "relMSE",  "PSNR dB",   "change", "bytes", "default of", "standing"};
+      "relMSE",  "PSNR dB",   "change", "bytes", "default of", "front"};
   std::vector<measure::TableRow> lines;
   for (const PointRow& row : rows) {
     const PictureErrors& e = row.errors;
@@ -100,7 +131,7 @@ std::string rows_table(const std::vector<PointRow>& rows) {
                   number(row.change),
                   row.same_bytes ? "equal" : "differ",
                   escape(fmt::format("{}", fmt::join(row.defaults, ", "))),
-                  escape(name_of(row.standing))};
+                  standing_cell(row.standing)};
     if (!row.defaults.empty())
       line.css_class = row.standing == Standing::kOnFront    ? "mark good"
                        : row.standing == Standing::kOffFront ? "mark bad"
@@ -232,8 +263,7 @@ std::string topic_svg(const TopicResult& result) {
   chart.error_label = fmt::format("mean FLIP against {}", judge_name(topic.judge));
   for (const PointRow& row : result.rows)
     chart.points.push_back({std::string(row.point->label), row.ms.median, row.ms.p10, row.ms.p90,
-                            row.errors.flip_mean, row.defaults,
-                            !row.defaults.empty() && row.standing == Standing::kOffFront});
+                            row.errors.flip_mean, chart_defaults(row), mark_of(row.standing)});
   return measure::svg_chart(chart);
 }
 
@@ -286,7 +316,8 @@ Result<std::string> write_topic(const TopicResult& result, const std::filesystem
   if (result.scenes.size() > 1) out += rows_table(result.rows);
   out += fmt::format(
       "<p class=\"faint\"><a href=\"{0}.csv\">{0}.csv</a>, <a href=\"{0}.json\">{0}.json</a>. "
-      "Change: mean FLIP against the last setting.</p>\n",
+      "Change: mean FLIP "
+      "against the last setting. Front off?: something beats it, but their times overlap.</p>\n",
       escape(name));
   for (const SceneRows& scene : result.scenes) {
     Result<std::string> part = write_scene(topic, scene, dir);
