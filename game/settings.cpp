@@ -202,7 +202,7 @@ constexpr SettingKey kKeys[] = {
      },
      [](const Settings& s) { return fmt::format("{}", s.shadow_split); }},
     {"shadow.blur", "blocks, 0 to 1",
-     "Smallest radius of the shadow filter, which is 1.5 texels at least.",
+     "Smallest radius of the shadow filter, which is one texel at least.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "shadow.blur", 0.0, 1.0), s.shadow_blur);
      },

@@ -28,7 +28,7 @@ struct CascadeInput {
   double filter_blocks =
       0.25;  ///< how far the shadow filter and the normal offset reach from the shaded point
   int map_size = 2048;  ///< texels along an edge, 64..16384
-  double split = 0.95;  ///< see cascade_radii
+  double split = 0.98;  ///< see cascade_radii
   int count =
       kCascadeCount;  ///< of cascades, 1..kCascadeCount; few cover the same with coarser maps
 };

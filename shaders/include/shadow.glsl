@@ -29,23 +29,22 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
   // The receiver's plane is followed towards the light by less than the thinnest wall (one block) where texels are small enough for that, so that
   // what stands behind a wall stays dark; where they are not, by the eight texels that the plane needs.
   float most = cascade.depth_per_block * max(0.9, 8.0 * texel);
-  float radius = max(frame.pcf_radius_blocks / texel, 1.5);
+  float radius = max(frame.pcf_radius_blocks / texel, 1.0);
   radius *= clamp((most - bias - 0.5 * (abs(slope.x) + abs(slope.y))) / max(length(slope) * radius, 1e-12), 0.0, 1.0);
-  // Unrolled by hand: an array of offsets would live in memory. Each set holds the smaller one before it; what it adds lies at the centroids of
-  // the disc's parts nearest to it (Lloyd), the earlier points fixed.
+  // Unrolled by hand: an array of offsets would live in memory. In opposite pairs, so that no set moves a shadow's
+  // edge. Each set holds the smaller one before it; what it adds lies at the centroids of the disc's parts nearest to it (Lloyd).
 #define TAP(x, y) shadow_tap(vec2(x, y) * radius, map, slope, bias, most, cascade.layer)
+#define PAIR(x, y) (TAP(x, y) + TAP(-(x), -(y)))
   if (kShadowTaps == 1u) return TAP(0.0, 0.0);
-  float lit = TAP(-0.326, -0.406) + TAP(-0.203, 0.621) + TAP(0.473, -0.480) + TAP(0.507, 0.064);
+  float lit = PAIR(0.539, 0.265) + PAIR(-0.265, 0.539);
   if (kShadowTaps >= 8u)
-    lit += TAP(-0.840, -0.074) + TAP(0.519, 0.767) + TAP(0.962, -0.195) + TAP(0.185, -0.893);
+    lit += PAIR(0.238, 0.705) + PAIR(-0.705, 0.238);
   if (kShadowTaps >= 16u)
-    lit += TAP(0.018, 0.018) + TAP(0.244, 0.406) + TAP(0.075, 0.827) + TAP(-0.465, -0.682) +
-           TAP(0.084, -0.431) + TAP(0.701, -0.492) + TAP(-0.655, 0.461) + TAP(-0.394, 0.103);
+    lit += PAIR(-0.194, -0.038) + PAIR(0.837, 0.128) + PAIR(-0.621, -0.578) + PAIR(-0.439, 0.740);
   if (kShadowTaps >= 32u)
-    lit += TAP(0.363, -0.183) + TAP(-0.788, 0.194) + TAP(0.184, -0.634) + TAP(-0.775, 0.515) +
-           TAP(-0.195, 0.876) + TAP(0.815, 0.081) + TAP(0.760, 0.429) + TAP(0.506, 0.379) +
-           TAP(-0.152, -0.793) + TAP(-0.473, 0.709) + TAP(-0.368, 0.365) + TAP(0.278, 0.672) +
-           TAP(-0.055, 0.344) + TAP(-0.701, -0.395) + TAP(-0.315, -0.150) + TAP(0.471, -0.739);
+    lit += PAIR(0.791, 0.378) + PAIR(-0.093, 0.264) + PAIR(0.878, -0.118) + PAIR(0.793, -0.441) +
+           PAIR(0.187, 0.418) + PAIR(0.580, -0.531) + PAIR(-0.061, 0.837) + PAIR(0.441, -0.144);
+#undef PAIR
 #undef TAP
   return lit * (1.0 / float(kShadowTaps));
 }

@@ -110,7 +110,7 @@ TEST_F(SunShadows, ACubesShadowLiesWhereTheGeometrySaysAndTouchesItsBase) {
   add(cube_on_plane, {-1, -1, -1}, {1, 1, 1});
   const RenderSettings settings = shadow_view();
   const double texel = 0.08;  // of the first cascade, checked below
-  const double radius = std::max(static_cast<double>(settings.shadow_filter_blocks), 1.5 * texel);
+  const double radius = std::max(static_cast<double>(settings.shadow_filter_blocks), 1.0 * texel);
   int dark_seen = 0, at_base = 0;
   for (const double island_yaw : {0.0, 27.0}) {
     const std::vector<IslandPlacement> islands = turned(island_yaw);
