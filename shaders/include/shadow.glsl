@@ -27,8 +27,8 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
   vec2 slope = per_texel * vec2(dot(cascade.map_from_world_x.xyz, normal), dot(cascade.map_from_world_y.xyz, normal));
   float bias = cascade.depth_per_block * (0.004 + 0.02 * texel) + 0.016 * (abs(slope.x) + abs(slope.y));
   // The receiver's plane is followed towards the light by less than the thinnest wall (one block) where texels are small enough for that, so that
-  // what stands behind a wall stays dark; where they are not, by the eight texels that the plane needs.
-  float most = cascade.depth_per_block * max(0.9, 8.0 * texel);
+  // what stands behind a wall stays dark; where they are not, by the six texels that the plane needs.
+  float most = cascade.depth_per_block * max(0.9, 6.0 * texel);
   float radius = max(frame.pcf_radius_blocks / texel, 1.0);
   radius *= clamp((most - bias - 0.5 * (abs(slope.x) + abs(slope.y))) / max(length(slope) * radius, 1e-12), 0.0, 1.0);
   // Unrolled by hand: an array of offsets would live in memory. In opposite pairs, so that no set moves a shadow's
