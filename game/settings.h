@@ -39,7 +39,7 @@ struct Settings {
   std::uint32_t shadow_cascades = 4;  ///< maps a light has, 1 .. 4
   std::uint32_t shadow_taps = 8;      ///< of the shadow filter: 1, 4, 8, 16 or 32
   double shadow_split = 0.98;         ///< 0 evenly spaced maps .. 1 each a multiple of the last
-  double shadow_blur = 0.03;          ///< smallest radius of the shadow filter [blocks], 0 .. 1
+  double shadow_blur = 0.06;          ///< smallest radius of the shadow filter [blocks], 0 .. 1
   std::uint32_t texture_taps = 2;     ///< along the long side of a texture footprint, 1 .. 16
   render::GBufferStore gbuffer;       ///< for measuring
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered

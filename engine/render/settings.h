@@ -44,7 +44,7 @@ struct RenderSettings {
   double shadow_split = 0.98;  ///< 0 evenly spaced cascades .. 1 each a multiple of the last
   int shadow_taps = 8;         ///< of the shadow filter: 1, 4, 8, 16 or 32
   float shadow_filter_blocks =
-      0.03f;                   ///< smallest radius of the shadow filter; never under a texel
+      0.06f;                   ///< smallest radius of the shadow filter; never under a texel
   bool flat_shading = false;   ///< shadow result times light colour, no N.L
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4

@@ -67,7 +67,7 @@ constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
                                        {"staging", "upload.path=staging"},
                                        {"mapped", "upload.path=mapped"}};
 
-constexpr std::string_view kShadowScenes[] = {"day", "low_sun"};
+constexpr std::string_view kShadowScenes[] = {"day", "low_sun", "water"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kWater[] = {"water"};
