@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.h"
 #include "engine/render/celestial.h"
+#include "game/materials.h"
 #include "game/player.h"
 #include "world/blocks.h"
 
@@ -15,22 +15,6 @@ namespace {
 constexpr std::size_t kMaxPolledQuads = 200'000;  // taken from the workers in one frame
 constexpr double kReachStep = 128.0;              // blocks
 constexpr std::uint32_t kFirstArenaQuads = 1u << 19;
-
-std::vector<shared::Material> material_table() {
-  std::vector<shared::Material> table;
-  for (const world::BlockType& type : world::block_types()) {
-    shared::Material m{};
-    m.layer_side = static_cast<std::uint32_t>(type.side);
-    m.layer_top = static_cast<std::uint32_t>(type.top);
-    m.layer_bottom = static_cast<std::uint32_t>(type.bottom);
-    m.emission = glm::packHalf1x16(type.emission);
-    m.absorption = {type.absorption[0], type.absorption[1], type.absorption[2]};
-    m.roughness = type.roughness;
-    table.push_back(m);
-  }
-  SKERRY_ASSERT(table.size() <= shared::kMaxMaterials);
-  return table;
-}
 
 gpu::UploadPath upload_path(UploadMode mode) {
   switch (mode) {

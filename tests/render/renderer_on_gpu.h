@@ -6,6 +6,7 @@
 
 #include "engine/gpu/readback.h"
 #include "engine/render/renderer.h"
+#include "game/materials.h"
 #include "tests/gpu/test_device.h"
 #include "tests/render/random_scenes.h"
 #include "tests/render/voxel_chunks.h"
@@ -36,7 +37,7 @@ class RendererOnGpu : public gpu::GpuTest {
   /// A renderer without geometry.
   void restart() {
     renderer_.reset();
-    const std::vector<shared::Material> materials = built_in_materials();
+    const std::vector<shared::Material> materials = game::material_table();
     RendererDesc desc;
     desc.materials = materials;
     desc.upload_budget_bytes = UINT64_MAX;

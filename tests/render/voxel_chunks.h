@@ -10,7 +10,6 @@
 namespace skerry::render {
 
 using tools::stability::BlockAt;
-using tools::stability::built_in_materials;
 
 /// Meshes one chunk the way the game does and hands it to the store. Chunks without a face add
 /// nothing.

@@ -1,11 +1,9 @@
 #include "tools/skerry/shot_reference.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/clock.h"
@@ -14,6 +12,7 @@
 #include "engine/platform/image_file.h"
 #include "tools/reference/reference.h"
 #include "tools/skerry/draw_scene.h"
+#include "tools/skerry/progress.h"
 #include "tools/skerry/scene_device.h"
 
 namespace skerry::tools {
@@ -21,27 +20,6 @@ namespace {
 
 using nlohmann::ordered_json;
 using reference::ReferencePicture;
-
-/// A bar on stderr for work of more than a second, if somebody can see it.
-class ProgressBar {
- public:
-  ~ProgressBar() {
-    if (shown_ >= 0) std::fputs("\r\033[K", stderr);
-  }
-  void show(double share) {
-    const int percent = static_cast<int>(100.0 * share);
-    if (!terminal_ || watch_.seconds() < 1.0 || percent == shown_) return;
-    shown_ = percent;
-    const std::string bar(static_cast<std::size_t>(percent) * 2 / 5, '#');
-    fmt::print(stderr, "\r[{:<40}] {:3}%", bar, percent);
-    std::fflush(stderr);
-  }
-
- private:
-  const bool terminal_ = isatty(STDERR_FILENO) == 1;
-  Stopwatch watch_;
-  int shown_ = -1;
-};
 
 double black_fraction(const measure::Picture& picture) {
   const auto black = std::count(picture.pixels.begin(), picture.pixels.end(), glm::vec3(0.0f));
@@ -90,7 +68,12 @@ int shot_reference(const ShotOptions& options) {
   ProgressBar bar;
   const Result<ReferencePicture> picture =
       reference::render_reference(options.scene, reference::settings_from(options.scene),
-                                  [&bar](double share) { bar.show(share); });
+                                  [&, shown = -1](double share) mutable {
+                                    const int percent = static_cast<int>(100.0 * share);
+                                    if (total.seconds() < 1.0 || percent == shown) return;
+                                    shown = percent;
+                                    bar.show(share, "reference");
+                                  });
   if (!picture) return fail(kUsage, picture.error());
   ordered_json cpu_ms;
   cpu_ms["draw"] = total.milliseconds();

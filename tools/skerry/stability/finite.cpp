@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 #include <limits>
 
+#include "game/materials.h"
 #include "shaders/shared/sky.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
@@ -163,7 +164,7 @@ Result<Rows> sky_table(gpu::Device& device) {
 
 /// Broken entries of the material table: only pixels that show or look through the block may care.
 Result<Rows> materials(gpu::Device& device) {
-  const std::vector<shared::Material> good = built_in_materials();
+  const std::vector<shared::Material> good = game::material_table();
   auto clean_stage = room_stage(device, good);
   if (!clean_stage) return clean_stage.error();
   const auto clean = (*clean_stage)->draw(input_of(), {}, kSize);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
+#include "game/materials.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 
@@ -71,7 +72,7 @@ Result<Rows> emission(gpu::Device& device) {
   std::vector<glm::vec3> albedo;
   const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
   for (const double emitted : {1.0, 6.0e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 65504.0}) {
-    std::vector<shared::Material> table = built_in_materials();
+    std::vector<shared::Material> table = game::material_table();
     table[kLamp].emission = glm::packHalf1x16(static_cast<float>(emitted));
     const double exact =
         static_cast<double>(glm::unpackHalf1x16(static_cast<std::uint16_t>(table[kLamp].emission)));

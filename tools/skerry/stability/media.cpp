@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include "game/materials.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 
@@ -30,7 +31,7 @@ struct Glass {
 };
 
 Result<Frame> look(gpu::Device& device, const Glass& glass, double absorption) {
-  std::vector<shared::Material> table = built_in_materials();
+  std::vector<shared::Material> table = game::material_table();
   table[kGlass].absorption = glm::vec3(static_cast<float>(absorption));
   table[kLamp].emission = glm::packHalf1x16(1.0f);
   auto stage = Stage::create(device, table);

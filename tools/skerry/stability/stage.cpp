@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "engine/gpu/readback.h"
+#include "game/materials.h"
 
 namespace skerry::tools::stability {
 namespace {
@@ -21,21 +22,6 @@ std::vector<T> texels_of(const render::Captured& image) {
 }
 
 }  // namespace
-
-std::vector<shared::Material> built_in_materials() {
-  std::vector<shared::Material> table;
-  for (const world::BlockType& type : world::block_types()) {
-    shared::Material m{};
-    m.layer_side = static_cast<std::uint32_t>(type.side);
-    m.layer_top = static_cast<std::uint32_t>(type.top);
-    m.layer_bottom = static_cast<std::uint32_t>(type.bottom);
-    m.emission = glm::packHalf1x16(type.emission);
-    m.absorption = {type.absorption[0], type.absorption[1], type.absorption[2]};
-    m.roughness = type.roughness;
-    table.push_back(m);
-  }
-  return table;
-}
 
 MeshedChunk mesh_chunk_of(const BlockAt& block_at, world::IVec3 chunk,
                           std::uint32_t voxel_size_log2) {
@@ -66,7 +52,7 @@ MeshedChunk mesh_chunk_of(const BlockAt& block_at, world::IVec3 chunk,
 Result<std::unique_ptr<Stage>> Stage::create(gpu::Device& device,
                                              std::span<const shared::Material> materials) {
   std::unique_ptr<Stage> stage(new Stage(device));
-  const std::vector<shared::Material> built_in = built_in_materials();
+  const std::vector<shared::Material> built_in = game::material_table();
   render::RendererDesc desc;
   desc.materials = materials.empty() ? std::span<const shared::Material>(built_in) : materials;
   desc.upload_budget_bytes = UINT64_MAX;

@@ -19,9 +19,6 @@ namespace skerry::tools::stability {
 /// The block at a voxel of an island's lattice [voxels of the level].
 using BlockAt = std::function<world::BlockId(int x, int y, int z)>;
 
-/// The look of every built-in block, as the game tells the renderer.
-std::vector<shared::Material> built_in_materials();
-
 /// A chunk meshed as the game does it, and its record without island and quads' place.
 struct MeshedChunk {
   shared::Section section{};
@@ -43,7 +40,7 @@ struct Frame {
 
 class Stage {
  public:
-  /// @param materials empty: built_in_materials().
+  /// @param materials empty: game::material_table().
   static Result<std::unique_ptr<Stage>> create(gpu::Device& device,
                                                std::span<const shared::Material> materials = {});
 
