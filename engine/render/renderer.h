@@ -21,6 +21,7 @@
 #include "engine/render/settings.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/light.h"
 
 namespace skerry::render {
 
@@ -65,8 +66,10 @@ struct FrameInput {
   FixedPos anchor{};  ///< moves with the world's offset; pictures depend on differences to it alone
   std::span<const IslandPlacement> islands;  ///< at most shared::kMaxIslands
   Celestial sky{};
-  float exposure_ev = 0.0f;         ///< picture = tone curve(radiance * 2^-EV)
-  double time_s = 0.0;              ///< seconds of play: water ripples
+  std::span<const shared::Light> lights;  ///< finite, in an order that does not depend on threads
+  std::span<const std::uint32_t> light_islands;  ///< indices of `islands`, see shared::Light
+  float exposure_ev = 0.0f;                      ///< picture = tone curve(radiance * 2^-EV)
+  double time_s = 0.0;                           ///< seconds of play: water ripples
   std::uint32_t camera_medium = 0;  ///< block id the camera is in, if translucent; else 0
   bool freeze_culling =
       false;             ///< keep culling with the camera of the frame in which this became true
