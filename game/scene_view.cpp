@@ -203,6 +203,7 @@ render::RenderSettings SceneView::render_settings(
   out.gbuffer = settings_.gbuffer;
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
+  out.lights_oracle = settings_.lights_oracle;
   return out;
 }
 

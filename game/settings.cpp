@@ -11,8 +11,9 @@ namespace skerry::game {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
-constexpr std::array<std::string_view, 9> kDebugViewNames{
-    "none", "albedo", "normal", "position", "metadata", "emissive", "depth", "cascades", "shadow"};
+constexpr std::array<std::string_view, 11> kDebugViewNames{
+    "none",  "albedo",   "normal", "position", "metadata",   "emissive",
+    "depth", "cascades", "shadow", "clusters", "light_count"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
@@ -256,7 +257,9 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]);
      }},
-    {"debug.view", "none, albedo, normal, position, metadata, emissive, depth, cascades or shadow",
+    {"debug.view",
+     "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow, clusters or "
+     "light_count",
      "Shows one ingredient of the picture instead of the picture.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "debug.view", kDebugViewNames), s.debug_view);
@@ -264,7 +267,13 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kDebugViewNames[static_cast<std::size_t>(s.debug_view)]);
      }},
-    {"leave.out", "none, or of sun, moon, water, cutouts, stars, discs, haze, joined by +",
+    {"lights.oracle", "0 or 1",
+     "For measuring: every pixel asks every light, instead of those of its cluster.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "lights.oracle", kSwitchNames), s.lights_oracle);
+     },
+     [](const Settings& s) { return std::string(s.lights_oracle ? "1" : "0"); }},
+    {"leave.out", "none, or of sun, moon, water, cutouts, stars, discs, haze, lights, joined by +",
      "Draws as if the scene had none of these.", parse_leave_out, print_leave_out},
     {"upload.path", "update, staging or mapped",
      "How meshes travel to the GPU: vkCmdUpdateBuffer, copies, mapped memory.",

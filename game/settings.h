@@ -49,6 +49,7 @@ struct Settings {
   UploadMode upload_path = UploadMode::kUpdate;
   std::uint64_t upload_budget_bytes = 8u << 20;  ///< a frame, 65536 .. 2^30
   std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
+  bool lights_oracle = false;                    ///< every pixel asks every light
   render::FeatureSet leave_out;                  ///< drawn of no scene
   std::uint32_t water_layers = 2;        ///< nearest translucent surfaces kept a pixel, 1 .. 4
   std::uint32_t reference_samples = 64;  ///< a pixel, 1 .. 65536

@@ -34,10 +34,50 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
   return Developed(out);
 }
 
+namespace {
+
+bool shows_lights(DebugView view) {
+  return view == DebugView::kClusters || view == DebugView::kLightCount;
+}
+
+gpu::ImageRef show_lights(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                          const Geometry& geometry, const ClusteredLights& lights, DebugView view,
+                          gpu::ImageRef out) {
+  const SurfaceReads surfaces(geometry);
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      "show_lights.comp", lights.with_lights({{0, view == DebugView::kLightCount ? 1u : 0u}})});
+  graph.add_pass(
+      "show_lights",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands})
+          b.read(ref, Use::kComputeRead);
+        lights.declare(b);
+        surfaces.declare(b);
+        out = b.write(out, Use::kComputeWrite);
+      },
+      [&pipeline, scene, lights, surfaces, out](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.islands);
+        c.storage(3, surfaces.words);
+        c.sampled(4, surfaces.depth, scene.point_sampler);
+        c.storage(6, out);
+        lights.bind(c);
+        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
+                   gpu::Commands::groups(scene.size.height, 8), 1);
+      });
+  return out;
+}
+
+}  // namespace
+
 Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                  SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
-                                 DebugView view, gpu::Image& picture) {
+                                 const ClusteredLights* lights, DebugView view,
+                                 gpu::Image& picture) {
   gpu::ImageRef out = graph.import(picture);
+  if (lights && shows_lights(view))
+    return Developed(show_lights(graph, pipelines, scene, geometry, *lights, view, out));
   const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{

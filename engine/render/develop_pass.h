@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/render/light_clusters.h"
 #include "engine/render/phases.h"
 #include "engine/render/scene_refs.h"
 #include "engine/render/settings.h"
@@ -14,9 +15,10 @@ struct DevelopPass {
   /// @param picture RGBA8 storage image of the frame's size.
   static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                        Shaded shaded, gpu::Image& picture);
+  /// @param lights null: there are none.
   static Developed add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                             const Geometry& geometry, const Shadows& shadows, DebugView view,
-                             gpu::Image& picture);
+                             const Geometry& geometry, const Shadows& shadows,
+                             const ClusteredLights* lights, DebugView view, gpu::Image& picture);
 };
 
 }  // namespace skerry::render

@@ -10,9 +10,9 @@ namespace skerry::render {
 
 /// What a scene can do without. A frame that lacks one spends nothing on it: no pass, no draw, no
 /// pipeline, no memory.
-enum class Feature : std::uint8_t { kSun, kMoon, kWater, kCutouts, kStars, kDiscs, kHaze };
-inline constexpr std::array<std::string_view, 7> kFeatureNames{"sun",   "moon",  "water", "cutouts",
-                                                               "stars", "discs", "haze"};
+enum class Feature : std::uint8_t { kSun, kMoon, kWater, kCutouts, kStars, kDiscs, kHaze, kLights };
+inline constexpr std::array<std::string_view, 8> kFeatureNames{"sun",   "moon",  "water", "cutouts",
+                                                               "stars", "discs", "haze",  "lights"};
 
 class FeatureSet {
  public:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/render/light_clusters.h"
+
 namespace skerry::render {
 namespace {
 
@@ -29,12 +31,23 @@ std::vector<bool> find_cutouts(FrameFeatures& features, const FrameTables& table
   return in_view;
 }
 
+std::vector<shared::Light> find_lights(FrameFeatures& features, const FrameInput& input,
+                                       const FrameTables& tables, const GeometryStore& geometry) {
+  if (input.lights.empty()) features.set_absent(Feature::kLights, "there are no lights");
+  if (geometry.sections_resident() == 0)
+    features.set_absent(Feature::kLights, "no geometry is resident");
+  if (!features.has(Feature::kLights)) return {};
+  std::vector<shared::Light> in_view = lights_in_view(input.lights, tables.views[0]);
+  if (in_view.empty()) features.set_absent(Feature::kLights, "no light reaches the view");
+  return in_view;
+}
+
 }  // namespace
 
 FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
                           const FrameTables& tables, const shared::SkyConstants& sky,
                           const GeometryStore& geometry) {
-  FrameContents out{FrameFeatures(settings.leave_out), {}};
+  FrameContents out{FrameFeatures(settings.leave_out), {}, {}};
   FrameFeatures& features = out.features;
   if (!input.sky.sun_casts) features.set_absent(Feature::kSun, "the sun is below the horizon");
   if (!input.sky.moon_casts)
@@ -46,6 +59,7 @@ FrameContents contents_of(const FrameInput& input, const RenderSettings& setting
     features.set_absent(Feature::kDiscs, "sun and moon are outside the picture or have set");
   find_water(features, input, tables, geometry);
   out.cutouts_in_view = find_cutouts(features, tables, geometry);
+  out.lights = find_lights(features, input, tables, geometry);
   return out;
 }
 

@@ -11,6 +11,7 @@ namespace skerry::render {
 struct FrameContents {
   FrameFeatures features;
   std::vector<bool> cutouts_in_view;  ///< one a view of FrameTables
+  std::vector<shared::Light> lights;  ///< those whose range the view touches; empty: no feature
 };
 
 /// Asked of the tables as they are before culling is frozen: a frozen camera changes what is drawn,

@@ -53,6 +53,7 @@ class Shaded {
 
  private:
   friend struct ShadePass;
+  friend struct LightPass;
   friend struct TranslucentPass;
   friend struct FaultPass;
   explicit Shaded(gpu::ImageRef radiance) : radiance_(radiance) {}

@@ -14,6 +14,8 @@
 #include "engine/render/frame_setup.h"
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/geometry_pass.h"
+#include "engine/render/light_clusters.h"
+#include "engine/render/light_pass.h"
 #include "engine/render/shade_pass.h"
 #include "engine/render/shadow_maps.h"
 #include "engine/render/shadow_pass.h"
@@ -34,20 +36,23 @@ constexpr std::array<const char*, 8> kShadowPassNames{
 
 /// What one frame in flight owns.
 struct Slot {
-  std::uint64_t value = 0;  // timeline value that completes it; 0: not in flight
-  gpu::Buffer readback;     // CullStats[kViewCount], then PixelStats
-  std::uint32_t views = 0;  // entries of CullStats that the frame wrote
+  std::uint64_t value = 0;   // timeline value that completes it; 0: not in flight
+  gpu::Buffer readback;      // CullStats[kViewCount], then PixelStats, then ClusterWork
+  std::uint32_t views = 0;   // entries of CullStats that the frame wrote
+  std::uint32_t lights = 0;  // in view
+  std::optional<shared::ClusterGrid> grid;  // of the lights it sorted
   gpu::FrameCounts counts{};
   int pipelines_created = 0;
   std::uint64_t memory_bytes = 0;
 };
 
-/// Whether the picture takes the way over a radiance image though no pass comes between.
-bool by_radiance(const FrameInput& input) {
-  return input.capture || input.fault.has_value();
+/// Whether the picture takes the way over a radiance image though nothing is looked through.
+bool by_radiance(const FrameInput& input, const FrameFeatures& features) {
+  return input.capture || input.fault.has_value() || features.has(Feature::kLights);
 }
 
 constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::CullStats);
+constexpr std::uint64_t kClusterWorkOffset = kPixelStatsOffset + sizeof(shared::PixelStats);
 
 }  // namespace
 
@@ -59,6 +64,7 @@ struct Renderer::State {
         frame_uploader(d, desc.upload_path),
         mesh_uploader(d, desc.upload_path),
         shadows(d),
+        light_clusters(d),
         captures(d),
         ring(d, kFramesInFlight),
         upload_budget(desc.upload_budget_bytes) {}
@@ -81,6 +87,10 @@ struct Renderer::State {
              std::span<const ActiveCascade> cascades, const shared::SkyConstants& sky_now,
              Slot& slot);
   void explain_absent(const FrameFeatures& features);
+  std::optional<ClusteredLights> add_lights(const SceneRefs& scene, const Geometry& surfaces,
+                                            const TranslucentPass::Layers& layers,
+                                            const RenderSettings& settings,
+                                            const FrameContents& contents, Slot& slot);
   Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws,
                       const RenderSettings& settings, const FrameContents& contents,
                       std::span<const ActiveCascade> cascades);
@@ -94,6 +104,7 @@ struct Renderer::State {
   gpu::Uploader frame_uploader, mesh_uploader;
   std::unique_ptr<GeometryStore> geometry;
   ShadowMaps shadows;
+  LightClusters light_clusters;
   Captures captures;
   gpu::FrameRing ring;
   std::uint64_t upload_budget;
@@ -180,7 +191,7 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
   }
   for (Slot& slot : slots) {
     Result<gpu::Buffer> readback =
-        device.create_buffer({"frame stats", kPixelStatsOffset + sizeof(shared::PixelStats),
+        device.create_buffer({"frame stats", kClusterWorkOffset + sizeof(shared::ClusterWork),
                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kReadback});
     if (!readback) return readback.error();
     slot.readback = *std::move(readback);
@@ -291,17 +302,20 @@ void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
                                    const gpu::BufferRef* cull_stats, std::uint32_t view_count) {
   gpu::BufferRef to = graph.import(slot.readback);
   slot.views = cull_stats ? view_count : 0;
+  const gpu::BufferRef work = slot.grid ? light_clusters.work() : gpu::BufferRef{};
   graph.add_pass(
       "read_stats",
       [&](gpu::PassBuilder& b) {
         if (cull_stats) b.read(*cull_stats, gpu::Use::kTransferRead);
         b.read(scene.pixel_stats, gpu::Use::kTransferRead);
+        if (work) b.read(work, gpu::Use::kTransferRead);
         to = b.write(to, gpu::Use::kTransferWrite);
       },
-      [to, stats = cull_stats ? *cull_stats : gpu::BufferRef{}, pixels = scene.pixel_stats,
+      [to, stats = cull_stats ? *cull_stats : gpu::BufferRef{}, pixels = scene.pixel_stats, work,
        view_count](gpu::Commands& c) {
         if (stats) c.copy(stats, to, 0, 0, view_count * sizeof(shared::CullStats));
         c.copy(pixels, to, 0, kPixelStatsOffset, sizeof(shared::PixelStats));
+        if (work) c.copy(work, to, 0, kClusterWorkOffset, sizeof(shared::ClusterWork));
       });
   graph.add_pass(
       "stats_to_cpu",
@@ -348,7 +362,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
           "draw_shadow_sun", "draw_shadow_moon", "classify_tiles_clear", "classify_tiles",
           "shade_surfaces", "draw_translucent", "classify_translucent_tiles", "shade_translucent"})
       graph.leave_out(name, "no geometry is resident");
-    if (by_radiance(input)) {
+    if (by_radiance(input, features)) {
       finish_picture(scene, ShadePass::add_sky_only(graph, pipelines, scene, shade_in), input);
     } else {
       graph.leave_out("develop", "nothing comes between shading and picture");
@@ -362,29 +376,39 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, contents.cutouts_in_view[0],
                                         settings.gbuffer);
   Shadows maps = add_shadows(scene, draws, settings, contents, cascades);
-  if (settings.debug_view != DebugView::kNone) {
-    (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view,
-                                 picture);
+  const bool debug = settings.debug_view != DebugView::kNone;
+  const char* no_translucent = features.why_not(Feature::kWater);
+  TranslucentPass::Layers layers;
+  if (!debug && !no_translucent)
+    layers = TranslucentPass::draw(graph, pipelines, scene, draws, surfaces,
+                                   settings.translucent_layers);
+  const std::optional<ClusteredLights> lights =
+      add_lights(scene, surfaces, layers, settings, contents, slot);
+  if (debug) {
+    (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps,
+                                 lights ? &*lights : nullptr, settings.debug_view, picture);
     for (const char* name : {"classify_tiles", "shade_surfaces", "shade_sky", "draw_translucent",
                              "shade_translucent", "develop"})
       graph.leave_out(name, "a debug view is shown");
   } else {
-    const char* no_translucent = features.why_not(Feature::kWater);
     if (no_translucent)
       for (const char* name :
            {"draw_translucent", "classify_translucent_tiles", "shade_translucent"})
         graph.leave_out(name, no_translucent);
-    if (no_translucent && !by_radiance(input)) {
+    if (no_translucent && !by_radiance(input, features)) {
       graph.leave_out("develop", "nothing comes between shading and picture");
       (void)ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture);
     } else {
       Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, shade_in);
+      if (lights)
+        shaded = LightPass::add(graph, pipelines, scene, surfaces, *lights, std::move(shaded),
+                                settings.texture_taps);
       if (input.fault && input.fault->in == Fault::In::kShaded)
         shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
       if (!no_translucent)
-        shaded =
-            TranslucentPass::add(graph, pipelines, scene, draws, surfaces, maps, std::move(shaded),
-                                 settings.translucent_layers, input.camera_medium != 0);
+        shaded = TranslucentPass::add(graph, pipelines, scene, surfaces, maps, layers,
+                                      lights ? &*lights : nullptr, std::move(shaded),
+                                      input.camera_medium != 0);
       finish_picture(scene, std::move(shaded), input);
     }
   }
@@ -401,6 +425,23 @@ void Renderer::State::explain_absent(const FrameFeatures& features) {
   for (std::size_t i = 0; i < kFeatureNames.size(); ++i)
     if (const char* why = features.why_not(static_cast<Feature>(i)))
       graph.leave_out(std::string(kFeatureNames[i]), why);
+}
+
+/// Sorts the frame's lights, if it has any. Debug views of other things need none.
+std::optional<ClusteredLights> Renderer::State::add_lights(
+    const SceneRefs& scene, const Geometry& surfaces, const TranslucentPass::Layers& layers,
+    const RenderSettings& settings, const FrameContents& contents, Slot& slot) {
+  const bool wanted = settings.debug_view == DebugView::kNone ||
+                      settings.debug_view == DebugView::kClusters ||
+                      settings.debug_view == DebugView::kLightCount;
+  if (!wanted || !contents.features.has(Feature::kLights)) return std::nullopt;
+  const ClusterDepths depths{surfaces.surfaces(), surfaces.depth(),
+                             settings.gbuffer.depth == DepthStore::kD16, layers.depth,
+                             layers.count};
+  const ClusteredLights lights =
+      light_clusters.add(graph, pipelines, scene, depths, settings.lights_oracle);
+  if (!settings.lights_oracle) slot.grid = light_clusters.grid();
+  return lights;
 }
 
 void Renderer::State::take_report(std::uint32_t slot_index) {
@@ -423,6 +464,11 @@ void Renderer::State::take_report(std::uint32_t slot_index) {
     }
   }
   std::memcpy(&r.pixels, data + kPixelStatsOffset, sizeof(r.pixels));
+  r.lights = slot.lights;
+  if (slot.grid) {
+    std::memcpy(&r.clusters, data + kClusterWorkOffset, sizeof(r.clusters));
+    light_clusters.learn(*slot.grid, r.clusters);
+  }
   r.counts = slot.counts;
   r.pipelines_created = slot.pipelines_created;
   r.memory_bytes = slot.memory_bytes;
@@ -484,10 +530,18 @@ Result<std::uint64_t> Renderer::draw(
   }
   if (Result<void> ok = s.upload_tables(tables, input.islands.size(), sky_now); !ok)
     return ok.error();
+  if (!contents.lights.empty())
+    if (Result<void> ok = s.light_clusters.upload(s.frame_uploader, contents.lights,
+                                                  view_of(input.camera, size.width, size.height),
+                                                  size, input.camera_medium != 0);
+        !ok)
+      return ok.error();
 
   const gpu::FrameRing::Frame frame = s.ring.begin();
   Slot& slot = s.slots[frame.slot];
   s.take_report(frame.slot);
+  slot.grid.reset();
+  slot.lights = static_cast<std::uint32_t>(contents.lights.size());
   s.geometry->collect();
   s.frame_uploader.record(frame.commands, UINT64_MAX);
   s.mesh_uploader.record(frame.commands, s.upload_budget);

@@ -19,6 +19,7 @@
 #include "engine/render/celestial.h"
 #include "engine/render/geometry_store.h"
 #include "engine/render/settings.h"
+#include "shaders/shared/clusters.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/light.h"
@@ -84,6 +85,8 @@ struct FrameReport {
   shared::CullStats camera{};
   shared::CullStats shadows{};  ///< sums over the cascades drawn
   shared::PixelStats pixels{};
+  std::uint32_t lights = 0;        ///< whose range the view touches
+  shared::ClusterWork clusters{};  ///< that those were sorted into; none under the oracle
   gpu::FrameCounts counts{};       ///< of the frame's graph
   int pipelines_created = 0;       ///< since the renderer was made
   std::uint64_t memory_bytes = 0;  ///< of the device, in use when the frame was recorded

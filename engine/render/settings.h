@@ -15,7 +15,9 @@ enum class DebugView : std::uint8_t {
   kEmissive,
   kDepth,
   kCascades,
-  kShadow
+  kShadow,
+  kClusters,
+  kLightCount
 };
 
 /// How the G-buffer keeps a surface's normal. Not at all is exact: the normal then comes from the
@@ -49,7 +51,8 @@ struct RenderSettings {
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;
-  FeatureSet leave_out;  ///< absent even where the scene has them
+  bool lights_oracle = false;  ///< every pixel asks every light: slow, to hold clusters against
+  FeatureSet leave_out;        ///< absent even where the scene has them
   DebugView debug_view = DebugView::kNone;
 };
 

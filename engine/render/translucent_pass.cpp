@@ -1,6 +1,8 @@
 #include "engine/render/translucent_pass.h"
 
 #include <array>
+#include <optional>
+#include <string>
 
 #include "engine/render/light_constants.h"
 #include "engine/render/tiles.h"
@@ -9,25 +11,22 @@ namespace skerry::render {
 
 using gpu::Use;
 
-Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                            const CulledDraws& draws, const Geometry& geometry,
-                            const Shadows& shadows, Shaded shaded, int layers, bool inside_medium) {
+TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                              const SceneRefs& scene, const CulledDraws& draws,
+                                              const Geometry& geometry, int layers) {
   static constexpr std::array<const char*, 4> kNames{"draw_translucent_0", "draw_translucent_1",
                                                      "draw_translucent_2", "draw_translucent_3"};
-  const auto count = static_cast<std::uint32_t>(layers);
-  struct Layer {
-    gpu::ImageRef surfaces, depth;
-  };
-  std::array<Layer, 4> layer{};
+  Layers out;
+  out.count = static_cast<std::uint32_t>(layers);
   const gpu::ImageRef opaque_depth = geometry.depth();
-  for (std::uint32_t k = 0; k < count; ++k) {
-    gpu::ImageRef& words = layer[k].surfaces;
-    gpu::ImageRef& depth = layer[k].depth;
+  for (std::uint32_t k = 0; k < out.count; ++k) {
+    gpu::ImageRef& words = out.surfaces[k];
+    gpu::ImageRef& depth = out.depth[k];
     words = graph.create(gpu::ImageDesc{
         .name = "translucent surfaces", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
     depth = graph.create(gpu::ImageDesc{
         .name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
-    const gpu::ImageRef previous = k == 0 ? opaque_depth : layer[k - 1].depth;
+    const gpu::ImageRef previous = k == 0 ? opaque_depth : out.depth[k - 1];
     const gpu::Pipeline& pipeline =
         pipelines.get(gpu::GraphicsDesc{.vertex = "draw_quads.vert",
                                         .fragment = "write_layer.frag",
@@ -51,25 +50,35 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
+  return out;
+}
 
+Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                            const Geometry& geometry, const Shadows& shadows, const Layers& layers,
+                            const ClusteredLights* lights, Shaded shaded, bool inside_medium) {
+  const gpu::ImageRef opaque_depth = geometry.depth();
   // Inside a medium every pixel is looked at through it; else only those with a translucent
   // surface.
-  const Tiles tiles =
-      classify_tiles(graph, pipelines, "classify_translucent_tiles", layer[0].surfaces, scene.size);
+  const Tiles tiles = classify_tiles(graph, pipelines, "classify_translucent_tiles",
+                                     layers.surfaces[0], scene.size);
   gpu::ImageRef radiance = shaded.radiance();
   const gpu::ImageRef maps = shadows.maps();
+  std::vector<gpu::SpecConstant> constants = with_light({{0, layers.count}}, scene, bool{maps});
+  if (lights) constants = lights->with_lights(std::move(constants));
   const gpu::Pipeline& pipeline = pipelines.get(
-      gpu::ComputeDesc{maps ? "shade_translucent.comp" : "shade_translucent_unshadowed.comp",
-                       with_light({{0, count}}, scene, bool{maps})});
+      gpu::ComputeDesc{std::string("shade_translucent") + (maps ? "" : "_unshadowed") +
+                           (lights ? "_lit.comp" : ".comp"),
+                       std::move(constants)});
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
-        for (std::uint32_t k = 0; k < count; ++k) {
-          b.read(layer[k].surfaces, Use::kComputeRead);
-          b.read(layer[k].depth, Use::kComputeSampled);
+        if (lights) lights->declare(b);
+        for (std::uint32_t k = 0; k < layers.count; ++k) {
+          b.read(layers.surfaces[k], Use::kComputeRead);
+          b.read(layers.depth[k], Use::kComputeSampled);
         }
         for (const gpu::ImageRef ref : {opaque_depth, scene.sky_lut, scene.block_textures})
           b.read(ref, Use::kComputeSampled);
@@ -77,8 +86,8 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [scene, layer, count, tiles, inside_medium, opaque_depth, maps, radiance,
-       &pipeline](gpu::Commands& c) {
+      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, &pipeline,
+       lit = lights ? std::optional(*lights) : std::nullopt](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
@@ -92,10 +101,11 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         // Layers that are not kept are never read; they are bound to the first so that every
         // binding is valid.
         for (std::uint32_t k = 0; k < 4; ++k) {
-          const Layer& bound = layer[k < count ? k : 0];
-          c.storage(12 + k, bound.surfaces);
-          c.sampled(16 + k, bound.depth, scene.point_sampler);
+          const std::uint32_t bound = k < layers.count ? k : 0;
+          c.storage(12 + k, layers.surfaces[bound]);
+          c.sampled(16 + k, layers.depth[bound], scene.point_sampler);
         }
+        if (lit) lit->bind(c);
         dispatch_tiles(c, tiles, TileKind::kCovered);
         if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
       });

@@ -1,5 +1,8 @@
 #pragma once
+#include <array>
+
 #include "engine/render/cull_pass.h"
+#include "engine/render/light_clusters.h"
 #include "engine/render/phases.h"
 
 namespace skerry::render {
@@ -8,12 +11,20 @@ namespace skerry::render {
 /// Order-Independent Transparency, 2001), exact order a pixel whatever the order of draws, then
 /// looked through in compute with the light functions of the opaque pass (docs/decisions/0005).
 struct TranslucentPass {
-  /// @param inside_medium the camera itself is in a translucent block.
+  /// The peeled surfaces, nearest first.
+  struct Layers {
+    std::array<gpu::ImageRef, 4> surfaces, depth;
+    std::uint32_t count = 0;
+  };
   /// @param layers surfaces kept a pixel, 1..4: what lies behind the last one is seen as if nothing
   /// translucent followed.
+  static Layers draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                     const CulledDraws& draws, const Geometry& geometry, int layers);
+  /// @param inside_medium the camera itself is in a translucent block.
+  /// @param lights null: there are none.
   static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const CulledDraws& draws, const Geometry& geometry, const Shadows& shadows,
-                    Shaded shaded, int layers, bool inside_medium);
+                    const Geometry& geometry, const Shadows& shadows, const Layers& layers,
+                    const ClusteredLights* lights, Shaded shaded, bool inside_medium);
 };
 
 }  // namespace skerry::render

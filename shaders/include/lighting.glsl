@@ -3,11 +3,7 @@
 #ifndef SKERRY_LIGHTING_GLSL
 #define SKERRY_LIGHTING_GLSL
 
-#include "include/brdf.glsl"
-
-layout(constant_id = 11) const bool kHaze = true;
-// Which bodies give light: bit 0 the sun, bit 1 the moon. A constant, so that the other body costs nothing.
-layout(constant_id = 8) const uint kBodies = 3u;
+#include "include/reflection.glsl"
 
 #ifdef SKERRY_SHADOWS
 // The moon's cascades come after the sun's, if there are any.
@@ -34,13 +30,6 @@ float surface_visibility(Surface s, vec3 to_light, const uint first_cascade, flo
   return body_visibility(first_cascade, place, (s.plant ? to_light : s.normal), (s.plant ? 1.0 : n_dot_l));
 }
 
-// How a surface reflects. Literally flat shading has matt surfaces only.
-Brdf surface_brdf(Surface s, vec3 to_eye) {
-  Brdf b = brdf_of(s.albedo, s.roughness, s.metalness, dot(s.normal, to_eye));
-  if (s.plant || frame.shading_flat != 0u) b = matt_brdf(s.albedo);
-  return b;
-}
-
 // Radiance that a surface sends to the eye under one body. A face turned away is in its own block's shadow.
 vec3 reflected(Surface s, Brdf b, vec3 to_eye, Body body, const uint first_cascade) {
   float n_dot_l = dot(s.normal, body.to_light);
@@ -49,9 +38,6 @@ vec3 reflected(Surface s, Brdf b, vec3 to_eye, Body body, const uint first_casca
   vec3 share = brdf(b, s.normal, to_eye, body.to_light, max(n_dot_l, 0.0)) * cosine;
   return n_dot_l > 0.0 ? body.irradiance * (share * visibility) : vec3(0.0);
 }
-
-// What clear air leaves of a radiance from p.
-float clear_air(vec3 p) { return kBodies == 0u || !kHaze ? 1.0 : exp(-frame.haze_per_block * length(p)); }
 
 // What the air between eye and surface does to a surface's radiance: it takes a part away and sends light of its own, the colour of the sky behind,
 // as far as sun or moon reach it at three places along the way. No haze where they do not: a cave stays black.

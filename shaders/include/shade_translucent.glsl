@@ -43,6 +43,9 @@ layout(constant_id = 0) const uint kLayers = 3u;
 #include "include/surface.glsl"
 #include "include/sky.glsl"
 #include "include/lighting.glsl"
+#ifdef SKERRY_LIGHTS
+#include "include/clustered.glsl"
+#endif
 #include "include/water.glsl"
 
 void main() {

@@ -24,10 +24,12 @@ struct ClusterGrid {
   uint bins_x;  // of kBinClusters tiles
   uint bins_y;
   uint light_count;
-  uint light_words;    // 32-bit words that hold a bit a light
+  uint light_words;  // 32-bit words that hold a bit a light
+  uint chunk_words;  // of them that one invocation looks through
+  uint chunks;
   uint unit_log2;      // lists begin at multiples of 2^this entries
   uint capacity;       // of the entries [such units]
-  uint marked_slices;  // occupied in every tile, whatever the depths
+  uint marked_slices;  // 1: slice 0 is occupied in every tile, as when the camera is in water
 };
 
 // What an 8x8-pixel tile, or a cluster's tile, shows.

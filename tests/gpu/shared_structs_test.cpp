@@ -109,6 +109,7 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(ClusterGrid, near_plane), MEMBER(ClusterGrid, tiles_x),
              MEMBER(ClusterGrid, tiles_y), MEMBER(ClusterGrid, bins_x), MEMBER(ClusterGrid, bins_y),
              MEMBER(ClusterGrid, light_count), MEMBER(ClusterGrid, light_words),
+             MEMBER(ClusterGrid, chunk_words), MEMBER(ClusterGrid, chunks),
              MEMBER(ClusterGrid, unit_log2), MEMBER(ClusterGrid, capacity),
              MEMBER(ClusterGrid, marked_slices)),
       STRUCT(TileDepths, MEMBER(TileDepths, slices), MEMBER(TileDepths, nearest),

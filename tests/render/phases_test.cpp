@@ -6,6 +6,7 @@
 
 #include "engine/render/develop_pass.h"
 #include "engine/render/geometry_pass.h"
+#include "engine/render/light_pass.h"
 #include "engine/render/shade_pass.h"
 #include "engine/render/shadow_pass.h"
 #include "engine/render/translucent_pass.h"
@@ -58,11 +59,19 @@ static_assert(!kDevelops<Geometry> && !kDevelops<Developed> && !kDevelops<gpu::I
 template <class Input>
 constexpr bool kLooksThrough =
     std::is_invocable_v<decltype(&TranslucentPass::add), gpu::FrameGraph&, gpu::Pipelines&,
-                        SceneRefs&, const CulledDraws&, const Geometry&, const Shadows&, Input, int,
-                        bool>;
+                        SceneRefs&, const Geometry&, const Shadows&, const TranslucentPass::Layers&,
+                        const ClusteredLights*, Input, bool>;
 static_assert(kLooksThrough<Shaded>);
 static_assert(!kLooksThrough<Shaded&> && !kLooksThrough<const Shaded&>, "drawn over twice");
 static_assert(!kLooksThrough<Developed>, "translucent surfaces after the tone curve");
+
+template <class Input>
+constexpr bool kLights =
+    std::is_invocable_v<decltype(&LightPass::add), gpu::FrameGraph&, gpu::Pipelines&, SceneRefs&,
+                        const Geometry&, const ClusteredLights&, Input, int>;
+static_assert(kLights<Shaded>);
+static_assert(!kLights<Shaded&> && !kLights<const Shaded&>, "lit twice");
+static_assert(!kLights<Developed>, "lights after the tone curve");
 
 }  // namespace
 }  // namespace skerry::render

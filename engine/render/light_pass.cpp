@@ -1,0 +1,48 @@
+#include "engine/render/light_pass.h"
+
+#include <string>
+
+#include "engine/render/gbuffer_formats.h"
+#include "engine/render/light_constants.h"
+
+namespace skerry::render {
+
+using gpu::Use;
+
+Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                      const Geometry& geometry, const ClusteredLights& lights, Shaded shaded,
+                      int texture_taps) {
+  const SurfaceReads surfaces(geometry);
+  gpu::ImageRef radiance = shaded.radiance();
+  const gpu::Pipeline& pipeline = pipelines.get(
+      gpu::ComputeDesc{std::string("shade_lights") + surfaces.suffix() + ".comp",
+                       lights.with_lights(surfaces.with_store(with_light(
+                           {{0, static_cast<std::uint32_t>(texture_taps)}}, scene, false)))});
+  graph.add_pass(
+      "shade_lights",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        declare_tiles(b, lights.tiles);
+        lights.declare(b);
+        surfaces.declare(b);
+        b.read(scene.block_textures, Use::kComputeSampled);
+        scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
+        radiance = b.write(radiance, Use::kComputeWrite);
+      },
+      [&pipeline, scene, lights, surfaces, radiance](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.islands);
+        c.storage(2, scene.materials);
+        c.storage(4, scene.pixel_stats);
+        surfaces.bind(c, scene.point_sampler, 5, 6);
+        c.sampled(7, scene.block_textures, scene.block_sampler);
+        c.storage(9, radiance);
+        lights.bind(c);
+        dispatch_tiles(c, lights.tiles, TileKind::kCovered);
+      });
+  return Shaded(radiance);
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,48 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The lists of occupied clusters, in two runs of the same instructions with reserve_light_lists between them: first each invocation counts the
+// lights of its chunk of the bin that reach the cluster, then it lists them in their order. docs/conventions.md.
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/clusters.h"
+#include "shared/frame.h"
+#include "shared/light.h"
+
+layout(local_size_x = 64) in;
+
+layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = 2) readonly buffer Large { TileDepths tiles[]; };
+layout(scalar, binding = 3) readonly buffer Bins { uint bins[]; };
+layout(scalar, binding = 4) readonly buffer Work { ClusterWork work; };
+layout(scalar, binding = 5) readonly buffer Occupied { uint occupied[]; };
+layout(scalar, binding = 6) buffer Counts { uint counts[]; };  // [slot][chunk]; in the second run where the chunk's part of the list begins
+layout(scalar, binding = 7) readonly buffer Clusters { Cluster clusters[]; };
+layout(scalar, binding = 8) writeonly buffer Entries { uint entries[]; };
+layout(push_constant) uniform Push { uint list; } push;  // 0: count, 1: list
+
+#include "include/clusters.glsl"
+
+void main() {
+  uint slot = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * kClusterGroup + gl_LocalInvocationIndex, chunk = gl_WorkGroupID.z;
+  if (slot >= work.clusters) return;
+  uint id = occupied[slot], tile = id / kClusterSlices, slice = id % kClusterSlices;
+  uvec2 at = uvec2(tile % grid.tiles_x, tile / grid.tiles_x);
+  TileDepths t = tiles[tile];
+  float far = slice + 1u < kClusterSlices ? min(t.farthest, slice_begin(slice + 1u)) : t.farthest;
+  Cell cell = cell_of(at * kClusterEdge, min((at + 1u) * kClusterEdge, grid.size), max(t.nearest, slice_begin(slice)), far);
+  uint bin = (at.y / kBinClusters * grid.bins_x + at.x / kBinClusters) * grid.light_words;
+  uint place = slot * grid.chunks + chunk;
+  bool write = push.list != 0u;
+  if (write && clusters[id].first == kAllLights) return;
+  uint first = write ? counts[place] : 0u, count = 0u;
+  uint end = min((chunk + 1u) * grid.chunk_words, grid.light_words);
+  for (uint word = chunk * grid.chunk_words; word < end; ++word) {
+    for (uint bits = bins[bin + word]; bits != 0u; bits &= bits - 1u) {
+      uint light = word * 32u + uint(findLSB(bits));
+      if (!light_reaches(lights[light], cell, 1e-5)) continue;
+      if (write) entries[first + count] = light;
+      ++count;
+    }
+  }
+  if (!write) counts[place] = count;
+}

@@ -1,0 +1,43 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Lists the clusters that show something. Their order depends on timing; nothing else does. docs/conventions.md.
+#include "include/common.glsl"
+#include "shared/clusters.h"
+
+layout(local_size_x = 64) in;
+
+layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = 1) readonly buffer Small { TileDepths small_tiles[]; };  // of 8x8 pixels
+layout(scalar, binding = 2) writeonly buffer Large { TileDepths tiles[]; };       // of kClusterEdge
+layout(scalar, binding = 3) buffer Work { ClusterWork work; };
+layout(scalar, binding = 4) writeonly buffer Occupied { uint occupied[]; };
+
+#include "include/clusters.glsl"
+
+const uint kSmall = kClusterEdge / kTileEdge;  // small tiles along a large one
+
+void list_cluster(uint cluster) {
+  uint slot = atomicAdd(work.clusters, 1u), group = slot / kClusterGroup;
+  if (slot % kClusterGroup == 0u) {
+    atomicMax(work.groups_x, min(group + 1u, kTileRow));
+    if (group % kTileRow == 0u) atomicMax(work.groups_y, group / kTileRow + 1u);
+  }
+  occupied[slot] = cluster;
+}
+
+void main() {
+  uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+  if (tile >= grid.tiles_x * grid.tiles_y) return;
+  uvec2 small_count = (grid.size + kTileEdge - 1u) / kTileEdge;
+  uvec2 low = uvec2(tile % grid.tiles_x, tile / grid.tiles_x) * kSmall;
+  TileDepths t = TileDepths(0u, 1e30, 0.0);
+  for (uint i = 0u; i < kSmall * kSmall; ++i) {
+    uvec2 at = min(low + uvec2(i % kSmall, i / kSmall), small_count - 1u);
+    TileDepths s = small_tiles[at.y * small_count.x + at.x];
+    t.slices |= s.slices;
+    t.nearest = min(t.nearest, s.nearest);
+    t.farthest = max(t.farthest, s.farthest);
+  }
+  tiles[tile] = t;
+  for (uint left = t.slices; left != 0u; left &= left - 1u) list_cluster(cluster_of(tile, uint(findLSB(left))));
+}
