@@ -15,7 +15,8 @@ enum class DebugView : std::uint8_t {
   kEmissive,
   kDepth,
   kCascades,
-  kShadow
+  kShadow,
+  kCorners
 };
 
 /// How the G-buffer keeps a surface's normal. Not at all is exact: the normal then comes from the
@@ -44,8 +45,10 @@ struct RenderSettings {
   double shadow_split = 0.98;  ///< 0 evenly spaced cascades .. 1 each a multiple of the last
   int shadow_taps = 8;         ///< of the shadow filter: 1, 4, 8, 16 or 32
   float shadow_filter_blocks =
-      0.06f;                   ///< smallest radius of the shadow filter; never under a texel
-  bool flat_shading = false;   ///< shadow result times light colour, no N.L
+      0.06f;                  ///< smallest radius of the shadow filter; never under a texel
+  bool flat_shading = false;  ///< shadow result times light colour, no N.L and no corners
+  float corner_darkening =
+      0.4f;                    ///< share of light that a closed corner takes, 0..1; 0: no corners
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;

@@ -57,6 +57,6 @@ vec3 shade_diffuse(Surface s) {
   vec3 light = vec3(0.0);
   if ((kBodies & 1u) != 0u) light += received(s, frame.bodies[0], 0u);
   if ((kBodies & 2u) != 0u) light += received(s, frame.bodies[1], kMoonCascade);
-  return s.albedo * kInvPi * light + s.emitted;
+  return s.albedo * (kInvPi * s.openness) * light + s.emitted;
 }
 #endif
