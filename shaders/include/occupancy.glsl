@@ -27,29 +27,61 @@ VoxelGrid voxel_grid(uint island) {
   return grid;
 }
 
-// Entry of the table for the brick a voxel is in; kChunkEmpty outside the grid.
-uint brick_entry(VoxelGrid grid, ivec3 voxel) {
-  ivec3 chunk = (voxel >> 6) - grid.low;
-  bool inside = all(lessThan(uvec3(chunk), uvec3(grid.size)));
-  uint table = grid.first + uint((chunk.y * grid.size.x + chunk.x) * grid.size.z + chunk.z);
-  uint brick = uint(((voxel.y & 56) << 3) | (voxel.x & 56) | ((voxel.z >> 3) & 7));
-  uint entry = occupancy_tables[inside ? table * kBricksPerChunk + brick : 0u];
-  return inside ? entry : kChunkEmpty;
+// Where a voxel is kept is a sum of what its three coordinates give.
+struct AxisLayout {
+  int low, size;             // chunks
+  uint table, brick, word, bit;  // steps: entries a chunk and a brick, words, bits
+  int word_shift, word_mask, bit_mask;
+};
+AxisLayout layout_x(VoxelGrid grid) {
+  return AxisLayout(grid.low.x, grid.size.x, uint(grid.size.z) * kBricksPerChunk, 8u, 2u, 4u, 2, 1, 3);
+}
+AxisLayout layout_y(VoxelGrid grid) {
+  return AxisLayout(grid.low.y, grid.size.y, uint(grid.size.x * grid.size.z) * kBricksPerChunk, 64u, 4u, 16u, 1, 3, 1);
+}
+AxisLayout layout_z(VoxelGrid grid) { return AxisLayout(grid.low.z, grid.size.z, kBricksPerChunk, 1u, 1u, 1u, 2, 1, 3); }
+
+AxisLayout choose(bool first, AxisLayout a, AxisLayout b) {
+  return AxisLayout(first ? a.low : b.low, first ? a.size : b.size, first ? a.table : b.table, first ? a.brick : b.brick,
+                    first ? a.word : b.word, first ? a.bit : b.bit, first ? a.word_shift : b.word_shift,
+                    first ? a.word_mask : b.word_mask, first ? a.bit_mask : b.bit_mask);
 }
 
-uint octant_of(ivec3 voxel) { return uint((voxel.y & 4) | ((voxel.x >> 1) & 2) | ((voxel.z >> 2) & 1)); }
-uint word_bit(ivec3 voxel) { return uint(((voxel.y & 1) << 4) | ((voxel.x & 3) << 2) | (voxel.z & 3)); }
+struct AxisPart {
+  bool inside;  // the grid
+  uint entry;   // of the tables
+  uint word;    // of a brick
+  uint bit;     // of a word
+};
+AxisPart part_at(AxisLayout a, int voxel) {
+  int chunk = (voxel >> 6) - a.low;
+  return AxisPart(uint(chunk) < uint(a.size), uint(chunk) * a.table + uint((voxel >> 3) & 7) * a.brick,
+                  uint((voxel >> a.word_shift) & a.word_mask) * a.word, uint(voxel & a.bit_mask) * a.bit);
+}
+AxisPart sum_of(AxisPart a, AxisPart b) { return AxisPart(a.inside && b.inside, a.entry + b.entry, a.word + b.word, a.bit + b.bit); }
+
+// Entry of the table for a voxel's brick; kChunkEmpty outside the grid.
+uint brick_entry(VoxelGrid grid, AxisPart voxel) {
+  uint entry = occupancy_tables[voxel.inside ? grid.first * kBricksPerChunk + voxel.entry : 0u];
+  return voxel.inside ? entry : kChunkEmpty;
+}
 
 // The 32 voxels about one of a brick whose entry is known.
-uint brick_word(uint entry, ivec3 voxel) {
-  uint word = uint(((voxel.y & 6) << 1) | ((voxel.x >> 1) & 2) | ((voxel.z >> 2) & 1));
+uint brick_word(uint entry, uint word) {
   bool stored = (entry >> 24) != 0u && entry != kBrickFull;
   uint bits = occupancy_words[stored ? (entry & kMaxBricks) * kBrickWords + word : 0u];
   return stored ? bits : entry == kBrickFull ? ~0u : 0u;
 }
 
-uint voxel_word(VoxelGrid grid, ivec3 voxel) { return brick_word(brick_entry(grid, voxel), voxel); }
-bool voxel_opaque(VoxelGrid grid, ivec3 voxel) { return ((voxel_word(grid, voxel) >> word_bit(voxel)) & 1u) != 0u; }
+uint voxel_word(VoxelGrid grid, AxisPart voxel) { return brick_word(brick_entry(grid, voxel), voxel.word); }
+
+AxisPart voxel_part(VoxelGrid grid, ivec3 voxel) {
+  return sum_of(sum_of(part_at(layout_x(grid), voxel.x), part_at(layout_y(grid), voxel.y)), part_at(layout_z(grid), voxel.z));
+}
+bool voxel_opaque(VoxelGrid grid, ivec3 voxel) {
+  AxisPart part = voxel_part(grid, voxel);
+  return ((voxel_word(grid, part) >> part.bit) & 1u) != 0u;
+}
 
 // A point of a face, and the voxel in front of it.
 struct FacePlace {
@@ -61,9 +93,6 @@ struct FacePlace {
 ivec3 along_axis(uint axis, int n, int u, int v) {
   return axis == 0u ? ivec3(n, v, u) : axis == 1u ? ivec3(u, n, v) : ivec3(u, v, n);
 }
-ivec3 along_u(uint axis, int by) { return along_axis(axis, 0, by, 0); }
-ivec3 along_v(uint axis, int by) { return along_axis(axis, 0, 0, by); }
-
 // @param face 0..5. @param p on the face, voxels. Rounding is undone along the normal, where the face's plane is an integer.
 FacePlace face_place(uint face, vec3 p) {
   FacePlace at;
@@ -100,27 +129,33 @@ float corner_openness(uint island, uint face, vec3 lattice) {
   float openness = 1.0;
   // The second round is only for points rounded off their face.
   for (uint round = 0u; round < 2u; ++round) {
+    int n = at.axis == 0u ? at.voxel.x : at.axis == 1u ? at.voxel.y : at.voxel.z;
+    int u = at.axis == 0u ? at.voxel.z : at.voxel.x, v = at.axis == 1u ? at.voxel.z : at.voxel.y;
+    AxisLayout along_x = layout_x(grid), along_y = layout_y(grid), along_z = layout_z(grid);
+    AxisPart in_n = part_at(choose(at.axis == 0u, along_x, choose(at.axis == 1u, along_y, along_z)), n);
+    AxisLayout along_u = choose(at.axis == 0u, along_z, along_x), along_v = choose(at.axis == 1u, along_z, along_y);
+    AxisPart u0 = part_at(along_u, u - 1), u1 = part_at(along_u, u + 1), v0 = sum_of(in_n, part_at(along_v, v - 1)),
+             v1 = sum_of(in_n, part_at(along_v, v + 1));
+    uint bit_u = part_at(along_u, u).bit, bit_v = in_n.bit + part_at(along_v, v).bit;
     // The nine voxels lie in at most four words, and each corner of the nine in another of them.
-    ivec3 u = along_u(at.axis, 1), v = along_v(at.axis, 1);
-    uint w00 = voxel_word(grid, at.voxel - u - v), w10 = voxel_word(grid, at.voxel + u - v);
-    uint w01 = voxel_word(grid, at.voxel - u + v), w11 = voxel_word(grid, at.voxel + u + v);
+    uint w00 = voxel_word(grid, sum_of(u0, v0)), w10 = voxel_word(grid, sum_of(u1, v0));
+    uint w01 = voxel_word(grid, sum_of(u0, v1)), w11 = voxel_word(grid, sum_of(u1, v1));
     // Whether the middle is in the same word as its lower neighbour along u, along v.
-    ivec3 in_word = at.voxel & ivec3(3, 1, 3);
-    bool low_u = (at.axis == 0u ? in_word.z : in_word.x) != 0, low_v = (at.axis == 1u ? in_word.z : in_word.y) != 0;
+    bool low_u = (u & along_u.bit_mask) != 0, low_v = (v & along_v.bit_mask) != 0;
     uint left = low_v ? w00 : w01, right = low_v ? w10 : w11, below = low_u ? w00 : w10, above = low_u ? w01 : w11;
     uint middle = low_u ? left : right;
-    if (((middle >> word_bit(at.voxel)) & 1u) != 0u && round == 0u) {
+    if (((middle >> (bit_u + bit_v)) & 1u) != 0u && round == 0u) {
       at = back_on_face(at);
       continue;
     }
-    left = (left >> word_bit(at.voxel - u)) & 1u;
-    right = (right >> word_bit(at.voxel + u)) & 1u;
-    below = (below >> word_bit(at.voxel - v)) & 1u;
-    above = (above >> word_bit(at.voxel + v)) & 1u;
-    float c00 = corner_of(left, below, (w00 >> word_bit(at.voxel - u - v)) & 1u);
-    float c10 = corner_of(right, below, (w10 >> word_bit(at.voxel + u - v)) & 1u);
-    float c01 = corner_of(left, above, (w01 >> word_bit(at.voxel - u + v)) & 1u);
-    float c11 = corner_of(right, above, (w11 >> word_bit(at.voxel + u + v)) & 1u);
+    left = (left >> (u0.bit + bit_v)) & 1u;
+    right = (right >> (u1.bit + bit_v)) & 1u;
+    below = (below >> (bit_u + v0.bit)) & 1u;
+    above = (above >> (bit_u + v1.bit)) & 1u;
+    float c00 = corner_of(left, below, (w00 >> (u0.bit + v0.bit)) & 1u);
+    float c10 = corner_of(right, below, (w10 >> (u1.bit + v0.bit)) & 1u);
+    float c01 = corner_of(left, above, (w01 >> (u0.bit + v1.bit)) & 1u);
+    float c11 = corner_of(right, above, (w11 >> (u1.bit + v1.bit)) & 1u);
     openness = mix(mix(c00, c10, at.in_face.x), mix(c01, c11, at.in_face.x), at.in_face.y);
     break;
   }
