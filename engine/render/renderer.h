@@ -68,8 +68,11 @@ struct FrameInput {
   Celestial sky{};
   std::span<const shared::Light> lights;  ///< finite, in an order that does not depend on threads
   std::span<const std::uint32_t> light_islands;  ///< indices of `islands`, see shared::Light
-  float exposure_ev = 0.0f;                      ///< picture = tone curve(radiance * 2^-EV)
-  double time_s = 0.0;                           ///< seconds of play: water ripples
+  /// Which of how many frames that average into one picture, drawn one after another; in each, sun
+  /// and moon light from another place of their discs. The last one develops the picture.
+  std::uint32_t part = 0, parts = 1;
+  float exposure_ev = 0.0f;         ///< picture = tone curve(radiance * 2^-EV)
+  double time_s = 0.0;              ///< seconds of play: water ripples
   std::uint32_t camera_medium = 0;  ///< block id the camera is in, if translucent; else 0
   bool freeze_culling =
       false;             ///< keep culling with the camera of the frame in which this became true
@@ -77,7 +80,7 @@ struct FrameInput {
   std::optional<Fault> fault;  ///< implies the way by radiance, too
 };
 
-/// Numbers of a frame the GPU has finished.
+/// Numbers of a frame the GPU has finished. Times are sums over its parts.
 struct FrameReport {
   std::vector<gpu::PassTime> passes;
   double gpu_ms = 0.0;

@@ -29,6 +29,8 @@ struct SceneRefs {
   std::uint32_t islands_per_view = 0;
   std::uint32_t bodies = 0;  ///< that give light: bit 0 the sun, bit 1 the moon
   std::uint32_t shadow_taps = 0, shadow_cascades = 0;  ///< of each body, see RenderSettings
+  std::uint32_t samples_per_edge = 1;                  ///< of a pixel, see RenderSettings
+  bool penumbrae = true;                               ///< whether shadow_penumbra_blocks is not 0
   bool haze = true;
   VkExtent2D size{};
 };
