@@ -44,7 +44,6 @@ struct FrameConstants {
   vec2 pixel_to_ndc;        // 2 / image size
   uvec2 size;               // image [pixels]
   float near_plane;         // blocks
-  float exposure;           // display = tone curve(radiance * exposure)
   float time_s;             // seconds of play, reduced to one hour, for water ripples
   uint shading_flat;        // 1: shadow result times light colour, no N.L
   uint camera_medium;       // block id the camera is in: 0 air, else a translucent block
