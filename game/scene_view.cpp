@@ -204,13 +204,10 @@ render::RenderSettings SceneView::render_settings(
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
   out.gbuffer = settings_.gbuffer;
+  out.meter = settings_.meter;
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   return out;
-}
-
-double SceneView::metered_ev(double time_of_day_s) const {
-  return render::auto_exposure_ev(render::celestial_at(time_of_day_s, settings_.moon_phase));
 }
 
 Result<std::uint64_t> SceneView::draw(
@@ -223,8 +220,11 @@ Result<std::uint64_t> SceneView::draw(
   input.anchor = fixed(world_->origin());
   input.islands = islands;
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
-  const double adapted = moment.exposure_ev.value_or(metered_ev(moment.time_of_day_s));
-  input.exposure_ev = static_cast<float>(settings_.exposure_ev.value_or(adapted));
+  const std::optional<double> ev =
+      settings_.exposure_ev ? settings_.exposure_ev : moment.exposure_ev;
+  input.exposure_ev.reset();
+  if (ev) input.exposure_ev = static_cast<float>(*ev);
+  input.meter = !settings_.exposure_ev;
   input.time_s = moment.world_time_s;
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;

@@ -58,9 +58,10 @@ Result<void> into_name(const Result<std::size_t>& parsed, E& field) {
   return {};
 }
 
-Result<void> into_number(const Result<double>& parsed, double& field) {
+template <class T>
+Result<void> into_number(const Result<double>& parsed, T& field) {
   if (!parsed) return parsed.error();
-  field = *parsed;
+  field = static_cast<T>(*parsed);
   return {};
 }
 
@@ -262,6 +263,26 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return s.exposure_ev ? fmt::format("{}", *s.exposure_ev) : std::string("auto");
      }},
+    {"exposure.key", "0.01 to 1", "What the meter exposes a landscape under the noon sun to.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "exposure.key", 0.01, 1.0), s.meter.key);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.meter.key); }},
+    {"exposure.min", "stops, -20 to 20", "Darkest light the meter adapts to.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "exposure.min", -20.0, 20.0), s.meter.min_ev);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.meter.min_ev); }},
+    {"exposure.max", "stops, -20 to 20", "Brightest light the meter adapts to; min wins over it.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "exposure.max", -20.0, 20.0), s.meter.max_ev);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.meter.max_ev); }},
+    {"exposure.stride", "1 to 16", "The meter looks at one pixel of each stride x stride.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "exposure.stride", 1, 16), s.meter.stride);
+     },
+     [](const Settings& s) { return std::to_string(s.meter.stride); }},
     {"renderer", "deferred, auto or reference",
      "How the picture is made: on the GPU, or exactly on the CPU (screenshots only). auto is "
      "deferred.",

@@ -45,6 +45,7 @@ struct Settings {
   std::uint32_t texture_taps = 2;     ///< along the long side of a texture footprint, 1 .. 16
   render::GBufferStore gbuffer;       ///< for measuring
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
+  render::MeterSettings meter;        ///< of what has no exposure of its own
   RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;
   DebugView debug_view = DebugView::kNone;

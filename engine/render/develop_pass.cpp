@@ -17,6 +17,7 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
       "develop",
       [&](gpu::PassBuilder& b) {
         b.read(scene.frame, Use::kComputeRead);
+        b.read(scene.exposure, Use::kComputeRead);
         b.read(radiance, Use::kComputeRead);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         out = b.write(out, Use::kComputeWrite);
@@ -28,6 +29,7 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         c.storage(1, scene.pixel_stats);
         c.storage(2, radiance);
         c.storage(9, out);
+        c.storage(22, scene.exposure);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });
@@ -46,7 +48,8 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   graph.add_pass(
       "show_channel",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+        for (const gpu::BufferRef ref :
+             {scene.frame, scene.islands, scene.materials, scene.exposure})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
@@ -61,6 +64,7 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
         surfaces.bind(c, scene.point_sampler, 3, 4);
         c.sampled(5, scene.block_textures, scene.block_sampler);
         c.storage(6, out);
+        c.storage(22, scene.exposure);
         if (maps) c.sampled(7, maps, scene.point_sampler);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);

@@ -82,7 +82,6 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.size = {size.width, size.height};
   f.picture_size = f.size;
   f.near_plane = kNearPlane;
-  f.exposure = std::exp2(-input.exposure_ev);
   f.time_s = static_cast<float>(std::fmod(input.time_s, 3600.0));
   f.shading_flat = settings.flat_shading ? 1u : 0u;
   f.camera_medium = input.camera_medium;

@@ -17,6 +17,7 @@
 #include "engine/render/frame_setup.h"
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/geometry_pass.h"
+#include "engine/render/meter_pass.h"
 #include "engine/render/resolve_pass.h"
 #include "engine/render/shade_pass.h"
 #include "engine/render/shadow_maps.h"
@@ -39,7 +40,7 @@ constexpr std::array<const char*, 8> kShadowPassNames{
 /// What one frame in flight owns.
 struct Slot {
   std::uint64_t value = 0;  // timeline value that completes it; 0: not in flight
-  gpu::Buffer readback;     // CullStats[kViewCount], then PixelStats
+  gpu::Buffer readback;     // CullStats[kViewCount], then PixelStats, then Exposure
   std::uint32_t views = 0;  // entries of CullStats that the frame wrote
   std::uint32_t part = 0;   // see FrameInput
   gpu::FrameCounts counts{};
@@ -52,10 +53,14 @@ int samples_per_edge(const RenderSettings& settings) {
   return settings.debug_view == DebugView::kNone ? settings.samples_per_edge : 1;
 }
 
+bool meters(const FrameInput& input) {
+  return input.meter || !input.exposure_ev;
+}
+
 /// Whether the picture takes the way over a radiance image though no pass comes between.
 bool by_radiance(const FrameInput& input, const RenderSettings& settings) {
-  return input.capture || input.fault.has_value() || samples_per_edge(settings) > 1 ||
-         input.parts > 1;
+  return meters(input) || input.capture || input.fault.has_value() ||
+         samples_per_edge(settings) > 1 || input.parts > 1;
 }
 
 /// The sky whose sun and moon stand at the middle of a part's share of their discs: points of a
@@ -85,6 +90,7 @@ void add_times(const FrameReport& earlier, FrameReport& to) {
 }
 
 constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::CullStats);
+constexpr std::uint64_t kExposureOffset = kPixelStatsOffset + sizeof(shared::PixelStats);
 
 }  // namespace
 
@@ -109,7 +115,7 @@ struct Renderer::State {
   Result<void> resize_total(VkExtent2D size);
   template <class T>
   Result<void> upload(gpu::Buffer& to, const char* name, std::span<const T> values);
-  Result<void> upload_tables(const FrameTables& tables, std::size_t island_count,
+  Result<void> upload_tables(const FrameTables& tables, const FrameInput& input,
                              const shared::SkyConstants& sky);
   void take_report(std::uint32_t slot_index);
   SceneRefs import_scene(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
@@ -136,7 +142,7 @@ struct Renderer::State {
   Captures captures;
   gpu::FrameRing ring;
   std::uint64_t upload_budget;
-  gpu::Buffer frame, sky, islands, view_islands, views, materials, indices, pixel_stats;
+  gpu::Buffer frame, sky, islands, view_islands, views, materials, indices, pixel_stats, exposure;
   gpu::Image block_textures, sky_lut, picture;
   gpu::Image total;  // of a picture's parts; empty when it has one
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
@@ -220,7 +226,7 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
   }
   for (Slot& slot : slots) {
     Result<gpu::Buffer> readback =
-        device.create_buffer({"frame stats", kPixelStatsOffset + sizeof(shared::PixelStats),
+        device.create_buffer({"frame stats", kExposureOffset + sizeof(shared::Exposure),
                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kReadback});
     if (!readback) return readback.error();
     slot.readback = *std::move(readback);
@@ -271,9 +277,13 @@ Result<void> Renderer::State::resize_total(VkExtent2D size) {
   return {};
 }
 
-Result<void> Renderer::State::upload_tables(const FrameTables& tables, std::size_t island_count,
+Result<void> Renderer::State::upload_tables(const FrameTables& tables, const FrameInput& input,
                                             const shared::SkyConstants& sky_now) {
-  const std::array<Result<void>, 5> done{
+  // Where every pixel is black, any exposure is right.
+  const shared::Exposure given{input.exposure_ev.value_or(0.0f), 0.0f, 0};
+  const std::size_t island_count = input.islands.size();
+  const std::array<Result<void>, 6> done{
+      upload(exposure, "exposure", std::span<const shared::Exposure>(&given, 1)),
       upload(frame, "frame constants",
              std::span<const shared::FrameConstants>(&tables.constants, 1)),
       upload(sky, "sky constants", std::span<const shared::SkyConstants>(&sky_now, 1)),
@@ -303,6 +313,7 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, const RenderSet
   s.sections = graph.import(geometry->sections());
   s.indices = graph.import(indices);
   s.pixel_stats = graph.import(pixel_stats);
+  s.exposure = graph.import(exposure);
   s.block_textures = graph.import(block_textures);
   s.sky_lut = graph.import(sky_lut);
   s.block_sampler = block_sampler;
@@ -343,7 +354,7 @@ Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& 
   return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw);
 }
 
-/// Makes pixels of samples, copies radiance out if asked to, and develops it.
+/// Makes pixels of samples, copies radiance out if asked to, meters and develops it.
 void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input,
                                      const RenderSettings& settings) {
   if (input.fault && input.fault->in == Fault::In::kLookedThrough)
@@ -357,6 +368,9 @@ void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const Fram
   if (input.parts == 1) graph.leave_out("accumulate_part", "shadow.samples=1");
   if (input.part + 1 != input.parts) return;
   if (input.capture) captures.add(graph, Capture::kRadiance, shaded.radiance());
+  if (meters(input))
+    (void)MeterPass::add(graph, pipelines, scene, shaded.radiance(), settings.meter,
+                         !input.exposure_ev);
   (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
 }
 
@@ -369,12 +383,14 @@ void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
       [&](gpu::PassBuilder& b) {
         if (cull_stats) b.read(*cull_stats, gpu::Use::kTransferRead);
         b.read(scene.pixel_stats, gpu::Use::kTransferRead);
+        b.read(scene.exposure, gpu::Use::kTransferRead);
         to = b.write(to, gpu::Use::kTransferWrite);
       },
       [to, stats = cull_stats ? *cull_stats : gpu::BufferRef{}, pixels = scene.pixel_stats,
-       view_count](gpu::Commands& c) {
+       exposed = scene.exposure, view_count](gpu::Commands& c) {
         if (stats) c.copy(stats, to, 0, 0, view_count * sizeof(shared::CullStats));
         c.copy(pixels, to, 0, kPixelStatsOffset, sizeof(shared::PixelStats));
+        c.copy(exposed, to, 0, kExposureOffset, sizeof(shared::Exposure));
       });
   graph.add_pass(
       "stats_to_cpu",
@@ -399,6 +415,9 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
   const FrameFeatures& features = contents.features;
   explain_absent(features);
+  if (!meters(input) && settings.debug_view == DebugView::kNone)
+    for (const char* name : {"meter_radiance", "choose_exposure"})
+      graph.leave_out(name, "the exposure is given");
   scene.haze = features.has(Feature::kHaze);
   const ShadeIn shade_in{settings.texture_taps, features.has(Feature::kStars),
                          features.has(Feature::kDiscs)};
@@ -440,7 +459,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
     (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view,
                                  picture);
     for (const char* name : {"classify_tiles", "shade_surfaces", "shade_sky", "draw_translucent",
-                             "shade_translucent", "develop"})
+                             "shade_translucent", "meter_radiance", "choose_exposure", "develop"})
       graph.leave_out(name, "a debug view is shown");
   } else {
     const char* no_translucent = features.why_not(Feature::kWater);
@@ -497,6 +516,10 @@ void Renderer::State::take_report(std::uint32_t slot_index) {
     }
   }
   std::memcpy(&r.pixels, data + kPixelStatsOffset, sizeof(r.pixels));
+  shared::Exposure exposed;
+  std::memcpy(&exposed, data + kExposureOffset, sizeof(exposed));
+  r.exposure_ev = exposed.ev;
+  if (exposed.metered != 0) r.metered_ev = exposed.metered_ev;
   r.counts = slot.counts;
   r.pipelines_created = slot.pipelines_created;
   r.memory_bytes = slot.memory_bytes;
@@ -564,8 +587,7 @@ Result<std::uint64_t> Renderer::draw(
     tables.views[0] = s.frozen->first;
     shift_view(tables.views[0], s.frozen->second, input.camera.position);
   }
-  if (Result<void> ok = s.upload_tables(tables, input.islands.size(), sky_now); !ok)
-    return ok.error();
+  if (Result<void> ok = s.upload_tables(tables, input, sky_now); !ok) return ok.error();
 
   const gpu::FrameRing::Frame frame = s.ring.begin();
   Slot& slot = s.slots[frame.slot];

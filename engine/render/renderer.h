@@ -19,6 +19,7 @@
 #include "engine/render/celestial.h"
 #include "engine/render/geometry_store.h"
 #include "engine/render/settings.h"
+#include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/light.h"
@@ -71,7 +72,9 @@ struct FrameInput {
   /// Which of how many frames that average into one picture, drawn one after another; in each, sun
   /// and moon light from another place of their discs. The last one develops the picture.
   std::uint32_t part = 0, parts = 1;
-  float exposure_ev = 0.0f;         ///< picture = tone curve(radiance * 2^-EV)
+  /// Picture = tone curve(radiance * 2^-EV). None: as the meter finds this very frame.
+  std::optional<float> exposure_ev = 0.0f;
+  bool meter = false;               ///< meter the frame even though its exposure is given
   double time_s = 0.0;              ///< seconds of play: water ripples
   std::uint32_t camera_medium = 0;  ///< block id the camera is in, if translucent; else 0
   bool freeze_culling =
@@ -87,6 +90,9 @@ struct FrameReport {
   shared::CullStats camera{};
   shared::CullStats shadows{};  ///< sums over the cascades drawn
   shared::PixelStats pixels{};
+  float exposure_ev = 0.0f;  ///< that the picture was developed at
+  /// What the meter asks for; none if it was not asked, or every pixel it looked at was black.
+  std::optional<float> metered_ev;
   gpu::FrameCounts counts{};       ///< of the frame's graph
   int pipelines_created = 0;       ///< since the renderer was made
   std::uint64_t memory_bytes = 0;  ///< of the device, in use when the frame was recorded

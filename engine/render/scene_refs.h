@@ -24,6 +24,7 @@ struct SceneRefs {
   gpu::BufferRef quads, sections;  ///< the geometry store
   gpu::BufferRef indices;          ///< 16-bit: 0 1 2 0 2 3, 4 5 6 ...
   gpu::BufferRef pixel_stats;      ///< shared::PixelStats
+  gpu::BufferRef exposure;         ///< shared::Exposure
   gpu::ImageRef block_textures, sky_lut;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::uint32_t islands_per_view = 0;

@@ -34,6 +34,15 @@ struct GBufferStore {
   bool operator==(const GBufferStore&) const = default;
 };
 
+/// How the camera meters a frame that is given no exposure. docs/exposure.md.
+struct MeterSettings {
+  float key = 0.35f;     ///< exposed luminance of a landscape under the noon sun, 0.01..1
+  float min_ev = -8.0f;  ///< stops; metered exposures stay within
+  float max_ev = 4.0f;
+  int stride = 4;  ///< one pixel of each stride x stride is looked at, 1..16
+  bool operator==(const MeterSettings&) const = default;
+};
+
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
   double view_distance_blocks =
@@ -52,6 +61,7 @@ struct RenderSettings {
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;
+  MeterSettings meter;
   FeatureSet leave_out;  ///< absent even where the scene has them
   DebugView debug_view = DebugView::kNone;
 };

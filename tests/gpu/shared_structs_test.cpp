@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/overlay.h"
@@ -71,11 +72,10 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(FrameConstants, ray_right), MEMBER(FrameConstants, ray_up),
              MEMBER(FrameConstants, ray_forward), MEMBER(FrameConstants, pixel_to_ndc),
              MEMBER(FrameConstants, size), MEMBER(FrameConstants, picture_size),
-             MEMBER(FrameConstants, near_plane), MEMBER(FrameConstants, exposure),
-             MEMBER(FrameConstants, time_s), MEMBER(FrameConstants, shading_flat),
-             MEMBER(FrameConstants, camera_medium), MEMBER(FrameConstants, penumbra_blocks),
-             MEMBER(FrameConstants, haze_per_block), MEMBER(FrameConstants, bodies),
-             MEMBER(FrameConstants, cascades)),
+             MEMBER(FrameConstants, near_plane), MEMBER(FrameConstants, time_s),
+             MEMBER(FrameConstants, shading_flat), MEMBER(FrameConstants, camera_medium),
+             MEMBER(FrameConstants, penumbra_blocks), MEMBER(FrameConstants, haze_per_block),
+             MEMBER(FrameConstants, bodies), MEMBER(FrameConstants, cascades)),
       STRUCT(CullView, MEMBER(CullView, planes), MEMBER(CullView, eye),
              MEMBER(CullView, orthographic), MEMBER(CullView, enabled)),
       STRUCT(SectionTransform, MEMBER(SectionTransform, x), MEMBER(SectionTransform, y),
@@ -85,6 +85,10 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(TileDispatch, MEMBER(TileDispatch, groups_x), MEMBER(TileDispatch, groups_y),
              MEMBER(TileDispatch, groups_z), MEMBER(TileDispatch, tiles)),
       STRUCT(PixelStats, MEMBER(PixelStats, non_finite), MEMBER(PixelStats, black)),
+      STRUCT(Metering, MEMBER(Metering, key), MEMBER(Metering, min_ev), MEMBER(Metering, max_ev),
+             MEMBER(Metering, stride), MEMBER(Metering, decides)),
+      STRUCT(Exposure, MEMBER(Exposure, ev), MEMBER(Exposure, metered_ev),
+             MEMBER(Exposure, metered)),
       STRUCT(SkyBody, MEMBER(SkyBody, to_body), MEMBER(SkyBody, perez_a), MEMBER(SkyBody, perez_b),
              MEMBER(SkyBody, perez_c), MEMBER(SkyBody, perez_d), MEMBER(SkyBody, perez_e),
              MEMBER(SkyBody, zenith), MEMBER(SkyBody, day), MEMBER(SkyBody, haze),

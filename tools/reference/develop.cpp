@@ -31,7 +31,8 @@ std::uint8_t encoded(double linear) {
 
 }  // namespace
 
-std::vector<std::uint8_t> develop(const measure::Picture& radiance, double exposure) {
+std::vector<std::uint8_t> develop(const measure::Picture& radiance, double ev) {
+  const double exposure = std::exp2(-ev);
   std::vector<std::uint8_t> out;
   out.reserve(radiance.pixels.size() * 4);
   for (const glm::vec3& pixel : radiance.pixels) {

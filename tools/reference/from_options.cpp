@@ -137,8 +137,9 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   scene.time_s = options.settings.world_time_s;
   add_sky(options, sky, settings.body_radius, scene);
   ReferencePicture picture = render(scene, settings, progress);
-  const double stops = options.settings.exposure_ev.value_or(render::auto_exposure_ev(sky));
-  picture.exposure = std::exp2(-stops);
+  picture.ev = options.settings.exposure_ev
+                   ? *options.settings.exposure_ev
+                   : metered_ev(picture.radiance, options.settings.meter).value_or(0.0);
   return picture;
 }
 

@@ -46,7 +46,8 @@ Result<const Judged*> ReportSession::reference(const game::SceneOptions& scene,
   if (!made) return made.error();
   kept = std::make_unique<Judged>();
   kept->shown = {made->radiance.width, made->radiance.height,
-                 reference::develop(made->radiance, made->exposure)};
+                 reference::develop(made->radiance, made->ev)};
+  kept->ev = made->ev;
   kept->radiance = std::move(made->radiance);
   kept->mean_standard_error = made->mean_error.value_or(0.0);
   kept->seconds = made->seconds;

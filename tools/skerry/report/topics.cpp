@@ -68,6 +68,11 @@ constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},
                                        {"4", "water.layers=4"}};
+constexpr TopicPoint kMeterStrides[] = {{"16", "exposure.stride=16"},
+                                        {"8", "exposure.stride=8"},
+                                        {"4", "exposure.stride=4"},
+                                        {"2", "exposure.stride=2"},
+                                        {"1", "exposure.stride=1"}};
 constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
                                        {"staging", "upload.path=staging"},
                                        {"mapped", "upload.path=mapped"}};
@@ -101,6 +106,15 @@ constexpr Topic kTopics[] = {
      Judge::kReference, CostOf::kShading},
     {"water_layers", "water and glass surfaces, one behind another, that a pixel shows",
      kWaterLayers, kWater, Judge::kReference, CostOf::kShading},
+    {"exposure",
+     "pixels of which the meter looks at one",
+     kMeterStrides,
+     kShadowScenes,
+     Judge::kLimit,
+     CostOf::kShading,
+     false,
+     {},
+     true},
     {"upload_path", "how meshes travel to the GPU", kUploadPaths, kDay, Judge::kEqual,
      CostOf::kUpload, true},
 };
