@@ -5,6 +5,7 @@
 #include <span>
 
 #include "engine/gpu/frame_graph.h"
+#include "engine/render/settings.h"
 
 namespace skerry::render {
 
@@ -31,6 +32,8 @@ struct SceneRefs {
   std::uint32_t bodies = 0;  ///< that give light: bit 0 the sun, bit 1 the moon
   std::uint32_t shadow_taps = 0, shadow_cascades = 0;  ///< of each body, see RenderSettings
   bool haze = true;
+  ToneCurve tone = ToneCurve::kAces;
+  bool calibrated = false;  ///< whether the display takes other than 0 to 1
   VkExtent2D size{};
 };
 

@@ -44,6 +44,8 @@ struct FrameConstants {
   vec2 pixel_to_ndc;        // 2 / image size
   uvec2 size;               // image [pixels]
   float near_plane;         // blocks
+  float display_peak;       // brightest value of the picture, sRGB-encoded, 0..1
+  float display_black;      // darkest value that the display shows apart from 0, sRGB-encoded
   float time_s;             // seconds of play, reduced to one hour, for water ripples
   uint shading_flat;        // 1: shadow result times light colour, no N.L
   uint camera_medium;       // block id the camera is in: 0 air, else a translucent block

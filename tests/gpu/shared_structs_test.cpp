@@ -72,6 +72,7 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(FrameConstants, ray_right), MEMBER(FrameConstants, ray_up),
              MEMBER(FrameConstants, ray_forward), MEMBER(FrameConstants, pixel_to_ndc),
              MEMBER(FrameConstants, size), MEMBER(FrameConstants, near_plane),
+             MEMBER(FrameConstants, display_peak), MEMBER(FrameConstants, display_black),
              MEMBER(FrameConstants, time_s), MEMBER(FrameConstants, shading_flat),
              MEMBER(FrameConstants, camera_medium), MEMBER(FrameConstants, pcf_radius_blocks),
              MEMBER(FrameConstants, haze_per_block), MEMBER(FrameConstants, bodies),
