@@ -205,6 +205,8 @@ render::RenderSettings SceneView::render_settings(
   out.translucent_layers = static_cast<int>(settings_.water_layers);
   out.gbuffer = settings_.gbuffer;
   out.meter = settings_.meter;
+  out.tone = settings_.tone;
+  out.display = settings_.display;
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   return out;

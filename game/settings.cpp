@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 9> kDebugViewNames{
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
+constexpr std::array<std::string_view, 2> kToneNames{"aces", "agx"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
 
 constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct16",
@@ -283,6 +284,23 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "exposure.stride", 1, 16), s.meter.stride);
      },
      [](const Settings& s) { return std::to_string(s.meter.stride); }},
+    {"tone", "aces or agx", "Tone curve: from exposed light to what a display can show.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "tone", kToneNames), s.tone);
+     },
+     [](const Settings& s) { return std::string(kToneNames[static_cast<std::size_t>(s.tone)]); }},
+    {"display.peak", "0.1 to 1",
+     "Brightest light of the picture, as a share of the display's white.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "display.peak", kMinDisplayPeak, 1.0), s.display.peak);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.display.peak); }},
+    {"display.black", "0 to 0.2",
+     "Darkest sRGB value that can be told from black on the display; black stays black.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "display.black", 0.0, kMaxDisplayBlack), s.display.black);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.display.black); }},
     {"renderer", "deferred, auto or reference",
      "How the picture is made: on the GPU, or exactly on the CPU (screenshots only). auto is "
      "deferred.",

@@ -14,6 +14,8 @@ namespace skerry::game {
 
 inline constexpr std::uint32_t kMinViewDistance = 32, kMaxViewDistance = 16384;  ///< blocks
 
+inline constexpr double kMinDisplayPeak = 0.1, kMaxDisplayBlack = 0.2;
+
 enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
 enum class Shading : std::uint8_t { kPbr, kFlat };
 /// How the picture is made. kReference: on the CPU, exactly and slowly; screenshots only.
@@ -46,6 +48,8 @@ struct Settings {
   render::GBufferStore gbuffer;       ///< for measuring
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   render::MeterSettings meter;        ///< of what has no exposure of its own
+  render::ToneCurve tone = render::ToneCurve::kAces;
+  render::DisplaySettings display;
   RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;
   DebugView debug_view = DebugView::kNone;

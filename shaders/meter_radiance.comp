@@ -30,7 +30,7 @@ void main() {
     uint h = hashed(cell);
     uvec2 pixel = min(first + uvec2(h, h >> 16) % stride, frame.picture_size - 1u);
     float y = luminance(imageLoad(radiance, ivec2(pixel)).rgb);
-    if (y > 0.0) atomicAdd(here[bin_of(y)], 1u);
+    if (counts_as_light(y)) atomicAdd(here[bin_of(y)], 1u);
   }
   barrier();
   if (here[thread] != 0u) atomicAdd(counts[thread], here[thread]);

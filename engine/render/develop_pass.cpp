@@ -4,6 +4,7 @@
 
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/light_constants.h"
+#include "engine/render/picture_constants.h"
 
 namespace skerry::render {
 
@@ -23,7 +24,8 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         out = b.write(out, Use::kComputeWrite);
       },
       [scene, radiance, out,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"develop.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{"develop.comp", with_picture({}, scene)})](
+          gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.pixel_stats);
@@ -44,7 +46,9 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   const gpu::ImageRef maps = shadows.maps();
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
       std::string("show_channel") + (maps ? "" : "_unshadowed") + surfaces.suffix() + ".comp",
-      surfaces.with_store(with_light({{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps}))});
+      with_picture(surfaces.with_store(
+                       with_light({{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps})),
+                   scene)});
   graph.add_pass(
       "show_channel",
       [&](gpu::PassBuilder& b) {

@@ -321,6 +321,8 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, const RenderSet
   s.point_sampler = point_sampler;
   s.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
   s.size = size;
+  s.tone = settings.tone;
+  s.calibrated = settings.display != DisplaySettings{};
   s.shadow_taps = static_cast<std::uint32_t>(settings.shadow_taps);
   s.shadow_cascades = static_cast<std::uint32_t>(settings.shadow_cascades);
   s.samples_per_edge = static_cast<std::uint32_t>(samples_per_edge(settings));

@@ -91,7 +91,8 @@ struct FrameReport {
   shared::CullStats shadows{};  ///< sums over the cascades drawn
   shared::PixelStats pixels{};
   float exposure_ev = 0.0f;  ///< that the picture was developed at
-  /// What the meter asks for; none if it was not asked, or every pixel it looked at was black.
+  /// What the meter asks for; none if it was not asked, or every pixel it looked at was as good as
+  /// black.
   std::optional<float> metered_ev;
   gpu::FrameCounts counts{};       ///< of the frame's graph
   int pipelines_created = 0;       ///< since the renderer was made

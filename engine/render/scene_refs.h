@@ -5,6 +5,7 @@
 #include <span>
 
 #include "engine/gpu/frame_graph.h"
+#include "engine/render/settings.h"
 
 namespace skerry::render {
 
@@ -33,6 +34,8 @@ struct SceneRefs {
   std::uint32_t samples_per_edge = 1;                  ///< of a pixel, see RenderSettings
   bool penumbrae = true;                               ///< whether shadow_penumbra_blocks is not 0
   bool haze = true;
+  ToneCurve tone = ToneCurve::kAces;
+  bool calibrated = false;  ///< whether the display takes other than 0 to 1
   VkExtent2D size{};
 };
 

@@ -34,6 +34,16 @@ struct GBufferStore {
   bool operator==(const GBufferStore&) const = default;
 };
 
+/// From exposed radiance to what a display can show.
+enum class ToneCurve : std::uint8_t { kAces, kAgx };
+
+/// What the display in use can show. docs/exposure.md.
+struct DisplaySettings {
+  float peak = 1.0f;   ///< brightest value of the picture, of the display's white, linear, 0.1..1
+  float black = 0.0f;  ///< darkest sRGB value that is seen apart from black, 0..0.2
+  bool operator==(const DisplaySettings&) const = default;
+};
+
 /// How the camera meters a frame that is given no exposure. docs/exposure.md.
 struct MeterSettings {
   float key = 0.35f;     ///< exposed luminance of a landscape under the noon sun, 0.01..1
@@ -62,6 +72,8 @@ struct RenderSettings {
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;
   MeterSettings meter;
+  ToneCurve tone = ToneCurve::kAces;
+  DisplaySettings display;
   FeatureSet leave_out;  ///< absent even where the scene has them
   DebugView debug_view = DebugView::kNone;
 };

@@ -1,9 +1,11 @@
 #include "engine/render/shade_pass.h"
 
 #include <string>
+#include <utility>
 
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/light_constants.h"
+#include "engine/render/picture_constants.h"
 #include "engine/render/tiles.h"
 #include "shaders/shared/frame.h"
 
@@ -11,6 +13,15 @@ namespace skerry::render {
 namespace {
 
 using gpu::Use;
+
+std::vector<gpu::SpecConstant> with_target(std::vector<gpu::SpecConstant> own,
+                                           const SceneRefs& scene, bool to_picture) {
+  return to_picture ? with_picture(std::move(own), scene) : own;
+}
+
+std::vector<gpu::SpecConstant> constants_of_sky(const ShadeIn& in) {
+  return {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}};
+}
 
 /// Adds surfaces and sky, both into `target`. @return its last version.
 gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
@@ -23,8 +34,9 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
   const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
       std::string("shade_surfaces") + (maps ? "" : "_unshadowed") + surfaces.suffix() + suffix,
-      surfaces.with_store(
-          with_light({{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene, bool{maps}))});
+      with_target(surfaces.with_store(with_light({{0, static_cast<std::uint32_t>(in.texture_taps)}},
+                                                 scene, bool{maps})),
+                  scene, to_picture)});
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
@@ -54,7 +66,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         dispatch_tiles(c, tiles, TileKind::kCovered);
       });
   const gpu::Pipeline& sky_pipeline = pipelines.get(
-      gpu::ComputeDesc{"shade_sky" + suffix, {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
+      gpu::ComputeDesc{"shade_sky" + suffix, with_target(constants_of_sky(in), scene, to_picture)});
   const gpu::ImageRef words = geometry.surfaces();
   graph.add_pass(
       "shade_sky",
@@ -87,7 +99,7 @@ gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipel
                                    bool to_picture) {
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
       to_picture ? "shade_sky_everywhere_to_picture.comp" : "shade_sky_everywhere.comp",
-      {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
+      with_target(constants_of_sky(in), scene, to_picture)});
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {

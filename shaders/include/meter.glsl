@@ -10,8 +10,11 @@ float luminance(vec3 colour) {
   return all_three;
 }
 
-// @pre luminance > 0.
-uint bin_of(float luminance) { return uint(clamp(int(floatBitsToUint(luminance) >> kBinShift) - int(kFirstBin), 0, int(kHistogramBins) - 1)); }
+// Whether a pixel counts: lit, and not so dimly that no exposure would show it.
+bool counts_as_light(float luminance) { return luminance >= exp2(float(kFirstOctave)); }
+
+// @pre counts_as_light(luminance).
+uint bin_of(float luminance) { return min((floatBitsToUint(luminance) >> kBinShift) - kFirstBin, kHistogramBins - 1u); }
 
 // log2 of the luminance in the middle of a bin.
 float log2_of_bin(uint bin) {

@@ -8,9 +8,9 @@ SHARED_BEGIN
 // two, of equal width within it, so that CPU and GPU agree to the last count.
 SHARED_CONST uint kHistogramBins = 256u;
 SHARED_CONST uint kBinsPerOctave = 8u;
-SHARED_CONST int kFirstOctave = -20;  // bin 0 begins at 2^-20; darker pixels count there
+SHARED_CONST int kFirstOctave = -16;  // bin 0 begins at 2^-16; darker pixels are not counted
 SHARED_CONST uint kBinShift = 20u;    // of a float's bits: 23 of the mantissa less 3
-SHARED_CONST uint kFirstBin = 856u;   // (127 + kFirstOctave) * kBinsPerOctave
+SHARED_CONST uint kFirstBin = 888u;   // (127 + kFirstOctave) * kBinsPerOctave
 SHARED_CONST uint kMeterGroup = 16u;  // edge of a work group of meter_radiance.comp
 
 // Shares of the pixels that are not black, as fractions of 2^32, that the meter passes over.

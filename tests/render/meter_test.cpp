@@ -47,7 +47,7 @@ std::size_t expected_bin(glm::vec3 c) {
   const float sum = 0.2126f * c.x + 0.7152f * c.y, y = sum + 0.0722f * c.z;
   int exponent = 0;
   const double mantissa = std::frexp(double{y}, &exponent) * 2.0;  // 1 .. 2
-  const int bin = (exponent - 1 + 20) * 8 + static_cast<int>((mantissa - 1.0) * 8.0);
+  const int bin = (exponent - 1 + 16) * 8 + static_cast<int>((mantissa - 1.0) * 8.0);
   return static_cast<std::size_t>(std::clamp(bin, 0, 255));
 }
 
@@ -73,7 +73,7 @@ TEST_F(Meter, TheHistogramCountsEveryPixelThatIsNotBlack) {
     std::vector<std::uint32_t> expected(shared::kHistogramBins);
     std::uint32_t lit = 0;
     for (const glm::vec3& c : picture.pixels) {
-      if (c == glm::vec3(0.0f)) continue;
+      if (0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z < std::ldexp(1.0f, -16)) continue;
       ++expected[expected_bin(c)];
       ++lit;
     }
@@ -91,7 +91,7 @@ TEST_F(Meter, ASubsetLooksAtOnePixelOfEachCell) {
       const auto s = static_cast<std::uint32_t>(stride);
       const std::uint32_t cell = (i / 130 / s * 13 + i % 130 / s * 7) % 200 + 20;
       cells.pixels.push_back(halved(glm::vec3(std::ldexp(
-          1.0f + (static_cast<float>(cell % 8) + 0.5f) / 8.0f, static_cast<int>(cell / 8) - 20))));
+          1.0f + (static_cast<float>(cell % 8) + 0.5f) / 8.0f, static_cast<int>(cell / 8) - 16))));
     }
     std::vector<std::uint32_t> expected(shared::kHistogramBins);
     for (int y = 0; y < 70; y += stride)
@@ -136,6 +136,9 @@ TEST_F(Meter, BlackAsksForNothingAndKeepsTheExposure) {
   (void)histogram({40, 30, std::vector<glm::vec3>(1200, glm::vec3(0.0f))});
   EXPECT_EQ(exposure().metered, 0u);
   EXPECT_EQ(exposure().ev, kGiven);
+  // As little as no exposure shows: it must not outvote a lamp.
+  (void)histogram({40, 30, std::vector<glm::vec3>(1200, glm::vec3(std::ldexp(0.99f, -16)))});
+  EXPECT_EQ(exposure().metered, 0u);
 }
 
 TEST_F(Meter, OneLitPixelAmongBlackOnesIsMetered) {

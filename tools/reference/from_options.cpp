@@ -114,6 +114,10 @@ ReferenceSettings settings_from(const game::SceneOptions& options) {
   return settings;
 }
 
+Darkroom darkroom_from(const game::Settings& settings) {
+  return {settings.tone, settings.display};
+}
+
 Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const ReferenceSettings& settings,
                                           const Progress& progress) {

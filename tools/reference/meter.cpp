@@ -9,11 +9,12 @@ namespace skerry::reference {
 std::optional<double> metered_ev(const measure::Picture& radiance,
                                  const render::MeterSettings& settings) {
   constexpr double kPassedOverDark = 0.1, kPassedOverBright = 0.05, kFollowed = 0.7;
+  const double kDarkest = std::ldexp(1.0, -16);
   const double day = std::log2(0.25);
-  std::vector<double> light;  // of pixels that are not black
+  std::vector<double> light;  // of pixels that are not all but black
   for (const glm::dvec3 c : radiance.pixels) {
     const double y = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-    if (y > 0.0) light.push_back(y);
+    if (y >= kDarkest) light.push_back(y);
   }
   if (light.empty()) return std::nullopt;
   std::sort(light.begin(), light.end());

@@ -54,11 +54,23 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const Progress& progress = {});
 
 /// The exposure that a picture asks for [stops]: docs/exposure.md, from every pixel's luminance, in
-/// order, without a histogram. None: all pixels are black.
+/// order, without a histogram. None: all pixels are as good as black.
 std::optional<double> metered_ev(const measure::Picture& radiance,
                                  const render::MeterSettings& settings);
 
-/// Exposure of `ev` stops, tone curve and sRGB to 8 bits, RGBA, rows from the top, without dither.
-std::vector<std::uint8_t> develop(const measure::Picture& radiance, double ev);
+/// How a picture is developed.
+struct Darkroom {
+  render::ToneCurve tone = render::ToneCurve::kAces;
+  render::DisplaySettings display;
+};
+Darkroom darkroom_from(const game::Settings& settings);
+
+/// Linear, 0..1.
+glm::dvec3 tone_mapped(glm::dvec3 exposed, render::ToneCurve curve);
+
+/// Exposure of `ev` stops, tone curve, display and sRGB to 8 bits, RGBA, rows from the top, without
+/// dither.
+std::vector<std::uint8_t> develop(const measure::Picture& radiance, double ev,
+                                  const Darkroom& darkroom = {});
 
 }  // namespace skerry::reference

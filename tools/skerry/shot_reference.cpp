@@ -78,7 +78,8 @@ int shot_reference(const ShotOptions& options) {
   if (!picture) return fail(kUsage, picture.error());
   ordered_json cpu_ms;
   cpu_ms["draw"] = total.milliseconds();
-  const std::vector<std::uint8_t> rgba = reference::develop(picture->radiance, picture->ev);
+  const std::vector<std::uint8_t> rgba = reference::develop(
+      picture->radiance, picture->ev, reference::darkroom_from(options.scene.settings));
   const platform::PixelView image{picture->radiance.width, picture->radiance.height, 4, rgba};
   const std::array<platform::PngText, 2> text{
       {{"Software", "Skerry"}, {"Command", game::shot_command(options.scene)}}};

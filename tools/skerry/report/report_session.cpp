@@ -45,8 +45,9 @@ Result<const Judged*> ReportSession::reference(const game::SceneOptions& scene,
       reference::render_reference(scene, reference::settings_from(scene), progress);
   if (!made) return made.error();
   kept = std::make_unique<Judged>();
-  kept->shown = {made->radiance.width, made->radiance.height,
-                 reference::develop(made->radiance, made->ev)};
+  kept->shown = {
+      made->radiance.width, made->radiance.height,
+      reference::develop(made->radiance, made->ev, reference::darkroom_from(scene.settings))};
   kept->ev = made->ev;
   kept->radiance = std::move(made->radiance);
   kept->mean_standard_error = made->mean_error.value_or(0.0);
