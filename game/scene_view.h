@@ -62,8 +62,12 @@ class SceneView {
 
  private:
   explicit SceneView(const SceneOptions& options);
+  bool occupancy_wanted() const;
+  Result<void> follow_settings();
   Result<void> take_in(world::StreamUpdate update);
-  std::uint32_t island_slot(std::uint64_t island);
+  Result<void> add_section(const world::ReadySection& ready);
+  void remove_section(const world::SectionKey& key);
+  Result<std::uint32_t> island_slot(const world::SectionKey& key);
   std::vector<render::IslandPlacement> placements(double world_time_s) const;
   /// Id of the translucent block the camera is in, or air.
   world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
@@ -83,7 +87,9 @@ class SceneView {
   render::Camera start_camera_;
   std::vector<IslandEntry> islands_;                     // by GPU slot
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
-  std::map<world::SectionKey, render::SectionId> sections_;
+  /// Resident chunks; without a section, what is known of them is which voxels are opaque.
+  std::map<world::SectionKey, std::optional<render::SectionId>> sections_;
+  render::OccupancyStore* occupancy_ = nullptr;  // the renderer's; null: not wanted so far
 };
 
 }  // namespace skerry::game

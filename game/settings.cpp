@@ -11,8 +11,9 @@ namespace skerry::game {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
-constexpr std::array<std::string_view, 9> kDebugViewNames{
-    "none", "albedo", "normal", "position", "metadata", "emissive", "depth", "cascades", "shadow"};
+constexpr std::array<std::string_view, 10> kDebugViewNames{
+    "none",     "albedo", "normal",   "position", "metadata",
+    "emissive", "depth",  "cascades", "shadow",   "ao"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
@@ -259,6 +260,12 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kDepthNames[static_cast<std::size_t>(s.gbuffer.depth)]);
      }},
+    {"ao.strength", "0 to 0.9",
+     "How much light a closed corner of blocks takes; 0: corners are as bright as faces.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "ao.strength", 0.0, 0.9), s.ao_strength);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.ao_strength); }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {
@@ -316,7 +323,9 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]);
      }},
-    {"debug.view", "none, albedo, normal, position, metadata, emissive, depth, cascades or shadow",
+    {"debug.view",
+     "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow or "
+     "ao",
      "Shows one ingredient of the picture instead of the picture.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "debug.view", kDebugViewNames), s.debug_view);

@@ -95,6 +95,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.bodies[0] = shader_body(input.sky.to_sun, input.sky.sun_irradiance, 0, cascades);
   f.bodies[1] = shader_body(input.sky.to_moon, input.sky.moon_irradiance, 1, cascades);
 
+  f.corner_darkening = settings.corner_darkening;
   f.haze_per_block = haze_per_block(input.sky);
 
   shared::CullView view{};

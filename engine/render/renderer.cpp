@@ -138,6 +138,7 @@ struct Renderer::State {
   gpu::FrameGraph graph;
   gpu::Uploader frame_uploader, mesh_uploader;
   std::unique_ptr<GeometryStore> geometry;
+  std::unique_ptr<OccupancyStore> occupancy;  // null: never asked for
   ShadowMaps shadows;
   Captures captures;
   gpu::FrameRing ring;
@@ -311,6 +312,12 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, const RenderSet
   s.materials = graph.import(materials);
   s.quads = graph.import(geometry->quads());
   s.sections = graph.import(geometry->sections());
+  if (occupancy) {
+    s.occupancy_grids = graph.import(occupancy->grids());
+    s.occupancy_tables = graph.import(occupancy->tables());
+    s.occupancy_words = graph.import(occupancy->words());
+    s.corners = settings.corner_darkening > 0.0f && !settings.flat_shading;
+  }
   s.indices = graph.import(indices);
   s.pixel_stats = graph.import(pixel_stats);
   s.exposure = graph.import(exposure);
@@ -421,6 +428,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
     for (const char* name : {"meter_radiance", "choose_exposure"})
       graph.leave_out(name, "the exposure is given");
   scene.haze = features.has(Feature::kHaze);
+  if (!scene.corners)
+    graph.leave_out("corners", settings.flat_shading ? "shading=flat" : "ao.strength=0");
   const ShadeIn shade_in{settings.texture_taps, features.has(Feature::kStars),
                          features.has(Feature::kDiscs)};
   const bool sky_moved = !baked_sky || std::memcmp(&*baked_sky, &sky_now, sizeof(sky_now)) != 0;
@@ -595,6 +604,7 @@ Result<std::uint64_t> Renderer::draw(
   Slot& slot = s.slots[frame.slot];
   s.take_report(frame.slot);
   s.geometry->collect();
+  if (s.occupancy) s.occupancy->collect();
   s.frame_uploader.record(frame.commands, UINT64_MAX);
   s.mesh_uploader.record(frame.commands, s.upload_budget);
   // Maps drawn while meshes still wait for their turn will lack them.
@@ -632,6 +642,14 @@ GeometryStore& Renderer::geometry() {
 }
 void Renderer::set_upload_budget(std::uint64_t bytes) {
   state_->upload_budget = bytes;
+}
+Result<OccupancyStore*> Renderer::occupancy() {
+  if (!state_->occupancy) {
+    Result<std::unique_ptr<OccupancyStore>> made = OccupancyStore::create(state_->device);
+    if (!made) return made.error();
+    state_->occupancy = *std::move(made);
+  }
+  return state_->occupancy.get();
 }
 gpu::Uploader& Renderer::mesh_uploader() {
   return state_->mesh_uploader;

@@ -18,6 +18,7 @@
 #include "engine/render/camera.h"
 #include "engine/render/celestial.h"
 #include "engine/render/geometry_store.h"
+#include "engine/render/occupancy_store.h"
 #include "engine/render/settings.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
@@ -114,6 +115,9 @@ class Renderer {
   ~Renderer();  ///< waits for the GPU
 
   GeometryStore& geometry();
+  /// Which voxels are opaque: for corners and traced lights. Made when first asked for; a renderer
+  /// that is never asked has none, and draws neither. Errors: out of memory.
+  Result<OccupancyStore*> occupancy();
   gpu::Uploader& mesh_uploader();
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);

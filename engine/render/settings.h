@@ -15,7 +15,8 @@ enum class DebugView : std::uint8_t {
   kEmissive,
   kDepth,
   kCascades,
-  kShadow
+  kShadow,
+  kCorners
 };
 
 /// How the G-buffer keeps a surface's normal. Not at all is exact: the normal then comes from the
@@ -67,7 +68,9 @@ struct RenderSettings {
   /// Largest radius of the shadow filter, which is as wide as the edge that the sun's disc casts,
   /// and a texel at least. 0: a texel everywhere.
   float shadow_penumbra_blocks = 0.15f;
-  bool flat_shading = false;   ///< shadow result times light colour, no N.L
+  bool flat_shading = false;  ///< shadow result times light colour, no N.L and no corners
+  float corner_darkening =
+      0.4f;                    ///< share of light that a closed corner takes, 0..1; 0: no corners
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;

@@ -18,6 +18,7 @@
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/light.h"
+#include "shaders/shared/occupancy.h"
 #include "shaders/shared/overlay.h"
 #include "shaders/shared/sky.h"
 #include "tests/gpu/compile_glsl.h"
@@ -58,6 +59,8 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(Section, bounds_min), MEMBER(Section, bounds_max), MEMBER(Section, range_end)),
       STRUCT(IslandTransform, MEMBER(IslandTransform, axis_x), MEMBER(IslandTransform, axis_y),
              MEMBER(IslandTransform, axis_z), MEMBER(IslandTransform, translation)),
+      STRUCT(OccupancyGrid, MEMBER(OccupancyGrid, low), MEMBER(OccupancyGrid, size),
+             MEMBER(OccupancyGrid, first)),
       STRUCT(Material, MEMBER(Material, layer_side), MEMBER(Material, layer_top),
              MEMBER(Material, layer_bottom), MEMBER(Material, emission),
              MEMBER(Material, absorption), MEMBER(Material, roughness),
@@ -79,7 +82,8 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(FrameConstants, display_black), MEMBER(FrameConstants, time_s),
              MEMBER(FrameConstants, shading_flat), MEMBER(FrameConstants, camera_medium),
              MEMBER(FrameConstants, penumbra_blocks), MEMBER(FrameConstants, haze_per_block),
-             MEMBER(FrameConstants, bodies), MEMBER(FrameConstants, cascades)),
+             MEMBER(FrameConstants, corner_darkening), MEMBER(FrameConstants, bodies),
+             MEMBER(FrameConstants, cascades)),
       STRUCT(CullView, MEMBER(CullView, planes), MEMBER(CullView, eye),
              MEMBER(CullView, orthographic), MEMBER(CullView, enabled)),
       STRUCT(SectionTransform, MEMBER(SectionTransform, x), MEMBER(SectionTransform, y),

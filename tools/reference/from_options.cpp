@@ -102,6 +102,7 @@ void add_sky(const game::SceneOptions& options, const render::Celestial& sky, do
   scene.haze_per_block = haze_per_block(sky);
   scene.shadows = options.settings.shadow_enabled;
   scene.flat_shading = options.settings.shading == game::Shading::kFlat;
+  scene.corner_occlusion = scene.flat_shading ? 0.0 : options.settings.ao_strength;
 }
 
 }  // namespace
