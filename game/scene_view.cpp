@@ -252,24 +252,26 @@ render::RenderSettings SceneView::render_settings(
   }
   render::RenderSettings out;
   out.view_distance_blocks = std::ceil(reach / kReachStep) * kReachStep;
+  out.samples_per_edge = settings_.aa_samples == 16 ? 4 : settings_.aa_samples == 4 ? 2 : 1;
   out.shadows = settings_.shadow_enabled;
   out.shadow_map_size = static_cast<int>(settings_.shadow_size);
   out.shadow_cascades = static_cast<int>(settings_.shadow_cascades);
   out.shadow_taps = static_cast<int>(settings_.shadow_taps);
   out.shadow_split = settings_.shadow_split;
-  out.shadow_filter_blocks = static_cast<float>(settings_.shadow_blur);
+  // Many samples blur edges exactly.
+  out.shadow_penumbra_blocks =
+      settings_.shadow_samples == 1 ? static_cast<float>(settings_.shadow_blur) : 0.0f;
   out.corner_darkening = static_cast<float>(settings_.ao_strength);
   out.texture_taps = static_cast<int>(settings_.texture_taps);
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
   out.gbuffer = settings_.gbuffer;
+  out.meter = settings_.meter;
+  out.tone = settings_.tone;
+  out.display = settings_.display;
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   return out;
-}
-
-double SceneView::metered_ev(double time_of_day_s) const {
-  return render::auto_exposure_ev(render::celestial_at(time_of_day_s, settings_.moon_phase));
 }
 
 Result<std::uint64_t> SceneView::draw(
@@ -282,14 +284,20 @@ Result<std::uint64_t> SceneView::draw(
   input.anchor = fixed(world_->origin());
   input.islands = islands;
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
-  const double adapted = moment.exposure_ev.value_or(metered_ev(moment.time_of_day_s));
-  input.exposure_ev = static_cast<float>(settings_.exposure_ev.value_or(adapted));
+  const std::optional<double> ev =
+      settings_.exposure_ev ? settings_.exposure_ev : moment.exposure_ev;
+  input.exposure_ev.reset();
+  if (ev) input.exposure_ev = static_cast<float>(*ev);
+  input.meter = !settings_.exposure_ev;
   input.time_s = moment.world_time_s;
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
-  return renderer_->draw(input, render_settings(moment.camera.position, islands), size, after,
-                         waits, signals);
+  const render::RenderSettings settings = render_settings(moment.camera.position, islands);
+  input.parts = settings_.shadow_samples;
+  for (; input.part + 1 < input.parts; ++input.part)
+    if (Result<std::uint64_t> part = renderer_->draw(input, settings, size); !part) return part;
+  return renderer_->draw(input, settings, size, after, waits, signals);
 }
 
 }  // namespace skerry::game

@@ -41,8 +41,6 @@ class SceneView {
   /// Takes in what the workers have ready, within the frame's budget; never waits.
   /// Errors: the quad arena is full.
   Result<void> stream(const render::Camera& camera, double world_time_s);
-  /// Exposure that the light of a time of day asks for [stops].
-  double metered_ev(double time_of_day_s) const;
   /// Whether everything within view distance has been handed to the renderer.
   bool complete() const { return streamer_->complete(); }
 
@@ -51,8 +49,9 @@ class SceneView {
     double time_of_day_s = 43200.0;
     double world_time_s = 0.0;
     bool freeze_culling = false;
-    bool capture = false;                    ///< see render::FrameInput
-    std::optional<double> exposure_ev = {};  ///< what the eye has adapted to; none: metered now
+    bool capture = false;  ///< see render::FrameInput
+    /// What the eye has adapted to; the frame is metered for it nonetheless. None: as metered.
+    std::optional<double> exposure_ev = {};
   };
   /// See render::Renderer::draw. A fixed exposure in the settings goes over the moment's.
   Result<std::uint64_t> draw(

@@ -22,7 +22,7 @@ void OccupancyReads::bind(gpu::Commands& commands) const {
 }
 
 std::vector<gpu::SpecConstant> with_corners(std::vector<gpu::SpecConstant> own, bool corners) {
-  if (corners) own.push_back({20, 1});
+  if (corners) own.push_back({15, 1});
   return own;
 }
 

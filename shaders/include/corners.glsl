@@ -4,7 +4,7 @@
 #include "include/occupancy.glsl"
 
 // Whether they do. If not, some buffers are bound for the occupancy that are never read.
-layout(constant_id = 20) const bool kCorners = false;
+layout(constant_id = 15) const bool kCorners = false;
 
 // Share of light that corners leave to a surface. Plants are loose leaves, which have none.
 float surface_openness(Surface s, uint word) {

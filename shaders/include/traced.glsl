@@ -6,7 +6,7 @@
 
 layout(scalar, binding = 29) readonly buffer LightIslands { uint light_islands[]; };
 
-layout(constant_id = 22) const uint kLightSamples = 1u;  // ways to a light that has a size
+layout(constant_id = 41) const uint kLightSamples = 1u;  // ways to a light that has a size
 
 // Where ways to lights begin.
 struct WayStart {

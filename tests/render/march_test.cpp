@@ -1,5 +1,7 @@
 // The march through occupancy against an exact one in integers.
+#include <array>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "tests/render/occupancy_on_gpu.h"
@@ -51,7 +53,8 @@ class ExactMarch {
     return way_[axis] > 0 ? plane - from_[axis] : from_[axis] - plane;
   }
   void follow(glm::ivec3 voxel) {
-    while (true) {
+    // What follows depends on the voxel alone.
+    while (seen_.insert({voxel.x, voxel.y, voxel.z}).second) {
       if (voxel == last_) {
         open_ = true;
         return;
@@ -89,6 +92,7 @@ class ExactMarch {
   const OpaqueAt& opaque_;
   Int from_[3]{}, way_[3]{};
   glm::ivec3 last_{};
+  std::set<std::array<int, 3>> seen_;
   bool blocked_ = false, open_ = false;
 };
 

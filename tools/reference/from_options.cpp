@@ -115,6 +115,10 @@ ReferenceSettings settings_from(const game::SceneOptions& options) {
   return settings;
 }
 
+Darkroom darkroom_from(const game::Settings& settings) {
+  return {settings.tone, settings.display};
+}
+
 Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const ReferenceSettings& settings,
                                           const Progress& progress) {
@@ -138,8 +142,9 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   scene.time_s = options.settings.world_time_s;
   add_sky(options, sky, settings.body_radius, scene);
   ReferencePicture picture = render(scene, settings, progress);
-  const double stops = options.settings.exposure_ev.value_or(render::auto_exposure_ev(sky));
-  picture.exposure = std::exp2(-stops);
+  picture.ev = options.settings.exposure_ev
+                   ? *options.settings.exposure_ev
+                   : metered_ev(picture.radiance, options.settings.meter).value_or(0.0);
   return picture;
 }
 
