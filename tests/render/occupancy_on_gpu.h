@@ -83,7 +83,8 @@ class OccupancyOnGpu : public gpu::GpuTest {
   /// @param body GLSL of `Answer answer_to(Question q)`, behind the structs Question and Answer.
   template <class Answer, class Question>
   std::vector<Answer> ask(const std::string& body, const std::vector<Question>& questions,
-                          const std::vector<Table>& besides = {}) {
+                          const std::vector<Table>& besides = {},
+                          const std::vector<gpu::SpecConstant>& constants = {}) {
     const gpu::TestShader shader("ask.comp",
                                  "#include \"include/common.glsl\"\n"
                                  "#include \"include/occupancy.glsl\"\n" +
@@ -126,7 +127,7 @@ class OccupancyOnGpu : public gpu::GpuTest {
           b.keep();
         },
         [&](gpu::Commands& c) {
-          c.bind(pipelines.get(gpu::ComputeDesc{"ask.comp", {}}));
+          c.bind(pipelines.get(gpu::ComputeDesc{"ask.comp", constants}));
           c.storage(0, from);
           c.storage(1, to);
           c.storage(26, grids);

@@ -304,5 +304,129 @@ TEST_F(Traced, TheVoxelALightStandsInDoesNotBlockItButOthersDo) {
   EXPECT_EQ(visibility(questions, here, {0}), (std::vector<float>{1.0f, 1.0f, 0.0f, 1.0f}));
 }
 
+// --- Walls looked for before some lights
+
+constexpr const char* kPixel = R"(
+  #include "shared/light.h"
+  layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };
+  layout(scalar, binding = 3) readonly buffer Lights { Light lights[]; };
+  struct Cluster { uint first; uint count; };
+  uint light_index(Cluster list, uint i) { return list.first + i; }
+  #include "include/lights.glsl"
+  #include "include/traced.glsl"
+  #include "include/blocked_lights.glsl"
+  struct Question { vec3 position; uint word; uint first; uint count; };
+  struct Answer { vec3 radiance; };
+  Answer answer_to(Question q) {
+    Surface s;
+    s.position = q.position;
+    s.normal = face_normal(surface_face(q.word));
+    s.plant = false;
+    return Answer(lights_reflected(Cluster(q.first, q.count), matt_brdf(vec3(1.0)),
+                                   way_start(s, q.word), vec3(0.0, 1.0, 0.0)));
+  })";
+
+constexpr std::uint32_t kOff = 0, kEvery = ~0u;
+
+class BlockedLights : public OccupancyOnGpu {
+ protected:
+  struct Pixel {
+    glm::vec3 position;
+    std::uint32_t word, first, count;
+  };
+  static constexpr std::uint32_t kLights = 12;
+  /// Floor faces among rubble, and lights about each of them.
+  void scatter(std::size_t count) {
+    add_island(0, rubble, {{0, 0, 0}, {1, 1, 1}, 0});
+    RandomPlaces random(23);
+    while (pixels_.size() < count) {
+      const glm::ivec3 v(random.whole(8, 55), random.whole(8, 55), random.whole(8, 55));
+      if (!rubble(v.x, v.y, v.z) || rubble(v.x, v.y + 1, v.z)) continue;
+      const glm::dvec3 p = glm::dvec3(v) + glm::dvec3(0.5, 1.0, 0.5);
+      pixels_.push_back(
+          {glm::vec3(p), word_of(0, 2), static_cast<std::uint32_t>(lights_.size()), kLights});
+      for (std::uint32_t i = 0; i < kLights; ++i) {
+        shared::Light light = light_at(p + random.in_box(7.0));
+        light.intensity = glm::vec3(static_cast<float>(random.uniform(0.2, 3.0)));
+        lights_.push_back(light);
+      }
+    }
+  }
+  std::vector<glm::vec3> radiance(const std::vector<Pixel>& pixels, std::uint32_t traced) {
+    const std::vector<shared::IslandTransform> here{Placed{}.transform()};
+    return ask<glm::vec3>(
+        kPixel, pixels,
+        {table(2, here), table(3, lights_), table(29, std::vector<std::uint32_t>{0})},
+        {{40, traced}});
+  }
+  /// Each light of each pixel by itself.
+  std::vector<Pixel> single() const {
+    std::vector<Pixel> out;
+    for (const Pixel& pixel : pixels_)
+      for (std::uint32_t i = 0; i < kLights; ++i)
+        out.push_back({pixel.position, pixel.word, pixel.first + i, 1});
+    return out;
+  }
+  std::vector<Pixel> pixels_;
+  std::vector<shared::Light> lights_;
+};
+
+TEST_F(BlockedLights, TheStrongestAreTracedAndStandForTheOthers) {
+  scatter(400);
+  const std::vector<glm::vec3> alone = radiance(single(), kOff), seen = radiance(single(), kEvery);
+  for (const std::uint32_t traced : {1u, 3u, 8u}) {
+    const std::vector<glm::vec3> got = radiance(pixels_, traced);
+    for (std::size_t p = 0; p < pixels_.size(); ++p) {
+      std::vector<std::size_t> order(kLights);
+      for (std::size_t i = 0; i < kLights; ++i) order[i] = p * kLights + i;
+      std::stable_sort(order.begin(), order.end(),
+                       [&](std::size_t a, std::size_t b) { return alone[a].x > alone[b].x; });
+      double asked = 0.0, arrived = 0.0, others = 0.0;
+      for (std::size_t i = 0; i < kLights; ++i) {
+        asked += i < traced ? alone[order[i]].x : 0.0;
+        arrived += i < traced ? seen[order[i]].x : 0.0;
+        others += i < traced ? 0.0 : alone[order[i]].x;
+      }
+      const double expected = arrived + (asked > 0.0 ? others * arrived / asked : others);
+      ASSERT_NEAR(got[p].x, expected, 1e-4 * (1.0 + asked + others)) << traced << " of " << p;
+    }
+  }
+}
+
+TEST_F(BlockedLights, AllOfThemAreTracedOrNone) {
+  scatter(400);
+  const std::vector<glm::vec3> alone = radiance(single(), kOff), seen = radiance(single(), kEvery);
+  const std::vector<glm::vec3> off = radiance(pixels_, kOff), every = radiance(pixels_, kEvery);
+  int hidden = 0;
+  for (std::size_t p = 0; p < pixels_.size(); ++p) {
+    double open = 0.0, left = 0.0;
+    for (std::size_t i = p * kLights; i < (p + 1) * kLights; ++i) {
+      open += alone[i].x;
+      left += seen[i].x;
+      ASSERT_TRUE(seen[i] == alone[i] || seen[i] == glm::vec3(0.0f));
+      hidden += seen[i] != alone[i];
+    }
+    ASSERT_NEAR(off[p].x, open, 1e-4 * (1.0 + open));
+    ASSERT_NEAR(every[p].x, left, 1e-4 * (1.0 + open));
+  }
+  EXPECT_GT(hidden, 400);
+}
+
+TEST_F(BlockedLights, AClosedRoomIsDarkHoweverFewAreTraced) {
+  const Room room{{20, 20, 20}, {3, 3, 3}};
+  add_island(0,
+             [&](int x, int y, int z) {
+               return room.wall({x, y, z});
+             },
+             {{0, 0, 0}, {1, 1, 1}, 0});
+  RandomPlaces random(24);
+  for (std::uint32_t i = 0; i < 40; ++i)
+    lights_.push_back(light_at(glm::dvec3(21.5, 25.5, 21.5) + random.in_box(1.0)));
+  const std::vector<Pixel> floor{{{21.5f, 20.0f, 21.5f}, word_of(0, 2), 0, 40}};
+  EXPECT_GT(radiance(floor, kOff)[0].x, 0.0f);
+  for (const std::uint32_t traced : {1u, 2u, 8u, kEvery})
+    EXPECT_EQ(radiance(floor, traced)[0], glm::vec3(0.0f)) << traced;
+}
+
 }  // namespace
 }  // namespace skerry::render
