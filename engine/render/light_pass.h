@@ -7,10 +7,10 @@ namespace skerry::render {
 
 /// Adds the light of the frame's lights to opaque surfaces, in the tiles that some light reaches.
 struct LightPass {
-  /// @param texture_taps see RenderSettings.
+  /// Corners darken it, and walls block it, as the settings have it.
   static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                     const Geometry& geometry, const ClusteredLights& lights, Shaded shaded,
-                    int texture_taps);
+                    const RenderSettings& settings);
 };
 
 }  // namespace skerry::render

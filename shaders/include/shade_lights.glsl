@@ -19,6 +19,9 @@ layout(constant_id = 0) const uint kTextureTaps = 2u;
 #include "include/surface.glsl"
 #include "include/reflection.glsl"
 #include "include/clustered.glsl"
+#include "include/corners.glsl"
+#include "include/traced.glsl"
+#include "include/blocked_lights.glsl"
 
 void main() {
   uvec2 pixel;
@@ -31,12 +34,8 @@ void main() {
   Surface s = resolve_surface(word, ivec2(pixel), depth, pixel_ray(pixel), kTextureTaps);
   vec3 to_eye = -normalize(s.position);
   Brdf b = surface_brdf(s, to_eye);
-  vec3 light = vec3(0.0);
-  // Two a round for the oracle: lavapipe ends loops after 65,535 rounds.
-  for (uint i = 0u; i < list.count; ++i) {
-    light += light_reflected(lights[light_index(list, i)], b, s.position, s.normal, to_eye);
-    if (kOracle && ++i < list.count) light += light_reflected(lights[light_index(list, i)], b, s.position, s.normal, to_eye);
-  }
+  s.openness = surface_openness(s, word);
+  vec3 light = lights_reflected(list, b, way_start(s, word), to_eye) * s.openness;
   vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb + light * clear_air(s.position);
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
   if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
