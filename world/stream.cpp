@@ -191,7 +191,8 @@ std::size_t hand_out(std::uint64_t island, int level, const IVec3& chunk, Stream
   if (slot.resident) update.removed.push_back(key);
   slot.resident = quads > 0;
   slot.phase = Phase::kDone;
-  if (quads > 0) update.ready.push_back({key, std::exchange(slot.mesh, {})});
+  if (quads > 0)
+    update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.emitters, {})});
   return quads;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/jobs.h"
+#include "world/emitters.h"
 #include "world/mesh/mesh.h"
 #include "world/world.h"
 
@@ -26,7 +27,8 @@ struct SectionKey {
 
 struct ReadySection {
   SectionKey key;
-  ChunkMesh mesh;  ///< has at least one quad
+  ChunkMesh mesh;                 ///< has at least one quad
+  std::vector<Emitter> emitters;  ///< of that mesh
 };
 
 /// What to change: first remove, then add. A key that is replaced stands in both lists.

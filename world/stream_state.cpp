@@ -155,15 +155,15 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
     }
     lock.unlock();
     if (!scratch) scratch = std::make_unique<StreamScratch>();
-    ChunkMesh mesh;
-    std::optional<Chunk> voxels;
+    MadeChunk made;
     const std::span<BlockId> padded = scratch->voxels;
     const bool any = world.generate_padded(task.island, *task.chunk, task.level, padded);
-    if (any) mesh_chunk(padded, scratch->mesh, mesh);
-    if (task.level == 0) voxels = any ? chunk_from_padded(padded) : Chunk(kAir);
+    if (any) mesh_chunk(padded, scratch->mesh, made.mesh);
+    find_emitters(made.mesh, made.emitters);
+    if (task.level == 0) made.voxels = any ? chunk_from_padded(padded) : Chunk(kAir);
     lock.lock();
     spare.push_back(std::move(scratch));
-    note_made(task, std::move(mesh), std::move(voxels));
+    note_made(task, std::move(made));
   }
   // The island may have left meanwhile, and this task may have built its plan once more.
   if (plan_unused(task.island)) world.release_plan(task.island);
@@ -190,12 +190,11 @@ void Streamer::State::note_planned(const StreamTask& task, const std::vector<IVe
   }
 }
 
-void Streamer::State::note_made(const StreamTask& task, ChunkMesh&& mesh,
-                                std::optional<Chunk>&& voxels) {
+void Streamer::State::note_made(const StreamTask& task, MadeChunk&& made) {
   StreamLevel* level = find_level(task.island, task.serial);
   if (!level) return;
   ++chunks_made;
-  if (voxels) world.keep_chunk(task.island, *task.chunk, std::move(*voxels));
+  if (made.voxels) world.keep_chunk(task.island, *task.chunk, std::move(*made.voxels));
   StreamSlot& slot = level->slots.at(*task.chunk);
   if (std::exchange(slot.stale, false)) {
     slot.phase = Phase::kQueued;
@@ -203,7 +202,8 @@ void Streamer::State::note_made(const StreamTask& task, ChunkMesh&& mesh,
     return;
   }
   --level->unmade;
-  slot.mesh = std::move(mesh);
+  slot.mesh = std::move(made.mesh);
+  slot.emitters = std::move(made.emitters);
   const bool nothing_to_say = slot.mesh.quads.empty() && !slot.resident;
   slot.phase = nothing_to_say ? Phase::kDone : Phase::kMade;
   if (!nothing_to_say) ++level->made;

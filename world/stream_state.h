@@ -25,6 +25,7 @@ struct StreamSlot {
   bool stale = false;     // edited while a worker makes it: make it again
   bool resident = false;  // handed out and not removed
   ChunkMesh mesh;
+  std::vector<Emitter> emitters;
 };
 
 /// An island at one level.
@@ -53,6 +54,13 @@ struct StreamTask {
   std::optional<IVec3> chunk;  // none: list the island's chunks
   int level = 0;
   double cost = 0.0;  // least first: distance, longer for what is out of view
+};
+
+/// What a worker makes of a chunk.
+struct MadeChunk {
+  ChunkMesh mesh;
+  std::vector<Emitter> emitters;
+  std::optional<Chunk> voxels;  // at full detail
 };
 
 /// Working memory of one job.
@@ -89,7 +97,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   bool take_task(StreamTask& task);
   bool all_made() const { return tasks.empty() && running == 0; }
   void note_planned(const StreamTask& task, const std::vector<IVec3>& chunks);
-  void note_made(const StreamTask& task, ChunkMesh&& mesh, std::optional<Chunk>&& voxels);
+  void note_made(const StreamTask& task, MadeChunk&& made);
 
   /// Starts one job for each task pushed since the last call. Without the mutex.
   void submit_jobs();

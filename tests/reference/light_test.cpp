@@ -94,7 +94,7 @@ TEST(ReferenceLight, AHiddenPointLightsNothing) {
 
 TEST(ReferenceLight, ASealedRoomIsExactlyBlackUnderManySuns) {
   const Island room{
-      Volume::from_voxels(
+      world::Volume::from_voxels(
           {-4, -4, -4}, {5, 5, 5},
           [](world::IVec3 v) {
             const bool wall = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) == 4;
@@ -130,7 +130,7 @@ TEST(ReferenceLight, AHardShadowEndsAtTheAnalyticPlace) {
 
 TEST(ReferenceLight, AnAreaSunsPenumbraIsTheVisiblePartOfItsDisc) {
   // A wide slab whose straight edge at x = 0 hides what of the zenith's sun stands at x > 0.
-  const Island slab{Volume::from_voxels({0, 10, -20}, {20, 11, 20}, [](world::IVec3) {
+  const Island slab{world::Volume::from_voxels({0, 10, -20}, {20, 11, 20}, [](world::IVec3) {
     return world::BlockId{world::block::kStone};
   })};
   Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {slab});
@@ -161,9 +161,9 @@ TEST(ReferenceLight, HazeOfAnUnshadowedRayHasItsClosedForm) {
 
 TEST(ReferenceLight, HazeIsLitOnlyWhereTheSunReachesIt) {
   // A roof over x 10..30 of a way of 60 blocks along +x.
-  const Island roof{Volume::from_voxels(
+  const Island roof{world::Volume::from_voxels(
       {10, 5, -9}, {30, 6, 9}, [](world::IVec3) { return world::BlockId{world::block::kStone}; })};
-  const Island wall{Volume::from_voxels(
+  const Island wall{world::Volume::from_voxels(
       {60, -9, -9}, {61, 9, 9}, [](world::IVec3) { return world::BlockId{world::block::kStone}; })};
   Scene scene = seen_from({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {roof, wall}, 1, 1e-6);
   scene.albedo = glm::dvec3(0.0);
@@ -177,7 +177,7 @@ TEST(ReferenceLight, HazeIsLitOnlyWhereTheSunReachesIt) {
 
 TEST(ReferenceLight, WaterTakesFresnelsAndBeersShare) {
   // Two blocks of water over a lamp, looked down at.
-  const Island pool{Volume::from_voxels({-9, -3, -9}, {9, 0, 9}, [](world::IVec3 v) {
+  const Island pool{world::Volume::from_voxels({-9, -3, -9}, {9, 0, 9}, [](world::IVec3 v) {
     return world::BlockId{v.y == -3 ? world::block::kLamp : world::block::kWater};
   })};
   Scene scene = seen_from({0.5, 4.0, 0.5}, {0.0, -1.0, 0.0}, {pool}, 1, 1e-6);
@@ -194,7 +194,7 @@ TEST(ReferenceLight, WaterTakesFresnelsAndBeersShare) {
 
 TEST(ReferenceLight, CornersDarkenAFaceByTheirStrength) {
   // A step: the floor's edge at x = 0 lies under a wall that fills x < 0.
-  const Island step{Volume::from_voxels({-9, -2, -9}, {9, 3, 9}, [](world::IVec3 v) {
+  const Island step{world::Volume::from_voxels({-9, -2, -9}, {9, 3, 9}, [](world::IVec3 v) {
     return world::BlockId{v.y < 0 || v.x < 0 ? world::block::kStone : world::block::kAirBlock};
   })};
   for (const double strength : {0.0, 0.5, 1.0}) {

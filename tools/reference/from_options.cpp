@@ -9,9 +9,8 @@
 #include "engine/render/celestial.h"
 #include "engine/render/sky_model.h"
 #include "game/player.h"
-#include "tools/reference/march.h"
 #include "tools/reference/reference.h"
-#include "world/mesh/mesh.h"
+#include "world/march.h"
 #include "world/stream.h"
 #include "world/world.h"
 
@@ -43,30 +42,17 @@ View view_of(const game::SceneOptions& options, const game::CameraPlace& camera)
   return view;
 }
 
-/// An island's voxels at full detail, generated chunk by chunk as rays come there.
-std::shared_ptr<const Volume> voxels_of(std::shared_ptr<world::World> world,
-                                        const world::IslandSpec& spec) {
-  return std::make_shared<Volume>(
-      spec.box_min, spec.box_max,
-      [world = std::move(world), id = spec.id](IVec3 chunk, std::span<BlockId> out) {
-        thread_local std::vector<BlockId> padded(world::kPaddedVoxels);
-        if (!world->generate_padded(id, chunk, 0, padded)) return false;
-        world::chunk_from_padded(padded).unpack(out);
-        return true;
-      });
-}
-
 /// The islands that are drawn: as the streamer takes them in for a first view.
-std::vector<Island> islands_of(const std::shared_ptr<world::World>& world,
-                               const game::SceneOptions& options, world::WorldPos camera) {
+std::vector<Island> islands_of(world::World& world, const game::SceneOptions& options,
+                               world::WorldPos camera) {
   const double time_s = options.settings.world_time_s;
   std::vector<world::IslandSpec> specs =
-      world->islands_near(camera, options.settings.view_distance, time_s);
+      world.islands_near(camera, options.settings.view_distance, time_s);
   if (specs.size() > world::kMaxStreamedIslands) specs.resize(world::kMaxStreamedIslands);
   std::vector<Island> islands;
   for (const world::IslandSpec& spec : specs) {
     const world::Pose pose = world::pose_at(spec, time_s);
-    islands.push_back({voxels_of(world, spec), glm::mat3_cast(pose.rotation),
+    islands.push_back({world::Volume::of_island(world, spec), glm::mat3_cast(pose.rotation),
                        world::difference_blocks(pose.origin, camera)});
   }
   return islands;
@@ -76,7 +62,8 @@ std::vector<Island> islands_of(const std::shared_ptr<world::World>& world,
 BlockId medium_at_eye(const std::vector<Island>& islands) {
   for (const Island& island : islands) {
     const glm::dvec3 eye = glm::transpose(island.rotation) * -island.origin;
-    const IVec3 voxel{floor_to_int(eye.x), floor_to_int(eye.y), floor_to_int(eye.z)};
+    const IVec3 voxel{world::floor_to_int(eye.x), world::floor_to_int(eye.y),
+                      world::floor_to_int(eye.z)};
     const BlockId block = island.voxels->block_at(voxel);
     if (world::block_kind(block) == world::BlockKind::kTranslucent) return block;
   }
@@ -124,10 +111,9 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   if (std::uint64_t{options.size.width} * options.size.height > kMaxPixels)
     return Error{fmt::format("--size {}x{} is too large: a reference picture has at most {} pixels",
                              options.size.width, options.size.height, kMaxPixels)};
-  const auto world = std::make_shared<world::World>(
-      world::WorldDesc{world::seed_from_text(options.seed_text), options.settings.world_offset,
-                       options.settings.world_islands});
-  const game::CameraPlace camera = camera_place(options, *world);
+  world::World world({world::seed_from_text(options.seed_text), options.settings.world_offset,
+                      options.settings.world_islands});
+  const game::CameraPlace camera = camera_place(options, world);
   const render::Celestial sky =
       render::celestial_at(options.time_of_day_s, options.settings.moon_phase);
   Scene scene;

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "shaders/shared/sky.h"
-#include "tools/reference/volume.h"
 #include "world/blocks.h"
+#include "world/volume.h"
 
 namespace skerry::reference {
 
 /// A lattice of voxels in the world: camera-relative world = rotation * lattice + origin.
 struct Island {
-  std::shared_ptr<const Volume> voxels;
+  std::shared_ptr<const world::Volume> voxels;
   glm::dmat3 rotation{1.0};
   glm::dvec3 origin{0.0};
 };

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "tools/reference/march.h"
 #include "tools/reference/textures.h"
+#include "world/march.h"
 
 namespace skerry::reference {
 namespace {
@@ -54,10 +54,10 @@ struct Seeing {
   std::size_t island;
   Trace& out;
 
-  Meeting meeting(const Crossing& c, BlockId block, IVec3 voxel) const {
+  Meeting meeting(const world::Crossing& c, BlockId block, IVec3 voxel) const {
     return {c.t, island, block, face_met(c.axis, c.positive), voxel, origin + direction * c.t};
   }
-  bool crossed(const Crossing& c) {
+  bool crossed(const world::Crossing& c) {
     const BlockKind from = world::block_kind(c.from), to = world::block_kind(c.to);
     if (from == BlockKind::kOpaque) return false;  // seen from inside: nothing is drawn there
     if (to == BlockKind::kOpaque || to == BlockKind::kCutout) {
@@ -92,7 +92,7 @@ struct Shadowing {
   std::optional<IVec3> own_plant;
   bool hidden = false;
 
-  bool crossed(const Crossing& c) {
+  bool crossed(const world::Crossing& c) {
     const BlockKind from = world::block_kind(c.from), to = world::block_kind(c.to);
     hidden = to == BlockKind::kOpaque ||
              (from == BlockKind::kCutout &&
@@ -139,7 +139,7 @@ void Tracer::trace(glm::dvec3 origin, glm::dvec3 direction, Trace& out) const {
     if (!may_meet(island, origin, direction, t_max)) continue;
     out.hit.reset();
     Seeing seeing{lattice_point(i, origin), lattice_vector(i, direction), t_max, i, out};
-    march(*island.voxels, seeing.origin, seeing.direction, 0.0, t_max, seeing);
+    world::march(*island.voxels, seeing.origin, seeing.direction, 0.0, t_max, seeing);
     if (out.hit) nearest = out.hit;
   }
   out.hit = nearest;
@@ -155,7 +155,8 @@ bool Tracer::hidden(glm::dvec3 origin, glm::dvec3 direction, double distance,
     if (!may_meet(islands_[i], origin, direction, distance)) continue;
     Shadowing shadowing{lattice_point(i, origin), lattice_vector(i, direction), distance, {}};
     if (from_plant && from_plant->island == i) shadowing.own_plant = from_plant->voxel;
-    march(*islands_[i].voxels, shadowing.origin, shadowing.direction, 0.0, distance, shadowing);
+    world::march(*islands_[i].voxels, shadowing.origin, shadowing.direction, 0.0, distance,
+                 shadowing);
     if (shadowing.hidden) return true;
   }
   return false;

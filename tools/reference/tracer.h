@@ -51,7 +51,7 @@ class Tracer {
 
  private:
   struct Placed {
-    std::shared_ptr<const Volume> voxels;
+    std::shared_ptr<const world::Volume> voxels;
     glm::dmat3 rotation, lattice_from_world;
     glm::dvec3 origin;
     glm::dvec3 centre;  // of the box, world
