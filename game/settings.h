@@ -42,6 +42,8 @@ struct Settings {
   double shadow_blur = 0.06;          ///< smallest radius of the shadow filter [blocks], 0 .. 1
   std::uint32_t texture_taps = 2;     ///< along the long side of a texture footprint, 1 .. 16
   render::GBufferStore gbuffer;       ///< for measuring
+  std::uint32_t lights_random = 0;    ///< torches scattered over what the first camera sees
+  bool lights_held = false;           ///< a torch in the hand
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;

@@ -66,7 +66,7 @@ TEST(ReferenceLight, InAWhiteFurnaceABlockCannotBeTold) {
 TEST(ReferenceLight, FalloffOfAPointIsTheInverseSquare) {
   for (const double height : {0.1, 1.0, 7.0, 1000.0}) {
     Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
-    scene.lights = {{{0.0, height, 0.0}, glm::dvec3(5.0), 0.0}};
+    scene.lights = {{.position = {0.0, height, 0.0}, .intensity = glm::dvec3(5.0)}};
     EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 1), 5.0 / (height * height),
                 1e-12 / (height * height));
     // Sideways by as much: cosine 1/sqrt(2), twice the square of the distance.
@@ -78,7 +78,10 @@ TEST(ReferenceLight, FalloffOfAPointIsTheInverseSquare) {
 TEST(ReferenceLight, ASphereAboveTheGroundLightsItAsAPointInItsMiddle) {
   for (const double radius : {0.01, 0.5, 1.9}) {
     Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
-    scene.lights = {{{0.0, 2.0, 0.0}, glm::dvec3(5.0), radius}};
+    scene.lights = {{.kind = shared::kLightSphere,
+                     .position = {0.0, 2.0, 0.0},
+                     .intensity = glm::dvec3(5.0),
+                     .size = radius}};
     EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 4096), 5.0 / 4.0, 2e-3) << radius;
   }
 }
@@ -86,7 +89,7 @@ TEST(ReferenceLight, ASphereAboveTheGroundLightsItAsAPointInItsMiddle) {
 TEST(ReferenceLight, AHiddenPointLightsNothing) {
   Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0},
                           {single_block(world::block::kStone, {0.0, 3.0, 0.0})});
-  scene.lights = {{{0.0, 6.0, 0.0}, glm::dvec3(5.0), 0.0}};
+  scene.lights = {{.position = {0.0, 6.0, 0.0}, .intensity = glm::dvec3(5.0)}};
   EXPECT_EQ(ground_irradiance(scene, glm::dvec3(0.0), 1), 0.0);
   scene.lights[0].position.y = 2.0;  // before the block
   EXPECT_GT(ground_irradiance(scene, glm::dvec3(0.0), 1), 0.0);
@@ -105,7 +108,10 @@ TEST(ReferenceLight, ASealedRoomIsExactlyBlackUnderManySuns) {
   Scene scene = seen_from({0.2, 0.4, -0.3}, {1.0, 0.2, 0.4}, {room}, 24, 1.5);
   for (int i = 0; i < 100; ++i)
     scene.bodies.push_back({random_direction(random), glm::dvec3(1e6), kBodyRadius});
-  scene.lights = {{{30.0, 3.0, 0.0}, glm::dvec3(1e9), 1.0}};
+  scene.lights = {{.kind = shared::kLightSphere,
+                   .position = {30.0, 3.0, 0.0},
+                   .intensity = glm::dvec3(1e9),
+                   .size = 1.0}};
   scene.environment = glm::dvec3(1e6);
   scene.haze_per_block = 0.1;
   const ReferencePicture picture = render(scene, samples(4));

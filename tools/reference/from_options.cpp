@@ -8,8 +8,10 @@
 
 #include "engine/render/celestial.h"
 #include "engine/render/sky_model.h"
+#include "game/light_setup.h"
 #include "game/player.h"
 #include "tools/reference/reference.h"
+#include "tools/reference/tracer.h"
 #include "world/march.h"
 #include "world/stream.h"
 #include "world/world.h"
@@ -43,12 +45,16 @@ View view_of(const game::SceneOptions& options, const game::CameraPlace& camera)
 }
 
 /// The islands that are drawn: as the streamer takes them in for a first view.
-std::vector<Island> islands_of(world::World& world, const game::SceneOptions& options,
-                               world::WorldPos camera) {
-  const double time_s = options.settings.world_time_s;
+std::vector<world::IslandSpec> specs_of(const world::World& world,
+                                        const game::SceneOptions& options, world::WorldPos camera) {
   std::vector<world::IslandSpec> specs =
-      world.islands_near(camera, options.settings.view_distance, time_s);
+      world.islands_near(camera, options.settings.view_distance, options.settings.world_time_s);
   if (specs.size() > world::kMaxStreamedIslands) specs.resize(world::kMaxStreamedIslands);
+  return specs;
+}
+
+std::vector<Island> islands_of(world::World& world, std::span<const world::IslandSpec> specs,
+                               world::WorldPos camera, double time_s) {
   std::vector<Island> islands;
   for (const world::IslandSpec& spec : specs) {
     const world::Pose pose = world::pose_at(spec, time_s);
@@ -56,6 +62,43 @@ std::vector<Island> islands_of(world::World& world, const game::SceneOptions& op
                        world::difference_blocks(pose.origin, camera)});
   }
   return islands;
+}
+
+std::vector<game::PlacedIsland> placed(std::span<const world::IslandSpec> specs,
+                                       std::span<const Island> islands) {
+  std::vector<game::PlacedIsland> out;
+  for (std::size_t i = 0; i < islands.size(); ++i)
+    out.push_back({specs[i].id, static_cast<std::uint32_t>(i), islands[i].rotation,
+                   islands[i].origin, specs[i].bounding_radius});
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return out;
+}
+
+/// The lights that the program would gather if it drew everything at full detail and looked to all
+/// sides.
+std::vector<Light> lights_of(world::World& world, const game::SceneOptions& options,
+                             const game::CameraPlace& camera, int threads,
+                             std::span<const game::PlacedIsland> islands) {
+  const game::Settings& settings = options.settings;
+  const render::Camera first{{camera.position.x, camera.position.y, camera.position.z},
+                             camera.yaw_deg,
+                             camera.pitch_deg,
+                             options.fov_deg};
+  game::LightField field = game::light_field_of(options, world, first);
+  Jobs jobs(threads);
+  world::Streamer streamer(world, jobs);
+  streamer.update({camera.position, {0.0, 0.0, 1.0}, settings.world_time_s},
+                  {static_cast<double>(settings.view_distance), kFar});
+  streamer.wait_until_complete();
+  while (!streamer.complete())
+    for (const world::ReadySection& section : streamer.poll(SIZE_MAX).ready)
+      field.add(section.key, section.emitters);
+  game::FrameLights gathered;
+  field.gather(camera.position, std::nullopt, islands,
+               game::held_light(settings, field, camera.yaw_deg, settings.world_time_s), gathered);
+  std::vector<Light> lights;
+  for (const shared::Light& light : gathered.lights) lights.push_back(light_from(light));
+  return lights;
 }
 
 /// The translucent block about the eye, or air.
@@ -118,7 +161,9 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
       render::celestial_at(options.time_of_day_s, options.settings.moon_phase);
   Scene scene;
   scene.view = view_of(options, camera);
-  scene.islands = islands_of(world, options, camera.position);
+  const std::vector<world::IslandSpec> specs = specs_of(world, options, camera.position);
+  scene.islands = islands_of(world, specs, camera.position, options.settings.world_time_s);
+  scene.lights = lights_of(world, options, camera, settings.threads, placed(specs, scene.islands));
   scene.view.medium = medium_at_eye(scene.islands);
   scene.time_s = options.settings.world_time_s;
   add_sky(options, sky, settings.body_radius, scene);

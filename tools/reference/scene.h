@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shaders/shared/sky.h"
+#include "tools/reference/lights.h"
 #include "world/blocks.h"
 #include "world/volume.h"
 
@@ -26,13 +27,6 @@ struct Body {
   glm::dvec3 to_light{0.0, 1.0, 0.0};  ///< unit, towards the disc's middle
   glm::dvec3 irradiance{0.0};
   double angular_radius = 0.0;  ///< [rad]; 0: a point, with hard shadows
-};
-
-/// A sphere that sends light evenly to all sides; it is not seen itself and casts no shadow.
-struct SphereLight {
-  glm::dvec3 position{0.0};
-  glm::dvec3 intensity{0.0};  ///< radiant: irradiance at distance d, facing it, is intensity / d^2
-  double radius = 0.0;        ///< [blocks]; 0: a point
 };
 
 /// The sky of a moment: render::sky_constants, and what hides behind it.
@@ -55,7 +49,7 @@ struct Scene {
   View view;
   std::vector<Island> islands;
   std::vector<Body> bodies;
-  std::vector<SphereLight> lights;
+  std::vector<Light> lights;
   glm::dvec3 environment{0.0};       ///< radiance that comes from everywhere beyond the voxels
   std::optional<Sky> sky;            ///< none: `environment` is what is seen behind the voxels
   double haze_per_block = 0.0;       ///< extinction of clear air [1/block]

@@ -52,24 +52,15 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     if (glm::dot(at.normal, to_light) <= 0.0 || !body_seen(at, to_light)) continue;
     take(Arrival{to_light, body.irradiance, true});
   }
-  for (const SphereLight& light : scene_.lights) {
-    const glm::dvec2 pair = sampler.next();
-    const glm::dvec3 to_middle = light.position - at.point;
-    const double distance = glm::length(to_middle);
-    if (distance == 0.0) continue;
-    // Seen from outside, the sphere is a cone of even radiance intensity / (pi r^2).
-    const double sine = std::min(1.0, light.radius / distance);
-    const double spread =
-        distance <= light.radius ? 2.0 : sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
-    const glm::dvec3 to_light = Frame(to_middle / distance).world(in_cone(pair, spread));
-    if (glm::dot(at.normal, to_light) <= 0.0) continue;
-    if (tracer_.hidden(at.point, to_light, std::max(0.0, distance - light.radius), at.plant))
-      continue;
-    const glm::dvec3 irradiance =
-        light.radius == 0.0 ? light.intensity / (distance * distance)
-                            : light.intensity * (2.0 * spread / (light.radius * light.radius));
-    take(Arrival{to_light, irradiance, false});
-  }
+  lights_.reaching(at.point, [&](const Light& light) {
+    const std::optional<LightRay> ray = sample_light(light, at.point, sampler);
+    if (!ray || glm::dot(at.normal, ray->to_light) <= 0.0) return;
+    const bool placed = light.kind != shared::kLightDirectional;
+    if (tracer_.hidden(at.point, ray->to_light, ray->distance, at.plant,
+                       placed ? &light.position : nullptr))
+      return;
+    take(Arrival{ray->to_light, ray->irradiance, false});
+  });
 }
 
 glm::dvec3 Shader::from_environment(const Receiver& at, Sampler& sampler) const {
