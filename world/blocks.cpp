@@ -17,6 +17,9 @@ constexpr BlockType sided(std::string_view name, Texture side, Texture top, Text
 constexpr BlockType log(std::string_view name, Texture side, Texture end) {
   return sided(name, side, end, end, 0.85f);
 }
+constexpr BlockType ore(std::string_view name, Texture all, float roughness, float metalness) {
+  return {name, kOpaque, all, all, all, 0.0f, roughness, {}, metalness};
+}
 constexpr BlockType leaves(std::string_view name, Texture all) {
   return {name, kCutout, all, all, all, 0.0f, 0.8f, {}};
 }
@@ -53,9 +56,9 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     opaque("slate", T::kSlate, 0.75f),
     opaque("limestone", T::kLimestone),
     opaque("coal_ore", T::kCoalOre),
-    opaque("iron_ore", T::kIronOre, 0.75f),
-    opaque("copper_ore", T::kCopperOre, 0.75f),
-    opaque("gold_ore", T::kGoldOre, 0.6f),
+    ore("iron_ore", T::kIronOre, 0.75f, 0.3f),
+    ore("copper_ore", T::kCopperOre, 0.75f, 0.4f),
+    ore("gold_ore", T::kGoldOre, 0.6f, 0.6f),
     opaque("crystal_ore", T::kCrystalOre, 0.6f, 0.4f),
     opaque("crystal_blue", T::kCrystalBlue, 0.15f, 2.5f),
     opaque("crystal_violet", T::kCrystalViolet, 0.15f, 2.5f),

@@ -92,6 +92,8 @@ Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_
   s.axis_z = island.axis_z;
   s.albedo = surface_texel(word, ray, t, max_taps).rgb;
   s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
+  s.roughness = materials[surface_block(word)].roughness;
+  s.metalness = materials[surface_block(word)].metalness;
   return s;
 }
 #endif

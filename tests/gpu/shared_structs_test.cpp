@@ -13,8 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "shaders/shared/clusters.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/light.h"
 #include "shaders/shared/overlay.h"
 #include "shaders/shared/sky.h"
 #include "tests/gpu/compile_glsl.h"
@@ -57,7 +59,8 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(IslandTransform, axis_z), MEMBER(IslandTransform, translation)),
       STRUCT(Material, MEMBER(Material, layer_side), MEMBER(Material, layer_top),
              MEMBER(Material, layer_bottom), MEMBER(Material, emission),
-             MEMBER(Material, absorption), MEMBER(Material, roughness)),
+             MEMBER(Material, absorption), MEMBER(Material, roughness),
+             MEMBER(Material, metalness)),
       STRUCT(DrawCommand, MEMBER(DrawCommand, index_count), MEMBER(DrawCommand, instance_count),
              MEMBER(DrawCommand, first_index), MEMBER(DrawCommand, vertex_offset),
              MEMBER(DrawCommand, section)),
@@ -97,6 +100,23 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(SkyConstants, sky_y), MEMBER(SkyConstants, sky_z), MEMBER(SkyConstants, stars)),
       STRUCT(OverlayVertex, MEMBER(OverlayVertex, position), MEMBER(OverlayVertex, uv),
              MEMBER(OverlayVertex, color), MEMBER(OverlayVertex, clip)),
+      STRUCT(Light, MEMBER(Light, position), MEMBER(Light, range), MEMBER(Light, intensity),
+             MEMBER(Light, kind), MEMBER(Light, axis), MEMBER(Light, size),
+             MEMBER(Light, cos_inner), MEMBER(Light, cos_outer), MEMBER(Light, first_island),
+             MEMBER(Light, island_count)),
+      STRUCT(ClusterGrid, MEMBER(ClusterGrid, right), MEMBER(ClusterGrid, up),
+             MEMBER(ClusterGrid, forward), MEMBER(ClusterGrid, tan_half), MEMBER(ClusterGrid, size),
+             MEMBER(ClusterGrid, near_plane), MEMBER(ClusterGrid, tiles_x),
+             MEMBER(ClusterGrid, tiles_y), MEMBER(ClusterGrid, bins_x), MEMBER(ClusterGrid, bins_y),
+             MEMBER(ClusterGrid, light_count), MEMBER(ClusterGrid, light_words),
+             MEMBER(ClusterGrid, unit_log2), MEMBER(ClusterGrid, capacity),
+             MEMBER(ClusterGrid, marked_slices)),
+      STRUCT(TileDepths, MEMBER(TileDepths, slices), MEMBER(TileDepths, nearest),
+             MEMBER(TileDepths, farthest)),
+      STRUCT(Cluster, MEMBER(Cluster, first), MEMBER(Cluster, count)),
+      STRUCT(ClusterWork, MEMBER(ClusterWork, groups_x), MEMBER(ClusterWork, groups_y),
+             MEMBER(ClusterWork, groups_z), MEMBER(ClusterWork, clusters),
+             MEMBER(ClusterWork, units)),
       STRUCT(OverlayConstants, MEMBER(OverlayConstants, ndc_from_pixel)),
   };
 #undef STRUCT
