@@ -22,6 +22,8 @@ using nlohmann::json;
 
 constexpr float kDirectionalReach = 1000.0f;  // blocks, of a directional light without a range
 
+constexpr float kLeastRange = 0.01f;  // blocks, of a light too weak to reach anything
+
 constexpr std::array<std::string_view, 10> kFields{
     "kind", "position", "intensity", "color", "power", "range", "axis", "size", "cone", "dual"};
 
@@ -194,8 +196,7 @@ Result<WorldLight> read_light(const json& value) {
     if (!place) return place.error();
     out.position = *place;
   }
-  const bool directional = out.light.kind == shared::kLightDirectional;
-  out.light.range = directional ? kDirectionalReach : light_range(out.light.intensity);
+  out.light.range = kDirectionalReach;
   if (value.contains("range")) {
     const Result<float> range = number(value.at("range"), "range");
     if (!range) return range.error();
@@ -204,6 +205,9 @@ Result<WorldLight> read_light(const json& value) {
   const Result<shared::Light> checked = render::checked_light(out.light);
   if (!checked) return checked.error();
   out.light = *checked;
+  if (!value.contains("range") && out.light.kind != shared::kLightDirectional)
+    out.light.range =
+        std::clamp(light_range(out.light.intensity), kLeastRange, render::kMaxLightRange);
   return out;
 }
 

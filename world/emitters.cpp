@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <span>
+#include <utility>
+
+#include "world/hash.h"
 
 namespace skerry::world {
 namespace {
@@ -98,6 +101,10 @@ float distance2(glm::vec3 a, glm::vec3 b) {
   return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
+bool by_distance(const std::pair<float, glm::vec3>& a, const std::pair<float, glm::vec3>& b) {
+  return a.first < b.first;
+}
+
 Emitter emitter_of(std::span<const GlowingFace> group) {
   Emitter emitter;
   emitter.block = block_of(group.front().order);
@@ -106,18 +113,20 @@ Emitter emitter_of(std::span<const GlowingFace> group) {
       std::all_of(group.begin(), group.end(),
                   [first = group.front().face](const GlowingFace& f) { return f.face == first; });
   const glm::vec3 middle = mean_middle(group);
-  float nearest = -1.0f;
+  std::vector<std::pair<float, glm::vec3>> places;
   for (std::size_t from = 0, to = 0; from < group.size(); from = to) {
     to = run_end(group, from, [](std::uint64_t order) { return order; });
     const std::span<const GlowingFace> voxel = group.subspan(from, to - from);
     const bool plant = voxel.front().face >= kFirstPlantFace;
     emitter.faces = static_cast<std::uint16_t>(emitter.faces + (plant ? 1 : voxel.size()));
     const glm::vec3 place = place_in_voxel(voxel);
-    const float away = distance2(place, middle);
-    if (nearest >= 0.0f && away >= nearest) continue;
-    nearest = away;
-    emitter.place = place;
+    places.emplace_back(distance2(place, middle), place);
   }
+  constexpr float kRounding = 1e-4f;
+  const float nearest = std::min_element(places.begin(), places.end(), by_distance)->first;
+  std::erase_if(places, [=](const auto& place) { return place.first > nearest + kRounding; });
+  const auto cell = static_cast<std::uint32_t>(group.front().order >> (3 * kChunkBits + 16));
+  emitter.place = places[mix32(cell) % places.size()].second;
   return emitter;
 }
 

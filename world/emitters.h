@@ -22,10 +22,11 @@ struct Emitter {
 /// Cells of so many voxels along an edge, aligned to the chunk, shine as one light for each id.
 inline constexpr int kEmitterCell = 2;
 
-/// The lights of a chunk mesh, by cell and id: cells ascend in y, then x, then z, ids in a cell
-/// ascend. A light stands inside a block that shines, 0.05 voxels under the middle of what it shows
-/// of itself at most; of several, inside the one nearest to the middle of all of their faces, the
-/// first in voxel order when several are. @param out replaced.
+/// The lights of a chunk mesh: cells ascend in y, then x, then z, ids within a cell ascend. A light
+/// stands inside a block that shines, nine tenths of the way from its middle to the middle of its
+/// faces: under a face, so that no block lights its own. Of several blocks, inside the one nearest
+/// to the middle of the faces of all; when several are, a hash of the cell chooses, so that lights
+/// do not all lean to one side. @param out replaced.
 void find_emitters(const ChunkMesh& mesh, std::vector<Emitter>& out);
 
 }  // namespace skerry::world

@@ -152,7 +152,7 @@ TEST(LightField, LeavesOutOnlyWhatCannotReachTheView) {
     }
     EXPECT_EQ(at, frame.lights.end());
   }
-  EXPECT_GT(left_out, 12 * all.size()) << "most lights are not in a narrow view";
+  EXPECT_GT(left_out, 8 * all.size()) << "most lights are not in a narrow view";
 }
 
 TEST(LightField, OrderDoesNotDependOnWhatCameAndWent) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "tests/reference/made_scenes.h"
 #include "tools/reference/brdf.h"
@@ -83,6 +84,136 @@ TEST(ReferenceLight, ASphereAboveTheGroundLightsItAsAPointInItsMiddle) {
                      .intensity = glm::dvec3(5.0),
                      .size = radius}};
     EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 4096), 5.0 / 4.0, 2e-3) << radius;
+  }
+}
+
+TEST(ReferenceLight, ASphereIsItsRadianceTimesItsSolidAngleAtAnyTilt) {
+  // E = pi L (r / d)^2 cos, as long as all of it is above the horizon (F. Nicodemus et al. 1977).
+  for (const double angle : {0.0, 0.5, 1.0}) {
+    for (const double radius : {0.1, 1.0}) {
+      Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+      const double radiance = 3.0, distance = 4.0;
+      scene.lights = {{.kind = shared::kLightSphere,
+                       .position = glm::dvec3(std::sin(angle), std::cos(angle), 0.0) * distance,
+                       .intensity = glm::dvec3(radiance * kPi * radius * radius),
+                       .size = radius}};
+      const double expected = kPi * radiance * std::pow(radius / distance, 2.0) * std::cos(angle);
+      EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 4096), expected, 2e-3 * expected);
+    }
+  }
+}
+
+TEST(ReferenceLight, ATubeIsTheSumOfItsPoints) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+  const glm::dvec3 middle(0.7, 2.0, -0.4), axis = glm::normalize(glm::dvec3(1.0, 0.6, 0.2));
+  scene.lights = {{.kind = shared::kLightTube,
+                   .position = middle,
+                   .intensity = glm::dvec3(5.0),
+                   .size = 1.5,
+                   .axis = axis}};
+  double expected = 0.0;
+  constexpr int kPoints = 100'000;
+  for (int i = 0; i < kPoints; ++i) {
+    const glm::dvec3 p = middle + axis * (1.5 * ((2.0 * i + 1.0) / kPoints - 1.0));
+    expected += 5.0 / kPoints * p.y / std::pow(glm::length(p), 3.0);
+  }
+  EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 4096), expected, 1e-3 * expected);
+}
+
+TEST(ReferenceLight, AWindowEndsALightAtItsRangeAndLeavesTheNearBe) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+  for (const std::uint32_t kind : {shared::kLightPoint, shared::kLightSphere, shared::kLightTube}) {
+    const auto at = [&](double height) {
+      scene.lights = {{.kind = kind,
+                       .position = {0.0, height, 0.0},
+                       .intensity = glm::dvec3(1.0),
+                       .range = 8.0,
+                       .axis = {1.0, 0.0, 0.0}}};
+      return ground_irradiance(scene, glm::dvec3(0.0), 1);
+    };
+    EXPECT_EQ(at(8.0), 0.0);
+    EXPECT_EQ(at(9.0), 0.0);
+    EXPECT_GT(at(7.99), 0.0);
+    EXPECT_NEAR(at(4.0), std::pow(1.0 - std::pow(0.5, 4.0), 2.0) / 16.0, 1e-12);
+    EXPECT_NEAR(at(0.08), 1.0 / 0.0064, 1e-4);
+  }
+}
+
+TEST(ReferenceLight, ASpotIsFullInItsInnerConeAndEndsAtTheOuterOne) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+  Light spot{.kind = shared::kLightSpot,
+             .position = {0.0, 2.0, 0.0},
+             .intensity = glm::dvec3(4.0),
+             .axis = {0.0, -1.0, 0.0},
+             .cos_inner = std::cos(0.3),
+             .cos_outer = std::cos(0.6)};
+  const auto lit = [&](double angle) {  // over what a point would give there
+    const glm::dvec3 place(2.0 * std::tan(angle), 0.0, 0.0);
+    scene.lights = {spot};
+    const double of_spot = ground_irradiance(scene, place, 1);
+    scene.lights[0].kind = shared::kLightPoint;
+    return of_spot / ground_irradiance(scene, place, 1);
+  };
+  EXPECT_EQ(lit(0.0), 1.0);
+  EXPECT_EQ(lit(0.29), 1.0);
+  EXPECT_EQ(lit(0.61), 0.0);
+  const double middle = std::acos(0.5 * (std::cos(0.3) + std::cos(0.6)));
+  EXPECT_NEAR(lit(middle), 0.5, 1e-9);
+  spot.axis = {0.0, 1.0, 0.0};
+  EXPECT_EQ(lit(0.0), 0.0) << "it looks away";
+  spot.dual = true;
+  EXPECT_EQ(lit(0.0), 1.0);
+}
+
+TEST(ReferenceLight, ADirectionalLightIsBlockedWithinItsRangeAlone) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0},
+                          {single_block(world::block::kStone, {0.0, 6.0, 0.0})});
+  scene.lights = {{.kind = shared::kLightDirectional,
+                   .intensity = glm::dvec3(2.0),
+                   .range = 5.0,
+                   .axis = {0.0, -1.0, 0.0}}};
+  EXPECT_EQ(ground_irradiance(scene, glm::dvec3(0.0), 1), 2.0);
+  scene.lights[0].range = 6.0;
+  EXPECT_EQ(ground_irradiance(scene, glm::dvec3(0.0), 1), 0.0);
+}
+
+TEST(ReferenceLight, TheVoxelALightStandsInHidesNothingAndItsNeighbourDoes) {
+  for (const world::BlockId id :
+       {world::BlockId{world::block::kLava}, world::BlockId{world::block::kTorch}}) {
+    const Island blocks{
+        world::Volume::from_voxels({0, 0, 0}, {2, 1, 1}, [id](world::IVec3) { return id; }),
+        glm::dmat3(1.0),
+        {-0.5, 4.0, -0.5}};  // over the ground: one about x = 0, one about x = 1
+    Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {blocks});
+    scene.lights = {{.position = {0.0, 4.5, 0.0}, .intensity = glm::dvec3(1.0)}};
+    EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 1), 1.0 / 20.25, 1e-12);
+    if (id != world::block::kLava) continue;
+    // From the side the way leads through the other block first.
+    EXPECT_EQ(ground_irradiance(scene, {9.0, 4.1, 0.0}, 1), 0.0);
+    EXPECT_GT(ground_irradiance(scene, {-9.0, 4.1, 0.0}, 1), 0.0);
+  }
+}
+
+TEST(ReferenceLight, TheGridFindsWhatReachesAPoint) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-60.0, 60.0), reach(0.1, 30.0);
+  std::vector<Light> lights(300);
+  for (Light& light : lights) {
+    light.position = {place(random), place(random), place(random)};
+    light.intensity = glm::dvec3(1.0);
+    light.range = reach(random);
+  }
+  lights[7].range = 500.0;
+  const LightGrid grid(lights);
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 point(place(random), place(random), place(random));
+    std::set<const Light*> found;
+    grid.reaching(point, [&](const Light& light) { found.insert(&light); });
+    for (const Light& light : lights) {
+      if (glm::length(light.position - point) >= light.range) continue;
+      EXPECT_TRUE(found.contains(&light));
+    }
+    EXPECT_LT(found.size(), lights.size() / 2) << "it leaves out what cannot reach";
   }
 }
 

@@ -37,6 +37,7 @@ inline Scene seen_from(glm::dvec3 eye, glm::dvec3 forward, std::vector<Island> i
   for (Island& island : islands) island.origin -= eye;
   scene.islands = std::move(islands);
   scene.albedo = glm::dvec3(1.0);
+  scene.matt = true;  // as closed forms are
   return scene;
 }
 

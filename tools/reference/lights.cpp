@@ -21,13 +21,13 @@ double window(double distance, double range) {
 }
 
 /// Share of a spot's intensity that leaves at an angle to its axis: 1 within the inner cone, 0
-/// beyond the outer one, between them the square of the cosine's share.
+/// beyond the outer one, between them a smooth step of the cosine.
 double cone(const Light& light, glm::dvec3 to_light) {
   const double along = -glm::dot(to_light, light.axis);
   const double cosine = light.dual ? std::abs(along) : along;
   const double t =
       std::clamp((cosine - light.cos_outer) / (light.cos_inner - light.cos_outer), 0.0, 1.0);
-  return t * t;
+  return t * t * (3.0 - 2.0 * t);
 }
 
 /// From outside the sphere is a cone of even radiance intensity / (pi r^2); from inside it is all

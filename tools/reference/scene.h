@@ -56,6 +56,7 @@ struct Scene {
   double time_s = 0.0;               ///< of the ripples on water
   bool shadows = true;               ///< whether bodies are hidden by voxels
   bool flat_shading = false;         ///< bodies: shadow times light, without the angle to the light
+  bool matt = false;                 ///< surfaces are diffuse alone, as with flat shading
   double corner_occlusion = 0.0;     ///< strength of the darkening in corners, 0..1
   std::optional<glm::dvec3> albedo;  ///< of every surface, in place of the textures'
 };

@@ -70,12 +70,14 @@ glm::dvec3 Shader::from_environment(const Receiver& at, Sampler& sampler) const 
   return hidden ? glm::dvec3(0.0) : scene_.environment * kPi;
 }
 
+double Shader::cosine_of(const Arrival& light, glm::dvec3 normal) const {
+  return scene_.flat_shading && light.body ? 1.0 : glm::dot(normal, light.to_light);
+}
+
 glm::dvec3 Shader::irradiance(const Receiver& at, Sampler& sampler) const {
   glm::dvec3 sum = from_environment(at, sampler);
-  arrive(at, sampler, [&](const Arrival& light) {
-    const bool flat = scene_.flat_shading && light.body;
-    sum += light.irradiance * (flat ? 1.0 : glm::dot(at.normal, light.to_light));
-  });
+  arrive(at, sampler,
+         [&](const Arrival& light) { sum += light.irradiance * cosine_of(light, at.normal); });
   return sum;
 }
 
@@ -113,8 +115,16 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 
                                     tracer_.lattice_vector(hit.island, fine));
   const glm::dvec3 albedo =
       scene_.albedo.value_or(BlockTexels::shared().texel(hit.block, hit.face, place));
-  const glm::dvec3 reflected = irradiance(at, sampler) * (albedo / kPi) * openness(hit);
-  return reflected + albedo * static_cast<double>(world::block_types()[hit.block].emission);
+  const world::BlockType& type = world::block_types()[hit.block];
+  const bool matt = plant || scene_.matt || scene_.flat_shading;
+  glm::dvec3 reflected = from_environment(at, sampler) * albedo / kPi;
+  arrive(at, sampler, [&](const Arrival& light) {
+    const glm::dvec3 share = matt ? albedo / kPi
+                                  : surface_brdf(normal, light.to_light, -direction, albedo,
+                                                 type.roughness, type.metalness);
+    reflected += light.irradiance * share * cosine_of(light, normal);
+  });
+  return reflected * openness(hit) + albedo * static_cast<double>(type.emission);
 }
 
 glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,

@@ -45,6 +45,7 @@ class Shader {
 
   template <class Take>
   void arrive(const Receiver& at, Sampler& sampler, Take&& take) const;
+  double cosine_of(const Arrival& light, glm::dvec3 normal) const;
   bool body_seen(const Receiver& at, glm::dvec3 to_light) const;
   glm::dvec3 from_environment(const Receiver& at, Sampler& sampler) const;
   glm::dvec3 behind_voxels(glm::dvec3 direction) const;
