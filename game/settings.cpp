@@ -266,6 +266,17 @@ constexpr SettingKey kKeys[] = {
        return into_number(parse_number(t, "ao.strength", 0.0, 0.9), s.ao_strength);
      },
      [](const Settings& s) { return fmt::format("{}", s.ao_strength); }},
+    {"lights.random", "0 to 1000000",
+     "For measuring: so many torches on the surfaces that the first view sees.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "lights.random", 0, 1'000'000), s.lights_random);
+     },
+     [](const Settings& s) { return std::to_string(s.lights_random); }},
+    {"lights.held", "0 or 1", "A torch in the hand.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "lights.held", kSwitchNames), s.lights_held);
+     },
+     [](const Settings& s) { return std::string(s.lights_held ? "1" : "0"); }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {

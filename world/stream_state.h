@@ -29,6 +29,7 @@ struct StreamSlot {
   bool has_something() const {
     return !mesh.quads.empty() || occupancy.fill != ChunkOccupancy::Fill::kEmpty;
   }
+  std::vector<Emitter> emitters;
 };
 
 /// An island at one level.
@@ -69,6 +70,7 @@ struct StreamScratch {
 struct MadeChunk {
   ChunkMesh mesh;
   ChunkOccupancy occupancy;
+  std::vector<Emitter> emitters;
   std::optional<Chunk> voxels;  // of level 0
 };
 
