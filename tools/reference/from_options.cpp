@@ -132,6 +132,7 @@ void add_sky(const game::SceneOptions& options, const render::Celestial& sky, do
   scene.haze_per_block = haze_per_block(sky);
   scene.shadows = options.settings.shadow_enabled;
   scene.flat_shading = options.settings.shading == game::Shading::kFlat;
+  scene.corner_occlusion = scene.flat_shading ? 0.0 : options.settings.ao_strength;
 }
 
 }  // namespace
@@ -142,6 +143,10 @@ ReferenceSettings settings_from(const game::SceneOptions& options) {
   settings.filter = options.settings.reference_filter;
   settings.threads = static_cast<int>(options.settings.jobs_threads);
   return settings;
+}
+
+Darkroom darkroom_from(const game::Settings& settings) {
+  return {settings.tone, settings.display};
 }
 
 Result<ReferencePicture> render_reference(const game::SceneOptions& options,
@@ -168,8 +173,9 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   scene.time_s = options.settings.world_time_s;
   add_sky(options, sky, settings.body_radius, scene);
   ReferencePicture picture = render(scene, settings, progress);
-  const double stops = options.settings.exposure_ev.value_or(render::auto_exposure_ev(sky));
-  picture.exposure = std::exp2(-stops);
+  picture.ev = options.settings.exposure_ev
+                   ? *options.settings.exposure_ev
+                   : metered_ev(picture.radiance, options.settings.meter).value_or(0.0);
   return picture;
 }
 

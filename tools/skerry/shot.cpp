@@ -71,6 +71,8 @@ ordered_json stats_json(const gpu::Device& device, game::SceneView& view, const 
                  {"images", counts.images},
                  {"buffers", counts.buffers},
                  {"transient_bytes", counts.transient_bytes}};
+  j["exposure"] = {{"ev", report.exposure_ev}, {"metered_ev", nullptr}};
+  if (report.metered_ev) j["exposure"]["metered_ev"] = *report.metered_ev;
   j["non_finite_pixels"] = report.pixels.non_finite;
   j["black_fraction"] = static_cast<double>(report.pixels.black) /
                         (static_cast<double>(drawn.size.width) * drawn.size.height);
