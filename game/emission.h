@@ -4,10 +4,9 @@
 
 namespace skerry::game {
 
-/// A light reaches as far as a surface facing it receives this irradiance [unit of sun radiance].
-/// Full moonlight is three times as much, and of a night without a moon, developed as the eye
-/// adapts to it, it is the darkest that can be told from black.
-inline constexpr float kLeastIrradiance = 0.0025f;
+/// A light reaches as far as a surface facing it receives this irradiance [unit of sun radiance]:
+/// two thirds of the full moon's, and some 1/400 of a torch's at one block.
+inline constexpr float kLeastIrradiance = 0.005f;
 
 /// What a glowing block sends out.
 struct BlockEmission {

@@ -18,8 +18,8 @@ using world::BlockKind;
 
 constexpr double kLightsPerPixel = 20.0;
 constexpr double kMinRange = 0.25, kMaxRange = 24.0;  // blocks
-constexpr double kOffSurface = 0.3;                   // blocks
-constexpr float kIrradianceInReach = 0.05f;           // intensity over the square of the range
+constexpr double kOffSurface = 0.75;                  // blocks
+constexpr float kIrradianceInReach = 0.02f;           // intensity over the square of the range
 constexpr std::uint32_t kRaysPerLight = 16;
 
 struct Island {

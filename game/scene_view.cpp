@@ -165,6 +165,7 @@ Result<void> SceneView::take_in(world::StreamUpdate update) {
 void SceneView::remove_section(const world::SectionKey& key) {
   const auto found = sections_.find(key);
   SKERRY_ASSERT(found != sections_.end());
+  light_field_.remove(key);
   gpu::Uploader& uploader = renderer_->mesh_uploader();
   light_field_.remove(key);
   const auto slot = island_slots_.find(key.island);
@@ -188,6 +189,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
     if (Result<void> added = occupancy_->add(uploader, *slot, chunk_place(ready.key), bits); !added)
       return added;
   }
+  light_field_.add(ready.key, ready.emitters);
   if (ready.mesh.quads.empty()) return {};
   Result<render::SectionId> added = renderer_->geometry().add(
       uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);

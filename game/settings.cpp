@@ -260,12 +260,6 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kDepthNames[static_cast<std::size_t>(s.gbuffer.depth)]);
      }},
-    {"ao.strength", "0 to 0.9",
-     "How much light a closed corner of blocks takes; 0: corners are as bright as faces.",
-     [](std::string_view t, Settings& s) {
-       return into_number(parse_number(t, "ao.strength", 0.0, 0.9), s.ao_strength);
-     },
-     [](const Settings& s) { return fmt::format("{}", s.ao_strength); }},
     {"lights.random", "0 to 1000000",
      "For measuring: so many torches on the surfaces that the first view sees.",
      [](std::string_view t, Settings& s) {
@@ -277,6 +271,12 @@ constexpr SettingKey kKeys[] = {
        return into_name(parse_name(t, "lights.held", kSwitchNames), s.lights_held);
      },
      [](const Settings& s) { return std::string(s.lights_held ? "1" : "0"); }},
+    {"ao.strength", "0 to 0.9",
+     "How much light a closed corner of blocks takes; 0: corners are as bright as faces.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "ao.strength", 0.0, 0.9), s.ao_strength);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.ao_strength); }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {

@@ -19,7 +19,8 @@ struct Emitter {
   bool operator==(const Emitter&) const = default;
 };
 
-/// Cells of so many voxels along an edge, aligned to the chunk, shine as one light for each id.
+/// Blocks of one id within a cell of so many voxels along an edge, aligned to the chunk, shine as
+/// one light: they touch, at a corner at least. Plants shine each for itself.
 inline constexpr int kEmitterCell = 2;
 
 /// The lights of a chunk mesh: cells ascend in y, then x, then z, ids within a cell ascend. A light

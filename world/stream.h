@@ -30,7 +30,7 @@ struct ReadySection {
   SectionKey key;
   ChunkMesh mesh;                 ///< without a quad if there is nothing to be seen of the chunk
   ChunkOccupancy occupancy;       ///< empty unless asked for; of the two, one at least is not empty
-  std::vector<Emitter> emitters;  ///< of that mesh
+  std::vector<Emitter> emitters;  ///< of the mesh
 };
 
 /// What to change: first remove, then add. A key that is replaced stands in both lists.

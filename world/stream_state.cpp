@@ -204,6 +204,7 @@ void Streamer::State::note_made(const StreamTask& task, MadeChunk&& chunk) {
   }
   --level->unmade;
   slot.mesh = std::move(chunk.mesh);
+  slot.emitters = std::move(chunk.emitters);
   slot.occupancy = std::move(chunk.occupancy);
   slot.emitters = std::move(chunk.emitters);
   const bool nothing_to_say = !slot.has_something() && !slot.resident;

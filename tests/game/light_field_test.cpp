@@ -235,12 +235,12 @@ TEST(ScatterLights, StandOnWhatTheCameraSeesSoThatTensLightAPixel) {
                 1.5 * ahead * view.lens.tan_half_x + 1.0);
       const double radius = light.range / glm::length(seen);
       covered += 3.14159 * radius * radius / (4.0 * view.lens.tan_half_x * view.lens.tan_half_y);
-      // Within a third of a block there is something to stand on.
+      // Within three quarters of a block there is something to stand on.
       const world::IVec3 chunk = key.chunk;
       ASSERT_TRUE(world.ensure_chunk(key.island, chunk));
       bool stands = false;
       for (int axis = 0; axis < 3; ++axis) {
-        for (const double step : {-0.31, 0.31}) {
+        for (const double step : {-0.76, 0.76}) {
           glm::dvec3 beside = place;
           beside[axis] += step;
           const world::IVec3 voxel{static_cast<int>(std::floor(beside.x)),
