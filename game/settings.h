@@ -48,7 +48,7 @@ struct Settings {
   render::GBufferStore gbuffer;       ///< for measuring
   std::uint32_t lights_random = 0;    ///< torches scattered over what the first camera sees
   bool lights_held = false;           ///< a torch in the hand
-  double ao_strength = 0.4;           ///< share of light that a closed corner takes, 0 .. 0.9
+  double ao_strength = 0.5;           ///< share of light that a closed corner takes, 0 .. 0.9
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   render::MeterSettings meter;        ///< of what has no exposure of its own
   render::ToneCurve tone = render::ToneCurve::kAces;

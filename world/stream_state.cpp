@@ -206,7 +206,6 @@ void Streamer::State::note_made(const StreamTask& task, MadeChunk&& chunk) {
   slot.mesh = std::move(chunk.mesh);
   slot.emitters = std::move(chunk.emitters);
   slot.occupancy = std::move(chunk.occupancy);
-  slot.emitters = std::move(chunk.emitters);
   const bool nothing_to_say = !slot.has_something() && !slot.resident;
   slot.phase = nothing_to_say ? Phase::kDone : Phase::kMade;
   if (!nothing_to_say) ++level->made;

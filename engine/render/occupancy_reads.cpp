@@ -16,9 +16,9 @@ void OccupancyReads::declare(gpu::PassBuilder& builder) const {
 }
 
 void OccupancyReads::bind(gpu::Commands& commands) const {
-  commands.storage(22, grids_);
-  commands.storage(23, tables_);
-  commands.storage(24, words_);
+  commands.storage(26, grids_);
+  commands.storage(27, tables_);
+  commands.storage(28, words_);
 }
 
 std::vector<gpu::SpecConstant> with_corners(std::vector<gpu::SpecConstant> own, bool corners) {

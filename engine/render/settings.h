@@ -70,7 +70,7 @@ struct RenderSettings {
   float shadow_penumbra_blocks = 0.15f;
   bool flat_shading = false;  ///< shadow result times light colour, no N.L and no corners
   float corner_darkening =
-      0.4f;                    ///< share of light that a closed corner takes, 0..1; 0: no corners
+      0.5f;                    ///< share of light that a closed corner takes, 0..1; 0: no corners
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;

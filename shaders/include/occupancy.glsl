@@ -5,9 +5,9 @@
 #define SKERRY_OCCUPANCY_GLSL
 #include "shared/occupancy.h"
 
-layout(scalar, binding = 22) readonly buffer OccupancyGrids { OccupancyGrid occupancy_grids[]; };
-layout(scalar, binding = 23) readonly buffer OccupancyTables { uint occupancy_tables[]; };
-layout(scalar, binding = 24) readonly buffer OccupancyBricks { uint occupancy_words[]; };
+layout(scalar, binding = 26) readonly buffer OccupancyGrids { OccupancyGrid occupancy_grids[]; };
+layout(scalar, binding = 27) readonly buffer OccupancyTables { uint occupancy_tables[]; };
+layout(scalar, binding = 28) readonly buffer OccupancyBricks { uint occupancy_words[]; };
 
 // A grid, unpacked.
 struct VoxelGrid {
@@ -75,6 +75,8 @@ uint brick_word(uint entry, uint word) {
 
 uint voxel_word(VoxelGrid grid, AxisPart voxel) { return brick_word(brick_entry(grid, voxel), voxel.word); }
 
+uint octant_of(ivec3 voxel) { return uint((voxel.y & 4) | ((voxel.x >> 1) & 2) | ((voxel.z >> 2) & 1)); }
+
 AxisPart voxel_part(VoxelGrid grid, ivec3 voxel) {
   return sum_of(sum_of(part_at(layout_x(grid), voxel.x), part_at(layout_y(grid), voxel.y)), part_at(layout_z(grid), voxel.z));
 }
@@ -105,15 +107,25 @@ FacePlace face_place(uint face, vec3 p) {
   return at;
 }
 
+// The place on the other side of the face's nearest edge across u, across v, and the point of that edge.
+FacePlace beside_u(FacePlace at) {
+  int by = at.in_face.x < 0.5 ? -1 : 1;
+  at.voxel += along_axis(at.axis, 0, by, 0);
+  at.in_face.x = by < 0 ? 1.0 : 0.0;
+  return at;
+}
+FacePlace beside_v(FacePlace at) {
+  int by = at.in_face.y < 0.5 ? -1 : 1;
+  at.voxel += along_axis(at.axis, 0, 0, by);
+  at.in_face.y = by < 0 ? 1.0 : 0.0;
+  return at;
+}
+
 // A point next to the face's edge may have been rounded out of it, into what stands beside it: back over the nearest edge.
 FacePlace back_on_face(FacePlace at) {
   vec2 to_edge = min(at.in_face, 1.0 - at.in_face);
-  bool along = to_edge.x < to_edge.y;
-  float in_u = at.in_face.x, in_v = at.in_face.y;
-  int by_u = along ? (in_u < 0.5 ? -1 : 1) : 0, by_v = along ? 0 : (in_v < 0.5 ? -1 : 1);
-  at.voxel += along_axis(at.axis, 0, by_u, by_v);
-  at.in_face = clamp(at.in_face - vec2(by_u, by_v), 0.0, 1.0);
-  return at;
+  if (to_edge.x < to_edge.y) return beside_u(at);
+  return beside_v(at);
 }
 
 // How much a corner of a face leaves open: nothing if both voxels beside it stand, else a third less for each of the two and the one across.

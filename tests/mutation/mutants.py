@@ -54,6 +54,12 @@ MUTANTS = (
            "light.planes[5] = glm::vec4(\n        0, 0, 0, -1);", "day"),
     Mutant("haze_ignores_shadow", "haze glows in caves", "shaders/include/lighting.glsl",
            "float lit = light_in_air(0u, p);", "float lit = 1.0;", "cave cave_mouth sealed_dark"),
+    # Corners
+    Mutant("corners_lost", "corners are as bright as faces", "shaders/include/corners.glsl",
+           "1.0 - frame.corner_darkening * (1.0 - openness)", "1.0", "mesa tropical"),
+    Mutant("corners_turned", "a face's corners are taken crosswise", "shaders/include/occupancy.glsl",
+           "mix(c01, c11, at.in_face.x), at.in_face.y)", "mix(c01, c11, at.in_face.x), 1.0 - at.in_face.y)",
+           "mesa tropical"),
     # Sky and air
     Mutant("haze_doubled", "twice the haze", "engine/render/frame_setup.cpp", "kClearAir = 0.0005f", "kClearAir = 0.001f",
            "far_view high_altitude"),

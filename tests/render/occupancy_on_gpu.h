@@ -2,6 +2,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -68,9 +69,21 @@ class OccupancyOnGpu : public gpu::GpuTest {
         }
   }
 
+  /// A buffer that a shader reads besides.
+  struct Table {
+    std::uint32_t binding = 0;
+    std::vector<std::byte> bytes;
+  };
+  template <class T>
+  static Table table(std::uint32_t binding, const std::vector<T>& values) {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span<const T>(values));
+    return {binding, {bytes.begin(), bytes.end()}};
+  }
+
   /// @param body GLSL of `Answer answer_to(Question q)`, behind the structs Question and Answer.
   template <class Answer, class Question>
-  std::vector<Answer> ask(const std::string& body, const std::vector<Question>& questions) {
+  std::vector<Answer> ask(const std::string& body, const std::vector<Question>& questions,
+                          const std::vector<Table>& besides = {}) {
     const gpu::TestShader shader("ask.comp",
                                  "#include \"include/common.glsl\"\n"
                                  "#include \"include/occupancy.glsl\"\n" +
@@ -91,7 +104,14 @@ class OccupancyOnGpu : public gpu::GpuTest {
     gpu::Buffer in = buffer("questions", questions.size() * sizeof(Question), kUsage),
                 out = buffer("answers", questions.size() * sizeof(Answer), kUsage);
     uploader_->write(in, 0, std::span<const Question>(questions));
+    std::vector<gpu::Buffer> tables_besides;
+    for (const Table& one : besides)
+      tables_besides.push_back(buffer("table", one.bytes.size(), kUsage));
+    for (std::size_t i = 0; i < besides.size(); ++i)
+      uploader_->write(tables_besides[i], 0, std::span<const std::byte>(besides[i].bytes));
     graph.begin();
+    std::vector<gpu::BufferRef> refs_besides;
+    for (gpu::Buffer& one : tables_besides) refs_besides.push_back(graph.import(one));
     gpu::BufferRef from = graph.import(in), to = graph.import(out);
     const gpu::BufferRef grids = graph.import(store_->grids()),
                          tables = graph.import(store_->tables()),
@@ -101,6 +121,7 @@ class OccupancyOnGpu : public gpu::GpuTest {
         [&](gpu::PassBuilder& b) {
           for (const gpu::BufferRef ref : {from, grids, tables, words})
             b.read(ref, gpu::Use::kComputeRead);
+          for (const gpu::BufferRef ref : refs_besides) b.read(ref, gpu::Use::kComputeRead);
           to = b.write(to, gpu::Use::kComputeWrite);
           b.keep();
         },
@@ -108,9 +129,11 @@ class OccupancyOnGpu : public gpu::GpuTest {
           c.bind(pipelines.get(gpu::ComputeDesc{"ask.comp", {}}));
           c.storage(0, from);
           c.storage(1, to);
-          c.storage(22, grids);
-          c.storage(23, tables);
-          c.storage(24, words);
+          c.storage(26, grids);
+          c.storage(27, tables);
+          c.storage(28, words);
+          for (std::size_t i = 0; i < besides.size(); ++i)
+            c.storage(besides[i].binding, refs_besides[i]);
           c.dispatch(gpu::Commands::groups(static_cast<std::uint32_t>(questions.size()), 64), 1, 1);
         });
     graph.compile();

@@ -64,6 +64,8 @@ constexpr TopicPoint kTextureTaps[] = {{"1", "texture.taps=1"},
                                        {"4", "texture.taps=4"},
                                        {"8", "texture.taps=8"},
                                        {"16", "texture.taps=16"}};
+constexpr TopicPoint kCorners[] = {
+    {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},
@@ -102,6 +104,8 @@ constexpr Topic kTopics[] = {
      CostOf::kFrame, true, "view.distance=4000"},
     {"view_detail", "blocks up to which everything is drawn in full detail", kDetails, kFar,
      Judge::kReference, CostOf::kFrame, true},
+    {"ao", "how much light a closed corner of blocks takes", kCorners, kShadowScenes,
+     Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,
      Judge::kReference, CostOf::kShading},
     {"water_layers", "water and glass surfaces, one behind another, that a pixel shows",
