@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "engine/core/check.h"
+#include "engine/core/clock.h"
 #include "engine/render/celestial.h"
+#include "game/light_setup.h"
 #include "game/materials.h"
 #include "game/player.h"
 #include "world/blocks.h"
@@ -91,6 +93,7 @@ SceneView::SceneView(const SceneOptions& options) : settings_(options.settings) 
     start_camera_.pitch_deg = spawn.pitch_deg;
   }
   start_camera_.fov_deg = options.fov_deg;
+  light_field_ = light_field_of(options, *world_, start_camera_);
 }
 
 SceneView::~SceneView() = default;
@@ -163,7 +166,9 @@ Result<void> SceneView::take_in(world::StreamUpdate update) {
 void SceneView::remove_section(const world::SectionKey& key) {
   const auto found = sections_.find(key);
   SKERRY_ASSERT(found != sections_.end());
+  light_field_.remove(key);
   gpu::Uploader& uploader = renderer_->mesh_uploader();
+  light_field_.remove(key);
   const auto slot = island_slots_.find(key.island);
   if (found->second) renderer_->geometry().remove(uploader, *found->second);
   if (occupancy_) occupancy_->remove(uploader, slot->second, chunk_place(key));
@@ -185,11 +190,13 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
     if (Result<void> added = occupancy_->add(uploader, *slot, chunk_place(ready.key), bits); !added)
       return added;
   }
+  light_field_.add(ready.key, ready.emitters);
   if (ready.mesh.quads.empty()) return {};
   Result<render::SectionId> added = renderer_->geometry().add(
       uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
   if (!added) return added.error();
   section = *added;
+  light_field_.add(ready.key, ready.emitters);
   return {};
 }
 
@@ -222,6 +229,26 @@ std::vector<render::IslandPlacement> SceneView::placements(double world_time_s) 
     out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius});
   }
   return out;
+}
+
+std::vector<PlacedIsland> SceneView::placed_islands(
+    const render::FixedPos& camera, std::span<const render::IslandPlacement> islands) const {
+  std::vector<PlacedIsland> out;
+  for (const auto& [id, slot] : island_slots_)
+    out.push_back({id, slot, glm::mat3_cast(islands[slot].rotation),
+                   world::difference_blocks(place(islands[slot].origin), place(camera)),
+                   islands[slot].bounding_radius});
+  return out;
+}
+
+void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
+                              std::span<const render::IslandPlacement> islands) {
+  const Stopwatch watch;
+  light_field_.gather(
+      place(moment.camera.position), render::view_of(moment.camera, size.width, size.height),
+      placed_islands(moment.camera.position, islands),
+      held_light(settings_, light_field_, moment.camera.yaw_deg, moment.world_time_s), lights_);
+  gather_ms_ = watch.milliseconds();
 }
 
 world::BlockId SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
@@ -288,6 +315,9 @@ Result<std::uint64_t> SceneView::draw(
   input.anchor = fixed(world_->origin());
   input.islands = islands;
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
+  gather_lights(moment, size, islands);
+  input.lights = lights_.lights;
+  input.light_islands = lights_.islands;
   const std::optional<double> ev =
       settings_.exposure_ev ? settings_.exposure_ev : moment.exposure_ev;
   input.exposure_ev.reset();

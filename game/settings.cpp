@@ -282,6 +282,17 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kDepthNames[static_cast<std::size_t>(s.gbuffer.depth)]);
      }},
+    {"lights.random", "0 to 1000000",
+     "For measuring: so many torches on the surfaces that the first view sees.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "lights.random", 0, 1'000'000), s.lights_random);
+     },
+     [](const Settings& s) { return std::to_string(s.lights_random); }},
+    {"lights.held", "0 or 1", "A torch in the hand.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "lights.held", kSwitchNames), s.lights_held);
+     },
+     [](const Settings& s) { return std::string(s.lights_held ? "1" : "0"); }},
     {"ao.strength", "0 to 0.9",
      "How much light a closed corner of blocks takes; 0: corners are as bright as faces.",
      [](std::string_view t, Settings& s) {

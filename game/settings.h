@@ -46,6 +46,8 @@ struct Settings {
   double shadow_blur = 0.15;          ///< largest radius of the shadow filter [blocks], 0 .. 1
   std::uint32_t texture_taps = 2;     ///< along the long side of a texture footprint, 1 .. 16
   render::GBufferStore gbuffer;       ///< for measuring
+  std::uint32_t lights_random = 0;    ///< torches scattered over what the first camera sees
+  bool lights_held = false;           ///< a torch in the hand
   double ao_strength = 0.5;           ///< share of light that a closed corner takes, 0 .. 0.9
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   render::MeterSettings meter;        ///< of what has no exposure of its own

@@ -193,7 +193,8 @@ std::size_t hand_out(std::uint64_t island, int level, const IVec3& chunk, Stream
   slot.resident = slot.has_something();
   slot.phase = Phase::kDone;
   if (slot.resident)
-    update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.occupancy, {})});
+    update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.occupancy, {}),
+                            std::exchange(slot.emitters, {})});
   return quads;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/jobs.h"
+#include "world/emitters.h"
 #include "world/mesh/mesh.h"
 #include "world/mesh/occupancy.h"
 #include "world/world.h"
@@ -27,8 +28,9 @@ struct SectionKey {
 
 struct ReadySection {
   SectionKey key;
-  ChunkMesh mesh;            ///< without a quad if there is nothing to be seen of the chunk
-  ChunkOccupancy occupancy;  ///< empty unless asked for; of the two, one at least is not empty
+  ChunkMesh mesh;                 ///< without a quad if there is nothing to be seen of the chunk
+  ChunkOccupancy occupancy;       ///< empty unless asked for; of the two, one at least is not empty
+  std::vector<Emitter> emitters;  ///< of the mesh
 };
 
 /// What to change: first remove, then add. A key that is replaced stands in both lists.

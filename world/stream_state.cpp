@@ -159,6 +159,7 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
     const std::span<BlockId> padded = scratch->voxels;
     const bool any = world.generate_padded(task.island, *task.chunk, task.level, padded);
     if (any) mesh_chunk(padded, scratch->mesh, chunk.mesh);
+    find_emitters(chunk.mesh, chunk.emitters);
     if (any && makes == StreamOf::kMeshesAndOccupancy) chunk.occupancy = occupancy_of(padded);
     if (task.level == 0) chunk.voxels = any ? chunk_from_padded(padded) : Chunk(kAir);
     lock.lock();
@@ -203,6 +204,7 @@ void Streamer::State::note_made(const StreamTask& task, MadeChunk&& chunk) {
   }
   --level->unmade;
   slot.mesh = std::move(chunk.mesh);
+  slot.emitters = std::move(chunk.emitters);
   slot.occupancy = std::move(chunk.occupancy);
   const bool nothing_to_say = !slot.has_something() && !slot.resident;
   slot.phase = nothing_to_say ? Phase::kDone : Phase::kMade;

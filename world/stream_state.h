@@ -25,6 +25,7 @@ struct StreamSlot {
   bool stale = false;     // edited while a worker makes it: make it again
   bool resident = false;  // handed out and not removed
   ChunkMesh mesh;
+  std::vector<Emitter> emitters;
   ChunkOccupancy occupancy;
   bool has_something() const {
     return !mesh.quads.empty() || occupancy.fill != ChunkOccupancy::Fill::kEmpty;
@@ -68,6 +69,7 @@ struct StreamScratch {
 /// What a job brings back.
 struct MadeChunk {
   ChunkMesh mesh;
+  std::vector<Emitter> emitters;
   ChunkOccupancy occupancy;
   std::optional<Chunk> voxels;  // of level 0
 };
