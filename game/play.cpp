@@ -285,7 +285,8 @@ OverlayTriangles Session::overlay_triangles(double seconds) {
                                                 {"quads drawn", report.camera.quads},
                                                 {"quads in shadows", report.shadows.quads},
                                                 {"draws", report.camera.draws},
-                                                {"draws in shadows", report.shadows.draws}};
+                                                {"draws in shadows", report.shadows.draws},
+                                                {"lights", view_->lights()}};
   facts.counts = counts;
   const std::vector<gpu::MemoryUse> memory = device_.memory_use();
   facts.memory = memory;
