@@ -204,6 +204,7 @@ render::RenderSettings SceneView::render_settings(
   out.meter = settings_.meter;
   out.tone = settings_.tone;
   out.display = settings_.display;
+  out.bloom = settings_.bloom;
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   return out;

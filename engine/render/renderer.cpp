@@ -7,6 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/frame_ring.h"
 #include "engine/render/block_textures.h"
+#include "engine/render/bloom_pass.h"
 #include "engine/render/capture.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
@@ -43,13 +44,19 @@ struct Slot {
   std::uint64_t memory_bytes = 0;
 };
 
-bool meters(const FrameInput& input) {
-  return input.meter || !input.exposure_ev;
+/// Whether a debug view takes the place of the lit scene.
+bool shows_channel(const RenderSettings& settings) {
+  return settings.debug_view != DebugView::kNone && settings.debug_view != DebugView::kExposure;
+}
+
+bool meters(const FrameInput& input, const RenderSettings& settings) {
+  return input.meter || !input.exposure_ev || settings.debug_view == DebugView::kExposure;
 }
 
 /// Whether the picture takes the way over a radiance image though no pass comes between.
-bool by_radiance(const FrameInput& input) {
-  return meters(input) || input.capture || input.fault.has_value();
+bool by_radiance(const FrameInput& input, const RenderSettings& settings) {
+  return settings.bloom.intensity > 0.0f || meters(input, settings) || input.capture ||
+         input.fault.has_value();
 }
 
 constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::CullStats);
@@ -219,7 +226,8 @@ Result<void> Renderer::State::resize_picture(VkExtent2D size) {
 Result<void> Renderer::State::upload_tables(const FrameTables& tables, const FrameInput& input,
                                             const shared::SkyConstants& sky_now) {
   // Where every pixel is black, any exposure is right.
-  const shared::Exposure given{input.exposure_ev.value_or(0.0f), 0.0f, 0};
+  shared::Exposure given{};
+  given.ev = input.exposure_ev.value_or(0.0f);
   const std::size_t island_count = input.islands.size();
   const std::array<Result<void>, 6> done{
       upload(exposure, "exposure", std::span<const shared::Exposure>(&given, 1)),
@@ -299,10 +307,17 @@ void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const Fram
   if (input.fault && input.fault->in == Fault::In::kLookedThrough)
     shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
   if (input.capture) captures.add(graph, Capture::kRadiance, shaded.radiance());
-  if (meters(input))
-    (void)MeterPass::add(graph, pipelines, scene, shaded.radiance(), settings.meter,
-                         !input.exposure_ev);
-  (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
+  gpu::BufferRef histogram;
+  if (meters(input, settings))
+    histogram = MeterPass::add(graph, pipelines, scene, shaded.radiance(), settings.meter,
+                               !input.exposure_ev);
+  std::optional<Bloom> bloom;
+  if (settings.bloom.intensity > 0.0f)
+    bloom = BloomPass::add(graph, pipelines, scene, shaded.radiance(), settings.bloom);
+  Developed developed = DevelopPass::add(graph, pipelines, scene, std::move(shaded),
+                                         bloom ? &*bloom : nullptr, picture);
+  if (settings.debug_view == DebugView::kExposure)
+    (void)MeterPass::show(graph, pipelines, scene, std::move(developed), histogram, settings.meter);
 }
 
 void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
@@ -346,9 +361,12 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
   const FrameFeatures& features = contents.features;
   explain_absent(features);
-  if (!meters(input) && settings.debug_view == DebugView::kNone)
+  if (!meters(input, settings) && !shows_channel(settings))
     for (const char* name : {"meter_radiance", "choose_exposure"})
       graph.leave_out(name, "the exposure is given");
+  if (!shows_channel(settings) && settings.bloom.intensity <= 0.0f)
+    for (const char* name : {"shrink_bloom", "spread_bloom"})
+      graph.leave_out(name, "bloom.intensity=0");
   scene.haze = features.has(Feature::kHaze);
   const ShadeIn shade_in{settings.texture_taps, features.has(Feature::kStars),
                          features.has(Feature::kDiscs)};
@@ -371,7 +389,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
           "draw_shadow_sun", "draw_shadow_moon", "classify_tiles_clear", "classify_tiles",
           "shade_surfaces", "draw_translucent", "classify_translucent_tiles", "shade_translucent"})
       graph.leave_out(name, "no geometry is resident");
-    if (by_radiance(input)) {
+    if (by_radiance(input, settings)) {
       finish_picture(scene, ShadePass::add_sky_only(graph, pipelines, scene, shade_in), input,
                      settings);
     } else {
@@ -386,11 +404,12 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, contents.cutouts_in_view[0],
                                         settings.gbuffer);
   Shadows maps = add_shadows(scene, draws, settings, contents, cascades);
-  if (settings.debug_view != DebugView::kNone) {
+  if (shows_channel(settings)) {
     (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps, settings.debug_view,
                                  picture);
-    for (const char* name : {"classify_tiles", "shade_surfaces", "shade_sky", "draw_translucent",
-                             "shade_translucent", "meter_radiance", "choose_exposure", "develop"})
+    for (const char* name :
+         {"classify_tiles", "shade_surfaces", "shade_sky", "draw_translucent", "shade_translucent",
+          "meter_radiance", "choose_exposure", "shrink_bloom", "spread_bloom", "develop"})
       graph.leave_out(name, "a debug view is shown");
   } else {
     const char* no_translucent = features.why_not(Feature::kWater);
@@ -398,7 +417,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       for (const char* name :
            {"draw_translucent", "classify_translucent_tiles", "shade_translucent"})
         graph.leave_out(name, no_translucent);
-    if (no_translucent && !by_radiance(input)) {
+    if (no_translucent && !by_radiance(input, settings)) {
       graph.leave_out("develop", "nothing comes between shading and picture");
       (void)ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture);
     } else {

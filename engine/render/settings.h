@@ -15,7 +15,8 @@ enum class DebugView : std::uint8_t {
   kEmissive,
   kDepth,
   kCascades,
-  kShadow
+  kShadow,
+  kExposure  ///< the lit scene, and the meter's histogram over it
 };
 
 /// How the G-buffer keeps a surface's normal. Not at all is exact: the normal then comes from the
@@ -53,6 +54,14 @@ struct MeterSettings {
   bool operator==(const MeterSettings&) const = default;
 };
 
+/// Glow of what is too bright. docs/exposure.md.
+struct BloomSettings {
+  float intensity = 0.0f;  ///< of the light over the threshold, what is added; 0: no bloom at all
+  float threshold = 1.5f;  ///< exposed brightness, 0..100
+  int levels = 6;          ///< of the pyramid, 1..8; each doubles the reach
+  bool operator==(const BloomSettings&) const = default;
+};
+
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
   double view_distance_blocks =
@@ -69,6 +78,7 @@ struct RenderSettings {
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;
   MeterSettings meter;
+  BloomSettings bloom;
   ToneCurve tone = ToneCurve::kAces;
   DisplaySettings display;
   FeatureSet leave_out;  ///< absent even where the scene has them
