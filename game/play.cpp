@@ -59,8 +59,7 @@ class Session {
         view_(std::move(view)),
         player_(player_at(view_->start_camera(), options.settings.world_time_s)),
         around_(view_->world()),
-        day_(options.time_of_day_s),
-        exposure_ev_(view_->metered_ev(options.time_of_day_s)) {
+        day_(options.time_of_day_s) {
     // A place that was asked for is a view, most often in the air.
     if (options.camera) player_.set_mode(MoveMode::kFly);
   }
@@ -70,6 +69,7 @@ class Session {
 
  private:
   void act(const platform::InputFrame& input, double seconds);
+  void adapt_eye(double seconds);
   void act_on_pointer(const platform::InputFrame& input);
   void act_on_picture_keys(const platform::InputFrame& input, double seconds);
   void move(const platform::InputFrame& input, double seconds);
@@ -87,7 +87,7 @@ class Session {
   Player player_;
   WorldSurroundings around_;
   DayClock day_;
-  double exposure_ev_;  // what the eye has adapted to by now
+  std::optional<double> exposure_ev_;  // what the eye has adapted to by now; none before it saw
   Overlay overlay_;
   std::unique_ptr<Presenter> presenter_;
   bool overlay_shown_ = false;
@@ -131,7 +131,16 @@ void Session::act(const platform::InputFrame& input, double seconds) {
     player_.set_mode(player_.mode() == MoveMode::kFly ? MoveMode::kWalk : MoveMode::kFly);
   }
   move(input, seconds);
-  exposure_ev_ = render::adapted_ev(exposure_ev_, view_->metered_ev(day_.time_of_day_s()), seconds);
+  adapt_eye(seconds);
+}
+
+/// Follows what the newest finished frame was metered at; that frame's own exposure plays no part
+/// in it, so nothing feeds back.
+void Session::adapt_eye(double seconds) {
+  const std::optional<render::FrameReport>& seen = view_->renderer().report();
+  if (!seen || !seen->metered_ev) return;
+  exposure_ev_ = exposure_ev_ ? render::adapted_ev(*exposure_ev_, *seen->metered_ev, seconds)
+                              : double{*seen->metered_ev};
 }
 
 void Session::act_on_pointer(const platform::InputFrame& input) {
@@ -147,6 +156,7 @@ void Session::act_on_picture_keys(const platform::InputFrame& input, double seco
     view_->renderer().forget_shadows();  // so that the command draws the same shadows again
   }
   if (input.pressed(Key::kF3)) overlay_shown_ = !overlay_shown_;
+  if (input.pressed(Key::kL)) view_->settings().lights_held = !view_->settings().lights_held;
   if (input.pressed(Key::kF8)) culling_frozen_ = !culling_frozen_;
   if (input.pressed(Key::kF11)) window_.toggle_fullscreen();
   Settings& settings = view_->settings();
@@ -202,6 +212,11 @@ Result<bool> Session::draw(double seconds) {
   const auto bring_to_window = [&](VkCommandBuffer commands, gpu::Image& picture) {
     recorded = presenter_->record(commands, picture, *frame, overlay ? &*overlay : nullptr);
   };
+  // A command meters what it draws and adapts to nothing, so F2 names the exposure; and its picture
+  // is drawn by the way that a command with an exposure takes.
+  Settings& settings = view_->settings();
+  const std::optional<double> asked_ev = settings.exposure_ev;
+  if (screenshot_wanted_ && !asked_ev) settings.exposure_ev = exposure_ev_;
   const Result<std::uint64_t> value =
       view_->draw(now, size, bring_to_window, {&frame->wait, 1}, {&frame->signal, 1});
   if (!value) return value.error();
@@ -209,13 +224,9 @@ Result<bool> Session::draw(double seconds) {
   if (!recorded) return recorded.error();
   scene_.size = {size.width, size.height};
   scene_.time_of_day_s = day_.time_of_day_s();
-  scene_.settings = view_->settings();
+  scene_.settings = settings;
   scene_.settings.world_time_s = now.world_time_s;
-  // A command adapts to nothing, so F2 names the exposure while the eye is on its way.
-  const double metered_ev = view_->metered_ev(now.time_of_day_s);
-  if (!scene_.settings.exposure_ev &&
-      static_cast<float>(exposure_ev_) != static_cast<float>(metered_ev))
-    scene_.settings.exposure_ev = exposure_ev_;
+  settings.exposure_ev = asked_ev;
   return true;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/render/renderer.h"
+#include "game/light_field.h"
 #include "game/options.h"
 #include "world/stream.h"
 #include "world/world.h"
@@ -41,18 +42,20 @@ class SceneView {
   /// Takes in what the workers have ready, within the frame's budget; never waits.
   /// Errors: the quad arena is full.
   Result<void> stream(const render::Camera& camera, double world_time_s);
-  /// Exposure that the light of a time of day asks for [stops].
-  double metered_ev(double time_of_day_s) const;
   /// Whether everything within view distance has been handed to the renderer.
   bool complete() const { return streamer_->complete(); }
+  /// Of the last draw: lights handed to the renderer, and what it took to gather them.
+  std::size_t lights() const { return lights_.lights.size(); }
+  double gather_ms() const { return gather_ms_; }
 
   struct Moment {
     render::Camera camera;
     double time_of_day_s = 43200.0;
     double world_time_s = 0.0;
     bool freeze_culling = false;
-    bool capture = false;                    ///< see render::FrameInput
-    std::optional<double> exposure_ev = {};  ///< what the eye has adapted to; none: metered now
+    bool capture = false;  ///< see render::FrameInput
+    /// What the eye has adapted to; the frame is metered for it nonetheless. None: as metered.
+    std::optional<double> exposure_ev = {};
   };
   /// See render::Renderer::draw. A fixed exposure in the settings goes over the moment's.
   Result<std::uint64_t> draw(
@@ -63,9 +66,17 @@ class SceneView {
 
  private:
   explicit SceneView(const SceneOptions& options);
+  bool occupancy_wanted() const;
+  Result<void> follow_settings();
   Result<void> take_in(world::StreamUpdate update);
-  std::uint32_t island_slot(std::uint64_t island);
+  Result<void> add_section(const world::ReadySection& ready);
+  void remove_section(const world::SectionKey& key);
+  Result<std::uint32_t> island_slot(const world::SectionKey& key);
   std::vector<render::IslandPlacement> placements(double world_time_s) const;
+  std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera,
+                                           std::span<const render::IslandPlacement> islands) const;
+  void gather_lights(const Moment& moment, VkExtent2D size,
+                     std::span<const render::IslandPlacement> islands);
   /// Id of the translucent block the camera is in, or air.
   world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
   render::RenderSettings render_settings(const render::FixedPos& camera,
@@ -84,7 +95,12 @@ class SceneView {
   render::Camera start_camera_;
   std::vector<IslandEntry> islands_;                     // by GPU slot
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
-  std::map<world::SectionKey, render::SectionId> sections_;
+  /// Resident chunks; without a section, what is known of them is which voxels are opaque.
+  std::map<world::SectionKey, std::optional<render::SectionId>> sections_;
+  render::OccupancyStore* occupancy_ = nullptr;  // the renderer's; null: not wanted so far
+  LightField light_field_;
+  FrameLights lights_;  // of the last frame
+  double gather_ms_ = 0.0;
 };
 
 }  // namespace skerry::game

@@ -11,18 +11,20 @@ namespace skerry::game {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
-constexpr std::array<std::string_view, 11> kDebugViewNames{
-    "none",  "albedo",   "normal", "position", "metadata",   "emissive",
-    "depth", "cascades", "shadow", "clusters", "light_count"};
+constexpr std::array<std::string_view, 12> kDebugViewNames{
+    "none",  "albedo",   "normal", "position", "metadata", "emissive",
+    "depth", "cascades", "shadow", "ao",       "clusters", "light_count"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
+constexpr std::array<std::string_view, 2> kToneNames{"aces", "agx"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
 
 constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct16",
                                                        "rgb8",  "rgb10a2", "rgba16f"};
 constexpr std::array<std::string_view, 3> kPositionNames{"depth", "rgba16f", "rgba32f"};
 constexpr std::array<std::string_view, 2> kDepthNames{"d32", "d16"};
+constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024},
@@ -58,9 +60,10 @@ Result<void> into_name(const Result<std::size_t>& parsed, E& field) {
   return {};
 }
 
-Result<void> into_number(const Result<double>& parsed, double& field) {
+template <class T>
+Result<void> into_number(const Result<double>& parsed, T& field) {
   if (!parsed) return parsed.error();
-  field = *parsed;
+  field = static_cast<T>(*parsed);
   return {};
 }
 
@@ -122,6 +125,12 @@ Result<void> parse_shadow_taps(std::string_view text, Settings& s) {
   return into(parse_integer(kTapNames[*name], "shadow.taps", 1, 32), s.shadow_taps);
 }
 
+Result<void> parse_samples(std::string_view text, Settings& s) {
+  const auto name = parse_name(text, "aa.samples", kSampleNames);
+  if (!name) return name.error();
+  return into(parse_integer(kSampleNames[*name], "aa.samples", 1, 16), s.aa_samples);
+}
+
 Result<void> parse_leave_out(std::string_view text, Settings& s) {
   render::FeatureSet set;
   if (text != "none") {
@@ -181,6 +190,10 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "view.detail", 32, 4096), s.view_detail);
      },
      [](const Settings& s) { return std::to_string(s.view_detail); }},
+    {"aa.samples", "1, 4 or 16",
+     "Samples a pixel: the picture is drawn twice or four times as wide and high, and averaged. "
+     "For stills; the time grows alike.",
+     parse_samples, [](const Settings& s) { return std::to_string(s.aa_samples); }},
     {"shadow.enabled", "0 or 1", "Shadows of the sun and the moon.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "shadow.enabled", kSwitchNames), s.shadow_enabled);
@@ -196,6 +209,14 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) { return std::to_string(s.shadow_cascades); }},
     {"shadow.taps", "1, 4, 8, 16 or 32", "Texels of the shadow map that a pixel compares with.",
      parse_shadow_taps, [](const Settings& s) { return std::to_string(s.shadow_taps); }},
+    {"shadow.samples", "1 to 1024",
+     "Places on the discs of sun and moon that light comes from: so many whole frames are "
+     "averaged, "
+     "each with shadows of its own. For stills.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "shadow.samples", 1, 1024), s.shadow_samples);
+     },
+     [](const Settings& s) { return std::to_string(s.shadow_samples); }},
     {"shadow.split", "0 to 1",
      "How the maps share the view distance: 0 evenly, 1 each a multiple of the one before.",
      [](std::string_view t, Settings& s) {
@@ -203,7 +224,9 @@ constexpr SettingKey kKeys[] = {
      },
      [](const Settings& s) { return fmt::format("{}", s.shadow_split); }},
     {"shadow.blur", "blocks, 0 to 1",
-     "Smallest radius of the shadow filter, which is one texel at least.",
+     "Largest radius of the shadow filter. It is as wide as the sun's disc blurs a shadow's edge, "
+     "one "
+     "texel at least; 0: one texel everywhere.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "shadow.blur", 0.0, 1.0), s.shadow_blur);
      },
@@ -237,11 +260,65 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kDepthNames[static_cast<std::size_t>(s.gbuffer.depth)]);
      }},
+    {"lights.random", "0 to 1000000",
+     "For measuring: so many torches on the surfaces that the first view sees.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "lights.random", 0, 1'000'000), s.lights_random);
+     },
+     [](const Settings& s) { return std::to_string(s.lights_random); }},
+    {"lights.held", "0 or 1", "A torch in the hand.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "lights.held", kSwitchNames), s.lights_held);
+     },
+     [](const Settings& s) { return std::string(s.lights_held ? "1" : "0"); }},
+    {"ao.strength", "0 to 0.9",
+     "How much light a closed corner of blocks takes; 0: corners are as bright as faces.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "ao.strength", 0.0, 0.9), s.ao_strength);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.ao_strength); }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {
        return s.exposure_ev ? fmt::format("{}", *s.exposure_ev) : std::string("auto");
      }},
+    {"exposure.key", "0.01 to 1", "What the meter exposes a landscape under the noon sun to.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "exposure.key", 0.01, 1.0), s.meter.key);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.meter.key); }},
+    {"exposure.min", "stops, -20 to 20", "Darkest light the meter adapts to.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "exposure.min", -20.0, 20.0), s.meter.min_ev);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.meter.min_ev); }},
+    {"exposure.max", "stops, -20 to 20", "Brightest light the meter adapts to; min wins over it.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "exposure.max", -20.0, 20.0), s.meter.max_ev);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.meter.max_ev); }},
+    {"exposure.stride", "1 to 16", "The meter looks at one pixel of each stride x stride.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "exposure.stride", 1, 16), s.meter.stride);
+     },
+     [](const Settings& s) { return std::to_string(s.meter.stride); }},
+    {"tone", "aces or agx", "Tone curve: from exposed light to what a display can show.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "tone", kToneNames), s.tone);
+     },
+     [](const Settings& s) { return std::string(kToneNames[static_cast<std::size_t>(s.tone)]); }},
+    {"display.peak", "0.1 to 1",
+     "Brightest light of the picture, as a share of the display's white.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "display.peak", kMinDisplayPeak, 1.0), s.display.peak);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.display.peak); }},
+    {"display.black", "0 to 0.2",
+     "Darkest sRGB value that can be told from black on the display; black stays black.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "display.black", 0.0, kMaxDisplayBlack), s.display.black);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.display.black); }},
     {"renderer", "deferred, auto or reference",
      "How the picture is made: on the GPU, or exactly on the CPU (screenshots only). auto is "
      "deferred.",
@@ -258,7 +335,7 @@ constexpr SettingKey kKeys[] = {
        return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]);
      }},
     {"debug.view",
-     "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow, clusters or "
+     "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow, ao, clusters or "
      "light_count",
      "Shows one ingredient of the picture instead of the picture.",
      [](std::string_view t, Settings& s) {

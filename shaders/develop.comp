@@ -14,6 +14,6 @@ layout(binding = 2, rgba16f) readonly uniform image2D radiance;
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
-  bool here = all(lessThan(pixel, frame.size));
-  put_pixel(pixel, imageLoad(radiance, ivec2(min(pixel, frame.size - 1u))).rgb, here);
+  bool here = all(lessThan(pixel, frame.picture_size));
+  put_pixel(pixel, imageLoad(radiance, ivec2(min(pixel, frame.picture_size - 1u))).rgb, here);
 }

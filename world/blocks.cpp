@@ -28,8 +28,8 @@ constexpr BlockType plant(std::string_view name, Texture all, float emission = 0
 }
 
 // One row an id, in the order of block::. Emission is in units of the sun's radiance on white: a
-// glow plant lights its corner, lava and lamps light a room. Water takes red first, so that deep
-// lakes turn blue-green.
+// glow plant lights its corner, lava and lamps light a room, and a torch, being small, burns the
+// brighter. Water takes red first, so that deep lakes turn blue-green.
 constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     {"air", kAir, T::kStone, T::kStone, T::kStone, 0.0f, 1.0f, {}},
     opaque("stone", T::kStone),
@@ -93,7 +93,7 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     {"glass", kTranslucent, T::kGlass, T::kGlass, T::kGlass, 0.0f, 0.05f, {0.05f, 0.02f, 0.03f}},
     sided("planks", T::kPlanks, T::kPlanks, T::kPlanks, 0.8f),
     opaque("bricks", T::kBricks, 0.85f),
-    plant("torch", T::kTorch, 8.0f),
+    plant("torch", T::kTorch, 20.0f),
     opaque("lamp", T::kLamp, 0.5f, 8.0f),
 }};
 

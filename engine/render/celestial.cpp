@@ -19,7 +19,6 @@ constexpr double kTurbidity = 2.5;
 constexpr double kHorizonHalfWidthDeg =
     0.3;                                // the disc (0.53 degrees) crosses the horizon within this
 constexpr double kFaintestMoon = 0.01;  // share of the full moon's light below which it casts none
-constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
 // Moonlight as eyes at night see it; unit luminance.
 constexpr glm::dvec3 kMoonTint{0.79, 1.02, 1.42};
 
@@ -140,14 +139,6 @@ Celestial celestial_at(double time_of_day_s, double moon_phase) {
   const glm::dmat3 rows(sky.to_sun, glm::cross(kCelestialPole, sky.to_sun), kCelestialPole);
   sky.sky_from_world = glm::transpose(rows);
   return sky;
-}
-
-float auto_exposure_ev(const Celestial& sky) {
-  constexpr double kSkyWeight = 6.0;  // at dusk the picture is mostly bright horizon
-  const glm::dvec3 direct = glm::dvec3(sky.sun_irradiance) + glm::dvec3(sky.moon_irradiance);
-  const double light =
-      glm::dot(kLuminance, direct) / kPi + kSkyWeight * zenith_radiance(sky.to_sun.y);
-  return static_cast<float>(0.7 * std::log2(light + std::exp2(-9.5)) - 1.35);
 }
 
 double quantised_time(double time_of_day_s) {

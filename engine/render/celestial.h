@@ -58,13 +58,6 @@ glm::dvec3 transmittance_to_zenith(double sine);
 /// ends at -18 degrees, 0 beyond. Smooth through the horizon.
 double zenith_radiance(double sun_altitude_sine);
 
-/// Incident-light meter: exposure from the light of sun, moon and sky, never from the picture, so
-/// that looking about changes nothing. The picture is tone_map(radiance * 2^-EV) with
-/// EV = 0.7 * log2(E + 2^-9.5) - 1.35 and E = luminance of both bodies' irradiance / pi
-/// + 6 * zenith_radiance. Noon is about -0.5, sunset -3, full moon -7, and a night without any
-/// light stays dark at the cap of -8.
-float auto_exposure_ev(const Celestial& sky);
-
 /// The time rounded down to a step of 12 s (0.05 degrees of the sun), reduced to one day, for a sun
 /// whose shadow maps are kept between frames. A step is a tenth of the sun's disc (0.53 degrees),
 /// so it moves the edge of a shadow by less than a tenth of the edge's natural blur; the shadow of

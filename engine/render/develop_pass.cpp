@@ -4,6 +4,8 @@
 
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/light_constants.h"
+#include "engine/render/occupancy_reads.h"
+#include "engine/render/picture_constants.h"
 
 namespace skerry::render {
 
@@ -17,17 +19,20 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
       "develop",
       [&](gpu::PassBuilder& b) {
         b.read(scene.frame, Use::kComputeRead);
+        b.read(scene.exposure, Use::kComputeRead);
         b.read(radiance, Use::kComputeRead);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         out = b.write(out, Use::kComputeWrite);
       },
       [scene, radiance, out,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"develop.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{"develop.comp", with_picture({}, scene)})](
+          gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.pixel_stats);
         c.storage(2, radiance);
         c.storage(9, out);
+        c.storage(22, scene.exposure);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });
@@ -80,27 +85,35 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
     return Developed(show_lights(graph, pipelines, scene, geometry, *lights, view, out));
   const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
+  const OccupancyReads occupancy(scene, scene.corners && view == DebugView::kCorners);
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
       std::string("show_channel") + (maps ? "" : "_unshadowed") + surfaces.suffix() + ".comp",
-      surfaces.with_store(with_light({{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps}))});
+      with_picture(with_corners(surfaces.with_store(with_light(
+                                    {{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps})),
+                                bool{occupancy}),
+                   scene)});
   graph.add_pass(
       "show_channel",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+        for (const gpu::BufferRef ref :
+             {scene.frame, scene.islands, scene.materials, scene.exposure})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
+        occupancy.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
         out = b.write(out, Use::kComputeWrite);
       },
-      [&pipeline, scene, surfaces, maps, out](gpu::Commands& c) {
+      [&pipeline, scene, surfaces, occupancy, maps, out](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
         c.storage(2, scene.materials);
         surfaces.bind(c, scene.point_sampler, 3, 4);
+        occupancy.bind(c);
         c.sampled(5, scene.block_textures, scene.block_sampler);
         c.storage(6, out);
+        c.storage(22, scene.exposure);
         if (maps) c.sampled(7, maps, scene.point_sampler);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);

@@ -4,6 +4,7 @@
 
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/light_constants.h"
+#include "engine/render/occupancy_reads.h"
 
 namespace skerry::render {
 
@@ -13,11 +14,14 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
                       const Geometry& geometry, const ClusteredLights& lights, Shaded shaded,
                       int texture_taps) {
   const SurfaceReads surfaces(geometry);
+  const OccupancyReads occupancy(scene, scene.corners);
   gpu::ImageRef radiance = shaded.radiance();
   const gpu::Pipeline& pipeline = pipelines.get(
       gpu::ComputeDesc{std::string("shade_lights") + surfaces.suffix() + ".comp",
-                       lights.with_lights(surfaces.with_store(with_light(
-                           {{0, static_cast<std::uint32_t>(texture_taps)}}, scene, false)))});
+                       lights.with_lights(with_corners(
+                           surfaces.with_store(with_light(
+                               {{0, static_cast<std::uint32_t>(texture_taps)}}, scene, false)),
+                           bool{occupancy}))});
   graph.add_pass(
       "shade_lights",
       [&](gpu::PassBuilder& b) {
@@ -26,17 +30,19 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
         declare_tiles(b, lights.tiles);
         lights.declare(b);
         surfaces.declare(b);
+        occupancy.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [&pipeline, scene, lights, surfaces, radiance](gpu::Commands& c) {
+      [&pipeline, scene, lights, surfaces, occupancy, radiance](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
         c.storage(2, scene.materials);
         c.storage(4, scene.pixel_stats);
         surfaces.bind(c, scene.point_sampler, 5, 6);
+        occupancy.bind(c);
         c.sampled(7, scene.block_textures, scene.block_sampler);
         c.storage(9, radiance);
         lights.bind(c);

@@ -56,6 +56,7 @@ class Shaded {
   friend struct LightPass;
   friend struct TranslucentPass;
   friend struct FaultPass;
+  friend struct ResolvePass;
   explicit Shaded(gpu::ImageRef radiance) : radiance_(radiance) {}
   gpu::ImageRef radiance_;
 };

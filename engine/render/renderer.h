@@ -18,8 +18,10 @@
 #include "engine/render/camera.h"
 #include "engine/render/celestial.h"
 #include "engine/render/geometry_store.h"
+#include "engine/render/occupancy_store.h"
 #include "engine/render/settings.h"
 #include "shaders/shared/clusters.h"
+#include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/light.h"
@@ -69,8 +71,13 @@ struct FrameInput {
   Celestial sky{};
   std::span<const shared::Light> lights;  ///< finite, in an order that does not depend on threads
   std::span<const std::uint32_t> light_islands;  ///< indices of `islands`, see shared::Light
-  float exposure_ev = 0.0f;                      ///< picture = tone curve(radiance * 2^-EV)
-  double time_s = 0.0;                           ///< seconds of play: water ripples
+  /// Which of how many frames that average into one picture, drawn one after another; in each, sun
+  /// and moon light from another place of their discs. The last one develops the picture.
+  std::uint32_t part = 0, parts = 1;
+  /// Picture = tone curve(radiance * 2^-EV). None: as the meter finds this very frame.
+  std::optional<float> exposure_ev = 0.0f;
+  bool meter = false;               ///< meter the frame even though its exposure is given
+  double time_s = 0.0;              ///< seconds of play: water ripples
   std::uint32_t camera_medium = 0;  ///< block id the camera is in, if translucent; else 0
   bool freeze_culling =
       false;             ///< keep culling with the camera of the frame in which this became true
@@ -78,7 +85,7 @@ struct FrameInput {
   std::optional<Fault> fault;  ///< implies the way by radiance, too
 };
 
-/// Numbers of a frame the GPU has finished.
+/// Numbers of a frame the GPU has finished. Times are sums over its parts.
 struct FrameReport {
   std::vector<gpu::PassTime> passes;
   double gpu_ms = 0.0;
@@ -87,6 +94,10 @@ struct FrameReport {
   shared::PixelStats pixels{};
   std::uint32_t lights = 0;        ///< whose range the view touches
   shared::ClusterWork clusters{};  ///< that those were sorted into; none under the oracle
+  float exposure_ev = 0.0f;        ///< that the picture was developed at
+  /// What the meter asks for; none if it was not asked, or every pixel it looked at was as good as
+  /// black.
+  std::optional<float> metered_ev;
   gpu::FrameCounts counts{};       ///< of the frame's graph
   int pipelines_created = 0;       ///< since the renderer was made
   std::uint64_t memory_bytes = 0;  ///< of the device, in use when the frame was recorded
@@ -107,6 +118,9 @@ class Renderer {
   ~Renderer();  ///< waits for the GPU
 
   GeometryStore& geometry();
+  /// Which voxels are opaque: for corners and traced lights. Made when first asked for; a renderer
+  /// that is never asked has none, and draws neither. Errors: out of memory.
+  Result<OccupancyStore*> occupancy();
   gpu::Uploader& mesh_uploader();
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);

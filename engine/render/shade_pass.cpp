@@ -1,9 +1,12 @@
 #include "engine/render/shade_pass.h"
 
 #include <string>
+#include <utility>
 
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/light_constants.h"
+#include "engine/render/occupancy_reads.h"
+#include "engine/render/picture_constants.h"
 #include "engine/render/tiles.h"
 #include "shaders/shared/frame.h"
 
@@ -11,6 +14,15 @@ namespace skerry::render {
 namespace {
 
 using gpu::Use;
+
+std::vector<gpu::SpecConstant> with_target(std::vector<gpu::SpecConstant> own,
+                                           const SceneRefs& scene, bool to_picture) {
+  return to_picture ? with_picture(std::move(own), scene) : own;
+}
+
+std::vector<gpu::SpecConstant> constants_of_sky(const ShadeIn& in) {
+  return {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}};
+}
 
 /// Adds surfaces and sky, both into `target`. @return its last version.
 gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
@@ -20,11 +32,15 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size);
   const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
+  const OccupancyReads occupancy(scene, scene.corners && scene.bodies != 0);
   const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
   const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
       std::string("shade_surfaces") + (maps ? "" : "_unshadowed") + surfaces.suffix() + suffix,
-      surfaces.with_store(
-          with_light({{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene, bool{maps}))});
+      with_target(
+          with_corners(surfaces.with_store(with_light(
+                           {{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene, bool{maps})),
+                       bool{occupancy}),
+          scene, to_picture)});
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
@@ -32,27 +48,32 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
         surfaces.declare(b);
+        occupancy.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         b.read(scene.sky_lut, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
+        if (to_picture) b.read(scene.exposure, Use::kComputeRead);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&surface_pipeline, scene, tiles, surfaces, maps, target](gpu::Commands& c) {
+      [&surface_pipeline, scene, tiles, surfaces, occupancy, maps, target,
+       to_picture](gpu::Commands& c) {
         c.bind(surface_pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
         c.storage(2, scene.materials);
         c.storage(4, scene.pixel_stats);
         surfaces.bind(c, scene.point_sampler, 5, 6);
+        occupancy.bind(c);
         c.sampled(7, scene.block_textures, scene.block_sampler);
         c.sampled(8, scene.sky_lut, scene.lut_sampler);
         c.storage(9, target);
         if (maps) c.sampled(12, maps, scene.point_sampler);
+        if (to_picture) c.storage(22, scene.exposure);
         dispatch_tiles(c, tiles, TileKind::kCovered);
       });
   const gpu::Pipeline& sky_pipeline = pipelines.get(
-      gpu::ComputeDesc{"shade_sky" + suffix, {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
+      gpu::ComputeDesc{"shade_sky" + suffix, with_target(constants_of_sky(in), scene, to_picture)});
   const gpu::ImageRef words = geometry.surfaces();
   graph.add_pass(
       "shade_sky",
@@ -61,10 +82,11 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         declare_tiles(b, tiles);
         b.read(words, Use::kComputeRead);
         b.read(scene.sky_lut, Use::kComputeSampled);
+        if (to_picture) b.read(scene.exposure, Use::kComputeRead);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&sky_pipeline, scene, tiles, words, target](gpu::Commands& c) {
+      [&sky_pipeline, scene, tiles, words, target, to_picture](gpu::Commands& c) {
         c.bind(sky_pipeline);
         c.storage(0, scene.frame);
         c.storage(3, scene.sky);
@@ -72,6 +94,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         c.storage(5, words);
         c.sampled(8, scene.sky_lut, scene.lut_sampler);
         c.storage(9, target);
+        if (to_picture) c.storage(22, scene.exposure);
         dispatch_tiles(c, tiles, TileKind::kOpen);
       });
   return target;
@@ -80,24 +103,27 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
 /// Sky for every pixel into `target`. @return its last version.
 gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                    SceneRefs& scene, const ShadeIn& in, gpu::ImageRef target,
-                                   const char* shader) {
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{shader, {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}}});
+                                   bool to_picture) {
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      to_picture ? "shade_sky_everywhere_to_picture.comp" : "shade_sky_everywhere.comp",
+      with_target(constants_of_sky(in), scene, to_picture)});
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.sky}) b.read(ref, Use::kComputeRead);
         b.read(scene.sky_lut, Use::kComputeSampled);
+        if (to_picture) b.read(scene.exposure, Use::kComputeRead);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&pipeline, scene, target](gpu::Commands& c) {
+      [&pipeline, scene, target, to_picture](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(3, scene.sky);
         c.storage(4, scene.pixel_stats);
         c.sampled(8, scene.sky_lut, scene.lut_sampler);
         c.storage(9, target);
+        if (to_picture) c.storage(22, scene.exposure);
         c.dispatch(gpu::Commands::groups(scene.size.width, shared::kTileEdge),
                    gpu::Commands::groups(scene.size.height, shared::kTileEdge), 1);
       });
@@ -127,15 +153,13 @@ Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipe
 
 Shaded ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                                const ShadeIn& in) {
-  return Shaded(shade_sky_everywhere(graph, pipelines, scene, in, radiance(graph, scene),
-                                     "shade_sky_everywhere.comp"));
+  return Shaded(shade_sky_everywhere(graph, pipelines, scene, in, radiance(graph, scene), false));
 }
 
 Developed ShadePass::add_sky_only_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                              SceneRefs& scene, const ShadeIn& in,
                                              gpu::Image& picture) {
-  return Developed(shade_sky_everywhere(graph, pipelines, scene, in, graph.import(picture),
-                                        "shade_sky_everywhere_to_picture.comp"));
+  return Developed(shade_sky_everywhere(graph, pipelines, scene, in, graph.import(picture), true));
 }
 
 }  // namespace skerry::render

@@ -43,6 +43,7 @@ struct Surface {
   vec3 axis_x;    // island axes in the world
   vec3 axis_y;
   vec3 axis_z;
+  float openness;  // share of light that the corners of its face leave to it, 0..1
 };
 
 // Ray through a pixel's centre, scaled to one block along the view axis.

@@ -53,9 +53,9 @@ vec3 seen_through_air(vec3 radiance, vec3 p) {
 vec3 shade_surface(Surface s) {
   vec3 to_eye = -normalize(s.position);
   Brdf b = surface_brdf(s, to_eye);
-  vec3 radiance = s.emitted;
+  vec3 radiance = vec3(0.0);
   if ((kBodies & 1u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[0], 0u);
   if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[1], kMoonCascade);
-  return radiance;
+  return radiance * s.openness + s.emitted;
 }
 #endif

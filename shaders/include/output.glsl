@@ -6,12 +6,20 @@
 #include "include/tonemap.glsl"
 
 #ifdef SKERRY_TO_PICTURE
+#include "shared/exposure.h"
 layout(binding = 9, rgba8) writeonly uniform image2D picture;
+layout(scalar, binding = 22) uniform Chosen { Exposure exposure; };
+
+layout(constant_id = 31) const bool kCalibrated = false;  // the display takes other than 0 to 1
+
+vec4 developed(vec3 colour, uvec2 pixel) {
+  vec3 encoded = srgb_encode(tone_map(colour * exp2(-exposure.ev)));
+  if (kCalibrated) encoded = displayed(encoded, frame.display_peak, frame.display_black);
+  return vec4(dithered(encoded, pixel), 1.0);
+}
 #else
 layout(binding = 9, rgba16f) writeonly uniform image2D radiance;
 #endif
-
-vec4 developed(vec3 colour, uvec2 pixel) { return vec4(dithered(srgb_encode(tone_map(colour * frame.exposure)), pixel), 1.0); }
 
 // Every invocation calls it once; `here` tells which have a pixel. What is stored is finite.
 void put_pixel(uvec2 pixel, vec3 colour, bool here) {

@@ -18,6 +18,7 @@ layout(constant_id = 0) const uint kTextureTaps = 2u;
 #include "include/tiles.glsl"
 #include "include/surface.glsl"
 #include "include/reflection.glsl"
+#include "include/corners.glsl"
 #include "include/clustered.glsl"
 
 void main() {
@@ -37,7 +38,7 @@ void main() {
     light += light_reflected(lights[light_index(list, i)], b, s.position, s.normal, to_eye);
     if (kOracle && ++i < list.count) light += light_reflected(lights[light_index(list, i)], b, s.position, s.normal, to_eye);
   }
-  vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb + light * clear_air(s.position);
+  vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb + light * (surface_openness(s, word) * clear_air(s.position));
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
   if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
 }

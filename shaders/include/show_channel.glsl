@@ -1,5 +1,6 @@
 // Body of show_channel*.comp: one channel of the G-buffer, or one term of the light, in place of the lit scene. docs/conventions.md.
 #include "include/common.glsl"
+#include "shared/exposure.h"
 #include "shared/sky.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -17,11 +18,14 @@ layout(binding = 7) uniform sampler2DArray shadow_maps;
 #include "include/shadow.glsl"
 #endif
 
+layout(scalar, binding = 22) uniform Chosen { Exposure exposure; };
+
 layout(constant_id = 0) const uint kChannel = 1u;  // render::DebugView
 
 #include "include/surface.glsl"
 #include "include/sky.glsl"
 #include "include/lighting.glsl"
+#include "include/corners.glsl"
 #include "include/tonemap.glsl"
 
 vec3 hashed_colour(uint id) {
@@ -44,9 +48,10 @@ vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
   // Position in its island's lattice: red, green, blue repeat every block along x, y, z.
   if (kChannel == 3u) return fract(lattice_from_world(islands[surface_island(word)], s.position));
   if (kChannel == 4u) return hashed_colour(surface_block(word) | (surface_island(word) << 16));
-  if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * frame.exposure));
+  if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * exp2(-exposure.ev)));
   if (kChannel == 6u) return vec3(fract(log2(view_distance(depth, frame.near_plane))));
-  if (kChannel >= 9u) return vec3(0.0);  // lights, of which there are none: else show_lights.comp is used
+  if (kChannel == 9u) return vec3(surface_openness(s, word));
+  if (kChannel >= 10u) return vec3(0.0);  // lights, of which there are none: else show_lights.comp is used
   Body body = frame.bodies[(kBodies & 1u) != 0u ? 0 : 1];
   if (kChannel == 7u) return hashed_colour(cascade_at(body, length(s.position)) + 3u) * 0.6 + 0.4 * s.albedo;
   float n_dot_l = dot(s.normal, body.to_light);

@@ -14,9 +14,11 @@
 #include <vector>
 
 #include "shaders/shared/clusters.h"
+#include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/light.h"
+#include "shaders/shared/occupancy.h"
 #include "shaders/shared/overlay.h"
 #include "shaders/shared/sky.h"
 #include "tests/gpu/compile_glsl.h"
@@ -57,6 +59,8 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(Section, bounds_min), MEMBER(Section, bounds_max), MEMBER(Section, range_end)),
       STRUCT(IslandTransform, MEMBER(IslandTransform, axis_x), MEMBER(IslandTransform, axis_y),
              MEMBER(IslandTransform, axis_z), MEMBER(IslandTransform, translation)),
+      STRUCT(OccupancyGrid, MEMBER(OccupancyGrid, low), MEMBER(OccupancyGrid, size),
+             MEMBER(OccupancyGrid, first)),
       STRUCT(Material, MEMBER(Material, layer_side), MEMBER(Material, layer_top),
              MEMBER(Material, layer_bottom), MEMBER(Material, emission),
              MEMBER(Material, absorption), MEMBER(Material, roughness),
@@ -73,11 +77,13 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(FrameConstants, MEMBER(FrameConstants, clip_from_world),
              MEMBER(FrameConstants, ray_right), MEMBER(FrameConstants, ray_up),
              MEMBER(FrameConstants, ray_forward), MEMBER(FrameConstants, pixel_to_ndc),
-             MEMBER(FrameConstants, size), MEMBER(FrameConstants, near_plane),
-             MEMBER(FrameConstants, exposure), MEMBER(FrameConstants, time_s),
+             MEMBER(FrameConstants, size), MEMBER(FrameConstants, picture_size),
+             MEMBER(FrameConstants, near_plane), MEMBER(FrameConstants, display_peak),
+             MEMBER(FrameConstants, display_black), MEMBER(FrameConstants, time_s),
              MEMBER(FrameConstants, shading_flat), MEMBER(FrameConstants, camera_medium),
-             MEMBER(FrameConstants, pcf_radius_blocks), MEMBER(FrameConstants, haze_per_block),
-             MEMBER(FrameConstants, bodies), MEMBER(FrameConstants, cascades)),
+             MEMBER(FrameConstants, penumbra_blocks), MEMBER(FrameConstants, haze_per_block),
+             MEMBER(FrameConstants, corner_darkening), MEMBER(FrameConstants, bodies),
+             MEMBER(FrameConstants, cascades)),
       STRUCT(CullView, MEMBER(CullView, planes), MEMBER(CullView, eye),
              MEMBER(CullView, orthographic), MEMBER(CullView, enabled)),
       STRUCT(SectionTransform, MEMBER(SectionTransform, x), MEMBER(SectionTransform, y),
@@ -87,6 +93,10 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(TileDispatch, MEMBER(TileDispatch, groups_x), MEMBER(TileDispatch, groups_y),
              MEMBER(TileDispatch, groups_z), MEMBER(TileDispatch, tiles)),
       STRUCT(PixelStats, MEMBER(PixelStats, non_finite), MEMBER(PixelStats, black)),
+      STRUCT(Metering, MEMBER(Metering, key), MEMBER(Metering, min_ev), MEMBER(Metering, max_ev),
+             MEMBER(Metering, stride), MEMBER(Metering, decides)),
+      STRUCT(Exposure, MEMBER(Exposure, ev), MEMBER(Exposure, metered_ev),
+             MEMBER(Exposure, metered)),
       STRUCT(SkyBody, MEMBER(SkyBody, to_body), MEMBER(SkyBody, perez_a), MEMBER(SkyBody, perez_b),
              MEMBER(SkyBody, perez_c), MEMBER(SkyBody, perez_d), MEMBER(SkyBody, perez_e),
              MEMBER(SkyBody, zenith), MEMBER(SkyBody, day), MEMBER(SkyBody, haze),

@@ -150,19 +150,6 @@ TEST(Celestial, ZenithRadianceIsSmoothMonotoneAndEndsBelowTheHorizon) {
   EXPECT_LT(last, 0.3);
 }
 
-TEST(Exposure, FollowsTheLightSmoothlyAndStopsAtTheCap) {
-  EXPECT_FLOAT_EQ(auto_exposure_ev(celestial_at(0.0, 0.0)), -8.0f);
-  EXPECT_NEAR(auto_exposure_ev(celestial_at(0.0, 0.5)), -7.0f, 0.1f);
-  EXPECT_NEAR(auto_exposure_ev(celestial_at(12 * kHour, 0.5)), -0.5f, 0.1f);
-  float last = -8.01f;
-  for (double t = 0.0; t < 12 * kHour; t += 6.0) {
-    const float ev = auto_exposure_ev(celestial_at(t, 0.0));
-    EXPECT_GE(ev, last);
-    EXPECT_LT(ev - last, 0.05f) << t;
-    last = ev;
-  }
-}
-
 TEST(QuantisedTime, TurnsTheSunBySmallEqualSteps) {
   EXPECT_EQ(quantised_time(86400.0 + 25.0), 24.0);
   EXPECT_EQ(quantised_time(-1.0), 86388.0);

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "tools/reference/reference.h"
+
 namespace skerry::render {
 namespace {
 
@@ -29,6 +31,13 @@ std::vector<glm::dvec3> sphere(int count) {
     all.push_back(direction(2.399963229728653 * i, std::asin(y)));
   }
   return all;
+}
+
+/// What a camera that sees these and nothing else is exposed to.
+double exposure_of(const std::vector<glm::dvec3>& radiance) {
+  measure::Picture picture{static_cast<std::uint32_t>(radiance.size()), 1, {}};
+  picture.pixels.assign(radiance.begin(), radiance.end());
+  return std::exp2(-reference::metered_ev(picture, {}).value_or(0.0));
 }
 
 TEST(SkyModel, NoonZenithIsThePapersLuminance) {
@@ -119,9 +128,10 @@ TEST(SkyModel, ChangesWithoutAJumpFromOneStepOfTimeToTheNext) {
     for (double t = 0; t < kDaySeconds; t += 12.0) {
       const Celestial now = celestial_at(t, phase);
       const shared::SkyConstants sky = sky_constants(now);
-      const double exposure = std::exp2(-auto_exposure_ev(now));
       std::vector<glm::dvec3> seen;
-      for (const glm::dvec3& d : directions) seen.push_back(sky_radiance(d, sky) * exposure);
+      for (const glm::dvec3& d : directions) seen.push_back(sky_radiance(d, sky));
+      const double exposure = exposure_of(seen);
+      for (glm::dvec3& one : seen) one *= exposure;
       for (std::size_t i = 0; i < last.size(); ++i) {
         const double before = luminance(last[i]), after = luminance(seen[i]);
         EXPECT_LT(std::abs(after - before), 0.002 + 0.025 * before) << t;

@@ -34,7 +34,7 @@ struct ReferencePicture {
   /// Empty with one sample, which tells nothing about its error.
   std::vector<glm::vec3> standard_error;
   std::optional<double> mean_error;  ///< of all pixels and channels of standard_error
-  double exposure = 1.0;             ///< picture = develop(radiance * exposure)
+  double ev = 0.0;                   ///< stops to be developed at
   std::uint32_t non_finite_pixels = 0;
   std::size_t islands = 0, chunks = 0;  ///< looked at
   double seconds = 0.0;
@@ -53,7 +53,24 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const ReferenceSettings& settings,
                                           const Progress& progress = {});
 
-/// Exposure, tone curve and sRGB to 8 bits, RGBA, rows from the top, without dither.
-std::vector<std::uint8_t> develop(const measure::Picture& radiance, double exposure);
+/// The exposure that a picture asks for [stops]: docs/exposure.md, from every pixel's luminance, in
+/// order, without a histogram. None: all pixels are as good as black.
+std::optional<double> metered_ev(const measure::Picture& radiance,
+                                 const render::MeterSettings& settings);
+
+/// How a picture is developed.
+struct Darkroom {
+  render::ToneCurve tone = render::ToneCurve::kAces;
+  render::DisplaySettings display;
+};
+Darkroom darkroom_from(const game::Settings& settings);
+
+/// Linear, 0..1.
+glm::dvec3 tone_mapped(glm::dvec3 exposed, render::ToneCurve curve);
+
+/// Exposure of `ev` stops, tone curve, display and sRGB to 8 bits, RGBA, rows from the top, without
+/// dither.
+std::vector<std::uint8_t> develop(const measure::Picture& radiance, double ev,
+                                  const Darkroom& darkroom = {});
 
 }  // namespace skerry::reference

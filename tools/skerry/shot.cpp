@@ -54,7 +54,7 @@ ordered_json stats_json(const gpu::Device& device, game::SceneView& view, const 
   j["chunks"] = {{"resident", view.renderer().geometry().sections_resident()},
                  {"drawn", report.camera.sections_passed}};
   j["draws"] = {{"camera", report.camera.draws}, {"shadows", report.shadows.draws}};
-  j["lights"] = 0;
+  j["lights"] = view.lights();
   ordered_json by = ordered_json::object();
   for (const gpu::MemoryUse& use : device.memory_use())
     by[use.name] = by.value(use.name, std::uint64_t{0}) + use.bytes;
@@ -71,6 +71,8 @@ ordered_json stats_json(const gpu::Device& device, game::SceneView& view, const 
                  {"images", counts.images},
                  {"buffers", counts.buffers},
                  {"transient_bytes", counts.transient_bytes}};
+  j["exposure"] = {{"ev", report.exposure_ev}, {"metered_ev", nullptr}};
+  if (report.metered_ev) j["exposure"]["metered_ev"] = *report.metered_ev;
   j["non_finite_pixels"] = report.pixels.non_finite;
   j["black_fraction"] = static_cast<double>(report.pixels.black) /
                         (static_cast<double>(drawn.size.width) * drawn.size.height);
@@ -126,6 +128,7 @@ int shot(const ShotOptions& options) {
   const Result<Drawn> drawn = (*drawer)->draw();
   if (!drawn) return fail(kFailed, drawn.error());
   cpu_ms["draw"] = watch.lap();
+  cpu_ms["gather_lights"] = (*drawer)->view().gather_ms();
   const platform::PixelView image{size.width, size.height, 4, drawn->rgba};
   const std::array<platform::PngText, 2> text{
       {{"Software", "Skerry"}, {"Command", game::shot_command(options.scene)}}};

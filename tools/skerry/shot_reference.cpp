@@ -45,6 +45,7 @@ ordered_json stats_json(const ShotOptions& options, const ReferencePicture& pict
   j["error"] = {{"mean_radiance", mean_radiance(picture.radiance)},
                 {"mean_standard_error", nullptr}};
   if (picture.mean_error) j["error"]["mean_standard_error"] = *picture.mean_error;
+  j["exposure_ev"] = picture.ev;
   j["islands"] = picture.islands;
   j["chunks"] = picture.chunks;
   j["non_finite_pixels"] = picture.non_finite_pixels;
@@ -77,7 +78,8 @@ int shot_reference(const ShotOptions& options) {
   if (!picture) return fail(kUsage, picture.error());
   ordered_json cpu_ms;
   cpu_ms["draw"] = total.milliseconds();
-  const std::vector<std::uint8_t> rgba = reference::develop(picture->radiance, picture->exposure);
+  const std::vector<std::uint8_t> rgba = reference::develop(
+      picture->radiance, picture->ev, reference::darkroom_from(options.scene.settings));
   const platform::PixelView image{picture->radiance.width, picture->radiance.height, 4, rgba};
   const std::array<platform::PngText, 2> text{
       {{"Software", "Skerry"}, {"Command", game::shot_command(options.scene)}}};

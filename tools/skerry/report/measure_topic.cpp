@@ -27,6 +27,7 @@ using Progress = std::function<void(double, std::string_view)>;
 struct Shot {
   measure::Image shown;
   measure::Picture radiance;
+  double exposure_ev = 0.0;
 };
 
 /// The points of a topic in one scene, each ready to be drawn again.
@@ -49,8 +50,11 @@ class Sweep {
     return sweep;
   }
 
-  Result<Shot> draw(std::size_t point) {
-    Result<Drawn> drawn = drawer(point).draw(true);
+  /// @param exposure_ev of the picture; none: as the point's settings say.
+  Result<Shot> draw(std::size_t point, std::optional<double> exposure_ev) {
+    SceneDrawer& chosen = drawer(point);
+    if (exposure_ev) chosen.view().settings().exposure_ev = exposure_ev;
+    Result<Drawn> drawn = chosen.draw(true);
     if (!drawn) return drawn.error();
     if (drawn->report.pixels.non_finite != 0)
       return Error{
@@ -58,7 +62,8 @@ class Sweep {
                       "the driver",
                       drawn->report.pixels.non_finite)};
     return Shot{{drawn->size.width, drawn->size.height, std::move(drawn->rgba)},
-                *std::move(drawn->radiance)};
+                *std::move(drawn->radiance),
+                drawn->report.exposure_ev};
   }
 
   Result<double> frame_ms(std::size_t point, bool keep_shadows) {
@@ -77,6 +82,31 @@ class Sweep {
   std::vector<std::unique_ptr<SceneDrawer>> drawers_;  // one a point, or one for all
   std::vector<game::Settings> settings_;               // by point
 };
+
+/// Every point's picture, all at one exposure: a stop's thousandth between two would blur what the
+/// topic measures. It is the judge's: the reference's, or the last point's.
+Result<std::vector<Shot>> take_shots(Sweep& sweep, const Topic& topic, const Judged* reference,
+                                     const std::function<void(double)>& progress) {
+  const std::size_t points = topic.points.size();
+  std::optional<double> ev;
+  if (!topic.own_exposures) {
+    if (reference) {
+      ev = reference->ev;
+    } else {
+      const Result<Shot> last = sweep.draw(points - 1, {});
+      if (!last) return last.error();
+      ev = last->exposure_ev;
+    }
+  }
+  std::vector<Shot> shots;
+  for (std::size_t p = 0; p < points; ++p) {
+    progress(static_cast<double>(p) / static_cast<double>(points));
+    Result<Shot> shot = sweep.draw(p, ev);
+    if (!shot) return shot.error();
+    shots.push_back(*std::move(shot));
+  }
+  return shots;
+}
 
 /// Frame times of every point, measured in turns.
 Result<std::vector<std::vector<double>>> time_frames(Sweep& sweep, const Topic& topic,
@@ -157,6 +187,8 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
   const Judged* reference = nullptr;
   if (topic.judge == Judge::kReference) {
     game::SceneOptions exact = *scene;
+    // The renderer samples geometry at pixel centres; smoother edges would drown every other error.
+    exact.settings.reference_filter = game::ReferenceFilter::kCentre;
     if (!topic.reference_settings.empty())
       if (Result<void> done = apply_point(topic.reference_settings, exact.settings); !done)
         return done.error();
@@ -170,14 +202,10 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
 
   Result<Sweep> sweep = Sweep::create(session.device(), topic, *scene);
   if (!sweep) return sweep.error();
-  std::vector<Shot> shots;
-  const std::size_t points = topic.points.size();
-  for (std::size_t p = 0; p < points; ++p) {
-    progress(0.3 + 0.2 * static_cast<double>(p) / static_cast<double>(points), what + ": pictures");
-    Result<Shot> shot = sweep->draw(p);
-    if (!shot) return shot.error();
-    shots.push_back(*std::move(shot));
-  }
+  Result<std::vector<Shot>> shots = take_shots(*sweep, topic, reference, [&](double share) {
+    progress(0.3 + 0.2 * share, what + ": pictures");
+  });
+  if (!shots) return shots.error();
   Result<std::vector<std::vector<double>>> ms =
       topic.cost == CostOf::kUpload ? time_uploads(session.device(), topic)
                                     : time_frames(*sweep, topic, [&](double share) {
@@ -185,7 +213,7 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
                                       });
   if (!ms) return ms.error();
   out.frames = static_cast<int>(ms->front().size());
-  for (std::size_t p = 0; p < points; ++p) {
+  for (std::size_t p = 0; p < topic.points.size(); ++p) {
     PointRow row;
     row.point = &topic.points[p];
     row.ms = spread_of((*ms)[p]);
@@ -193,7 +221,7 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
     out.rows.push_back(row);
   }
   progress(0.9, what + ": errors");
-  compare(shots, reference, out);
+  compare(*shots, reference, out);
   judge_standing(out.rows);
   return out;
 }

@@ -41,14 +41,14 @@ Result<const Judged*> ReportSession::reference(const game::SceneOptions& scene,
                                                const std::function<void(double)>& progress) {
   std::unique_ptr<Judged>& kept = references_[game::shot_command(scene)];
   if (kept) return kept.get();
-  reference::ReferenceSettings settings = reference::settings_from(scene);
-  // The renderer samples geometry at pixel centres; smoother edges would drown every other error.
-  settings.filter = game::ReferenceFilter::kCentre;
-  Result<reference::ReferencePicture> made = reference::render_reference(scene, settings, progress);
+  Result<reference::ReferencePicture> made =
+      reference::render_reference(scene, reference::settings_from(scene), progress);
   if (!made) return made.error();
   kept = std::make_unique<Judged>();
-  kept->shown = {made->radiance.width, made->radiance.height,
-                 reference::develop(made->radiance, made->exposure)};
+  kept->shown = {
+      made->radiance.width, made->radiance.height,
+      reference::develop(made->radiance, made->ev, reference::darkroom_from(scene.settings))};
+  kept->ev = made->ev;
   kept->radiance = std::move(made->radiance);
   kept->mean_standard_error = made->mean_error.value_or(0.0);
   kept->seconds = made->seconds;

@@ -31,6 +31,7 @@ struct ReportRequest {
 struct Judged {
   measure::Picture radiance;  ///< before exposure
   measure::Image shown;
+  double ev = 0.0;                   ///< that it is shown at [stops]
   double mean_standard_error = 0.0;  ///< of radiance; 0 when unknown
   double seconds = 0.0;
 };

@@ -30,10 +30,15 @@ constexpr TopicPoint kShadowSplits[] = {
     {"0.9", "shadow.split=0.9"}, {"0.95", "shadow.split=0.95"}, {"0.98", "shadow.split=0.98"},
     {"1", "shadow.split=1"}};
 constexpr TopicPoint kShadowBlurs[] = {{"0", "shadow.blur=0"},
-                                       {"0.03", "shadow.blur=0.03"},
-                                       {"0.06", "shadow.blur=0.06"},
-                                       {"0.12", "shadow.blur=0.12"},
-                                       {"0.25", "shadow.blur=0.25"}};
+                                       {"0.05", "shadow.blur=0.05"},
+                                       {"0.1", "shadow.blur=0.1"},
+                                       {"0.15", "shadow.blur=0.15"},
+                                       {"0.3", "shadow.blur=0.3"}};
+// The sun's own disc, exactly; and as many samples of a pixel.
+constexpr TopicPoint kShadowSamples[] = {
+    {"filter", "shadow.samples=1"}, {"4", "shadow.samples=4"}, {"16", "shadow.samples=16"}};
+constexpr TopicPoint kSamples[] = {
+    {"1", "aa.samples=1"}, {"4", "aa.samples=4"}, {"16", "aa.samples=16"}};
 constexpr TopicPoint kShadowCascades[] = {{"1", "shadow.cascades=1"},
                                           {"2", "shadow.cascades=2"},
                                           {"3", "shadow.cascades=3"},
@@ -59,10 +64,17 @@ constexpr TopicPoint kTextureTaps[] = {{"1", "texture.taps=1"},
                                        {"4", "texture.taps=4"},
                                        {"8", "texture.taps=8"},
                                        {"16", "texture.taps=16"}};
+constexpr TopicPoint kCorners[] = {
+    {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},
                                        {"4", "water.layers=4"}};
+constexpr TopicPoint kMeterStrides[] = {{"16", "exposure.stride=16"},
+                                        {"8", "exposure.stride=8"},
+                                        {"4", "exposure.stride=4"},
+                                        {"2", "exposure.stride=2"},
+                                        {"1", "exposure.stride=1"}};
 constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
                                        {"staging", "upload.path=staging"},
                                        {"mapped", "upload.path=mapped"}};
@@ -79,8 +91,11 @@ constexpr Topic kTopics[] = {
     {"shadow_cascades", "shadow maps a light has", kShadowCascades, kShadowScenes},
     {"shadow_split", "how the maps of a light share the view distance", kShadowSplits,
      kShadowScenes},
-    {"shadow_blur", "smallest radius of the shadow filter", kShadowBlurs, kShadowScenes,
+    {"shadow_blur", "largest radius of the shadow filter", kShadowBlurs, kShadowScenes,
      Judge::kReference, CostOf::kShading},
+    {"shadow_samples", "places on the sun's disc that light comes from", kShadowSamples, kWater},
+    {"aa_samples", "samples of a pixel", kSamples, kDay, Judge::kReference, CostOf::kFrame, false,
+     "reference.filter=pixel"},
     {"gbuffer_normal", "how normals are kept between drawing and shading", kNormals, kDay,
      Judge::kLimit, CostOf::kShading},
     {"gbuffer_position", "where shading takes positions from", kPositions, kDay, Judge::kLimit,
@@ -89,10 +104,21 @@ constexpr Topic kTopics[] = {
      CostOf::kFrame, true, "view.distance=4000"},
     {"view_detail", "blocks up to which everything is drawn in full detail", kDetails, kFar,
      Judge::kReference, CostOf::kFrame, true},
+    {"ao", "how much light a closed corner of blocks takes", kCorners, kShadowScenes,
+     Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,
      Judge::kReference, CostOf::kShading},
     {"water_layers", "water and glass surfaces, one behind another, that a pixel shows",
      kWaterLayers, kWater, Judge::kReference, CostOf::kShading},
+    {"exposure",
+     "pixels of which the meter looks at one",
+     kMeterStrides,
+     kShadowScenes,
+     Judge::kLimit,
+     CostOf::kShading,
+     false,
+     {},
+     true},
     {"upload_path", "how meshes travel to the GPU", kUploadPaths, kDay, Judge::kEqual,
      CostOf::kUpload, true},
 };

@@ -43,6 +43,8 @@ struct Topic {
   /// The settings decide what is loaded, so that each point loads the world for itself.
   bool loads = false;
   std::string_view reference_settings = {};  ///< for the reference alone, over the scene's
+  /// Each point is exposed as it meters itself; else all as their judge is.
+  bool own_exposures = false;
 };
 
 std::span<const ReportScene> report_scenes();

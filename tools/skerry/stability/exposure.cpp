@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <memory>
+#include <optional>
 
+#include "game/materials.h"
 #include "tools/skerry/stability/case.h"
+#include "tools/skerry/stability/stage.h"
 
 namespace skerry::tools::stability {
 namespace {
@@ -89,10 +94,78 @@ Result<Rows> nothing_metered() {
   return Rows{{"times a target of NaN or infinity was followed", 0.0, moved}};
 }
 
+/// A lamp that blinds, or nothing but black stone.
+world::BlockId before_the_eye(bool blinding, int x, int y, int z) {
+  if (std::min({x, y, z}) < 16 || std::max({x, y, z}) >= 48) return world::block::kAirBlock;
+  if (std::min({x, y, z}) >= 18 && std::max({x, y, z}) < 46) return world::block::kAirBlock;
+  return blinding ? world::block::kLamp : world::block::kStone;
+}
+
+/// What play does, with frames drawn and metered: a closed room of lamps and one of stone by turns.
+/// The pictures' exposures go to the ends of what can be set.
+Result<Rows> metered_frames(gpu::Device& device) {
+  constexpr VkExtent2D kSize{64, 48};
+  std::vector<shared::Material> glaring = game::material_table();
+  glaring[world::block::kLamp].emission = glm::packHalf1x16(60000.0f);
+  const std::vector<render::IslandPlacement> island{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
+  std::unique_ptr<Stage> stages[2];
+  for (const bool blinding : {false, true}) {
+    auto stage = Stage::create(device, glaring);
+    if (!stage) return stage.error();
+    const auto blocks = [&](int x, int y, int z) { return before_the_eye(blinding, x, y, z); };
+    if (Result<void> added = (*stage)->add(blocks, {0, 0, 0}, {1, 1, 1}); !added)
+      return added.error();
+    stages[blinding] = *std::move(stage);
+  }
+  render::FrameInput input;
+  input.islands = island;
+  input.camera = camera_at({32.0, 32.0, 32.0}, 20.0, 0.0);
+  input.sky = sun_towards({0.4, 0.8, -0.5});
+  input.meter = true;
+  const render::MeterSettings limits;
+  double black_metered = 0.0, black_lit = 0.0, differing = 0.0, beyond = 0.0, wrong_way = 0.0,
+         unmetered = 0.0;
+  std::optional<float> glare;
+  for (const double dt : {0.0, 1e-9, 1.0 / 60.0, 1.0, 1e6}) {
+    for (double ev : {kBlack, -3.0, kBlinding}) {
+      for (int turn = 0; turn < 6; ++turn) {
+        const bool blinding = turn % 2 == 1;
+        input.exposure_ev = static_cast<float>(ev);
+        const auto frame = stages[blinding]->draw(input, {}, kSize);
+        if (!frame) return frame.error();
+        const std::optional<float> asked = frame->report.metered_ev;
+        if (!blinding) {
+          black_metered += asked.has_value();
+          for (std::size_t i = 0; i < frame->rgba.size(); ++i)
+            black_lit += i % 4 != 3 && frame->rgba[i] != 0;
+        } else if (!asked) {
+          ++unmetered;
+        } else {
+          if (!glare) glare = asked;
+          differing += *glare != *asked;
+          beyond =
+              std::max({beyond, double{*asked} - limits.max_ev, limits.min_ev - double{*asked}});
+        }
+        const double next = adapted_ev(ev, asked.value_or(std::nanf("")), dt);
+        wrong_way += asked && (next - ev) * (*asked - ev) < 0.0;
+        ev = next;
+      }
+    }
+  }
+  return Rows{
+      {"black frames that moved the meter, exposures of -20 to 20 stops", 0.0, black_metered},
+      {"channels above 0 in black frames, exposures of -20 to 20 stops", 0.0, black_lit},
+      {"blinding frames that were not metered", 0.0, unmetered},
+      {"blinding frames metered otherwise at another exposure", 0.0, differing},
+      {"stops metered beyond the limits", 0.0, beyond},
+      {"metered frames after which the eye moved away", 0.0, wrong_way}};
+}
+
 constexpr Case kCases[] = {{"exposure.steps", steps},
                            {"exposure.alternating", alternating},
                            {"exposure.splitting", splitting},
-                           {"exposure.nothing_metered", nothing_metered}};
+                           {"exposure.nothing_metered", nothing_metered},
+                           {"exposure.metered_frames", metered_frames}};
 
 }  // namespace
 
