@@ -669,8 +669,8 @@ Result<std::uint64_t> Renderer::draw(
   if (Result<void> ok = s.upload_tables(tables, input, sky_now); !ok) return ok.error();
   if (!contents.lights.empty())
     if (Result<void> ok = s.light_clusters.upload(s.frame_uploader, contents.lights,
-                                                  view_of(input.camera, size.width, size.height),
-                                                  size, input.camera_medium != 0);
+                                                  view_of(input.camera, drawn.width, drawn.height),
+                                                  drawn, input.camera_medium != 0);
         !ok)
       return ok.error();
 

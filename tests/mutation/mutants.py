@@ -20,7 +20,7 @@ class Mutant:
 MUTANTS = (
     # Light
     Mutant("moon_off", "the moon gives no light", "shaders/include/lighting.glsl",
-           "if ((kBodies & 2u) != 0u) light += received(s, frame.bodies[1], kMoonCascade);", "",
+           "if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[1], kMoonCascade);", "",
            "moonlit mycelium"),
     Mutant("normal_of_z_faces", "faces along z have the opposite normal", "shaders/include/common.glsl",
            "axis == 2u ? s : 0.0", "axis == 2u ? -s : 0.0", "debug_normal day"),
@@ -28,6 +28,16 @@ MUTANTS = (
            "frame.shading_flat != 0u ? 1.0 : n_dot_l", "n_dot_l", "flat_shading"),
     Mutant("emission_lost", "nothing glows", "shaders/include/surface.glsl",
            "unpackHalf2x16(materials[surface_block(word)].emission).x", "0.0", "lava_night cave"),
+    # Lights
+    Mutant("light_window_lost", "lights end in a step at their range", "shaders/include/lights.glsl",
+           "return w * w;", "return w > 0.0 ? 1.0 : 0.0;", "lights_gallery village_night"),
+    Mutant("spot_edge_hard", "a spot has no soft edge", "shaders/include/lights.glsl",
+           "smoothstep(light.cos_outer, light.cos_inner, cosine)", "step(light.cos_outer, cosine)", "lights_gallery"),
+    Mutant("light_slices_shifted", "clusters are bounded a slice too near", "shaders/include/clusters.glsl",
+           "uintBitsToFloat((kFirstSlice + slice - 1u)", "uintBitsToFloat((kFirstSlice + slice - 2u)",
+           "village_night cave_torches"),
+    Mutant("light_bins_short", "one light of 32 is never asked", "shaders/bin_lights.comp",
+           "word * 32u + 32u, grid.light_count", "word * 32u + 31u, grid.light_count", "village_night"),
     # Shadows
     Mutant("cascade_shifted_a_texel", "the second cascade is read a texel beside", "shaders/include/shadow.glsl",
            "index == 1u) c = frame.cascades[base + 1u];",

@@ -9,6 +9,7 @@
 #include "tools/skerry/bench_cull.h"
 #include "tools/skerry/bench_frame.h"
 #include "tools/skerry/bench_generate.h"
+#include "tools/skerry/bench_lights.h"
 #include "tools/skerry/bench_mesh.h"
 #include "tools/skerry/bench_upload.h"
 #include "tools/skerry/scene_device.h"
@@ -39,6 +40,8 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_device_options(*upload_);
   cull_ = add("cull", "Time culling on the GPU");
   add_device_options(*cull_);
+  lights_ = add("lights", "Time sorting and shading of 64 to 16,384 lights in a scene");
+  add_scene_options(*lights_, scene_);
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
   add_scene_options(*frame_, scene_);
 }
@@ -62,6 +65,7 @@ int BenchCommands::run() {
   const CLI::App* chosen = bench_->get_subcommands().front();
   if (const auto refusal = check_leftovers(*bench_)) return refuse(*refusal);
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
+  if (chosen == lights_) return run_lights();
   if (chosen == frame_) return run_frame();
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   if (chosen == mesh_) return run_mesh();
@@ -70,10 +74,10 @@ int BenchCommands::run() {
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh", "generate", "upload", "cull", "frame"};
+  constexpr std::string_view kNames[] = {"mesh", "generate", "upload", "cull", "lights", "frame"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
-    return fail(kUsage, {"bench does not say what: give mesh, generate, upload, cull or frame"});
+    return fail(kUsage, {"bench does not say what: give mesh, generate, upload, cull, lights or frame"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
@@ -95,6 +99,15 @@ int BenchCommands::run_on_device(const CLI::App& chosen) {
   if (const auto refusal = parse_device(device_, device)) return refuse(*refusal);
   if (&chosen == upload_) return bench_upload({device, validate_, path_of(json_)});
   return bench_cull({device, validate_, path_of(json_)});
+}
+
+int BenchCommands::run_lights() {
+  BenchLightsOptions options;
+  if (const auto refusal = resolve(scene_, true, options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_output(json_)) return refuse(*refusal);
+  options.json = path_of(json_);
+  return bench_lights(options);
 }
 
 int BenchCommands::run_frame() {

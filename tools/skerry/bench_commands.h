@@ -7,7 +7,7 @@
 
 namespace skerry::tools {
 
-/// `skerry bench mesh|generate|upload|cull|frame`: options, and which function each calls.
+/// `skerry bench mesh|generate|upload|cull|lights|frame`: options, and which function each calls.
 class BenchCommands {
  public:
   /// Adds `bench` and its sub-commands.
@@ -24,6 +24,7 @@ class BenchCommands {
   void add_device_options(CLI::App& command);
   int run_mesh();
   int run_on_device(const CLI::App& chosen);
+  int run_lights();
   int run_frame();
   int refuse_unknown() const;
 
@@ -32,6 +33,7 @@ class BenchCommands {
   CLI::App* generate_;
   CLI::App* upload_;
   CLI::App* cull_;
+  CLI::App* lights_;
   CLI::App* frame_;
   std::optional<std::string> input_, json_, device_;
   bool validate_ = false;
