@@ -1,6 +1,5 @@
 #include "game/emission.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -76,10 +75,6 @@ std::vector<BlockEmission> emission_table() {
   for (const world::BlockType& type : world::block_types())
     table.push_back(type.emission > 0.0f ? emission_of(file, type) : BlockEmission{});
   return table;
-}
-
-float light_range(glm::vec3 intensity) {
-  return std::sqrt(std::max({intensity.x, intensity.y, intensity.z}) / kLeastIrradiance);
 }
 
 }  // namespace skerry::game

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -24,6 +26,8 @@ struct BlockEmission {
 std::vector<BlockEmission> emission_table();
 
 /// How far a light of this intensity reaches [blocks].
-float light_range(glm::vec3 intensity);
+inline float light_range(glm::vec3 intensity) {
+  return std::sqrt(std::max({intensity.x, intensity.y, intensity.z}) / kLeastIrradiance);
+}
 
 }  // namespace skerry::game
