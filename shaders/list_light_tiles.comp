@@ -12,7 +12,7 @@ layout(scalar, binding = 2) readonly buffer Clusters { Cluster clusters[]; };
 layout(scalar, binding = 3) buffer Dispatches { TileDispatch dispatch; };
 layout(scalar, binding = 4) writeonly buffer Tiles { uint tiles[]; };
 
-layout(constant_id = 13) const bool kOracle = false;  // every light may reach every tile
+layout(constant_id = 16) const bool kOracle = false;  // every light may reach every tile
 
 #include "include/clusters.glsl"
 

@@ -185,7 +185,7 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       });
   const gpu::BufferRef clusters = out.oracle ? b.small_tiles : out.clusters;  // bound, not read
   std::vector<gpu::SpecConstant> constants;
-  if (out.oracle) constants.push_back({13, 1});
+  if (out.oracle) constants.push_back({16, 1});
   graph.add_pass(
       "list_light_tiles",
       [&](gpu::PassBuilder& p) {

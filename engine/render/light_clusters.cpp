@@ -96,7 +96,7 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size, bool
 std::vector<gpu::SpecConstant> ClusteredLights::with_lights(
     std::vector<gpu::SpecConstant> own) const {
   own.push_back({12, kinds});
-  if (oracle) own.push_back({13, 1});
+  if (oracle) own.push_back({16, 1});
   return own;
 }
 

@@ -9,7 +9,7 @@ layout(scalar, binding = 23) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 24) readonly buffer Clusters { Cluster clusters[]; };
 layout(scalar, binding = 25) readonly buffer Entries { uint entries[]; };
 
-layout(constant_id = 13) const bool kOracle = false;  // every pixel asks every light: the truth that clusters are held against
+layout(constant_id = 16) const bool kOracle = false;  // every pixel asks every light: the truth that clusters are held against
 
 #include "include/clusters.glsl"
 #include "include/lights.glsl"
