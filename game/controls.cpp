@@ -41,6 +41,18 @@ std::uint32_t stepped_view_distance(std::uint32_t blocks, int steps) {
       std::clamp(std::round(wanted), double{kMinViewDistance}, double{kMaxViewDistance}));
 }
 
+render::DisplaySettings stepped_display(render::DisplaySettings display, int peak_steps,
+                                        int black_steps) {
+  // In whole steps, so that there and back is where one was.
+  const auto stepped = [](double value, int steps, double step, double least, double most) {
+    return static_cast<float>(std::clamp((std::round(value / step) + steps) * step, least, most));
+  };
+  if (peak_steps != 0) display.peak = stepped(display.peak, peak_steps, 0.05, kMinDisplayPeak, 1.0);
+  if (black_steps != 0)
+    display.black = stepped(display.black, black_steps, 0.005, 0.0, kMaxDisplayBlack);
+  return display;
+}
+
 Quality stepped_quality(Quality quality, int steps) {
   const int level = static_cast<int>(quality) + steps;
   return static_cast<Quality>(

@@ -16,6 +16,10 @@ void look(Player& player, const platform::InputFrame& input, double fov_deg);
 std::uint32_t stepped_view_distance(std::uint32_t blocks, int steps);
 
 /// The next level up or down; the ends stay.
+/// A display's settings after keys of the calibration screen: steps of 0.05 and 0.005.
+render::DisplaySettings stepped_display(render::DisplaySettings display, int peak_steps,
+                                        int black_steps);
+
 Quality stepped_quality(Quality quality, int steps);
 
 /// Time of day as it runs or a held key turns it, in whole steps of ten seconds, wrapped at

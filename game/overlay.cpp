@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/render/display.h"
+
 namespace skerry::game {
 namespace {
 
@@ -82,7 +84,49 @@ void panel(const char* id, bool right, const ImVec2& picture, const F& contents)
   ImGui::End();
 }
 
-void show(const OverlayFacts& facts, const ImVec2& picture) {
+/// A square with a value of the picture, as the display gets it, in the middle of another.
+void patch(double encoded, double around, const render::DisplaySettings& display, float edge) {
+  const auto grey = [&](double value) {
+    const auto level = static_cast<int>(std::lround(255.0 * render::displayed(value, display)));
+    return IM_COL32(level, level, level, 255);
+  };
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float inset = 0.25f * edge;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, ImVec2(at.x + edge, at.y + edge), grey(around));
+  list.AddRectFilled(ImVec2(at.x + inset, at.y + inset),
+                     ImVec2(at.x + edge - inset, at.y + edge - inset), grey(encoded));
+  ImGui::Dummy(ImVec2(edge, edge));
+}
+
+/// Dark squares on black and bright ones on white: what the display can keep apart.
+void show_calibration(const render::DisplaySettings& display, const ImVec2& picture) {
+  constexpr float kEdge = 56.0f;
+  ImGui::SetNextWindowPos(ImVec2(0.5f * picture.x, 0.5f * picture.y), ImGuiCond_Always,
+                          ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowBgAlpha(1.0f);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.0f, 0.0f, 0.0f, 1.0f));
+  ImGui::Begin("calibration", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings);
+  text("Up, Down: until the square on the left is just seen");
+  const auto squares = [&](std::span<const int> codes, double around) {
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      if (i != 0) ImGui::SameLine();
+      patch(codes[i] / 255.0, around, display, kEdge);
+    }
+  };
+  constexpr int kDark[] = {1, 2, 4, 8, 16}, kBright[] = {254, 252, 248, 240, 224};
+  squares(kDark, 0.0);
+  text("Left, Right: as bright as is pleasant, all squares seen");
+  squares(kBright, 1.0);
+  text(fmt::format("display.black {:.3f}   display.peak {:.2f}   F9 closes", display.black,
+                   display.peak));
+  ImGui::End();
+  ImGui::PopStyleColor();
+}
+
+void show_numbers(const OverlayFacts& facts, const ImVec2& picture) {
   panel("state", false, picture, [&] {
     show_frames(facts);
     for (const std::string& line : facts.lines) text(line);
@@ -151,7 +195,8 @@ OverlayTriangles Overlay::layout(const OverlayFacts& facts, std::uint32_t width,
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = std::max(static_cast<float>(seconds), 1e-6f);
   ImGui::NewFrame();
-  show(facts, io.DisplaySize);
+  if (facts.numbers) show_numbers(facts, io.DisplaySize);
+  if (facts.calibration) show_calibration(*facts.calibration, io.DisplaySize);
   ImGui::Render();
   return flatten(*ImGui::GetDrawData());
 }

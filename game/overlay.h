@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame_graph.h"
+#include "engine/render/settings.h"
 #include "shaders/shared/overlay.h"
 
 struct ImGuiContext;
@@ -27,6 +29,9 @@ struct OverlayFacts {
   std::span<const gpu::PassTime> passes;  ///< of the newest finished frame
   std::span<const Count> counts;
   std::span<const gpu::MemoryUse> memory;  ///< largest first
+  bool numbers = true;                     ///< whether anything of the above is shown
+  std::optional<render::DisplaySettings>
+      calibration;  ///< the calibration screen (F9) is, with these
 };
 
 /// Triangles to draw over a picture: three vertices each, back to front.

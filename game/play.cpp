@@ -91,6 +91,7 @@ class Session {
   Overlay overlay_;
   std::unique_ptr<Presenter> presenter_;
   bool overlay_shown_ = false;
+  bool calibrating_ = false;
   bool culling_frozen_ = false;
   bool day_stands_ = false;
   bool screenshot_wanted_ = false;
@@ -157,9 +158,14 @@ void Session::act_on_picture_keys(const platform::InputFrame& input, double seco
   }
   if (input.pressed(Key::kF3)) overlay_shown_ = !overlay_shown_;
   if (input.pressed(Key::kL)) view_->settings().lights_held = !view_->settings().lights_held;
+  if (input.pressed(Key::kF9)) calibrating_ = !calibrating_;
   if (input.pressed(Key::kF8)) culling_frozen_ = !culling_frozen_;
   if (input.pressed(Key::kF11)) window_.toggle_fullscreen();
   Settings& settings = view_->settings();
+  if (calibrating_)
+    settings.display =
+        stepped_display(settings.display, input.pressed(Key::kRight) - input.pressed(Key::kLeft),
+                        input.pressed(Key::kUp) - input.pressed(Key::kDown));
   const int farther = input.pressed(Key::kRightBracket) - input.pressed(Key::kLeftBracket);
   if (farther != 0) settings.view_distance = stepped_view_distance(settings.view_distance, farther);
   const int better = input.pressed(Key::kPlus) - input.pressed(Key::kMinus);
@@ -169,6 +175,7 @@ void Session::act_on_picture_keys(const platform::InputFrame& input, double seco
     settings.view_distance = level.view_distance;
     settings.view_detail = level.view_detail;
     settings.shadow_size = level.shadow_size;
+    settings.bloom.intensity = level.bloom_intensity;
   }
   const int later = input.down(Key::kT) - input.down(Key::kY);
   if (input.pressed(Key::kP)) day_stands_ = !day_stands_;
@@ -207,7 +214,7 @@ Result<bool> Session::draw(double seconds) {
   if (!frame) return false;
   const VkExtent2D size = presenter_->extent();
   std::optional<OverlayTriangles> overlay;
-  if (overlay_shown_) overlay = overlay_triangles(seconds);
+  if (overlay_shown_ || calibrating_) overlay = overlay_triangles(seconds);
   Result<void> recorded;
   const auto bring_to_window = [&](VkCommandBuffer commands, gpu::Image& picture) {
     recorded = presenter_->record(commands, picture, *frame, overlay ? &*overlay : nullptr);
@@ -267,6 +274,8 @@ std::vector<std::string> Session::overlay_lines() const {
           fmt::format("quality {}   view {} blocks, detail {}{}",
                       quality_level(scene_.quality).name, view_->settings().view_distance,
                       view_->settings().view_detail, culling_frozen_ ? "   culling frozen" : ""),
+          fmt::format("exposure {:.2f} stops",
+                      view_->renderer().report().value_or(render::FrameReport{}).exposure_ev),
           fmt::format("streaming: {} islands, {} tasks left", stream.islands, stream.tasks_left)};
 }
 
@@ -285,10 +294,13 @@ OverlayTriangles Session::overlay_triangles(double seconds) {
                                                 {"quads drawn", report.camera.quads},
                                                 {"quads in shadows", report.shadows.quads},
                                                 {"draws", report.camera.draws},
-                                                {"draws in shadows", report.shadows.draws}};
+                                                {"draws in shadows", report.shadows.draws},
+                                                {"lights", view_->lights()}};
   facts.counts = counts;
   const std::vector<gpu::MemoryUse> memory = device_.memory_use();
   facts.memory = memory;
+  facts.numbers = overlay_shown_;
+  if (calibrating_) facts.calibration = view_->settings().display;
   return overlay_.layout(facts, presenter_->extent().width, presenter_->extent().height, seconds);
 }
 

@@ -11,9 +11,9 @@ namespace skerry::game {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
-constexpr std::array<std::string_view, 12> kDebugViewNames{
-    "none",  "albedo",   "normal", "position", "metadata", "emissive",
-    "depth", "cascades", "shadow", "ao",       "clusters", "light_count"};
+constexpr std::array<std::string_view, 13> kDebugViewNames{
+    "none",     "albedo", "normal", "position", "metadata",    "emissive", "depth",
+    "cascades", "shadow", "ao",     "clusters", "light_count", "exposure"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
@@ -27,10 +27,10 @@ constexpr std::array<std::string_view, 2> kDepthNames{"d32", "d16"};
 constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
-constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024},
-                                               {"medium", 1000, 192, 2048},
-                                               {"high", 2000, 320, 4096},
-                                               {"ultra", 4000, 512, 4096}}};
+constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024, 0.0f},
+                                               {"medium", 1000, 192, 2048, 0.0f},
+                                               {"high", 2000, 320, 4096, 0.1f},
+                                               {"ultra", 4000, 512, 4096, 0.1f}}};
 
 std::string listed(std::span<const std::string_view> names) {
   return fmt::format("{}", fmt::join(names, ", "));
@@ -324,6 +324,22 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "exposure.stride", 1, 16), s.meter.stride);
      },
      [](const Settings& s) { return std::to_string(s.meter.stride); }},
+    {"bloom.intensity", "0 to 1", "How much of the light over the threshold glows; 0: no bloom.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "bloom.intensity", 0.0, 1.0), s.bloom.intensity);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.bloom.intensity); }},
+    {"bloom.threshold", "0 to 100",
+     "Exposed brightness from which on light glows; white is about 4.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "bloom.threshold", 0.0, 100.0), s.bloom.threshold);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.bloom.threshold); }},
+    {"bloom.levels", "1 to 8", "How far light glows: each level doubles it.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "bloom.levels", 1, 8), s.bloom.levels);
+     },
+     [](const Settings& s) { return std::to_string(s.bloom.levels); }},
     {"tone", "aces or agx", "Tone curve: from exposed light to what a display can show.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "tone", kToneNames), s.tone);
@@ -357,9 +373,9 @@ constexpr SettingKey kKeys[] = {
        return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]);
      }},
     {"debug.view",
-     "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow, ao, clusters "
-     "or light_count",
-     "Shows one ingredient of the picture instead of the picture.",
+     "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow, ao, clusters, "
+     "light_count or exposure",
+     "Shows one ingredient of the picture instead of the picture; exposure: the meter over it.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "debug.view", kDebugViewNames), s.debug_view);
      },
@@ -468,6 +484,7 @@ Settings settings_of(Quality quality) {
   settings.view_distance = level.view_distance;
   settings.view_detail = level.view_detail;
   settings.shadow_size = level.shadow_size;
+  settings.bloom.intensity = level.bloom_intensity;
   return settings;
 }
 

@@ -53,6 +53,7 @@ struct Settings {
   render::MeterSettings meter;        ///< of what has no exposure of its own
   render::ToneCurve tone = render::ToneCurve::kAces;
   render::DisplaySettings display;
+  render::BloomSettings bloom;
   RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;
   DebugView debug_view = DebugView::kNone;
@@ -91,6 +92,7 @@ Result<void> apply_setting(std::string_view assignment, Settings& settings);
 struct QualityLevel {
   std::string_view name;
   std::uint32_t view_distance, view_detail, shadow_size;
+  float bloom_intensity;
 };
 const QualityLevel& quality_level(Quality quality);
 Result<Quality> parse_quality(std::string_view text);

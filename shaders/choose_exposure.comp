@@ -13,6 +13,7 @@ layout(push_constant) uniform Push { Metering metering; } push;
 
 shared uint counted[kHistogramBins];
 shared float summed[kHistogramBins];
+shared uint first_bin, last_bin, most;
 
 uint share_of(uint total, uint fraction) {
   uint high, low;
@@ -23,6 +24,10 @@ uint share_of(uint total, uint fraction) {
 void main() {
   uint bin = gl_LocalInvocationIndex, count = counts[bin];
   counted[bin] = count;
+  if (bin == 0u) {
+    first_bin = kHistogramBins;
+    last_bin = most = 0u;
+  }
   for (uint step = 1u; step < kHistogramBins; step *= 2u) {
     barrier();
     uint before = bin >= step ? counted[bin - step] : 0u;
@@ -34,6 +39,11 @@ void main() {
   uint first = share_of(total, kPassedOverDark), last = total - share_of(total, kPassedOverBright);
   // Ranks of this bin's pixels that lie in [first, last).
   uint kept = max(min(end, last), first) - max(min(end - count, last), first);
+  if (kept != 0u) {
+    atomicMin(first_bin, bin);
+    atomicMax(last_bin, bin);
+  }
+  atomicMax(most, count);
   summed[bin] = kept != 0u ? float(kept) * log2_of_bin(bin) : 0.0;
   for (uint step = kHistogramBins / 2u; step != 0u; step /= 2u) {
     barrier();
@@ -42,6 +52,9 @@ void main() {
   if (bin != 0u) return;
   exposure.metered = total;
   if (total == 0u) return;
+  exposure.first_bin = first_bin;
+  exposure.last_bin = last_bin;
+  exposure.most = most;
   Metering m = push.metering;
   float seen = summed[0] / float(last - first);
   float ev = log2(kDayLuminance / m.key) + kFollowed * (seen - log2(kDayLuminance));

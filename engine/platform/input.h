@@ -28,7 +28,12 @@ enum class Key : std::uint8_t {
   kF2,
   kF3,
   kF8,
+  kF9,
   kF11,
+  kUp,
+  kDown,
+  kLeft,
+  kRight,
   kMouseLeft,
   kCount
 };

@@ -63,6 +63,16 @@ std::optional<Key> key_of(int glfw_key) {
       return Key::kF3;
     case GLFW_KEY_F8:
       return Key::kF8;
+    case GLFW_KEY_F9:
+      return Key::kF9;
+    case GLFW_KEY_UP:
+      return Key::kUp;
+    case GLFW_KEY_DOWN:
+      return Key::kDown;
+    case GLFW_KEY_LEFT:
+      return Key::kLeft;
+    case GLFW_KEY_RIGHT:
+      return Key::kRight;
     case GLFW_KEY_F11:
       return Key::kF11;
     default:

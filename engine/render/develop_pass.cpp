@@ -12,25 +12,31 @@ namespace skerry::render {
 using gpu::Use;
 
 Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                           Shaded shaded, gpu::Image& picture) {
+                           Shaded shaded, const Bloom* bloom, gpu::Image& picture) {
   gpu::ImageRef out = graph.import(picture);
-  const gpu::ImageRef radiance = shaded.radiance();
+  const gpu::ImageRef radiance = shaded.radiance(), glow = bloom ? bloom->glow : gpu::ImageRef{};
+  const shared::BloomStep step = bloom ? bloom->step : shared::BloomStep{};
   graph.add_pass(
       "develop",
       [&](gpu::PassBuilder& b) {
         b.read(scene.frame, Use::kComputeRead);
         b.read(scene.exposure, Use::kComputeRead);
         b.read(radiance, Use::kComputeRead);
+        if (glow) b.read(glow, Use::kComputeRead);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         out = b.write(out, Use::kComputeWrite);
       },
-      [scene, radiance, out,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"develop.comp", with_picture({}, scene)})](
-          gpu::Commands& c) {
+      [scene, radiance, glow, step, out,
+       &pipeline = pipelines.get(gpu::ComputeDesc{glow ? "develop_bloom.comp" : "develop.comp",
+                                                  with_picture({}, scene)})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.pixel_stats);
         c.storage(2, radiance);
+        if (glow) {
+          c.storage(3, glow);
+          c.push(step);
+        }
         c.storage(9, out);
         c.storage(22, scene.exposure);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/render/display.h"
 #include "shaders/shared/sky.h"
 
 namespace skerry::render {
@@ -52,10 +53,6 @@ float haze_per_block(const Celestial& sky) {
   return kClearAir * glm::smoothstep(0.0f, kFullAt, sky.sun_casts ? sun : moon);
 }
 
-float srgb_encoded(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
-
 void append_islands(std::vector<shared::IslandTransform>& out,
                     std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
@@ -86,7 +83,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.size = {size.width, size.height};
   f.picture_size = f.size;
   f.near_plane = kNearPlane;
-  f.display_peak = srgb_encoded(settings.display.peak);
+  f.display_peak = static_cast<float>(srgb_encoded(settings.display.peak));
   f.display_black = settings.display.black;
   f.time_s = static_cast<float>(std::fmod(input.time_s, 3600.0));
   f.shading_flat = settings.flat_shading ? 1u : 0u;

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/gpu/frame_graph.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/render/phases.h"
 #include "engine/render/scene_refs.h"
 #include "engine/render/settings.h"
 
@@ -13,6 +14,11 @@ struct MeterPass {
   /// @return the histogram: shared::kHistogramBins counts.
   static gpu::BufferRef add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                             gpu::ImageRef radiance, const MeterSettings& settings, bool decides);
+  /// Draws the histogram over the picture.
+  /// @param histogram of add(), and with the same settings.
+  static Developed show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                        Developed developed, gpu::BufferRef histogram,
+                        const MeterSettings& settings);
 };
 
 }  // namespace skerry::render

@@ -10,6 +10,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/frame_ring.h"
 #include "engine/render/block_textures.h"
+#include "engine/render/bloom_pass.h"
 #include "engine/render/capture.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
@@ -52,20 +53,26 @@ struct Slot {
   std::uint64_t memory_bytes = 0;
 };
 
-/// Samples along a pixel's edge. A debug view shows samples as they are.
-int samples_per_edge(const RenderSettings& settings) {
-  return settings.debug_view == DebugView::kNone ? settings.samples_per_edge : 1;
+/// Whether a debug view takes the place of the lit scene.
+bool shows_channel(const RenderSettings& settings) {
+  return settings.debug_view != DebugView::kNone && settings.debug_view != DebugView::kExposure;
 }
 
-bool meters(const FrameInput& input) {
-  return input.meter || !input.exposure_ev;
+/// Samples along a pixel's edge. A debug view shows samples as they are.
+int samples_per_edge(const RenderSettings& settings) {
+  return shows_channel(settings) ? 1 : settings.samples_per_edge;
+}
+
+bool meters(const FrameInput& input, const RenderSettings& settings) {
+  return input.meter || !input.exposure_ev || settings.debug_view == DebugView::kExposure;
 }
 
 /// Whether the picture takes the way over a radiance image though no pass comes between.
 bool by_radiance(const FrameInput& input, const RenderSettings& settings,
                  const FrameFeatures& features) {
-  return features.has(Feature::kLights) || meters(input) || input.capture ||
-         input.fault.has_value() || samples_per_edge(settings) > 1 || input.parts > 1;
+  return features.has(Feature::kLights) || settings.bloom.intensity > 0.0f ||
+         meters(input, settings) || input.capture || input.fault.has_value() ||
+         samples_per_edge(settings) > 1 || input.parts > 1;
 }
 
 /// The sky whose sun and moon stand at the middle of a part's share of their discs: points of a
@@ -294,7 +301,8 @@ Result<void> Renderer::State::resize_total(VkExtent2D size) {
 Result<void> Renderer::State::upload_tables(const FrameTables& tables, const FrameInput& input,
                                             const shared::SkyConstants& sky_now) {
   // Where every pixel is black, any exposure is right.
-  const shared::Exposure given{input.exposure_ev.value_or(0.0f), 0.0f, 0};
+  shared::Exposure given{};
+  given.ev = input.exposure_ev.value_or(0.0f);
   const std::size_t island_count = input.islands.size();
   const std::array<Result<void>, 6> done{
       upload(exposure, "exposure", std::span<const shared::Exposure>(&given, 1)),
@@ -392,10 +400,17 @@ void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const Fram
   if (input.parts == 1) graph.leave_out("accumulate_part", "shadow.samples=1");
   if (input.part + 1 != input.parts) return;
   if (input.capture) captures.add(graph, Capture::kRadiance, shaded.radiance());
-  if (meters(input))
-    (void)MeterPass::add(graph, pipelines, scene, shaded.radiance(), settings.meter,
-                         !input.exposure_ev);
-  (void)DevelopPass::add(graph, pipelines, scene, std::move(shaded), picture);
+  gpu::BufferRef histogram;
+  if (meters(input, settings))
+    histogram = MeterPass::add(graph, pipelines, scene, shaded.radiance(), settings.meter,
+                               !input.exposure_ev);
+  std::optional<Bloom> bloom;
+  if (settings.bloom.intensity > 0.0f)
+    bloom = BloomPass::add(graph, pipelines, scene, shaded.radiance(), settings.bloom);
+  Developed developed = DevelopPass::add(graph, pipelines, scene, std::move(shaded),
+                                         bloom ? &*bloom : nullptr, picture);
+  if (settings.debug_view == DebugView::kExposure)
+    (void)MeterPass::show(graph, pipelines, scene, std::move(developed), histogram, settings.meter);
 }
 
 void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
@@ -442,9 +457,12 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       [stats = scene.pixel_stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
   const FrameFeatures& features = contents.features;
   explain_absent(features);
-  if (!meters(input) && settings.debug_view == DebugView::kNone)
+  if (!meters(input, settings) && !shows_channel(settings))
     for (const char* name : {"meter_radiance", "choose_exposure"})
       graph.leave_out(name, "the exposure is given");
+  if (!shows_channel(settings) && settings.bloom.intensity <= 0.0f)
+    for (const char* name : {"shrink_bloom", "spread_bloom"})
+      graph.leave_out(name, "bloom.intensity=0");
   scene.haze = features.has(Feature::kHaze);
   if (!scene.corners)
     graph.leave_out("corners", settings.flat_shading ? "shading=flat" : "ao.strength=0");
@@ -484,7 +502,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, contents.cutouts_in_view[0],
                                         settings.gbuffer);
   Shadows maps = add_shadows(scene, draws, settings, contents, cascades);
-  const bool debug = settings.debug_view != DebugView::kNone;
+  const bool debug = shows_channel(settings);
   const char* no_translucent = features.why_not(Feature::kWater);
   TranslucentPass::Layers layers;
   if (!debug && !no_translucent)
@@ -495,8 +513,9 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   if (debug) {
     (void)DevelopPass::add_debug(graph, pipelines, scene, surfaces, maps,
                                  lights ? &*lights : nullptr, settings.debug_view, picture);
-    for (const char* name : {"classify_tiles", "shade_surfaces", "shade_sky", "draw_translucent",
-                             "shade_translucent", "meter_radiance", "choose_exposure", "develop"})
+    for (const char* name :
+         {"classify_tiles", "shade_surfaces", "shade_sky", "draw_translucent", "shade_translucent",
+          "meter_radiance", "choose_exposure", "shrink_bloom", "spread_bloom", "develop"})
       graph.leave_out(name, "a debug view is shown");
   } else {
     if (no_translucent)
@@ -539,8 +558,7 @@ void Renderer::State::explain_absent(const FrameFeatures& features) {
 std::optional<ClusteredLights> Renderer::State::add_lights(
     const SceneRefs& scene, const Geometry& surfaces, const TranslucentPass::Layers& layers,
     const RenderSettings& settings, const FrameContents& contents, Slot& slot) {
-  const bool wanted = settings.debug_view == DebugView::kNone ||
-                      settings.debug_view == DebugView::kClusters ||
+  const bool wanted = !shows_channel(settings) || settings.debug_view == DebugView::kClusters ||
                       settings.debug_view == DebugView::kLightCount;
   if (!wanted || !contents.features.has(Feature::kLights)) return std::nullopt;
   const ClusterDepths depths{surfaces.surfaces(), surfaces.depth(),
@@ -611,7 +629,7 @@ Result<std::uint64_t> Renderer::draw(
   State& s = *state_;
   FrameInput input = asked;
   input.sky = sky_without(asked.sky, settings.leave_out);
-  if (settings.debug_view != DebugView::kNone) input.part = 0, input.parts = 1;
+  if (shows_channel(settings)) input.part = 0, input.parts = 1;
   if (settings.leave_out.has(Feature::kWater)) input.camera_medium = 0;
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
   if (Result<void> ok = s.resize_picture(size, samples_per_edge(settings)); !ok) return ok.error();

@@ -18,7 +18,8 @@ enum class DebugView : std::uint8_t {
   kShadow,
   kCorners,
   kClusters,
-  kLightCount
+  kLightCount,
+  kExposure  ///< the lit scene, and the meter's histogram over it
 };
 
 /// How the G-buffer keeps a surface's normal. Not at all is exact: the normal then comes from the
@@ -57,6 +58,13 @@ struct MeterSettings {
 };
 
 inline constexpr std::uint32_t kEveryLight = ~0u;
+/// Glow of what is too bright. docs/exposure.md.
+struct BloomSettings {
+  float intensity = 0.0f;  ///< of the light over the threshold, what is added; 0: no bloom at all
+  float threshold = 1.5f;  ///< exposed brightness, 0..100
+  int levels = 6;          ///< of the pyramid, 1..8; each doubles the reach
+  bool operator==(const BloomSettings&) const = default;
+};
 
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
@@ -79,6 +87,7 @@ struct RenderSettings {
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;
   MeterSettings meter;
+  BloomSettings bloom;
   ToneCurve tone = ToneCurve::kAces;
   DisplaySettings display;
   /// For how many lights of a pixel walls are looked for: none, kEveryLight, or those that send the

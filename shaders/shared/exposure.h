@@ -34,7 +34,10 @@ struct Metering {
 struct Exposure {
   float ev;          // the picture is developed at: tone curve(radiance * 2^-ev) [stops]
   float metered_ev;  // what was metered; holds nothing when `metered` is 0
-  uint metered;      // pixels looked at that were not black
+  uint metered;      // pixels looked at that count as light; 0: the rest holds nothing
+  uint first_bin;    // that the mean takes pixels of
+  uint last_bin;
+  uint most;  // pixels in the fullest bin
 };
 
 SHARED_END

@@ -8,6 +8,18 @@ namespace {
 using platform::Input;
 using platform::Key;
 
+TEST(Controls, CalibrationGoesInStepsThereAndBackAndEnds) {
+  const render::DisplaySettings before{};
+  EXPECT_EQ(stepped_display(before, 0, 0), before);
+  render::DisplaySettings display = stepped_display(before, -3, 5);
+  EXPECT_FLOAT_EQ(display.peak, 0.85f);
+  EXPECT_FLOAT_EQ(display.black, 0.025f);
+  EXPECT_EQ(stepped_display(display, 3, -5), before);
+  EXPECT_FLOAT_EQ(stepped_display(before, -100, 100).peak, 0.1f);
+  EXPECT_FLOAT_EQ(stepped_display(before, -100, 100).black, 0.2f);
+  EXPECT_EQ(stepped_display(before, 100, -100), before);
+}
+
 TEST(Controls, OppositeKeysCancel) {
   Input input;
   for (const Key key : {Key::kW, Key::kS, Key::kD}) input.set_key(key, true);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "engine/gpu/device.h"
 #include "engine/gpu/readback.h"
@@ -35,6 +36,27 @@ TEST(Overlay, LaysTrianglesOutWithinTheirClipsAndThePicture) {
                 vertex.uv.y <= 1.0f);
     ASSERT_TRUE(vertex.position.x >= 0.0f && vertex.position.x <= 1280.0f) << vertex.position.x;
   }
+}
+
+TEST(Overlay, ShowsSquaresOfTheDisplaysOwnValuesWhileCalibrating) {
+  Overlay overlay;
+  const auto colours = [&](const render::DisplaySettings& display) {
+    OverlayFacts facts;
+    facts.numbers = false;
+    facts.calibration = display;
+    OverlayTriangles triangles;
+    for (int frame = 0; frame < 3; ++frame) triangles = overlay.layout(facts, 640, 480, 0.016);
+    std::set<std::uint32_t> seen;
+    for (const shared::OverlayVertex& vertex : triangles.vertices) seen.insert(vertex.color);
+    return seen;
+  };
+  const auto grey = [](std::uint32_t level) { return 0xff000000u | level * 0x010101u; };
+  for (const std::uint32_t level : {0u, 1u, 2u, 4u, 8u, 16u, 224u, 254u, 255u})
+    EXPECT_TRUE(colours({}).contains(grey(level))) << level;
+  const std::set<std::uint32_t> lifted = colours({0.5f, 0.02f});
+  EXPECT_TRUE(lifted.contains(grey(0)));  // black is never lifted
+  EXPECT_FALSE(lifted.contains(grey(1)));
+  EXPECT_TRUE(lifted.contains(grey(188)));  // sRGB of a half
 }
 
 TEST(Overlay, SurvivesAWindowOfOnePixelAndNothingToShow) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "shaders/shared/bloom.h"
 #include "shaders/shared/clusters.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
@@ -96,7 +97,10 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(Metering, MEMBER(Metering, key), MEMBER(Metering, min_ev), MEMBER(Metering, max_ev),
              MEMBER(Metering, stride), MEMBER(Metering, decides)),
       STRUCT(Exposure, MEMBER(Exposure, ev), MEMBER(Exposure, metered_ev),
-             MEMBER(Exposure, metered)),
+             MEMBER(Exposure, metered), MEMBER(Exposure, first_bin), MEMBER(Exposure, last_bin),
+             MEMBER(Exposure, most)),
+      STRUCT(BloomStep, MEMBER(BloomStep, fine_size), MEMBER(BloomStep, coarse_size),
+             MEMBER(BloomStep, threshold), MEMBER(BloomStep, intensity)),
       STRUCT(SkyBody, MEMBER(SkyBody, to_body), MEMBER(SkyBody, perez_a), MEMBER(SkyBody, perez_b),
              MEMBER(SkyBody, perez_c), MEMBER(SkyBody, perez_d), MEMBER(SkyBody, perez_e),
              MEMBER(SkyBody, zenith), MEMBER(SkyBody, day), MEMBER(SkyBody, haze),

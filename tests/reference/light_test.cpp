@@ -239,10 +239,17 @@ TEST(ReferenceLight, ASealedRoomIsExactlyBlackUnderManySuns) {
   Scene scene = seen_from({0.2, 0.4, -0.3}, {1.0, 0.2, 0.4}, {room}, 24, 1.5);
   for (int i = 0; i < 100; ++i)
     scene.bodies.push_back({random_direction(random), glm::dvec3(1e6), kBodyRadius});
-  scene.lights = {{.kind = shared::kLightSphere,
-                   .position = {30.0, 3.0, 0.0},
-                   .intensity = glm::dvec3(1e9),
-                   .size = 1.0}};
+  // One of each kind right behind the wall.
+  const glm::dvec3 behind =
+      scene.islands[0].rotation * glm::dvec3(5.3, 0.2, 0.1) + scene.islands[0].origin;
+  for (std::uint32_t kind = 0; kind < shared::kLightKindCount; ++kind)
+    scene.lights.push_back({.kind = kind,
+                            .position = behind,
+                            .intensity = glm::dvec3(1e9),
+                            .size = 0.2,
+                            .axis = glm::normalize(-behind),
+                            .cos_inner = 0.9,
+                            .cos_outer = 0.5});
   scene.environment = glm::dvec3(1e6);
   scene.haze_per_block = 0.1;
   const ReferencePicture picture = render(scene, samples(4));

@@ -56,7 +56,7 @@ class Meter : public PostOnGpu {
   std::vector<std::uint32_t> histogram(const Picture& picture, const MeterSettings& settings = {},
                                        bool decides = true) {
     gpu::Buffer counts = room("counts", shared::kHistogramBins * 4);
-    run(picture, {kGiven, 0.0f, 0}, [&](SceneRefs& scene, gpu::ImageRef radiance) {
+    run(picture, {kGiven, 0.0f, 0, 0, 0, 0}, [&](SceneRefs& scene, gpu::ImageRef radiance) {
       keep(MeterPass::add(graph(), pipelines(), scene, radiance, settings, decides), counts);
     });
     return contents<std::uint32_t>(counts);

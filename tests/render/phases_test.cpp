@@ -50,8 +50,9 @@ static_assert(!kShades<const Shaded&, const Shadows&>);
 
 // Translucent surfaces and development use a picture up: only a phase that is given away will do.
 template <class Input>
-constexpr bool kDevelops = std::is_invocable_v<decltype(&DevelopPass::add), gpu::FrameGraph&,
-                                               gpu::Pipelines&, SceneRefs&, Input, gpu::Image&>;
+constexpr bool kDevelops =
+    std::is_invocable_v<decltype(&DevelopPass::add), gpu::FrameGraph&, gpu::Pipelines&, SceneRefs&,
+                        Input, const Bloom*, gpu::Image&>;
 static_assert(kDevelops<Shaded>);
 static_assert(!kDevelops<Shaded&> && !kDevelops<const Shaded&>, "developed twice");
 static_assert(!kDevelops<Geometry> && !kDevelops<Developed> && !kDevelops<gpu::ImageRef>);

@@ -96,6 +96,25 @@ grab "$work/overlay.png"
 changed=$(compare -metric AE -fuzz 5% "$work/plain.png" "$work/overlay.png" null: 2>&1 || true)
 awk -v c="$changed" 'BEGIN { exit !(c > 2000) }' || fail "F3 changed $changed pixels only"
 
+# The calibration screen: its keys change what the picture's command says, and it goes away again.
+key F3
+key F9 1.5
+grab "$work/calibration.png"
+changed=$(compare -metric AE -fuzz 5% "$work/plain.png" "$work/calibration.png" null: 2>&1 || true)
+awk -v c="$changed" 'BEGIN { exit !(c > 2000) }' || fail "F9 changed $changed pixels only"
+for k in Up Up Up Down Left; do key "$k"; done
+key F9
+key Up
+before=$(screenshots | wc -l)
+key F2
+wait_for_screenshots $((before + 1))
+command=$(identify -format '%[Command]' "$(screenshots | tail -n 1)")
+case $command in
+*display.peak=0.95*display.black=0.01*) ;;
+*) fail "calibration is not in the command: $command" ;;
+esac
+key F3
+
 for new in '500 300' '40 400' '1 1' '320 180'; do
   # shellcheck disable=SC2086  # two numbers
   xdotool windowsize "$window" $new

@@ -195,7 +195,7 @@ TEST(Stream, ALevelIsReplacedInOneUpdate) {
   const glm::dvec3 out{0.0, 400.0, 0.0};
   scene.settings.view_distance_blocks = 1000.0;
   scene.view.camera = moved(scene.view.camera, out);
-  std::set<std::int32_t> seen;
+  std::set<std::int32_t> seen = consumer.levels_of(home);
   for (bool done = false; !done;) {
     streamer.update(scene.view, scene.settings);
     done = streamer.complete();

@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "engine/render/display.h"
 #include "tools/reference/reference.h"
 
 namespace skerry::reference {
@@ -56,19 +57,6 @@ glm::dvec3 agx(glm::dvec3 exposed) {
   return {std::pow(c.x, 2.2), std::pow(c.y, 2.2), std::pow(c.z, 2.2)};
 }
 
-/// IEC 61966-2-1.
-double srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-/// docs/exposure.md, "Display".
-double displayed(double encoded, const render::DisplaySettings& display) {
-  constexpr double kDark = 1.0 / 64.0;
-  const double black = display.black;
-  return srgb(display.peak) *
-         ((1.0 - black) * encoded + black * (1.0 + kDark) * encoded / (encoded + kDark));
-}
-
 }  // namespace
 
 glm::dvec3 tone_mapped(glm::dvec3 exposed, render::ToneCurve curve) {
@@ -80,11 +68,16 @@ std::vector<std::uint8_t> develop(const measure::Picture& radiance, double ev,
   const double exposure = std::exp2(-ev);
   std::vector<std::uint8_t> out;
   out.reserve(radiance.pixels.size() * 4);
-  for (const glm::vec3& pixel : radiance.pixels) {
-    const glm::dvec3 c = tone_mapped(glm::dvec3(pixel) * exposure, darkroom.tone);
+  measure::Picture glowing;
+  if (darkroom.bloom.intensity > 0.0f) glowing = glow(radiance, ev, darkroom.bloom);
+  for (std::size_t p = 0; p < radiance.pixels.size(); ++p) {
+    glm::dvec3 exposed = glm::dvec3(radiance.pixels[p]) * exposure;
+    if (!glowing.pixels.empty()) exposed += glm::dvec3(glowing.pixels[p]);
+    const glm::dvec3 c = tone_mapped(exposed, darkroom.tone);
     for (int i = 0; i < 3; ++i)
-      out.push_back(static_cast<std::uint8_t>(
-          std::lround(std::clamp(displayed(srgb(c[i]), darkroom.display), 0.0, 1.0) * 255.0)));
+      out.push_back(static_cast<std::uint8_t>(std::lround(
+          std::clamp(render::displayed(render::srgb_encoded(c[i]), darkroom.display), 0.0, 1.0) *
+          255.0)));
     out.push_back(255);
   }
   return out;

@@ -146,7 +146,7 @@ ReferenceSettings settings_from(const game::SceneOptions& options) {
 }
 
 Darkroom darkroom_from(const game::Settings& settings) {
-  return {settings.tone, settings.display};
+  return {settings.tone, settings.display, settings.bloom};
 }
 
 Result<ReferencePicture> render_reference(const game::SceneOptions& options,

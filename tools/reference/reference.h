@@ -62,14 +62,21 @@ std::optional<double> metered_ev(const measure::Picture& radiance,
 struct Darkroom {
   render::ToneCurve tone = render::ToneCurve::kAces;
   render::DisplaySettings display;
+  render::BloomSettings bloom;
 };
 Darkroom darkroom_from(const game::Settings& settings);
+
+/// What of an exposed pixel glows: docs/exposure.md.
+glm::dvec3 too_bright(glm::dvec3 exposed, double threshold);
+/// Exposed light that bloom adds.
+measure::Picture glow(const measure::Picture& radiance, double ev,
+                      const render::BloomSettings& settings);
 
 /// Linear, 0..1.
 glm::dvec3 tone_mapped(glm::dvec3 exposed, render::ToneCurve curve);
 
-/// Exposure of `ev` stops, tone curve, display and sRGB to 8 bits, RGBA, rows from the top, without
-/// dither.
+/// Exposure of `ev` stops, bloom, tone curve, display and sRGB to 8 bits, RGBA, rows from the top,
+/// without dither.
 std::vector<std::uint8_t> develop(const measure::Picture& radiance, double ev,
                                   const Darkroom& darkroom = {});
 

@@ -11,6 +11,8 @@ constexpr ReportScene kScenes[] = {
      R"({"seed": 6, "time": "17:35", "camera": [-60, 145, 279, 90, -8]})"},
     {"water", "a lake in the sun",
      R"({"seed": 5, "time": "11:00", "camera": [52.25, 17.5, 52.75, 225, -25]})"},
+    {"lava", "lava on a mountain after sunset",
+     R"({"seed": 8, "time": "18:10", "camera": [250.7, 145.85, -146.0, 270, -21.8]})"},
     {"far", "islands to the horizon",
      R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
 };
@@ -75,6 +77,12 @@ constexpr TopicPoint kMeterStrides[] = {{"16", "exposure.stride=16"},
                                         {"4", "exposure.stride=4"},
                                         {"2", "exposure.stride=2"},
                                         {"1", "exposure.stride=1"}};
+constexpr TopicPoint kBloomLevels[] = {{"0", "bloom.intensity=0"},
+                                       {"1", "bloom.intensity=0.1 bloom.levels=1"},
+                                       {"2", "bloom.intensity=0.1 bloom.levels=2"},
+                                       {"4", "bloom.intensity=0.1 bloom.levels=4"},
+                                       {"6", "bloom.intensity=0.1 bloom.levels=6"},
+                                       {"8", "bloom.intensity=0.1 bloom.levels=8"}};
 constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
                                        {"staging", "upload.path=staging"},
                                        {"mapped", "upload.path=mapped"}};
@@ -82,6 +90,7 @@ constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
 constexpr std::string_view kShadowScenes[] = {"day", "low_sun", "water"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
+constexpr std::string_view kGlow[] = {"lava"};
 constexpr std::string_view kWater[] = {"water"};
 
 constexpr Topic kTopics[] = {
@@ -119,6 +128,8 @@ constexpr Topic kTopics[] = {
      false,
      {},
      true},
+    {"bloom_levels", "levels of the pyramid that spreads bright light", kBloomLevels, kGlow,
+     Judge::kReference, CostOf::kShading, false, "bloom.intensity=0.1 bloom.levels=8"},
     {"upload_path", "how meshes travel to the GPU", kUploadPaths, kDay, Judge::kEqual,
      CostOf::kUpload, true},
 };

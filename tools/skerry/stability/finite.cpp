@@ -111,6 +111,31 @@ Result<Rows> radiance(gpu::Device& device) {
   return rows;
 }
 
+/// Radiance before bloom is taken from it: what is no number must not glow.
+Result<Rows> bloom(gpu::Device& device) {
+  auto stage = room_stage(device);
+  if (!stage) return stage.error();
+  render::RenderSettings settings;
+  settings.bloom = {1.0f, 1.0f, 6};
+  const glm::uvec2 texel{80, 44};
+  FrameInput input = input_of();
+  // The texel is black in the frame to compare with, so that its own light is not missed about it.
+  input.fault = Fault{Fault::In::kLookedThrough, texel, 0.0f};
+  const auto clean = (*stage)->draw(input, settings, kSize);
+  if (!clean) return clean.error();
+  Damage damage;
+  for (const float value : kBroken) {
+    input.fault->value = value;
+    const auto frame = (*stage)->draw(input, settings, kSize);
+    if (!frame) return frame.error();
+    compare(
+        *clean, *frame, [&](auto x, auto y) { return x == texel.x && y == texel.y; }, damage);
+  }
+  // Nothing at all may differ, not even the pixel: black it was, and as black it is developed.
+  return Rows{{"pixels damaged, a texel of radiance before bloom, +-Inf, NaN", 0.0,
+               damage.outside + damage.inside}};
+}
+
 /// Place of a direction in the sky's table [texels, centres at whole numbers], from the layout that
 /// shaders/shared/sky.h states.
 glm::dvec2 sky_table_place(const glm::dvec3& ray) {
@@ -214,6 +239,7 @@ Result<Rows> materials(gpu::Device& device) {
 }
 
 constexpr Case kCases[] = {{"finite.radiance", radiance},
+                           {"finite.bloom", bloom},
                            {"finite.sky_table", sky_table},
                            {"finite.materials", materials}};
 
