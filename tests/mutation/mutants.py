@@ -20,7 +20,7 @@ class Mutant:
 MUTANTS = (
     # Light
     Mutant("moon_off", "the moon gives no light", "shaders/include/lighting.glsl",
-           "if ((kBodies & 2u) != 0u) light += received(s, frame.bodies[1], kMoonCascade);", "",
+           "if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[1], kMoonCascade);", "",
            "moonlit mycelium"),
     Mutant("normal_of_z_faces", "faces along z have the opposite normal", "shaders/include/common.glsl",
            "axis == 2u ? s : 0.0", "axis == 2u ? -s : 0.0", "debug_normal day"),
