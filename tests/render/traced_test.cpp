@@ -12,10 +12,11 @@
 namespace skerry::render {
 namespace {
 
-constexpr const char* kVisibility = R"(
-  #include "shared/light.h"
-  layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };
-  #include "include/traced.glsl"
+constexpr const char* kVisibility =
+    "#include \"shared/light.h\"\n"
+    "layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };\n"
+    "#include \"include/traced.glsl\"\n"
+    R"(
   struct Question { vec3 position; uint word; Light light; };
   struct Answer { float visibility; };
   Answer answer_to(Question q) {
@@ -248,7 +249,7 @@ TEST_F(Traced, LightCrossesFromIslandToIslandAsInTheReference) {
   for (std::uint32_t i = 0; i < 2; ++i) {
     add_island(i, rubble, {{0, 0, 0}, {1, 1, 1}, 0});
     transforms.push_back(placed[i].transform());
-    islands.push_back({reference::Volume::from_voxels(
+    islands.push_back({world::Volume::from_voxels(
                            {0, 0, 0}, {64, 64, 64},
                            [](world::IVec3 v) {
                              return rubble(v.x, v.y, v.z) ? world::BlockId{world::block::kStone}
@@ -309,16 +310,17 @@ TEST_F(Traced, TheVoxelALightStandsInDoesNotBlockItButOthersDo) {
 
 // --- Walls looked for before some lights
 
-constexpr const char* kPixel = R"(
-  #include "shared/light.h"
-  layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };
-  layout(scalar, binding = 3) readonly buffer Lights { Light lights[]; };
-  struct Cluster { uint first; uint count; };
-  uint light_index(Cluster list, uint i) { return list.first + i; }
-  const bool kOracle = false;
-  #include "include/lights.glsl"
-  #include "include/traced.glsl"
-  #include "include/blocked_lights.glsl"
+constexpr const char* kPixel =
+    "#include \"shared/light.h\"\n"
+    "layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };\n"
+    "layout(scalar, binding = 3) readonly buffer Lights { Light lights[]; };\n"
+    "struct Cluster { uint first; uint count; };\n"
+    "uint light_index(Cluster list, uint i) { return list.first + i; }\n"
+    "const bool kOracle = false;\n"
+    "#include \"include/lights.glsl\"\n"
+    "#include \"include/traced.glsl\"\n"
+    "#include \"include/blocked_lights.glsl\"\n"
+    R"(
   struct Question { vec3 position; uint word; uint first; uint count; };
   struct Answer { vec3 radiance; };
   Answer answer_to(Question q) {
