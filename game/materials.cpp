@@ -17,6 +17,7 @@ std::vector<shared::Material> material_table() {
     m.emission = glm::packHalf1x16(type.emission);
     m.absorption = {type.absorption[0], type.absorption[1], type.absorption[2]};
     m.roughness = type.roughness;
+    m.metalness = type.metalness;
     table.push_back(m);
   }
   SKERRY_ASSERT(table.size() <= shared::kMaxMaterials);

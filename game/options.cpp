@@ -11,8 +11,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 7> kFields{"seed", "camera",  "fov",     "time",
-                                                  "size", "quality", "settings"};
+constexpr std::array<std::string_view, 8> kFields{"seed", "camera",  "fov",      "time",
+                                                  "size", "quality", "settings", "lights"};
 
 /// A scalar as the text a person would have typed, or nothing for other kinds.
 std::optional<std::string> scalar_text(const json& value) {
@@ -64,6 +64,12 @@ Error unknown_field(const std::string& key) {
 
 Result<void> read_field(const std::string& key, const json& value, SceneText& scene) {
   if (key == "settings") return read_settings(value, scene);
+  if (key == "lights") {
+    Result<std::vector<WorldLight>> lights = read_lights(value);
+    if (!lights) return lights.error();
+    scene.lights = *std::move(lights);
+    return {};
+  }
   if (std::count(std::begin(kExpectationFields), std::end(kExpectationFields), key) != 0)
     return read_expectation(key, value, scene.expectations);
   if (key == "camera") {
@@ -152,13 +158,18 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
     if (!quality) return quality.error();
     scene.quality = *quality;
   }
+  scene.lights = under.lights;
+  scene.lights.insert(scene.lights.end(), over.lights.begin(), over.lights.end());
   scene.settings = settings_of(scene.quality);
   if (const auto done = apply_settings(under, over, scene.settings); !done) return done.error();
   return scene;
 }
 
 std::string shot_command(const SceneOptions& scene) {
-  std::string command = "skerry shot --seed " + shell_word(scene.seed_text);
+  std::string command = "skerry shot";
+  if (!scene.lights.empty() && scene.scene_file)
+    command += " --scene " + shell_word(*scene.scene_file);
+  command += " --seed " + shell_word(scene.seed_text);
   if (scene.camera) command += " --camera " + format_camera(*scene.camera);
   command += fmt::format(" --fov {} --time {} --size {}x{} --quality {}", scene.fov_deg,
                          format_time_of_day(scene.time_of_day_s), scene.size.width,

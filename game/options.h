@@ -9,6 +9,7 @@
 #include "engine/core/result.h"
 #include "game/expectations.h"
 #include "game/parse.h"
+#include "game/scene_lights.h"
 #include "game/settings.h"
 
 namespace skerry::game {
@@ -22,7 +23,9 @@ struct SceneOptions {
   PictureSize size;
   Quality quality = Quality::kMedium;
   Settings settings;
-  std::optional<std::uint32_t> device;  ///< none: the best
+  std::vector<WorldLight> lights;         ///< of the scene file
+  std::optional<std::string> scene_file;  ///< where the lights are from
+  std::optional<std::uint32_t> device;    ///< none: the best
   bool validate = false;
 };
 
@@ -30,6 +33,7 @@ struct SceneOptions {
 struct SceneText {
   std::optional<std::string> seed, camera, fov, time, size, quality;
   std::vector<std::string> settings;  ///< KEY=VALUE, later ones win
+  std::vector<WorldLight> lights;     ///< of a scene file
   Expectations expectations;          ///< of a scene file; no concern of make_scene
 };
 
@@ -37,9 +41,9 @@ struct SceneText {
 inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 
 /// Reads a scene: a JSON object with the fields seed, camera (five numbers or strings), fov, time,
-/// size, quality and settings (an object), and those of Expectations. Errors: no JSON, an unknown
-/// field (names the nearest), a value of the wrong kind. Values are checked by make_scene, masks by
-/// check_masks.
+/// size, quality, settings (an object) and lights (read_lights), and those of Expectations. Errors:
+/// no JSON, an unknown field (names the nearest), a value of the wrong kind. Values are checked by
+/// make_scene, but for lights; masks by check_masks.
 Result<SceneText> parse_scene(std::string_view json_text);
 
 /// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied
@@ -50,7 +54,7 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over);
 std::string shell_word(std::string_view text);
 
 /// The command that draws this scene again, quoted for a shell. Without a camera it names none: the
-/// seed's spawn view is the default.
+/// seed's spawn view is the default. Lights are named by the scene file that they are from.
 std::string shot_command(const SceneOptions& scene);
 
 }  // namespace skerry::game

@@ -158,6 +158,7 @@ void Session::act_on_picture_keys(const platform::InputFrame& input, double seco
   }
   if (input.pressed(Key::kF3)) overlay_shown_ = !overlay_shown_;
   if (input.pressed(Key::kF9)) calibrating_ = !calibrating_;
+  if (input.pressed(Key::kL)) view_->settings().lights_held = !view_->settings().lights_held;
   if (input.pressed(Key::kF8)) culling_frozen_ = !culling_frozen_;
   if (input.pressed(Key::kF11)) window_.toggle_fullscreen();
   Settings& settings = view_->settings();

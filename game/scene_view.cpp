@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "engine/core/check.h"
+#include "engine/core/clock.h"
 #include "engine/render/celestial.h"
+#include "game/light_setup.h"
 #include "game/materials.h"
 #include "game/player.h"
 #include "world/blocks.h"
@@ -44,6 +46,22 @@ glm::dvec3 forward_of(const render::Camera& camera) {
   return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)};
 }
 
+glm::ivec3 chunk_place(const world::SectionKey& key) {
+  return {key.chunk.x, key.chunk.y, key.chunk.z};
+}
+
+/// Chunks of a level that hold an island's box.
+render::IslandChunks expected_chunks(const world::IslandSpec& spec, std::int32_t level) {
+  const std::int64_t edge = std::int64_t{world::kChunkEdge} << level;
+  const auto chunk = [&](std::int32_t block) {
+    return static_cast<int>(world::floor_div(block, edge));
+  };
+  const glm::ivec3 low{chunk(spec.box_min.x), chunk(spec.box_min.y), chunk(spec.box_min.z)};
+  const glm::ivec3 last{chunk(spec.box_max.x - 1), chunk(spec.box_max.y - 1),
+                        chunk(spec.box_max.z - 1)};
+  return {low, last - low + 1, static_cast<std::uint32_t>(level)};
+}
+
 shared::Section section_record(const world::SectionKey& key, const world::ChunkMesh& mesh,
                                std::uint32_t island) {
   shared::Section section{};
@@ -75,6 +93,7 @@ SceneView::SceneView(const SceneOptions& options) : settings_(options.settings) 
     start_camera_.pitch_deg = spawn.pitch_deg;
   }
   start_camera_.fov_deg = options.fov_deg;
+  light_field_ = light_field_of(options, *world_, start_camera_);
 }
 
 SceneView::~SceneView() = default;
@@ -91,10 +110,12 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(device, desc);
   if (!renderer) return renderer.error();
   view->renderer_ = *std::move(renderer);
+  if (Result<void> ok = view->follow_settings(); !ok) return ok.error();
   return view;
 }
 
 Result<void> SceneView::load_completely(const render::Camera& camera, double world_time_s) {
+  if (Result<void> ok = follow_settings(); !ok) return ok;
   streamer_->update(
       {place(camera.position), forward_of(camera), world_time_s},
       {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)});
@@ -106,6 +127,7 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
 }
 
 Result<void> SceneView::stream(const render::Camera& camera, double world_time_s) {
+  if (Result<void> ok = follow_settings(); !ok) return ok;
   renderer_->set_upload_budget(settings_.upload_budget_bytes);
   streamer_->update(
       {place(camera.position), forward_of(camera), world_time_s},
@@ -116,39 +138,85 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
   return take_in(streamer_->poll(kMaxPolledQuads));
 }
 
-Result<void> SceneView::take_in(world::StreamUpdate update) {
-  render::GeometryStore& store = renderer_->geometry();
-  gpu::Uploader& uploader = renderer_->mesh_uploader();
-  for (const world::SectionKey& key : update.removed) {
-    const auto found = sections_.find(key);
-    SKERRY_ASSERT(found != sections_.end());
-    store.remove(uploader, found->second);
-    sections_.erase(found);
-    const auto slot = island_slots_.find(key.island);
-    if (--islands_[slot->second].sections == 0) island_slots_.erase(slot);
-  }
-  for (const world::ReadySection& ready : update.ready) {
-    const std::uint32_t slot = island_slot(ready.key.island);
-    Result<render::SectionId> added =
-        store.add(uploader, section_record(ready.key, ready.mesh, slot), ready.mesh.quads);
-    if (!added) return added.error();
-    ++islands_[slot].sections;
-    sections_.emplace(ready.key, *added);
-  }
+bool SceneView::occupancy_wanted() const {
+  return settings_.ao_strength > 0.0 && settings_.shading != Shading::kFlat;
+}
+
+// Occupancy is made along with the meshes, so that all of them are made again when it is wanted for
+// the first time.
+Result<void> SceneView::follow_settings() {
+  if (occupancy_ || !occupancy_wanted()) return {};
+  Result<render::OccupancyStore*> store = renderer_->occupancy();
+  if (!store) return store.error();
+  while (!sections_.empty()) remove_section(sections_.begin()->first);
+  occupancy_ = *store;
+  streamer_ =
+      std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);
   return {};
 }
 
-std::uint32_t SceneView::island_slot(std::uint64_t island) {
-  if (const auto found = island_slots_.find(island); found != island_slots_.end())
+Result<void> SceneView::take_in(world::StreamUpdate update) {
+  for (const world::SectionKey& key : update.removed) remove_section(key);
+  for (const world::ReadySection& ready : update.ready)
+    if (Result<void> added = add_section(ready); !added) return added;
+  return {};
+}
+
+void SceneView::remove_section(const world::SectionKey& key) {
+  const auto found = sections_.find(key);
+  SKERRY_ASSERT(found != sections_.end());
+  light_field_.remove(key);
+  gpu::Uploader& uploader = renderer_->mesh_uploader();
+  light_field_.remove(key);
+  const auto slot = island_slots_.find(key.island);
+  if (found->second) renderer_->geometry().remove(uploader, *found->second);
+  if (occupancy_) occupancy_->remove(uploader, slot->second, chunk_place(key));
+  sections_.erase(found);
+  if (--islands_[slot->second].sections != 0) return;
+  if (occupancy_) occupancy_->end_island(uploader, slot->second);
+  island_slots_.erase(slot);
+}
+
+Result<void> SceneView::add_section(const world::ReadySection& ready) {
+  gpu::Uploader& uploader = renderer_->mesh_uploader();
+  const Result<std::uint32_t> slot = island_slot(ready.key);
+  if (!slot) return slot.error();
+  ++islands_[*slot].sections;
+  std::optional<render::SectionId>& section = sections_[ready.key];
+  if (ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
+    const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
+                                     ready.occupancy.table, ready.occupancy.words};
+    if (Result<void> added = occupancy_->add(uploader, *slot, chunk_place(ready.key), bits); !added)
+      return added;
+  }
+  light_field_.add(ready.key, ready.emitters);
+  if (ready.mesh.quads.empty()) return {};
+  Result<render::SectionId> added = renderer_->geometry().add(
+      uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
+  if (!added) return added.error();
+  section = *added;
+  light_field_.add(ready.key, ready.emitters);
+  return {};
+}
+
+// The slot of a section's island; a new one if this is the first of its sections.
+Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
+  if (const auto found = island_slots_.find(key.island); found != island_slots_.end())
     return found->second;
   const auto free = std::find_if(islands_.begin(), islands_.end(),
                                  [](const IslandEntry& entry) { return entry.sections == 0; });
   const auto slot = static_cast<std::uint32_t>(free - islands_.begin());
   if (free == islands_.end()) islands_.emplace_back();
-  const std::optional<world::IslandSpec> spec = world_->island(island);
+  const std::optional<world::IslandSpec> spec = world_->island(key.island);
   SKERRY_ASSERT(spec.has_value());
   islands_[slot] = {*spec, 0};
-  island_slots_.emplace(island, slot);
+  island_slots_.emplace(key.island, slot);
+  if (occupancy_) {
+    if (Result<void> begun = occupancy_->begin_island(renderer_->mesh_uploader(), slot,
+                                                      expected_chunks(*spec, key.level));
+        !begun)
+      return begun.error();
+  }
   return slot;
 }
 
@@ -160,6 +228,26 @@ std::vector<render::IslandPlacement> SceneView::placements(double world_time_s) 
     out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius});
   }
   return out;
+}
+
+std::vector<PlacedIsland> SceneView::placed_islands(
+    const render::FixedPos& camera, std::span<const render::IslandPlacement> islands) const {
+  std::vector<PlacedIsland> out;
+  for (const auto& [id, slot] : island_slots_)
+    out.push_back({id, slot, glm::mat3_cast(islands[slot].rotation),
+                   world::difference_blocks(place(islands[slot].origin), place(camera)),
+                   islands[slot].bounding_radius});
+  return out;
+}
+
+void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
+                              std::span<const render::IslandPlacement> islands) {
+  const Stopwatch watch;
+  light_field_.gather(
+      place(moment.camera.position), render::view_of(moment.camera, size.width, size.height),
+      placed_islands(moment.camera.position, islands),
+      held_light(settings_, light_field_, moment.camera.yaw_deg, moment.world_time_s), lights_);
+  gather_ms_ = watch.milliseconds();
 }
 
 world::BlockId SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
@@ -191,12 +279,16 @@ render::RenderSettings SceneView::render_settings(
   }
   render::RenderSettings out;
   out.view_distance_blocks = std::ceil(reach / kReachStep) * kReachStep;
+  out.samples_per_edge = settings_.aa_samples == 16 ? 4 : settings_.aa_samples == 4 ? 2 : 1;
   out.shadows = settings_.shadow_enabled;
   out.shadow_map_size = static_cast<int>(settings_.shadow_size);
   out.shadow_cascades = static_cast<int>(settings_.shadow_cascades);
   out.shadow_taps = static_cast<int>(settings_.shadow_taps);
   out.shadow_split = settings_.shadow_split;
-  out.shadow_filter_blocks = static_cast<float>(settings_.shadow_blur);
+  // Many samples blur edges exactly.
+  out.shadow_penumbra_blocks =
+      settings_.shadow_samples == 1 ? static_cast<float>(settings_.shadow_blur) : 0.0f;
+  out.corner_darkening = static_cast<float>(settings_.ao_strength);
   out.texture_taps = static_cast<int>(settings_.texture_taps);
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
@@ -220,6 +312,9 @@ Result<std::uint64_t> SceneView::draw(
   input.anchor = fixed(world_->origin());
   input.islands = islands;
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
+  gather_lights(moment, size, islands);
+  input.lights = lights_.lights;
+  input.light_islands = lights_.islands;
   const std::optional<double> ev =
       settings_.exposure_ev ? settings_.exposure_ev : moment.exposure_ev;
   input.exposure_ev.reset();
@@ -229,8 +324,11 @@ Result<std::uint64_t> SceneView::draw(
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
-  return renderer_->draw(input, render_settings(moment.camera.position, islands), size, after,
-                         waits, signals);
+  const render::RenderSettings settings = render_settings(moment.camera.position, islands);
+  input.parts = settings_.shadow_samples;
+  for (; input.part + 1 < input.parts; ++input.part)
+    if (Result<std::uint64_t> part = renderer_->draw(input, settings, size); !part) return part;
+  return renderer_->draw(input, settings, size, after, waits, signals);
 }
 
 }  // namespace skerry::game

@@ -11,6 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/render/renderer.h"
+#include "game/light_field.h"
 #include "game/options.h"
 #include "world/stream.h"
 #include "world/world.h"
@@ -43,6 +44,9 @@ class SceneView {
   Result<void> stream(const render::Camera& camera, double world_time_s);
   /// Whether everything within view distance has been handed to the renderer.
   bool complete() const { return streamer_->complete(); }
+  /// Of the last draw: lights handed to the renderer, and what it took to gather them.
+  std::size_t lights() const { return lights_.lights.size(); }
+  double gather_ms() const { return gather_ms_; }
 
   struct Moment {
     render::Camera camera;
@@ -62,9 +66,17 @@ class SceneView {
 
  private:
   explicit SceneView(const SceneOptions& options);
+  bool occupancy_wanted() const;
+  Result<void> follow_settings();
   Result<void> take_in(world::StreamUpdate update);
-  std::uint32_t island_slot(std::uint64_t island);
+  Result<void> add_section(const world::ReadySection& ready);
+  void remove_section(const world::SectionKey& key);
+  Result<std::uint32_t> island_slot(const world::SectionKey& key);
   std::vector<render::IslandPlacement> placements(double world_time_s) const;
+  std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera,
+                                           std::span<const render::IslandPlacement> islands) const;
+  void gather_lights(const Moment& moment, VkExtent2D size,
+                     std::span<const render::IslandPlacement> islands);
   /// Id of the translucent block the camera is in, or air.
   world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
   render::RenderSettings render_settings(const render::FixedPos& camera,
@@ -83,7 +95,12 @@ class SceneView {
   render::Camera start_camera_;
   std::vector<IslandEntry> islands_;                     // by GPU slot
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
-  std::map<world::SectionKey, render::SectionId> sections_;
+  /// Resident chunks; without a section, what is known of them is which voxels are opaque.
+  std::map<world::SectionKey, std::optional<render::SectionId>> sections_;
+  render::OccupancyStore* occupancy_ = nullptr;  // the renderer's; null: not wanted so far
+  LightField light_field_;
+  FrameLights lights_;  // of the last frame
+  double gather_ms_ = 0.0;
 };
 
 }  // namespace skerry::game

@@ -11,9 +11,9 @@ namespace skerry::game {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
-constexpr std::array<std::string_view, 10> kDebugViewNames{
-    "none",     "albedo", "normal",   "position", "metadata",
-    "emissive", "depth",  "cascades", "shadow",   "exposure"};
+constexpr std::array<std::string_view, 11> kDebugViewNames{
+    "none",  "albedo",   "normal", "position", "metadata", "emissive",
+    "depth", "cascades", "shadow", "ao",       "exposure"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct1
                                                        "rgb8",  "rgb10a2", "rgba16f"};
 constexpr std::array<std::string_view, 3> kPositionNames{"depth", "rgba16f", "rgba32f"};
 constexpr std::array<std::string_view, 2> kDepthNames{"d32", "d16"};
+constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024, 0.0f},
@@ -124,6 +125,12 @@ Result<void> parse_shadow_taps(std::string_view text, Settings& s) {
   return into(parse_integer(kTapNames[*name], "shadow.taps", 1, 32), s.shadow_taps);
 }
 
+Result<void> parse_samples(std::string_view text, Settings& s) {
+  const auto name = parse_name(text, "aa.samples", kSampleNames);
+  if (!name) return name.error();
+  return into(parse_integer(kSampleNames[*name], "aa.samples", 1, 16), s.aa_samples);
+}
+
 Result<void> parse_leave_out(std::string_view text, Settings& s) {
   render::FeatureSet set;
   if (text != "none") {
@@ -183,6 +190,10 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "view.detail", 32, 4096), s.view_detail);
      },
      [](const Settings& s) { return std::to_string(s.view_detail); }},
+    {"aa.samples", "1, 4 or 16",
+     "Samples a pixel: the picture is drawn twice or four times as wide and high, and averaged. "
+     "For stills; the time grows alike.",
+     parse_samples, [](const Settings& s) { return std::to_string(s.aa_samples); }},
     {"shadow.enabled", "0 or 1", "Shadows of the sun and the moon.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "shadow.enabled", kSwitchNames), s.shadow_enabled);
@@ -198,6 +209,14 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) { return std::to_string(s.shadow_cascades); }},
     {"shadow.taps", "1, 4, 8, 16 or 32", "Texels of the shadow map that a pixel compares with.",
      parse_shadow_taps, [](const Settings& s) { return std::to_string(s.shadow_taps); }},
+    {"shadow.samples", "1 to 1024",
+     "Places on the discs of sun and moon that light comes from: so many whole frames are "
+     "averaged, "
+     "each with shadows of its own. For stills.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "shadow.samples", 1, 1024), s.shadow_samples);
+     },
+     [](const Settings& s) { return std::to_string(s.shadow_samples); }},
     {"shadow.split", "0 to 1",
      "How the maps share the view distance: 0 evenly, 1 each a multiple of the one before.",
      [](std::string_view t, Settings& s) {
@@ -205,7 +224,9 @@ constexpr SettingKey kKeys[] = {
      },
      [](const Settings& s) { return fmt::format("{}", s.shadow_split); }},
     {"shadow.blur", "blocks, 0 to 1",
-     "Smallest radius of the shadow filter, which is one texel at least.",
+     "Largest radius of the shadow filter. It is as wide as the sun's disc blurs a shadow's edge, "
+     "one "
+     "texel at least; 0: one texel everywhere.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "shadow.blur", 0.0, 1.0), s.shadow_blur);
      },
@@ -239,6 +260,23 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kDepthNames[static_cast<std::size_t>(s.gbuffer.depth)]);
      }},
+    {"lights.random", "0 to 1000000",
+     "For measuring: so many torches on the surfaces that the first view sees.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "lights.random", 0, 1'000'000), s.lights_random);
+     },
+     [](const Settings& s) { return std::to_string(s.lights_random); }},
+    {"lights.held", "0 or 1", "A torch in the hand.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "lights.held", kSwitchNames), s.lights_held);
+     },
+     [](const Settings& s) { return std::string(s.lights_held ? "1" : "0"); }},
+    {"ao.strength", "0 to 0.9",
+     "How much light a closed corner of blocks takes; 0: corners are as bright as faces.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "ao.strength", 0.0, 0.9), s.ao_strength);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.ao_strength); }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {
@@ -313,7 +351,7 @@ constexpr SettingKey kKeys[] = {
        return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]);
      }},
     {"debug.view",
-     "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow or "
+     "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow, ao or "
      "exposure",
      "Shows one ingredient of the picture instead of the picture; exposure: the meter over it.",
      [](std::string_view t, Settings& s) {

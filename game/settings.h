@@ -36,14 +36,19 @@ struct Settings {
   double moon_phase = 0.5;    ///< 0 new, 0.5 full, 1 new again
   std::uint32_t view_distance = 1000;  ///< blocks, 32 .. 16384
   std::uint32_t view_detail = 192;     ///< blocks drawn at full detail, 32 .. 4096
+  std::uint32_t aa_samples = 1;        ///< a pixel, drawn and averaged: 1, 4 or 16
   bool shadow_enabled = true;
   std::uint32_t shadow_size = 2048;   ///< texels along a cascade's edge, power of two, 256 .. 8192
   std::uint32_t shadow_cascades = 4;  ///< maps a light has, 1 .. 4
   std::uint32_t shadow_taps = 8;      ///< of the shadow filter: 1, 4, 8, 16 or 32
+  std::uint32_t shadow_samples = 1;   ///< places on the discs of sun and moon, 1 .. 1024
   double shadow_split = 0.98;         ///< 0 evenly spaced maps .. 1 each a multiple of the last
-  double shadow_blur = 0.06;          ///< smallest radius of the shadow filter [blocks], 0 .. 1
+  double shadow_blur = 0.15;          ///< largest radius of the shadow filter [blocks], 0 .. 1
   std::uint32_t texture_taps = 2;     ///< along the long side of a texture footprint, 1 .. 16
   render::GBufferStore gbuffer;       ///< for measuring
+  std::uint32_t lights_random = 0;    ///< torches scattered over what the first camera sees
+  bool lights_held = false;           ///< a torch in the hand
+  double ao_strength = 0.5;           ///< share of light that a closed corner takes, 0 .. 0.9
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   render::MeterSettings meter;        ///< of what has no exposure of its own
   render::ToneCurve tone = render::ToneCurve::kAces;

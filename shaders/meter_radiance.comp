@@ -26,9 +26,9 @@ void main() {
   here[thread] = 0u;
   barrier();
   uvec2 cell = gl_GlobalInvocationID.xy, first = cell * stride;
-  if (all(lessThan(first, frame.size))) {
+  if (all(lessThan(first, frame.picture_size))) {
     uint h = hashed(cell);
-    uvec2 pixel = min(first + uvec2(h, h >> 16) % stride, frame.size - 1u);
+    uvec2 pixel = min(first + uvec2(h, h >> 16) % stride, frame.picture_size - 1u);
     float y = luminance(imageLoad(radiance, ivec2(pixel)).rgb);
     if (counts_as_light(y)) atomicAdd(here[bin_of(y)], 1u);
   }

@@ -17,18 +17,18 @@ layout(push_constant) uniform Push { Metering metering; } push;
 // Column of the mean log2 luminance that is exposed at `ev`.
 float column_of(float ev) {
   float seen = log2(kDayLuminance) + (ev - log2(kDayLuminance / push.metering.key)) / kFollowed;
-  return (seen - float(kFirstOctave)) * float(kBinsPerOctave) / float(kHistogramBins) * float(frame.size.x);
+  return (seen - float(kFirstOctave)) * float(kBinsPerOctave) / float(kHistogramBins) * float(frame.picture_size.x);
 }
 
 bool on_line(uint x, float ev) { return abs(float(x) + 0.5 - column_of(ev)) < 1.0; }
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
-  uint height = (frame.size.y + 2u) / 3u;
-  if (pixel.x >= frame.size.x || pixel.y >= height) return;
-  ivec2 at = ivec2(pixel.x, frame.size.y - 1u - pixel.y);
+  uint height = (frame.picture_size.y + 2u) / 3u;
+  if (pixel.x >= frame.picture_size.x || pixel.y >= height) return;
+  ivec2 at = ivec2(pixel.x, frame.picture_size.y - 1u - pixel.y);
   vec3 colour = 0.4 * imageLoad(picture, at).rgb;
-  uint bin = pixel.x * kHistogramBins / frame.size.x;
+  uint bin = pixel.x * kHistogramBins / frame.picture_size.x;
   if (exposure.metered != 0u) {
     bool kept = bin >= exposure.first_bin && bin <= exposure.last_bin;
     if (counts[bin] != 0u && float(pixel.y) <= float(counts[bin]) / float(exposure.most) * float(height - 1u))

@@ -17,6 +17,9 @@ constexpr BlockType sided(std::string_view name, Texture side, Texture top, Text
 constexpr BlockType log(std::string_view name, Texture side, Texture end) {
   return sided(name, side, end, end, 0.85f);
 }
+constexpr BlockType ore(std::string_view name, Texture all, float roughness, float metalness) {
+  return {name, kOpaque, all, all, all, 0.0f, roughness, {}, metalness};
+}
 constexpr BlockType leaves(std::string_view name, Texture all) {
   return {name, kCutout, all, all, all, 0.0f, 0.8f, {}};
 }
@@ -25,8 +28,8 @@ constexpr BlockType plant(std::string_view name, Texture all, float emission = 0
 }
 
 // One row an id, in the order of block::. Emission is in units of the sun's radiance on white: a
-// glow plant lights its corner, lava and lamps light a room. Water takes red first, so that deep
-// lakes turn blue-green.
+// glow plant lights its corner, lava and lamps light a room, and a torch, being small, burns the
+// brighter. Water takes red first, so that deep lakes turn blue-green.
 constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     {"air", kAir, T::kStone, T::kStone, T::kStone, 0.0f, 1.0f, {}},
     opaque("stone", T::kStone),
@@ -53,9 +56,9 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     opaque("slate", T::kSlate, 0.75f),
     opaque("limestone", T::kLimestone),
     opaque("coal_ore", T::kCoalOre),
-    opaque("iron_ore", T::kIronOre, 0.75f),
-    opaque("copper_ore", T::kCopperOre, 0.75f),
-    opaque("gold_ore", T::kGoldOre, 0.6f),
+    ore("iron_ore", T::kIronOre, 0.75f, 0.3f),
+    ore("copper_ore", T::kCopperOre, 0.75f, 0.4f),
+    ore("gold_ore", T::kGoldOre, 0.6f, 0.6f),
     opaque("crystal_ore", T::kCrystalOre, 0.6f, 0.4f),
     opaque("crystal_blue", T::kCrystalBlue, 0.15f, 2.5f),
     opaque("crystal_violet", T::kCrystalViolet, 0.15f, 2.5f),
@@ -90,7 +93,7 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     {"glass", kTranslucent, T::kGlass, T::kGlass, T::kGlass, 0.0f, 0.05f, {0.05f, 0.02f, 0.03f}},
     sided("planks", T::kPlanks, T::kPlanks, T::kPlanks, 0.8f),
     opaque("bricks", T::kBricks, 0.85f),
-    plant("torch", T::kTorch, 8.0f),
+    plant("torch", T::kTorch, 20.0f),
     opaque("lamp", T::kLamp, 0.5f, 8.0f),
 }};
 

@@ -108,7 +108,8 @@ struct BlockType {
   float emission = 0.0f;   ///< radiance = albedo * this; 0: none
   float roughness = 0.9f;  ///< perceptual, 0..1
   std::array<float, 3>
-      absorption{};  ///< translucent only: extinction per block of path, linear RGB [1/block]
+      absorption{};        ///< translucent only: extinction per block of path, linear RGB [1/block]
+  float metalness = 0.0f;  ///< 0..1: how much of what it reflects is mirrored, in its own colour
 };
 
 /// Named ids of the built-in blocks. The order is saved in worlds: append only.

@@ -49,7 +49,8 @@ int level_at(double distance_blocks, double detail_distance_blocks) {
   return level;
 }
 
-Streamer::Streamer(World& world, Jobs& jobs) : state_(std::make_shared<State>(world, jobs)) {}
+Streamer::Streamer(World& world, Jobs& jobs, StreamOf made)
+    : state_(std::make_shared<State>(world, jobs, made)) {}
 
 Streamer::~Streamer() {
   std::unique_lock lock(state_->mutex);
@@ -189,9 +190,11 @@ std::size_t hand_out(std::uint64_t island, int level, const IVec3& chunk, Stream
   const SectionKey key{island, chunk, level};
   const std::size_t quads = slot.mesh.quads.size();
   if (slot.resident) update.removed.push_back(key);
-  slot.resident = quads > 0;
+  slot.resident = slot.has_something();
   slot.phase = Phase::kDone;
-  if (quads > 0) update.ready.push_back({key, std::exchange(slot.mesh, {})});
+  if (slot.resident)
+    update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.occupancy, {}),
+                            std::exchange(slot.emitters, {})});
   return quads;
 }
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "engine/core/jobs.h"
+#include "world/emitters.h"
 #include "world/mesh/mesh.h"
+#include "world/mesh/occupancy.h"
 #include "world/world.h"
 
 namespace skerry::world {
@@ -26,7 +28,9 @@ struct SectionKey {
 
 struct ReadySection {
   SectionKey key;
-  ChunkMesh mesh;  ///< has at least one quad
+  ChunkMesh mesh;                 ///< without a quad if there is nothing to be seen of the chunk
+  ChunkOccupancy occupancy;       ///< empty unless asked for; of the two, one at least is not empty
+  std::vector<Emitter> emitters;  ///< of the mesh
 };
 
 /// What to change: first remove, then add. A key that is replaced stands in both lists.
@@ -50,6 +54,9 @@ struct StreamSettings {
 /// (negative inside): 0 within the detail distance, one more each time the distance doubles.
 int level_at(double distance_blocks, double detail_distance_blocks);
 
+/// What a streamer makes of chunks.
+enum class StreamOf : std::uint8_t { kMeshes, kMeshesAndOccupancy };
+
 /// Keeps the islands around a camera meshed. An island is in while its bounding sphere comes within
 /// view distance, as a whole at one level of detail, so that it has no cracks.
 ///
@@ -61,7 +68,7 @@ int level_at(double distance_blocks, double detail_distance_blocks);
 class Streamer {
  public:
   /// Both must outlive the streamer.
-  Streamer(World& world, Jobs& jobs);
+  Streamer(World& world, Jobs& jobs, StreamOf made = StreamOf::kMeshes);
   /// Cancels what is queued and waits for what is running.
   ~Streamer();
   Streamer(const Streamer&) = delete;

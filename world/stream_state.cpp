@@ -155,15 +155,16 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
     }
     lock.unlock();
     if (!scratch) scratch = std::make_unique<StreamScratch>();
-    ChunkMesh mesh;
-    std::optional<Chunk> voxels;
+    MadeChunk chunk;
     const std::span<BlockId> padded = scratch->voxels;
     const bool any = world.generate_padded(task.island, *task.chunk, task.level, padded);
-    if (any) mesh_chunk(padded, scratch->mesh, mesh);
-    if (task.level == 0) voxels = any ? chunk_from_padded(padded) : Chunk(kAir);
+    if (any) mesh_chunk(padded, scratch->mesh, chunk.mesh);
+    find_emitters(chunk.mesh, chunk.emitters);
+    if (any && makes == StreamOf::kMeshesAndOccupancy) chunk.occupancy = occupancy_of(padded);
+    if (task.level == 0) chunk.voxels = any ? chunk_from_padded(padded) : Chunk(kAir);
     lock.lock();
     spare.push_back(std::move(scratch));
-    note_made(task, std::move(mesh), std::move(voxels));
+    note_made(task, std::move(chunk));
   }
   // The island may have left meanwhile, and this task may have built its plan once more.
   if (plan_unused(task.island)) world.release_plan(task.island);
@@ -190,12 +191,11 @@ void Streamer::State::note_planned(const StreamTask& task, const std::vector<IVe
   }
 }
 
-void Streamer::State::note_made(const StreamTask& task, ChunkMesh&& mesh,
-                                std::optional<Chunk>&& voxels) {
+void Streamer::State::note_made(const StreamTask& task, MadeChunk&& chunk) {
   StreamLevel* level = find_level(task.island, task.serial);
   if (!level) return;
   ++chunks_made;
-  if (voxels) world.keep_chunk(task.island, *task.chunk, std::move(*voxels));
+  if (chunk.voxels) world.keep_chunk(task.island, *task.chunk, std::move(*chunk.voxels));
   StreamSlot& slot = level->slots.at(*task.chunk);
   if (std::exchange(slot.stale, false)) {
     slot.phase = Phase::kQueued;
@@ -203,8 +203,10 @@ void Streamer::State::note_made(const StreamTask& task, ChunkMesh&& mesh,
     return;
   }
   --level->unmade;
-  slot.mesh = std::move(mesh);
-  const bool nothing_to_say = slot.mesh.quads.empty() && !slot.resident;
+  slot.mesh = std::move(chunk.mesh);
+  slot.emitters = std::move(chunk.emitters);
+  slot.occupancy = std::move(chunk.occupancy);
+  const bool nothing_to_say = !slot.has_something() && !slot.resident;
   slot.phase = nothing_to_say ? Phase::kDone : Phase::kMade;
   if (!nothing_to_say) ++level->made;
 }

@@ -18,13 +18,18 @@ struct StreamSlot {
     kIdle,     // not asked for: its level is about to be replaced
     kQueued,   // a task waits for a worker
     kRunning,  // a worker makes it
-    kMade,     // `mesh` waits to be handed out
+    kMade,     // what was made of it waits to be handed out
     kDone,     // handed out, or made and empty
   };
   Phase phase = Phase::kQueued;
   bool stale = false;     // edited while a worker makes it: make it again
   bool resident = false;  // handed out and not removed
   ChunkMesh mesh;
+  std::vector<Emitter> emitters;
+  ChunkOccupancy occupancy;
+  bool has_something() const {
+    return !mesh.quads.empty() || occupancy.fill != ChunkOccupancy::Fill::kEmpty;
+  }
 };
 
 /// An island at one level.
@@ -61,8 +66,16 @@ struct StreamScratch {
   MeshScratch mesh;
 };
 
+/// What a job brings back.
+struct MadeChunk {
+  ChunkMesh mesh;
+  std::vector<Emitter> emitters;
+  ChunkOccupancy occupancy;
+  std::optional<Chunk> voxels;  // of level 0
+};
+
 struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
-  State(World& world_, Jobs& jobs_) : world(world_), jobs(jobs_) {}
+  State(World& world_, Jobs& jobs_, StreamOf makes_) : world(world_), jobs(jobs_), makes(makes_) {}
 
   /// Frame thread only, without the mutex.
   const std::vector<IslandSpec>& islands_around(const StreamView& view,
@@ -89,7 +102,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   bool take_task(StreamTask& task);
   bool all_made() const { return tasks.empty() && running == 0; }
   void note_planned(const StreamTask& task, const std::vector<IVec3>& chunks);
-  void note_made(const StreamTask& task, ChunkMesh&& mesh, std::optional<Chunk>&& voxels);
+  void note_made(const StreamTask& task, MadeChunk&& chunk);
 
   /// Starts one job for each task pushed since the last call. Without the mutex.
   void submit_jobs();
@@ -98,6 +111,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
 
   World& world;
   Jobs& jobs;
+  const StreamOf makes;
   struct Around {
     WorldPos centre;
     double reach = -1.0;

@@ -13,6 +13,7 @@ enum class Key : std::uint8_t {
   kS,
   kD,
   kF,
+  kL,
   kP,
   kT,
   kY,

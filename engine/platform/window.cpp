@@ -29,6 +29,8 @@ std::optional<Key> key_of(int glfw_key) {
       return Key::kD;
     case GLFW_KEY_F:
       return Key::kF;
+    case GLFW_KEY_L:
+      return Key::kL;
     case GLFW_KEY_P:
       return Key::kP;
     case GLFW_KEY_T:

@@ -17,12 +17,13 @@ Result<void> Captures::reserve(Capture what, VkExtent2D size, std::uint32_t laye
   return {};
 }
 
-Result<void> Captures::begin(VkExtent2D size, bool geometry, const gpu::Image* maps) {
+Result<void> Captures::begin(VkExtent2D picture, VkExtent2D drawn, bool geometry,
+                             const gpu::Image* maps) {
   rooms_ = {};
-  if (Result<void> ok = reserve(Capture::kRadiance, size, 1, 8); !ok) return ok;
+  if (Result<void> ok = reserve(Capture::kRadiance, picture, 1, 8); !ok) return ok;
   if (!geometry) return {};
-  if (Result<void> ok = reserve(Capture::kDepth, size, 1, 4); !ok) return ok;
-  if (Result<void> ok = reserve(Capture::kSurfaces, size, 1, 4); !ok) return ok;
+  if (Result<void> ok = reserve(Capture::kDepth, drawn, 1, 4); !ok) return ok;
+  if (Result<void> ok = reserve(Capture::kSurfaces, drawn, 1, 4); !ok) return ok;
   if (!maps) return {};
   return reserve(Capture::kShadowMaps, maps->desc().extent, maps->desc().layers, 4);
 }

@@ -13,8 +13,8 @@ class Captures {
   explicit Captures(gpu::Device& device) : device_(&device) {}
 
   /// Forgets what was copied out, and makes room for the images of a frame.
-  /// @param maps null: no shadow maps. Errors: out of memory.
-  Result<void> begin(VkExtent2D size, bool geometry, const gpu::Image* maps);
+  /// @param drawn size of the G-buffer. @param maps null: no shadow maps. Errors: out of memory.
+  Result<void> begin(VkExtent2D picture, VkExtent2D drawn, bool geometry, const gpu::Image* maps);
   /// Adds the copy of an image that begin() has made room for.
   void add(gpu::FrameGraph& graph, Capture what, gpu::ImageRef image);
   /// @pre the frame has completed.

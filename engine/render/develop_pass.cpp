@@ -4,6 +4,7 @@
 
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/light_constants.h"
+#include "engine/render/occupancy_reads.h"
 #include "engine/render/picture_constants.h"
 
 namespace skerry::render {
@@ -50,10 +51,12 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   gpu::ImageRef out = graph.import(picture);
   const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
+  const OccupancyReads occupancy(scene, scene.corners && view == DebugView::kCorners);
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
       std::string("show_channel") + (maps ? "" : "_unshadowed") + surfaces.suffix() + ".comp",
-      with_picture(surfaces.with_store(
-                       with_light({{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps})),
+      with_picture(with_corners(surfaces.with_store(with_light(
+                                    {{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps})),
+                                bool{occupancy}),
                    scene)});
   graph.add_pass(
       "show_channel",
@@ -62,16 +65,18 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
              {scene.frame, scene.islands, scene.materials, scene.exposure})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
+        occupancy.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
         out = b.write(out, Use::kComputeWrite);
       },
-      [&pipeline, scene, surfaces, maps, out](gpu::Commands& c) {
+      [&pipeline, scene, surfaces, occupancy, maps, out](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
         c.storage(2, scene.materials);
         surfaces.bind(c, scene.point_sampler, 3, 4);
+        occupancy.bind(c);
         c.sampled(5, scene.block_textures, scene.block_sampler);
         c.storage(6, out);
         c.storage(22, scene.exposure);

@@ -81,16 +81,18 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.ray_forward = camera.forward;
   f.pixel_to_ndc = {2.0f / static_cast<float>(size.width), 2.0f / static_cast<float>(size.height)};
   f.size = {size.width, size.height};
+  f.picture_size = f.size;
   f.near_plane = kNearPlane;
   f.display_peak = static_cast<float>(srgb_encoded(settings.display.peak));
   f.display_black = settings.display.black;
   f.time_s = static_cast<float>(std::fmod(input.time_s, 3600.0));
   f.shading_flat = settings.flat_shading ? 1u : 0u;
   f.camera_medium = input.camera_medium;
-  f.pcf_radius_blocks = settings.shadow_filter_blocks;
+  f.penumbra_blocks = settings.shadow_penumbra_blocks;
   f.bodies[0] = shader_body(input.sky.to_sun, input.sky.sun_irradiance, 0, cascades);
   f.bodies[1] = shader_body(input.sky.to_moon, input.sky.moon_irradiance, 1, cascades);
 
+  f.corner_darkening = settings.corner_darkening;
   f.haze_per_block = haze_per_block(input.sky);
 
   shared::CullView view{};

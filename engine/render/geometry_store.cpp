@@ -7,41 +7,16 @@
 #include "engine/core/check.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/uploader.h"
-#include "engine/gpu/vk_struct.h"
+#include "engine/render/grow_buffer.h"
 
 namespace skerry::render {
 namespace {
 
-constexpr VkBufferUsageFlags kTableUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 constexpr std::uint32_t kFirstSections = 1024;
 constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
 
 std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
   return section.range_end[end - 1] - (first == 0 ? 0 : section.range_end[first - 1]);
-}
-
-/// A bigger buffer with the old one's bytes. Waits for the GPU: growth is rare, and doubles.
-Result<gpu::Buffer> grown(gpu::Device& device, gpu::Buffer& old, std::uint64_t size_bytes) {
-  Result<gpu::Buffer> bigger =
-      device.create_buffer({old.name(), size_bytes, kTableUsage, gpu::Memory::kDevice});
-  if (!bigger) return bigger;
-  device.run_now([&](VkCommandBuffer commands) {
-    auto barrier = gpu::vk_struct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    auto dependency = gpu::vk_struct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands, &dependency);
-    const VkBufferCopy region{0, 0, old.size_bytes()};
-    vkCmdCopyBuffer(commands, old.handle(), bigger->handle(), 1, &region);
-    vkCmdPipelineBarrier2(commands, &dependency);
-  });
-  return bigger;
 }
 
 }  // namespace
@@ -121,19 +96,18 @@ Result<void> GeometryStore::grow_arena(std::uint32_t at_least) {
                     "device allows {}; "
                     "lower view.distance or view.detail",
                     at_least, arena_.used(), now, most)};
-  Result<gpu::Buffer> bigger = grown(*device_, quads_, next * sizeof(shared::Quad));
-  if (!bigger) return bigger.error();
-  quads_ = *std::move(bigger);
+  if (Result<void> grew = grow_buffer(*device_, quads_, next * sizeof(shared::Quad)); !grew)
+    return grew;
   arena_.grow(static_cast<std::uint32_t>(next));
   return {};
 }
 
 Result<void> GeometryStore::grow_sections() {
   const std::uint32_t next = section_capacity_ * 2;
-  Result<gpu::Buffer> bigger =
-      grown(*device_, sections_, std::uint64_t{next} * sizeof(shared::Section));
-  if (!bigger) return bigger.error();
-  sections_ = *std::move(bigger);
+  if (Result<void> grew =
+          grow_buffer(*device_, sections_, std::uint64_t{next} * sizeof(shared::Section));
+      !grew)
+    return grew;
   section_capacity_ = next;
   return {};
 }

@@ -9,6 +9,8 @@ std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
   if (shadows) {
     own.push_back({9, scene.shadow_taps});
     own.push_back({10, scene.shadow_cascades});
+    if (scene.samples_per_edge > 1) own.push_back({14, scene.samples_per_edge});
+    if (!scene.penumbrae) own.push_back({13, 0});
   }
   return own;
 }

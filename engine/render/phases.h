@@ -55,6 +55,7 @@ class Shaded {
   friend struct ShadePass;
   friend struct TranslucentPass;
   friend struct FaultPass;
+  friend struct ResolvePass;
   explicit Shaded(gpu::ImageRef radiance) : radiance_(radiance) {}
   gpu::ImageRef radiance_;
 };

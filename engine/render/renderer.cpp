@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 
 #include "engine/core/check.h"
 #include "engine/gpu/frame_ring.h"
@@ -16,6 +19,7 @@
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/geometry_pass.h"
 #include "engine/render/meter_pass.h"
+#include "engine/render/resolve_pass.h"
 #include "engine/render/shade_pass.h"
 #include "engine/render/shadow_maps.h"
 #include "engine/render/shadow_pass.h"
@@ -39,6 +43,7 @@ struct Slot {
   std::uint64_t value = 0;  // timeline value that completes it; 0: not in flight
   gpu::Buffer readback;     // CullStats[kViewCount], then PixelStats, then Exposure
   std::uint32_t views = 0;  // entries of CullStats that the frame wrote
+  std::uint32_t part = 0;   // see FrameInput
   gpu::FrameCounts counts{};
   int pipelines_created = 0;
   std::uint64_t memory_bytes = 0;
@@ -53,10 +58,41 @@ bool meters(const FrameInput& input, const RenderSettings& settings) {
   return input.meter || !input.exposure_ev || settings.debug_view == DebugView::kExposure;
 }
 
+/// Samples along a pixel's edge. A debug view shows samples as they are.
+int samples_per_edge(const RenderSettings& settings) {
+  return shows_channel(settings) ? 1 : settings.samples_per_edge;
+}
+
 /// Whether the picture takes the way over a radiance image though no pass comes between.
 bool by_radiance(const FrameInput& input, const RenderSettings& settings) {
   return settings.bloom.intensity > 0.0f || meters(input, settings) || input.capture ||
-         input.fault.has_value();
+         input.fault.has_value() || samples_per_edge(settings) > 1 || input.parts > 1;
+}
+
+/// The sky whose sun and moon stand at the middle of a part's share of their discs: points of a
+/// sunflower (H. Vogel, A better way to construct the sunflower head, 1979), which cover it evenly.
+Celestial sky_of_part(Celestial sky, std::uint32_t part, std::uint32_t parts) {
+  if (parts == 1) return sky;
+  constexpr double kGoldenAngle = 2.399963229728653;
+  const double radius = static_cast<double>(shared::kBodyRadius) * std::sqrt((part + 0.5) / parts);
+  for (glm::dvec3* to_light : {&sky.to_sun, &sky.to_moon}) {
+    const std::array<glm::dvec3, 3> axes = light_axes(*to_light);
+    *to_light = glm::normalize(*to_light + radius * std::cos(kGoldenAngle * part) * axes[0] +
+                               radius * std::sin(kGoldenAngle * part) * axes[1]);
+  }
+  return sky;
+}
+
+void add_times(const FrameReport& earlier, FrameReport& to) {
+  to.gpu_ms += earlier.gpu_ms;
+  for (const gpu::PassTime& pass : earlier.passes) {
+    const auto same = std::find_if(to.passes.begin(), to.passes.end(),
+                                   [&](const gpu::PassTime& p) { return p.name == pass.name; });
+    if (same == to.passes.end())
+      to.passes.push_back(pass);
+    else
+      same->ms += pass.ms;
+  }
 }
 
 constexpr std::uint64_t kPixelStatsOffset = shared::kViewCount * sizeof(shared::CullStats);
@@ -81,7 +117,8 @@ struct Renderer::State {
     return device.create_buffer({name, size_bytes, kTable, gpu::Memory::kDevice});
   }
   Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
-  Result<void> resize_picture(VkExtent2D size);
+  Result<void> resize_picture(VkExtent2D size, int samples);
+  Result<void> resize_total(VkExtent2D size);
   template <class T>
   Result<void> upload(gpu::Buffer& to, const char* name, std::span<const T> values);
   Result<void> upload_tables(const FrameTables& tables, const FrameInput& input,
@@ -107,12 +144,14 @@ struct Renderer::State {
   gpu::FrameGraph graph;
   gpu::Uploader frame_uploader, mesh_uploader;
   std::unique_ptr<GeometryStore> geometry;
+  std::unique_ptr<OccupancyStore> occupancy;  // null: never asked for
   ShadowMaps shadows;
   Captures captures;
   gpu::FrameRing ring;
   std::uint64_t upload_budget;
   gpu::Buffer frame, sky, islands, view_islands, views, materials, indices, pixel_stats, exposure;
   gpu::Image block_textures, sky_lut, picture;
+  gpu::Image total;  // of a picture's parts; empty when it has one
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::optional<shared::SkyConstants> baked_sky;
   std::array<Slot, kFramesInFlight> slots;
@@ -202,16 +241,22 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
   return {};
 }
 
-Result<void> Renderer::State::resize_picture(VkExtent2D size) {
+Result<void> Renderer::State::resize_picture(VkExtent2D size, int samples) {
+  const std::uint32_t limit = device.limits().max_image_edge;
+  const std::uint32_t most = limit / static_cast<std::uint32_t>(samples);
+  if (size.width == 0 || size.height == 0 || size.width > most || size.height > most)
+    return Error{
+        samples == 1
+            ? fmt::format("cannot draw a picture of {}x{} pixels: the device takes 1 to {} along "
+                          "an edge; choose another --size",
+                          size.width, size.height, limit)
+            : fmt::format("cannot draw a picture of {}x{} pixels with aa.samples={}: the device "
+                          "takes 1 to {} samples along an edge; choose fewer samples or another "
+                          "--size",
+                          size.width, size.height, samples * samples, limit)};
   if (picture && picture.desc().extent.width == size.width &&
       picture.desc().extent.height == size.height)
     return {};
-  const std::uint32_t most = device.limits().max_image_edge;
-  if (size.width == 0 || size.height == 0 || size.width > most || size.height > most)
-    return Error{
-        fmt::format("cannot draw a picture of {}x{} pixels: the device takes 1 to {} along an "
-                    "edge; choose another --size",
-                    size.width, size.height, most)};
   picture = {};
   Result<gpu::Image> image =
       device.create_image({.name = "picture",
@@ -220,6 +265,22 @@ Result<void> Renderer::State::resize_picture(VkExtent2D size) {
                            .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
   if (!image) return image.error();
   picture = *std::move(image);
+  return {};
+}
+
+Result<void> Renderer::State::resize_total(VkExtent2D size) {
+  if (size.width == 0) {
+    total = {};
+    return {};
+  }
+  if (total && total.desc().extent.width == size.width && total.desc().extent.height == size.height)
+    return {};
+  Result<gpu::Image> image = device.create_image({.name = "total of parts",
+                                                  .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                  .extent = size,
+                                                  .usage = VK_IMAGE_USAGE_STORAGE_BIT});
+  if (!image) return image.error();
+  total = *std::move(image);
   return {};
 }
 
@@ -258,6 +319,12 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, const RenderSet
   s.materials = graph.import(materials);
   s.quads = graph.import(geometry->quads());
   s.sections = graph.import(geometry->sections());
+  if (occupancy) {
+    s.occupancy_grids = graph.import(occupancy->grids());
+    s.occupancy_tables = graph.import(occupancy->tables());
+    s.occupancy_words = graph.import(occupancy->words());
+    s.corners = settings.corner_darkening > 0.0f && !settings.flat_shading;
+  }
   s.indices = graph.import(indices);
   s.pixel_stats = graph.import(pixel_stats);
   s.exposure = graph.import(exposure);
@@ -272,6 +339,8 @@ SceneRefs Renderer::State::import_scene(const FrameInput& input, const RenderSet
   s.calibrated = settings.display != DisplaySettings{};
   s.shadow_taps = static_cast<std::uint32_t>(settings.shadow_taps);
   s.shadow_cascades = static_cast<std::uint32_t>(settings.shadow_cascades);
+  s.samples_per_edge = static_cast<std::uint32_t>(samples_per_edge(settings));
+  s.penumbrae = settings.shadow_penumbra_blocks > 0.0f;
   for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
     if (tables.constants.bodies[body].irradiance != glm::vec3(0.0f)) s.bodies |= 1u << body;
   return s;
@@ -301,11 +370,19 @@ Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& 
   return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw);
 }
 
-/// Meters radiance and copies it out if asked to, and develops it.
+/// Makes pixels of samples, copies radiance out if asked to, meters and develops it.
 void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input,
                                      const RenderSettings& settings) {
   if (input.fault && input.fault->in == Fault::In::kLookedThrough)
     shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
+  const int samples = samples_per_edge(settings);
+  if (samples > 1 || input.parts > 1)
+    shaded = ResolvePass::add(graph, pipelines, scene, std::move(shaded),
+                              {samples, picture.desc().extent, input.part, input.parts,
+                               input.parts > 1 ? &total : nullptr});
+  if (samples == 1) graph.leave_out("average_samples", "aa.samples=1");
+  if (input.parts == 1) graph.leave_out("accumulate_part", "shadow.samples=1");
+  if (input.part + 1 != input.parts) return;
   if (input.capture) captures.add(graph, Capture::kRadiance, shaded.radiance());
   gpu::BufferRef histogram;
   if (meters(input, settings))
@@ -368,6 +445,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
     for (const char* name : {"shrink_bloom", "spread_bloom"})
       graph.leave_out(name, "bloom.intensity=0");
   scene.haze = features.has(Feature::kHaze);
+  if (!scene.corners)
+    graph.leave_out("corners", settings.flat_shading ? "shading=flat" : "ao.strength=0");
   const ShadeIn shade_in{settings.texture_taps, features.has(Feature::kStars),
                          features.has(Feature::kDiscs)};
   const bool sky_moved = !baked_sky || std::memcmp(&*baked_sky, &sky_now, sizeof(sky_now)) != 0;
@@ -473,6 +552,7 @@ void Renderer::State::take_report(std::uint32_t slot_index) {
   r.counts = slot.counts;
   r.pipelines_created = slot.pipelines_created;
   r.memory_bytes = slot.memory_bytes;
+  if (slot.part != 0 && report) add_times(*report, r);
   report = std::move(r);
   slot.value = 0;
 }
@@ -499,27 +579,34 @@ Result<std::uint64_t> Renderer::draw(
   State& s = *state_;
   FrameInput input = asked;
   input.sky = sky_without(asked.sky, settings.leave_out);
+  if (shows_channel(settings)) input.part = 0, input.parts = 1;
   if (settings.leave_out.has(Feature::kWater)) input.camera_medium = 0;
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
-  if (Result<void> ok = s.resize_picture(size); !ok) return ok.error();
+  if (Result<void> ok = s.resize_picture(size, samples_per_edge(settings)); !ok) return ok.error();
+  const auto samples = static_cast<std::uint32_t>(samples_per_edge(settings));
+  const VkExtent2D drawn{size.width * samples, size.height * samples};
   if (Result<void> ok = check_store(s.device, settings.gbuffer); !ok) return ok.error();
   if (Result<void> ok = check_draws(
           most_draws(s.geometry->section_slots(), s.geometry->quads_resident()), s.device.limits());
       !ok)
     return ok.error();
 
+  if (Result<void> ok = s.resize_total(input.parts > 1 ? size : VkExtent2D{}); !ok)
+    return ok.error();
+  const shared::SkyConstants sky_now = sky_constants(input.sky);
+  input.sky = sky_of_part(input.sky, input.part, input.parts);
   const Result<std::span<const ActiveCascade>> cascades =
       s.geometry->sections_resident() == 0
           ? std::span<const ActiveCascade>{}
           : s.shadows.update(input, settings, s.geometry->version());
   if (!cascades) return cascades.error();
   if (input.capture)
-    if (Result<void> ok = s.captures.begin(size, s.geometry->sections_resident() != 0,
+    if (Result<void> ok = s.captures.begin(size, drawn, s.geometry->sections_resident() != 0,
                                            cascades->empty() ? nullptr : s.shadows.maps());
         !ok)
       return ok.error();
-  FrameTables tables = build_tables(input, settings, size, *cascades);
-  const shared::SkyConstants sky_now = sky_constants(input.sky);
+  FrameTables tables = build_tables(input, settings, drawn, *cascades);
+  tables.constants.picture_size = {size.width, size.height};
   const FrameContents contents = contents_of(input, settings, tables, sky_now, *s.geometry);
   if (!input.freeze_culling)
     s.frozen.reset();
@@ -535,11 +622,12 @@ Result<std::uint64_t> Renderer::draw(
   Slot& slot = s.slots[frame.slot];
   s.take_report(frame.slot);
   s.geometry->collect();
+  if (s.occupancy) s.occupancy->collect();
   s.frame_uploader.record(frame.commands, UINT64_MAX);
   s.mesh_uploader.record(frame.commands, s.upload_budget);
   // Maps drawn while meshes still wait for their turn will lack them.
   if (s.mesh_uploader.pending_bytes() != 0) s.shadows.forget();
-  s.build(input, settings, size, tables, contents, *cascades, sky_now, slot);
+  s.build(input, settings, drawn, tables, contents, *cascades, sky_now, slot);
   s.graph.compile();
   if (const std::optional<Error> failure = s.graph.allocation_failure()) {
     s.ring.submit();
@@ -547,6 +635,7 @@ Result<std::uint64_t> Renderer::draw(
     return *failure;
   }
   s.graph.execute(frame.commands, frame.slot);
+  slot.part = input.part;
   slot.counts = s.graph.counts();
   slot.pipelines_created = s.pipelines.created();
   slot.memory_bytes = s.device.memory_total();
@@ -571,6 +660,14 @@ GeometryStore& Renderer::geometry() {
 }
 void Renderer::set_upload_budget(std::uint64_t bytes) {
   state_->upload_budget = bytes;
+}
+Result<OccupancyStore*> Renderer::occupancy() {
+  if (!state_->occupancy) {
+    Result<std::unique_ptr<OccupancyStore>> made = OccupancyStore::create(state_->device);
+    if (!made) return made.error();
+    state_->occupancy = *std::move(made);
+  }
+  return state_->occupancy.get();
 }
 gpu::Uploader& Renderer::mesh_uploader() {
   return state_->mesh_uploader;

@@ -18,6 +18,7 @@
 #include "engine/render/camera.h"
 #include "engine/render/celestial.h"
 #include "engine/render/geometry_store.h"
+#include "engine/render/occupancy_store.h"
 #include "engine/render/settings.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
@@ -69,6 +70,9 @@ struct FrameInput {
   Celestial sky{};
   std::span<const shared::Light> lights;  ///< finite, in an order that does not depend on threads
   std::span<const std::uint32_t> light_islands;  ///< indices of `islands`, see shared::Light
+  /// Which of how many frames that average into one picture, drawn one after another; in each, sun
+  /// and moon light from another place of their discs. The last one develops the picture.
+  std::uint32_t part = 0, parts = 1;
   /// Picture = tone curve(radiance * 2^-EV). None: as the meter finds this very frame.
   std::optional<float> exposure_ev = 0.0f;
   bool meter = false;               ///< meter the frame even though its exposure is given
@@ -80,7 +84,7 @@ struct FrameInput {
   std::optional<Fault> fault;  ///< implies the way by radiance, too
 };
 
-/// Numbers of a frame the GPU has finished.
+/// Numbers of a frame the GPU has finished. Times are sums over its parts.
 struct FrameReport {
   std::vector<gpu::PassTime> passes;
   double gpu_ms = 0.0;
@@ -111,6 +115,9 @@ class Renderer {
   ~Renderer();  ///< waits for the GPU
 
   GeometryStore& geometry();
+  /// Which voxels are opaque: for corners and traced lights. Made when first asked for; a renderer
+  /// that is never asked has none, and draws neither. Errors: out of memory.
+  Result<OccupancyStore*> occupancy();
   gpu::Uploader& mesh_uploader();
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);

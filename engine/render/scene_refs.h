@@ -23,17 +23,22 @@ struct SceneRefs {
   gpu::BufferRef views;            ///< shared::CullView[view]
   gpu::BufferRef materials;        ///< shared::Material[block id]
   gpu::BufferRef quads, sections;  ///< the geometry store
-  gpu::BufferRef indices;          ///< 16-bit: 0 1 2 0 2 3, 4 5 6 ...
-  gpu::BufferRef pixel_stats;      ///< shared::PixelStats
-  gpu::BufferRef exposure;         ///< shared::Exposure
+  /// The occupancy store; empty without one.
+  gpu::BufferRef occupancy_grids, occupancy_tables, occupancy_words;
+  gpu::BufferRef indices;      ///< 16-bit: 0 1 2 0 2 3, 4 5 6 ...
+  gpu::BufferRef pixel_stats;  ///< shared::PixelStats
+  gpu::BufferRef exposure;     ///< shared::Exposure
   gpu::ImageRef block_textures, sky_lut;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::uint32_t islands_per_view = 0;
   std::uint32_t bodies = 0;  ///< that give light: bit 0 the sun, bit 1 the moon
   std::uint32_t shadow_taps = 0, shadow_cascades = 0;  ///< of each body, see RenderSettings
+  std::uint32_t samples_per_edge = 1;                  ///< of a pixel, see RenderSettings
+  bool penumbrae = true;                               ///< whether shadow_penumbra_blocks is not 0
   bool haze = true;
   ToneCurve tone = ToneCurve::kAces;
   bool calibrated = false;  ///< whether the display takes other than 0 to 1
+  bool corners = false;     ///< whether they darken; then there is an occupancy store
   VkExtent2D size{};
 };
 

@@ -16,6 +16,7 @@ enum class DebugView : std::uint8_t {
   kDepth,
   kCascades,
   kShadow,
+  kCorners,
   kExposure  ///< the lit scene, and the meter's histogram over it
 };
 
@@ -65,15 +66,20 @@ struct BloomSettings {
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
   double view_distance_blocks =
-      1000.0;  ///< all that is drawn lies within; the last cascade reaches as far
+      1000.0;                ///< all that is drawn lies within; the last cascade reaches as far
+  int samples_per_edge = 1;  ///< of a pixel: the picture is drawn so many times as wide and high
+                             ///< and averaged; 1, 2 or 4
   bool shadows = true;
   int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
   int shadow_cascades = 4;     ///< maps a light has, 1..4; however few reach as far
   double shadow_split = 0.98;  ///< 0 evenly spaced cascades .. 1 each a multiple of the last
   int shadow_taps = 8;         ///< of the shadow filter: 1, 4, 8, 16 or 32
-  float shadow_filter_blocks =
-      0.06f;                   ///< smallest radius of the shadow filter; never under a texel
-  bool flat_shading = false;   ///< shadow result times light colour, no N.L
+  /// Largest radius of the shadow filter, which is as wide as the edge that the sun's disc casts,
+  /// and a texel at least. 0: a texel everywhere.
+  float shadow_penumbra_blocks = 0.15f;
+  bool flat_shading = false;  ///< shadow result times light colour, no N.L and no corners
+  float corner_darkening =
+      0.5f;                    ///< share of light that a closed corner takes, 0..1; 0: no corners
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;

@@ -5,6 +5,7 @@
 
 #include "engine/render/gbuffer_formats.h"
 #include "engine/render/light_constants.h"
+#include "engine/render/occupancy_reads.h"
 #include "engine/render/picture_constants.h"
 #include "engine/render/tiles.h"
 #include "shaders/shared/frame.h"
@@ -31,12 +32,15 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size);
   const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
+  const OccupancyReads occupancy(scene, scene.corners && scene.bodies != 0);
   const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
   const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
       std::string("shade_surfaces") + (maps ? "" : "_unshadowed") + surfaces.suffix() + suffix,
-      with_target(surfaces.with_store(with_light({{0, static_cast<std::uint32_t>(in.texture_taps)}},
-                                                 scene, bool{maps})),
-                  scene, to_picture)});
+      with_target(
+          with_corners(surfaces.with_store(with_light(
+                           {{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene, bool{maps})),
+                       bool{occupancy}),
+          scene, to_picture)});
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
@@ -44,6 +48,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
         surfaces.declare(b);
+        occupancy.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         b.read(scene.sky_lut, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
@@ -51,13 +56,15 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&surface_pipeline, scene, tiles, surfaces, maps, target, to_picture](gpu::Commands& c) {
+      [&surface_pipeline, scene, tiles, surfaces, occupancy, maps, target,
+       to_picture](gpu::Commands& c) {
         c.bind(surface_pipeline);
         c.storage(0, scene.frame);
         c.storage(1, scene.islands);
         c.storage(2, scene.materials);
         c.storage(4, scene.pixel_stats);
         surfaces.bind(c, scene.point_sampler, 5, 6);
+        occupancy.bind(c);
         c.sampled(7, scene.block_textures, scene.block_sampler);
         c.sampled(8, scene.sky_lut, scene.lut_sampler);
         c.storage(9, target);

@@ -77,7 +77,7 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
     in.near_blocks = 1.0;
     in.far_blocks = settings.view_distance_blocks;
     in.caster_reach_blocks = caster_reach(settings);
-    in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_filter_blocks) +
+    in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_penumbra_blocks) +
                        8.0 * settings.view_distance_blocks / settings.shadow_map_size;
     in.map_size = settings.shadow_map_size;
     in.count = settings.shadow_cascades;

@@ -37,10 +37,13 @@ struct Surface {
   bool plant;     // lit as if it were level, but it stands upright
   vec3 albedo;    // linear
   vec3 emitted;   // radiance
+  float roughness;  // perceptual
+  float metalness;
   vec3 in_voxel;  // of a plant: position in its voxel's cube, 0..1
   vec3 axis_x;    // island axes in the world
   vec3 axis_y;
   vec3 axis_z;
+  float openness;  // share of light that the corners of its face leave to it, 0..1
 };
 
 // Ray through a pixel's centre, scaled to one block along the view axis.

@@ -19,8 +19,8 @@ uvec2 coarse_size() { return push.step.coarse_size; }
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
-  bool here = all(lessThan(pixel, frame.size));
-  vec3 colour = imageLoad(radiance, ivec2(min(pixel, frame.size - 1u))).rgb;
+  bool here = all(lessThan(pixel, frame.picture_size));
+  vec3 colour = imageLoad(radiance, ivec2(min(pixel, frame.picture_size - 1u))).rgb;
 #ifdef SKERRY_BLOOM
   put_pixel(pixel, colour, push.step.intensity * spread_from_coarser(), here);
 #else

@@ -3,7 +3,7 @@
 #ifndef SKERRY_LIGHTING_GLSL
 #define SKERRY_LIGHTING_GLSL
 
-const float kInvPi = 0.31830988618;
+#include "include/brdf.glsl"
 
 layout(constant_id = 11) const bool kHaze = true;
 // Which bodies give light: bit 0 the sun, bit 1 the moon. A constant, so that the other body costs nothing.
@@ -12,11 +12,11 @@ layout(constant_id = 8) const uint kBodies = 3u;
 #ifdef SKERRY_SHADOWS
 // The moon's cascades come after the sun's, if there are any.
 const uint kMoonCascade = (kBodies & 1u) != 0u ? kCascades : 0u;
-#define light_visibility(first_cascade, p, normal, n_dot_l) cascades_visibility(first_cascade, p, normal, n_dot_l)
+#define body_visibility(first_cascade, p, normal, n_dot_l) cascades_visibility(first_cascade, p, normal, n_dot_l)
 #define light_in_air(first_cascade, p) air_visibility(first_cascade, p)
 #else
 const uint kMoonCascade = 0u;
-#define light_visibility(first_cascade, p, normal, n_dot_l) 1.0
+#define body_visibility(first_cascade, p, normal, n_dot_l) 1.0
 #define light_in_air(first_cascade, p) 1.0
 #endif
 
@@ -31,15 +31,27 @@ float way_out(Surface s, vec3 to_light) {
 // asked for where the light enters its voxel, on a plane that faces the light.
 float surface_visibility(Surface s, vec3 to_light, const uint first_cascade, float n_dot_l) {
   vec3 place = s.plant ? s.position + to_light * way_out(s, to_light) : s.position;
-  return light_visibility(first_cascade, place, (s.plant ? to_light : s.normal), (s.plant ? 1.0 : n_dot_l));
+  return body_visibility(first_cascade, place, (s.plant ? to_light : s.normal), (s.plant ? 1.0 : n_dot_l));
 }
 
-// Light of one body that a surface receives. A face turned away is in its own block's shadow.
-vec3 received(Surface s, Body body, const uint first_cascade) {
+// How a surface reflects. Literally flat shading has matt surfaces only.
+Brdf surface_brdf(Surface s, vec3 to_eye) {
+  Brdf b = brdf_of(s.albedo, s.roughness, s.metalness, dot(s.normal, to_eye));
+  if (s.plant || frame.shading_flat != 0u) b = matt_brdf(s.albedo);
+  return b;
+}
+
+// Radiance that a surface sends to the eye under one body. A face turned away is in its own block's shadow.
+vec3 reflected(Surface s, Brdf b, vec3 to_eye, Body body, const uint first_cascade) {
   float n_dot_l = dot(s.normal, body.to_light);
   float visibility = surface_visibility(s, body.to_light, first_cascade, n_dot_l);
-  return n_dot_l > 0.0 ? body.irradiance * (visibility * (frame.shading_flat != 0u ? 1.0 : n_dot_l)) : vec3(0.0);
+  float cosine = frame.shading_flat != 0u ? 1.0 : n_dot_l;
+  vec3 share = brdf(b, s.normal, to_eye, body.to_light, max(n_dot_l, 0.0)) * cosine;
+  return n_dot_l > 0.0 ? body.irradiance * (share * visibility) : vec3(0.0);
 }
+
+// What clear air leaves of a radiance from p.
+float clear_air(vec3 p) { return kBodies == 0u || !kHaze ? 1.0 : exp(-frame.haze_per_block * length(p)); }
 
 // What the air between eye and surface does to a surface's radiance: it takes a part away and sends light of its own, the colour of the sky behind,
 // as far as sun or moon reach it at three places along the way. No haze where they do not: a cave stays black.
@@ -47,16 +59,17 @@ vec3 seen_through_air(vec3 radiance, vec3 p) {
   if (kBodies == 0u || !kHaze) return radiance;
   // The sun's cascades, or the moon's when it is alone: the first either way.
   float lit = light_in_air(0u, p);
-  float distance = length(p);
-  float clear = exp(-frame.haze_per_block * distance);
-  return radiance * clear + sample_sky(sky_lut, p / distance) * (lit * (1.0 - clear));
+  float clear = clear_air(p);
+  return radiance * clear + sample_sky(sky_lut, p / length(p)) * (lit * (1.0 - clear));
 }
 
-// Radiance a diffuse surface sends out under sun and moon. No ambient term: what no light reaches is exactly 0.
-vec3 shade_diffuse(Surface s) {
-  vec3 light = vec3(0.0);
-  if ((kBodies & 1u) != 0u) light += received(s, frame.bodies[0], 0u);
-  if ((kBodies & 2u) != 0u) light += received(s, frame.bodies[1], kMoonCascade);
-  return s.albedo * kInvPi * light + s.emitted;
+// Radiance a surface sends to the eye: of sun and moon, and its own. No ambient term: what no light reaches is exactly 0.
+vec3 shade_surface(Surface s) {
+  vec3 to_eye = -normalize(s.position);
+  Brdf b = surface_brdf(s, to_eye);
+  vec3 radiance = vec3(0.0);
+  if ((kBodies & 1u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[0], 0u);
+  if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[1], kMoonCascade);
+  return radiance * s.openness + s.emitted;
 }
 #endif

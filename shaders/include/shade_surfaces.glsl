@@ -25,6 +25,7 @@ layout(constant_id = 0) const uint kTextureTaps = 2u;
 #include "include/surface.glsl"
 #include "include/sky.glsl"
 #include "include/lighting.glsl"
+#include "include/corners.glsl"
 
 void main() {
   uvec2 pixel;
@@ -33,6 +34,7 @@ void main() {
   float depth = surface_depth(texelFetch(depths, ivec2(pixel), 0).r);
   // Pixels of sky go along as some surface near the eye; they are not stored.
   Surface surface = resolve_surface(word, ivec2(pixel), word != 0u ? depth : 1.0, pixel_ray(pixel), kTextureTaps);
-  vec3 colour = seen_through_air(shade_diffuse(surface), surface.position);
+  surface.openness = surface_openness(surface, word);
+  vec3 colour = seen_through_air(shade_surface(surface), surface.position);
   put_pixel(pixel, colour, here && word != 0u);
 }

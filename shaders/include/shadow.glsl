@@ -4,36 +4,42 @@
 #define SKERRY_SHADOW_GLSL
 
 layout(constant_id = 9) const uint kShadowTaps = 8u;             // 1, 4, 8, 16 or 32
+layout(constant_id = 13) const bool kPenumbrae = true;  // the filter follows what casts the shadow
+layout(constant_id = 14) const uint kSamplesPerEdge = 1u;       // of a pixel; each sample turns the taps its own way
 layout(constant_id = 10) const uint kCascades = kCascadeCount;  // a body has, 1 to kCascadeCount
 
-// 1 where the light reaches the receiver's plane at one texel.
-float shadow_tap(vec2 offset, vec3 map, vec2 slope, float bias, float most, uint layer) {
-  vec2 texel = floor(map.xy + offset);
-  float plane_depth = map.z + min(dot(slope, texel + 0.5 - map.xy) + bias, most);
-  return plane_depth >= texelFetch(shadow_maps, ivec3(ivec2(texel), int(layer)), 0).r ? 1.0 : 0.0;
+// What light falls on in one map: the receiver's plane, to be compared with the map's texels.
+struct Receiver {
+  vec3 map;     // texel coordinate and depth
+  vec2 slope;   // change of depth along a texel of the plane
+  float bias;   // what rounding needs [depth]
+  float most;   // the plane is followed towards the light by no more than this [depth]
+  uint layer;
+};
+
+// How far the nearest thing at a texel stands before the receiver's plane [depth]; below 0: the light reaches the plane.
+float blocker_at(vec2 offset, const Receiver r) {
+  vec2 texel = floor(r.map.xy + offset);
+  float plane_depth = r.map.z + min(dot(r.slope, texel + 0.5 - r.map.xy) + r.bias, r.most);
+  float nearest = texelFetch(shadow_maps, ivec3(ivec2(texel), int(r.layer)), 0).r;
+  return plane_depth >= nearest ? -1.0 : nearest - plane_depth;
+}
+float shadow_tap(vec2 offset, const Receiver r) { return blocker_at(offset, r) < 0.0 ? 1.0 : 0.0; }
+
+// Turns a tap so that the samples of a pixel look at different places between them, and all pixels alike.
+// @pre work groups are 8x8 pixels.
+vec2 turned(vec2 offset) {
+  if (kSamplesPerEdge == 1u) return offset;
+  uvec2 place = gl_LocalInvocationID.xy % kSamplesPerEdge;
+  float angle = 1.57079633 * float(place.y * kSamplesPerEdge + place.x) / float(kSamplesPerEdge * kSamplesPerEdge);
+  return vec2(offset.x * cos(angle) - offset.y * sin(angle), offset.x * sin(angle) + offset.y * cos(angle));
 }
 
-// Share of the filter's taps that see the light, 0..1.
-// Each tap compares at a texel's centre with the depth that the receiver's own plane has there (receiver plane depth bias, Isidoro,
-// GDC 2006), so a lit plane never shadows itself and the remaining bias only covers rounding: rasterised depths are exact to 1/256
-// texel of the slope.
-float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
-  // Half a texel off the surface: where two planes meet, the taps that fall behind the other plane would darken the corner.
-  vec3 q = p + normal * (0.5 * cascade.texel_blocks);
-  vec3 map = vec3(dot(cascade.map_from_world_x, vec4(q, 1.0)), dot(cascade.map_from_world_y, vec4(q, 1.0)),
-                  dot(cascade.map_from_world_z, vec4(q, 1.0)));
-  float texel = cascade.texel_blocks;
-  float per_texel = -cascade.depth_per_block * texel * texel / max(n_dot_l, 0.02);
-  vec2 slope = per_texel * vec2(dot(cascade.map_from_world_x.xyz, normal), dot(cascade.map_from_world_y.xyz, normal));
-  float bias = cascade.depth_per_block * (0.004 + 0.02 * texel) + 0.016 * (abs(slope.x) + abs(slope.y));
-  // The receiver's plane is followed towards the light by less than the thinnest wall (one block) where texels are small enough for that, so that
-  // what stands behind a wall stays dark; where they are not, by the six texels that the plane needs.
-  float most = cascade.depth_per_block * max(0.9, 6.0 * texel);
-  float radius = max(frame.pcf_radius_blocks / texel, 1.0);
-  radius *= clamp((most - bias - 0.5 * (abs(slope.x) + abs(slope.y))) / max(length(slope) * radius, 1e-12), 0.0, 1.0);
+// Share of the taps on a disc that see the light, 0..1. @param radius [texels].
+float filtered(float radius, const Receiver r) {
   // Unrolled by hand: an array of offsets would live in memory. In opposite pairs, so that no set moves a shadow's
   // edge. Each set holds the smaller one before it; what it adds lies at the centroids of the disc's parts nearest to it (Lloyd).
-#define TAP(x, y) shadow_tap(vec2(x, y) * radius, map, slope, bias, most, cascade.layer)
+#define TAP(x, y) shadow_tap(turned(vec2(x, y)) * radius, r)
 #define PAIR(x, y) (TAP(x, y) + TAP(-(x), -(y)))
   if (kShadowTaps == 1u) return TAP(0.0, 0.0);
   float lit = PAIR(0.539, 0.265) + PAIR(-0.265, 0.539);
@@ -47,6 +53,47 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
 #undef PAIR
 #undef TAP
   return lit * (1.0 / float(kShadowTaps));
+}
+
+// Of the taps of a search: x how many are in shadow, y the sum of the distances of what shades them [depth].
+vec2 found_at(vec2 offset, const Receiver r) {
+  float depth = blocker_at(offset, r);
+  return depth < 0.0 ? vec2(0.0) : vec2(1.0, depth);
+}
+vec2 found_around(vec2 offset, const Receiver r) {
+  offset = turned(offset);
+  vec2 across = vec2(-offset.y, offset.x);
+  return found_at(offset, r) + found_at(-offset, r) + found_at(across, r) + found_at(-across, r);
+}
+
+// Share of the light that reaches a point, by one map. The filter is as wide as the disc's shadow edge is where what casts it stands
+// (percentage-closer soft shadows, R. Fernando 2005): that is looked for on three rings. Where all of them agree there is no edge.
+// Each tap compares at a texel's centre with the depth that the receiver's own plane has there (receiver plane depth bias, Isidoro,
+// GDC 2006), so a lit plane never shadows itself and the remaining bias only covers rounding: rasterised depths are exact to 1/256
+// texel of the slope.
+float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
+  float texel = cascade.texel_blocks;
+  // Half a texel off the surface: where two planes meet, the taps that fall behind the other plane would darken the corner.
+  vec3 q = p + normal * (0.5 * texel);
+  Receiver r;
+  r.map = vec3(dot(cascade.map_from_world_x, vec4(q, 1.0)), dot(cascade.map_from_world_y, vec4(q, 1.0)),
+               dot(cascade.map_from_world_z, vec4(q, 1.0)));
+  float per_texel = -cascade.depth_per_block * texel * texel / max(n_dot_l, 0.02);
+  r.slope = per_texel * vec2(dot(cascade.map_from_world_x.xyz, normal), dot(cascade.map_from_world_y.xyz, normal));
+  r.bias = cascade.depth_per_block * (0.004 + 0.02 * texel) + 0.016 * (abs(r.slope.x) + abs(r.slope.y));
+  // The receiver's plane is followed towards the light by less than the thinnest wall (one block) where texels are small enough for that, so that
+  // what stands behind a wall stays dark; where they are not, by the six texels that the plane needs.
+  r.most = cascade.depth_per_block * max(0.9, 6.0 * texel);
+  r.layer = cascade.layer;
+  float allowed = (r.most - r.bias - 0.5 * (abs(r.slope.x) + abs(r.slope.y))) / max(length(r.slope), 1e-12);
+  float least = clamp(allowed, 0.0, 1.0);  // texels
+  if (!kPenumbrae) return filtered(least, r);
+  float widest = clamp(allowed, least, max(frame.penumbra_blocks / texel, 1.0));
+  const vec2 kNear = vec2(0.924, 0.383), kMid = vec2(0.240, 0.320), kFar = vec2(0.0, 0.8);
+  vec2 found = found_around(kNear * least, r) + found_around(kMid * widest, r) + found_around(kFar * widest, r);
+  if (found.x == 0.0) return 1.0;
+  float distance_blocks = found.y / (found.x * cascade.depth_per_block);
+  return filtered(clamp(kBodyRadius * distance_blocks / texel, least, widest), r);
 }
 
 // One of a body's cascades. Selected among values that every pixel loads alike, because on lavapipe a load with its own address for each pixel

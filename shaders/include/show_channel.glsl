@@ -25,6 +25,7 @@ layout(constant_id = 0) const uint kChannel = 1u;  // render::DebugView
 #include "include/surface.glsl"
 #include "include/sky.glsl"
 #include "include/lighting.glsl"
+#include "include/corners.glsl"
 #include "include/tonemap.glsl"
 
 vec3 hashed_colour(uint id) {
@@ -49,6 +50,7 @@ vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
   if (kChannel == 4u) return hashed_colour(surface_block(word) | (surface_island(word) << 16));
   if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * exp2(-exposure.ev)));
   if (kChannel == 6u) return vec3(fract(log2(view_distance(depth, frame.near_plane))));
+  if (kChannel == 9u) return vec3(surface_openness(s, word));
   Body body = frame.bodies[(kBodies & 1u) != 0u ? 0 : 1];
   if (kChannel == 7u) return hashed_colour(cascade_at(body, length(s.position)) + 3u) * 0.6 + 0.4 * s.albedo;
   float n_dot_l = dot(s.normal, body.to_light);

@@ -90,8 +90,11 @@ Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_
   s.axis_x = island.axis_x;
   s.axis_y = island.axis_y;
   s.axis_z = island.axis_z;
+  s.openness = 1.0;
   s.albedo = surface_texel(word, ray, t, max_taps).rgb;
   s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
+  s.roughness = materials[surface_block(word)].roughness;
+  s.metalness = materials[surface_block(word)].metalness;
   return s;
 }
 #endif

@@ -34,13 +34,10 @@ vec3 rippled_normal(vec3 lattice, float distance) {
 vec3 glitter(Body body, vec3 n, vec3 to_eye, float roughness) {
   vec3 sum = body.to_light + to_eye;
   vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-12));
-  float a2 = roughness * roughness * roughness * roughness;
-  float n_dot_h = max(dot(n, h), 0.0), n_dot_l = max(dot(n, body.to_light), 0.0), n_dot_v = max(dot(n, to_eye), 1e-3);
-  float d = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;
-  float lobe = a2 / (3.14159265 * d * d);
-  float k = 0.5 * roughness * roughness;
-  float shadowing = 1.0 / ((n_dot_l * (1.0 - k) + k) * (n_dot_v * (1.0 - k) + k));
-  return body.irradiance * (lobe * shadowing * 0.25 * fresnel(max(dot(h, to_eye), 0.0), false, kWaterIndex) * n_dot_l);
+  float alpha = roughness * roughness;
+  float n_dot_l = max(dot(n, body.to_light), 0.0);
+  float lobe = mirror_lobe(alpha * alpha, 0.5 * alpha, max(dot(n, h), 0.0), n_dot_l, max(dot(n, to_eye), 1e-3));
+  return body.irradiance * (lobe * fresnel(max(dot(h, to_eye), 0.0), false, kWaterIndex) * n_dot_l);
 }
 
 struct Reach {   // what sun and moon bring to a point of a surface
@@ -51,7 +48,7 @@ struct Reach {   // what sun and moon bring to a point of a surface
 
 void add_light(inout Reach r, Body body, const uint first_cascade, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
   float n_dot_l = dot(n, body.to_light);
-  float visibility = n_dot_l > 0.0 ? light_visibility(first_cascade, p, n, n_dot_l) : 0.0;
+  float visibility = n_dot_l > 0.0 ? body_visibility(first_cascade, p, n, n_dot_l) : 0.0;
   r.light += body.irradiance * (visibility * max(n_dot_l, 0.0));
   r.mirrored += visibility * glitter(body, shading_normal, to_eye, roughness);
   r.any = max(r.any, visibility);

@@ -5,8 +5,9 @@
 #include "types.h"
 SHARED_BEGIN
 
-SHARED_CONST uint kBodyCount = 2u;     // 0 the sun, 1 the moon
-SHARED_CONST uint kCascadeCount = 4u;  // a body
+SHARED_CONST uint kBodyCount = 2u;          // 0 the sun, 1 the moon
+SHARED_CONST float kBodyRadius = 0.00465f;  // of the discs they light from [rad]
+SHARED_CONST uint kCascadeCount = 4u;       // a body
 SHARED_CONST uint kViewCount =
     9u;  // 0 the camera, then cascades of the sun (1..4) and of the moon (5..8)
 SHARED_CONST uint kListCount =
@@ -41,16 +42,18 @@ struct FrameConstants {
                    // of view
   vec3 ray_up;
   vec3 ray_forward;
-  vec2 pixel_to_ndc;        // 2 / image size
-  uvec2 size;               // image [pixels]
-  float near_plane;         // blocks
-  float display_peak;       // brightest value of the picture, sRGB-encoded, 0..1
-  float display_black;      // darkest value that the display shows apart from 0, sRGB-encoded
-  float time_s;             // seconds of play, reduced to one hour, for water ripples
-  uint shading_flat;        // 1: shadow result times light colour, no N.L
-  uint camera_medium;       // block id the camera is in: 0 air, else a translucent block
-  float pcf_radius_blocks;  // smallest radius of the shadow filter [blocks]
-  float haze_per_block;     // extinction of clear air [1/block]
+  vec2 pixel_to_ndc;       // 2 / image size
+  uvec2 size;              // of the images that are drawn [pixels]
+  uvec2 picture_size;      // smaller by the samples along a pixel's edge [pixels]
+  float near_plane;        // blocks
+  float display_peak;      // brightest value of the picture, sRGB-encoded, 0..1
+  float display_black;     // darkest value that the display shows apart from 0, sRGB-encoded
+  float time_s;            // seconds of play, reduced to one hour, for water ripples
+  uint shading_flat;       // 1: shadow result times light colour, no N.L
+  uint camera_medium;      // block id the camera is in: 0 air, else a translucent block
+  float penumbra_blocks;   // largest radius of the shadow filter [blocks]
+  float haze_per_block;    // extinction of clear air [1/block]
+  float corner_darkening;  // share of light that a closed corner takes, 0..1
   Body bodies[kBodyCount];
   Cascade cascades[8];
 };

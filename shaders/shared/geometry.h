@@ -58,6 +58,7 @@ struct Material {
                   // of sun radiance]
   vec3 absorption;  // translucent kinds: extinction per block of path [1/block]; else 0
   float roughness;  // 0..1 perceptual
+  float metalness;  // 0..1: how much of what it reflects is mirrored, in its own colour
 };
 
 // Arguments of vkCmdDrawIndexedIndirect (VkDrawIndexedIndirectCommand). firstInstance carries the

@@ -92,6 +92,8 @@ TEST(Settings, EveryKeyReadsBackWhatItPrints) {
                                  "shadow.cascades=3",
                                  "shadow.taps=32",
                                  "shadow.split=0.5",
+                                 "shadow.samples=7",
+                                 "aa.samples=4",
                                  "shadow.blur=0.25",
                                  "texture.taps=16",
                                  "gbuffer.normal=rgb8",

@@ -14,9 +14,12 @@
 #include <vector>
 
 #include "shaders/shared/bloom.h"
+#include "shaders/shared/clusters.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/light.h"
+#include "shaders/shared/occupancy.h"
 #include "shaders/shared/overlay.h"
 #include "shaders/shared/sky.h"
 #include "tests/gpu/compile_glsl.h"
@@ -57,9 +60,12 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(Section, bounds_min), MEMBER(Section, bounds_max), MEMBER(Section, range_end)),
       STRUCT(IslandTransform, MEMBER(IslandTransform, axis_x), MEMBER(IslandTransform, axis_y),
              MEMBER(IslandTransform, axis_z), MEMBER(IslandTransform, translation)),
+      STRUCT(OccupancyGrid, MEMBER(OccupancyGrid, low), MEMBER(OccupancyGrid, size),
+             MEMBER(OccupancyGrid, first)),
       STRUCT(Material, MEMBER(Material, layer_side), MEMBER(Material, layer_top),
              MEMBER(Material, layer_bottom), MEMBER(Material, emission),
-             MEMBER(Material, absorption), MEMBER(Material, roughness)),
+             MEMBER(Material, absorption), MEMBER(Material, roughness),
+             MEMBER(Material, metalness)),
       STRUCT(DrawCommand, MEMBER(DrawCommand, index_count), MEMBER(DrawCommand, instance_count),
              MEMBER(DrawCommand, first_index), MEMBER(DrawCommand, vertex_offset),
              MEMBER(DrawCommand, section)),
@@ -72,11 +78,12 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(FrameConstants, MEMBER(FrameConstants, clip_from_world),
              MEMBER(FrameConstants, ray_right), MEMBER(FrameConstants, ray_up),
              MEMBER(FrameConstants, ray_forward), MEMBER(FrameConstants, pixel_to_ndc),
-             MEMBER(FrameConstants, size), MEMBER(FrameConstants, near_plane),
-             MEMBER(FrameConstants, display_peak), MEMBER(FrameConstants, display_black),
-             MEMBER(FrameConstants, time_s), MEMBER(FrameConstants, shading_flat),
-             MEMBER(FrameConstants, camera_medium), MEMBER(FrameConstants, pcf_radius_blocks),
-             MEMBER(FrameConstants, haze_per_block), MEMBER(FrameConstants, bodies),
+             MEMBER(FrameConstants, size), MEMBER(FrameConstants, picture_size),
+             MEMBER(FrameConstants, near_plane), MEMBER(FrameConstants, display_peak),
+             MEMBER(FrameConstants, display_black), MEMBER(FrameConstants, time_s),
+             MEMBER(FrameConstants, shading_flat), MEMBER(FrameConstants, camera_medium),
+             MEMBER(FrameConstants, penumbra_blocks), MEMBER(FrameConstants, haze_per_block),
+             MEMBER(FrameConstants, corner_darkening), MEMBER(FrameConstants, bodies),
              MEMBER(FrameConstants, cascades)),
       STRUCT(CullView, MEMBER(CullView, planes), MEMBER(CullView, eye),
              MEMBER(CullView, orthographic), MEMBER(CullView, enabled)),
@@ -107,6 +114,23 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(SkyConstants, sky_y), MEMBER(SkyConstants, sky_z), MEMBER(SkyConstants, stars)),
       STRUCT(OverlayVertex, MEMBER(OverlayVertex, position), MEMBER(OverlayVertex, uv),
              MEMBER(OverlayVertex, color), MEMBER(OverlayVertex, clip)),
+      STRUCT(Light, MEMBER(Light, position), MEMBER(Light, range), MEMBER(Light, intensity),
+             MEMBER(Light, kind), MEMBER(Light, axis), MEMBER(Light, size),
+             MEMBER(Light, cos_inner), MEMBER(Light, cos_outer), MEMBER(Light, first_island),
+             MEMBER(Light, island_count)),
+      STRUCT(ClusterGrid, MEMBER(ClusterGrid, right), MEMBER(ClusterGrid, up),
+             MEMBER(ClusterGrid, forward), MEMBER(ClusterGrid, tan_half), MEMBER(ClusterGrid, size),
+             MEMBER(ClusterGrid, near_plane), MEMBER(ClusterGrid, tiles_x),
+             MEMBER(ClusterGrid, tiles_y), MEMBER(ClusterGrid, bins_x), MEMBER(ClusterGrid, bins_y),
+             MEMBER(ClusterGrid, light_count), MEMBER(ClusterGrid, light_words),
+             MEMBER(ClusterGrid, unit_log2), MEMBER(ClusterGrid, capacity),
+             MEMBER(ClusterGrid, marked_slices)),
+      STRUCT(TileDepths, MEMBER(TileDepths, slices), MEMBER(TileDepths, nearest),
+             MEMBER(TileDepths, farthest)),
+      STRUCT(Cluster, MEMBER(Cluster, first), MEMBER(Cluster, count)),
+      STRUCT(ClusterWork, MEMBER(ClusterWork, groups_x), MEMBER(ClusterWork, groups_y),
+             MEMBER(ClusterWork, groups_z), MEMBER(ClusterWork, clusters),
+             MEMBER(ClusterWork, units)),
       STRUCT(OverlayConstants, MEMBER(OverlayConstants, ndc_from_pixel)),
   };
 #undef STRUCT

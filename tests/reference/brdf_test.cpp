@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "tools/reference/sampler.h"
+
 namespace skerry::reference {
 namespace {
 
@@ -95,6 +97,36 @@ TEST(ReferenceBrdf, CornersAreAsOpenAsTheBlocksAboutThemLeaveThem) {
   EXPECT_EQ(corner_openness({0.0, 0.0}, both), 0.0);
   EXPECT_EQ(corner_openness({0.0, 0.0}, all), 0.0);
   EXPECT_DOUBLE_EQ(corner_openness({1.0, 0.0}, both), 2.0 / 3.0);
+}
+
+TEST(ReferenceBrdf, ASurfaceIsReciprocalAndSendsOutNoMoreThanItGets) {
+  const glm::dvec3 normal(0.0, 1.0, 0.0), albedo(1.0);
+  const Frame frame(normal);
+  for (const double roughness : {0.3, 0.6, 0.9}) {
+    for (const double metalness : {0.0, 0.5, 1.0}) {
+      for (const double angle : {0.0, 0.7, 1.2, 1.5}) {
+        const glm::dvec3 eye(std::sin(angle), std::cos(angle), 0.0);
+        double sent = 0.0;
+        constexpr std::uint32_t kSamples = 1 << 16;
+        for (std::uint32_t i = 0; i < kSamples; ++i) {
+          Sampler sampler(1, 2, i);
+          const glm::dvec3 light = frame.world(by_cosine(sampler.next()));
+          const double share = surface_brdf(normal, light, eye, albedo, roughness, metalness).x;
+          EXPECT_NEAR(share, surface_brdf(normal, eye, light, albedo, roughness, metalness).x,
+                      1e-9 * share + 1e-12);
+          sent += share * std::numbers::pi / kSamples;
+        }
+        EXPECT_LE(sent, 1.01) << roughness << ' ' << metalness << ' ' << angle;
+        EXPECT_GT(sent, metalness == 1.0 ? 0.2 : 0.5);
+      }
+    }
+  }
+}
+
+TEST(ReferenceBrdf, ARoughSurfaceFromAboveIsNearlyLambertian) {
+  const glm::dvec3 up(0.0, 1.0, 0.0);
+  const double share = surface_brdf(up, up, up, glm::dvec3(0.5), 1.0, 0.0).x;
+  EXPECT_NEAR(share, (0.5 * 0.96 * 0.96 + 0.04 / 4.0) / std::numbers::pi, 1e-9);
 }
 
 }  // namespace

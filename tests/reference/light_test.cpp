@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "tests/reference/made_scenes.h"
 #include "tools/reference/brdf.h"
@@ -66,7 +67,7 @@ TEST(ReferenceLight, InAWhiteFurnaceABlockCannotBeTold) {
 TEST(ReferenceLight, FalloffOfAPointIsTheInverseSquare) {
   for (const double height : {0.1, 1.0, 7.0, 1000.0}) {
     Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
-    scene.lights = {{{0.0, height, 0.0}, glm::dvec3(5.0), 0.0}};
+    scene.lights = {{.position = {0.0, height, 0.0}, .intensity = glm::dvec3(5.0)}};
     EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 1), 5.0 / (height * height),
                 1e-12 / (height * height));
     // Sideways by as much: cosine 1/sqrt(2), twice the square of the distance.
@@ -78,15 +79,148 @@ TEST(ReferenceLight, FalloffOfAPointIsTheInverseSquare) {
 TEST(ReferenceLight, ASphereAboveTheGroundLightsItAsAPointInItsMiddle) {
   for (const double radius : {0.01, 0.5, 1.9}) {
     Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
-    scene.lights = {{{0.0, 2.0, 0.0}, glm::dvec3(5.0), radius}};
+    scene.lights = {{.kind = shared::kLightSphere,
+                     .position = {0.0, 2.0, 0.0},
+                     .intensity = glm::dvec3(5.0),
+                     .size = radius}};
     EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 4096), 5.0 / 4.0, 2e-3) << radius;
+  }
+}
+
+TEST(ReferenceLight, ASphereIsItsRadianceTimesItsSolidAngleAtAnyTilt) {
+  // E = pi L (r / d)^2 cos, as long as all of it is above the horizon (F. Nicodemus et al. 1977).
+  for (const double angle : {0.0, 0.5, 1.0}) {
+    for (const double radius : {0.1, 1.0}) {
+      Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+      const double radiance = 3.0, distance = 4.0;
+      scene.lights = {{.kind = shared::kLightSphere,
+                       .position = glm::dvec3(std::sin(angle), std::cos(angle), 0.0) * distance,
+                       .intensity = glm::dvec3(radiance * kPi * radius * radius),
+                       .size = radius}};
+      const double expected = kPi * radiance * std::pow(radius / distance, 2.0) * std::cos(angle);
+      EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 4096), expected, 2e-3 * expected);
+    }
+  }
+}
+
+TEST(ReferenceLight, ATubeIsTheSumOfItsPoints) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+  const glm::dvec3 middle(0.7, 2.0, -0.4), axis = glm::normalize(glm::dvec3(1.0, 0.6, 0.2));
+  scene.lights = {{.kind = shared::kLightTube,
+                   .position = middle,
+                   .intensity = glm::dvec3(5.0),
+                   .size = 1.5,
+                   .axis = axis}};
+  double expected = 0.0;
+  constexpr int kPoints = 100'000;
+  for (int i = 0; i < kPoints; ++i) {
+    const glm::dvec3 p = middle + axis * (1.5 * ((2.0 * i + 1.0) / kPoints - 1.0));
+    expected += 5.0 / kPoints * p.y / std::pow(glm::length(p), 3.0);
+  }
+  EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 4096), expected, 1e-3 * expected);
+}
+
+TEST(ReferenceLight, AWindowEndsALightAtItsRangeAndLeavesTheNearBe) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+  for (const std::uint32_t kind : {shared::kLightPoint, shared::kLightSphere, shared::kLightTube}) {
+    const auto at = [&](double height) {
+      scene.lights = {{.kind = kind,
+                       .position = {0.0, height, 0.0},
+                       .intensity = glm::dvec3(1.0),
+                       .range = 8.0,
+                       .axis = {1.0, 0.0, 0.0}}};
+      return ground_irradiance(scene, glm::dvec3(0.0), 1);
+    };
+    EXPECT_EQ(at(8.0), 0.0);
+    EXPECT_EQ(at(9.0), 0.0);
+    EXPECT_GT(at(7.99), 0.0);
+    EXPECT_NEAR(at(4.0), std::pow(1.0 - std::pow(0.5, 4.0), 2.0) / 16.0, 1e-12);
+    EXPECT_NEAR(at(0.08), 1.0 / 0.0064, 1e-4);
+  }
+}
+
+TEST(ReferenceLight, ASpotIsFullInItsInnerConeAndEndsAtTheOuterOne) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});
+  Light spot{.kind = shared::kLightSpot,
+             .position = {0.0, 2.0, 0.0},
+             .intensity = glm::dvec3(4.0),
+             .axis = {0.0, -1.0, 0.0},
+             .cos_inner = std::cos(0.3),
+             .cos_outer = std::cos(0.6)};
+  const auto lit = [&](double angle) {  // over what a point would give there
+    const glm::dvec3 place(2.0 * std::tan(angle), 0.0, 0.0);
+    scene.lights = {spot};
+    const double of_spot = ground_irradiance(scene, place, 1);
+    scene.lights[0].kind = shared::kLightPoint;
+    return of_spot / ground_irradiance(scene, place, 1);
+  };
+  EXPECT_EQ(lit(0.0), 1.0);
+  EXPECT_EQ(lit(0.29), 1.0);
+  EXPECT_EQ(lit(0.61), 0.0);
+  const double middle = std::acos(0.5 * (std::cos(0.3) + std::cos(0.6)));
+  EXPECT_NEAR(lit(middle), 0.5, 1e-9);
+  spot.axis = {0.0, 1.0, 0.0};
+  EXPECT_EQ(lit(0.0), 0.0) << "it looks away";
+  spot.dual = true;
+  EXPECT_EQ(lit(0.0), 1.0);
+}
+
+TEST(ReferenceLight, ADirectionalLightIsBlockedWithinItsRangeAlone) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0},
+                          {single_block(world::block::kStone, {0.0, 6.0, 0.0})});
+  scene.lights = {{.kind = shared::kLightDirectional,
+                   .intensity = glm::dvec3(2.0),
+                   .range = 5.0,
+                   .axis = {0.0, -1.0, 0.0}}};
+  EXPECT_EQ(ground_irradiance(scene, glm::dvec3(0.0), 1), 2.0);
+  scene.lights[0].range = 6.0;
+  EXPECT_EQ(ground_irradiance(scene, glm::dvec3(0.0), 1), 0.0);
+}
+
+TEST(ReferenceLight, TheVoxelALightStandsInHidesNothingAndItsNeighbourDoes) {
+  for (const world::BlockId id :
+       {world::BlockId{world::block::kLava}, world::BlockId{world::block::kTorch}}) {
+    const Island blocks{
+        world::Volume::from_voxels({0, 0, 0}, {2, 1, 1}, [id](world::IVec3) { return id; }),
+        glm::dmat3(1.0),
+        {-0.5, 4.0, -0.5}};  // over the ground: one about x = 0, one about x = 1
+    Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {blocks});
+    scene.lights = {{.position = {0.0, 4.5, 0.0}, .intensity = glm::dvec3(1.0)}};
+    EXPECT_NEAR(ground_irradiance(scene, glm::dvec3(0.0), 1), 1.0 / 20.25, 1e-12);
+    if (id != world::block::kLava) continue;
+    // From the side the way leads through the other block first.
+    EXPECT_EQ(ground_irradiance(scene, {9.0, 4.1, 0.0}, 1), 0.0);
+    EXPECT_GT(ground_irradiance(scene, {-9.0, 4.1, 0.0}, 1), 0.0);
+  }
+}
+
+TEST(ReferenceLight, TheGridFindsWhatReachesAPoint) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-60.0, 60.0), reach(0.1, 30.0);
+  std::vector<Light> lights(300);
+  for (Light& light : lights) {
+    light.position = {place(random), place(random), place(random)};
+    light.intensity = glm::dvec3(1.0);
+    light.range = reach(random);
+  }
+  lights[7].range = 500.0;
+  const LightGrid grid(lights);
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 point(place(random), place(random), place(random));
+    std::set<const Light*> found;
+    grid.reaching(point, [&](const Light& light) { found.insert(&light); });
+    for (const Light& light : lights) {
+      if (glm::length(light.position - point) >= light.range) continue;
+      EXPECT_TRUE(found.contains(&light));
+    }
+    EXPECT_LT(found.size(), lights.size() / 2) << "it leaves out what cannot reach";
   }
 }
 
 TEST(ReferenceLight, AHiddenPointLightsNothing) {
   Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0},
                           {single_block(world::block::kStone, {0.0, 3.0, 0.0})});
-  scene.lights = {{{0.0, 6.0, 0.0}, glm::dvec3(5.0), 0.0}};
+  scene.lights = {{.position = {0.0, 6.0, 0.0}, .intensity = glm::dvec3(5.0)}};
   EXPECT_EQ(ground_irradiance(scene, glm::dvec3(0.0), 1), 0.0);
   scene.lights[0].position.y = 2.0;  // before the block
   EXPECT_GT(ground_irradiance(scene, glm::dvec3(0.0), 1), 0.0);
@@ -94,7 +228,7 @@ TEST(ReferenceLight, AHiddenPointLightsNothing) {
 
 TEST(ReferenceLight, ASealedRoomIsExactlyBlackUnderManySuns) {
   const Island room{
-      Volume::from_voxels(
+      world::Volume::from_voxels(
           {-4, -4, -4}, {5, 5, 5},
           [](world::IVec3 v) {
             const bool wall = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) == 4;
@@ -105,7 +239,10 @@ TEST(ReferenceLight, ASealedRoomIsExactlyBlackUnderManySuns) {
   Scene scene = seen_from({0.2, 0.4, -0.3}, {1.0, 0.2, 0.4}, {room}, 24, 1.5);
   for (int i = 0; i < 100; ++i)
     scene.bodies.push_back({random_direction(random), glm::dvec3(1e6), kBodyRadius});
-  scene.lights = {{{30.0, 3.0, 0.0}, glm::dvec3(1e9), 1.0}};
+  scene.lights = {{.kind = shared::kLightSphere,
+                   .position = {30.0, 3.0, 0.0},
+                   .intensity = glm::dvec3(1e9),
+                   .size = 1.0}};
   scene.environment = glm::dvec3(1e6);
   scene.haze_per_block = 0.1;
   const ReferencePicture picture = render(scene, samples(4));
@@ -130,7 +267,7 @@ TEST(ReferenceLight, AHardShadowEndsAtTheAnalyticPlace) {
 
 TEST(ReferenceLight, AnAreaSunsPenumbraIsTheVisiblePartOfItsDisc) {
   // A wide slab whose straight edge at x = 0 hides what of the zenith's sun stands at x > 0.
-  const Island slab{Volume::from_voxels({0, 10, -20}, {20, 11, 20}, [](world::IVec3) {
+  const Island slab{world::Volume::from_voxels({0, 10, -20}, {20, 11, 20}, [](world::IVec3) {
     return world::BlockId{world::block::kStone};
   })};
   Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {slab});
@@ -161,9 +298,9 @@ TEST(ReferenceLight, HazeOfAnUnshadowedRayHasItsClosedForm) {
 
 TEST(ReferenceLight, HazeIsLitOnlyWhereTheSunReachesIt) {
   // A roof over x 10..30 of a way of 60 blocks along +x.
-  const Island roof{Volume::from_voxels(
+  const Island roof{world::Volume::from_voxels(
       {10, 5, -9}, {30, 6, 9}, [](world::IVec3) { return world::BlockId{world::block::kStone}; })};
-  const Island wall{Volume::from_voxels(
+  const Island wall{world::Volume::from_voxels(
       {60, -9, -9}, {61, 9, 9}, [](world::IVec3) { return world::BlockId{world::block::kStone}; })};
   Scene scene = seen_from({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {roof, wall}, 1, 1e-6);
   scene.albedo = glm::dvec3(0.0);
@@ -177,7 +314,7 @@ TEST(ReferenceLight, HazeIsLitOnlyWhereTheSunReachesIt) {
 
 TEST(ReferenceLight, WaterTakesFresnelsAndBeersShare) {
   // Two blocks of water over a lamp, looked down at.
-  const Island pool{Volume::from_voxels({-9, -3, -9}, {9, 0, 9}, [](world::IVec3 v) {
+  const Island pool{world::Volume::from_voxels({-9, -3, -9}, {9, 0, 9}, [](world::IVec3 v) {
     return world::BlockId{v.y == -3 ? world::block::kLamp : world::block::kWater};
   })};
   Scene scene = seen_from({0.5, 4.0, 0.5}, {0.0, -1.0, 0.0}, {pool}, 1, 1e-6);
@@ -194,7 +331,7 @@ TEST(ReferenceLight, WaterTakesFresnelsAndBeersShare) {
 
 TEST(ReferenceLight, CornersDarkenAFaceByTheirStrength) {
   // A step: the floor's edge at x = 0 lies under a wall that fills x < 0.
-  const Island step{Volume::from_voxels({-9, -2, -9}, {9, 3, 9}, [](world::IVec3 v) {
+  const Island step{world::Volume::from_voxels({-9, -2, -9}, {9, 3, 9}, [](world::IVec3 v) {
     return world::BlockId{v.y < 0 || v.x < 0 ? world::block::kStone : world::block::kAirBlock};
   })};
   for (const double strength : {0.0, 0.5, 1.0}) {

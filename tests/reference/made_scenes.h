@@ -12,13 +12,14 @@ namespace skerry::reference {
 
 /// Stone below y = 0, `half_width` blocks to all sides.
 inline Island stone_floor(int half_width = 40) {
-  return {Volume::from_voxels({-half_width, -2, -half_width}, {half_width, 0, half_width},
-                              [](world::IVec3) { return world::BlockId{world::block::kStone}; })};
+  return {world::Volume::from_voxels(
+      {-half_width, -2, -half_width}, {half_width, 0, half_width},
+      [](world::IVec3) { return world::BlockId{world::block::kStone}; })};
 }
 
 /// One block at the lattice's origin, its middle at `middle`.
 inline Island single_block(world::BlockId id, glm::dvec3 middle) {
-  return {Volume::from_voxels({0, 0, 0}, {1, 1, 1}, [id](world::IVec3) { return id; }),
+  return {world::Volume::from_voxels({0, 0, 0}, {1, 1, 1}, [id](world::IVec3) { return id; }),
           glm::dmat3(1.0), middle - 0.5};
 }
 
@@ -36,6 +37,7 @@ inline Scene seen_from(glm::dvec3 eye, glm::dvec3 forward, std::vector<Island> i
   for (Island& island : islands) island.origin -= eye;
   scene.islands = std::move(islands);
   scene.albedo = glm::dvec3(1.0);
+  scene.matt = true;  // as closed forms are
   return scene;
 }
 

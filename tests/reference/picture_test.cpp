@@ -13,7 +13,7 @@ namespace {
 
 /// Textures, plants, penumbrae and haze in one small picture.
 Scene busy_scene() {
-  const Island blocks{Volume::from_voxels({-20, -1, -20}, {20, 4, 20}, [](world::IVec3 v) {
+  const Island blocks{world::Volume::from_voxels({-20, -1, -20}, {20, 4, 20}, [](world::IVec3 v) {
     const unsigned h = static_cast<unsigned>(v.x * 73 + v.z * 151 + v.y * 31) % 97;
     if (v.y < 0) return world::BlockId{world::block::kGrass};
     if (h < 6) return world::BlockId{world::block::kStone};

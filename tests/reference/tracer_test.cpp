@@ -100,11 +100,11 @@ Island island_of(const std::map<IVec3, BlockId>& voxels, glm::dmat3 rotation, gl
     low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
     high = {std::max(high.x, v.x + 1), std::max(high.y, v.y + 1), std::max(high.z, v.z + 1)};
   }
-  return {Volume::from_voxels(low, high,
-                              [voxels](IVec3 v) {
-                                const auto found = voxels.find(v);
-                                return found == voxels.end() ? world::kAir : found->second;
-                              }),
+  return {world::Volume::from_voxels(low, high,
+                                     [voxels](IVec3 v) {
+                                       const auto found = voxels.find(v);
+                                       return found == voxels.end() ? world::kAir : found->second;
+                                     }),
           rotation, origin};
 }
 
@@ -267,8 +267,8 @@ TEST(ReferenceTracer, ALeafIsThereWhereItsTextureIs) {
 }
 
 TEST(ReferenceTracer, APlantDoesNotShadeItselfButItsNeighbour) {
-  const Island two{Volume::from_voxels({0, 0, 0}, {2, 1, 1},
-                                       [](IVec3) { return BlockId{world::block::kTallGrass}; })};
+  const Island two{world::Volume::from_voxels(
+      {0, 0, 0}, {2, 1, 1}, [](IVec3) { return BlockId{world::block::kTallGrass}; })};
   const Tracer tracer({two});
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(0.0, 1.0);

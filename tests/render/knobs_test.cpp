@@ -11,6 +11,11 @@ world::BlockId long_wall(int x, int y, int) {
   return y < 0 || (y < 4 && x >= 0 && x < 4) ? world::block::kStone : world::block::kAirBlock;
 }
 
+/// A plane of stone and, 59 blocks above it, the edge of a roof that covers where x is positive.
+world::BlockId high_roof(int x, int y, int) {
+  return y < 0 || (y == 59 && x >= 0) ? world::block::kStone : world::block::kAirBlock;
+}
+
 class Knobs : public RendererOnGpu {
  protected:
   const std::vector<IslandPlacement> islands_{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
@@ -37,18 +42,20 @@ double share_of_disc(double d) {
   return 0.5 + (std::asin(d) + d * std::sqrt(1.0 - d * d)) / M_PI;
 }
 
-// Across a straight edge the filter's share is that of a disc cut by a line.
-TEST_F(Knobs, MoreShadowTapsComeNearerToTheDiscTheyStandFor) {
-  add(long_wall, {-1, -1, -1}, {1, 1, 1});
+// Across a straight edge the sun's share is that of its disc cut by a line, and the penumbra is as
+// wide as the edge is far.
+TEST_F(Knobs, MoreShadowTapsComeNearerToTheSunsDisc) {
+  add(high_roof, {-1, -1, -1}, {1, 1, 1});
   FrameInput input;
   input.islands = islands_;
   input.sky = sun_at(60.0, 90.0);
-  input.camera = camera_at({-2.3, 7.0, -2.0}, 0.0, -70.0, 50.0);
+  const double edge = -60.0 / std::tan(M_PI / 3.0);  // of the shadow, x
+  const double radius = 0.00465 * 60.0 / std::sin(M_PI / 3.0);
+  input.camera = camera_at({edge, 2.5, -2.0}, 0.0, -70.0, 50.0);
   RenderSettings settings;
   settings.debug_view = DebugView::kShadow;
   settings.view_distance_blocks = 200.0;
-  settings.shadow_filter_blocks = 0.8f;
-  const double edge = -4.0 / std::tan(M_PI / 3.0);  // of the shadow, x
+  settings.shadow_penumbra_blocks = 0.5f;
   const glm::dvec3 eye = blocks_at(input.camera.position);
   double last = 1.0;
   for (const int taps : {1, 4, 8, 16, 32}) {
@@ -60,10 +67,9 @@ TEST_F(Knobs, MoreShadowTapsComeNearerToTheDiscTheyStandFor) {
       const glm::dvec3 ray =
           ray_of(input.camera, i % kSize.width, i / kSize.width, kSize.width, kSize.height);
       const double x = eye.x - ray.x * eye.y / ray.y;
-      if (x > -0.1) continue;  // the wall
       const double share = picture[i * 4] / 255.0;
       EXPECT_NEAR(share * taps, std::round(share * taps), 0.1);
-      const double expected = share_of_disc((edge - x) * std::sin(M_PI / 3.0) / 0.8);
+      const double expected = share_of_disc((edge - x) * std::sin(M_PI / 3.0) / radius);
       partly += expected > 0.0 && expected < 1.0 ? 1 : 0;
       squares += (share - expected) * (share - expected);
     }

@@ -39,6 +39,8 @@ TEST(Blocks, PropertiesStayInTheirRanges) {
     EXPECT_LT(type.bottom, Texture::kCount) << type.name;
     EXPECT_GE(type.roughness, 0.0f) << type.name;
     EXPECT_LE(type.roughness, 1.0f) << type.name;
+    EXPECT_GE(type.metalness, 0.0f) << type.name;
+    EXPECT_LE(type.metalness, 1.0f) << type.name;
     EXPECT_GE(type.emission, 0.0f) << type.name;
     const bool absorbs =
         type.absorption[0] > 0.0f || type.absorption[1] > 0.0f || type.absorption[2] > 0.0f;

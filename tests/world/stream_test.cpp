@@ -22,14 +22,21 @@ class Consumer {
   void take(StreamUpdate update) {
     for (const SectionKey& key : update.removed) {
       EXPECT_EQ(held_.erase(key), 1u) << "removed a section that was not there";
+      shining_.erase(key);
     }
     for (ReadySection& section : update.ready) {
       EXPECT_FALSE(section.mesh.quads.empty());
+      std::vector<Emitter> emitters;
+      find_emitters(section.mesh, emitters);
+      EXPECT_EQ(section.emitters, emitters);
       order_.push_back(section.key);
+      for (const Emitter& emitter : section.emitters) shining_[section.key] += emitter.faces;
       EXPECT_TRUE(held_.emplace(section.key, std::move(section.mesh)).second) << "added twice";
     }
   }
   const std::map<SectionKey, ChunkMesh>& held() const { return held_; }
+  /// Faces that shine, of the sections that have some.
+  const std::map<SectionKey, int>& shining() const { return shining_; }
   const std::vector<SectionKey>& order() const { return order_; }
   std::set<std::int32_t> levels_of(std::uint64_t island) const {
     std::set<std::int32_t> levels;
@@ -46,6 +53,7 @@ class Consumer {
 
  private:
   std::map<SectionKey, ChunkMesh> held_;
+  std::map<SectionKey, int> shining_;
   std::vector<SectionKey> order_;
 };
 
@@ -299,11 +307,13 @@ TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
   EXPECT_TRUE(changed.contains(IVec3{0, 10, 0}));
   consumer.take(std::move(update));
   EXPECT_EQ(consumer.held().at({home, {0, 10, 0}, 0}).quads.size(), 6u);  // a lone cube
+  EXPECT_EQ(consumer.shining().at({home, {0, 10, 0}, 0}), 6);             // all of it shines
   // Removing the lamp removes its section.
   ASSERT_TRUE(world.set_block(home, {5, 640, 5}, kAir));
   streamer.update(scene.view, scene.settings);
   finish(streamer, consumer);
   EXPECT_FALSE(consumer.held().contains({home, {0, 10, 0}, 0}));
+  EXPECT_FALSE(consumer.shining().contains({home, {0, 10, 0}, 0}));
 }
 
 TEST(Stream, EditsDuringWorkAreNeverLost) {

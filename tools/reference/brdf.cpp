@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -48,6 +49,23 @@ double mirror_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, do
   if (lossless == 0.0) return 0.0;
   const glm::dvec3 half = glm::normalize(to_light + to_eye);
   return lossless * fresnel(glm::dot(half, to_eye), false, index);
+}
+
+glm::dvec3 surface_brdf(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye,
+                        glm::dvec3 albedo, double roughness, double metalness) {
+  constexpr double kFromAbove = 0.04, kLeastRoughness = 0.06;
+  const double n_dot_l = glm::dot(normal, to_light), n_dot_v = glm::dot(normal, to_eye);
+  if (n_dot_l <= 0.0 || n_dot_v <= 0.0) return glm::dvec3(0.0);
+  roughness = std::clamp(roughness, kLeastRoughness, 1.0);
+  const auto left = [&](double cosine) {
+    const double grazing = (1.0 - kFromAbove) * std::pow(1.0 - roughness * roughness, 6.0);
+    return 1.0 - kFromAbove - grazing * std::pow(1.0 - cosine, 5.0);
+  };
+  const glm::dvec3 diffuse = albedo * ((1.0 - metalness) / kPi * left(n_dot_l) * left(n_dot_v));
+  const glm::dvec3 mirror = glm::mix(glm::dvec3(kFromAbove), albedo, metalness);
+  const double h_dot_v = std::clamp(glm::dot(glm::normalize(to_light + to_eye), to_eye), 0.0, 1.0);
+  const glm::dvec3 fresnel = mirror + (1.0 - mirror) * std::pow(1.0 - h_dot_v, 5.0);
+  return diffuse + fresnel * mirror_lobe_lossless(normal, to_light, to_eye, roughness);
 }
 
 Frame::Frame(glm::dvec3 unit_axis) : axis(unit_axis) {

@@ -23,6 +23,15 @@ double mirror_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, do
 double mirror_lobe_lossless(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye,
                             double roughness);
 
+/// What an opaque surface reflects of a light [1/sr]: a Cook-Torrance lobe, and a diffuse part that
+/// gets what the lobe leaves. Reflectance from above is 0.04, a metal's is its albedo; after
+/// Schlick it grows to 1 for grazing light. The diffuse part loses, once for the way in and once
+/// for the way out, 0.04 and of grazing light 0.96 (1 - alpha)^6 more, so that a surface never
+/// sends out more than it gets. All vectors unit. @param roughness perceptual, at least 0.06
+/// counts.
+glm::dvec3 surface_brdf(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye,
+                        glm::dvec3 albedo, double roughness, double metalness);
+
 /// Orthonormal right, up about a unit axis, the third.
 struct Frame {
   glm::dvec3 right, up, axis;

@@ -8,10 +8,11 @@
 
 #include "engine/render/celestial.h"
 #include "engine/render/sky_model.h"
+#include "game/light_setup.h"
 #include "game/player.h"
-#include "tools/reference/march.h"
 #include "tools/reference/reference.h"
-#include "world/mesh/mesh.h"
+#include "tools/reference/tracer.h"
+#include "world/march.h"
 #include "world/stream.h"
 #include "world/world.h"
 
@@ -43,40 +44,69 @@ View view_of(const game::SceneOptions& options, const game::CameraPlace& camera)
   return view;
 }
 
-/// An island's voxels at full detail, generated chunk by chunk as rays come there.
-std::shared_ptr<const Volume> voxels_of(std::shared_ptr<world::World> world,
-                                        const world::IslandSpec& spec) {
-  return std::make_shared<Volume>(
-      spec.box_min, spec.box_max,
-      [world = std::move(world), id = spec.id](IVec3 chunk, std::span<BlockId> out) {
-        thread_local std::vector<BlockId> padded(world::kPaddedVoxels);
-        if (!world->generate_padded(id, chunk, 0, padded)) return false;
-        world::chunk_from_padded(padded).unpack(out);
-        return true;
-      });
+/// The islands that are drawn: as the streamer takes them in for a first view.
+std::vector<world::IslandSpec> specs_of(const world::World& world,
+                                        const game::SceneOptions& options, world::WorldPos camera) {
+  std::vector<world::IslandSpec> specs =
+      world.islands_near(camera, options.settings.view_distance, options.settings.world_time_s);
+  if (specs.size() > world::kMaxStreamedIslands) specs.resize(world::kMaxStreamedIslands);
+  return specs;
 }
 
-/// The islands that are drawn: as the streamer takes them in for a first view.
-std::vector<Island> islands_of(const std::shared_ptr<world::World>& world,
-                               const game::SceneOptions& options, world::WorldPos camera) {
-  const double time_s = options.settings.world_time_s;
-  std::vector<world::IslandSpec> specs =
-      world->islands_near(camera, options.settings.view_distance, time_s);
-  if (specs.size() > world::kMaxStreamedIslands) specs.resize(world::kMaxStreamedIslands);
+std::vector<Island> islands_of(world::World& world, std::span<const world::IslandSpec> specs,
+                               world::WorldPos camera, double time_s) {
   std::vector<Island> islands;
   for (const world::IslandSpec& spec : specs) {
     const world::Pose pose = world::pose_at(spec, time_s);
-    islands.push_back({voxels_of(world, spec), glm::mat3_cast(pose.rotation),
+    islands.push_back({world::Volume::of_island(world, spec), glm::mat3_cast(pose.rotation),
                        world::difference_blocks(pose.origin, camera)});
   }
   return islands;
+}
+
+std::vector<game::PlacedIsland> placed(std::span<const world::IslandSpec> specs,
+                                       std::span<const Island> islands) {
+  std::vector<game::PlacedIsland> out;
+  for (std::size_t i = 0; i < islands.size(); ++i)
+    out.push_back({specs[i].id, static_cast<std::uint32_t>(i), islands[i].rotation,
+                   islands[i].origin, specs[i].bounding_radius});
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return out;
+}
+
+/// The lights that the program would gather if it drew everything at full detail and looked to all
+/// sides.
+std::vector<Light> lights_of(world::World& world, const game::SceneOptions& options,
+                             const game::CameraPlace& camera, int threads,
+                             std::span<const game::PlacedIsland> islands) {
+  const game::Settings& settings = options.settings;
+  const render::Camera first{{camera.position.x, camera.position.y, camera.position.z},
+                             camera.yaw_deg,
+                             camera.pitch_deg,
+                             options.fov_deg};
+  game::LightField field = game::light_field_of(options, world, first);
+  Jobs jobs(threads);
+  world::Streamer streamer(world, jobs);
+  streamer.update({camera.position, {0.0, 0.0, 1.0}, settings.world_time_s},
+                  {static_cast<double>(settings.view_distance), kFar});
+  streamer.wait_until_complete();
+  while (!streamer.complete())
+    for (const world::ReadySection& section : streamer.poll(SIZE_MAX).ready)
+      field.add(section.key, section.emitters);
+  game::FrameLights gathered;
+  field.gather(camera.position, std::nullopt, islands,
+               game::held_light(settings, field, camera.yaw_deg, settings.world_time_s), gathered);
+  std::vector<Light> lights;
+  for (const shared::Light& light : gathered.lights) lights.push_back(light_from(light));
+  return lights;
 }
 
 /// The translucent block about the eye, or air.
 BlockId medium_at_eye(const std::vector<Island>& islands) {
   for (const Island& island : islands) {
     const glm::dvec3 eye = glm::transpose(island.rotation) * -island.origin;
-    const IVec3 voxel{floor_to_int(eye.x), floor_to_int(eye.y), floor_to_int(eye.z)};
+    const IVec3 voxel{world::floor_to_int(eye.x), world::floor_to_int(eye.y),
+                      world::floor_to_int(eye.z)};
     const BlockId block = island.voxels->block_at(voxel);
     if (world::block_kind(block) == world::BlockKind::kTranslucent) return block;
   }
@@ -102,6 +132,7 @@ void add_sky(const game::SceneOptions& options, const render::Celestial& sky, do
   scene.haze_per_block = haze_per_block(sky);
   scene.shadows = options.settings.shadow_enabled;
   scene.flat_shading = options.settings.shading == game::Shading::kFlat;
+  scene.corner_occlusion = scene.flat_shading ? 0.0 : options.settings.ao_strength;
 }
 
 }  // namespace
@@ -128,15 +159,16 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   if (std::uint64_t{options.size.width} * options.size.height > kMaxPixels)
     return Error{fmt::format("--size {}x{} is too large: a reference picture has at most {} pixels",
                              options.size.width, options.size.height, kMaxPixels)};
-  const auto world = std::make_shared<world::World>(
-      world::WorldDesc{world::seed_from_text(options.seed_text), options.settings.world_offset,
-                       options.settings.world_islands});
-  const game::CameraPlace camera = camera_place(options, *world);
+  world::World world({world::seed_from_text(options.seed_text), options.settings.world_offset,
+                      options.settings.world_islands});
+  const game::CameraPlace camera = camera_place(options, world);
   const render::Celestial sky =
       render::celestial_at(options.time_of_day_s, options.settings.moon_phase);
   Scene scene;
   scene.view = view_of(options, camera);
-  scene.islands = islands_of(world, options, camera.position);
+  const std::vector<world::IslandSpec> specs = specs_of(world, options, camera.position);
+  scene.islands = islands_of(world, specs, camera.position, options.settings.world_time_s);
+  scene.lights = lights_of(world, options, camera, settings.threads, placed(specs, scene.islands));
   scene.view.medium = medium_at_eye(scene.islands);
   scene.time_s = options.settings.world_time_s;
   add_sky(options, sky, settings.body_radius, scene);

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "shaders/shared/sky.h"
-#include "tools/reference/volume.h"
+#include "tools/reference/lights.h"
 #include "world/blocks.h"
+#include "world/volume.h"
 
 namespace skerry::reference {
 
 /// A lattice of voxels in the world: camera-relative world = rotation * lattice + origin.
 struct Island {
-  std::shared_ptr<const Volume> voxels;
+  std::shared_ptr<const world::Volume> voxels;
   glm::dmat3 rotation{1.0};
   glm::dvec3 origin{0.0};
 };
@@ -26,13 +27,6 @@ struct Body {
   glm::dvec3 to_light{0.0, 1.0, 0.0};  ///< unit, towards the disc's middle
   glm::dvec3 irradiance{0.0};
   double angular_radius = 0.0;  ///< [rad]; 0: a point, with hard shadows
-};
-
-/// A sphere that sends light evenly to all sides; it is not seen itself and casts no shadow.
-struct SphereLight {
-  glm::dvec3 position{0.0};
-  glm::dvec3 intensity{0.0};  ///< radiant: irradiance at distance d, facing it, is intensity / d^2
-  double radius = 0.0;        ///< [blocks]; 0: a point
 };
 
 /// The sky of a moment: render::sky_constants, and what hides behind it.
@@ -55,13 +49,14 @@ struct Scene {
   View view;
   std::vector<Island> islands;
   std::vector<Body> bodies;
-  std::vector<SphereLight> lights;
+  std::vector<Light> lights;
   glm::dvec3 environment{0.0};       ///< radiance that comes from everywhere beyond the voxels
   std::optional<Sky> sky;            ///< none: `environment` is what is seen behind the voxels
   double haze_per_block = 0.0;       ///< extinction of clear air [1/block]
   double time_s = 0.0;               ///< of the ripples on water
   bool shadows = true;               ///< whether bodies are hidden by voxels
   bool flat_shading = false;         ///< bodies: shadow times light, without the angle to the light
+  bool matt = false;                 ///< surfaces are diffuse alone, as with flat shading
   double corner_occlusion = 0.0;     ///< strength of the darkening in corners, 0..1
   std::optional<glm::dvec3> albedo;  ///< of every surface, in place of the textures'
 };

@@ -52,24 +52,15 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     if (glm::dot(at.normal, to_light) <= 0.0 || !body_seen(at, to_light)) continue;
     take(Arrival{to_light, body.irradiance, true});
   }
-  for (const SphereLight& light : scene_.lights) {
-    const glm::dvec2 pair = sampler.next();
-    const glm::dvec3 to_middle = light.position - at.point;
-    const double distance = glm::length(to_middle);
-    if (distance == 0.0) continue;
-    // Seen from outside, the sphere is a cone of even radiance intensity / (pi r^2).
-    const double sine = std::min(1.0, light.radius / distance);
-    const double spread =
-        distance <= light.radius ? 2.0 : sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
-    const glm::dvec3 to_light = Frame(to_middle / distance).world(in_cone(pair, spread));
-    if (glm::dot(at.normal, to_light) <= 0.0) continue;
-    if (tracer_.hidden(at.point, to_light, std::max(0.0, distance - light.radius), at.plant))
-      continue;
-    const glm::dvec3 irradiance =
-        light.radius == 0.0 ? light.intensity / (distance * distance)
-                            : light.intensity * (2.0 * spread / (light.radius * light.radius));
-    take(Arrival{to_light, irradiance, false});
-  }
+  lights_.reaching(at.point, [&](const Light& light) {
+    const std::optional<LightRay> ray = sample_light(light, at.point, sampler);
+    if (!ray || glm::dot(at.normal, ray->to_light) <= 0.0) return;
+    const bool placed = light.kind != shared::kLightDirectional;
+    if (tracer_.hidden(at.point, ray->to_light, ray->distance, at.plant,
+                       placed ? &light.position : nullptr))
+      return;
+    take(Arrival{ray->to_light, ray->irradiance, false});
+  });
 }
 
 glm::dvec3 Shader::from_environment(const Receiver& at, Sampler& sampler) const {
@@ -79,12 +70,14 @@ glm::dvec3 Shader::from_environment(const Receiver& at, Sampler& sampler) const 
   return hidden ? glm::dvec3(0.0) : scene_.environment * kPi;
 }
 
+double Shader::cosine_of(const Arrival& light, glm::dvec3 normal) const {
+  return scene_.flat_shading && light.body ? 1.0 : glm::dot(normal, light.to_light);
+}
+
 glm::dvec3 Shader::irradiance(const Receiver& at, Sampler& sampler) const {
   glm::dvec3 sum = from_environment(at, sampler);
-  arrive(at, sampler, [&](const Arrival& light) {
-    const bool flat = scene_.flat_shading && light.body;
-    sum += light.irradiance * (flat ? 1.0 : glm::dot(at.normal, light.to_light));
-  });
+  arrive(at, sampler,
+         [&](const Arrival& light) { sum += light.irradiance * cosine_of(light, at.normal); });
   return sum;
 }
 
@@ -122,8 +115,16 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 
                                     tracer_.lattice_vector(hit.island, fine));
   const glm::dvec3 albedo =
       scene_.albedo.value_or(BlockTexels::shared().texel(hit.block, hit.face, place));
-  const glm::dvec3 reflected = irradiance(at, sampler) * (albedo / kPi) * openness(hit);
-  return reflected + albedo * static_cast<double>(world::block_types()[hit.block].emission);
+  const world::BlockType& type = world::block_types()[hit.block];
+  const bool matt = plant || scene_.matt || scene_.flat_shading;
+  glm::dvec3 reflected = from_environment(at, sampler) * albedo / kPi;
+  arrive(at, sampler, [&](const Arrival& light) {
+    const glm::dvec3 share = matt ? albedo / kPi
+                                  : surface_brdf(normal, light.to_light, -direction, albedo,
+                                                 type.roughness, type.metalness);
+    reflected += light.irradiance * share * cosine_of(light, normal);
+  });
+  return reflected * openness(hit) + albedo * static_cast<double>(type.emission);
 }
 
 glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,

@@ -17,7 +17,8 @@ struct Seen {
 /// The light of a scene, estimated by one sample of everything that must be averaged.
 class Shader {
  public:
-  Shader(const Scene& scene, const Tracer& tracer) : scene_(scene), tracer_(tracer) {}
+  Shader(const Scene& scene, const Tracer& tracer)
+      : scene_(scene), tracer_(tracer), lights_(scene.lights) {}
 
   /// @param trace what the ray from the eye along `direction` meets.
   /// @param fine where in the pixel textures and discs are looked at; `direction`, unless geometry
@@ -44,6 +45,7 @@ class Shader {
 
   template <class Take>
   void arrive(const Receiver& at, Sampler& sampler, Take&& take) const;
+  double cosine_of(const Arrival& light, glm::dvec3 normal) const;
   bool body_seen(const Receiver& at, glm::dvec3 to_light) const;
   glm::dvec3 from_environment(const Receiver& at, Sampler& sampler) const;
   glm::dvec3 behind_voxels(glm::dvec3 direction) const;
@@ -64,6 +66,7 @@ class Shader {
 
   const Scene& scene_;
   const Tracer& tracer_;
+  const LightGrid lights_;
 };
 
 /// Radiance that a stretch of medium scatters towards the eye under an irradiance: once, evenly to

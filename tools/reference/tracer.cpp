@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "tools/reference/march.h"
 #include "tools/reference/textures.h"
+#include "world/march.h"
 
 namespace skerry::reference {
 namespace {
@@ -18,6 +18,11 @@ using world::IVec3;
 /// Face of a block that a ray crosses from outside.
 int face_met(int axis, bool positive) {
   return axis * 2 + (positive ? 1 : 0);
+}
+
+IVec3 voxel_at(glm::dvec3 lattice) {
+  return {world::floor_to_int(lattice.x), world::floor_to_int(lattice.y),
+          world::floor_to_int(lattice.z)};
 }
 
 struct PlantMeeting {
@@ -54,10 +59,10 @@ struct Seeing {
   std::size_t island;
   Trace& out;
 
-  Meeting meeting(const Crossing& c, BlockId block, IVec3 voxel) const {
+  Meeting meeting(const world::Crossing& c, BlockId block, IVec3 voxel) const {
     return {c.t, island, block, face_met(c.axis, c.positive), voxel, origin + direction * c.t};
   }
-  bool crossed(const Crossing& c) {
+  bool crossed(const world::Crossing& c) {
     const BlockKind from = world::block_kind(c.from), to = world::block_kind(c.to);
     if (from == BlockKind::kOpaque) return false;  // seen from inside: nothing is drawn there
     if (to == BlockKind::kOpaque || to == BlockKind::kCutout) {
@@ -89,20 +94,25 @@ struct Seeing {
 struct Shadowing {
   glm::dvec3 origin, direction;
   double t_max;
-  std::optional<IVec3> own_plant;
+  std::optional<IVec3> own_plant, lamp;
+  bool in_lamp = false;
   bool hidden = false;
 
-  bool crossed(const Crossing& c) {
+  bool crossed(const world::Crossing& c) {
     const BlockKind from = world::block_kind(c.from), to = world::block_kind(c.to);
-    hidden = to == BlockKind::kOpaque ||
+    hidden = (to == BlockKind::kOpaque && lamp != c.voxel) ||
              (from == BlockKind::kCutout &&
               BlockTexels::shared().covers(c.from, face_met(c.axis, !c.positive),
                                            origin + direction * c.t));
     return hidden;
   }
   bool inside(IVec3 voxel, BlockId id, double, double) {
-    hidden = world::block_kind(id) == BlockKind::kPlant && own_plant != voxel &&
+    const BlockKind kind = world::block_kind(id);
+    hidden = kind == BlockKind::kPlant && own_plant != voxel && lamp != voxel &&
              meet_plant(origin, direction, voxel, id, t_max).has_value();
+    // Between two blocks of one id nothing is crossed.
+    if (kind == BlockKind::kOpaque && in_lamp && lamp != voxel) hidden = true;
+    in_lamp = lamp == voxel;
     return hidden;
   }
 };
@@ -139,7 +149,7 @@ void Tracer::trace(glm::dvec3 origin, glm::dvec3 direction, Trace& out) const {
     if (!may_meet(island, origin, direction, t_max)) continue;
     out.hit.reset();
     Seeing seeing{lattice_point(i, origin), lattice_vector(i, direction), t_max, i, out};
-    march(*island.voxels, seeing.origin, seeing.direction, 0.0, t_max, seeing);
+    world::march(*island.voxels, seeing.origin, seeing.direction, 0.0, t_max, seeing);
     if (out.hit) nearest = out.hit;
   }
   out.hit = nearest;
@@ -150,12 +160,14 @@ void Tracer::trace(glm::dvec3 origin, glm::dvec3 direction, Trace& out) const {
 }
 
 bool Tracer::hidden(glm::dvec3 origin, glm::dvec3 direction, double distance,
-                    const Meeting* from_plant) const {
+                    const Meeting* from_plant, const glm::dvec3* lamp) const {
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     if (!may_meet(islands_[i], origin, direction, distance)) continue;
-    Shadowing shadowing{lattice_point(i, origin), lattice_vector(i, direction), distance, {}};
+    Shadowing shadowing{lattice_point(i, origin), lattice_vector(i, direction), distance, {}, {}};
     if (from_plant && from_plant->island == i) shadowing.own_plant = from_plant->voxel;
-    march(*islands_[i].voxels, shadowing.origin, shadowing.direction, 0.0, distance, shadowing);
+    if (lamp) shadowing.lamp = voxel_at(lattice_point(i, *lamp));
+    world::march(*islands_[i].voxels, shadowing.origin, shadowing.direction, 0.0, distance,
+                 shadowing);
     if (shadowing.hidden) return true;
   }
   return false;

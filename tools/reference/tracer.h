@@ -40,8 +40,9 @@ class Tracer {
   /// glass. A leaf casts by the faces that see the light.
   /// @param direction unit, towards the light. @param distance to the light.
   /// @param from_plant the plant that the ray begins on, which does not shade itself.
+  /// @param lamp the place of the light: the voxels that it is in hide nothing.
   bool hidden(glm::dvec3 origin, glm::dvec3 direction, double distance = kFar,
-              const Meeting* from_plant = nullptr) const;
+              const Meeting* from_plant = nullptr, const glm::dvec3* lamp = nullptr) const;
 
   /// Unit normal of a face in the world; a plant's surfaces count as level.
   glm::dvec3 normal(std::size_t island, int face) const;
@@ -51,7 +52,7 @@ class Tracer {
 
  private:
   struct Placed {
-    std::shared_ptr<const Volume> voxels;
+    std::shared_ptr<const world::Volume> voxels;
     glm::dmat3 rotation, lattice_from_world;
     glm::dvec3 origin;
     glm::dvec3 centre;  // of the box, world

@@ -93,6 +93,7 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
   if (!made) return usage(made.error());
   scene = *std::move(made);
   scene.validate = a.validate;
+  scene.scene_file = a.scene_file;
   return parse_device(a.device, scene.device);
 }
 

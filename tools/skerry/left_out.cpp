@@ -25,6 +25,11 @@ game::SceneText scene(const char* seed, const char* time, const char* moon_phase
   return text;
 }
 
+game::SceneText with(const char* setting, game::SceneText text) {
+  text.settings.emplace_back(setting);
+  return text;
+}
+
 /// A renderer that has drawn its scene once.
 struct Side {
   std::unique_ptr<SceneDrawer> drawer;
@@ -86,6 +91,7 @@ Result<std::vector<LackingScene>> lacking_scenes() {
       {"stars", "leave.out=stars", scene("1", "12:00", "0")},
       {"discs", "leave.out=discs", scene("1", "10:30", "0")},
       {"haze", "leave.out=haze", scene("1", "00:00", "0")},
+      {"corners", "ao.strength=0", with("shading=flat", scene("1", "12:00", "0"))},
   };
   std::vector<LackingScene> out;
   for (const Listed& one : listed) {

@@ -12,7 +12,7 @@ namespace skerry::tools {
 /// A scene that lacks a feature, and the setting under which the renderer has none of it.
 struct LackingScene {
   std::string feature;  ///< as `--explain` names it
-  std::string setting;  ///< "leave.out=..." or "shadow.enabled=0"
+  std::string setting;  ///< "leave.out=...", "shadow.enabled=0" or the like
   game::SceneOptions scene;
 };
 

@@ -54,7 +54,7 @@ ordered_json stats_json(const gpu::Device& device, game::SceneView& view, const 
   j["chunks"] = {{"resident", view.renderer().geometry().sections_resident()},
                  {"drawn", report.camera.sections_passed}};
   j["draws"] = {{"camera", report.camera.draws}, {"shadows", report.shadows.draws}};
-  j["lights"] = 0;
+  j["lights"] = view.lights();
   ordered_json by = ordered_json::object();
   for (const gpu::MemoryUse& use : device.memory_use())
     by[use.name] = by.value(use.name, std::uint64_t{0}) + use.bytes;
@@ -128,6 +128,7 @@ int shot(const ShotOptions& options) {
   const Result<Drawn> drawn = (*drawer)->draw();
   if (!drawn) return fail(kFailed, drawn.error());
   cpu_ms["draw"] = watch.lap();
+  cpu_ms["gather_lights"] = (*drawer)->view().gather_ms();
   const platform::PixelView image{size.width, size.height, 4, drawn->rgba};
   const std::array<platform::PngText, 2> text{
       {{"Software", "Skerry"}, {"Command", game::shot_command(options.scene)}}};

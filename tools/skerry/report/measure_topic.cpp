@@ -187,6 +187,8 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
   const Judged* reference = nullptr;
   if (topic.judge == Judge::kReference) {
     game::SceneOptions exact = *scene;
+    // The renderer samples geometry at pixel centres; smoother edges would drown every other error.
+    exact.settings.reference_filter = game::ReferenceFilter::kCentre;
     if (!topic.reference_settings.empty())
       if (Result<void> done = apply_point(topic.reference_settings, exact.settings); !done)
         return done.error();

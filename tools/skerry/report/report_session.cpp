@@ -41,10 +41,8 @@ Result<const Judged*> ReportSession::reference(const game::SceneOptions& scene,
                                                const std::function<void(double)>& progress) {
   std::unique_ptr<Judged>& kept = references_[game::shot_command(scene)];
   if (kept) return kept.get();
-  reference::ReferenceSettings settings = reference::settings_from(scene);
-  // The renderer samples geometry at pixel centres; smoother edges would drown every other error.
-  settings.filter = game::ReferenceFilter::kCentre;
-  Result<reference::ReferencePicture> made = reference::render_reference(scene, settings, progress);
+  Result<reference::ReferencePicture> made =
+      reference::render_reference(scene, reference::settings_from(scene), progress);
   if (!made) return made.error();
   kept = std::make_unique<Judged>();
   kept->shown = {

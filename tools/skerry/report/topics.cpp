@@ -32,10 +32,15 @@ constexpr TopicPoint kShadowSplits[] = {
     {"0.9", "shadow.split=0.9"}, {"0.95", "shadow.split=0.95"}, {"0.98", "shadow.split=0.98"},
     {"1", "shadow.split=1"}};
 constexpr TopicPoint kShadowBlurs[] = {{"0", "shadow.blur=0"},
-                                       {"0.03", "shadow.blur=0.03"},
-                                       {"0.06", "shadow.blur=0.06"},
-                                       {"0.12", "shadow.blur=0.12"},
-                                       {"0.25", "shadow.blur=0.25"}};
+                                       {"0.05", "shadow.blur=0.05"},
+                                       {"0.1", "shadow.blur=0.1"},
+                                       {"0.15", "shadow.blur=0.15"},
+                                       {"0.3", "shadow.blur=0.3"}};
+// The sun's own disc, exactly; and as many samples of a pixel.
+constexpr TopicPoint kShadowSamples[] = {
+    {"filter", "shadow.samples=1"}, {"4", "shadow.samples=4"}, {"16", "shadow.samples=16"}};
+constexpr TopicPoint kSamples[] = {
+    {"1", "aa.samples=1"}, {"4", "aa.samples=4"}, {"16", "aa.samples=16"}};
 constexpr TopicPoint kShadowCascades[] = {{"1", "shadow.cascades=1"},
                                           {"2", "shadow.cascades=2"},
                                           {"3", "shadow.cascades=3"},
@@ -61,6 +66,8 @@ constexpr TopicPoint kTextureTaps[] = {{"1", "texture.taps=1"},
                                        {"4", "texture.taps=4"},
                                        {"8", "texture.taps=8"},
                                        {"16", "texture.taps=16"}};
+constexpr TopicPoint kCorners[] = {
+    {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},
@@ -93,8 +100,11 @@ constexpr Topic kTopics[] = {
     {"shadow_cascades", "shadow maps a light has", kShadowCascades, kShadowScenes},
     {"shadow_split", "how the maps of a light share the view distance", kShadowSplits,
      kShadowScenes},
-    {"shadow_blur", "smallest radius of the shadow filter", kShadowBlurs, kShadowScenes,
+    {"shadow_blur", "largest radius of the shadow filter", kShadowBlurs, kShadowScenes,
      Judge::kReference, CostOf::kShading},
+    {"shadow_samples", "places on the sun's disc that light comes from", kShadowSamples, kWater},
+    {"aa_samples", "samples of a pixel", kSamples, kDay, Judge::kReference, CostOf::kFrame, false,
+     "reference.filter=pixel"},
     {"gbuffer_normal", "how normals are kept between drawing and shading", kNormals, kDay,
      Judge::kLimit, CostOf::kShading},
     {"gbuffer_position", "where shading takes positions from", kPositions, kDay, Judge::kLimit,
@@ -103,6 +113,8 @@ constexpr Topic kTopics[] = {
      CostOf::kFrame, true, "view.distance=4000"},
     {"view_detail", "blocks up to which everything is drawn in full detail", kDetails, kFar,
      Judge::kReference, CostOf::kFrame, true},
+    {"ao", "how much light a closed corner of blocks takes", kCorners, kShadowScenes,
+     Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,
      Judge::kReference, CostOf::kShading},
     {"water_layers", "water and glass surfaces, one behind another, that a pixel shows",

@@ -10,15 +10,18 @@
 
 #include "world/chunk.h"
 #include "world/coords.h"
+#include "world/island.h"
 
-namespace skerry::reference {
+namespace skerry::world {
+
+class World;
 
 /// One chunk's voxels as 8^3 bricks, so that a ray crosses what is empty in long steps.
 class BrickChunk {
  public:
   static constexpr int kBrickEdge = 8;
-  /// @param voxels world::kChunkVoxels ids in world::voxel_index order.
-  explicit BrickChunk(std::span<const world::BlockId> voxels);
+  /// @param voxels kChunkVoxels ids in voxel_index order.
+  explicit BrickChunk(std::span<const BlockId> voxels);
 
   /// The id that fills the whole brick of a voxel, or kMixed.
   static constexpr std::uint32_t kMixed = 0xffff'ffff;
@@ -26,9 +29,9 @@ class BrickChunk {
     const std::uint32_t entry = bricks_[brick_of(x, y, z)];
     return (entry & kStored) != 0 ? kMixed : entry;
   }
-  world::BlockId at(int x, int y, int z) const {
+  BlockId at(int x, int y, int z) const {
     const std::uint32_t entry = bricks_[brick_of(x, y, z)];
-    if ((entry & kStored) == 0) return static_cast<world::BlockId>(entry);
+    if ((entry & kStored) == 0) return static_cast<BlockId>(entry);
     const int inside = (z & 7) | (x & 7) << 3 | (y & 7) << 6;
     return voxels_[(entry & ~kStored) + static_cast<std::uint32_t>(inside)];
   }
@@ -41,31 +44,33 @@ class BrickChunk {
   }
 
   std::array<std::uint32_t, 512> bricks_{};  // an id, or kStored and where its voxels begin
-  std::vector<world::BlockId> voxels_;
+  std::vector<BlockId> voxels_;
   bool empty_ = true;
 };
 
 /// The voxels of one lattice, made chunk by chunk when a ray first comes there. Safe on any thread.
 class Volume {
  public:
-  /// Fills a chunk: world::kChunkVoxels ids in world::voxel_index order. Must give the same ids
+  /// Fills a chunk: kChunkVoxels ids in voxel_index order. Must give the same ids
   /// whenever it is asked, from any thread. @return false: all air, `out` is not looked at.
-  using Fill = std::function<bool(world::IVec3 chunk, std::span<world::BlockId> out)>;
+  using Fill = std::function<bool(IVec3 chunk, std::span<BlockId> out)>;
 
   /// @param box_min, box_max voxels outside [min, max) are air.
-  Volume(world::IVec3 box_min, world::IVec3 box_max, Fill fill);
+  Volume(IVec3 box_min, IVec3 box_max, Fill fill);
+  /// An island at full detail, edits included as they are when a chunk is first come to.
+  /// @param world outlives the volume.
+  static std::shared_ptr<const Volume> of_island(World& world, const IslandSpec& spec);
   /// From a function of the voxel. For small scenes made by hand.
-  static std::shared_ptr<const Volume> from_voxels(
-      world::IVec3 box_min, world::IVec3 box_max,
-      const std::function<world::BlockId(world::IVec3)>& block_at);
+  static std::shared_ptr<const Volume> from_voxels(IVec3 box_min, IVec3 box_max,
+                                                   const std::function<BlockId(IVec3)>& block_at);
   ~Volume();
   Volume(const Volume&) = delete;
   Volume& operator=(const Volume&) = delete;
 
-  world::IVec3 box_min() const { return box_min_; }
-  world::IVec3 box_max() const { return box_max_; }
+  IVec3 box_min() const { return box_min_; }
+  IVec3 box_max() const { return box_max_; }
   /// The chunk that holds a voxel; nullptr: it holds nothing but air.
-  const BrickChunk* chunk_at(world::IVec3 voxel) const {
+  const BrickChunk* chunk_at(IVec3 voxel) const {
     const int x = (voxel.x >> 6) - first_.x, y = (voxel.y >> 6) - first_.y,
               z = (voxel.z >> 6) - first_.z;
     if (x < 0 || y < 0 || z < 0 || x >= count_.x || y >= count_.y || z >= count_.z) return nullptr;
@@ -74,7 +79,7 @@ class Volume {
     if (state == kEmpty) return nullptr;
     return state == kMade ? slot.chunk.get() : make(slot, {x, y, z});
   }
-  world::BlockId block_at(world::IVec3 voxel) const;
+  BlockId block_at(IVec3 voxel) const;
   /// Chunks asked for so far, empty ones included.
   std::size_t chunks_made() const { return chunks_made_.load(std::memory_order_relaxed); }
 
@@ -85,13 +90,13 @@ class Volume {
     std::mutex making;
     std::unique_ptr<const BrickChunk> chunk;
   };
-  const BrickChunk* make(Slot& slot, world::IVec3 place) const;
+  const BrickChunk* make(Slot& slot, IVec3 place) const;
 
-  const world::IVec3 box_min_, box_max_;
-  world::IVec3 first_, count_;  // chunks
+  const IVec3 box_min_, box_max_;
+  IVec3 first_, count_;  // chunks
   const Fill fill_;
   std::unique_ptr<Slot[]> slots_;
   mutable std::atomic<std::size_t> chunks_made_ = 0;
 };
 
-}  // namespace skerry::reference
+}  // namespace skerry::world

@@ -1,14 +1,13 @@
-#include "tools/reference/volume.h"
+#include "world/volume.h"
 
 #include <algorithm>
 
 #include "engine/core/check.h"
+#include "world/mesh/mesh.h"
+#include "world/world.h"
 
-namespace skerry::reference {
+namespace skerry::world {
 namespace {
-
-using world::BlockId;
-using world::IVec3;
 
 constexpr int kBrick = BrickChunk::kBrickEdge;
 constexpr std::size_t kBrickVoxels = std::size_t{kBrick} * kBrick * kBrick;
@@ -19,24 +18,24 @@ void copy_brick(std::span<const BlockId> chunk, int x0, int y0, int z0,
   auto* to = out.data();
   for (int y = 0; y < kBrick; ++y)
     for (int x = 0; x < kBrick; ++x, to += kBrick)
-      std::copy_n(&chunk[world::voxel_index(x0 + x, y0 + y, z0)], kBrick, to);
+      std::copy_n(&chunk[voxel_index(x0 + x, y0 + y, z0)], kBrick, to);
 }
 
 }  // namespace
 
 BrickChunk::BrickChunk(std::span<const BlockId> voxels) {
-  SKERRY_ASSERT(voxels.size() == world::kChunkVoxels);
+  SKERRY_ASSERT(voxels.size() == kChunkVoxels);
   std::array<BlockId, kBrickVoxels> brick;
-  for (int y = 0; y < world::kChunkEdge; y += kBrick) {
-    for (int x = 0; x < world::kChunkEdge; x += kBrick) {
-      for (int z = 0; z < world::kChunkEdge; z += kBrick) {
+  for (int y = 0; y < kChunkEdge; y += kBrick) {
+    for (int x = 0; x < kChunkEdge; x += kBrick) {
+      for (int z = 0; z < kChunkEdge; z += kBrick) {
         copy_brick(voxels, x, y, z, brick);
         const bool uniform = std::all_of(brick.begin(), brick.end(),
                                          [first = brick[0]](BlockId id) { return id == first; });
         std::uint32_t& entry = bricks_[brick_of(x, y, z)];
         entry = uniform ? brick[0] : kStored | static_cast<std::uint32_t>(voxels_.size());
         if (!uniform) voxels_.insert(voxels_.end(), brick.begin(), brick.end());
-        empty_ = empty_ && uniform && brick[0] == world::kAir;
+        empty_ = empty_ && uniform && brick[0] == kAir;
       }
     }
   }
@@ -59,16 +58,26 @@ Volume::Volume(IVec3 box_min, IVec3 box_max, Fill fill)
 
 Volume::~Volume() = default;
 
+std::shared_ptr<const Volume> Volume::of_island(World& world, const IslandSpec& spec) {
+  return std::make_shared<Volume>(spec.box_min, spec.box_max,
+                                  [&world, id = spec.id](IVec3 chunk, std::span<BlockId> out) {
+                                    thread_local std::vector<BlockId> padded(kPaddedVoxels);
+                                    if (!world.generate_padded(id, chunk, 0, padded)) return false;
+                                    chunk_from_padded(padded).unpack(out);
+                                    return true;
+                                  });
+}
+
 std::shared_ptr<const Volume> Volume::from_voxels(IVec3 box_min, IVec3 box_max,
                                                   const std::function<BlockId(IVec3)>& block_at) {
   return std::make_shared<Volume>(box_min, box_max, [=](IVec3 chunk, std::span<BlockId> out) {
-    for (int y = 0; y < world::kChunkEdge; ++y) {
-      for (int x = 0; x < world::kChunkEdge; ++x) {
-        for (int z = 0; z < world::kChunkEdge; ++z) {
+    for (int y = 0; y < kChunkEdge; ++y) {
+      for (int x = 0; x < kChunkEdge; ++x) {
+        for (int z = 0; z < kChunkEdge; ++z) {
           const IVec3 v{chunk.x * 64 + x, chunk.y * 64 + y, chunk.z * 64 + z};
           const bool inside = v.x >= box_min.x && v.x < box_max.x && v.y >= box_min.y &&
                               v.y < box_max.y && v.z >= box_min.z && v.z < box_max.z;
-          out[world::voxel_index(x, y, z)] = inside ? block_at(v) : world::kAir;
+          out[voxel_index(x, y, z)] = inside ? block_at(v) : kAir;
         }
       }
     }
@@ -78,13 +87,13 @@ std::shared_ptr<const Volume> Volume::from_voxels(IVec3 box_min, IVec3 box_max,
 
 BlockId Volume::block_at(IVec3 voxel) const {
   const BrickChunk* chunk = chunk_at(voxel);
-  return chunk ? chunk->at(voxel.x & 63, voxel.y & 63, voxel.z & 63) : world::kAir;
+  return chunk ? chunk->at(voxel.x & 63, voxel.y & 63, voxel.z & 63) : kAir;
 }
 
 const BrickChunk* Volume::make(Slot& slot, IVec3 place) const {
   const std::lock_guard lock(slot.making);
   if (slot.state.load(std::memory_order_relaxed) == kUnmade) {
-    thread_local std::vector<BlockId> voxels(world::kChunkVoxels);
+    thread_local std::vector<BlockId> voxels(kChunkVoxels);
     const IVec3 chunk{first_.x + place.x, first_.y + place.y, first_.z + place.z};
     if (fill_(chunk, voxels)) slot.chunk = std::make_unique<const BrickChunk>(voxels);
     const bool empty = !slot.chunk || slot.chunk->empty();
@@ -95,4 +104,4 @@ const BrickChunk* Volume::make(Slot& slot, IVec3 place) const {
   return slot.chunk.get();
 }
 
-}  // namespace skerry::reference
+}  // namespace skerry::world

@@ -4,17 +4,17 @@
 #include <glm/vec3.hpp>
 #include <limits>
 
-#include "tools/reference/volume.h"
+#include "world/volume.h"
 
-namespace skerry::reference {
+namespace skerry::world {
 
 /// A place where a ray goes from one block to another.
 struct Crossing {
   double t;
-  world::BlockId from, to;
-  int axis;            ///< of the plane it crosses
-  bool positive;       ///< whether it goes towards greater coordinates
-  world::IVec3 voxel;  ///< the one it enters
+  BlockId from, to;
+  int axis;       ///< of the plane it crosses
+  bool positive;  ///< whether it goes towards greater coordinates
+  IVec3 voxel;    ///< the one it enters
 };
 
 inline int floor_to_int(double x) {
@@ -61,17 +61,16 @@ void march(const Volume& volume, glm::dvec3 origin, glm::dvec3 direction, double
     v[a] = std::clamp(floor_to_int(origin[a] + direction[a] * t), low[a], high[a] - 1);
   if (entered >= 0) v[entered] = positive[entered] ? low[entered] : high[entered] - 1;
 
-  world::BlockId previous = entered >= 0 ? world::kAir : volume.block_at({v[0], v[1], v[2]});
+  BlockId previous = entered >= 0 ? kAir : volume.block_at({v[0], v[1], v[2]});
   while (true) {
-    const world::IVec3 voxel{v[0], v[1], v[2]};
-    int size = world::kChunkEdge;
-    world::BlockId id = world::kAir;
+    const IVec3 voxel{v[0], v[1], v[2]};
+    int size = kChunkEdge;
+    BlockId id = kAir;
     if (const BrickChunk* chunk = volume.chunk_at(voxel)) {
       const int x = v[0] & 63, y = v[1] & 63, z = v[2] & 63;
       const std::uint32_t uniform = chunk->uniform_id(x, y, z);
-      size = uniform == world::kAir ? BrickChunk::kBrickEdge : 1;
-      id =
-          uniform == BrickChunk::kMixed ? chunk->at(x, y, z) : static_cast<world::BlockId>(uniform);
+      size = uniform == kAir ? BrickChunk::kBrickEdge : 1;
+      id = uniform == BrickChunk::kMixed ? chunk->at(x, y, z) : static_cast<BlockId>(uniform);
     }
     if (id != previous && visit.crossed({t, previous, id, entered, positive[entered], voxel}))
       return;
@@ -87,7 +86,7 @@ void march(const Volume& volume, glm::dvec3 origin, glm::dvec3 direction, double
         axis = a;
       }
     }
-    if (id != world::kAir && visit.inside(voxel, id, t, next)) return;
+    if (id != kAir && visit.inside(voxel, id, t, next)) return;
     if (next >= t_max) return;
     t = next;
     entered = axis;
@@ -102,4 +101,4 @@ void march(const Volume& volume, glm::dvec3 origin, glm::dvec3 direction, double
   }
 }
 
-}  // namespace skerry::reference
+}  // namespace skerry::world

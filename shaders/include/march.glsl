@@ -1,0 +1,55 @@
+// A march through an island's lattice: whether an opaque voxel stands between two points. Needs before the include: occupancy.glsl.
+#ifndef SKERRY_MARCH_GLSL
+#define SKERRY_MARCH_GLSL
+
+const float kNever = 1e30;
+
+// Edge of the largest cube about a voxel that is known to be empty, 64, 8 or 4; else 1, and whether the voxel is opaque.
+int empty_about(VoxelGrid grid, ivec3 voxel, out bool opaque) {
+  AxisPart part = voxel_part(grid, voxel);
+  uint entry = brick_entry(grid, part);
+  bool octant = ((entry >> 24) & (1u << octant_of(voxel))) != 0u;
+  opaque = octant && ((brick_word(entry, part.word) >> part.bit) & 1u) != 0u;
+  return octant ? 1 : entry == kChunkEmpty ? 64 : (entry >> 24) == 0u ? 8 : 4;
+}
+
+// Whether an opaque voxel other than the spared one stands on the way from one point to another. Voxels are half open, as
+// docs/conventions.md has them. The way goes from voxel to voxel through one face at a time, at an edge through the one whose
+// axis comes first, whatever rounding does to where: nothing gets between two opaque voxels that share an edge, nor through a wall.
+// (J. Amanatides and A. Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987; over empty cubes at one step.)
+// @param from, to in voxels. @param voxel the one the way begins in, which may differ from floor(from) by rounding.
+bool marched_into(VoxelGrid grid, vec3 from, ivec3 voxel, vec3 to, ivec3 spared) {
+  vec3 way = to - from;
+  bvec3 still = lessThan(abs(way), vec3(1e-20));
+  bvec3 up = greaterThanEqual(way, vec3(0.0));
+  vec3 per_way = mix(1.0 / way, vec3(0.0), still);  // times a distance: share of the way
+  vec3 never = mix(vec3(0.0), vec3(kNever), still);
+  ivec3 low = grid.low * 64, end = low + grid.size * 64;
+  if (any(lessThan(voxel, low)) || any(greaterThanEqual(voxel, end))) {
+    // From outside, where all is empty.
+    vec3 to_low = (vec3(low) - from) * per_way, to_end = (vec3(end) - from) * per_way;
+    bvec3 beside = bvec3(uvec3(still) & (uvec3(lessThan(from, vec3(low))) | uvec3(greaterThanEqual(from, vec3(end)))));
+    vec3 enters = mix(min(to_low, to_end) - never, vec3(kNever), beside), leaves = max(to_low, to_end) + never;
+    float t = max(max(enters.x, enters.y), max(enters.z, 0.0));
+    if (!(t < min(min(leaves.x, leaves.y), min(leaves.z, 1.0)))) return false;
+    voxel = clamp(ivec3(floor(from + way * t)), low, end - 1);
+  }
+  // A way crosses each plane of the lattice once; rounding may add a few steps.
+  ivec3 across = end - low;
+  for (int left = across.x + across.y + across.z + 64; left > 0; --left) {
+    bool opaque;
+    int edge = empty_about(grid, voxel, opaque);
+    if (opaque && voxel != spared) return true;
+    ivec3 cube = voxel & ~(edge - 1);
+    vec3 next = (vec3(cube + mix(ivec3(0), ivec3(edge), up)) - from) * per_way + never;
+    float t = min(next.x, min(next.y, next.z));
+    if (!(t < 1.0)) return false;
+    // Rounding must not take the point out of the cube it leaves, nor into another one than that behind the face it crosses.
+    ivec3 at = clamp(ivec3(floor(from + way * t)), cube, cube + edge - 1);
+    bvec3 through = bvec3(next.x == t, next.x != t && next.y == t, next.x != t && next.y != t);
+    voxel = mix(at, cube + mix(ivec3(-1), ivec3(edge), up), through);
+    if (any(lessThan(voxel, low)) || any(greaterThanEqual(voxel, end))) return false;
+  }
+  return true;
+}
+#endif
