@@ -56,7 +56,7 @@ class PostOnGpu : public gpu::GpuTest {
                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
     ASSERT_TRUE(uploader_->fill_image(radiance_, std::as_bytes(std::span(texels))));
     shared::FrameConstants constants{};
-    constants.size = {picture.width, picture.height};
+    constants.size = constants.picture_size = {picture.width, picture.height};
     fill(frame_, "frame constants", constants);
     fill(exposure_, "exposure", given);
     fill(stats_, "pixel stats", shared::PixelStats{});
