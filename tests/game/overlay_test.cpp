@@ -20,7 +20,14 @@ OverlayFacts some_facts() {
   static const std::vector<gpu::PassTime> passes{{"sky", 1.25}, {"shadow_sun", 0.5}};
   static const std::vector<OverlayFacts::Count> counts{{"quads", 123456}};
   static const std::vector<gpu::MemoryUse> memory(40, {"quads", 1000});
-  return {frames, lines, 1.75, passes, counts, memory};
+  OverlayFacts facts{};
+  facts.frame_ms = frames;
+  facts.lines = lines;
+  facts.gpu_ms = 1.75;
+  facts.passes = passes;
+  facts.counts = counts;
+  facts.memory = memory;
+  return facts;
 }
 
 TEST(Overlay, LaysTrianglesOutWithinTheirClipsAndThePicture) {

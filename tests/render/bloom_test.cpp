@@ -7,6 +7,7 @@
 
 #include "engine/render/bloom_pass.h"
 #include "engine/render/develop_pass.h"
+#include "tests/gpu/compile_glsl.h"
 #include "tests/render/post_on_gpu.h"
 #include "tests/render/renderer_on_gpu.h"
 #include "tools/reference/reference.h"

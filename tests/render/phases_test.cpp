@@ -69,7 +69,7 @@ static_assert(!kLooksThrough<Developed>, "translucent surfaces after the tone cu
 template <class Input>
 constexpr bool kLights =
     std::is_invocable_v<decltype(&LightPass::add), gpu::FrameGraph&, gpu::Pipelines&, SceneRefs&,
-                        const Geometry&, const ClusteredLights&, Input, int>;
+                        const Geometry&, const ClusteredLights&, Input, const RenderSettings&>;
 static_assert(kLights<Shaded>);
 static_assert(!kLights<Shaded&> && !kLights<const Shaded&>, "lit twice");
 static_assert(!kLights<Developed>, "lights after the tone curve");
