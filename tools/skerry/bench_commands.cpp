@@ -77,7 +77,8 @@ int BenchCommands::refuse_unknown() const {
   constexpr std::string_view kNames[] = {"mesh", "generate", "upload", "cull", "lights", "frame"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
-    return fail(kUsage, {"bench does not say what: give mesh, generate, upload, cull, lights or frame"});
+    return fail(kUsage,
+                {"bench does not say what: give mesh, generate, upload, cull, lights or frame"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",

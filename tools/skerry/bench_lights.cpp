@@ -57,10 +57,10 @@ Result<nlohmann::ordered_json> measure(gpu::Device& device, game::SceneOptions s
   if (!reports) return reports.error();
   const Samples samples = samples_of(*reports);
   const render::FrameReport& last = reports->back();
-  const double per_cluster = last.clusters.clusters == 0
-                                 ? 0.0
-                                 : static_cast<double>(last.clusters.units) /
-                                       static_cast<double>(last.clusters.clusters);
+  const double per_cluster =
+      last.clusters.clusters == 0
+          ? 0.0
+          : static_cast<double>(last.clusters.units) / static_cast<double>(last.clusters.clusters);
   nlohmann::ordered_json gpu_ms = nlohmann::ordered_json::object();
   for (const auto& [pass, values] : samples.passes) gpu_ms[pass] = spread_of(values).median;
   const Spread sort = spread_of(samples.sort), shade = spread_of(samples.shade);
