@@ -3,9 +3,7 @@
 #define SKERRY_LIGHTS_GLSL
 #include "shared/light.h"
 #include "include/brdf.glsl"
-
-// Kinds that the frame has, a bit each. A constant, so that the others cost nothing.
-layout(constant_id = 12) const uint kLightKinds = 31u;
+#include "include/light_kinds.glsl"
 
 // Nearer than this, light grows no more [blocks].
 const float kNearestLight = 0.01;
@@ -15,6 +13,13 @@ float light_window(Light light, float distance2) {
   float q = distance2 / (light.range * light.range);
   float w = max(1.0 - q * q, 0.0);
   return w * w;
+}
+
+// Asked first: a list holds what reaches its cluster, of which a group of neighbouring pixels may well be out of range as one.
+bool out_of_range(Light light, vec3 point) {
+  vec3 way = light.position - point;
+  bool everywhere = (kLightKinds & (1u << kLightDirectional)) != 0u && (light.kind & kLightKindMask) == kLightDirectional;
+  return !everywhere && dot(way, way) >= light.range * light.range;
 }
 
 // 1 within the inner cone, 0 beyond the outer one. @param to_light unit.

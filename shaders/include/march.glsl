@@ -41,9 +41,12 @@ bool marched_into(VoxelGrid grid, vec3 from, ivec3 voxel, vec3 to, ivec3 spared)
     int edge = empty_about(grid, voxel, opaque);
     if (opaque && voxel != spared) return true;
     ivec3 cube = voxel & ~(edge - 1);
-    vec3 next = (vec3(cube + mix(ivec3(0), ivec3(edge), up)) - from) * per_way + never;
+    vec3 plane = vec3(cube + mix(ivec3(0), ivec3(edge), up));
+    // Only planes before the end, which rounding does not tell.
+    bvec3 before = mix(greaterThan(plane, to), lessThan(plane, to), up);
+    vec3 next = mix(vec3(kNever), (plane - from) * per_way + never, before);
     float t = min(next.x, min(next.y, next.z));
-    if (!(t < 1.0)) return false;
+    if (t >= kNever) return false;
     // Rounding must not take the point out of the cube it leaves, nor into another one than that behind the face it crosses.
     ivec3 at = clamp(ivec3(floor(from + way * t)), cube, cube + edge - 1);
     bvec3 through = bvec3(next.x == t, next.x != t && next.y == t, next.x != t && next.y != t);

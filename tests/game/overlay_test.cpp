@@ -20,14 +20,7 @@ OverlayFacts some_facts() {
   static const std::vector<gpu::PassTime> passes{{"sky", 1.25}, {"shadow_sun", 0.5}};
   static const std::vector<OverlayFacts::Count> counts{{"quads", 123456}};
   static const std::vector<gpu::MemoryUse> memory(40, {"quads", 1000});
-  OverlayFacts facts{};
-  facts.frame_ms = frames;
-  facts.lines = lines;
-  facts.gpu_ms = 1.75;
-  facts.passes = passes;
-  facts.counts = counts;
-  facts.memory = memory;
-  return facts;
+  return {frames, lines, 1.75, passes, counts, memory, true, {}};
 }
 
 TEST(Overlay, LaysTrianglesOutWithinTheirClipsAndThePicture) {
@@ -60,7 +53,7 @@ TEST(Overlay, ShowsSquaresOfTheDisplaysOwnValuesWhileCalibrating) {
   const auto grey = [](std::uint32_t level) { return 0xff000000u | level * 0x010101u; };
   for (const std::uint32_t level : {0u, 1u, 2u, 4u, 8u, 16u, 224u, 254u, 255u})
     EXPECT_TRUE(colours({}).contains(grey(level))) << level;
-  const std::set<std::uint32_t> lifted = colours({0.5f, 0.02f});
+  const std::set<std::uint32_t> lifted = colours({0.5f, 0.05f});
   EXPECT_TRUE(lifted.contains(grey(0)));  // black is never lifted
   EXPECT_FALSE(lifted.contains(grey(1)));
   EXPECT_TRUE(lifted.contains(grey(188)));  // sRGB of a half
