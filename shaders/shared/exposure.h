@@ -14,7 +14,7 @@ SHARED_CONST uint kFirstBin = 888u;   // (127 + kFirstOctave) * kBinsPerOctave
 SHARED_CONST uint kMeterGroup = 16u;  // edge of a work group of meter_radiance.comp
 
 // Shares of the pixels that are not black, as fractions of 2^32, that the meter passes over.
-SHARED_CONST uint kPassedOverDark = 429496730u;    // the darkest tenth
+SHARED_CONST uint kPassedOverDark = 1717986918u;   // the darkest two fifths: shade
 SHARED_CONST uint kPassedOverBright = 214748365u;  // the brightest twentieth
 
 // The eye follows changes of light this far: of a stop, 0.7 stops. So nights stay darker than days.

@@ -8,7 +8,7 @@ namespace skerry::reference {
 
 std::optional<double> metered_ev(const measure::Picture& radiance,
                                  const render::MeterSettings& settings) {
-  constexpr double kPassedOverDark = 0.1, kPassedOverBright = 0.05, kFollowed = 0.7;
+  constexpr double kPassedOverDark = 0.4, kPassedOverBright = 0.05, kFollowed = 0.7;
   const double kDarkest = std::ldexp(1.0, -16);
   const double day = std::log2(0.25);
   std::vector<double> light;  // of pixels that are not all but black
