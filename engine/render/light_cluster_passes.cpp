@@ -98,7 +98,7 @@ void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
 }
 
 void add_bin(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::ClusterGrid& grid,
-             Buffers& b) {
+             std::uint32_t kinds, Buffers& b) {
   graph.add_pass(
       "bin_lights",
       [&](gpu::PassBuilder& p) {
@@ -107,7 +107,8 @@ void add_bin(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::Cl
       },
       [b, groups = gpu::Commands::groups(grid.bins_x * grid.bins_y, shared::kClusterGroup),
        words = grid.light_words,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"bin_lights.comp", {}})](gpu::Commands& c) {
+       &pipeline =
+           pipelines.get(gpu::ComputeDesc{"bin_lights.comp", {{12, kinds}}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, b.grid);
         c.storage(1, b.lights);
@@ -157,7 +158,8 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
         if (list) out.entries = p.write(out.entries, Use::kComputeWrite);
       },
       [b, list, clusters = list ? out.clusters : b.counts, entries = list ? out.entries : b.counts,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"assign_lights.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{"assign_lights.comp", {{12, out.kinds}}})](
+          gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, b.grid);
         c.storage(1, b.lights);
@@ -241,7 +243,7 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
     out.clusters = create("clusters", clusters * sizeof(shared::Cluster));
     out.entries = graph.import(entries_);
     add_list_clusters(graph, pipelines, grid_, b);
-    add_bin(graph, pipelines, grid_, b);
+    add_bin(graph, pipelines, grid_, kinds_, b);
     add_assign(graph, pipelines, false, b, out);
     add_reserve(graph, pipelines, b, out);
     add_assign(graph, pipelines, true, b, out);

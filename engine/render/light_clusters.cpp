@@ -18,7 +18,7 @@ constexpr VkBufferUsageFlags kTable =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 /// Room for lists to begin with. What a frame wants beyond is made for later ones.
-constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 14;
+constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 14, kFirstEntries = 1u << 22;
 /// 4,096 lights are looked through at a stretch: more would leave a GPU idle, and lavapipe ends an
 /// invocation after 65,535 rounds of its loops, without a word.
 constexpr std::uint32_t kLeastChunkWords = 128, kMostChunks = 16;
@@ -141,8 +141,9 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
   }
   kinds_ = 0;
   for (const shared::Light& light : lights) kinds_ |= 1u << (light.kind & shared::kLightKindMask);
-  const std::uint64_t room = std::clamp(std::max(wanted_entries_, lights.size() * kEntriesPerLight),
-                                        kLeastEntries, most_entries(device_.limits()));
+  const std::uint64_t room = std::clamp(
+      std::max(wanted_entries_, std::min(lights.size() * kEntriesPerLight, kFirstEntries)),
+      kLeastEntries, most_entries(device_.limits()));
   if (Result<void> ok = reserve(entries_, "light lists", room * sizeof(std::uint32_t)); !ok)
     return ok;
   // Lights come and go: a power of two is not outgrown by each that comes.

@@ -534,7 +534,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
         shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
       if (!no_translucent)
         shaded = TranslucentPass::add(graph, pipelines, scene, surfaces, maps, layers,
-                                      lights ? &*lights : nullptr, std::move(shaded),
+                                      lights ? &*lights : nullptr, std::move(shaded), settings,
                                       input.camera_medium != 0);
       finish_picture(scene, std::move(shaded), input, settings);
     }

@@ -6,6 +6,7 @@
 
 #include "engine/render/light_constants.h"
 #include "engine/render/tiles.h"
+#include "engine/render/wall_reads.h"
 
 namespace skerry::render {
 
@@ -55,7 +56,8 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
 
 Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                             const Geometry& geometry, const Shadows& shadows, const Layers& layers,
-                            const ClusteredLights* lights, Shaded shaded, bool inside_medium) {
+                            const ClusteredLights* lights, Shaded shaded,
+                            const RenderSettings& settings, bool inside_medium) {
   const gpu::ImageRef opaque_depth = geometry.depth();
   // Inside a medium every pixel is looked at through it; else only those with a translucent
   // surface.
@@ -64,7 +66,8 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
   gpu::ImageRef radiance = shaded.radiance();
   const gpu::ImageRef maps = shadows.maps();
   std::vector<gpu::SpecConstant> constants = with_light({{0, layers.count}}, scene, bool{maps});
-  if (lights) constants = lights->with_lights(std::move(constants));
+  const WallReads walls(scene, settings, false);
+  if (lights) constants = walls.with_walls(lights->with_lights(std::move(constants)));
   const gpu::Pipeline& pipeline = pipelines.get(
       gpu::ComputeDesc{std::string("shade_translucent") + (maps ? "" : "_unshadowed") +
                            (lights ? "_lit.comp" : ".comp"),
@@ -75,7 +78,10 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
-        if (lights) lights->declare(b);
+        if (lights) {
+          lights->declare(b);
+          walls.declare(b);
+        }
         for (std::uint32_t k = 0; k < layers.count; ++k) {
           b.read(layers.surfaces[k], Use::kComputeRead);
           b.read(layers.depth[k], Use::kComputeSampled);
@@ -86,7 +92,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, &pipeline,
+      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, walls, &pipeline,
        lit = lights ? std::optional(*lights) : std::nullopt](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
@@ -105,7 +111,10 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
           c.storage(12 + k, layers.surfaces[bound]);
           c.sampled(16 + k, layers.depth[bound], scene.point_sampler);
         }
-        if (lit) lit->bind(c);
+        if (lit) {
+          lit->bind(c);
+          walls.bind(c);
+        }
         dispatch_tiles(c, tiles, TileKind::kCovered);
         if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
       });

@@ -4,6 +4,7 @@
 #include "engine/render/cull_pass.h"
 #include "engine/render/light_clusters.h"
 #include "engine/render/phases.h"
+#include "engine/render/settings.h"
 
 namespace skerry::render {
 
@@ -21,10 +22,11 @@ struct TranslucentPass {
   static Layers draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      const CulledDraws& draws, const Geometry& geometry, int layers);
   /// @param inside_medium the camera itself is in a translucent block.
-  /// @param lights null: there are none.
+  /// @param lights null: there are none. Walls block all of them, if any.
   static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                     const Geometry& geometry, const Shadows& shadows, const Layers& layers,
-                    const ClusteredLights* lights, Shaded shaded, bool inside_medium);
+                    const ClusteredLights* lights, Shaded shaded, const RenderSettings& settings,
+                    bool inside_medium);
 };
 
 }  // namespace skerry::render

@@ -46,6 +46,7 @@ vec3 strongest_blocked(Cluster list, Brdf b, WayStart start, vec3 to_eye) {
 }
 
 vec3 light_past_walls(Light light, Brdf b, WayStart start, vec3 to_eye) {
+  if (out_of_range(light, start.position)) return vec3(0.0);
   vec3 part = light_reflected(light, b, start.position, start.normal, to_eye);
   if (kTracedLights != 0u && part != vec3(0.0)) part *= traced_visibility(start, light);
   return part;

@@ -13,9 +13,12 @@ float fifth(float x) {
   return x2 * x2 * x;
 }
 
-// The Cook-Torrance lobe without its Fresnel factor: D G / (4 (n.l) (n.v)). @param k of Schlick's fit. Cosines are not negative.
-float mirror_lobe(float alpha2, float k, float n_dot_h, float n_dot_l, float n_dot_v) {
-  float spread = n_dot_h * n_dot_h * (alpha2 - 1.0) + 1.0;
+// The Cook-Torrance lobe without its Fresnel factor: D G / (4 (n.l) (n.v)). @param half_way unit. Cosines are not negative.
+float mirror_lobe(float alpha, vec3 normal, vec3 half_way, float n_dot_l, float n_dot_v) {
+  // Next to the mirror direction 1 - cos^2 has no digits left, the sine has.
+  float n_dot_h = max(dot(normal, half_way), 0.0), alpha2 = alpha * alpha, k = 0.5 * alpha;
+  vec3 across = cross(normal, half_way);
+  float spread = n_dot_h * n_dot_h * alpha2 + dot(across, across);
   float shadowing = (n_dot_l * (1.0 - k) + k) * (n_dot_v * (1.0 - k) + k);
   return (0.25 * kInvPi) * alpha2 / (spread * spread * shadowing);
 }
@@ -56,7 +59,7 @@ vec3 brdf_mirror(Brdf b, vec3 normal, vec3 to_eye, vec3 to_light, float n_dot_l)
   vec3 sum = to_light + to_eye;
   vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-12));
   vec3 f = b.mirror + (1.0 - b.mirror) * fifth(1.0 - clamp(dot(h, to_eye), 0.0, 1.0));
-  float lobe = mirror_lobe(b.alpha * b.alpha, 0.5 * b.alpha, clamp(dot(normal, h), 0.0, 1.0), n_dot_l, b.n_dot_v);
+  float lobe = mirror_lobe(b.alpha, normal, h, n_dot_l, b.n_dot_v);
   return b.mirror == vec3(0.0) ? vec3(0.0) : f * lobe;
 }
 

@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/clusters.h"
 #include "shared/light.h"
+#include "include/light_kinds.glsl"
 
 // Slices are cut at the half and whole steps of a float's exponent (1, 1.5, 2, 3, 4, 6 ... blocks), by its bits: every shader and every device
 // finds the same slice, and its ends are exact.
@@ -63,8 +64,8 @@ bool cone_reaches(Light light, vec3 apex, Cell c) {
 bool light_reaches(Light light, Cell c, float margin) {
   uint kind = light.kind & kLightKindMask;
   vec3 middle = view_from_world(light.position);
-  bool reaches = kind == kLightDirectional || ball_reaches(middle, light.range, c, margin);
-  if (reaches && kind == kLightSpot) reaches = cone_reaches(light, middle, c);
-  return reaches;
+  bool reaches = ball_reaches(middle, light.range, c, margin);
+  if ((kLightKinds & (1u << kLightSpot)) != 0u && reaches && kind == kLightSpot) reaches = cone_reaches(light, middle, c);
+  return reaches || ((kLightKinds & (1u << kLightDirectional)) != 0u && kind == kLightDirectional);
 }
 #endif

@@ -3,21 +3,23 @@
 #define SKERRY_LIGHTS_GLSL
 #include "shared/light.h"
 #include "include/brdf.glsl"
-
-// Kinds that the frame has, a bit each. A constant, so that the others cost nothing.
-layout(constant_id = 12) const uint kLightKinds = 31u;
+#include "include/light_kinds.glsl"
 
 // Nearer than this, light grows no more [blocks].
 const float kNearestLight = 0.01;
-
-// How much of a light reaches a point of a surface, 0..1. Asked for where the light shines on the surface's front and within its range.
-float light_visibility(Light light, vec3 point, vec3 normal) { return 1.0; }
 
 // What ends a light at its range, smoothly (Karis, Real Shading in Unreal Engine 4, 2013). @param distance2 squared, to the light's position.
 float light_window(Light light, float distance2) {
   float q = distance2 / (light.range * light.range);
   float w = max(1.0 - q * q, 0.0);
   return w * w;
+}
+
+// Asked first: a list holds what reaches its cluster, of which a group of neighbouring pixels may well be out of range as one.
+bool out_of_range(Light light, vec3 point) {
+  vec3 way = light.position - point;
+  bool everywhere = (kLightKinds & (1u << kLightDirectional)) != 0u && (light.kind & kLightKindMask) == kLightDirectional;
+  return !everywhere && dot(way, way) >= light.range * light.range;
 }
 
 // 1 within the inner cone, 0 beyond the outer one. @param to_light unit.
@@ -99,20 +101,19 @@ Arrival arrive(Light light, vec3 point, vec3 normal, vec3 mirrored, float alpha)
   return r;
 }
 
-// Radiance of one light that a surface sends to the eye; exactly 0 out of its range, out of its cone and behind the surface.
+// Radiance of one light, with nothing in its way, that a surface sends to the eye; exactly 0 out of its range, out of its cone and behind the surface.
 vec3 light_reflected(Light light, Brdf b, vec3 point, vec3 normal, vec3 to_eye) {
   Arrival r = arrive(light, point, normal, reflect(-to_eye, normal), b.alpha);
   float n_dot_l = max(dot(normal, r.to_mirrored), 0.0);
   vec3 share = brdf_diffuse(b, clamp(dot(normal, r.to_light), 0.0, 1.0)) * r.facing +
                brdf_mirror(b, normal, to_eye, r.to_mirrored, n_dot_l) * (r.mirrored * n_dot_l);
   if (r.facing <= 0.0) return vec3(0.0);
-  return light.intensity * share * light_visibility(light, point, normal);
+  return light.intensity * share;
 }
 
-// Irradiance of one light.
+// Irradiance of one light with nothing in its way.
 vec3 light_received(Light light, vec3 point, vec3 normal) {
   Arrival r = arrive(light, point, normal, normal, 1.0);
-  if (r.facing <= 0.0) return vec3(0.0);
-  return light.intensity * (r.facing * light_visibility(light, point, normal));
+  return light.intensity * r.facing;
 }
 #endif

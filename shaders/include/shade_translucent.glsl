@@ -45,6 +45,7 @@ layout(constant_id = 0) const uint kLayers = 3u;
 #include "include/lighting.glsl"
 #ifdef SKERRY_LIGHTS
 #include "include/clustered.glsl"
+#include "include/traced.glsl"
 #endif
 #include "include/water.glsl"
 

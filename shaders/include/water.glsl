@@ -34,9 +34,8 @@ vec3 rippled_normal(vec3 lattice, float distance) {
 vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float roughness) {
   vec3 sum = to_light + to_eye;
   vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-12));
-  float alpha = roughness * roughness;
   float n_dot_l = max(dot(n, to_light), 0.0);
-  float lobe = mirror_lobe(alpha * alpha, 0.5 * alpha, max(dot(n, h), 0.0), n_dot_l, max(dot(n, to_eye), 1e-3));
+  float lobe = mirror_lobe(roughness * roughness, n, h, n_dot_l, max(dot(n, to_eye), 1e-3));
   return irradiance * (lobe * fresnel(max(dot(h, to_eye), 0.0), false, kWaterIndex) * n_dot_l);
 }
 
@@ -55,28 +54,40 @@ void add_light(inout Reach r, Body body, const uint first_cascade, vec3 p, vec3 
 }
 
 #ifdef SKERRY_LIGHTS
-void add_lights(inout Reach r, uvec2 pixel, float z, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+// Walls are looked for before every light. @param word of the surface; 0: a place in the open.
+WayStart layer_start(uint word, vec3 p, vec3 n) {
+  if (word == 0u) return WayStart(p, n, ~0u, ivec3(0), vec3(0.0));
+  Surface s;
+  s.position = p;
+  s.normal = n;
+  s.plant = false;
+  return way_start(s, word);
+}
+
+void add_lights(inout Reach r, uvec2 pixel, float z, uint word, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
   Cluster list = lights_at(pixel, z);
+  WayStart start = layer_start(word, p, n);
   vec3 mirror = reflect(-to_eye, shading_normal);
   for (uint i = 0u; i < list.count; ++i) {
     Light light = lights[light_index(list, i)];
     Arrival a = arrive(light, p, n, mirror, roughness * roughness);
     if (a.facing <= 0.0) continue;
-    vec3 arrives = light.intensity * light_visibility(light, p, n);
+    vec3 arrives = light.intensity;
+    if (kTracedLights != 0u) arrives *= traced_visibility(start, light);
     r.light += arrives * a.facing;
     r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, shading_normal, to_eye, roughness);
   }
 }
 #else
-#define add_lights(r, pixel, z, p, n, shading_normal, to_eye, roughness)
+#define add_lights(r, pixel, z, word, p, n, shading_normal, to_eye, roughness)
 #endif
 
-// @param z of p along the view axis, as the depth of the pixel says.
-Reach light_at(uvec2 pixel, float z, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+// @param z of p along the view axis, as the depth of the pixel says; @param word of its surface, 0 in the open.
+Reach light_at(uvec2 pixel, float z, uint word, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
   Reach r = Reach(vec3(0.0), vec3(0.0), 0.0);
   if ((kBodies & 1u) != 0u) add_light(r, frame.bodies[0], 0u, p, n, shading_normal, to_eye, roughness);
   if ((kBodies & 2u) != 0u) add_light(r, frame.bodies[1], kMoonCascade, p, n, shading_normal, to_eye, roughness);
-  add_lights(r, pixel, z, p, n, shading_normal, to_eye, roughness);
+  add_lights(r, pixel, z, word, p, n, shading_normal, to_eye, roughness);
   return r;
 }
 
@@ -99,7 +110,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
   vec3 colour = vec3(0.0), through = vec3(1.0), light_in = vec3(0.0);
   uint medium = frame.camera_medium;
   float at = 0.0;  // blocks along the ray
-  if (medium != 0u) light_in = light_at(pixel, 0.5 / ray_length, ray / ray_length * 0.5, vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0), to_eye, 0.1).light;
+  if (medium != 0u) light_in = light_at(pixel, 0.5 / ray_length, 0u, ray / ray_length * 0.5, vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0), to_eye, 0.1).light;
   for (uint k = 0u; k < kLayers; ++k) {
     uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
@@ -122,7 +133,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = reflect(-to_eye, shading);
-    Reach reach = light_at(pixel, t, ray * t, n, shading, to_eye, max(m.roughness, 0.06));
+    Reach reach = light_at(pixel, t, word, ray * t, n, shading, to_eye, max(m.roughness, 0.06));
     vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror) : scattered(m, light_in, 1e3);
     colour += through * (reach.mirrored + reflected * mirrored_sky * (entering ? reach.any : 1.0));
     through *= 1.0 - reflected;

@@ -171,7 +171,7 @@ TEST_F(LightFormulas, AWhiteSurfaceNeverSendsMoreThanItReceives) {
         double sum = 0.0;
         for (std::size_t i = 0; i < share.size(); ++i) sum += share[i].x * samples.weight[i];
         EXPECT_LE(sum, 1.0 + 2e-3) << metalness << " " << roughness << " " << cosine;
-        EXPECT_GT(sum, metalness == 0.0f ? 0.75 : 0.3)
+        EXPECT_GT(sum, metalness == 0.0f ? 0.65 : 0.3)
             << metalness << " " << roughness << " " << cosine;
       }
     }
@@ -264,7 +264,7 @@ TEST_F(LightFormulas, ASpotIsFullWithinItsConeNoneBeyondAndSmoothBetween) {
   for (const double cosine : {1.0, 0.95, 0.9001}) EXPECT_NEAR(at(cosine), 1.0, 1e-4) << cosine;
   for (const double cosine : {0.6999, 0.3, 0.0, -0.5, -1.0}) EXPECT_EQ(at(cosine), 0.0) << cosine;
   EXPECT_NEAR(at(0.8), 0.5, 1e-4);
-  EXPECT_NEAR(at(0.75), 0.15625, 1e-4);  // 3 t^2 - 2 t^3 at a quarter
+  EXPECT_NEAR(at(0.75), 0.15625, 1e-4);  // 3 t^2 - 2 t^3 at t = 1/4
   light.kind |= shared::kLightDualBit;
   EXPECT_NEAR(at(-0.95), 1.0, 1e-4);
   EXPECT_NEAR(at(-0.8), 0.5, 1e-4);

@@ -61,7 +61,7 @@ template <class Input>
 constexpr bool kLooksThrough =
     std::is_invocable_v<decltype(&TranslucentPass::add), gpu::FrameGraph&, gpu::Pipelines&,
                         SceneRefs&, const Geometry&, const Shadows&, const TranslucentPass::Layers&,
-                        const ClusteredLights*, Input, bool>;
+                        const ClusteredLights*, Input, const RenderSettings&, bool>;
 static_assert(kLooksThrough<Shaded>);
 static_assert(!kLooksThrough<Shaded&> && !kLooksThrough<const Shaded&>, "drawn over twice");
 static_assert(!kLooksThrough<Developed>, "translucent surfaces after the tone curve");

@@ -15,6 +15,8 @@ constexpr ReportScene kScenes[] = {
      R"({"seed": 8, "time": "18:10", "camera": [250.7, 145.85, -146.0, 270, -21.8]})"},
     {"far", "islands to the horizon",
      R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
+    {"torches", "a meadow at night under 1,024 torches",
+     R"({"seed": 3, "time": "00:00", "settings": {"sky.moon_phase": 0, "lights.random": 1024}})"},
 };
 
 constexpr TopicPoint kShadowSizes[] = {{"256", "shadow.size=256"},
@@ -72,6 +74,8 @@ constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},
                                        {"4", "water.layers=4"}};
+constexpr TopicPoint kLightLists[] = {{"clusters", "lights.oracle=0"},
+                                      {"all lights", "lights.oracle=1"}};
 constexpr TopicPoint kMeterStrides[] = {{"16", "exposure.stride=16"},
                                         {"8", "exposure.stride=8"},
                                         {"4", "exposure.stride=4"},
@@ -92,6 +96,7 @@ constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kGlow[] = {"lava"};
 constexpr std::string_view kWater[] = {"water"};
+constexpr std::string_view kTorches[] = {"torches"};
 
 constexpr Topic kTopics[] = {
     {"shadow_size", "texels along the edge of a shadow map", kShadowSizes, kShadowScenes},
@@ -130,6 +135,8 @@ constexpr Topic kTopics[] = {
      true},
     {"bloom_levels", "levels of the pyramid that spreads bright light", kBloomLevels, kGlow,
      Judge::kReference, CostOf::kShading, false, "bloom.intensity=0.1 bloom.levels=8"},
+    {"light_lists", "lights that a pixel asks: those of its cluster, or all", kLightLists, kTorches,
+     Judge::kEqual, CostOf::kShading},
     {"upload_path", "how meshes travel to the GPU", kUploadPaths, kDay, Judge::kEqual,
      CostOf::kUpload, true},
 };

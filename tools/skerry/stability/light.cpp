@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
+#include "engine/render/lights.h"
 #include "game/materials.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
@@ -104,7 +105,91 @@ Result<Rows> emission(gpu::Device& device) {
               {"channels or pixels not finite, lamps 6e-8 to 65504", 0.0, course.non_finite}};
 }
 
-constexpr Case kCases[] = {{"light.sun", sun}, {"light.emission", emission}};
+shared::Light lamp(std::uint32_t kind, float intensity, float range) {
+  shared::Light light{};
+  light.kind = kind;
+  light.position = {1.0f, -2.0f, 6.0f};
+  light.range = range;
+  light.intensity = glm::vec3(intensity);
+  light.axis = {0.0f, -1.0f, 0.3f};
+  light.size = 0.5f;
+  light.cos_inner = 0.9f;
+  light.cos_outer = 0.2f;
+  return light;
+}
+
+/// Draws frames at night, each under a light of its own that is to be no darker than the last.
+Result<Course> follow_lights(gpu::Device& device, const std::vector<shared::Light>& asked) {
+  auto stage = Stage::create(device);
+  if (!stage) return stage.error();
+  if (Result<void> added = (*stage)->add(floor_with_pillars, {0, -1, 0}, {1, 1, 1}); !added)
+    return added.error();
+  const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
+  Course course;
+  for (const shared::Light& one : asked) {
+    const Result<shared::Light> light = render::checked_light(one);
+    if (!light) return light.error();
+    render::FrameInput in = input_of(islands);
+    in.sky = darkness();
+    in.lights = std::span<const shared::Light>(&*light, 1);
+    const auto frame = (*stage)->draw(in, {}, kSize);
+    if (!frame) return frame.error();
+    course.follow(*frame);
+  }
+  return course;
+}
+
+Result<Rows> lamps(gpu::Device& device) {
+  Course by_intensity, by_range;
+  for (std::uint32_t kind = 0; kind < shared::kLightKindCount; ++kind) {
+    std::vector<shared::Light> brighter, wider;
+    for (int decade = -8; decade <= 8; decade += 2)
+      brighter.push_back(lamp(kind, static_cast<float>(std::pow(10.0, decade)), 20.0f));
+    for (int decade = -6; decade <= 6; decade += 2)
+      wider.push_back(lamp(kind, 1.0f, static_cast<float>(std::pow(10.0, decade))));
+    const Result<Course> intensities = follow_lights(device, brighter);
+    if (!intensities) return intensities.error();
+    const Result<Course> ranges = follow_lights(device, wider);
+    if (!ranges) return ranges.error();
+    by_intensity.falls += intensities->falls;
+    by_intensity.non_finite += intensities->non_finite;
+    by_range.falls += ranges->falls;
+    by_range.non_finite += ranges->non_finite;
+  }
+  return Rows{
+      {"channels that a brighter light darkens, five kinds, 1e-8 to 1e8", 0.0, by_intensity.falls},
+      {"channels or pixels not finite, lights 1e-8 to 1e8", 0.0, by_intensity.non_finite},
+      {"channels that a longer range darkens, 1e-6 to 1e6 blocks", 0.0, by_range.falls},
+      {"channels or pixels not finite, ranges 1e-6 to 1e6 blocks", 0.0, by_range.non_finite}};
+}
+
+/// Every light of a million reaches every pixel.
+Result<Rows> million_lamps(gpu::Device& device) {
+  constexpr VkExtent2D kFewPixels{32, 18};
+  auto stage = Stage::create(device);
+  if (!stage) return stage.error();
+  if (Result<void> added = (*stage)->add(floor_with_pillars, {0, -1, 0}, {1, 1, 1}); !added)
+    return added.error();
+  const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
+  const std::vector<shared::Light> lights(1000000, lamp(shared::kLightPoint, 1e4f, 500.0f));
+  render::FrameInput in = input_of(islands);
+  in.sky = darkness();
+  in.lights = lights;
+  double non_finite = 0.0, dark = 0.0;
+  for (int frame_index = 0; frame_index < 2; ++frame_index) {  // lists fit the second at best
+    const auto frame = (*stage)->draw(in, {}, kFewPixels);
+    if (!frame) return frame.error();
+    non_finite += non_finite_channels(frame->radiance) + frame->report.pixels.non_finite;
+    if (frame->radiance[kFewPixels.width * kFewPixels.height - 1] == glm::vec3(0.0f)) ++dark;
+  }
+  return Rows{{"channels or pixels not finite, a million lights in a pixel", 0.0, non_finite},
+              {"frames that a million lights leave dark", 0.0, dark}};
+}
+
+constexpr Case kCases[] = {{"light.sun", sun},
+                           {"light.emission", emission},
+                           {"light.lamps", lamps},
+                           {"light.million_lamps", million_lamps}};
 
 }  // namespace
 
