@@ -53,7 +53,7 @@ TEST(Overlay, ShowsSquaresOfTheDisplaysOwnValuesWhileCalibrating) {
   const auto grey = [](std::uint32_t level) { return 0xff000000u | level * 0x010101u; };
   for (const std::uint32_t level : {0u, 1u, 2u, 4u, 8u, 16u, 224u, 254u, 255u})
     EXPECT_TRUE(colours({}).contains(grey(level))) << level;
-  const std::set<std::uint32_t> lifted = colours({0.5f, 0.02f});
+  const std::set<std::uint32_t> lifted = colours({0.5f, 0.05f});
   EXPECT_TRUE(lifted.contains(grey(0)));  // black is never lifted
   EXPECT_FALSE(lifted.contains(grey(1)));
   EXPECT_TRUE(lifted.contains(grey(188)));  // sRGB of a half
