@@ -27,10 +27,11 @@ constexpr std::array<std::string_view, 2> kDepthNames{"d32", "d16"};
 constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
-constexpr std::array<QualityLevel, 4> kLevels{{{"low", 400, 128, 1024, 0.0f},
-                                               {"medium", 1000, 192, 2048, 0.0f},
-                                               {"high", 2000, 320, 4096, 0.1f},
-                                               {"ultra", 4000, 512, 4096, 0.1f}}};
+constexpr std::array<QualityLevel, 4> kLevels{
+    {{"low", 400, 128, 1024, 0.0f, 1},
+     {"medium", 1000, 192, 2048, 0.0f, 4},
+     {"high", 2000, 320, 4096, 0.1f, 8},
+     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight}}};
 
 std::string listed(std::span<const std::string_view> names) {
   return fmt::format("{}", fmt::join(names, ", "));
@@ -485,6 +486,7 @@ Settings settings_of(Quality quality) {
   settings.view_detail = level.view_detail;
   settings.shadow_size = level.shadow_size;
   settings.bloom.intensity = level.bloom_intensity;
+  settings.lights_shadows = level.lights_shadows;
   return settings;
 }
 

@@ -61,7 +61,7 @@ struct Settings {
   std::uint64_t upload_budget_bytes = 8u << 20;  ///< a frame, 65536 .. 2^30
   std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
   /// Lights of a pixel that walls are looked for before: 0 none, 1 .. 8, or render::kEveryLight.
-  std::uint32_t lights_shadows = render::kEveryLight;
+  std::uint32_t lights_shadows = 4;
   std::uint32_t lights_softness = 1;     ///< ways to a light that has a size, 1 .. 16
   bool lights_oracle = false;            ///< every pixel asks every light
   render::FeatureSet leave_out;          ///< drawn of no scene
@@ -93,6 +93,7 @@ struct QualityLevel {
   std::string_view name;
   std::uint32_t view_distance, view_detail, shadow_size;
   float bloom_intensity;
+  std::uint32_t lights_shadows;
 };
 const QualityLevel& quality_level(Quality quality);
 Result<Quality> parse_quality(std::string_view text);

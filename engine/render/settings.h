@@ -92,7 +92,7 @@ struct RenderSettings {
   DisplaySettings display;
   /// For how many lights of a pixel walls are looked for: none, kEveryLight, or those that send the
   /// most light to the eye, 1..8; the others are dimmed by the same share.
-  std::uint32_t traced_lights = kEveryLight;
+  std::uint32_t traced_lights = 4;
   int light_samples = 1;       ///< ways to a light that has a size, 1..16
   bool lights_oracle = false;  ///< every pixel asks every light: slow, to hold clusters against
   FeatureSet leave_out;        ///< absent even where the scene has them
