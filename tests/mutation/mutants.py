@@ -139,7 +139,7 @@ MUTANTS = (
     Mutant("meter_follows_more", "nights are almost as bright as days", "shaders/shared/exposure.h",
            "kFollowed = 0.7f", "kFollowed = 0.9f", "dusk moonlit volcanic"),
     Mutant("meter_dazzled", "the brightest pixels decide the exposure", "shaders/shared/exposure.h",
-           "kPassedOverDark = 429496730u", "kPassedOverDark = 3865470566u", "day autumn"),
+           "kPassedOverDark = 1717986918u", "kPassedOverDark = 3865470566u", "day autumn"),
     Mutant("meter_counts_black", "black pixels are metered as the darkest light", "shaders/meter_radiance.comp",
            "if (counts_as_light(y)) atomicAdd(here[bin_of(y)], 1u);",
            "atomicAdd(here[counts_as_light(y) ? bin_of(y) : 0u], 1u);", "cave_mouth underneath water"),
