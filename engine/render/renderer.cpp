@@ -125,6 +125,7 @@ struct Renderer::State {
     return device.create_buffer({name, size_bytes, kTable, gpu::Memory::kDevice});
   }
   Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
+  Result<void> resize(gpu::Image& image, const gpu::ImageDesc& desc);
   Result<void> resize_picture(VkExtent2D size, int samples);
   Result<void> resize_total(VkExtent2D size);
   template <class T>
@@ -255,6 +256,18 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
   return {};
 }
 
+/// Makes an image anew unless it has its size already.
+Result<void> Renderer::State::resize(gpu::Image& image, const gpu::ImageDesc& desc) {
+  if (image && image.desc().extent.width == desc.extent.width &&
+      image.desc().extent.height == desc.extent.height)
+    return {};
+  image = {};
+  Result<gpu::Image> made = device.create_image(desc);
+  if (!made) return made.error();
+  image = *std::move(made);
+  return {};
+}
+
 Result<void> Renderer::State::resize_picture(VkExtent2D size, int samples) {
   const std::uint32_t limit = device.limits().max_image_edge;
   const std::uint32_t most = limit / static_cast<std::uint32_t>(samples);
@@ -268,18 +281,10 @@ Result<void> Renderer::State::resize_picture(VkExtent2D size, int samples) {
                           "takes 1 to {} samples along an edge; choose fewer samples or another "
                           "--size",
                           size.width, size.height, samples * samples, limit)};
-  if (picture && picture.desc().extent.width == size.width &&
-      picture.desc().extent.height == size.height)
-    return {};
-  picture = {};
-  Result<gpu::Image> image =
-      device.create_image({.name = "picture",
-                           .format = VK_FORMAT_R8G8B8A8_UNORM,
-                           .extent = size,
-                           .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-  if (!image) return image.error();
-  picture = *std::move(image);
-  return {};
+  return resize(picture, {.name = "picture",
+                          .format = VK_FORMAT_R8G8B8A8_UNORM,
+                          .extent = size,
+                          .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
 }
 
 Result<void> Renderer::State::resize_total(VkExtent2D size) {
@@ -287,15 +292,10 @@ Result<void> Renderer::State::resize_total(VkExtent2D size) {
     total = {};
     return {};
   }
-  if (total && total.desc().extent.width == size.width && total.desc().extent.height == size.height)
-    return {};
-  Result<gpu::Image> image = device.create_image({.name = "total of parts",
-                                                  .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                                  .extent = size,
-                                                  .usage = VK_IMAGE_USAGE_STORAGE_BIT});
-  if (!image) return image.error();
-  total = *std::move(image);
-  return {};
+  return resize(total, {.name = "total of parts",
+                        .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                        .extent = size,
+                        .usage = VK_IMAGE_USAGE_STORAGE_BIT});
 }
 
 Result<void> Renderer::State::upload_tables(const FrameTables& tables, const FrameInput& input,
@@ -630,6 +630,7 @@ Result<std::uint64_t> Renderer::draw(
   FrameInput input = asked;
   input.sky = sky_without(asked.sky, settings.leave_out);
   if (shows_channel(settings)) input.part = 0, input.parts = 1;
+  if (input.part + 1 != input.parts) input.capture = false;
   if (settings.leave_out.has(Feature::kWater)) input.camera_medium = 0;
   SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
   if (Result<void> ok = s.resize_picture(size, samples_per_edge(settings)); !ok) return ok.error();
@@ -673,13 +674,13 @@ Result<std::uint64_t> Renderer::draw(
                                                   drawn, input.camera_medium != 0);
         !ok)
       return ok.error();
+  if (s.occupancy && settings.traced_lights != 0 && !input.light_islands.empty())
+    if (Result<void> ok = s.upload(s.light_islands, "light islands", input.light_islands); !ok)
+      return ok.error();
 
   const gpu::FrameRing::Frame frame = s.ring.begin();
   Slot& slot = s.slots[frame.slot];
   s.take_report(frame.slot);
-  if (s.occupancy && settings.traced_lights != 0 && !input.light_islands.empty())
-    if (Result<void> ok = s.upload(s.light_islands, "light islands", input.light_islands); !ok)
-      return ok.error();
   slot.grid.reset();
   slot.lights = static_cast<std::uint32_t>(contents.lights.size());
   s.geometry->collect();
