@@ -17,13 +17,7 @@ constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
 
 class GraphTest : public GpuTest {
  protected:
-  template <class T>
-  std::vector<T> contents(Buffer& from) {
-    const Result<std::vector<std::byte>> bytes = read_back(device(), from, 0, from.size_bytes());
-    std::vector<T> values(from.size_bytes() / sizeof(T));
-    std::memcpy(values.data(), bytes->data(), values.size() * sizeof(T));
-    return values;
-  }
+  using GpuTest::contents;
   std::vector<std::uint8_t> contents(Image& from, std::uint32_t texel_bytes,
                                      std::uint32_t layer = 0) {
     const Result<std::vector<std::byte>> bytes = read_back(device(), from, texel_bytes, 0, layer);

@@ -1,11 +1,15 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/gpu/device.h"
+#include "engine/gpu/readback.h"
 
 namespace skerry::gpu {
 
@@ -40,6 +44,18 @@ class GpuTest : public testing::Test {
       return {};
     }
     return *std::move(made);
+  }
+  /// All of a buffer, as values of one type.
+  template <class T>
+  std::vector<T> contents(Buffer& from) {
+    const Result<std::vector<std::byte>> bytes = read_back(device(), from, 0, from.size_bytes());
+    if (!bytes) {
+      ADD_FAILURE() << bytes.error().message;
+      return std::vector<T>(from.size_bytes() / sizeof(T));
+    }
+    std::vector<T> values(from.size_bytes() / sizeof(T));
+    std::memcpy(values.data(), bytes->data(), values.size() * sizeof(T));
+    return values;
   }
 
  private:

@@ -1,4 +1,5 @@
 // Knobs for measuring: each goes to a limit that is known, and its default is what is drawn today.
+#include "tests/render/high_roof.h"
 #include "tests/render/renderer_on_gpu.h"
 
 namespace skerry::render {
@@ -9,11 +10,6 @@ constexpr VkExtent2D kSize{160, 100};
 /// A long wall, 4 blocks thick and high, on a plane of stone.
 world::BlockId long_wall(int x, int y, int) {
   return y < 0 || (y < 4 && x >= 0 && x < 4) ? world::block::kStone : world::block::kAirBlock;
-}
-
-/// A plane of stone and, 59 blocks above it, the edge of a roof that covers where x is positive.
-world::BlockId high_roof(int x, int y, int) {
-  return y < 0 || (y == 59 && x >= 0) ? world::block::kStone : world::block::kAirBlock;
 }
 
 class Knobs : public RendererOnGpu {
@@ -35,12 +31,6 @@ class Knobs : public RendererOnGpu {
     return std::sqrt(sum / static_cast<double>(a.size()));
   }
 };
-
-/// Part of a disc of radius 1 on the far side of a line at signed distance d from its centre.
-double share_of_disc(double d) {
-  if (std::abs(d) >= 1.0) return d > 0.0 ? 1.0 : 0.0;
-  return 0.5 + (std::asin(d) + d * std::sqrt(1.0 - d * d)) / M_PI;
-}
 
 // Across a straight edge the sun's share is that of its disc cut by a line, and the penumbra is as
 // wide as the edge is far.

@@ -294,15 +294,6 @@ class LightClustersOnGpu : public gpu::GpuTest {
         });
     written_ = targets;
   }
-  template <class T>
-  std::vector<T> contents(gpu::Buffer& from) {
-    const Result<std::vector<std::byte>> bytes =
-        gpu::read_back(device(), from, 0, from.size_bytes());
-    EXPECT_TRUE(bytes);
-    std::vector<T> values(from.size_bytes() / sizeof(T));
-    std::memcpy(values.data(), bytes->data(), values.size() * sizeof(T));
-    return values;
-  }
   static void unpack(const View& view, const std::vector<shared::Cluster>& clusters,
                      const std::vector<std::uint32_t>& entries, Sorted& out) {
     each_surface(view, [&](std::uint32_t x, std::uint32_t y, float z) {

@@ -187,15 +187,6 @@ class PassesOnGpu : public gpu::GpuTest {
                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   }
   template <class T>
-  std::vector<T> contents(gpu::Buffer& from) {
-    const Result<std::vector<std::byte>> bytes =
-        gpu::read_back(device(), from, 0, from.size_bytes());
-    EXPECT_TRUE(bytes);
-    std::vector<T> values(from.size_bytes() / sizeof(T));
-    std::memcpy(values.data(), bytes->data(), values.size() * sizeof(T));
-    return values;
-  }
-  template <class T>
   gpu::BufferRef table(const char* name, const std::vector<T>& values) {
     gpu::Buffer& made =
         *tables_.emplace_back(std::make_unique<gpu::Buffer>(back(name, values.size() * sizeof(T))));

@@ -74,15 +74,6 @@ class PostOnGpu : public gpu::GpuTest {
     });
   }
 
-  template <class T>
-  std::vector<T> contents(gpu::Buffer& from) {
-    const Result<std::vector<std::byte>> bytes =
-        gpu::read_back(device(), from, 0, from.size_bytes());
-    EXPECT_TRUE(bytes);
-    std::vector<T> values(from.size_bytes() / sizeof(T));
-    std::memcpy(values.data(), bytes->data(), values.size() * sizeof(T));
-    return values;
-  }
   shared::Exposure exposure() { return contents<shared::Exposure>(exposure_)[0]; }
   gpu::Buffer room(const char* name, std::uint64_t bytes) {
     return buffer(name, bytes,
