@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.h"
@@ -66,8 +67,21 @@ std::uint32_t most_lights(const gpu::DeviceLimits& limits, VkExtent2D size) {
       std::min(by_lights, 32 * std::min<std::uint64_t>(words, 65535)));
 }
 
-shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size, bool inside_medium,
-                                 std::uint32_t light_count, std::uint64_t entries) {
+std::uint32_t slices_lit(std::span<const shared::Light> lights) {
+  constexpr std::uint32_t kAll = (1u << shared::kClusterSlices) - 1u;
+  float reach = 1.0f;
+  for (const shared::Light& light : lights) {
+    if ((light.kind & shared::kLightKindMask) == shared::kLightDirectional) return kAll;
+    reach = std::max(reach, glm::length(light.position) + light.range);
+  }
+  // Two slices an octave from one block on; one more for what rounding does.
+  const auto last = static_cast<std::uint32_t>(2.0f * std::log2(reach)) + 2u;
+  return last >= shared::kClusterSlices ? kAll : (2u << last) - 1u;
+}
+
+shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size,
+                                 std::uint32_t marked_slices, std::uint32_t light_count,
+                                 std::uint64_t entries) {
   shared::ClusterGrid g{};
   g.right = camera.right;
   g.up = camera.up;
@@ -83,7 +97,7 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size, bool
   g.light_words = groups(light_count, 32);
   g.chunk_words = std::max(kLeastChunkWords, groups(g.light_words, kMostChunks));
   g.chunks = groups(g.light_words, g.chunk_words);
-  g.marked_slices = inside_medium ? 1u : 0u;
+  g.marked_slices = marked_slices;
   // The counter that hands out room has 32 bits: even if every light reached every cluster it must
   // not wrap.
   const std::uint64_t clusters = std::uint64_t{g.tiles_x} * g.tiles_y * shared::kClusterSlices;
@@ -127,7 +141,8 @@ Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
 }
 
 Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
-                                   const CameraView& camera, VkExtent2D size, bool inside_medium) {
+                                   const CameraView& camera, VkExtent2D size,
+                                   std::uint32_t marked_slices) {
   SKERRY_ASSERT(!lights.empty());
   const std::uint32_t most = most_lights(device_.limits(), size);
   if (lights.size() > most) {
@@ -153,7 +168,7 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
                                   lights.size_bytes());
   if (Result<void> ok = reserve(lights_, "lights", bytes); !ok) return ok;
   if (Result<void> ok = reserve(grid_buffer_, "cluster grid", sizeof(grid_)); !ok) return ok;
-  grid_ = cluster_grid(camera, size, inside_medium, static_cast<std::uint32_t>(lights.size()),
+  grid_ = cluster_grid(camera, size, marked_slices, static_cast<std::uint32_t>(lights.size()),
                        entries_.size_bytes() / sizeof(std::uint32_t));
   uploader.write(lights_, 0, lights);
   uploader.write(grid_buffer_, 0, std::span<const shared::ClusterGrid>(&grid_, 1));

@@ -24,10 +24,15 @@ std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
 /// The most lights of a picture that a device can sort.
 std::uint32_t most_lights(const gpu::DeviceLimits& limits, VkExtent2D size);
 
-/// The grid for a picture. @param entries that there is room for; @param inside_medium the camera
-/// is in a translucent block.
-shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size, bool inside_medium,
-                                 std::uint32_t light_count, std::uint64_t entries);
+/// All slices of depth up to where the farthest light ends, a bit each: where a medium that fills
+/// the open may be lit.
+std::uint32_t slices_lit(std::span<const shared::Light> lights);
+
+/// The grid for a picture. @param entries that there is room for; @param marked_slices that show
+/// something in every tile, a bit each: the first if the camera is in a translucent block.
+shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size,
+                                 std::uint32_t marked_slices, std::uint32_t light_count,
+                                 std::uint64_t entries);
 
 /// A frame's lights, sorted: what a pass needs that includes shaders/include/clustered.glsl.
 struct ClusteredLights {
@@ -59,7 +64,7 @@ class LightClusters {
   /// Takes a frame's lights to the GPU. More than most_lights() are cut off, and said so once.
   /// @param lights not empty, in view. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
-                      const CameraView& camera, VkExtent2D size, bool inside_medium);
+                      const CameraView& camera, VkExtent2D size, std::uint32_t marked_slices);
   /// Adds the passes that sort what was uploaded last. @param oracle see ClusteredLights.
   ClusteredLights add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const ClusterDepths& depths, bool oracle);

@@ -29,7 +29,7 @@ struct ClusterGrid {
   uint chunks;
   uint unit_log2;      // lists begin at multiples of 2^this entries
   uint capacity;       // of the entries [such units]
-  uint marked_slices;  // 1: slice 0 is occupied in every tile, as when the camera is in water
+  uint marked_slices;  // a bit a slice: occupied in every tile, as about a camera in water or clouds
 };
 
 // What an 8x8-pixel tile, or a cluster's tile, shows.
