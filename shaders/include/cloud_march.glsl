@@ -12,6 +12,7 @@ struct Clouded {
 };
 
 const float kClearEnough = 5e-4;    // what is left of the view when a march may end
+const float kFinerSteps = 4.0;    // steps within clouds to one in the open
 const float kNearestToFog = 0.3;  // of a light: nearer it makes fog no brighter [blocks]
 const float kLayerStepGrowth = 100.0;  // blocks: the layer's steps are even up to here, then grow with the distance
 
@@ -117,7 +118,8 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
   Clouded seen = Clouded(vec3(0.0), 1.0);
   vec4 sun_phases = term_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = term_phases(dot(dir, clouds.lights[1].to_light));
   vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir) : vec3(0.0);
-  uint most = 2u * (uint(clouds.steps) + 2u) * (kCloudVolumes + 1u);
+  uint most = uint(kFinerSteps + 1.0) * (uint(clouds.steps) + 2u) * (kCloudVolumes + 1u);
+  float fine = 0.0;  // steps that are still taken finely
   for (uint i = 0u; i < most && t < stop && seen.clear > kClearEnough; ++i) {
     float step_end = stop;
     bool inside = false;
@@ -137,8 +139,7 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
       t = step_end;
       continue;
     }
-    float length_blocks = (step_end - t) * jitter;
-    jitter = 1.0;
+    float length_blocks = (step_end - t) * jitter * (fine > 0.0 ? 1.0 / kFinerSteps : 1.0);
     vec3 p = dir * (t + 0.5 * length_blocks);
     Medium m = Medium(0.0, vec3(0.0), 1e30);
     if (kCloudLayer && t >= in_layer.x && t < in_layer.y) {
@@ -147,6 +148,13 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
     }
     for (uint v = 0u; v < kCloudVolumes; ++v)
       if (t >= in_volume[v].x && t < in_volume[v].y) add_volume(v, p, dir, m);
+    // Something is met: this step again, and finely, until there has been nothing for a whole step.
+    if (fine == 0.0 && m.empty == 0.0 && m.extinction > 0.0) {
+      fine = kFinerSteps;
+      continue;
+    }
+    jitter = 1.0;
+    fine = m.extinction > 0.0 ? kFinerSteps : max(fine - 1.0, 0.0);
     float depth = m.extinction * length_blocks;
     if (m.extinction > 0.0 || m.emitted != vec3(0.0)) {
       float opacity = opacity_of(depth);
