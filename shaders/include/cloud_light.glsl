@@ -41,12 +41,14 @@ float layer_depth(const uint body, vec3 p) {
 float volume_depth(const uint v, const uint body, vec3 p) {
   vec3 at = index_from_world(v, p), to_light = index_from_world_vector(v, clouds.lights[body].to_light);
   vec2 range = box_range(v, at, to_light);
-  if (range.y <= max(range.x, 0.0)) return 0.0;
-  at += to_light * max(range.x, 0.0);
+  bool met = range.y > max(range.x, 0.0);
+  // Where nothing is met, something is looked up even so: lavapipe takes all lanes along, and not every number is a place.
+  at = met ? at + to_light * clamp(range.x, 0.0, 1e9) : clouds.volumes[v].low;
   vec3 size = clouds.volumes[v].light_texels;
   vec3 texel = (at - clouds.volumes[v].low) / (clouds.volumes[v].high - clouds.volumes[v].low) * size;
   texel = clamp(texel, vec3(0.5), size - 0.5) + vec3(0.0, 0.0, clouds.volumes[v].light_first[body]);
-  return textureLod(volume_light, texel / vec3(textureSize(volume_light, 0)), 0.0).r;
+  float depth = textureLod(volume_light, texel / vec3(textureSize(volume_light, 0)), 0.0).r;
+  return met ? depth : 0.0;
 }
 
 // Optical depth of all clouds between a place and a body. @param p world.

@@ -115,6 +115,7 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
     stop = met ? max(stop, in_volume[v].y) : stop;
     t = met ? min(t, in_volume[v].x) : t;
   }
+  t = min(t, stop);
   Clouded seen = Clouded(vec3(0.0), 1.0);
   vec4 sun_phases = term_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = term_phases(dot(dir, clouds.lights[1].to_light));
   vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir) : vec3(0.0);

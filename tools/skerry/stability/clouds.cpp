@@ -14,6 +14,8 @@ namespace {
 constexpr VkExtent2D kSize{64, 48};
 constexpr int kEdge = 64;  // blocks and samples of the box
 constexpr int kSteps = 96;
+/// Short of the ends of the world by what the scene is large [blocks].
+constexpr double kFarthest = 1099511627776.0 - 4096.0;
 
 /// A box of samples of value 1, which linear ramps make as wide as `kEdge` blocks exactly.
 /// @param corner its first sample relative to `origin`.
@@ -46,7 +48,7 @@ Result<Frame> look(gpu::Device& device, const render::FrameInput& in,
 /// @param depth of the box before the eye, straight ahead [blocks]; its sides are out of view.
 Result<Rows> through(gpu::Device& device, double front, double depth, const std::string& what) {
   render::FrameInput in;
-  in.camera = camera_at({0.0, 0.0, 0.0}, 0.0, 0.0, 30.0);
+  in.camera = camera_at({0.0, 0.0, 0.0}, 0.0, 0.0, 15.0);
   in.sky = sky_without_light();
   in.capture = true;
   render::RenderSettings settings;
@@ -129,7 +131,7 @@ Result<Rows> far(gpu::Device& device) {
   if (!here) return here.error();
   double different = 0.0;
   for (const double end : {1.0, -1.0}) {
-    const auto there = at(glm::dvec3(end * std::pow(2.0, 40.0)));
+    const auto there = at(glm::dvec3(end * kFarthest));
     if (!there) return there.error();
     different += different_pixels(here->rgba, there->rgba);
   }
