@@ -500,7 +500,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   const CulledDraws draws = add_cull_passes(
       graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
   Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, contents.cutouts_in_view[0],
-                                        settings.gbuffer);
+                                        samples_per_edge(settings) > 1, settings.gbuffer);
   Shadows maps = add_shadows(scene, draws, settings, contents, cascades);
   const bool debug = shows_channel(settings);
   const char* no_translucent = features.why_not(Feature::kWater);
