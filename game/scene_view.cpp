@@ -166,7 +166,6 @@ Result<void> SceneView::take_in(world::StreamUpdate update) {
 void SceneView::remove_section(const world::SectionKey& key) {
   const auto found = sections_.find(key);
   SKERRY_ASSERT(found != sections_.end());
-  light_field_.remove(key);
   gpu::Uploader& uploader = renderer_->mesh_uploader();
   light_field_.remove(key);
   const auto slot = island_slots_.find(key.island);
@@ -196,7 +195,6 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
       uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
   if (!added) return added.error();
   section = *added;
-  light_field_.add(ready.key, ready.emitters);
   return {};
 }
 
@@ -301,6 +299,7 @@ render::RenderSettings SceneView::render_settings(
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   out.traced_lights = settings_.lights_shadows;
+  out.light_tile = settings_.lights_tile;
   out.light_samples = static_cast<int>(settings_.lights_softness);
   out.lights_oracle = settings_.lights_oracle;
   return out;

@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct1
 constexpr std::array<std::string_view, 3> kPositionNames{"depth", "rgba16f", "rgba32f"};
 constexpr std::array<std::string_view, 2> kDepthNames{"d32", "d16"};
 constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
+constexpr std::array<std::string_view, 4> kTileNames{"8", "16", "32", "64"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{
@@ -393,6 +394,14 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "lights.softness", 1, 16), s.lights_softness);
      },
      [](const Settings& s) { return std::to_string(s.lights_softness); }},
+    {"lights.tile", "8, 16, 32 or 64",
+     "Pixels along the tiles that lights are sorted into; changes no picture, only its cost.",
+     [](std::string_view t, Settings& s) {
+       const auto name = parse_name(t, "lights.tile", kTileNames);
+       if (!name) return Result<void>(name.error());
+       return into(parse_integer(kTileNames[*name], "lights.tile", 8, 64), s.lights_tile);
+     },
+     [](const Settings& s) { return std::to_string(s.lights_tile); }},
     {"lights.oracle", "0 or 1",
      "For measuring: every pixel asks every light, instead of those of its cluster.",
      [](std::string_view t, Settings& s) {

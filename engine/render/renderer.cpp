@@ -669,9 +669,9 @@ Result<std::uint64_t> Renderer::draw(
   }
   if (Result<void> ok = s.upload_tables(tables, input, sky_now); !ok) return ok.error();
   if (!contents.lights.empty())
-    if (Result<void> ok = s.light_clusters.upload(s.frame_uploader, contents.lights,
-                                                  view_of(input.camera, drawn.width, drawn.height),
-                                                  drawn, input.camera_medium != 0);
+    if (Result<void> ok = s.light_clusters.upload(
+            s.frame_uploader, contents.lights, view_of(input.camera, drawn.width, drawn.height),
+            {drawn, input.camera_medium != 0, settings.light_tile});
         !ok)
       return ok.error();
   if (s.occupancy && settings.traced_lights != 0 && !input.light_islands.empty())

@@ -93,9 +93,10 @@ struct RenderSettings {
   /// For how many lights of a pixel walls are looked for: none, kEveryLight, or those that send the
   /// most light to the eye, 1..8; the others are dimmed by the same share.
   std::uint32_t traced_lights = 4;
-  int light_samples = 1;       ///< ways to a light that has a size, 1..16
-  bool lights_oracle = false;  ///< every pixel asks every light: slow, to hold clusters against
-  FeatureSet leave_out;        ///< absent even where the scene has them
+  std::uint32_t light_tile = 16;  ///< pixels along a light cluster's tile: 8, 16, 32 or 64
+  int light_samples = 1;          ///< ways to a light that has a size, 1..16
+  bool lights_oracle = false;     ///< every pixel asks every light: slow, to hold clusters against
+  FeatureSet leave_out;           ///< absent even where the scene has them
   DebugView debug_view = DebugView::kNone;
 };
 
