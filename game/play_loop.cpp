@@ -1,0 +1,126 @@
+#include "game/play_loop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "game/screenshot.h"
+
+namespace skerry::game {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kIdleWait = 0.05;  // seconds between looks at a window that shows nothing
+
+render::FixedPos fixed(const world::WorldPos& p) {
+  return {p.x, p.y, p.z};
+}
+world::WorldPos place(const render::FixedPos& p) {
+  return {p[0], p[1], p[2]};
+}
+
+/// Where the feet are when the eye is there.
+Player player_at(const render::Camera& eye, double time_s) {
+  return {world::moved(place(eye.position), {0.0, -kEyeHeight, 0.0}), eye.yaw_deg, eye.pitch_deg,
+          time_s};
+}
+
+}  // namespace
+
+PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, const SceneOptions& options,
+                   std::unique_ptr<SceneView> view)
+    : window_(window),
+      device_(device),
+      scene_(options),
+      view_(std::move(view)),
+      player_(player_at(view_->start_camera(), options.settings.world_time_s)),
+      around_(view_->world()),
+      day_(options.time_of_day_s) {
+  // A place that was asked for is a view, most often in the air.
+  if (options.camera) player_.set_mode(MoveMode::kFly);
+}
+
+Result<void> PlayLoop::start(VkSurfaceKHR surface) {
+  auto presenter = Presenter::create(device_, surface, overlay_.font());
+  if (!presenter) return presenter.error();
+  presenter_ = *std::move(presenter);
+  return {};
+}
+
+Result<void> PlayLoop::run() {
+  Clock::time_point before = Clock::now();
+  bool drawn = true;
+  while (!window_.should_close()) {
+    const platform::InputFrame input = window_.poll(drawn ? 0.0 : kIdleWait);
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - before).count();
+    before = now;
+    note_frame(seconds);
+    act(input, std::min(seconds, kLongestFrame));
+    const Result<bool> done = draw(seconds);
+    if (!done) return done.error();
+    drawn = *done;
+    if (drawn && std::exchange(screenshot_wanted_, false)) take_screenshot();
+  }
+  return {};
+}
+
+SceneView::Moment PlayLoop::moment() const {
+  SceneView::Moment moment;
+  moment.camera = {fixed(scene_.camera->position), scene_.camera->yaw_deg, scene_.camera->pitch_deg,
+                   scene_.fov_deg};
+  moment.time_of_day_s = day_.time_of_day_s();
+  moment.world_time_s = player_.world_time_s();
+  moment.freeze_culling = culling_frozen_;
+  moment.exposure_ev = exposure_ev_;
+  return moment;
+}
+
+/// @return whether there was a window to draw to.
+Result<bool> PlayLoop::draw(double seconds) {
+  const SceneView::Moment now = moment();
+  if (const auto done = view_->stream(now.camera, now.world_time_s); !done) return done.error();
+  const platform::FramebufferSize window_px = window_.framebuffer_size();
+  const std::optional<gpu::SwapchainFrame> frame =
+      presenter_->acquire({window_px.width, window_px.height});
+  if (!frame) return false;
+  const VkExtent2D size = presenter_->extent();
+  std::optional<OverlayTriangles> overlay;
+  if (overlay_shown_ || calibrating_) overlay = overlay_triangles(seconds);
+  Result<void> recorded;
+  const auto bring_to_window = [&](VkCommandBuffer commands, gpu::Image& picture) {
+    recorded = presenter_->record(commands, picture, *frame, overlay ? &*overlay : nullptr);
+  };
+  // A command meters what it draws and adapts to nothing, so F2 names the exposure; and its picture
+  // is drawn by the way that a command with an exposure takes.
+  Settings& settings = view_->settings();
+  const std::optional<double> asked_ev = settings.exposure_ev;
+  if (screenshot_wanted_ && !asked_ev) settings.exposure_ev = exposure_ev_;
+  const Result<std::uint64_t> value =
+      view_->draw(now, size, bring_to_window, {&frame->wait, 1}, {&frame->signal, 1});
+  if (!value) return value.error();
+  presenter_->present(*frame, *value);
+  if (!recorded) return recorded.error();
+  scene_.size = {size.width, size.height};
+  scene_.time_of_day_s = day_.time_of_day_s();
+  scene_.settings = settings;
+  scene_.settings.world_time_s = now.world_time_s;
+  settings.exposure_ev = asked_ev;
+  return true;
+}
+
+void PlayLoop::take_screenshot() {
+  const auto path = save_screenshot(device_, view_->renderer().picture(), scene_);
+  if (!path) {
+    fmt::print(stderr, "skerry: {}\n", path.error().message);
+    return;
+  }
+  fmt::print("{}\n{}\n", path->string(), shot_command(scene_));
+  std::fflush(stdout);
+}
+
+}  // namespace skerry::game
