@@ -5,11 +5,11 @@
 namespace skerry::game {
 
 Result<std::unique_ptr<Presenter>> Presenter::create(gpu::Device& device, VkSurfaceKHR surface,
-                                                     const FontAtlas& font) {
+                                                     const ui::OverlayImages& images) {
   constexpr bool kMailbox = true;  // newest frame first: shortest way from the mouse to the eye
   auto swapchain = gpu::Swapchain::create(device, surface, kMailbox);
   if (!swapchain) return swapchain.error();
-  auto overlay_pass = OverlayPass::create(device, font);
+  auto overlay_pass = OverlayPass::create(device, images);
   if (!overlay_pass) return overlay_pass.error();
   return std::unique_ptr<Presenter>(
       new Presenter(device, *std::move(swapchain), *std::move(overlay_pass)));
@@ -39,7 +39,7 @@ Result<void> Presenter::fit_canvas(VkExtent2D size) {
 }
 
 Result<void> Presenter::draw_overlay(VkCommandBuffer commands, gpu::Image& picture,
-                                     const OverlayTriangles& triangles) {
+                                     const ui::OverlayTriangles& triangles) {
   const VkExtent2D size = picture.desc().extent;
   if (auto done = fit_canvas(size); !done) return done;
   slot_ = (slot_ + 1) % OverlayPass::kSlots;
@@ -69,7 +69,7 @@ Result<void> Presenter::draw_overlay(VkCommandBuffer commands, gpu::Image& pictu
 }
 
 Result<void> Presenter::record(VkCommandBuffer commands, gpu::Image& picture,
-                               const gpu::SwapchainFrame& frame, const OverlayTriangles* overlay) {
+                               const gpu::SwapchainFrame& frame, const ui::OverlayTriangles* overlay) {
   Result<void> done;
   if (overlay) done = draw_overlay(commands, picture, *overlay);
   swapchain_->show(commands, overlay && done ? canvas_ : picture, frame);
