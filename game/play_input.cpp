@@ -10,8 +10,6 @@
 namespace skerry::game {
 namespace {
 
-using platform::Key;
-
 constexpr double kDayTurn = 1800.0;  // seconds of day a second that T or Y is held
 constexpr double kDayRate =
     24.0;  // seconds of day a second when it is left alone: a day is an hour
@@ -20,12 +18,13 @@ constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
 }  // namespace
 
 void PlayLoop::act(const platform::InputFrame& input, double seconds) {
-  act_on_pointer(input);
-  act_on_picture_keys(input, seconds);
-  if (input.pressed(Key::kF)) {
+  const ActionFrame actions(input, bindings_);
+  act_on_pointer(input, actions);
+  act_on_picture(input, actions, seconds);
+  if (actions.pressed(Action::kFly)) {
     player_.set_mode(player_.mode() == MoveMode::kFly ? MoveMode::kWalk : MoveMode::kFly);
   }
-  move(input, seconds);
+  move(input, actions, seconds);
   adapt_eye(seconds);
 }
 
@@ -38,31 +37,36 @@ void PlayLoop::adapt_eye(double seconds) {
                               : double{*seen->metered_ev};
 }
 
-void PlayLoop::act_on_pointer(const platform::InputFrame& input) {
-  if (input.pressed(Key::kMouseLeft)) pointer_wanted_ = true;
+void PlayLoop::act_on_pointer(const platform::InputFrame& input, const ActionFrame& actions) {
+  if (input.pressed(platform::Key::kMouseLeft)) pointer_wanted_ = true;
   // Without it, the pointer belongs to the person: then the key means the window.
-  if (input.pressed(Key::kEscape) && !std::exchange(pointer_wanted_, false)) window_.close();
+  if (actions.pressed(Action::kPause) && !std::exchange(pointer_wanted_, false)) window_.close();
   window_.capture_pointer(pointer_wanted_ && window_.focused());
 }
 
-void PlayLoop::act_on_picture_keys(const platform::InputFrame& input, double seconds) {
-  if (input.pressed(Key::kF2)) {
+void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
+                              double seconds) {
+  if (actions.pressed(Action::kScreenshot)) {
     screenshot_wanted_ = true;
     view_->renderer().forget_shadows();  // so that the command draws the same shadows again
   }
-  if (input.pressed(Key::kF3)) overlay_shown_ = !overlay_shown_;
-  if (input.pressed(Key::kL)) view_->settings().lights_held = !view_->settings().lights_held;
-  if (input.pressed(Key::kF9)) calibrating_ = !calibrating_;
-  if (input.pressed(Key::kF8)) culling_frozen_ = !culling_frozen_;
-  if (input.pressed(Key::kF11)) window_.toggle_fullscreen();
   Settings& settings = view_->settings();
+  if (actions.pressed(Action::kOverlay)) overlay_shown_ = !overlay_shown_;
+  if (actions.pressed(Action::kTorch)) settings.lights_held = !settings.lights_held;
+  if (actions.pressed(Action::kCalibrate)) calibrating_ = !calibrating_;
+  if (actions.pressed(Action::kFreezeCulling)) culling_frozen_ = !culling_frozen_;
+  if (actions.pressed(Action::kFullscreen)) window_.toggle_fullscreen();
+  using platform::Key;
   if (calibrating_)
     settings.display =
         stepped_display(settings.display, input.pressed(Key::kRight) - input.pressed(Key::kLeft),
                         input.pressed(Key::kUp) - input.pressed(Key::kDown));
-  const int farther = input.pressed(Key::kRightBracket) - input.pressed(Key::kLeftBracket);
+  const auto steps = [&](Action more, Action less) {
+    return actions.presses(more) - actions.presses(less);
+  };
+  const int farther = steps(Action::kFartherView, Action::kNearerView);
   if (farther != 0) settings.view_distance = stepped_view_distance(settings.view_distance, farther);
-  const int better = input.pressed(Key::kPlus) - input.pressed(Key::kMinus);
+  const int better = steps(Action::kBetterQuality, Action::kWorseQuality);
   if (better != 0) {
     scene_.quality = stepped_quality(scene_.quality, better);
     const QualityLevel& level = quality_level(scene_.quality);
@@ -71,19 +75,23 @@ void PlayLoop::act_on_picture_keys(const platform::InputFrame& input, double sec
     settings.shadow_size = level.shadow_size;
     settings.bloom.intensity = level.bloom_intensity;
   }
-  const int later = input.down(Key::kT) - input.down(Key::kY);
-  if (input.pressed(Key::kP)) day_stands_ = !day_stands_;
-  if (later != 0) day_.turn(later * kDayTurn * seconds);
-  if (later == 0 && !day_stands_) day_.turn(kDayRate * seconds);
+  const double later = actions.value(Action::kLater) - actions.value(Action::kEarlier);
+  if (actions.pressed(Action::kStopDay)) day_stands_ = !day_stands_;
+  if (later != 0.0) day_.turn(later * kDayTurn * seconds);
+  if (later == 0.0 && !day_stands_) day_.turn(kDayRate * seconds);
 }
 
-void PlayLoop::move(const platform::InputFrame& input, double seconds) {
-  if (window_.pointer_captured()) look(player_, input, scene_.fov_deg);
-  if (input.scroll != 0.0)
-    player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, input.scroll));
+void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& actions, double seconds) {
+  const bool captured = window_.pointer_captured();
+  look(player_, {&actions, &bindings_, captured ? input.mouse_delta : glm::dvec2(0.0), seconds},
+       scene_.fov_deg);
+  const int faster =
+      actions.presses(Action::kFasterFlight) - actions.presses(Action::kSlowerFlight);
+  if (faster != 0)
+    player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, double(faster)));
   const double reach = glm::length(player_.velocity()) * kLongestFrame;
   around_.refresh(player_.feet(), reach, player_.world_time_s());
-  player_.advance(seconds, intent_of(input), around_);
+  player_.advance(seconds, intent_of(actions), around_);
   scene_.camera = player_.eye(around_);
 }
 

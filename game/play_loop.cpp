@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "engine/core/log.h"
 #include "game/screenshot.h"
 
 namespace skerry::game {
@@ -42,6 +43,9 @@ PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, const SceneOpt
       day_(options.time_of_day_s) {
   // A place that was asked for is a view, most often in the air.
   if (options.camera) player_.set_mode(MoveMode::kFly);
+  ReadBindings read = load_bindings(bindings_path());
+  for (const std::string& problem : read.problems) log_warning(problem);
+  bindings_ = std::move(read.bindings);
 }
 
 Result<void> PlayLoop::start(VkSurfaceKHR surface) {

@@ -9,6 +9,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/platform/window.h"
+#include "game/actions.h"
 #include "game/controls.h"
 #include "game/options.h"
 #include "game/overlay.h"
@@ -38,9 +39,10 @@ class PlayLoop {
  private:
   void act(const platform::InputFrame& input, double seconds);
   void adapt_eye(double seconds);
-  void act_on_pointer(const platform::InputFrame& input);
-  void act_on_picture_keys(const platform::InputFrame& input, double seconds);
-  void move(const platform::InputFrame& input, double seconds);
+  void act_on_pointer(const platform::InputFrame& input, const ActionFrame& actions);
+  void act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
+                      double seconds);
+  void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
   Result<bool> draw(double seconds);
   void take_screenshot();
   void note_frame(double seconds);
@@ -55,6 +57,7 @@ class PlayLoop {
   Player player_;
   WorldSurroundings around_;
   DayClock day_;
+  Bindings bindings_;
   std::optional<double> exposure_ev_;  // what the eye has adapted to by now; none before it saw
   Overlay overlay_;
   std::unique_ptr<Presenter> presenter_;
