@@ -53,9 +53,9 @@ void go_back(ScreenState& state, bool typing) {
   state.fresh = true;
 }
 
-std::string seed_for(std::string_view typed, std::uint64_t entropy) {
-  constexpr std::uint64_t kSeeds = 1'000'000'000;  // short enough to be told to a friend
-  return typed.empty() ? fmt::format("{}", entropy % kSeeds) : std::string(typed);
+std::string seed_from(std::uint64_t entropy) {
+  constexpr std::uint64_t kSeeds = 1'000'000'000;
+  return fmt::format("{}", entropy % kSeeds);
 }
 
 std::string ago(std::int64_t seconds) {

@@ -34,7 +34,6 @@ using Field = std::array<char, kBytes + 1>;
 /// What the screens remember between frames.
 struct ScreenState {
   ScreenStack stack;
-  Screen focused = Screen::kPhoto;  ///< whose first item has had the keyboard's focus
   bool fresh = true;                ///< the topmost was not shown in the last frame
 
   std::optional<std::string> chosen_world;  ///< path
@@ -77,7 +76,9 @@ struct ScreenFacts {
   PhotoSettings* photo = nullptr;
   double adapted_ev = 0.0;  ///< what photo mode's exposure begins at
   platform::Key pressed = platform::Key::kNone;  ///< first key that went down in this frame
-  bool control = false;                          ///< while Ctrl was held
+  bool control = false;     ///< while Ctrl was held
+  bool control_up = false;  ///< Ctrl was let go of
+  bool back = false;        ///< Escape, or its like on a gamepad, went down
   std::string_view version;
 };
 
@@ -91,6 +92,7 @@ struct Wishes {
   std::optional<NewWorld> create;
   std::optional<world::BlockId> take;  ///< into the hand
   bool preview = false;                ///< the new world's seed has changed
+  bool draw_lots = false;              ///< another seed for it
   bool leave_world = false;            ///< saved, to the title
   bool quit = false;
   bool photograph = false;
@@ -104,9 +106,8 @@ void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 /// the key leaves first.
 void go_back(ScreenState& state, bool typing);
 
-/// The seed that a new world gets for what was typed: itself, or for nothing a number drawn from
-/// `entropy`.
-std::string seed_for(std::string_view typed, std::uint64_t entropy);
+/// A seed for who has none in mind, short enough to be told to a friend.
+std::string seed_from(std::uint64_t entropy);
 
 /// "3 hours ago", for lists. Times to come are "just now": clocks are set.
 std::string ago(std::int64_t seconds);

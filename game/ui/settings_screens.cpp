@@ -147,19 +147,21 @@ std::string chord_label(Chord chord) {
   return label;
 }
 
-/// Takes the key that was pressed for the binding that waits for one. Delete clears it.
+/// Takes the key that was pressed for the binding that waits for one. Delete clears it; Ctrl begins
+/// a chord, unless it goes up again alone.
 void listen(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   using platform::Key;
-  const Key key = facts.pressed;
-  if (!state.listening || key == Key::kNone) return;
+  if (!state.listening) return;
   const ScreenState::Listening waiting = *state.listening;
+  Key key = facts.pressed;
+  if (key == Key::kControl) return;
+  if (key == Key::kNone && facts.control_up) key = Key::kControl;
+  if (key == Key::kNone) return;
   const bool clears = key == Key::kDelete;
-  // Ctrl is a key of its own only when it goes up again alone; it is rather the start of a chord.
   if (!clears && platform::is_pad(key) != waiting.pad) return;
   Binding& binding = (*facts.bindings)[waiting.action];
-  const Chord chord = clears ? Chord{}
-                             : Chord{key, facts.control && !waiting.pad && key != Key::kControl};
-  (waiting.pad ? binding.pad : binding.key) = chord;
+  const bool chord = facts.control && !waiting.pad && key != Key::kControl;
+  (waiting.pad ? binding.pad : binding.key) = clears ? Chord{} : Chord{key, chord};
   state.listening.reset();
   wishes.bindings_changed = true;
 }

@@ -70,7 +70,7 @@ bool world_row(ScreenState& state, const ScreenFacts& facts, const WorldCard& wo
   return again || ImGui::IsMouseDoubleClicked(0);
 }
 
-void ask_to_delete(ScreenState& state, const WorldCard& world, Wishes& wishes) {
+void ask_to_delete(ScreenState& state, const WorldCard& world, bool back, Wishes& wishes) {
   if (state.asks_to_delete) ImGui::OpenPopup("delete");
   state.asks_to_delete = false;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
@@ -85,7 +85,7 @@ void ask_to_delete(ScreenState& state, const WorldCard& world, Wishes& wishes) {
   text_wrapped(colour::kText, fmt::format("Delete \"{}\" for good?", world.name));
   text_wrapped(colour::kFaint, "What was built in it cannot be brought back.");
   gap(8);
-  if (first_button("Keep it", 190)) ImGui::CloseCurrentPopup();
+  if (first_button("Keep it", 190) || back) ImGui::CloseCurrentPopup();
   ImGui::SameLine();
   if (danger_button("Delete", 190)) {
     wishes.remove = world.path;
@@ -157,7 +157,7 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (button("Back", 150)) state.stack.back();
-  if (chosen) ask_to_delete(state, *chosen, wishes);
+  if (chosen) ask_to_delete(state, *chosen, facts.back, wishes);
   end_panel();
 }
 
@@ -172,12 +172,12 @@ void show_new_world(ScreenState& state, Wishes& wishes) {
   gap(4);
   text_in(colour::kFaint, "Seed");
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::InputTextWithHint("##seed", "leave empty for a new one", state.new_seed.data(),
-                               state.new_seed.size()))
+  if (ImGui::InputText("##seed", state.new_seed.data(), state.new_seed.size()))
     wishes.preview = true;
+  if (button("Another seed", 184)) wishes.draw_lots = true;
   text_wrapped(colour::kFaint,
-               "Any text or number. The same seed makes the same islands; behind this panel is where "
-               "you will stand.");
+               "Any text or number. The same seed makes the same islands; to the right is what you "
+               "will see first.");
   gap(12);
   if (first_button("Create", 184) || entered)
     wishes.create = Wishes::NewWorld{state.new_name.data(), state.new_seed.data()};
