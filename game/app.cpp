@@ -53,8 +53,7 @@ Result<void> App::run() {
   Clock::time_point before = Clock::now();
   bool drawn = true;
   while (!window_.should_close()) {
-    const platform::InputFrame input =
-        held_back_.filtered(window_.poll(drawn ? 0.0 : kIdleWait));
+    const platform::InputFrame input = held_back_.filtered(window_.poll(drawn ? 0.0 : kIdleWait));
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - before).count();
     before = now;
@@ -62,6 +61,7 @@ Result<void> App::run() {
     if (!done) return done.error();
     drawn = *done;
   }
+  keep_settings();
   leave_world();
   return {};
 }
@@ -87,7 +87,16 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   if (const auto& report = view.renderer().report()) costs_.note_frame(report->gpu_ms);
   if (const auto done = fulfil(wishes_); !done) return done.error();
   // What was held while one thing was shown shall not act on the next.
-  if (screens_.stack.top() != before) held_back_.hold(input);
+  if (screens_.stack.top() == before) return drawn;
+  held_back_.hold(input);
+  keep_settings();
+  if (screens_.stack.top() == Screen::kNewWorld) {
+    draw_lots();
+    preview_due_s_ = 0.0;
+  } else if (before == Screen::kNewWorld && backdrop_) {
+    preview_due_s_.reset();
+    if (const auto done = set_backdrop(Backdrop::View::kAround, ""); !done) return done.error();
+  }
   return drawn;
 }
 

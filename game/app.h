@@ -49,10 +49,11 @@ class App {
   // app_wishes.cpp: what was asked for on a screen.
   Result<void> fulfil(const ui::Wishes& wishes);
   Result<void> play(const SceneOptions& options, std::string name);
-  void play_file(const std::string& path);
-  void create_world(const ui::Wishes::NewWorld& wanted);
+  Result<void> play_file(const std::string& path);
+  Result<void> create_world(const ui::Wishes::NewWorld& wanted);
   void leave_world();
   void keep_picture();
+  void follow_settings();
   void keep_settings();
   void list_again();
   Result<void> set_backdrop(Backdrop::View view, const std::string& seed_text);
@@ -80,6 +81,7 @@ class App {
   PhotoCamera photo_;
   ui::PhotoSettings photo_settings_;
   platform::HeldBack held_back_;
+  bool settings_changed_ = false, bindings_changed_ = false;  // since they were saved
   bool hud_hidden_ = false;
   bool back_ = false;  // this frame's input closes what is topmost
 };

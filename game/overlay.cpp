@@ -34,8 +34,8 @@ void row(std::string_view name, const std::string& value) {
   ImGui::TableNextColumn();
   text(name);
   ImGui::TableNextColumn();
-  const float slack =
-      ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(value.data(), value.data() + value.size()).x;
+  const float slack = ImGui::GetContentRegionAvail().x -
+                      ImGui::CalcTextSize(value.data(), value.data() + value.size()).x;
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, slack));
   text(value);
 }
@@ -77,8 +77,8 @@ void panel(const char* id, bool right, const ImVec2& picture, const F& contents)
   const float pivot = right ? 1.0f : 0.0f;
   ImGui::SetNextWindowPos(ImVec2(right ? picture.x - gap : gap, gap), ImGuiCond_Always,
                           ImVec2(pivot, 0.0f));
-  ImGui::SetNextWindowSizeConstraints(
-      ImVec2(width, 0.0f), ImVec2(width, std::max(32.0f, picture.y - 2.0f * gap)));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f),
+                                      ImVec2(width, std::max(32.0f, picture.y - 2.0f * gap)));
   ImGui::SetNextWindowBgAlpha(0.6f);
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration |
                                       ImGuiWindowFlags_AlwaysAutoResize |

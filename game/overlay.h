@@ -29,7 +29,8 @@ struct OverlayFacts {
       calibration;  ///< the calibration screen (F9) is, with these
 };
 
-/// The developer's overlay (F3) and the calibration screen, between ui::Gui::begin and ui::Gui::end.
+/// The developer's overlay (F3) and the calibration screen, between ui::Gui::begin and
+/// ui::Gui::end.
 void show_overlay(const OverlayFacts& facts);
 
 /// Median and the slowest hundredth of some frames [ms]; zeros for none.

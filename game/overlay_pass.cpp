@@ -46,9 +46,8 @@ Result<std::unique_ptr<OverlayPass>> OverlayPass::create(gpu::Device& device,
   Result<gpu::Image> glyphs =
       make_image(device, "overlay_font", VK_FORMAT_R8_UNORM, font.width, font.height);
   if (!glyphs) return glyphs.error();
-  Result<gpu::Image> pictures =
-      make_image(device, "overlay_pictures", VK_FORMAT_R8G8B8A8_UNORM, images.pictures.width,
-                 images.pictures.height);
+  Result<gpu::Image> pictures = make_image(device, "overlay_pictures", VK_FORMAT_R8G8B8A8_UNORM,
+                                           images.pictures.width, images.pictures.height);
   if (!pictures) return pictures.error();
   gpu::Uploader uploader(device, gpu::UploadPath::kUpdateBuffer);
   if (const auto done = uploader.fill_image(*glyphs, std::as_bytes(font.texels)); !done)
@@ -63,10 +62,7 @@ Result<std::unique_ptr<OverlayPass>> OverlayPass::create(gpu::Device& device,
 
 OverlayPass::OverlayPass(gpu::Device& device, gpu::Image font, gpu::Image pictures,
                          VkSampler sampler)
-    : device_(device),
-      font_(std::move(font)),
-      pictures_(std::move(pictures)),
-      sampler_(sampler) {}
+    : device_(device), font_(std::move(font)), pictures_(std::move(pictures)), sampler_(sampler) {}
 
 Result<void> OverlayPass::set_pictures(const ui::PictureView& pictures) {
   SKERRY_ASSERT(static_cast<std::uint32_t>(pictures.width) == pictures_.desc().extent.width &&
@@ -108,7 +104,8 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
         b.read(pictures, Use::kFragmentRead);
         drawn = b.color(picture, gpu::Load::keep());
       },
-      [&pipeline, vertices, clips, font, pictures, constants, count, sampler = sampler_](gpu::Commands& c) {
+      [&pipeline, vertices, clips, font, pictures, constants, count,
+       sampler = sampler_](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, vertices);
         c.storage(1, clips);

@@ -18,7 +18,8 @@ class OverlayPass {
   static constexpr std::uint32_t kSlots = 2;
 
   /// Errors: no memory on the device.
-  static Result<std::unique_ptr<OverlayPass>> create(gpu::Device& device, const ui::OverlayImages& images);
+  static Result<std::unique_ptr<OverlayPass>> create(gpu::Device& device,
+                                                     const ui::OverlayImages& images);
 
   /// Others in place of the pictures, of the same size; waits for the GPU. Errors: no memory.
   Result<void> set_pictures(const ui::PictureView& pictures);

@@ -21,10 +21,11 @@ void PhotoCamera::advance(const LookInput& input, double fov_deg) {
   const glm::dvec3 ahead{std::sin(yaw) * std::cos(pitch), std::sin(pitch),
                          std::cos(yaw) * std::cos(pitch)};
   const glm::dvec3 right{-std::cos(yaw), 0.0, std::sin(yaw)};
-  glm::dvec3 way = ahead * intent.move.y + right * intent.move.x + glm::dvec3(0.0, intent.rise, 0.0);
+  glm::dvec3 way =
+      ahead * intent.move.y + right * intent.move.x + glm::dvec3(0.0, intent.rise, 0.0);
   if (const double length = glm::length(way); length > 1.0) way /= length;
-  place_.position = world::moved(
-      place_.position, way * ((intent.fast ? kFastSpeed : kSpeed) * input.seconds));
+  place_.position =
+      world::moved(place_.position, way * ((intent.fast ? kFastSpeed : kSpeed) * input.seconds));
 }
 
 }  // namespace skerry::game

@@ -76,7 +76,8 @@ Result<bool> PlayLoop::draw(const Layout& layout) {
   const ui::OverlayTriangles overlay = layout(size);
   Result<void> recorded;
   const auto bring_to_window = [&](VkCommandBuffer commands, gpu::Image& picture) {
-    recorded = presenter_.record(commands, picture, *frame, &overlay);
+    recorded =
+        presenter_.record(commands, picture, *frame, overlay.vertices.empty() ? nullptr : &overlay);
   };
   // A command meters what it draws and adapts to nothing, so F2 names the exposure; and its picture
   // is drawn by the way that a command with an exposure takes.

@@ -34,8 +34,8 @@ struct PhotoView {
   std::optional<double> exposure_ev;  ///< none: what the eye has adapted to
 };
 
-/// A world while it is played. Private to game/app* and game/play*: input is in play_input.cpp, what
-/// the overlay, the title and the display say in play_overlay.cpp.
+/// A world while it is played. Private to game/app* and game/play*: input is in play_input.cpp,
+/// what the overlay, the title and the display say in play_overlay.cpp.
 class PlayLoop {
  public:
   /// All but the options and the view outlive this.

@@ -76,7 +76,9 @@ ui::HudFacts PlayLoop::hud() const {
   ui::HudFacts facts;
   const CameraPlace& eye = *scene_.camera;
   const world::WorldPos feet = player_.feet();
-  const auto whole = [](std::int64_t units) { return world::floor_div(units, world::kUnitsPerBlock); };
+  const auto whole = [](std::int64_t units) {
+    return world::floor_div(units, world::kUnitsPerBlock);
+  };
   facts.yaw_deg = eye.yaw_deg;
   facts.time_of_day_s = day_.time_of_day_s();
   facts.place = fmt::format("{}  {}  {}", whole(feet.x), whole(feet.y), whole(feet.z));

@@ -69,7 +69,8 @@ Result<void> Presenter::draw_overlay(VkCommandBuffer commands, gpu::Image& pictu
 }
 
 Result<void> Presenter::record(VkCommandBuffer commands, gpu::Image& picture,
-                               const gpu::SwapchainFrame& frame, const ui::OverlayTriangles* overlay) {
+                               const gpu::SwapchainFrame& frame,
+                               const ui::OverlayTriangles* overlay) {
   Result<void> done;
   if (overlay) done = draw_overlay(commands, picture, *overlay);
   swapchain_->show(commands, overlay && done ? canvas_ : picture, frame);

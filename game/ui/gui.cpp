@@ -34,8 +34,8 @@ OverlayTriangles flatten(const ImDrawData& data) {
     const ImDrawList& list = *data.CmdLists[l];
     for (const ImDrawCmd& command : list.CmdBuffer) {
       const bool picture = command.GetTexID() == pictures_id();
-      const auto clip = static_cast<std::uint32_t>(out.clips.size()) |
-                        (picture ? shared::kOverlayPicture : 0u);
+      const auto clip =
+          static_cast<std::uint32_t>(out.clips.size()) | (picture ? shared::kOverlayPicture : 0u);
       out.clips.emplace_back(command.ClipRect.x, command.ClipRect.y, command.ClipRect.z,
                              command.ClipRect.w);
       for (unsigned i = 0; i < command.ElemCount; ++i) {

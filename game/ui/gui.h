@@ -18,8 +18,8 @@ namespace skerry::game::ui {
 
 /// A frame of the window, as screens see it.
 struct GuiFrame {
-  std::uint32_t width = 0, height = 0;           ///< of the picture [pixels]
-  double seconds = 0.0;                          ///< since the frame before
+  std::uint32_t width = 0, height = 0;          ///< of the picture [pixels]
+  double seconds = 0.0;                         ///< since the frame before
   const platform::InputFrame* input = nullptr;  ///< null: the keys mean the world, not the screens
 };
 

@@ -43,8 +43,7 @@ void draw_crosshair(ImDrawList& list, ImVec2 middle) {
   }
 }
 
-void draw_hotbar(ImDrawList& list, const HudFacts& facts, const Pictures& pictures,
-                 ImVec2 window) {
+void draw_hotbar(ImDrawList& list, const HudFacts& facts, const Pictures& pictures, ImVec2 window) {
   if (facts.hotbar.empty()) return;
   const float edge = std::round(52 * unit()), between = std::round(4 * unit());
   const auto count = static_cast<float>(facts.hotbar.size());
@@ -65,8 +64,7 @@ void draw_hotbar(ImDrawList& list, const HudFacts& facts, const Pictures& pictur
   }
   const world::BlockId held = facts.hotbar[static_cast<std::size_t>(facts.selected)];
   if (held != world::kAir)
-    write(list, ImVec2(0.5f * window.x, top - 22 * unit()), 0.5f, colour::kText,
-          block_label(held));
+    write(list, ImVec2(0.5f * window.x, top - 22 * unit()), 0.5f, colour::kText, block_label(held));
 }
 
 void draw_compass(ImDrawList& list, double yaw_deg, float middle_x) {

@@ -25,7 +25,8 @@ enum class Knob : std::uint8_t {
 /// that of some frames after. What else changes meanwhile counts too, so stand still.
 class KnobCosts {
  public:
-  /// Frames that a median is of, and frames after a turn that are left out: those were on their way.
+  /// Frames that a median is of, and frames after a turn that are left out: those were on their
+  /// way.
   static constexpr std::size_t kFrames = 9, kSkipped = 4;
 
   void note_frame(double gpu_ms);

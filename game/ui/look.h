@@ -1,4 +1,5 @@
-// How our screens look: sizes that follow the window, colours, and the few widgets they are made of.
+// How our screens look: sizes that follow the window, colours, and the few widgets they are made
+// of.
 #pragma once
 #include <imgui.h>
 

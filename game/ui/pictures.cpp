@@ -16,8 +16,7 @@ constexpr int kThumbnailsPerRow = Pictures::kWidth / kThumbnailWidth;
 constexpr int kThumbnailsTop = 512;  // room for 128 blocks above
 static_assert(kThumbnailsTop + Pictures::kThumbnails / kThumbnailsPerRow * kThumbnailHeight <=
               Pictures::kHeight);
-static_assert(world::block::kBuiltInCount <=
-              kBlocksPerRow * (kThumbnailsTop / kBlockPictureEdge));
+static_assert(world::block::kBuiltInCount <= kBlocksPerRow * (kThumbnailsTop / kBlockPictureEdge));
 
 using Texel = std::array<float, 4>;  // sRGB values 0 .. 255, alpha
 
@@ -27,9 +26,11 @@ Texel sample(const render::BlockTextures& textures, world::Texture layer, float 
   const auto place = [&](float t) {
     return std::min(edge - 1, static_cast<std::size_t>(t * static_cast<float>(edge)));
   };
-  const std::size_t at = ((static_cast<std::size_t>(layer) * edge + place(v)) * edge + place(u)) * 4;
+  const std::size_t at =
+      ((static_cast<std::size_t>(layer) * edge + place(v)) * edge + place(u)) * 4;
   Texel out{};
-  for (std::size_t c = 0; c < 4; ++c) out[c] = std::to_integer<std::uint8_t>(textures.texels[at + c]);
+  for (std::size_t c = 0; c < 4; ++c)
+    out[c] = std::to_integer<std::uint8_t>(textures.texels[at + c]);
   return out;
 }
 
@@ -90,8 +91,8 @@ Rgba block_picture(world::BlockId block) {
         sum[3] += t[3];
       }
       for (std::size_t c = 0; c < 3; ++c)
-        out.pixels.push_back(static_cast<std::uint8_t>(
-            sum[3] > 0.0f ? std::lround(sum[c] / sum[3]) : 0));
+        out.pixels.push_back(
+            static_cast<std::uint8_t>(sum[3] > 0.0f ? std::lround(sum[c] / sum[3]) : 0));
       out.pixels.push_back(static_cast<std::uint8_t>(std::lround(sum[3] / (kSamples * kSamples))));
     }
   }
@@ -101,7 +102,8 @@ Rgba block_picture(world::BlockId block) {
 Rgba thumbnail_of(int width, int height, std::span<const std::uint8_t> pixels) {
   Rgba out;
   if (width <= 0 || height <= 0) return out;
-  SKERRY_ASSERT(pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  SKERRY_ASSERT(pixels.size() ==
+                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
   out.width = kThumbnailWidth;
   out.height = kThumbnailHeight;
   // The largest part of that shape.
@@ -123,7 +125,9 @@ Rgba thumbnail_of(int width, int height, std::span<const std::uint8_t> pixels) {
         for (int sx = x0; sx < x1; ++sx)
           for (std::size_t c = 0; c < 3; ++c)
             sum[c] += pixels[(static_cast<std::size_t>(sy) * static_cast<std::size_t>(width) +
-                              static_cast<std::size_t>(sx)) * 4 + c];
+                              static_cast<std::size_t>(sx)) *
+                                 4 +
+                             c];
       const int count = (y1 - y0) * (x1 - x0);
       for (const int channel : sum)
         out.pixels.push_back(static_cast<std::uint8_t>((channel + count / 2) / count));
@@ -163,7 +167,8 @@ void Pictures::set_thumbnail(int slot, const Rgba& picture) {
 void Pictures::put(int x, int y, const Rgba& picture) {
   const auto row_bytes = static_cast<std::size_t>(picture.width) * 4;
   for (int row = 0; row < picture.height; ++row) {
-    const std::size_t to = (static_cast<std::size_t>(y + row) * kWidth + static_cast<std::size_t>(x)) * 4;
+    const std::size_t to =
+        (static_cast<std::size_t>(y + row) * kWidth + static_cast<std::size_t>(x)) * 4;
     std::copy_n(picture.pixels.data() + static_cast<std::size_t>(row) * row_bytes, row_bytes,
                 pixels_.data() + to);
   }

@@ -20,7 +20,7 @@ struct PicturePart {
   ImVec2 low, high;
 };
 
-inline constexpr int kBlockPictureEdge = 64;                       ///< pixels
+inline constexpr int kBlockPictureEdge = 64;                         ///< pixels
 inline constexpr int kThumbnailWidth = 256, kThumbnailHeight = 144;  ///< pixels
 
 /// RGBA8 pixels, sRGB with straight alpha, rows from the top.

@@ -119,8 +119,7 @@ void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   text_in(colour::kFaint, "Field of view");
   ImGui::SetNextItemWidth(-1.0f);
   auto fov = static_cast<float>(photo.fov_deg);
-  if (ImGui::SliderFloat("##fov", &fov, 5.0f, 120.0f, "%.0f degrees",
-                         ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::SliderFloat("##fov", &fov, 5.0f, 120.0f, "%.0f degrees", ImGuiSliderFlags_AlwaysClamp))
     photo.fov_deg = std::round(double{fov});
   gap(8);
   if (first_button("Take the picture")) wishes.photograph = true;

@@ -34,7 +34,7 @@ using Field = std::array<char, kBytes + 1>;
 /// What the screens remember between frames.
 struct ScreenState {
   ScreenStack stack;
-  bool fresh = true;                ///< the topmost was not shown in the last frame
+  bool fresh = true;  ///< the topmost was not shown in the last frame
 
   std::optional<std::string> chosen_world;  ///< path
   bool asks_to_delete = false;
@@ -74,11 +74,11 @@ struct ScreenFacts {
   Bindings* bindings = nullptr;
   KnobCosts* costs = nullptr;
   PhotoSettings* photo = nullptr;
-  double adapted_ev = 0.0;  ///< what photo mode's exposure begins at
+  double adapted_ev = 0.0;                       ///< what photo mode's exposure begins at
   platform::Key pressed = platform::Key::kNone;  ///< first key that went down in this frame
-  bool control = false;     ///< while Ctrl was held
-  bool control_up = false;  ///< Ctrl was let go of
-  bool back = false;        ///< Escape, or its like on a gamepad, went down
+  bool control = false;                          ///< while Ctrl was held
+  bool control_up = false;                       ///< Ctrl was let go of
+  bool back = false;                             ///< Escape, or its like on a gamepad, went down
   std::string_view version;
 };
 

@@ -63,7 +63,9 @@ class Rows {
     }
     const std::optional<double> cost = facts_.costs->cost_ms(knob);
     if (!cost) return;
-    text_in(*cost > 0.05 ? colour::kWarning : *cost < -0.05 ? colour::kAccent : colour::kFaint,
+    text_in(*cost > 0.05    ? colour::kWarning
+            : *cost < -0.05 ? colour::kAccent
+                            : colour::kFaint,
             fmt::format("{:+.1f} ms", *cost));
   }
   const ScreenFacts& facts_;
@@ -97,9 +99,8 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
   const Quality before = *facts.quality;
   rows.choice("Quality", Knob::kQuality, *facts.quality, kLevels, kLevelNames);
   if (*facts.quality != before) set_quality(*facts.quality, settings);
-  rows.row("View distance", Knob::kViewDistance, [&] {
-    return slide_blocks(settings.view_distance, kMinViewDistance, 4096);
-  });
+  rows.row("View distance", Knob::kViewDistance,
+           [&] { return slide_blocks(settings.view_distance, kMinViewDistance, 4096); });
   rows.row("Full detail up to", Knob::kViewDetail,
            [&] { return slide_blocks(settings.view_detail, 32, 1024); });
   std::uint32_t shadows = settings.shadow_enabled ? settings.shadow_size : 0;
@@ -112,8 +113,8 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
     if (shadows != 0) settings.shadow_size = shadows;
   }
   constexpr std::uint32_t kWalls[] = {0, 1, 2, 4, 8, render::kEveryLight};
-  constexpr const char* kWallNames[] = {"none", "1 a pixel", "2 a pixel", "4 a pixel",
-                                        "8 a pixel", "all"};
+  constexpr const char* kWallNames[] = {"none",      "1 a pixel", "2 a pixel",
+                                        "4 a pixel", "8 a pixel", "all"};
   rows.choice("Lights that walls stop", Knob::kLightShadows, settings.lights_shadows, kWalls,
               kWallNames);
   rows.row("Dark corners", Knob::kCorners,
@@ -169,12 +170,11 @@ void listen(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
 void binding_button(ScreenState& state, const ScreenFacts& facts, Action action, bool pad) {
   ImGui::TableNextColumn();
   const Binding& binding = (*facts.bindings)[action];
-  const bool waits = state.listening && state.listening->action == action &&
-                     state.listening->pad == pad;
-  const std::string label =
-      (waits ? std::string(pad ? "press a button" : "press a key")
-             : chord_label(pad ? binding.pad : binding.key)) +
-      (pad ? "##pad" : "##key");
+  const bool waits =
+      state.listening && state.listening->action == action && state.listening->pad == pad;
+  const std::string label = (waits ? std::string(pad ? "press a button" : "press a key")
+                                   : chord_label(pad ? binding.pad : binding.key)) +
+                            (pad ? "##pad" : "##key");
   if (ImGui::Button(label.c_str(), ImVec2(-1.0f, 0.0f)) && !state.listening)
     state.listening = ScreenState::Listening{action, pad};
 }
@@ -259,8 +259,7 @@ void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
       ImGui::TableNextColumn();
       text_in(colour::kAccent, title);
     }
-    for (std::size_t i = 0; i < kActions; ++i)
-      binding_row(state, facts, static_cast<Action>(i));
+    for (std::size_t i = 0; i < kActions; ++i) binding_row(state, facts, static_cast<Action>(i));
     ImGui::EndTable();
   }
   end_scroll();

@@ -20,8 +20,8 @@ std::string megabytes(std::uint64_t bytes) {
 std::string shortened(const std::string& text, float pixels) {
   if (ImGui::CalcTextSize(text.c_str()).x <= pixels) return text;
   std::string out = text;
-  while (!out.empty() && ImGui::CalcTextSize((out + "...").c_str()).x > pixels)
-    do out.pop_back();
+  while (!out.empty() && ImGui::CalcTextSize((out + "...").c_str()).x > pixels) do
+      out.pop_back();
     while (!out.empty() && (static_cast<unsigned char>(out.back()) & 0xc0) == 0x80);
   return out + "...";
 }
@@ -55,17 +55,16 @@ bool world_row(ScreenState& state, const ScreenFacts& facts, const WorldCard& wo
   const float room = at.x + width - x - inset;
   list.AddText(ImVec2(x, at.y + 0.5f * height - 1.25f * line), colour::kText,
                shortened(world.name, room).c_str());
-  const std::string below = world.problem.empty()
-                                ? fmt::format("seed {}  ·  {}  ·  {}", world.seed_text,
-                                              ago(facts.now_s - world.played_s),
-                                              megabytes(world.bytes))
-                                : world.problem;
+  const std::string below =
+      world.problem.empty() ? fmt::format("seed {}  ·  {}  ·  {}", world.seed_text,
+                                          ago(facts.now_s - world.played_s), megabytes(world.bytes))
+                            : world.problem;
   list.AddText(ImVec2(x, at.y + 0.5f * height + 0.25f * line),
                world.problem.empty() ? colour::kFaint : colour::kWarning,
                shortened(below, room).c_str());
   if (!pressed) return false;
-  const bool again = state.chosen_world == world.path && !ImGui::IsMouseReleased(0) &&
-                     !ImGui::IsMouseClicked(0);
+  const bool again =
+      state.chosen_world == world.path && !ImGui::IsMouseReleased(0) && !ImGui::IsMouseClicked(0);
   state.chosen_world = world.path;
   return again || ImGui::IsMouseDoubleClicked(0);
 }
