@@ -19,12 +19,18 @@ constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
 
 void PlayLoop::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, bindings_);
+  // The click that captures the pointer means nothing else.
+  const bool was_captured = window_.pointer_captured();
   act_on_pointer(input, actions);
   act_on_picture(input, actions, seconds);
   if (actions.pressed(Action::kFly)) {
-    player_.set_mode(player_.mode() == MoveMode::kFly ? MoveMode::kWalk : MoveMode::kFly);
+    player_.set_mode(player_.mode() == MoveMode::kWalk ? MoveMode::kFly : MoveMode::kWalk);
+  }
+  if (actions.pressed(Action::kNoclip)) {
+    player_.set_mode(player_.mode() == MoveMode::kNoclip ? MoveMode::kFly : MoveMode::kNoclip);
   }
   move(input, actions, seconds);
+  use_hands(actions, was_captured, seconds);
   adapt_eye(seconds);
 }
 
@@ -93,6 +99,12 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
   around_.refresh(player_.feet(), reach, player_.world_time_s());
   player_.advance(seconds, intent_of(actions), around_);
   scene_.camera = player_.eye(around_);
+}
+
+void PlayLoop::use_hands(const ActionFrame& actions, bool captured, double seconds) {
+  HandIntent intent = hand_intent_of(actions);
+  if (!captured) intent.dig = intent.place = intent.take_block = false;
+  hands_.advance(seconds, intent, player_, *scene_.camera, around_, editor_);
 }
 
 }  // namespace skerry::game

@@ -40,6 +40,7 @@ PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, const SceneOpt
       view_(std::move(view)),
       player_(player_at(view_->start_camera(), options.settings.world_time_s)),
       around_(view_->world()),
+      editor_(view_->world()),
       day_(options.time_of_day_s) {
   // A place that was asked for is a view, most often in the air.
   if (options.camera) player_.set_mode(MoveMode::kFly);
@@ -81,6 +82,12 @@ SceneView::Moment PlayLoop::moment() const {
   moment.world_time_s = player_.world_time_s();
   moment.freeze_culling = culling_frozen_;
   moment.exposure_ev = exposure_ev_;
+  // A screenshot's command knows of no hands.
+  if (const std::optional<Pick>& pick = hands_.pick(); pick && !screenshot_wanted_) {
+    const VoxelBox box = pick_box(pick->block);
+    const glm::dvec3 corner{pick->voxel.x, pick->voxel.y, pick->voxel.z};
+    moment.marked = {pick->island, corner + box.min, corner + box.max, hands_.dig_progress()};
+  }
   return moment;
 }
 

@@ -43,6 +43,7 @@ class PlayLoop {
   void act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
                       double seconds);
   void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
+  void use_hands(const ActionFrame& actions, bool captured, double seconds);
   Result<bool> draw(double seconds);
   void take_screenshot();
   void note_frame(double seconds);
@@ -56,6 +57,8 @@ class PlayLoop {
   std::unique_ptr<SceneView> view_;
   Player player_;
   WorldSurroundings around_;
+  WorldEditor editor_;
+  Interaction hands_;
   DayClock day_;
   Bindings bindings_;
   std::optional<double> exposure_ev_;  // what the eye has adapted to by now; none before it saw
