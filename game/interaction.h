@@ -41,7 +41,7 @@ struct HandIntent {
   bool place = false;       ///< held down
   bool take_block = false;  ///< the block pointed at comes into the hand
   bool undo = false, redo = false;
-  std::optional<int> slot;  ///< selects 0 .. kHotbarSlots - 1
+  std::optional<int> slot = {};  ///< selects 0 .. kHotbarSlots - 1
   int scroll = 0;           ///< slots to go on; negative: back
 };
 

@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(binding = 4) uniform sampler2D depths;
 layout(binding = 6, rgba8) uniform image2D picture;
-layout(push_constant) uniform Push { MarkerConstants marker; } push;
+layout(scalar, push_constant) uniform Push { MarkerConstants marker; } push;
 
 layout(constant_id = 0) const uint kSamplesPerEdge = 1u;  // of a pixel, in the depth image
 
