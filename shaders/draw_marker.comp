@@ -16,9 +16,9 @@ layout(constant_id = 0) const uint kSamplesPerEdge = 1u;  // of a pixel, in the 
 const float kRim = 1.0;            // pixels of light around a line, so that it shows before what is dark, too
 const float kLineCover = 0.85, kRimCover = 0.22, kCrackCover = 0.65, kCrackRim = 0.1;
 const float kOnBox = 0.01;         // blocks by which rounding may part a surface from the box it belongs to
-const uint kCrackTexels = 16u;     // along a face's edge
+const uint kCrackTexels = 32u;     // along a face's edge
 const float kCrackCells = 4.0;     // shards along a face's edge
-const float kCrackWidth = 0.14;    // of a shard
+const float kCrackWidth = 0.08;    // of a shard
 
 vec2 screen_scale() { return 0.5 * vec2(frame.picture_size); }
 
