@@ -23,9 +23,12 @@ namespace skerry::game {
 /// here; generation and meshing run on jobs.
 class SceneView {
  public:
-  /// Errors: no memory on the device.
+  /// Errors: no memory on the device; those of open_world.
   static Result<std::unique_ptr<SceneView>> create(gpu::Device& device,
                                                    const SceneOptions& options);
+  /// Shows a world that is open already.
+  static Result<std::unique_ptr<SceneView>> create(gpu::Device& device, const SceneOptions& options,
+                                                   std::shared_ptr<world::World> world);
   ~SceneView();
 
   /// The camera the options ask for: given, or the seed's spawn view at eye height.
@@ -72,13 +75,18 @@ class SceneView {
       std::span<const VkSemaphoreSubmitInfo> signals = {});
 
  private:
-  explicit SceneView(const SceneOptions& options);
+  SceneView(const SceneOptions& options, std::shared_ptr<world::World> world);
+  struct IslandEntry {
+    world::IslandSpec spec;
+    std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
+  };
   bool occupancy_wanted() const;
   Result<void> follow_settings();
   Result<void> take_in(world::StreamUpdate update);
   Result<void> add_section(const world::ReadySection& ready);
   void remove_section(const world::SectionKey& key);
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
+  world::Pose pose_of(const IslandEntry& entry, double world_time_s) const;
   std::vector<render::IslandPlacement> placements(double world_time_s) const;
   std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera,
                                            std::span<const render::IslandPlacement> islands) const;
@@ -90,14 +98,9 @@ class SceneView {
   render::RenderSettings render_settings(const render::FixedPos& camera,
                                          std::span<const render::IslandPlacement> islands) const;
 
-  struct IslandEntry {
-    world::IslandSpec spec;
-    std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
-  };
-
   Settings settings_;
   std::unique_ptr<Jobs> jobs_;
-  std::unique_ptr<world::World> world_;
+  std::shared_ptr<world::World> world_;
   std::unique_ptr<world::Streamer> streamer_;
   std::unique_ptr<render::Renderer> renderer_;
   render::Camera start_camera_;

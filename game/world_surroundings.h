@@ -61,6 +61,7 @@ class WorldSurroundings : public Surroundings {
   std::optional<world::BlockId> block(std::uint64_t island, world::IVec3 voxel) const override;
 
  private:
+  world::Pose pose_of(const world::IslandSpec& spec, double time_s) const;
   const world::IslandSpec* spec_of(std::uint64_t island) const;
   void load_chunks(const world::IslandSpec& spec, world::WorldPos place, double time_s);
 

@@ -20,7 +20,7 @@ struct Refusal {
 /// Options of every command that draws a scene, as typed.
 struct SceneArguments {
   game::SceneText text;
-  std::optional<std::string> world, scene_file, device, renderer, shading;
+  std::optional<std::string> scene_file, device, renderer, shading;
   bool validate = false;
 };
 
