@@ -17,6 +17,9 @@ using platform::Key;
 using ui::Screen;
 
 constexpr double kIdleWait = 0.05;  // seconds between looks at a window that shows nothing
+constexpr double kScreensShare =
+    5.0;  // times what the world behind takes, for the screen before it
+constexpr double kStillWait = 1.0 / 60.0;  // seconds between frames in which only a screen is drawn
 
 ui::Clipboard clipboard_of(platform::Window& window) {
   return {[&window] { return window.clipboard(); },
@@ -53,7 +56,9 @@ Result<void> App::run() {
   Clock::time_point before = Clock::now();
   bool drawn = true;
   while (!window_.should_close()) {
-    const platform::InputFrame input = held_back_.filtered(window_.poll(drawn ? 0.0 : kIdleWait));
+    const platform::InputFrame input = held_back_.filtered(window_.poll(!drawn   ? kIdleWait
+                                                                        : still_ ? kStillWait
+                                                                                 : 0.0));
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - before).count();
     before = now;
@@ -81,13 +86,12 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
     pictures_shown_ = pictures_.version();
   }
   wishes_ = {};
-  Result<bool> drawn = world_ ? world_->draw(layout) : draw_backdrop(seconds, layout);
+  const Result<bool> drawn = draw(seconds, layout);
   if (!drawn) return drawn;
-  SceneView& view = world_ ? world_->view() : backdrop_->view();
-  if (const auto& report = view.renderer().report()) costs_.note_frame(report->gpu_ms);
   if (const auto done = fulfil(wishes_); !done) return done.error();
   // What was held while one thing was shown shall not act on the next.
   if (screens_.stack.top() == before) return drawn;
+  fresh_frames_ = std::max(fresh_frames_, kSettlingFrames);
   held_back_.hold(input);
   keep_settings();
   if (screens_.stack.top() == Screen::kNewWorld) {
@@ -153,13 +157,51 @@ void App::fly_photo_camera(const platform::InputFrame& input, const ActionFrame&
                               photo_settings_.time_of_day_s, photo_settings_.exposure_ev});
 }
 
-Result<bool> App::draw_backdrop(double seconds, const PlayLoop::Layout& layout) {
-  backdrop_->advance(std::min(seconds, kLongestFrame));
+/// Whether the world is drawn anew. Behind a screen it stands still, or turns at leisure; then most
+/// of the time goes to the screen, which answers at once on the slowest of devices.
+bool App::world_is_due(double seconds) {
+  since_drawn_s_ += seconds;
+  if (world_ && (world_goes_on(screens_.stack) || screens_.stack.top() == Screen::kPhoto))
+    return true;
+  SceneView& view = world_ ? world_->view() : backdrop_->view();
+  const auto& report = view.renderer().report();
+  const VkExtent2D drawn = presenter_->extent();
+  const platform::FramebufferSize window = window_.framebuffer_size();
+  const bool resized = drawn.width != window.width || drawn.height != window.height;
+  if (!report || resized || fresh_frames_ > 0) return true;
+  if (world_ && view.complete()) return false;
+  return since_drawn_s_ * 1000.0 > kScreensShare * report->gpu_ms;
+}
+
+Result<bool> App::draw(double seconds, const PlayLoop::Layout& layout) {
+  if (backdrop_) backdrop_->advance(std::min(seconds, kLongestFrame));
   if (preview_due_s_ && (*preview_due_s_ -= seconds) <= 0.0) {
     preview_due_s_.reset();
     if (const auto done = set_backdrop(Backdrop::View::kSpawn, screens_.new_seed.data()); !done)
       return done.error();
   }
+  still_ = !world_is_due(seconds);
+  if (still_) return show_again(layout);
+  since_drawn_s_ = 0.0;
+  fresh_frames_ = std::max(0, fresh_frames_ - 1);
+  const Result<bool> drawn = world_ ? world_->draw(layout) : draw_backdrop(layout);
+  SceneView& view = world_ ? world_->view() : backdrop_->view();
+  if (const auto& report = view.renderer().report()) costs_.note_frame(report->gpu_ms);
+  return drawn;
+}
+
+Result<bool> App::show_again(const PlayLoop::Layout& layout) {
+  const platform::FramebufferSize window_px = window_.framebuffer_size();
+  const std::optional<gpu::SwapchainFrame> frame =
+      presenter_->acquire({window_px.width, window_px.height});
+  if (!frame) return false;
+  gpu::Image& picture = (world_ ? world_->view() : backdrop_->view()).renderer().picture();
+  const Result<void> shown = presenter_->show_again(picture, *frame, layout(picture.desc().extent));
+  if (!shown) return shown.error();
+  return true;
+}
+
+Result<bool> App::draw_backdrop(const PlayLoop::Layout& layout) {
   SceneView& view = backdrop_->view();
   const SceneView::Moment now = backdrop_->moment();
   if (const auto done = view.stream(now.camera, now.world_time_s); !done) return done.error();

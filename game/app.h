@@ -41,7 +41,10 @@ class App {
   void act_on_screens(const platform::InputFrame& input, const ActionFrame& actions);
   void fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
                         double seconds);
-  Result<bool> draw_backdrop(double seconds, const PlayLoop::Layout& layout);
+  Result<bool> draw(double seconds, const PlayLoop::Layout& layout);
+  Result<bool> draw_backdrop(const PlayLoop::Layout& layout);
+  Result<bool> show_again(const PlayLoop::Layout& layout);
+  bool world_is_due(double seconds);
   ui::OverlayTriangles lay_out(VkExtent2D size, const platform::InputFrame& input, double seconds);
   ui::ScreenFacts screen_facts(const platform::InputFrame& input);
   void open(ui::Screen screen);
@@ -81,6 +84,13 @@ class App {
   PhotoCamera photo_;
   ui::PhotoSettings photo_settings_;
   platform::HeldBack held_back_;
+  // Frames left in which the world behind a screen is drawn in any case: after the screen has come
+  // up, and after a knob was turned, until its cost is known.
+  static constexpr int kSettlingFrames = 3;
+  static constexpr int kMeasuringFrames = ui::KnobCosts::kSkipped + ui::KnobCosts::kFrames;
+  int fresh_frames_ = 0;
+  double since_drawn_s_ = 0.0;                                // since it was drawn
+  bool still_ = false;                                        // the last frame drew a screen alone
   bool settings_changed_ = false, bindings_changed_ = false;  // since they were saved
   bool hud_hidden_ = false;
   bool back_ = false;  // this frame's input closes what is topmost

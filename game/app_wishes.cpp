@@ -34,10 +34,12 @@ void App::say(std::string line) {
 Result<void> App::fulfil(const ui::Wishes& wishes) {
   if (wishes.settings_changed) {
     settings_changed_ = true;
+    fresh_frames_ = kMeasuringFrames;
     follow_settings();
   }
   bindings_changed_ |= wishes.bindings_changed;
   if (wishes.photograph) world_->want_screenshot();
+  if (wishes.take) world_->hotbar().take(*wishes.take);
   if (wishes.draw_lots) draw_lots();
   if (wishes.preview || wishes.draw_lots) preview_due_s_ = kPreviewDelay;
   if (wishes.remove) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTurnDegPerSecond = 1.5;
 constexpr double kLookDownDeg = 16.0;
-constexpr double kEveningS = 17.25 * 3600, kMorningS = 9.5 * 3600;
+constexpr int kMorningS = 9 * 3600 + 1800;
 constexpr double kNearest = 70.0, kFarthest = 190.0;  // blocks from the island's middle
 constexpr double kWindowSide = 14.0;                  // degrees: beside the panel, not behind it
 
@@ -37,14 +37,13 @@ SceneView::Moment Backdrop::moment() const {
   SceneView::Moment moment;
   moment.camera = view_->start_camera();
   moment.world_time_s = passed_s_;
+  moment.time_of_day_s = kMorningS;
   const double turned_deg = kTurnDegPerSecond * passed_s_;
   if (kind_ == View::kSpawn) {
-    moment.time_of_day_s = kMorningS;
     moment.world_time_s = 0.0;  // the spawn is where it is at the beginning
     moment.camera.yaw_deg += kWindowSide + 12.0 * std::sin(glm::radians(4.0 * turned_deg));
     return moment;
   }
-  moment.time_of_day_s = kEveningS;
   const double yaw = glm::radians(turned_deg), pitch = glm::radians(kLookDownDeg);
   const glm::dvec3 back{-std::sin(yaw) * std::cos(pitch), std::sin(pitch),
                         -std::cos(yaw) * std::cos(pitch)};

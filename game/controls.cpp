@@ -27,6 +27,22 @@ Intent intent_of(const ActionFrame& actions) {
   intent.rise = axis(actions, Action::kJump, Action::kCrouch);
   intent.jump = actions.down(Action::kJump) || actions.pressed(Action::kJump);
   intent.fast = actions.down(Action::kFast);
+  intent.crouch = actions.down(Action::kCrouch);
+  return intent;
+}
+
+HandIntent hand_intent_of(const ActionFrame& actions) {
+  HandIntent intent;
+  // What was pressed and let go of within a frame still counts for that frame.
+  intent.dig = actions.down(Action::kDig) || actions.pressed(Action::kDig);
+  intent.place = actions.down(Action::kPlace) || actions.pressed(Action::kPlace);
+  intent.take_block = actions.pressed(Action::kPick);
+  intent.undo = actions.pressed(Action::kUndo);
+  intent.redo = actions.pressed(Action::kRedo);
+  for (int slot = 0; slot < kHotbarSlots; ++slot)
+    if (actions.pressed(static_cast<Action>(static_cast<int>(Action::kSlot1) + slot)))
+      intent.slot = slot;
+  intent.scroll = actions.presses(Action::kNextSlot) - actions.presses(Action::kPreviousSlot);
   return intent;
 }
 

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 
 #include "game/actions.h"
+#include "game/interaction.h"
 #include "game/options.h"
 #include "game/player.h"
 
@@ -10,6 +11,9 @@ namespace skerry::game {
 
 /// What the actions say about the next ticks.
 Intent intent_of(const ActionFrame& actions);
+
+/// What the actions say about the hands.
+HandIntent hand_intent_of(const ActionFrame& actions);
 
 /// What turns the head during a frame.
 struct LookInput {

@@ -21,9 +21,13 @@ void PlayLoop::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, *bindings_);
   act_on_picture(input, actions, seconds);
   if (actions.pressed(Action::kFly)) {
-    player_.set_mode(player_.mode() == MoveMode::kFly ? MoveMode::kWalk : MoveMode::kFly);
+    player_.set_mode(player_.mode() == MoveMode::kWalk ? MoveMode::kFly : MoveMode::kWalk);
+  }
+  if (actions.pressed(Action::kNoclip)) {
+    player_.set_mode(player_.mode() == MoveMode::kNoclip ? MoveMode::kFly : MoveMode::kNoclip);
   }
   move(input, actions, seconds);
+  use_hands(actions, seconds);
   adapt_eye(seconds);
 }
 
@@ -82,6 +86,11 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
   around_.refresh(player_.feet(), reach, player_.world_time_s());
   player_.advance(seconds, intent_of(actions), around_);
   scene_.camera = player_.eye(around_);
+}
+
+void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
+  const HandIntent intent = hand_intent_of(actions);
+  hands_.advance(seconds, intent, player_, *scene_.camera, around_, editor_);
 }
 
 }  // namespace skerry::game

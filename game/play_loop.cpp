@@ -37,6 +37,7 @@ PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, Presenter& pre
       view_(std::move(view)),
       player_(player_at(view_->start_camera(), options.settings.world_time_s)),
       around_(view_->world()),
+      editor_(view_->world()),
       day_(options.time_of_day_s) {
   // A place that was asked for is a view, most often in the air.
   if (options.camera) player_.set_mode(MoveMode::kFly);
@@ -61,6 +62,12 @@ SceneView::Moment PlayLoop::moment() const {
                      photo_->fov_deg};
     moment.time_of_day_s = photo_->time_of_day_s;
     if (photo_->exposure_ev) moment.exposure_ev = photo_->exposure_ev;
+  }
+  // A screenshot's command knows of no hands.
+  if (const std::optional<Pick>& pick = hands_.pick(); pick && !screenshot_wanted_ && !photo_) {
+    const VoxelBox box = pick_box(pick->block);
+    const glm::dvec3 corner{pick->voxel.x, pick->voxel.y, pick->voxel.z};
+    moment.marked = {pick->island, corner + box.min, corner + box.max, hands_.dig_progress()};
   }
   return moment;
 }

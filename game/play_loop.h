@@ -60,6 +60,7 @@ class PlayLoop {
   SceneOptions& scene() { return scene_; }
   Settings& settings() { return view_->settings(); }
   SceneView& view() { return *view_; }
+  Hotbar& hotbar() { return hands_.hotbar(); }
   const DayClock& day() const { return day_; }
   std::optional<double> exposure_ev() const { return exposure_ev_; }
 
@@ -77,6 +78,7 @@ class PlayLoop {
   void act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
                       double seconds);
   void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
+  void use_hands(const ActionFrame& actions, double seconds);
   void take_screenshot();
   std::vector<std::string> overlay_lines() const;
   SceneView::Moment moment() const;
@@ -89,6 +91,8 @@ class PlayLoop {
   std::unique_ptr<SceneView> view_;
   Player player_;
   WorldSurroundings around_;
+  WorldEditor editor_;
+  Interaction hands_;
   DayClock day_;
   std::optional<double> exposure_ev_;  // what the eye has adapted to by now; none before it saw
   std::optional<PhotoView> photo_;

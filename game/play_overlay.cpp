@@ -80,6 +80,8 @@ ui::HudFacts PlayLoop::hud() const {
     return world::floor_div(units, world::kUnitsPerBlock);
   };
   facts.yaw_deg = eye.yaw_deg;
+  facts.hotbar = hands_.hotbar().blocks;
+  facts.selected = hands_.hotbar().selected;
   facts.time_of_day_s = day_.time_of_day_s();
   facts.place = fmt::format("{}  {}  {}", whole(feet.x), whole(feet.y), whole(feet.z));
   if (!view_->complete()) facts.islands_to_come = view_->streamer().stats().tasks_left;

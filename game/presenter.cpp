@@ -20,6 +20,7 @@ Presenter::Presenter(gpu::Device& device, std::unique_ptr<gpu::Swapchain> swapch
     : device_(device),
       pipelines_(device),
       graph_(&device),
+      ring_(device, OverlayPass::kSlots),
       swapchain_(std::move(swapchain)),
       overlay_pass_(std::move(overlay_pass)) {}
 
@@ -76,6 +77,15 @@ Result<void> Presenter::record(VkCommandBuffer commands, gpu::Image& picture,
   swapchain_->show(commands, overlay && done ? canvas_ : picture, frame);
   swapchain_->finish(commands, frame);
   return done;
+}
+
+Result<void> Presenter::show_again(gpu::Image& picture, const gpu::SwapchainFrame& frame,
+                                   const ui::OverlayTriangles& overlay) {
+  const gpu::FrameRing::Frame commands = ring_.begin();
+  const Result<void> recorded =
+      record(commands.commands, picture, frame, overlay.vertices.empty() ? nullptr : &overlay);
+  present(frame, ring_.submit({&frame.wait, 1}, {&frame.signal, 1}));
+  return recorded;
 }
 
 void Presenter::present(const gpu::SwapchainFrame& frame, std::uint64_t value) {

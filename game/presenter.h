@@ -7,6 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame_graph.h"
+#include "engine/gpu/frame_ring.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/swapchain.h"
 #include "game/overlay_pass.h"
@@ -35,6 +36,10 @@ class Presenter {
   Result<void> set_pictures(const ui::PictureView& pictures) {
     return overlay_pass_->set_pictures(pictures);
   }
+  /// Brings a picture that is finished to the window once more, with another overlay, and presents
+  /// it. Errors: no memory.
+  Result<void> show_again(gpu::Image& picture, const gpu::SwapchainFrame& frame,
+                          const ui::OverlayTriangles& overlay);
   /// After the submit. @param value the timeline value it signals.
   void present(const gpu::SwapchainFrame& frame, std::uint64_t value);
 
@@ -48,6 +53,7 @@ class Presenter {
   gpu::Device& device_;
   gpu::Pipelines pipelines_;
   gpu::FrameGraph graph_;
+  gpu::FrameRing ring_;  // of pictures that are shown again
   std::unique_ptr<gpu::Swapchain> swapchain_;
   std::unique_ptr<OverlayPass> overlay_pass_;
   gpu::Image canvas_;  // the picture's copy that the overlay is drawn on

@@ -37,9 +37,11 @@ void set_colours(ImGuiStyle& style) {
        {ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive})
     set(which, with_alpha(colour::kAccent, 0.42f));
   set(ImGuiCol_Header, with_alpha(colour::kAccent, 0.20f));
-  for (const ImGuiCol which : {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_PlotLines})
+  for (const ImGuiCol which : {ImGuiCol_CheckMark, ImGuiCol_PlotLines})
     set(which, with_alpha(colour::kAccent, 1.0f));
-  set(ImGuiCol_SliderGrabActive, with_alpha(colour::kText, 1.0f));
+  // The value is written over the grab.
+  set(ImGuiCol_SliderGrab, with_alpha(colour::kAccent, 0.42f));
+  set(ImGuiCol_SliderGrabActive, with_alpha(colour::kAccent, 0.70f));
   set(ImGuiCol_NavHighlight, with_alpha(colour::kAccent, 1.0f));
   set(ImGuiCol_TextSelectedBg, with_alpha(colour::kAccent, 0.40f));
   set(ImGuiCol_ScrollbarBg, ImVec4(0, 0, 0, 0));

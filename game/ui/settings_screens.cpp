@@ -11,7 +11,7 @@
 namespace skerry::game::ui {
 namespace {
 
-constexpr float kLabelWidth = 230.0f, kCostWidth = 130.0f;  // units
+constexpr float kLabelWidth = 230.0f, kCostWidth = 104.0f;  // units
 
 /// Label to the left, a control in the middle, what it cost to the right.
 class Rows {

@@ -8,8 +8,8 @@ namespace skerry::game::ui {
 namespace {
 
 TEST(Hud, BearingsFollowTheConventions) {
-  EXPECT_EQ(bearing_deg(0.0), 180.0);   // yaw 0 looks along +z, south
-  EXPECT_EQ(bearing_deg(90.0), 90.0);   // 90 along +x, east
+  EXPECT_EQ(bearing_deg(0.0), 180.0);  // yaw 0 looks along +z, south
+  EXPECT_EQ(bearing_deg(90.0), 90.0);  // 90 along +x, east
   EXPECT_EQ(bearing_deg(180.0), 0.0);
   EXPECT_EQ(bearing_deg(-90.0), 270.0);
 }
@@ -34,8 +34,10 @@ TEST(Hud, DrawsWithinThePicture) {
     for (const shared::OverlayVertex& vertex : triangles.vertices) {
       ASSERT_LT(vertex.clip & ~shared::kOverlayPicture, triangles.clips.size());
       pictured |= (vertex.clip & shared::kOverlayPicture) != 0;
-      ASSERT_TRUE(vertex.position.x >= -2.0f && vertex.position.x <= static_cast<float>(width) + 2.0f);
-      ASSERT_TRUE(vertex.position.y >= -2.0f && vertex.position.y <= static_cast<float>(height) + 2.0f);
+      ASSERT_TRUE(vertex.position.x >= -2.0f &&
+                  vertex.position.x <= static_cast<float>(width) + 2.0f);
+      ASSERT_TRUE(vertex.position.y >= -2.0f &&
+                  vertex.position.y <= static_cast<float>(height) + 2.0f);
     }
     EXPECT_TRUE(pictured);
   }

@@ -20,7 +20,7 @@ struct Size {
   std::uint32_t width, height;
 };
 constexpr Size kSizes[] = {{640, 360}, {1280, 720}, {2560, 1440}};
-constexpr Screen kScreens[] = {Screen::kTitle,    Screen::kWorlds, Screen::kNewWorld,
+constexpr Screen kScreens[] = {Screen::kTitle,    Screen::kWorlds,   Screen::kNewWorld,
                                Screen::kSettings, Screen::kControls, Screen::kPause,
                                Screen::kPalette,  Screen::kPhoto};
 
@@ -105,8 +105,8 @@ TEST(Screens, NothingLeavesItsWindowAtAnySize) {
       Sitting sitting(screen, size);
       sitting.settle();
       const ImGuiContext& context = *ImGui::GetCurrentContext();
-      const std::string where = std::to_string(static_cast<int>(screen)) + " at " +
-                                std::to_string(size.height);
+      const std::string where =
+          std::to_string(static_cast<int>(screen)) + " at " + std::to_string(size.height);
       bool any = false;
       for (const ImGuiWindow* window : context.Windows) {
         if (!window->Active || window->Flags & ImGuiWindowFlags_Tooltip ||
@@ -122,7 +122,8 @@ TEST(Screens, NothingLeavesItsWindowAtAnySize) {
             << window->Name << where;
         // What has no scrolling part of its own must fit in height as well.
         const bool scrolls = std::string_view(window->Name).find('/') != std::string_view::npos;
-        if (!scrolls && size.height >= 720) EXPECT_EQ(window->ScrollMax.y, 0.0f) << window->Name << where;
+        if (!scrolls && size.height >= 720)
+          EXPECT_EQ(window->ScrollMax.y, 0.0f) << window->Name << where;
       }
       EXPECT_TRUE(any) << where;
     }
@@ -134,7 +135,8 @@ TEST(Screens, TextIsNeverSmallerThanItReads) {
     Sitting sitting(Screen::kSettings, size);
     sitting.settle();
     EXPECT_GE(ImGui::GetIO().FontDefault->FontSize, 12.0f);
-    EXPECT_NEAR(ImGui::GetIO().FontDefault->FontSize, std::max(12.0, 18.0 * size.height / 720.0), 4.0);
+    EXPECT_NEAR(ImGui::GetIO().FontDefault->FontSize, std::max(12.0, 18.0 * size.height / 720.0),
+                4.0);
   }
 }
 
