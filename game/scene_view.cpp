@@ -174,7 +174,6 @@ Result<void> SceneView::take_in(world::StreamUpdate update) {
 void SceneView::remove_section(const world::SectionKey& key) {
   const auto found = sections_.find(key);
   SKERRY_ASSERT(found != sections_.end());
-  light_field_.remove(key);
   gpu::Uploader& uploader = renderer_->mesh_uploader();
   light_field_.remove(key);
   const auto slot = island_slots_.find(key.island);
@@ -206,7 +205,6 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
       uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
   if (!added) return added.error();
   section = *added;
-  light_field_.add(ready.key, ready.emitters);
   return {};
 }
 
@@ -323,6 +321,15 @@ render::RenderSettings SceneView::render_settings(
   return out;
 }
 
+/// None if nothing of the island is drawn.
+std::optional<render::BlockMarker> SceneView::marker_of(const Moment& moment) const {
+  if (!moment.marked) return std::nullopt;
+  const auto slot = island_slots_.find(moment.marked->island);
+  if (slot == island_slots_.end()) return std::nullopt;
+  return render::BlockMarker{slot->second, moment.marked->min, moment.marked->max,
+                             static_cast<float>(moment.marked->dug)};
+}
+
 Result<std::uint64_t> SceneView::draw(
     const Moment& moment, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
@@ -345,6 +352,7 @@ Result<std::uint64_t> SceneView::draw(
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
+  input.marker = marker_of(moment);
   const render::RenderSettings settings = render_settings(moment.camera.position, islands);
   input.parts = settings_.shadow_samples;
   for (; input.part + 1 < input.parts; ++input.part)
