@@ -238,7 +238,8 @@ TEST(Split, WorkFollowsTheSmallerPart) {
   const SplitSearch search = find_fragments(grid, {&neck, 1});
   ASSERT_EQ(search.fragments.size(), 1u);
   EXPECT_EQ(search.fragments[0].mass.blocks, 131'072u);
-  EXPECT_LE(search.bricks_looked_at, 2u * 16 * 8 * 3 + 2);  // its bricks, and as many of the other
+  // Its bricks, some of them in several pieces, and as many of the other.
+  EXPECT_LE(search.bricks_looked_at, 3u * 16 * 8 * 3);
 }
 
 TEST(Split, APieceFliesOnAsItsVoxelsDid) {
