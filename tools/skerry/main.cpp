@@ -19,6 +19,7 @@
 #include "tools/skerry/shot.h"
 #include "tools/skerry/stability/command.h"
 #include "tools/skerry/test_command.h"
+#include "tools/skerry/vdb_command.h"
 
 namespace skerry::tools {
 namespace {
@@ -43,6 +44,7 @@ struct CommandLine {
   std::vector<std::string> typed;  ///< all arguments, the command first
   std::optional<TestCommand> test;
   std::optional<StabilityCommand> stability;
+  std::optional<VdbCommand> vdb;
 
   CommandLine();
   int run();
@@ -69,6 +71,7 @@ CommandLine::CommandLine() {
   test.emplace(app);
   bench.emplace(app);
   stability.emplace(app);
+  vdb.emplace(app);
   devices = add("devices", "List the Vulkan devices");
   devices->add_flag("--json", json, "As JSON");
 }
@@ -110,6 +113,7 @@ int CommandLine::run() {
   if (chosen == report->command()) return report->run(typed);
   if (chosen == test->command()) return test->run();
   if (chosen == stability->command()) return stability->run();
+  if (chosen == vdb->command()) return vdb->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();
   if (chosen == shot) return run_shot();
