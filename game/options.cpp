@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 8> kFields{"seed", "camera",  "fov",      "time",
+constexpr std::array<std::string_view, 9> kFields{"seed", "world",   "camera",   "fov",   "time",
                                                   "size", "quality", "settings", "lights"};
 
 /// A scalar as the text a person would have typed, or nothing for other kinds.
@@ -78,8 +78,8 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
     scene.camera = *camera;
     return {};
   }
-  std::optional<std::string>* const texts[] = {&scene.seed, nullptr,     &scene.fov,
-                                               &scene.time, &scene.size, &scene.quality};
+  std::optional<std::string>* const texts[] = {&scene.seed, &scene.world, nullptr,       &scene.fov,
+                                               &scene.time, &scene.size,  &scene.quality};
   const auto field = std::find(kFields.begin(), kFields.end(), key);
   if (field == kFields.end()) return unknown_field(key);
   const auto text = scalar_text(value);
@@ -130,9 +130,25 @@ Result<SceneText> parse_scene(std::string_view json_text) {
   return scene;
 }
 
+namespace {
+
+/// A source named in `over` replaces the one of `under`, whichever kind it is.
+Result<void> choose_source(const SceneText& under, const SceneText& over, SceneOptions& scene) {
+  const SceneText& named = over.seed || over.world ? over : under;
+  if (named.seed && named.world)
+    return Error{"a seed and a world were given: give one of the two, a saved world has its own"};
+  if (named.seed) scene.seed_text = *named.seed;
+  if (named.world && named.world->empty())
+    return Error{"the world's path is empty: give the file of a saved world"};
+  scene.world = named.world;
+  return {};
+}
+
+}  // namespace
+
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
   SceneOptions scene;
-  if (const auto* seed = chosen(under.seed, over.seed)) scene.seed_text = *seed;
+  if (const auto source = choose_source(under, over, scene); !source) return source.error();
   if (const auto* text = chosen(under.camera, over.camera)) {
     const auto camera = parse_camera(*text);
     if (!camera) return camera.error();
@@ -169,7 +185,8 @@ std::string shot_command(const SceneOptions& scene) {
   std::string command = "skerry shot";
   if (!scene.lights.empty() && scene.scene_file)
     command += " --scene " + shell_word(*scene.scene_file);
-  command += " --seed " + shell_word(scene.seed_text);
+  command += scene.world ? " --world " + shell_word(*scene.world)
+                         : " --seed " + shell_word(scene.seed_text);
   if (scene.camera) command += " --camera " + format_camera(*scene.camera);
   command += fmt::format(" --fov {} --time {} --size {}x{} --quality {}", scene.fov_deg,
                          format_time_of_day(scene.time_of_day_s), scene.size.width,

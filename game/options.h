@@ -17,6 +17,7 @@ namespace skerry::game {
 /// A picture to be drawn: shared by shot, play and bench frame.
 struct SceneOptions {
   std::string seed_text = "1";        ///< world::seed_from_text makes the seed
+  std::optional<std::string> world;   ///< a file in place of a seed (open_world.h)
   std::optional<CameraPlace> camera;  ///< none: the seed's spawn view
   double fov_deg = 70.0;              ///< vertical, 0.1 .. 175
   int time_of_day_s = 12 * 3600;      ///< since midnight
@@ -31,7 +32,7 @@ struct SceneOptions {
 
 /// One optional text a field, as typed on the command line or read from a scene file.
 struct SceneText {
-  std::optional<std::string> seed, camera, fov, time, size, quality;
+  std::optional<std::string> seed, world, camera, fov, time, size, quality;
   std::vector<std::string> settings;  ///< KEY=VALUE, later ones win
   std::vector<WorldLight> lights;     ///< of a scene file
   Expectations expectations;          ///< of a scene file; no concern of make_scene
@@ -40,14 +41,14 @@ struct SceneText {
 /// The longest scene file worth reading.
 inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 
-/// Reads a scene: a JSON object with the fields seed, camera (five numbers or strings), fov, time,
-/// size, quality, settings (an object) and lights (read_lights), and those of Expectations. Errors:
-/// no JSON, an unknown field (names the nearest), a value of the wrong kind. Values are checked by
-/// make_scene, but for lights; masks by check_masks.
+/// Reads a scene: a JSON object with the fields seed, world, camera (five numbers or strings), fov,
+/// time, size, quality, settings (an object) and lights (read_lights), and those of Expectations.
+/// Errors: no JSON, an unknown field (names the nearest), a value of the wrong kind. Values are
+/// checked by make_scene, but for lights; masks by check_masks.
 Result<SceneText> parse_scene(std::string_view json_text);
 
 /// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied
-/// first.
+/// first. A seed and a world exclude each other.
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over);
 
 /// A word of a command line: in single quotes unless every character is harmless to a shell.

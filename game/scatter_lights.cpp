@@ -54,7 +54,7 @@ std::vector<Island> islands_in_view(world::World& world, const ScatterView& view
   std::vector<Island> out;
   for (const world::IslandSpec& spec :
        world.islands_near(view.camera, view.view_distance_blocks, view.time_s)) {
-    const world::Pose pose = world::pose_at(spec, view.time_s);
+    const world::Pose pose = *world.pose(spec.id, view.time_s);
     const glm::dmat3 lattice_from_world = glm::transpose(glm::mat3_cast(pose.rotation));
     out.push_back({spec.id, lattice_from_world,
                    lattice_from_world * world::difference_blocks(view.camera, pose.origin),

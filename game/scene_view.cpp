@@ -8,6 +8,7 @@
 #include "engine/render/celestial.h"
 #include "game/light_setup.h"
 #include "game/materials.h"
+#include "game/open_world.h"
 #include "game/player.h"
 #include "world/blocks.h"
 
@@ -77,10 +78,9 @@ shared::Section section_record(const world::SectionKey& key, const world::ChunkM
 
 }  // namespace
 
-SceneView::SceneView(const SceneOptions& options) : settings_(options.settings) {
+SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> world)
+    : settings_(options.settings), world_(std::move(world)) {
   jobs_ = std::make_unique<Jobs>(static_cast<int>(settings_.jobs_threads));
-  world_ = std::make_unique<world::World>(world::WorldDesc{
-      world::seed_from_text(options.seed_text), settings_.world_offset, settings_.world_islands});
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
   if (options.camera) {
     start_camera_.position = fixed(options.camera->position);
@@ -100,7 +100,15 @@ SceneView::~SceneView() = default;
 
 Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
                                                      const SceneOptions& options) {
-  std::unique_ptr<SceneView> view(new SceneView(options));
+  Result<std::unique_ptr<world::World>> world = open_world(options);
+  if (!world) return world.error();
+  return create(device, options, *std::move(world));
+}
+
+Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
+                                                     const SceneOptions& options,
+                                                     std::shared_ptr<world::World> world) {
+  std::unique_ptr<SceneView> view(new SceneView(options, std::move(world)));
   const std::vector<shared::Material> materials = material_table();
   render::RendererDesc desc;
   desc.materials = materials;
@@ -182,6 +190,8 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   const Result<std::uint32_t> slot = island_slot(ready.key);
   if (!slot) return slot.error();
   ++islands_[*slot].sections;
+  // Building beyond the island's box widens it.
+  if (const auto spec = world_->island(ready.key.island)) islands_[*slot].spec = *spec;
   std::optional<render::SectionId>& section = sections_[ready.key];
   if (ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
     const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
@@ -219,11 +229,18 @@ Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
   return slot;
 }
 
+// A slot without sections may name an island that the world has forgotten.
+world::Pose SceneView::pose_of(const IslandEntry& entry, double world_time_s) const {
+  const std::optional<world::Pose> pose =
+      entry.sections == 0 ? std::nullopt : world_->pose(entry.spec.id, world_time_s);
+  return pose ? *pose : world::pose_at(entry.spec, world_time_s);
+}
+
 std::vector<render::IslandPlacement> SceneView::placements(double world_time_s) const {
   std::vector<render::IslandPlacement> out;
   out.reserve(islands_.size());
   for (const IslandEntry& entry : islands_) {
-    const world::Pose pose = world::pose_at(entry.spec, world_time_s);
+    const world::Pose pose = pose_of(entry, world_time_s);
     out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius});
   }
   return out;
@@ -252,7 +269,7 @@ void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
 world::BlockId SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
   for (const IslandEntry& entry : islands_) {
     if (entry.sections == 0) continue;
-    const world::Pose pose = world::pose_at(entry.spec, world_time_s);
+    const world::Pose pose = pose_of(entry, world_time_s);
     const glm::dvec3 offset = world::difference_blocks(place(camera.position), pose.origin);
     if (glm::dot(offset, offset) > entry.spec.bounding_radius * entry.spec.bounding_radius)
       continue;
@@ -305,6 +322,15 @@ render::RenderSettings SceneView::render_settings(
   return out;
 }
 
+/// None if nothing of the island is drawn.
+std::optional<render::BlockMarker> SceneView::marker_of(const Moment& moment) const {
+  if (!moment.marked) return std::nullopt;
+  const auto slot = island_slots_.find(moment.marked->island);
+  if (slot == island_slots_.end()) return std::nullopt;
+  return render::BlockMarker{slot->second, moment.marked->min, moment.marked->max,
+                             static_cast<float>(moment.marked->dug)};
+}
+
 Result<std::uint64_t> SceneView::draw(
     const Moment& moment, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
@@ -327,6 +353,7 @@ Result<std::uint64_t> SceneView::draw(
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
+  input.marker = marker_of(moment);
   const render::RenderSettings settings = render_settings(moment.camera.position, islands);
   input.parts = settings_.shadow_samples;
   for (; input.part + 1 < input.parts; ++input.part)

@@ -23,9 +23,12 @@ namespace skerry::game {
 /// here; generation and meshing run on jobs.
 class SceneView {
  public:
-  /// Errors: no memory on the device.
+  /// Errors: no memory on the device; those of open_world.
   static Result<std::unique_ptr<SceneView>> create(gpu::Device& device,
                                                    const SceneOptions& options);
+  /// Shows a world that is open already.
+  static Result<std::unique_ptr<SceneView>> create(gpu::Device& device, const SceneOptions& options,
+                                                   std::shared_ptr<world::World> world);
   ~SceneView();
 
   /// The camera the options ask for: given, or the seed's spawn view at eye height.
@@ -48,6 +51,12 @@ class SceneView {
   std::size_t lights() const { return lights_.lights.size(); }
   double gather_ms() const { return gather_ms_; }
 
+  /// A block to outline, and how far it is dug.
+  struct MarkedBlock {
+    std::uint64_t island = 0;
+    glm::dvec3 min{}, max{};  ///< box in the island's lattice [blocks]
+    double dug = 0.0;         ///< 0 .. 1
+  };
   struct Moment {
     render::Camera camera;
     double time_of_day_s = 43200.0;
@@ -56,6 +65,7 @@ class SceneView {
     bool capture = false;  ///< see render::FrameInput
     /// What the eye has adapted to; the frame is metered for it nonetheless. None: as metered.
     std::optional<double> exposure_ev = {};
+    std::optional<MarkedBlock> marked = {};
   };
   /// See render::Renderer::draw. A fixed exposure in the settings goes over the moment's.
   Result<std::uint64_t> draw(
@@ -65,13 +75,18 @@ class SceneView {
       std::span<const VkSemaphoreSubmitInfo> signals = {});
 
  private:
-  explicit SceneView(const SceneOptions& options);
+  SceneView(const SceneOptions& options, std::shared_ptr<world::World> world);
+  struct IslandEntry {
+    world::IslandSpec spec;
+    std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
+  };
   bool occupancy_wanted() const;
   Result<void> follow_settings();
   Result<void> take_in(world::StreamUpdate update);
   Result<void> add_section(const world::ReadySection& ready);
   void remove_section(const world::SectionKey& key);
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
+  world::Pose pose_of(const IslandEntry& entry, double world_time_s) const;
   std::vector<render::IslandPlacement> placements(double world_time_s) const;
   std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera,
                                            std::span<const render::IslandPlacement> islands) const;
@@ -79,17 +94,13 @@ class SceneView {
                      std::span<const render::IslandPlacement> islands);
   /// Id of the translucent block the camera is in, or air.
   world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
+  std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
   render::RenderSettings render_settings(const render::FixedPos& camera,
                                          std::span<const render::IslandPlacement> islands) const;
 
-  struct IslandEntry {
-    world::IslandSpec spec;
-    std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
-  };
-
   Settings settings_;
   std::unique_ptr<Jobs> jobs_;
-  std::unique_ptr<world::World> world_;
+  std::shared_ptr<world::World> world_;
   std::unique_ptr<world::Streamer> streamer_;
   std::unique_ptr<render::Renderer> renderer_;
   render::Camera start_camera_;

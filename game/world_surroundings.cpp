@@ -77,7 +77,7 @@ void WorldSurroundings::refresh(world::WorldPos place, double reach_blocks, doub
 
 void WorldSurroundings::load_chunks(const world::IslandSpec& spec, world::WorldPos place,
                                     double time_s) {
-  const world::Pose pose = world::pose_at(spec, time_s);
+  const world::Pose pose = pose_of(spec, time_s);
   const glm::dvec3 lattice =
       glm::conjugate(pose.rotation) * world::difference_blocks(place, pose.origin);
   if (glm::length(lattice) > spec.bounding_radius + kLoadRadius) return;
@@ -94,6 +94,11 @@ void WorldSurroundings::load_chunks(const world::IslandSpec& spec, world::WorldP
   }
 }
 
+world::Pose WorldSurroundings::pose_of(const world::IslandSpec& spec, double time_s) const {
+  const std::optional<world::Pose> pose = world_.pose(spec.id, time_s);
+  return pose ? *pose : world::pose_at(spec, time_s);
+}
+
 const world::IslandSpec* WorldSurroundings::spec_of(std::uint64_t island) const {
   const auto found = std::lower_bound(
       islands_.begin(), islands_.end(), island,
@@ -105,7 +110,7 @@ void WorldSurroundings::islands_near(world::WorldPos place, double radius_blocks
                                      std::vector<std::uint64_t>& out) const {
   out.clear();
   for (const world::IslandSpec& spec : islands_) {
-    const glm::dvec3 away = world::difference_blocks(place, world::pose_at(spec, time_s).origin);
+    const glm::dvec3 away = world::difference_blocks(place, pose_of(spec, time_s).origin);
     if (glm::length(away) <= spec.bounding_radius + radius_blocks) out.push_back(spec.id);
   }
 }
@@ -113,12 +118,21 @@ void WorldSurroundings::islands_near(world::WorldPos place, double radius_blocks
 std::optional<world::Pose> WorldSurroundings::pose(std::uint64_t island, double time_s) const {
   const world::IslandSpec* spec = spec_of(island);
   if (!spec) return std::nullopt;
-  return world::pose_at(*spec, time_s);
+  return pose_of(*spec, time_s);
 }
 
 std::optional<world::BlockId> WorldSurroundings::block(std::uint64_t island,
                                                        world::IVec3 voxel) const {
   return world_.block_at(island, voxel);
+}
+
+bool WorldEditor::set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) {
+  const std::optional<world::IslandSpec> spec = world_.island(island);
+  if (!spec) return false;
+  const auto in = [](int at, int low, int high) { return at >= low && at < high; };
+  return in(voxel.x, spec->box_min.x, spec->box_max.x) &&
+         in(voxel.y, spec->box_min.y, spec->box_max.y) &&
+         in(voxel.z, spec->box_min.z, spec->box_max.z) && world_.set_block(island, voxel, block);
 }
 
 }  // namespace skerry::game

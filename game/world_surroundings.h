@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "game/edit_history.h"
 #include "game/player.h"
 #include "world/world.h"
 
@@ -60,12 +61,24 @@ class WorldSurroundings : public Surroundings {
   std::optional<world::BlockId> block(std::uint64_t island, world::IVec3 voxel) const override;
 
  private:
+  world::Pose pose_of(const world::IslandSpec& spec, double time_s) const;
   const world::IslandSpec* spec_of(std::uint64_t island) const;
   void load_chunks(const world::IslandSpec& spec, world::WorldPos place, double time_s);
 
   world::World& world_;
   std::vector<world::IslandSpec> islands_;  // ascending ids
   ChunkLoader loader_;
+};
+
+/// Edits straight into a world, within the islands' boxes: beyond them nothing is streamed.
+class WorldEditor : public BlockEditor {
+ public:
+  /// @param world outlives this.
+  explicit WorldEditor(world::World& world) : world_(world) {}
+  bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) override;
+
+ private:
+  world::World& world_;
 };
 
 }  // namespace skerry::game

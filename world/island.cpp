@@ -1,5 +1,6 @@
 #include "world/island.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -18,6 +19,24 @@ double turns(double time_s, double period_s) {
 }
 
 }  // namespace
+
+bool include(IslandSpec& spec, IVec3 voxel) {
+  const IVec3 low = spec.box_min, high = spec.box_max;
+  spec.box_min = {std::min(low.x, voxel.x), std::min(low.y, voxel.y), std::min(low.z, voxel.z)};
+  spec.box_max = {std::max(high.x, voxel.x + 1), std::max(high.y, voxel.y + 1),
+                  std::max(high.z, voxel.z + 1)};
+  return spec.box_min != low || spec.box_max != high;
+}
+
+double radius_of(const IslandSpec& spec) {
+  const auto reach = [](double low, double high) {
+    return std::max(std::abs(low), std::abs(high));
+  };
+  const glm::dvec3 corner{reach(spec.box_min.x, spec.box_max.x),
+                          reach(spec.box_min.y, spec.box_max.y),
+                          reach(spec.box_min.z, spec.box_max.z)};
+  return std::sqrt(glm::dot(corner, corner));
+}
 
 Pose pose_at(const IslandSpec& spec, double time_s) {
   double yaw = spec.yaw_rad;

@@ -31,6 +31,11 @@ struct IslandSpec {
   double drift_phase_rad = 0.0;
 };
 
+/// Widens a spec's box to contain a voxel; the radius stays. @return whether it had to.
+bool include(IslandSpec& spec, IVec3 voxel);
+/// The least bounding radius that contains a spec's box.
+double radius_of(const IslandSpec& spec);
+
 /// Pose of an undisturbed island. Closed form, so that any time can be asked for, in any order.
 /// @param time_s seconds of play, any finite value; the angle is reduced before it grows large.
 Pose pose_at(const IslandSpec& spec, double time_s);

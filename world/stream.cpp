@@ -23,18 +23,25 @@ int level_with_hysteresis(int level, double distance, double detail) {
   return nearer <= level && level <= further ? level : level_at(distance, detail);
 }
 
-// The chunks at a level whose meshes a changed voxel shows in: its own, and where it touches the
-// border, the neighbours'.
-std::vector<IVec3> chunks_showing(IVec3 voxel, int level) {
+// The chunks at a level whose meshes changed voxels show in: their own, and where they touch the
+// border, the neighbours', but not those across an edge.
+std::vector<IVec3> chunks_showing(const EditedBox& box, int level) {
   const auto coarse = [level](std::int32_t v) {
     return static_cast<std::int32_t>(floor_div(v, std::int64_t{1} << level));
   };
-  const IVec3 at{coarse(voxel.x), coarse(voxel.y), coarse(voxel.z)};
-  std::vector<IVec3> chunks{chunk_of(at)};
-  for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, 0, 1}}) {
-    for (const int sign : {-1, 1}) {
-      const IVec3 next{at.x + sign * step.x, at.y + sign * step.y, at.z + sign * step.z};
-      if (chunk_of(next) != chunks.front()) chunks.push_back(chunk_of(next));
+  const IVec3 low{coarse(box.min.x), coarse(box.min.y), coarse(box.min.z)};
+  const IVec3 high{coarse(box.max.x), coarse(box.max.y), coarse(box.max.z)};
+  const IVec3 first = chunk_of(low), last = chunk_of(high);
+  const IVec3 before = chunk_of({low.x - 1, low.y - 1, low.z - 1});
+  const IVec3 after = chunk_of({high.x + 1, high.y + 1, high.z + 1});
+  std::vector<IVec3> chunks;
+  for (std::int32_t y = before.y; y <= after.y; ++y) {
+    for (std::int32_t x = before.x; x <= after.x; ++x) {
+      for (std::int32_t z = before.z; z <= after.z; ++z) {
+        const int outside =
+            (x < first.x || x > last.x) + (y < first.y || y > last.y) + (z < first.z || z > last.z);
+        if (outside <= 1) chunks.push_back({x, y, z});
+      }
     }
   }
   return chunks;
@@ -63,12 +70,12 @@ void Streamer::update(const StreamView& view, const StreamSettings& settings) {
   State& s = *state_;
   std::vector<std::uint64_t> voxels_unused, gone;
   const std::vector<IslandSpec>& near = s.islands_around(view, settings);
-  const std::vector<BlockEdit> edits = s.world.take_edits();
+  const std::vector<EditedBox> edits = s.world.take_edits();
   {
     const std::lock_guard lock(s.mutex);
     s.drop_far_islands(near, view, settings, gone);
     for (const IslandSpec& spec : near) s.place_island(spec, view, settings, voxels_unused);
-    for (const BlockEdit& edit : edits) s.apply_edit(edit);
+    for (const EditedBox& edit : edits) s.apply_edit(edit);
     s.score_tasks();
   }
   for (const std::uint64_t id : voxels_unused) s.world.release_voxels(id);
@@ -87,8 +94,11 @@ const std::vector<IslandSpec>& Streamer::State::islands_around(const StreamView&
   // From one end of its drift to the other.
   const double reach = settings.view_distance_blocks * kHysteresis + 2.0 * kMaxIslandDriftBlocks;
   const glm::dvec3 moved_by = difference_blocks(view.camera, around.centre);
-  if (around.reach != reach || glm::dot(moved_by, moved_by) > kSlackBlocks * kSlackBlocks) {
+  const std::uint64_t revision = world.revision();
+  if (around.reach != reach || around.revision != revision ||
+      glm::dot(moved_by, moved_by) > kSlackBlocks * kSlackBlocks) {
     around.reach = reach;
+    around.revision = revision;
     around.centre = view.camera;
     around.islands = world.islands_near(view.camera, reach + kSlackBlocks, view.time_s);
     if (around.islands.size() > kMaxStreamedIslands) around.islands.resize(kMaxStreamedIslands);
@@ -96,8 +106,14 @@ const std::vector<IslandSpec>& Streamer::State::islands_around(const StreamView&
   return around.islands;
 }
 
+// Of an island that may have been moved from its course.
+Pose Streamer::State::pose_of(const IslandSpec& spec, double time_s) const {
+  const std::optional<Pose> pose = world.pose(spec.id, time_s);
+  return pose ? *pose : pose_at(spec, time_s);
+}
+
 double Streamer::State::distance_to(const IslandSpec& spec, const StreamView& view) const {
-  const glm::dvec3 away = difference_blocks(pose_at(spec, view.time_s).origin, view.camera);
+  const glm::dvec3 away = difference_blocks(pose_of(spec, view.time_s).origin, view.camera);
   return std::sqrt(glm::dot(away, away)) - spec.bounding_radius;
 }
 
@@ -131,7 +147,7 @@ void Streamer::State::place_island(const IslandSpec& spec, const StreamView& vie
     found->second.spec = spec;
   }
   StreamIsland& island = found->second;
-  const Pose pose = pose_at(spec, view.time_s);
+  const Pose pose = pose_of(spec, view.time_s);
   const glm::dquat lattice_from_world = glm::conjugate(pose.rotation);
   island.distance = distance;
   island.camera = lattice_from_world * difference_blocks(view.camera, pose.origin);
@@ -169,15 +185,15 @@ void Streamer::State::change_level(StreamIsland& island, int level) {
   }
 }
 
-void Streamer::State::apply_edit(const BlockEdit& edit) {
+void Streamer::State::apply_edit(const EditedBox& edit) {
   const auto found = islands.find(edit.island);
   if (found == islands.end()) return;
   StreamIsland& island = found->second;
-  for (const IVec3& chunk : chunks_showing(edit.voxel, island.shown.level)) {
+  for (const IVec3& chunk : chunks_showing(edit, island.shown.level)) {
     remake(edit.island, island.shown, chunk);
   }
   if (!island.coming) return;
-  for (const IVec3& chunk : chunks_showing(edit.voxel, island.coming->level)) {
+  for (const IVec3& chunk : chunks_showing(edit, island.coming->level)) {
     remake(edit.island, *island.coming, chunk);
   }
 }

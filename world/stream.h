@@ -13,8 +13,6 @@
 
 namespace skerry::world {
 
-inline constexpr int kLevelCount = 5;  ///< levels of detail 0..4
-
 /// Islands kept at once, the nearest: what their renderer has room for, less those on the way out.
 inline constexpr std::size_t kMaxStreamedIslands = 960;
 

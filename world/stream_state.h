@@ -80,6 +80,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   /// Frame thread only, without the mutex.
   const std::vector<IslandSpec>& islands_around(const StreamView& view,
                                                 const StreamSettings& settings);
+  Pose pose_of(const IslandSpec& spec, double time_s) const;
   double distance_to(const IslandSpec& spec, const StreamView& view) const;
 
   // What is wanted (stream.cpp). Called with the mutex held.
@@ -88,7 +89,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   void place_island(const IslandSpec& spec, const StreamView& view, const StreamSettings& settings,
                     std::vector<std::uint64_t>& voxels_unused);
   void change_level(StreamIsland& island, int level);
-  void apply_edit(const BlockEdit& edit);
+  void apply_edit(const EditedBox& edit);
 
   // Tasks and their results (stream_state.cpp). Called with the mutex held.
   StreamLevel start_level(std::uint64_t island, int level);
@@ -115,6 +116,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   struct Around {
     WorldPos centre;
     double reach = -1.0;
+    std::uint64_t revision = 0;
     std::vector<IslandSpec> islands;
   };
   Around around;             // frame thread only

@@ -71,6 +71,7 @@ class Developed {
  private:
   friend struct DevelopPass;
   friend struct MeterPass;
+  friend struct MarkerPass;
   friend struct ShadePass;
   explicit Developed(gpu::ImageRef picture) : picture_(picture) {}
   gpu::ImageRef picture_;

@@ -20,6 +20,7 @@
 #include "engine/render/geometry_pass.h"
 #include "engine/render/light_clusters.h"
 #include "engine/render/light_pass.h"
+#include "engine/render/marker_pass.h"
 #include "engine/render/meter_pass.h"
 #include "engine/render/resolve_pass.h"
 #include "engine/render/shade_pass.h"
@@ -147,8 +148,10 @@ struct Renderer::State {
   Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws,
                       const RenderSettings& settings, const FrameContents& contents,
                       std::span<const ActiveCascade> cascades);
-  void finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input,
-                      const RenderSettings& settings);
+  std::optional<Developed> finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input,
+                                          const RenderSettings& settings);
+  void add_marker(const SceneRefs& scene, const Geometry& surfaces, Developed developed,
+                  const FrameInput& input);
   void add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats,
                     std::uint32_t views);
 
@@ -386,9 +389,11 @@ Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& 
   return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw);
 }
 
-/// Makes pixels of samples, copies radiance out if asked to, meters and develops it.
-void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input,
-                                     const RenderSettings& settings) {
+/// Makes pixels of samples, copies radiance out if asked to, meters and develops it: with the last
+/// part.
+std::optional<Developed> Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded,
+                                                         const FrameInput& input,
+                                                         const RenderSettings& settings) {
   if (input.fault && input.fault->in == Fault::In::kLookedThrough)
     shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
   const int samples = samples_per_edge(settings);
@@ -398,7 +403,7 @@ void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const Fram
                                input.parts > 1 ? &total : nullptr});
   if (samples == 1) graph.leave_out("average_samples", "aa.samples=1");
   if (input.parts == 1) graph.leave_out("accumulate_part", "shadow.samples=1");
-  if (input.part + 1 != input.parts) return;
+  if (input.part + 1 != input.parts) return std::nullopt;
   if (input.capture) captures.add(graph, Capture::kRadiance, shaded.radiance());
   gpu::BufferRef histogram;
   if (meters(input, settings))
@@ -410,7 +415,18 @@ void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const Fram
   Developed developed = DevelopPass::add(graph, pipelines, scene, std::move(shaded),
                                          bloom ? &*bloom : nullptr, picture);
   if (settings.debug_view == DebugView::kExposure)
-    (void)MeterPass::show(graph, pipelines, scene, std::move(developed), histogram, settings.meter);
+    developed =
+        MeterPass::show(graph, pipelines, scene, std::move(developed), histogram, settings.meter);
+  return developed;
+}
+
+void Renderer::State::add_marker(const SceneRefs& scene, const Geometry& surfaces,
+                                 Developed developed, const FrameInput& input) {
+  if (!input.marker) return;
+  const std::optional<shared::MarkerConstants> marker = marker_constants(
+      *input.marker, input.islands[input.marker->island], input.camera, picture.desc().extent);
+  if (marker)
+    (void)MarkerPass::add(graph, pipelines, scene, surfaces, std::move(developed), *marker);
 }
 
 void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
@@ -488,8 +504,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
           "shade_surfaces", "draw_translucent", "classify_translucent_tiles", "shade_translucent"})
       graph.leave_out(name, "no geometry is resident");
     if (by_radiance(input, settings, features)) {
-      finish_picture(scene, ShadePass::add_sky_only(graph, pipelines, scene, shade_in), input,
-                     settings);
+      (void)finish_picture(scene, ShadePass::add_sky_only(graph, pipelines, scene, shade_in), input,
+                           settings);
     } else {
       graph.leave_out("develop", "nothing comes between shading and picture");
       (void)ShadePass::add_sky_only_to_picture(graph, pipelines, scene, shade_in, picture);
@@ -524,7 +540,10 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
         graph.leave_out(name, no_translucent);
     if (no_translucent && !by_radiance(input, settings, features)) {
       graph.leave_out("develop", "nothing comes between shading and picture");
-      (void)ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture);
+      add_marker(
+          scene, surfaces,
+          ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture),
+          input);
     } else {
       Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, shade_in);
       if (lights)
@@ -536,7 +555,9 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
         shaded = TranslucentPass::add(graph, pipelines, scene, surfaces, maps, layers,
                                       lights ? &*lights : nullptr, std::move(shaded), settings,
                                       input.camera_medium != 0);
-      finish_picture(scene, std::move(shaded), input, settings);
+      if (std::optional<Developed> developed =
+              finish_picture(scene, std::move(shaded), input, settings))
+        add_marker(scene, surfaces, *std::move(developed), input);
     }
   }
   if (input.capture) {

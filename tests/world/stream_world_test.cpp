@@ -144,9 +144,10 @@ TEST(World, EditsOutliveTheirChunk) {
   EXPECT_EQ(world.block_at(home.id, voxel), block::kLamp);  // known though not loaded
   ASSERT_TRUE(world.ensure_chunk(home.id, chunk_of(voxel)));
   EXPECT_EQ(world.block_at(home.id, voxel), block::kLamp);
-  const std::vector<BlockEdit> edits = world.take_edits();
+  const std::vector<EditedBox> edits = world.take_edits();
   ASSERT_EQ(edits.size(), 1u);
-  EXPECT_EQ(edits[0].voxel, voxel);
+  EXPECT_EQ(edits[0].min, voxel);
+  EXPECT_EQ(edits[0].max, voxel);
   EXPECT_TRUE(world.take_edits().empty());
 }
 

@@ -9,6 +9,7 @@
 #include "engine/render/celestial.h"
 #include "engine/render/sky_model.h"
 #include "game/light_setup.h"
+#include "game/open_world.h"
 #include "game/player.h"
 #include "tools/reference/reference.h"
 #include "tools/reference/tracer.h"
@@ -57,7 +58,7 @@ std::vector<Island> islands_of(world::World& world, std::span<const world::Islan
                                world::WorldPos camera, double time_s) {
   std::vector<Island> islands;
   for (const world::IslandSpec& spec : specs) {
-    const world::Pose pose = world::pose_at(spec, time_s);
+    const world::Pose pose = *world.pose(spec.id, time_s);
     islands.push_back({world::Volume::of_island(world, spec), glm::mat3_cast(pose.rotation),
                        world::difference_blocks(pose.origin, camera)});
   }
@@ -159,8 +160,9 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   if (std::uint64_t{options.size.width} * options.size.height > kMaxPixels)
     return Error{fmt::format("--size {}x{} is too large: a reference picture has at most {} pixels",
                              options.size.width, options.size.height, kMaxPixels)};
-  world::World world({world::seed_from_text(options.seed_text), options.settings.world_offset,
-                      options.settings.world_islands});
+  Result<std::unique_ptr<world::World>> opened = game::open_world(options);
+  if (!opened) return opened.error();
+  world::World& world = **opened;
   const game::CameraPlace camera = camera_place(options, world);
   const render::Celestial sky =
       render::celestial_at(options.time_of_day_s, options.settings.moon_phase);

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "engine/platform/files.h"
+#include "game/open_world.h"
 #include "game/parse.h"
 #include "tools/skerry/scene_device.h"
 
@@ -23,25 +22,22 @@ std::string help_of(const CLI::App& command) {
   return path + " --help";
 }
 
-std::optional<Refusal> refuse_world(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::exists(path, code)) {
-    return Refusal{
-        kFailed,
-        {fmt::format("cannot open the world {}: it does not exist; use --seed for a new world",
-                     game::quote_text(path))}};
-  }
-  return Refusal{
-      kFailed,
-      {fmt::format("cannot open the world {}: this build cannot load saved worlds; use --seed",
-                   game::quote_text(path))}};
+// What a saved world says about the scene goes below what was asked for.
+std::optional<Refusal> read_world(const std::string& path, game::SceneText& from_file) {
+  Result<game::SceneText> saved = game::scene_of_world(path);
+  if (!saved) return Refusal{kFailed, saved.error()};
+  if (!from_file.camera) from_file.camera = saved->camera;
+  if (!from_file.time) from_file.time = saved->time;
+  from_file.settings.insert(from_file.settings.begin(), saved->settings.begin(),
+                            saved->settings.end());
+  return std::nullopt;
 }
 
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneArguments& a) {
   command.add_option("--seed", a.text.seed, "World seed: a number or any text");
-  command.add_option("--world", a.world, "Saved world (this build cannot load one)")
+  command.add_option("--world", a.text.world, "Saved world (docs/saving.md); excludes --seed")
       ->type_name("PATH");
   command.add_option("--scene", a.scene_file, "JSON file with a scene (docs/settings.md)")
       ->type_name("FILE");
@@ -71,11 +67,10 @@ void add_scene_options(CLI::App& command, SceneArguments& a) {
 
 std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
                                game::SceneOptions& scene) {
-  if (a.world) return refuse_world(*a.world);
-  if (needs_source && !a.text.seed && !a.scene_file) {
-    return usage({"there is nothing to draw: give --seed N or --scene FILE.json"});
+  if (needs_source && !a.text.seed && !a.text.world && !a.scene_file) {
+    return usage({"there is nothing to draw: give --seed N, --world PATH or --scene FILE.json"});
   }
-  game::SceneText from_file;
+  game::SceneText from_file = a.usual;
   if (a.scene_file) {
     const auto file = platform::read_text(*a.scene_file, game::kMaxSceneBytes);
     if (!file) return Refusal{kFailed, file.error()};
@@ -91,6 +86,11 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
   if (a.shading) typed.settings.push_back("shading=" + *a.shading);
   auto made = game::make_scene(from_file, typed);
   if (!made) return usage(made.error());
+  if (made->world) {
+    if (const auto refusal = read_world(*made->world, from_file)) return refusal;
+    made = game::make_scene(from_file, typed);
+    if (!made) return usage(made.error());
+  }
   scene = *std::move(made);
   scene.validate = a.validate;
   scene.scene_file = a.scene_file;

@@ -20,8 +20,9 @@ struct Refusal {
 /// Options of every command that draws a scene, as typed.
 struct SceneArguments {
   game::SceneText text;
-  std::optional<std::string> world, scene_file, device, renderer, shading;
+  std::optional<std::string> scene_file, device, renderer, shading;
   bool validate = false;
+  game::SceneText usual;  ///< below everything typed; a scene file is taken in its place
 };
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments);

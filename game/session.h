@@ -1,0 +1,160 @@
+// What a client and a session say to one another, and the session that runs in this process.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "game/options.h"
+#include "game/saved_play.h"
+#include "world/edits.h"
+#include "world/world.h"
+
+namespace skerry::game {
+
+// From client to session. ------------------------------------------------------------------------
+
+/// The first thing a client says.
+struct Join {
+  std::string player;
+};
+/// What was changed in a chunk of level 0: a client generates the rest itself.
+struct ChunkWanted {
+  std::uint64_t island = 0;
+  world::IVec3 chunk;
+};
+/// Puts a block, or with air takes one away.
+struct Edit {
+  std::uint64_t island = 0;
+  world::IVec3 voxel;
+  world::BlockId block = world::kAir;
+};
+/// Where the player is and looks; decides what is within reach.
+struct PlayerMoved {
+  SavedPlay play;
+};
+/// Hands on a helm: engines of an island. Lasts until said otherwise; zeros let go.
+struct Steer {
+  std::uint64_t island = 0;
+  glm::dvec3 thrust{};  ///< in the island's axes; length at most 1 counts
+  double turn = 0.0;    ///< -1 .. 1, about +y
+};
+using Request = std::variant<Join, ChunkWanted, Edit, PlayerMoved, Steer>;
+
+// From session to client. ------------------------------------------------------------------------
+
+struct Joined {
+  world::WorldInfo world;
+  std::optional<SavedPlay> play;  ///< none: begin at the spawn
+  bool read_only = false;         ///< nothing of this play will be saved
+};
+struct ChunkChanges {
+  std::uint64_t island = 0;
+  world::IVec3 chunk;
+  world::ChunkEdits edits;
+};
+enum class EditVerdict : std::uint8_t {
+  kDone,
+  kNoSuchIsland,
+  kNoSuchBlock,
+  kTooFar,    ///< beyond kSessionReach
+  kTooFast,   ///< more than kEditsPerSecond for long
+  kOccupied,  ///< a block is put where one is
+  kEmpty,     ///< a block is taken where none is
+  kUnknown,   ///< the voxel is not loaded yet
+};
+struct EditAnswer {
+  Edit edit;
+  EditVerdict verdict = EditVerdict::kDone;
+  world::BlockId was = world::kAir;  ///< what stood there
+};
+/// An island came into being, broken off another.
+struct IslandAdded {
+  std::uint64_t island = 0, broken_off = 0;
+  std::uint64_t blocks = 0;
+};
+struct IslandMoved {
+  std::uint64_t island = 0;
+  world::MotionState motion;
+};
+struct TimeIs {
+  double world_time_s = 0.0;
+};
+/// One line for the player: a full disk, a damaged chunk.
+struct Notice {
+  std::string text;
+};
+using Answer =
+    std::variant<Joined, ChunkChanges, EditAnswer, IslandAdded, IslandMoved, TimeIs, Notice>;
+
+/// Messages one way, from any thread to any other.
+template <class Message>
+class Mailbox {
+ public:
+  void put(Message message) {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(std::move(message));
+  }
+  std::vector<Message> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Message> messages_;
+};
+
+// ------------------------------------------------------------------------------------------------
+
+/// How far from the eye edits may be, to the nearest point of the voxel [blocks]. A little more
+/// than hands reach: the island moves while a message is on its way.
+inline constexpr double kSessionReach = 8.0;
+/// Edits a second in the long run, and how many may come at once.
+inline constexpr double kEditsPerSecond = 32.0, kEditBurst = 64.0;
+
+/// A world that is played: owns it and its file, checks what clients want, moves the islands that
+/// left their course, saves. One client, in this process.
+class Session {
+ public:
+  /// A new session on options.world, or on a world of the options' seed that is saved nowhere.
+  /// A file that may not be written is played, too, and read_only(). Errors: those of open_world;
+  /// the file is open in another process.
+  static Result<std::unique_ptr<Session>> open(const SceneOptions& options);
+  /// Makes a world's file, its folder if need be, then opens it.
+  static Result<std::unique_ptr<Session>> create(const std::filesystem::path& path,
+                                                 const world::WorldInfo& info);
+  /// Saves what is not saved yet and waits for that.
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  std::shared_ptr<world::World> world() const;
+  /// As the file has it: where to go on.
+  const std::optional<SavedPlay>& saved_play() const;
+  bool read_only() const;
+
+  /// Messages, from any thread. advance() handles requests in order.
+  void send(Request request);
+  std::vector<Answer> receive();
+
+  /// Handles one edit now; for the client in this process. Frame thread, as advance().
+  EditAnswer request(const Edit& edit);
+  /// Handles what was sent, moves the islands up to the time, and saves now and then. Never waits
+  /// for the disk.
+  void advance(double world_time_s);
+  /// Blocks until all is saved. Errors: those of the file; the play may go on.
+  Result<void> save();
+
+ private:
+  struct State;
+  explicit Session(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace skerry::game

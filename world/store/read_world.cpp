@@ -1,0 +1,176 @@
+// Reading all of a world file, around what is damaged.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "world/store/rows.h"
+#include "world/store/world_file_state.h"
+#include "world/stored_voxels.h"
+
+namespace skerry::world {
+namespace {
+
+/// Runs through a table from the front, and where a damaged page ends that, from the back up to
+/// there. @param take given a row, gives its key. @return whether some of it may be missing.
+template <class Take>
+bool scan(Database& database, const std::string& select, const std::string& order, Take&& take) {
+  using Key = decltype(take(std::declval<Statement&>()));
+  std::optional<Key> last;
+  int code = SQLITE_OK;
+  if (std::optional<Statement> rows = database.prepare(select + " ORDER BY " + order, code)) {
+    while ((code = rows->step()) == SQLITE_ROW) last = take(*rows);
+  }
+  if (code == SQLITE_DONE) return false;
+  std::string backwards = order;
+  for (std::size_t at = 0; (at = backwards.find(',', at)) != std::string::npos; at += 6)
+    backwards.insert(at, " DESC");
+  std::optional<Statement> rows =
+      database.prepare(select + " ORDER BY " + backwards + " DESC", code);
+  while (rows && rows->step() == SQLITE_ROW) {
+    const Key key = take(*rows);
+    if (last && key <= *last) break;
+  }
+  return true;
+}
+
+ChunkName name_of(const Statement& row) {
+  const auto axis = [&](int column) {
+    return static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(row.integer(column), std::numeric_limits<std::int32_t>::min(),
+                                 std::numeric_limits<std::int32_t>::max()));
+  };
+  return {static_cast<std::uint64_t>(row.integer(0)), {axis(1), axis(2), axis(3)}};
+}
+
+/// Chunks further out than this hold no island's voxels: 2^20 blocks from its middle.
+bool sound(const ChunkName& name) {
+  constexpr std::int32_t kFarthest = (1 << 20) / kChunkEdge;
+  const auto in = [](std::int32_t c) { return c >= -kFarthest && c < kFarthest; };
+  return in(name.chunk.x) && in(name.chunk.y) && in(name.chunk.z);
+}
+
+}  // namespace
+
+void bind_name(Statement& statement, const ChunkName& name) {
+  statement.bind(1, static_cast<std::int64_t>(name.island));
+  statement.bind(2, std::int64_t{name.chunk.x});
+  statement.bind(3, std::int64_t{name.chunk.y});
+  statement.bind(4, std::int64_t{name.chunk.z});
+}
+
+void WorldFile::State::put_blob(std::optional<Error>& error, const ChunkName& name,
+                                std::span<const std::byte> blob) {
+  put(error, "INSERT OR REPLACE INTO chunk(island, x, y, z, data) VALUES(?1, ?2, ?3, ?4, ?5)",
+      [&](Statement& statement) {
+        bind_name(statement, name);
+        statement.bind(5, blob);
+      });
+}
+
+void WorldFile::State::tell(std::string what) {
+  if (std::find(damage.begin(), damage.end(), what) == damage.end())
+    damage.push_back(std::move(what));
+}
+
+WorldFile::Contents WorldFile::read() {
+  State& s = *state_;
+  const auto lost = [&](std::string_view what) {
+    s.tell(fmt::format("the world {} has lost {}: it is damaged", quoted(s.path), what));
+  };
+  std::map<std::uint64_t, IslandRow> islands;
+  if (scan(*s.database, "SELECT id, added, spec FROM island", "id", [&](Statement& row) {
+        const std::int64_t key = row.integer(0);
+        const auto id = static_cast<std::uint64_t>(key);
+        const bool added = row.integer(1) != 0;
+        const auto bytes = unsealed(added ? "added" : "island", id, row.blob(2));
+        const std::optional<IslandSpec> spec = bytes ? decode_spec(id, *bytes) : std::nullopt;
+        if (spec) {
+          islands.try_emplace(id, IslandRow{*spec, added, std::nullopt});
+        } else {
+          lost(fmt::format("island {:016x}", id));
+        }
+        return key;
+      }))
+    lost("some islands");
+  if (s.version >= 2 &&
+      scan(*s.database, "SELECT island, data FROM motion", "island", [&](Statement& row) {
+        const std::int64_t key = row.integer(0);
+        const auto id = static_cast<std::uint64_t>(key);
+        const auto bytes = unsealed("motion", id, row.blob(1));
+        const std::optional<MotionState> motion = bytes ? decode_motion(*bytes) : std::nullopt;
+        if (!motion) lost(fmt::format("the place of island {:016x}", id));
+        if (const auto island = islands.find(id); island != islands.end())
+          island->second.motion = motion;
+        return key;
+      }))
+    lost("some islands' places");
+
+  Contents contents;
+  std::map<ChunkName, ChunkEdits> edits;
+  std::map<ChunkName, Chunk> chunks;
+  if (scan(*s.database, "SELECT island, x, y, z, data FROM chunk", "island, x, y, z",
+           [&](Statement& row) {
+             const ChunkName name = name_of(row);
+             // In the order of the file, whose islands are signed.
+             const std::pair key{row.integer(0), name.chunk};
+             const auto island = islands.find(name.island);
+             std::string why = sound(name) ? "" : "it lies too far out";
+             if (island == islands.end()) why = "its island is gone";
+             if (why.empty() && island->second.added) {
+               Result<Chunk> chunk = decode_chunk(name, row.blob(4));
+               if (chunk) chunks.try_emplace(name, *std::move(chunk));
+               if (!chunk) why = chunk.error().message;
+             } else if (why.empty()) {
+               Result<ChunkEdits> decoded = decode_edits(name, row.blob(4));
+               if (decoded) edits.try_emplace(name, *std::move(decoded));
+               if (!decoded) why = decoded.error().message;
+             }
+             if (!why.empty())
+               s.tell(fmt::format(
+                   "the world {} has lost what was done in chunk {},{},{} of island {:016x}: {}",
+                   quoted(s.path), name.chunk.x, name.chunk.y, name.chunk.z, name.island, why));
+             return key;
+           }))
+    lost("some chunks");
+  for (auto& [id, row] : islands) contents.islands.push_back(row);
+  for (auto& [name, list] : edits)
+    contents.edits.push_back({name.island, name.chunk, std::move(list)});
+  for (auto& [name, chunk] : chunks)
+    contents.chunks.push_back({name.island, name.chunk, std::move(chunk)});
+  return contents;
+}
+
+LoadedWorld load_world(WorldFile& file) {
+  WorldFile::Contents contents = file.read();
+  LoadedWorld loaded;
+  loaded.world = std::make_unique<World>(file.info().desc);
+  World& world = *loaded.world;
+  std::map<std::uint64_t, std::map<IVec3, Chunk>> voxels;
+  for (WorldFile::Contents::Whole& whole : contents.chunks)
+    voxels[whole.island].emplace(whole.chunk, std::move(whole.voxels));
+  for (const IslandRow& row : contents.islands) {
+    const std::uint64_t id = row.spec.id;
+    if (row.added) {
+      const auto stored = std::make_shared<const StoredVoxels>(std::move(voxels[id]));
+      if (stored->stored().empty()) continue;  // all of it was dug away, or told as lost
+      world.add_island(fitted(row.spec, *stored), stored);
+    } else if (!world.meet(id, row.spec.origin)) {
+      file.note_damage(
+          fmt::format("the world {} names island {:016x}, which its seed does not make",
+                      quoted(file.path()), id));
+      continue;
+    }
+    if (!row.motion) continue;
+    world.move_island(id, row.motion->tick, row.motion->pose);
+    loaded.moving.push_back({id, *row.motion});
+  }
+  for (const WorldFile::Contents::Edits& edits : contents.edits)
+    world.set_blocks(edits.island, edits.chunk, edits.edits);
+  world.take_edits();  // nobody has seen the world yet
+  return loaded;
+}
+
+}  // namespace skerry::world
