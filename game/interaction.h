@@ -42,7 +42,7 @@ struct HandIntent {
   bool take_block = false;  ///< the block pointed at comes into the hand
   bool undo = false, redo = false;
   std::optional<int> slot = {};  ///< selects 0 .. kHotbarSlots - 1
-  int scroll = 0;           ///< slots to go on; negative: back
+  int scroll = 0;                ///< slots to go on; negative: back
 };
 
 /// A player's hands. Drawing code reads pick(), dig_progress() and hotbar(); all are plain values.

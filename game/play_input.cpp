@@ -19,8 +19,6 @@ constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
 
 void PlayLoop::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, bindings_);
-  // The click that captures the pointer means nothing else.
-  const bool was_captured = window_.pointer_captured();
   act_on_pointer(input, actions);
   act_on_picture(input, actions, seconds);
   if (actions.pressed(Action::kFly)) {
@@ -30,7 +28,7 @@ void PlayLoop::act(const platform::InputFrame& input, double seconds) {
     player_.set_mode(player_.mode() == MoveMode::kNoclip ? MoveMode::kFly : MoveMode::kNoclip);
   }
   move(input, actions, seconds);
-  use_hands(actions, was_captured, seconds);
+  use_hands(actions, seconds);
   adapt_eye(seconds);
 }
 
@@ -101,9 +99,11 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
   scene_.camera = player_.eye(around_);
 }
 
-void PlayLoop::use_hands(const ActionFrame& actions, bool captured, double seconds) {
+void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
   HandIntent intent = hand_intent_of(actions);
-  if (!captured) intent.dig = intent.place = intent.take_block = false;
+  // The click that captured the pointer, or closed a screen, means nothing to the hands.
+  hands_free_ = window_.pointer_captured() && (hands_free_ || (!intent.dig && !intent.place));
+  if (!hands_free_) intent.dig = intent.place = false;
   hands_.advance(seconds, intent, player_, *scene_.camera, around_, editor_);
 }
 

@@ -43,7 +43,7 @@ class PlayLoop {
   void act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
                       double seconds);
   void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
-  void use_hands(const ActionFrame& actions, bool captured, double seconds);
+  void use_hands(const ActionFrame& actions, double seconds);
   Result<bool> draw(double seconds);
   void take_screenshot();
   void note_frame(double seconds);
@@ -59,6 +59,7 @@ class PlayLoop {
   WorldSurroundings around_;
   WorldEditor editor_;
   Interaction hands_;
+  bool hands_free_ = false;  // captured, and no button held from before that
   DayClock day_;
   Bindings bindings_;
   std::optional<double> exposure_ev_;  // what the eye has adapted to by now; none before it saw
