@@ -46,7 +46,7 @@ HandIntent hand_intent_of(const ActionFrame& actions) {
   return intent;
 }
 
-void look(Player& player, const LookInput& input, double fov_deg) {
+glm::dvec2 turned_deg(const LookInput& input, double fov_deg) {
   const Bindings& bindings = *input.bindings;
   const double zoom = std::min(1.0, fov_deg / kDefaultFov);
   const double upside = bindings.inverted ? -1.0 : 1.0;
@@ -54,11 +54,16 @@ void look(Player& player, const LookInput& input, double fov_deg) {
   const glm::dvec2 pad{axis(actions, Action::kLookRight, Action::kLookLeft),
                        axis(actions, Action::kLookDown, Action::kLookUp)};
   // Squared: slow where one aims, fast at the stick's end.
-  const glm::dvec2 turned_deg =
+  const glm::dvec2 moved =
       input.pointer * (kDegreesPerPixel * bindings.mouse_speed) +
       pad * glm::abs(pad) * (kPadDegreesPerSecond * bindings.pad_speed * input.seconds);
   // Growing yaw turns left (docs/conventions.md), the pointer's y grows downwards.
-  player.turn(-turned_deg.x * zoom, -turned_deg.y * zoom * upside);
+  return {-moved.x * zoom, -moved.y * zoom * upside};
+}
+
+void look(Player& player, const LookInput& input, double fov_deg) {
+  const glm::dvec2 turned = turned_deg(input, fov_deg);
+  player.turn(turned.x, turned.y);
 }
 
 std::uint32_t stepped_view_distance(std::uint32_t blocks, int steps) {

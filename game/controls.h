@@ -23,7 +23,8 @@ struct LookInput {
   double seconds = 0.0;
 };
 
-/// @param fov_deg zooms: a narrower view turns slower.
+/// By how much yaw and pitch grow. @param fov_deg zooms: a narrower view turns slower.
+glm::dvec2 turned_deg(const LookInput& input, double fov_deg);
 void look(Player& player, const LookInput& input, double fov_deg);
 
 /// View-distance steps: a fifth up or down, within what settings allow.

@@ -7,6 +7,7 @@
 #include "engine/platform/files.h"
 #include "game/parse.h"
 #include "game/saved_play.h"
+#include "game/vdb_world.h"
 #include "world/store/world_file.h"
 
 namespace skerry::game {
@@ -17,6 +18,7 @@ Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options) {
                                                            options.settings.world_offset,
                                                            options.settings.world_islands});
   }
+  if (is_vdb(*options.world)) return world_of_vdb(*options.world);
   auto file = world::WorldFile::open(*options.world, world::WorldFile::Mode::kRead);
   if (!file) return file.error();
   world::LoadedWorld loaded = world::load_world(**file);
@@ -25,6 +27,7 @@ Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options) {
 }
 
 Result<SceneText> scene_of_world(const std::filesystem::path& path) {
+  if (is_vdb(path)) return SceneText();  // nobody has been there yet
   auto file = world::WorldFile::open(path, world::WorldFile::Mode::kRead);
   if (!file) return file.error();
   SceneText scene;

@@ -1,18 +1,14 @@
 #include "game/play.h"
 
-#include <utility>
-
-#include "game/play_loop.h"
+#include "game/app.h"
 
 namespace skerry::game {
 
 Result<void> play(platform::Window& window, gpu::Device& device, VkSurfaceKHR surface,
-                  const SceneOptions& options) {
-  auto view = SceneView::create(device, options);
-  if (!view) return view.error();
-  PlayLoop loop(window, device, options, *std::move(view));
-  if (const auto started = loop.start(surface); !started) return started;
-  return loop.run();
+                  const SceneOptions& options, bool at_title) {
+  App app(window, device, options);
+  if (const auto started = app.start(surface, at_title); !started) return started;
+  return app.run();
 }
 
 }  // namespace skerry::game

@@ -18,8 +18,7 @@ constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
 }  // namespace
 
 void PlayLoop::act(const platform::InputFrame& input, double seconds) {
-  const ActionFrame actions(input, bindings_);
-  act_on_pointer(input, actions);
+  const ActionFrame actions(input, *bindings_);
   act_on_picture(input, actions, seconds);
   if (actions.pressed(Action::kFly)) {
     player_.set_mode(player_.mode() == MoveMode::kWalk ? MoveMode::kFly : MoveMode::kWalk);
@@ -32,6 +31,11 @@ void PlayLoop::act(const platform::InputFrame& input, double seconds) {
   adapt_eye(seconds);
 }
 
+void PlayLoop::rest(double seconds) {
+  scene_.camera = player_.eye(around_);
+  adapt_eye(seconds);
+}
+
 /// Follows what the newest finished frame was metered at; that frame's own exposure plays no part
 /// in it, so nothing feeds back.
 void PlayLoop::adapt_eye(double seconds) {
@@ -41,25 +45,14 @@ void PlayLoop::adapt_eye(double seconds) {
                               : double{*seen->metered_ev};
 }
 
-void PlayLoop::act_on_pointer(const platform::InputFrame& input, const ActionFrame& actions) {
-  if (input.pressed(platform::Key::kMouseLeft)) pointer_wanted_ = true;
-  // Without it, the pointer belongs to the person: then the key means the window.
-  if (actions.pressed(Action::kPause) && !std::exchange(pointer_wanted_, false)) window_.close();
-  window_.capture_pointer(pointer_wanted_ && window_.focused());
-}
-
 void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
                               double seconds) {
-  if (actions.pressed(Action::kScreenshot)) {
-    screenshot_wanted_ = true;
-    view_->renderer().forget_shadows();  // so that the command draws the same shadows again
-  }
+  if (actions.pressed(Action::kScreenshot)) want_screenshot();
   Settings& settings = view_->settings();
   if (actions.pressed(Action::kOverlay)) overlay_shown_ = !overlay_shown_;
   if (actions.pressed(Action::kTorch)) settings.lights_held = !settings.lights_held;
   if (actions.pressed(Action::kCalibrate)) calibrating_ = !calibrating_;
   if (actions.pressed(Action::kFreezeCulling)) culling_frozen_ = !culling_frozen_;
-  if (actions.pressed(Action::kFullscreen)) window_.toggle_fullscreen();
   using platform::Key;
   if (calibrating_)
     settings.display =
@@ -73,11 +66,7 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
   const int better = steps(Action::kBetterQuality, Action::kWorseQuality);
   if (better != 0) {
     scene_.quality = stepped_quality(scene_.quality, better);
-    const QualityLevel& level = quality_level(scene_.quality);
-    settings.view_distance = level.view_distance;
-    settings.view_detail = level.view_detail;
-    settings.shadow_size = level.shadow_size;
-    settings.bloom.intensity = level.bloom_intensity;
+    set_quality(scene_.quality, settings);
   }
   const double later = actions.value(Action::kLater) - actions.value(Action::kEarlier);
   if (actions.pressed(Action::kStopDay)) day_stands_ = !day_stands_;
@@ -87,7 +76,7 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
 
 void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& actions, double seconds) {
   const bool captured = window_.pointer_captured();
-  look(player_, {&actions, &bindings_, captured ? input.mouse_delta : glm::dvec2(0.0), seconds},
+  look(player_, {&actions, bindings_, captured ? input.mouse_delta : glm::dvec2(0.0), seconds},
        scene_.fov_deg);
   const int faster =
       actions.presses(Action::kFasterFlight) - actions.presses(Action::kSlowerFlight);
@@ -95,7 +84,9 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
     player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, double(faster)));
   const double reach = glm::length(player_.velocity()) * kLongestFrame;
   around_.refresh(player_.feet(), reach, player_.world_time_s());
+  const int returns = player_.returns();
   player_.advance(seconds, intent_of(actions), around_);
+  if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
   scene_.camera = player_.eye(around_);
 }
 

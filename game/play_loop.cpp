@@ -3,19 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
-#include "engine/core/log.h"
 #include "game/screenshot.h"
 
 namespace skerry::game {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr double kIdleWait = 0.05;  // seconds between looks at a window that shows nothing
 
 render::FixedPos fixed(const world::WorldPos& p) {
   return {p.x, p.y, p.z};
@@ -32,10 +26,13 @@ Player player_at(const render::Camera& eye, double time_s) {
 
 }  // namespace
 
-PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, const SceneOptions& options,
+PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
+                   const Bindings& bindings, const SceneOptions& options,
                    std::unique_ptr<SceneView> view)
     : window_(window),
       device_(device),
+      presenter_(presenter),
+      bindings_(&bindings),
       scene_(options),
       view_(std::move(view)),
       player_(player_at(view_->start_camera(), options.settings.world_time_s)),
@@ -44,34 +41,12 @@ PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, const SceneOpt
       day_(options.time_of_day_s) {
   // A place that was asked for is a view, most often in the air.
   if (options.camera) player_.set_mode(MoveMode::kFly);
-  ReadBindings read = load_bindings(bindings_path());
-  for (const std::string& problem : read.problems) log_warning(problem);
-  bindings_ = std::move(read.bindings);
+  scene_.camera = player_.eye(around_);
 }
 
-Result<void> PlayLoop::start(VkSurfaceKHR surface) {
-  auto presenter = Presenter::create(device_, surface, overlay_.font());
-  if (!presenter) return presenter.error();
-  presenter_ = *std::move(presenter);
-  return {};
-}
-
-Result<void> PlayLoop::run() {
-  Clock::time_point before = Clock::now();
-  bool drawn = true;
-  while (!window_.should_close()) {
-    const platform::InputFrame input = window_.poll(drawn ? 0.0 : kIdleWait);
-    const Clock::time_point now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - before).count();
-    before = now;
-    note_frame(seconds);
-    act(input, std::min(seconds, kLongestFrame));
-    const Result<bool> done = draw(seconds);
-    if (!done) return done.error();
-    drawn = *done;
-    if (drawn && std::exchange(screenshot_wanted_, false)) take_screenshot();
-  }
-  return {};
+void PlayLoop::want_screenshot() {
+  screenshot_wanted_ = true;
+  view_->renderer().forget_shadows();  // so that the command draws the same shadows again
 }
 
 SceneView::Moment PlayLoop::moment() const {
@@ -82,8 +57,14 @@ SceneView::Moment PlayLoop::moment() const {
   moment.world_time_s = player_.world_time_s();
   moment.freeze_culling = culling_frozen_;
   moment.exposure_ev = exposure_ev_;
+  if (photo_) {
+    moment.camera = {fixed(photo_->eye.position), photo_->eye.yaw_deg, photo_->eye.pitch_deg,
+                     photo_->fov_deg};
+    moment.time_of_day_s = photo_->time_of_day_s;
+    if (photo_->exposure_ev) moment.exposure_ev = photo_->exposure_ev;
+  }
   // A screenshot's command knows of no hands.
-  if (const std::optional<Pick>& pick = hands_.pick(); pick && !screenshot_wanted_) {
+  if (const std::optional<Pick>& pick = hands_.pick(); pick && !screenshot_wanted_ && !photo_) {
     const VoxelBox box = pick_box(pick->block);
     const glm::dvec3 corner{pick->voxel.x, pick->voxel.y, pick->voxel.z};
     moment.marked = {pick->island, corner + box.min, corner + box.max, hands_.dig_progress()};
@@ -91,46 +72,53 @@ SceneView::Moment PlayLoop::moment() const {
   return moment;
 }
 
-/// @return whether there was a window to draw to.
-Result<bool> PlayLoop::draw(double seconds) {
+Result<bool> PlayLoop::draw(const Layout& layout) {
   const SceneView::Moment now = moment();
   if (const auto done = view_->stream(now.camera, now.world_time_s); !done) return done.error();
   const platform::FramebufferSize window_px = window_.framebuffer_size();
   const std::optional<gpu::SwapchainFrame> frame =
-      presenter_->acquire({window_px.width, window_px.height});
+      presenter_.acquire({window_px.width, window_px.height});
   if (!frame) return false;
-  const VkExtent2D size = presenter_->extent();
-  std::optional<OverlayTriangles> overlay;
-  if (overlay_shown_ || calibrating_) overlay = overlay_triangles(seconds);
+  const VkExtent2D size = presenter_.extent();
+  const ui::OverlayTriangles overlay = layout(size);
   Result<void> recorded;
   const auto bring_to_window = [&](VkCommandBuffer commands, gpu::Image& picture) {
-    recorded = presenter_->record(commands, picture, *frame, overlay ? &*overlay : nullptr);
+    recorded =
+        presenter_.record(commands, picture, *frame, overlay.vertices.empty() ? nullptr : &overlay);
   };
   // A command meters what it draws and adapts to nothing, so F2 names the exposure; and its picture
   // is drawn by the way that a command with an exposure takes.
   Settings& settings = view_->settings();
   const std::optional<double> asked_ev = settings.exposure_ev;
-  if (screenshot_wanted_ && !asked_ev) settings.exposure_ev = exposure_ev_;
+  if (screenshot_wanted_ && !asked_ev) settings.exposure_ev = now.exposure_ev;
   const Result<std::uint64_t> value =
       view_->draw(now, size, bring_to_window, {&frame->wait, 1}, {&frame->signal, 1});
   if (!value) return value.error();
-  presenter_->present(*frame, *value);
+  presenter_.present(*frame, *value);
   if (!recorded) return recorded.error();
   scene_.size = {size.width, size.height};
-  scene_.time_of_day_s = day_.time_of_day_s();
   scene_.settings = settings;
   scene_.settings.world_time_s = now.world_time_s;
   settings.exposure_ev = asked_ev;
+  if (std::exchange(screenshot_wanted_, false)) take_screenshot();
   return true;
 }
 
 void PlayLoop::take_screenshot() {
-  const auto path = save_screenshot(device_, view_->renderer().picture(), scene_);
+  SceneOptions taken = scene_;
+  taken.time_of_day_s = day_.time_of_day_s();
+  if (photo_) {
+    taken.camera = photo_->eye;
+    taken.fov_deg = photo_->fov_deg;
+    taken.time_of_day_s = photo_->time_of_day_s;
+  }
+  const auto path = save_screenshot(device_, view_->renderer().picture(), taken);
   if (!path) {
-    fmt::print(stderr, "skerry: {}\n", path.error().message);
+    said_.push_back(path.error().message);
     return;
   }
-  fmt::print("{}\n{}\n", path->string(), shot_command(scene_));
+  said_.push_back(fmt::format("Saved {}", path->string()));
+  fmt::print("{}\n{}\n", path->string(), shot_command(taken));
   std::fflush(stdout);
 }
 

@@ -27,8 +27,8 @@ void PlayLoop::note_frame(double seconds) {
 std::vector<std::string> PlayLoop::overlay_lines() const {
   const CameraPlace& eye = *scene_.camera;
   const world::Streamer::Stats stream = view_->streamer().stats();
-  return {fmt::format("seed {}   {}x{}   {}", scene_.seed_text, presenter_->extent().width,
-                      presenter_->extent().height, device_.info().name),
+  return {fmt::format("seed {}   {}x{}   {}", scene_.seed_text, presenter_.extent().width,
+                      presenter_.extent().height, device_.info().name),
           fmt::format("x {} y {} z {}", format_blocks(eye.position.x),
                       format_blocks(eye.position.y), format_blocks(eye.position.z)),
           fmt::format("yaw {:.1f} pitch {:.1f}   {} {:.1f} blocks/s", eye.yaw_deg, eye.pitch_deg,
@@ -48,7 +48,8 @@ std::vector<std::string> PlayLoop::overlay_lines() const {
           fmt::format("streaming: {} islands, {} tasks left", stream.islands, stream.tasks_left)};
 }
 
-OverlayTriangles PlayLoop::overlay_triangles(double seconds) {
+void PlayLoop::show_numbers() const {
+  if (!overlay_shown_ && !calibrating_) return;
   OverlayFacts facts;
   facts.frame_ms = frame_ms_;
   const std::vector<std::string> lines = overlay_lines();
@@ -70,7 +71,23 @@ OverlayTriangles PlayLoop::overlay_triangles(double seconds) {
   facts.memory = memory;
   facts.numbers = overlay_shown_;
   if (calibrating_) facts.calibration = view_->settings().display;
-  return overlay_.layout(facts, presenter_->extent().width, presenter_->extent().height, seconds);
+  show_overlay(facts);
+}
+
+ui::HudFacts PlayLoop::hud() const {
+  ui::HudFacts facts;
+  const CameraPlace& eye = *scene_.camera;
+  const world::WorldPos feet = player_.feet();
+  const auto whole = [](std::int64_t units) {
+    return world::floor_div(units, world::kUnitsPerBlock);
+  };
+  facts.yaw_deg = eye.yaw_deg;
+  facts.hotbar = hands_.hotbar().blocks;
+  facts.selected = hands_.hotbar().selected;
+  facts.time_of_day_s = day_.time_of_day_s();
+  facts.place = fmt::format("{}  {}  {}", whole(feet.x), whole(feet.y), whole(feet.z));
+  if (!view_->complete()) facts.islands_to_come = view_->streamer().stats().tasks_left;
+  return facts;
 }
 
 }  // namespace skerry::game

@@ -63,6 +63,21 @@ Player::Player(world::WorldPos feet, double yaw_deg, double pitch_deg, double ti
   before_ = now_;
 }
 
+Player::Player(const PlayerState& state, double time_s)
+    : Player(state.feet, state.yaw_deg, state.pitch_deg, time_s) {
+  now_.island = state.island;
+  now_.lattice = state.lattice;
+  before_ = now_;
+  velocity_ = state.velocity;
+  mode_ = static_cast<MoveMode>(state.mode);
+  set_fly_speed(state.fly_speed);
+}
+
+PlayerState Player::state() const {
+  return {now_.feet,   now_.island, now_.lattice, velocity_, now_.yaw_deg,
+          pitch_deg_, static_cast<std::uint8_t>(mode_), fly_speed_};
+}
+
 void Player::turn(double yaw_deg, double pitch_deg) {
   // Both ends of the interpolation turn, so that the view follows the mouse within the frame.
   now_.yaw_deg = std::remainder(now_.yaw_deg + yaw_deg, 360.0);

@@ -8,6 +8,7 @@
 
 #include "game/collide.h"
 #include "game/parse.h"
+#include "game/player_state.h"
 #include "world/blocks.h"
 #include "world/coords.h"
 #include "world/island.h"
@@ -70,6 +71,11 @@ class Player {
   /// @param feet where the middle of the soles is. @param time_s the world's time at which that
   /// holds.
   Player(world::WorldPos feet, double yaw_deg, double pitch_deg, double time_s);
+
+  /// As it was saved, at the world's time of then.
+  Player(const PlayerState& state, double time_s);
+  /// After the last tick.
+  PlayerState state() const;
 
   /// Turns the head at once. Pitch stays within +-90.
   void turn(double yaw_deg, double pitch_deg);

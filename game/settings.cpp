@@ -480,14 +480,18 @@ Result<Quality> parse_quality(std::string_view text) {
 }
 
 Settings settings_of(Quality quality) {
-  const QualityLevel& level = quality_level(quality);
   Settings settings;
+  set_quality(quality, settings);
+  return settings;
+}
+
+void set_quality(Quality quality, Settings& settings) {
+  const QualityLevel& level = quality_level(quality);
   settings.view_distance = level.view_distance;
   settings.view_detail = level.view_detail;
   settings.shadow_size = level.shadow_size;
   settings.bloom.intensity = level.bloom_intensity;
   settings.lights_shadows = level.lights_shadows;
-  return settings;
 }
 
 std::vector<std::string> assignments_from(Quality quality, const Settings& settings) {

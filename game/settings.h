@@ -98,6 +98,8 @@ struct QualityLevel {
 const QualityLevel& quality_level(Quality quality);
 Result<Quality> parse_quality(std::string_view text);
 Settings settings_of(Quality quality);
+/// Changes what a level stands for, and nothing else.
+void set_quality(Quality quality, Settings& settings);
 
 /// The "key=value" assignments that turn settings_of(quality) into `settings`.
 std::vector<std::string> assignments_from(Quality quality, const Settings& settings);

@@ -23,6 +23,11 @@ double length(const glm::dvec3& v) {
   return std::sqrt(glm::dot(v, v));
 }
 
+/// Speed that turning gives a place.
+glm::dvec3 carried(double spin, const glm::dvec3& arm) {
+  return spin * glm::dvec3{arm.z, 0.0, -arm.x};
+}
+
 /// Any island's speed by the closed form, over one tick.
 MotionState on_course_at(const IslandSpec& spec, std::int64_t tick, const glm::dvec3& centre) {
   MotionState state;
@@ -89,7 +94,17 @@ std::unique_ptr<IslandMotion::Body> IslandMotion::body_on_course(const IslandSpe
 }
 
 void IslandMotion::want_shape(Body& body) {
-  if (!body.shape) body.shape = shapes_(body.id);
+  if (body.shape) return;
+  body.shape = shapes_(body.id);
+  if (!body.shape || !std::exchange(body.at_origin, false)) return;
+  body.now.velocity += carried(body.now.spin, Turn::of(body.now.pose.rotation)(body.centre()));
+}
+
+void IslandMotion::drop_shape(Body& body) {
+  if (!body.shape) return;
+  body.now.velocity -= carried(body.now.spin, Turn::of(body.now.pose.rotation)(body.centre()));
+  body.at_origin = true;
+  body.shape.reset();
 }
 
 bool IslandMotion::disturb(std::uint64_t island) {
@@ -97,9 +112,9 @@ bool IslandMotion::disturb(std::uint64_t island) {
   const std::optional<IslandSpec> spec = world_.island(island);
   if (!spec) return false;
   std::unique_ptr<Body> body = body_on_course(*spec);
-  want_shape(*body);
-  body->now = on_course_at(*spec, tick_, body->centre());
+  body->at_origin = true;
   body->on_course = false;
+  want_shape(*body);
   body->next = body->now.pose;
   courses_.erase(island);
   tell(*body);
@@ -107,13 +122,16 @@ bool IslandMotion::disturb(std::uint64_t island) {
   return true;
 }
 
-void IslandMotion::add(std::uint64_t island, const MotionState& state) {
+void IslandMotion::add(std::uint64_t island, const MotionState& state,
+                       std::unique_ptr<Shape> shape) {
   auto body = std::make_unique<Body>();
   body->id = island;
   if (const auto spec = world_.island(island)) body->ball_radius = spec->bounding_radius;
   body->now = state;
   body->now.tick = tick_;
   body->next = state.pose;
+  body->shape = std::move(shape);
+  want_shape(*body);
   courses_.erase(island);
   tell(*body);
   bodies_.insert_or_assign(island, std::move(body));
@@ -140,14 +158,19 @@ void IslandMotion::edited(std::uint64_t island, std::span<const IVec3> voxels, b
   const glm::dvec3 before = body->centre();
   body->shape->edit(voxels, solid);
   const glm::dvec3 arm = Turn::of(body->now.pose.rotation)(body->centre() - before);
-  body->now.velocity += body->now.spin * glm::dvec3{arm.z, 0.0, -arm.x};
+  body->now.velocity += carried(body->now.spin, arm);
+}
+
+void IslandMotion::reshape(std::uint64_t island) {
+  courses_.erase(island);
+  if (Body* body = find(island)) drop_shape(*body);
 }
 
 /// Engines, air and limits; then where it would go.
 void IslandMotion::drive(Body& body) const {
   body.held = false;
   body.next = body.now.pose;
-  if (!body.awake()) return;
+  if (!body.awake() || !body.shape) return;
   MotionState& now = body.now;
   now.velocity += Turn::of(now.pose.rotation)(body.thrust) * (kThrust * kDt);
   now.spin += body.turn * kTurnThrust * kDt;
@@ -169,21 +192,21 @@ void IslandMotion::drive(Body& body) const {
 /// Islands on their courses that a disturbed one may meet in this tick.
 void IslandMotion::meet_courses(Body& body) {
   const WorldPos place = body.place(body.now.pose);
-  const glm::dvec3 since = body.looked_from ? difference_blocks(place, *body.looked_from)
-                                            : glm::dvec3{};
+  const glm::dvec3 since =
+      body.looked_from ? difference_blocks(place, *body.looked_from) : glm::dvec3{};
   if (!body.looked_from || length(since) > 0.5 * kLookAround) {
     body.looked_from = place;
     body.course_islands.clear();
-    for (const IslandSpec& spec : world_.islands_near(
-             place, body.radius() + kLookAround, static_cast<double>(tick_) * kDt))
+    for (const IslandSpec& spec :
+         world_.islands_near(place, body.radius() + kLookAround, static_cast<double>(tick_) * kDt))
       body.course_islands.push_back(spec.id);
   }
   for (const std::uint64_t id : body.course_islands) {
     if (bodies_.contains(id)) continue;
     const std::optional<IslandSpec> spec = world_.island(id);
     if (!spec) continue;
-    const glm::dvec3 away = difference_blocks(
-        pose_at(*spec, static_cast<double>(tick_) * kDt).origin, place);
+    const glm::dvec3 away =
+        difference_blocks(pose_at(*spec, static_cast<double>(tick_) * kDt).origin, place);
     if (length(away) > spec->bounding_radius + body.radius() + 1.0) continue;
     std::unique_ptr<Body>& course = courses_[id];
     if (course && course->wanted) continue;
@@ -257,10 +280,11 @@ void IslandMotion::hold(std::vector<Pair>& pairs) {
       const int state = a.held + 2 * b.held;
       if (pair.state == state) continue;
       pair.state = state;
-      pair.touch = touch_between(a, a.pose(), b, b.pose());
-      if (pair.touch.overlap == 0.0) continue;
-      if (pair.before < 0.0)
-        pair.before = touch_between(a, a.now.pose, b, b.now.pose).overlap;
+      Touch touch = touch_between(a, a.pose(), b, b.pose());
+      if (touch.overlap == 0.0) continue;
+      pair.touch = std::move(touch);
+      pair.between = difference_blocks(a.place(a.pose()), b.place(b.pose()));
+      if (pair.before < 0.0) pair.before = touch_between(a, a.now.pose, b, b.now.pose).overlap;
       if (pair.touch.overlap <= pair.before) continue;
       for (Body* body : {&a, &b}) {
         if (body->on_course || body->held) continue;
@@ -282,7 +306,8 @@ bool IslandMotion::leave_courses(std::vector<Pair>& pairs) {
     const double hits = static_cast<double>(other.shape->mass().blocks);
     const double speed = length(other.now.velocity - course.now.velocity) +
                          std::abs(other.now.spin) * other.radius();
-    if (speed * hits / (own + hits) < kFeltSpeed && pair.touch.contacts.front().depth < kDeepContact)
+    if (speed * hits / (own + hits) < kFeltSpeed &&
+        pair.touch.contacts.front().depth < kDeepContact)
       continue;
     course.on_course = false;
     course.told = false;
@@ -307,10 +332,14 @@ void IslandMotion::step() {
   hold(pairs);
   while (leave_courses(pairs)) {
     for (auto& [id, body] : bodies_)
-      if (!body->told) body->next = moved_pose(body->now.pose, body->centre(), body->now.velocity,
-                                               body->now.spin, kDt);
+      if (!body->told)
+        body->next =
+            moved_pose(body->now.pose, body->centre(), body->now.velocity, body->now.spin, kDt);
     for (Pair& pair : pairs) pair.a->held = pair.b->held = false;
-    for (Pair& pair : pairs) pair.state = -1;
+    for (Pair& pair : pairs) {
+      pair.state = -1;
+      pair.touch = {};
+    }
     hold(pairs);
   }
   exchange_impulses(pairs);
@@ -331,8 +360,8 @@ void IslandMotion::step() {
 /// when, so that it does not jump there.
 void IslandMotion::tell(Body& body) {
   const std::optional<Pose> known = world_.pose(body.id, static_cast<double>(tick_) * kDt);
-  const bool still = known && known->origin == body.now.pose.origin &&
-                     known->rotation == body.now.pose.rotation;
+  const bool still =
+      known && known->origin == body.now.pose.origin && known->rotation == body.now.pose.rotation;
   if (body.told && still) return;
   if (body.told && known) world_.move_island(body.id, tick_ - 1, *known);
   world_.move_island(body.id, tick_, body.now.pose);
@@ -340,8 +369,7 @@ void IslandMotion::tell(Body& body) {
 }
 
 void IslandMotion::advance_to(double time_s) {
-  const auto wanted =
-      static_cast<std::int64_t>(std::ceil(time_s * kMotionTicksPerSecond));
+  const auto wanted = static_cast<std::int64_t>(std::ceil(time_s * kMotionTicksPerSecond));
   if (wanted - tick_ > kMaxTicks) {
     tick_ = wanted - kMaxTicks;
     for (auto& [id, body] : bodies_) body->now.tick = tick_;
@@ -367,7 +395,7 @@ std::optional<IslandMotion::PointMotion> IslandMotion::motion_at(std::uint64_t i
   }
   const MotionState& now = found->second->now;
   const glm::dvec3 arm = Turn::of(now.pose.rotation)(place - found->second->centre());
-  return PointMotion{now.pose, now.velocity + now.spin * glm::dvec3{arm.z, 0.0, -arm.x}, now.spin};
+  return PointMotion{now.pose, now.velocity + carried(now.spin, arm), now.spin};
 }
 
 }  // namespace skerry::world

@@ -29,7 +29,8 @@ inline constexpr double kThrust = 2.0, kTurnThrust = 0.25, kAirDrag = 0.125;
 /// docs/decisions/0017-islands-that-bump.md. One thread at a time; World::pose answers all others.
 class IslandMotion {
  public:
-  /// Hands over the shape of an island, or none yet: till then it is a ball that nothing enters.
+  /// Hands over the shape of an island, or none yet: till then it stands still, a ball that nothing
+  /// enters.
   using Shapes = std::function<std::unique_ptr<Shape>(std::uint64_t island)>;
   /// @param world outlives this. @param shapes none: they are made at once when needed.
   explicit IslandMotion(World& world, Shapes shapes = {});
@@ -41,16 +42,20 @@ class IslandMotion {
   void start(double time_s);
   std::int64_t tick() const { return tick_; }
 
-  /// Takes an island from its course, with the speed it has. @return false: no such island is known.
+  /// Takes an island from its course, with the speed it has. @return false: no such island is
+  /// known.
   bool disturb(std::uint64_t island);
   /// An island that moves already: broken off, or read from a file. Its tick becomes the clock's.
-  void add(std::uint64_t island, const MotionState& state);
+  /// @param shape of it, if that is known already.
+  void add(std::uint64_t island, const MotionState& state, std::unique_ptr<Shape> shape = nullptr);
   /// Engines, until said otherwise. @param thrust in the island's axes, length at most 1 counts.
   /// @param turn -1 .. 1 about +y. @return false: no such island is known.
   bool steer(std::uint64_t island, glm::dvec3 thrust, double turn);
   /// Tells that voxels are, or are no longer, solid. What remains of the island moves on as its
   /// voxels did.
   void edited(std::uint64_t island, std::span<const IVec3> voxels, bool solid);
+  /// The same for more than is worth naming: the shape is asked for anew.
+  void reshape(std::uint64_t island);
 
   /// One tick. The world is told all poses.
   void step();
@@ -81,6 +86,7 @@ class IslandMotion {
   Body* find(std::uint64_t island);
   std::unique_ptr<Body> body_on_course(const IslandSpec& spec) const;
   void want_shape(Body& body);
+  static void drop_shape(Body& body);
   void drive(Body& body) const;
   void meet_courses(Body& body);
   std::vector<Pair> near_pairs();

@@ -10,17 +10,18 @@ namespace skerry::world {
 
 struct IslandMotion::Body {
   std::uint64_t id = 0;
-  MotionState now;                // at the clock's tick
-  Pose next;                      // where it goes unless it is held
-  std::unique_ptr<Shape> shape;   // none yet: a ball
-  double ball_radius = 0.0;       // blocks, about the lattice's origin
-  glm::dvec3 thrust{};            // island's axes
+  MotionState now;               // at the clock's tick
+  Pose next;                     // where it goes unless it is held
+  std::unique_ptr<Shape> shape;  // none yet: a ball
+  double ball_radius = 0.0;      // blocks, about the lattice's origin
+  glm::dvec3 thrust{};           // island's axes
   double turn = 0.0;
-  bool on_course = false;         // follows pose_at: never held, weighs without end
+  bool at_origin = false;  // `now.velocity` is the lattice origin's: the centre is not known
+  bool on_course = false;  // follows pose_at: never held, weighs without end
   bool held = false;
-  bool wanted = false;            // of courses: near a disturbed island in this tick
-  bool told = false;              // the world knows its pose of the last tick
-  std::optional<WorldPos> looked_from;       // where islands near by were last looked for
+  bool wanted = false;                        // of courses: near a disturbed island in this tick
+  bool told = false;                          // the world knows its pose of the last tick
+  std::optional<WorldPos> looked_from;        // where islands near by were last looked for
   std::vector<std::uint64_t> course_islands;  // found then
 
   bool driven() const { return thrust != glm::dvec3{} || turn != 0.0; }
@@ -44,10 +45,11 @@ struct IslandMotion::Body {
 
 /// Two islands that may touch.
 struct IslandMotion::Pair {
-  Body *a, *b;  // ascending ids
-  Touch touch;  // at the poses they have now
+  Body *a, *b;           // ascending ids
+  Touch touch;           // what bars their way, or is left of an older overlap
+  glm::dvec3 between{};  // from b's centre of mass to a's, where they touch so
   double before = -1.0;  // overlap at the last tick; negative: not known
-  int state = -1;        // which of the two were held when `touch` was found
+  int state = -1;        // which of the two were held when last looked at
 };
 
 /// A pose after a time in which the centre of mass moves straight and the island turns evenly.

@@ -38,7 +38,8 @@ double ease(const Body& a, const glm::dvec3& arm_a, const Body& b, const glm::dv
 }
 
 template <class Body>
-void resolve(Body& a, Body& b, const Contact& contact, const glm::dvec3& between, double push_speed) {
+void resolve(Body& a, Body& b, const Contact& contact, const glm::dvec3& between,
+             double push_speed) {
   const glm::dvec3 arm_a = contact.point, arm_b = contact.point + between;
   const glm::dvec3 relative = velocity_at(a, arm_a) - velocity_at(b, arm_b);
   const double approach = glm::dot(relative, contact.normal);
@@ -69,10 +70,9 @@ void IslandMotion::exchange_impulses(std::vector<Pair>& pairs) {
     for (Pair& pair : pairs) {
       if (pair.touch.contacts.empty()) continue;
       Body &a = *pair.a, &b = *pair.b;
-      const glm::dvec3 between = difference_blocks(a.place(a.pose()), b.place(b.pose()));
       for (const Contact& contact : pair.touch.contacts) {
         const double push_speed = pair.before > 0.0 ? std::min(kPushSpeed, contact.depth) : 0.0;
-        resolve(a, b, contact, between, push_speed);
+        resolve(a, b, contact, pair.between, push_speed);
       }
     }
   }

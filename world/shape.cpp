@@ -118,9 +118,9 @@ void Shape::fit_radius() {
     for (int y = 0; y < kEdge; ++y) {
       for (std::uint64_t layer = voxels.layers[y]; layer != 0; layer &= layer - 1) {
         const int bit = std::countr_zero(layer);
-        const glm::dvec3 away = middle_of({at.x * kEdge + bit / kEdge, at.y * kEdge + y,
-                                           at.z * kEdge + bit % kEdge}) -
-                                mass_.centre;
+        const glm::dvec3 away =
+            middle_of({at.x * kEdge + bit / kEdge, at.y * kEdge + y, at.z * kEdge + bit % kEdge}) -
+            mass_.centre;
         most = std::max(most, glm::dot(away, away));
       }
     }
@@ -159,9 +159,9 @@ void Shape::edit(std::span<const IVec3> voxels, bool solid) {
 Touch touch_of(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   if (a.surface_bricks() <= b.surface_bricks()) return balls_on_cubes(a, pose_a, b, pose_b);
   Touch touch = balls_on_cubes(b, pose_b, a, pose_a);
-  const glm::dvec3 between =
-      difference_blocks(pose_b.origin, pose_a.origin) +
-      Turn::of(pose_b.rotation)(b.mass().centre) - Turn::of(pose_a.rotation)(a.mass().centre);
+  const glm::dvec3 between = difference_blocks(pose_b.origin, pose_a.origin) +
+                             Turn::of(pose_b.rotation)(b.mass().centre) -
+                             Turn::of(pose_a.rotation)(a.mass().centre);
   for (Contact& contact : touch.contacts) {
     contact.point += between;
     contact.normal = -contact.normal;

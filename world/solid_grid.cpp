@@ -88,6 +88,12 @@ bool SolidGrid::set(IVec3 voxel, bool solid) {
   return true;
 }
 
+void SolidGrid::clear(IVec3 at, const BitBrick& voxels) {
+  if (!bits(chunk_of_brick(at))) return;
+  BitBrick& brick = slots_[chunk_of_brick(at)].bits->bricks[brick_index(at)];
+  for (int y = 0; y < kEdge; ++y) brick.layers[y] &= ~voxels.layers[y];
+}
+
 void SolidGrid::complete() {
   for (auto& [chunk, slot] : slots_)
     if (!slot.looked_at) look_at(chunk, slot);

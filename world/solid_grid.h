@@ -72,6 +72,8 @@ class SolidGrid {
   bool at(IVec3 voxel) const;
   /// An edit. @return whether it changed anything.
   bool set(IVec3 voxel, bool solid);
+  /// Takes away voxels of a brick.
+  void clear(IVec3 at, const BitBrick& voxels);
   /// The voxels of a brick; nullptr: none of them is solid.
   const BitBrick* brick(IVec3 at) const;
   /// Looks at all chunks that were not yet.

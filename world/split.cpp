@@ -54,8 +54,12 @@ struct Beside {
   BitBrick voxels;
 };
 std::array<Beside, 6> beside(const BitBrick& b) {
-  std::array<Beside, 6> out{
-      {{{1, 0, 0}, {}}, {{-1, 0, 0}, {}}, {{0, 1, 0}, {}}, {{0, -1, 0}, {}}, {{0, 0, 1}, {}}, {{0, 0, -1}, {}}}};
+  std::array<Beside, 6> out{{{{1, 0, 0}, {}},
+                             {{-1, 0, 0}, {}},
+                             {{0, 1, 0}, {}},
+                             {{0, -1, 0}, {}},
+                             {{0, 0, 1}, {}},
+                             {{0, 0, -1}, {}}}};
   for (int y = 0; y < kEdge; ++y) {
     out[0].voxels.layers[y] = b.layers[y] >> 56;
     out[1].voxels.layers[y] = b.layers[y] << 56;
@@ -156,12 +160,12 @@ class Sides {
     sides_[side].queue.pop_front();
     const BitBrick* solid = grid_.brick(wave.brick);
     if (!solid) return;
-    ++bricks_;
     std::vector<Visit>& visits = visited_[wave.brick];
     BitBrick reached = flooded(*solid, wave.seeds);
     for (const Visit& visit : visits)
       if (find(visit.side) == side) reached = without(reached, visit.voxels);
     if (!reached.any()) return;
+    ++bricks_;
     // What hangs together inside a brick is reached as a whole, so sides that meet share all of it.
     for (const Visit& visit : visits) {
       const std::size_t other = find(visit.side);

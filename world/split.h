@@ -34,9 +34,9 @@ struct BrokenOff {
   Mass mass;  ///< in its own lattice
 };
 
-/// Moves a fragment's voxels, and what stands on them, into an island of their own. Not a voxel moves
-/// in the world; the new lattice is the old one shifted by whole blocks. The island stands still
-/// where it is until someone moves it (IslandMotion::add).
+/// Moves a fragment's voxels, and what stands on them, into an island of their own. Not a voxel
+/// moves in the world; the new lattice is the old one shifted by whole blocks. The island stands
+/// still where it is until someone moves it (IslandMotion::add).
 /// @param at pose of the old island, which must be known.
 BrokenOff break_off(World& world, std::uint64_t island, const Fragment& fragment, const Pose& at);
 

@@ -117,6 +117,28 @@ void Input::lose_focus() {
   forget_pointer();
 }
 
+void HeldBack::hold(const InputFrame& frame) {
+  keys_ |= frame.down_ | frame.pressed_;
+  text_ = true;
+}
+
+InputFrame HeldBack::filtered(InputFrame frame) {
+  const InputFrame::Keys hidden = keys_;
+  keys_ &= frame.down_;
+  frame.down_ &= ~hidden;
+  frame.pressed_ &= ~hidden;
+  frame.released_ &= ~hidden;
+  for (std::size_t i = 0; i < frame.axes_.size(); ++i)
+    if (hidden[InputFrame::kFirstAxis + i]) frame.axes_[i] = 0.0f;
+  if (text_) {
+    frame.text.clear();
+    frame.scroll = 0.0;
+    frame.mouse_delta = {};
+  }
+  text_ = false;
+  return frame;
+}
+
 InputFrame Input::take() {
   const InputFrame taken = frame_;
   frame_ = {};

@@ -60,7 +60,7 @@ class InputFrame {
   /// How far: 0 .. 1 for sticks (beyond their dead zone) and triggers, notches of the wheel, 0 or 1
   /// for all else.
   float value(Key key) const;
-  /// Any key that went down during the frame, but for the pointer's motion; none: kNone.
+  /// The first, in the enumeration's order, that went down during the frame; none: kNone.
   Key any_pressed() const;
 
   glm::dvec2 mouse_delta{};  ///< pixels, right and down
@@ -73,6 +73,7 @@ class InputFrame {
 
  private:
   friend class Input;
+  friend class HeldBack;
   using Keys = std::bitset<static_cast<std::size_t>(Key::kCount)>;
   static constexpr std::size_t kFirstAxis = static_cast<std::size_t>(Key::kPadLeftStickLeft);
   static constexpr std::size_t kAxes = static_cast<std::size_t>(Key::kCount) - kFirstAxis;
@@ -102,6 +103,20 @@ class Input {
   InputFrame frame_;
   glm::dvec2 pointer_{};
   bool pointer_known_ = false;
+};
+
+/// Keeps keys that were meant for one thing from meaning another: those that are held when a screen
+/// opens or closes mean nothing until they have gone up.
+class HeldBack {
+ public:
+  /// From now on, everything that this frame holds or types is kept back.
+  void hold(const InputFrame& frame);
+  /// The frame without what is kept back. Once a frame.
+  InputFrame filtered(InputFrame frame);
+
+ private:
+  InputFrame::Keys keys_;
+  bool text_ = false;
 };
 
 }  // namespace skerry::platform

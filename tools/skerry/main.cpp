@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/log.h"
 #include "game/parse.h"
+#include "game/preferences.h"
 #include "tools/skerry/arguments.h"
 #include "tools/skerry/bench_commands.h"
 #include "tools/skerry/devices.h"
@@ -17,6 +19,7 @@
 #include "tools/skerry/shot.h"
 #include "tools/skerry/stability/command.h"
 #include "tools/skerry/test_command.h"
+#include "tools/skerry/vdb_command.h"
 
 namespace skerry::tools {
 namespace {
@@ -41,6 +44,7 @@ struct CommandLine {
   std::vector<std::string> typed;  ///< all arguments, the command first
   std::optional<TestCommand> test;
   std::optional<StabilityCommand> stability;
+  std::optional<VdbCommand> vdb;
 
   CommandLine();
   int run();
@@ -67,6 +71,7 @@ CommandLine::CommandLine() {
   test.emplace(app);
   bench.emplace(app);
   stability.emplace(app);
+  vdb.emplace(app);
   devices = add("devices", "List the Vulkan devices");
   devices->add_flag("--json", json, "As JSON");
 }
@@ -79,10 +84,16 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 }
 
 int CommandLine::run_play() {
+  game::ReadPreferences read = game::load_preferences(game::preferences_path());
+  for (const std::string& problem : read.problems) log_warning(problem);
+  scene.usual = std::move(read.scene);
+  if (scene.text.quality) scene.usual.settings.clear();  // they are changes of another level
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
   if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
-  return play_command(options);
+  const bool asked_for =
+      scene.text.seed || scene.text.world || scene.text.camera || scene.scene_file;
+  return play_command(options, !asked_for);
 }
 
 int CommandLine::run_shot() {
@@ -102,6 +113,7 @@ int CommandLine::run() {
   if (chosen == report->command()) return report->run(typed);
   if (chosen == test->command()) return test->run();
   if (chosen == stability->command()) return stability->run();
+  if (chosen == vdb->command()) return vdb->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();
   if (chosen == shot) return run_shot();

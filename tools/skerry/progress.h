@@ -15,10 +15,10 @@ class ProgressBar {
 
   /// @param share 0..1. @param what is being done, one line.
   void show(double share, std::string_view what);
-
- private:
+  /// Takes the bar away, so that something else can be printed.
   void clear();
 
+ private:
   bool terminal_;
   bool shown_ = false;
 };

@@ -1,0 +1,36 @@
+// Islands become volumes.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "world/vdb/volume_grid.h"
+#include "world/world.h"
+
+namespace skerry::world {
+
+/// Blocks of the world, [low, high).
+struct BlockBox {
+  std::array<std::int64_t, 3> low{}, high{};
+};
+
+/// Most bricks and tiles of one export: some 4 GiB.
+inline constexpr std::size_t kMaxExportParts = std::size_t{1} << 21;
+
+/// Two grids for each island with a block in the box, as it stands at time 0: `block_id` (kIds, 0
+/// for air) and `density` (kFog, 1 where a player can stand). Several islands are numbered. Their
+/// index space is the island's lattice, voxel (i, j, k) being block (i, j, k), and their transform
+/// takes block centres to the world [blocks], so that import_islands gives the same voxels back.
+/// @param progress called with the share that is done.
+/// Errors: no block in the box; more than kMaxExportParts.
+Result<std::vector<VolumeGrid>> volumes_of(World& world, const BlockBox& box,
+                                           const ReadProgress& progress = {});
+
+/// Writes a .vdb file, compressed by Blosc: complete or not at all. It is read again and compared
+/// before it takes its name. Errors: one line that names the file.
+Result<void> write_vdb(const std::vector<VolumeGrid>& grids, const std::filesystem::path& path);
+
+}  // namespace skerry::world

@@ -1,0 +1,68 @@
+// Volumes become islands.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/jobs.h"
+#include "engine/core/result.h"
+#include "world/chunk.h"
+#include "world/island.h"
+#include "world/vdb/volume_grid.h"
+
+namespace skerry::world {
+
+enum class UpAxis : std::uint8_t { kY, kZ };
+
+struct ImportOptions {
+  std::optional<std::string> grid;  ///< only this one; none: importable_grids chooses
+  /// Blocks along a voxel's edge; of a box-shaped voxel, along the edge of the cube of its volume.
+  /// All grids of a file are scaled as the first. None: 1, or what `size_blocks` asks for.
+  std::optional<double> scale;
+  /// Length of the longest side of the box around all islands. Not beside `scale`.
+  std::optional<int> size_blocks;
+  /// Fog is solid from here on, distances are inside below it. None: the mean
+  /// density of what is not empty; 0.
+  std::optional<double> threshold;
+  UpAxis up = UpAxis::kY;  ///< which axis of the file points up
+};
+
+/// Refused beyond these: chunks of an island, and those of them that are not of one block.
+inline constexpr std::size_t kMaxImportChunks = 1 << 18;
+inline constexpr std::size_t kMaxDetailedChunks = 1 << 13;
+/// And beyond this many blocks from an island's centre.
+inline constexpr std::int32_t kMaxImportReach = 1 << 20;
+
+struct ImportedIsland {
+  IslandSpec spec;
+  std::map<IVec3, Chunk> chunks;  ///< of level 0; those that are all air are left out
+  std::string grid;
+  std::uint64_t blocks = 0;  ///< that are not air
+  double threshold = 0.0;    ///< that was used
+  /// How far the surface may be from where the file has it [blocks]: 0 when each voxel became one
+  /// block or a cube of blocks, else half a block's diagonal, for a block is solid where its centre
+  /// is.
+  double error_blocks = 0.0;
+  std::uint64_t unknown_ids = 0;  ///< blocks whose id this program does not know; now stone
+};
+
+/// Which grids an import takes when none is named: block ids if there are any, else level sets,
+/// else masks, else fog (of several, those whose name begins with "density"). Colours never.
+std::vector<std::size_t> importable_grids(const std::vector<VolumeGrid>& grids);
+
+/// Whether a grid holds block ids: an integer grid, or floats under the name block_id, block_ids,
+/// ids or blocks.
+bool holds_block_ids(const VolumeGrid& grid);
+
+/// Makes one island of each chosen grid. Memory follows bricks, tiles and chunks, never a bounding
+/// box. A grid named Cd, color, colour, rgb or albedo decides which block a surface is made of;
+/// else slope, depth and height do. Same voxels on every machine and number of threads.
+/// @param progress called from this thread with the share that is done.
+/// Errors: no such grid, nothing solid, a limit exceeded, a transform out of reach; one line.
+Result<std::vector<ImportedIsland>> import_islands(const std::vector<VolumeGrid>& grids,
+                                                   const ImportOptions& options, Jobs& jobs,
+                                                   const ReadProgress& progress = {});
+
+}  // namespace skerry::world

@@ -1,0 +1,61 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "world/vdb/answer.h"
+#include "world/vdb/volume_grid.h"
+#include "world/vdb/worker.h"
+
+namespace skerry::world {
+namespace {
+
+Result<std::vector<VolumeGrid>> read(const std::filesystem::path& path, const ReadLimits& limits,
+                                     const ReadProgress& progress) {
+  // Not blocking, so that a pipe nobody writes to is refused rather than waited for.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat state {};
+  if (file.get() < 0 || ::fstat(file.get(), &state) != 0)
+    return Error{fmt::format("{}; check the path", strerror(errno))};
+  if (!S_ISREG(state.st_mode)) return Error{"it is no regular file; give the path of a .vdb file"};
+  Result<MemoryFile> answer = MemoryFile::create();
+  if (!answer) return answer.error();
+  const Result<void> ran = run_worker({"read"}, file.get(), answer->descriptor(),
+                                      static_cast<std::uint64_t>(state.st_size), limits, progress);
+  if (!ran) return ran.error();
+  const Result<std::span<const std::byte>> bytes = answer->seal();
+  if (!bytes) return bytes.error();
+  return decode_answer(*bytes);
+}
+
+}  // namespace
+
+Result<std::vector<VolumeGrid>> read_vdb(const std::filesystem::path& path,
+                                         const ReadLimits& limits, const ReadProgress& progress) {
+  Result<std::vector<VolumeGrid>> grids = read(path, limits, progress);
+  if (grids) return grids;
+  return Error{fmt::format("cannot read the volumes of '{}': {}", printable(path.string()),
+                           grids.error().message)};
+}
+
+Result<std::vector<VolumeGrid>> read_volumes(const std::filesystem::path& path,
+                                             const ReadLimits& limits,
+                                             const ReadProgress& progress) {
+  Result<std::vector<VolumeGrid>> grids = read_vdb(path, limits, progress);
+  if (!grids) return grids;
+  std::erase_if(*grids, [](const VolumeGrid& grid) {
+    return grid.kind == VolumeKind::kOther || grid.kind == VolumeKind::kColor;
+  });
+  if (grids->empty()) {
+    return Error{
+        fmt::format("cannot read the volumes of '{}': no grid in it holds a number a "
+                    "voxel; see skerry vdb info",
+                    printable(path.string()))};
+  }
+  return grids;
+}
+
+}  // namespace skerry::world

@@ -1,0 +1,46 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "engine/core/jobs.h"
+#include "engine/core/result.h"
+#include "world/chunk.h"
+#include "world/vdb/placement.h"
+#include "world/vdb/solid_rule.h"
+#include "world/vdb/volume_field.h"
+
+namespace skerry::world {
+
+/// Which voxels of a chunk are solid. Mixed: bit z of rows[x + 64 * y].
+struct ChunkMask {
+  enum class Fill : std::uint8_t { kEmpty, kFull, kMixed };
+  using Rows = std::array<std::uint64_t, kChunkEdge * kChunkEdge>;
+
+  Fill fill = Fill::kEmpty;
+  std::unique_ptr<Rows> rows;
+
+  std::uint64_t row(int x, int y) const {
+    if (fill == Fill::kMixed) return (*rows)[static_cast<std::size_t>(x + kChunkEdge * y)];
+    return fill == Fill::kFull ? ~std::uint64_t{0} : 0;
+  }
+};
+
+/// A lattice's solid voxels by chunk; chunks that are not named are empty.
+using SolidMasks = std::map<IVec3, ChunkMask>;
+
+/// Chunks into which a brick or tile with a solid value reaches.
+/// Errors: more than kMaxImportChunks, or further than kMaxImportReach.
+Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,
+                                  const Placement& placement);
+
+/// Asks at each block's centre whether it is solid. Whole cubes of blocks are settled at once where
+/// bounds of the values allow it.
+/// Errors: more than kMaxDetailedChunks are mixed.
+Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
+                               const Placement& placement, const std::set<IVec3>& chunks,
+                               Jobs& jobs, const ReadProgress& progress);
+
+}  // namespace skerry::world
