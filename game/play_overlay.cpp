@@ -82,6 +82,7 @@ ui::HudFacts PlayLoop::hud() const {
     return world::floor_div(units, world::kUnitsPerBlock);
   };
   facts.yaw_deg = eye.yaw_deg;
+  facts.hidden = player_.return_fade();
   facts.hotbar = hands_.hotbar().blocks;
   facts.selected = hands_.hotbar().selected;
   facts.time_of_day_s = day_.time_of_day_s();
