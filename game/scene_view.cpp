@@ -313,6 +313,7 @@ render::RenderSettings SceneView::render_settings(
   out.tone = settings_.tone;
   out.display = settings_.display;
   out.bloom = settings_.bloom;
+  out.clouds = settings_.clouds;
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   out.traced_lights = settings_.lights_shadows;

@@ -54,6 +54,7 @@ struct Settings {
   render::ToneCurve tone = render::ToneCurve::kAces;
   render::DisplaySettings display;
   render::BloomSettings bloom;
+  render::CloudSettings clouds;
   RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;
   DebugView debug_view = DebugView::kNone;
@@ -95,6 +96,7 @@ struct QualityLevel {
   std::uint32_t view_distance, view_detail, shadow_size;
   float bloom_intensity;
   std::uint32_t lights_shadows;
+  int cloud_steps, cloud_resolution;
 };
 const QualityLevel& quality_level(Quality quality);
 Result<Quality> parse_quality(std::string_view text);
