@@ -21,3 +21,10 @@ set_source_files_properties(${CMAKE_SOURCE_DIR}/world/vdb/worker.cpp PROPERTIES 
 # Whatever reads volumes needs it beside itself; these targets are defined later.
 cmake_language(DEFER CALL add_dependencies skerry skerry_openvdb)
 cmake_language(DEFER CALL add_dependencies skerry_cpu_tests skerry_openvdb)
+
+# Files as other programs write them, for the tests.
+add_executable(skerry_vdb_samples EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/world/vdb/samples.cpp)
+target_link_libraries(skerry_vdb_samples PRIVATE skerry_options OpenVDB::openvdb)
+target_compile_options(skerry_vdb_samples PRIVATE -O0)  # runs for a moment, and would compile for minutes
+cmake_language(DEFER CALL add_dependencies skerry_tests skerry_vdb_samples)
+cmake_language(DEFER CALL add_dependencies skerry_cpu_tests skerry_vdb_samples)

@@ -31,8 +31,7 @@ Result<void> read_place(std::span<const std::string> parts, CloudFile& into) {
     *axes[i] = *part;
   }
   if (parts.size() == 3) return {};
-  const Result<double> scale =
-      parse_number(parts[3], "the cloud's scale", kLeastScale, kMostScale);
+  const Result<double> scale = parse_number(parts[3], "the cloud's scale", kLeastScale, kMostScale);
   if (!scale) return scale.error();
   into.scale = *scale;
   return {};
@@ -156,9 +155,10 @@ Result<LoadedClouds> load_clouds(std::span<const CloudFile> files) {
     for (const world::VolumeGrid& grid : *out.grids.back())
       if (grid.kind == world::VolumeKind::kFog) out.volumes.push_back(volume_of(grid, file));
     if (out.volumes.size() == before)
-      return Error{fmt::format("cannot draw {} as a cloud: it holds no fog volume; open solid "
-                               "volumes with --world",
-                               quote_text(file.path))};
+      return Error{
+          fmt::format("cannot draw {} as a cloud: it holds no fog volume; open solid "
+                      "volumes with --world",
+                      quote_text(file.path))};
   }
   return out;
 }

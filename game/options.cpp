@@ -191,8 +191,8 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
 
 std::string shot_command(const SceneOptions& scene) {
   std::string command = "skerry shot";
-  const bool file_clouds =
-      std::any_of(scene.clouds.begin(), scene.clouds.end(), [](const CloudFile& cloud) { return cloud.of_scene_file; });
+  const bool file_clouds = std::any_of(scene.clouds.begin(), scene.clouds.end(),
+                                       [](const CloudFile& cloud) { return cloud.of_scene_file; });
   if ((!scene.lights.empty() || file_clouds) && scene.scene_file)
     command += " --scene " + shell_word(*scene.scene_file);
   command += scene.world ? " --world " + shell_word(*scene.world)

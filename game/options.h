@@ -38,7 +38,7 @@ struct SceneText {
   std::vector<std::string> settings;  ///< KEY=VALUE, later ones win
   std::vector<WorldLight> lights;     ///< of a scene file
   std::vector<CloudFile> clouds;
-  Expectations expectations;          ///< of a scene file; no concern of make_scene
+  Expectations expectations;  ///< of a scene file; no concern of make_scene
 };
 
 /// The longest scene file worth reading.

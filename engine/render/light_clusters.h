@@ -21,18 +21,25 @@ struct CameraView;
 std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
                                           const shared::CullView& view);
 
-/// The most lights of a picture that a device can sort.
-std::uint32_t most_lights(const gpu::DeviceLimits& limits, VkExtent2D size);
+/// A picture to be cut into clusters.
+struct ClusterPicture {
+  VkExtent2D size{};  ///< pixels
+  /// Slices of depth that show something in every tile, a bit each: the first about a camera in a
+  /// translucent block.
+  std::uint32_t marked_slices = 0;
+  std::uint32_t tile_edge = 16;  ///< pixels along a cluster's tile: 8, 16, 32 or 64
+};
 
 /// All slices of depth up to where the farthest light ends, a bit each: where a medium that fills
 /// the open may be lit.
 std::uint32_t slices_lit(std::span<const shared::Light> lights);
 
-/// The grid for a picture. @param entries that there is room for; @param marked_slices that show
-/// something in every tile, a bit each: the first if the camera is in a translucent block.
-shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size,
-                                 std::uint32_t marked_slices, std::uint32_t light_count,
-                                 std::uint64_t entries);
+/// The most lights of a picture that a device can sort.
+std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture& picture);
+
+/// The grid for a picture. @param entries that there is room for.
+shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
+                                 std::uint32_t light_count, std::uint64_t entries);
 
 /// A frame's lights, sorted: what a pass needs that includes shaders/include/clustered.glsl.
 struct ClusteredLights {
@@ -64,7 +71,7 @@ class LightClusters {
   /// Takes a frame's lights to the GPU. More than most_lights() are cut off, and said so once.
   /// @param lights not empty, in view. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
-                      const CameraView& camera, VkExtent2D size, std::uint32_t marked_slices);
+                      const CameraView& camera, const ClusterPicture& picture);
   /// Adds the passes that sort what was uploaded last. @param oracle see ClusteredLights.
   ClusteredLights add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const ClusterDepths& depths, bool oracle);

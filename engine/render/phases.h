@@ -72,6 +72,7 @@ class Developed {
  private:
   friend struct DevelopPass;
   friend struct MeterPass;
+  friend struct MarkerPass;
   friend struct ShadePass;
   explicit Developed(gpu::ImageRef picture) : picture_(picture) {}
   gpu::ImageRef picture_;

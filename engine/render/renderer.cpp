@@ -22,6 +22,7 @@
 #include "engine/render/geometry_pass.h"
 #include "engine/render/light_clusters.h"
 #include "engine/render/light_pass.h"
+#include "engine/render/marker_pass.h"
 #include "engine/render/meter_pass.h"
 #include "engine/render/resolve_pass.h"
 #include "engine/render/shade_pass.h"
@@ -72,9 +73,9 @@ bool meters(const FrameInput& input, const RenderSettings& settings) {
 /// Whether the picture takes the way over a radiance image though no pass comes between.
 bool by_radiance(const FrameInput& input, const RenderSettings& settings,
                  const FrameFeatures& features) {
-  return features.has(Feature::kLights) || features.has(Feature::kClouds) || settings.bloom.intensity > 0.0f ||
-         meters(input, settings) || input.capture || input.fault.has_value() ||
-         samples_per_edge(settings) > 1 || input.parts > 1;
+  return features.has(Feature::kLights) || features.has(Feature::kClouds) ||
+         settings.bloom.intensity > 0.0f || meters(input, settings) || input.capture ||
+         input.fault.has_value() || samples_per_edge(settings) > 1 || input.parts > 1;
 }
 
 /// Slices of depth in which lights show without a surface: about an eye in water, and in clouds.
@@ -158,8 +159,10 @@ struct Renderer::State {
   Shadows add_shadows(const SceneRefs& scene, const CulledDraws& draws,
                       const RenderSettings& settings, const FrameContents& contents,
                       std::span<const ActiveCascade> cascades);
-  void finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input,
-                      const RenderSettings& settings);
+  std::optional<Developed> finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input,
+                                          const RenderSettings& settings);
+  void add_marker(const SceneRefs& scene, const Geometry& surfaces, Developed developed,
+                  const FrameInput& input);
   void add_readback(Slot& slot, const SceneRefs& scene, const gpu::BufferRef* cull_stats,
                     std::uint32_t views);
 
@@ -398,9 +401,11 @@ Shadows Renderer::State::add_shadows(const SceneRefs& scene, const CulledDraws& 
   return ShadowPass::add(graph, pipelines, scene, draws, shadows.maps(), redraw);
 }
 
-/// Makes pixels of samples, copies radiance out if asked to, meters and develops it.
-void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const FrameInput& input,
-                                     const RenderSettings& settings) {
+/// Makes pixels of samples, copies radiance out if asked to, meters and develops it: with the last
+/// part.
+std::optional<Developed> Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded,
+                                                         const FrameInput& input,
+                                                         const RenderSettings& settings) {
   if (input.fault && input.fault->in == Fault::In::kLookedThrough)
     shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
   const int samples = samples_per_edge(settings);
@@ -410,7 +415,7 @@ void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const Fram
                                input.parts > 1 ? &total : nullptr});
   if (samples == 1) graph.leave_out("average_samples", "aa.samples=1");
   if (input.parts == 1) graph.leave_out("accumulate_part", "shadow.samples=1");
-  if (input.part + 1 != input.parts) return;
+  if (input.part + 1 != input.parts) return std::nullopt;
   if (input.capture) captures.add(graph, Capture::kRadiance, shaded.radiance());
   gpu::BufferRef histogram;
   if (meters(input, settings))
@@ -422,7 +427,18 @@ void Renderer::State::finish_picture(SceneRefs& scene, Shaded shaded, const Fram
   Developed developed = DevelopPass::add(graph, pipelines, scene, std::move(shaded),
                                          bloom ? &*bloom : nullptr, picture);
   if (settings.debug_view == DebugView::kExposure)
-    (void)MeterPass::show(graph, pipelines, scene, std::move(developed), histogram, settings.meter);
+    developed =
+        MeterPass::show(graph, pipelines, scene, std::move(developed), histogram, settings.meter);
+  return developed;
+}
+
+void Renderer::State::add_marker(const SceneRefs& scene, const Geometry& surfaces,
+                                 Developed developed, const FrameInput& input) {
+  if (!input.marker) return;
+  const std::optional<shared::MarkerConstants> marker = marker_constants(
+      *input.marker, input.islands[input.marker->island], input.camera, picture.desc().extent);
+  if (marker)
+    (void)MarkerPass::add(graph, pipelines, scene, surfaces, std::move(developed), *marker);
 }
 
 void Renderer::State::add_readback(Slot& slot, const SceneRefs& scene,
@@ -504,7 +520,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       Shaded shaded = ShadePass::add_sky_only(graph, pipelines, scene, shade_in);
       if (scene.clouds)
         shaded = CloudPass::add(graph, pipelines, scene, {}, std::move(shaded), settings.clouds);
-      finish_picture(scene, std::move(shaded), input, settings);
+      (void)finish_picture(scene, std::move(shaded), input, settings);
     } else {
       graph.leave_out("develop", "nothing comes between shading and picture");
       (void)ShadePass::add_sky_only_to_picture(graph, pipelines, scene, shade_in, picture);
@@ -515,7 +531,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   const CulledDraws draws = add_cull_passes(
       graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
   Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, contents.cutouts_in_view[0],
-                                        settings.gbuffer);
+                                        samples_per_edge(settings) > 1, settings.gbuffer);
   Shadows maps = add_shadows(scene, draws, settings, contents, cascades);
   const bool debug = shows_channel(settings);
   const char* no_translucent = features.why_not(Feature::kWater);
@@ -539,7 +555,10 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
         graph.leave_out(name, no_translucent);
     if (no_translucent && !by_radiance(input, settings, features)) {
       graph.leave_out("develop", "nothing comes between shading and picture");
-      (void)ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture);
+      add_marker(
+          scene, surfaces,
+          ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture),
+          input);
     } else {
       add_clouds(scene, features);
       Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, shade_in);
@@ -558,7 +577,9 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
                                       input.camera_medium != 0);
       if (scene.clouds && input.camera_medium == 0)
         shaded = CloudPass::add(graph, pipelines, scene, view, std::move(shaded), settings.clouds);
-      finish_picture(scene, std::move(shaded), input, settings);
+      if (std::optional<Developed> developed =
+              finish_picture(scene, std::move(shaded), input, settings))
+        add_marker(scene, surfaces, *std::move(developed), input);
     }
   }
   if (input.capture) {
@@ -685,8 +706,8 @@ Result<std::uint64_t> Renderer::draw(
       return ok.error();
   FrameTables tables = build_tables(input, settings, drawn, *cascades);
   tables.constants.picture_size = {size.width, size.height};
-  const FrameContents contents = contents_of(input, settings, tables, sky_now,
-                                             *s.geometry, s.clouds.has_volumes());
+  const FrameContents contents =
+      contents_of(input, settings, tables, sky_now, *s.geometry, s.clouds.has_volumes());
   if (!input.freeze_culling)
     s.frozen.reset();
   else if (!s.frozen)
@@ -697,10 +718,9 @@ Result<std::uint64_t> Renderer::draw(
   }
   if (Result<void> ok = s.upload_tables(tables, input, sky_now); !ok) return ok.error();
   if (!contents.lights.empty())
-    if (Result<void> ok = s.light_clusters.upload(s.frame_uploader, contents.lights,
-                                                  view_of(input.camera, drawn.width, drawn.height),
-                                                  drawn,
-                                                  marked_slices(input, contents));
+    if (Result<void> ok = s.light_clusters.upload(
+            s.frame_uploader, contents.lights, view_of(input.camera, drawn.width, drawn.height),
+            {drawn, marked_slices(input, contents), settings.light_tile});
         !ok)
       return ok.error();
   if (contents.features.has(Feature::kClouds))

@@ -36,6 +36,13 @@ struct IslandPlacement {
   double bounding_radius = 0.0;             ///< blocks about the origin
 };
 
+/// The block that a player points at: an outline over the picture, and cracks as it is dug.
+struct BlockMarker {
+  std::uint32_t island = 0;       ///< index of FrameInput::islands
+  glm::dvec3 min{0.0}, max{1.0};  ///< box in its lattice [blocks]
+  float dug = 0.0f;               ///< 0 .. 1
+};
+
 /// What a frame can be asked to copy out for measuring, besides the picture.
 enum class Capture : std::uint8_t {
   kRadiance,   ///< RGBA16F, before exposure
@@ -83,7 +90,8 @@ struct FrameInput {
   bool freeze_culling =
       false;             ///< keep culling with the camera of the frame in which this became true
   bool capture = false;  ///< copy out what Capture names; the picture is made by way of radiance
-  std::optional<Fault> fault;  ///< implies the way by radiance, too
+  std::optional<BlockMarker> marker;  ///< not drawn over debug views
+  std::optional<Fault> fault;         ///< implies the way by radiance, too
 };
 
 /// Numbers of a frame the GPU has finished. Times are sums over its parts.

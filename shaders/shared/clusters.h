@@ -5,7 +5,6 @@
 #include "types.h"
 SHARED_BEGIN
 
-SHARED_CONST uint kClusterEdge = 16u;        // pixels along a cluster's tile
 SHARED_CONST uint kClusterSlices = 24u;      // of depth: two an octave from one block on
 SHARED_CONST uint kBinClusters = 4u;         // tiles along a coarse bin
 SHARED_CONST uint kClusterGroup = 64u;       // invocations of a work group
@@ -19,7 +18,8 @@ struct ClusterGrid {
   vec2 tan_half;     // of the field of view, along right and up
   uvec2 size;        // picture [pixels]
   float near_plane;  // blocks
-  uint tiles_x;      // of kClusterEdge pixels
+  uint edge_log2;    // of the pixels along a tile, 3 to 6
+  uint tiles_x;      // in the picture
   uint tiles_y;
   uint bins_x;  // of kBinClusters tiles
   uint bins_y;
@@ -27,9 +27,10 @@ struct ClusterGrid {
   uint light_words;  // 32-bit words that hold a bit a light
   uint chunk_words;  // of them that one invocation looks through
   uint chunks;
-  uint unit_log2;      // lists begin at multiples of 2^this entries
-  uint capacity;       // of the entries [such units]
-  uint marked_slices;  // a bit a slice: occupied in every tile, as about a camera in water or clouds
+  uint unit_log2;  // lists begin at multiples of 2^this entries
+  uint capacity;   // of the entries [such units]
+  uint
+      marked_slices;  // a bit a slice: occupied in every tile, as about a camera in water or clouds
 };
 
 // What an 8x8-pixel tile, or a cluster's tile, shows.

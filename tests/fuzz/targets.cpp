@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -11,6 +12,7 @@
 #include "engine/core/check.h"
 #include "engine/platform/image_file.h"
 #include "game/options.h"
+#include "world/vdb/answer.h"
 
 namespace skerry::fuzz {
 namespace {
@@ -71,11 +73,21 @@ void png(std::span<const std::uint8_t> input) {
   SKERRY_ASSERT(image->pixels.size() == std::size_t{image->width} * image->height * 4);
 }
 
-constexpr std::array<Target, 5> kTargets{{{"scene", scene},
+void vdb_answer(std::span<const std::uint8_t> input) {
+  const auto grids = world::decode_answer(std::as_bytes(input));
+  if (!grids) return check_line(grids.error());
+  for (const world::VolumeGrid& grid : *grids) {
+    SKERRY_ASSERT(std::isfinite(grid.min_value) && std::isfinite(grid.max_value));
+    SKERRY_ASSERT(std::isfinite(grid.mean_value));
+  }
+}
+
+constexpr std::array<Target, 6> kTargets{{{"scene", scene},
                                           {"setting", setting},
                                           {"camera", camera},
                                           {"time_and_size", time_and_size},
-                                          {"png", png}}};
+                                          {"png", png},
+                                          {"vdb_answer", vdb_answer}}};
 
 }  // namespace
 

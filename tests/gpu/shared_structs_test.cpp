@@ -20,6 +20,7 @@
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/light.h"
+#include "shaders/shared/marker.h"
 #include "shaders/shared/occupancy.h"
 #include "shaders/shared/overlay.h"
 #include "shaders/shared/sky.h"
@@ -101,9 +102,17 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(Exposure, metered), MEMBER(Exposure, first_bin), MEMBER(Exposure, last_bin),
              MEMBER(Exposure, most)),
       STRUCT(CloudLight, MEMBER(CloudLight, to_light), MEMBER(CloudLight, irradiance)),
-      STRUCT(CloudLayer, MEMBER(CloudLayer, place), MEMBER(CloudLayer, thickness), MEMBER(CloudLayer, extinction), MEMBER(CloudLayer, coverage)),
-      STRUCT(CloudVolume, MEMBER(CloudVolume, index_x), MEMBER(CloudVolume, index_y), MEMBER(CloudVolume, index_z), MEMBER(CloudVolume, low), MEMBER(CloudVolume, high), MEMBER(CloudVolume, extinction), MEMBER(CloudVolume, emission), MEMBER(CloudVolume, step_blocks), MEMBER(CloudVolume, first_cell), MEMBER(CloudVolume, cell_count), MEMBER(CloudVolume, cell_low), MEMBER(CloudVolume, light_texels), MEMBER(CloudVolume, light_first)),
-      STRUCT(CloudConstants, MEMBER(CloudConstants, lights), MEMBER(CloudConstants, sky_above), MEMBER(CloudConstants, shadow_steps), MEMBER(CloudConstants, steps), MEMBER(CloudConstants, layer), MEMBER(CloudConstants, volumes)),
+      STRUCT(CloudLayer, MEMBER(CloudLayer, place), MEMBER(CloudLayer, thickness),
+             MEMBER(CloudLayer, extinction), MEMBER(CloudLayer, coverage)),
+      STRUCT(CloudVolume, MEMBER(CloudVolume, index_x), MEMBER(CloudVolume, index_y),
+             MEMBER(CloudVolume, index_z), MEMBER(CloudVolume, low), MEMBER(CloudVolume, high),
+             MEMBER(CloudVolume, extinction), MEMBER(CloudVolume, emission),
+             MEMBER(CloudVolume, step_blocks), MEMBER(CloudVolume, first_cell),
+             MEMBER(CloudVolume, cell_count), MEMBER(CloudVolume, cell_low),
+             MEMBER(CloudVolume, light_texels), MEMBER(CloudVolume, light_first)),
+      STRUCT(CloudConstants, MEMBER(CloudConstants, lights), MEMBER(CloudConstants, sky_above),
+             MEMBER(CloudConstants, shadow_steps), MEMBER(CloudConstants, steps),
+             MEMBER(CloudConstants, layer), MEMBER(CloudConstants, volumes)),
       STRUCT(CloudLightJob, MEMBER(CloudLightJob, volume), MEMBER(CloudLightJob, body)),
       STRUCT(BloomStep, MEMBER(BloomStep, fine_size), MEMBER(BloomStep, coarse_size),
              MEMBER(BloomStep, threshold), MEMBER(BloomStep, intensity)),
@@ -126,8 +135,9 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(Light, island_count)),
       STRUCT(ClusterGrid, MEMBER(ClusterGrid, right), MEMBER(ClusterGrid, up),
              MEMBER(ClusterGrid, forward), MEMBER(ClusterGrid, tan_half), MEMBER(ClusterGrid, size),
-             MEMBER(ClusterGrid, near_plane), MEMBER(ClusterGrid, tiles_x),
-             MEMBER(ClusterGrid, tiles_y), MEMBER(ClusterGrid, bins_x), MEMBER(ClusterGrid, bins_y),
+             MEMBER(ClusterGrid, near_plane), MEMBER(ClusterGrid, edge_log2),
+             MEMBER(ClusterGrid, tiles_x), MEMBER(ClusterGrid, tiles_y),
+             MEMBER(ClusterGrid, bins_x), MEMBER(ClusterGrid, bins_y),
              MEMBER(ClusterGrid, light_count), MEMBER(ClusterGrid, light_words),
              MEMBER(ClusterGrid, chunk_words), MEMBER(ClusterGrid, chunks),
              MEMBER(ClusterGrid, unit_log2), MEMBER(ClusterGrid, capacity),
@@ -138,6 +148,11 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(ClusterWork, MEMBER(ClusterWork, groups_x), MEMBER(ClusterWork, groups_y),
              MEMBER(ClusterWork, groups_z), MEMBER(ClusterWork, clusters),
              MEMBER(ClusterWork, units)),
+      STRUCT(MarkerConstants, MEMBER(MarkerConstants, eye), MEMBER(MarkerConstants, right),
+             MEMBER(MarkerConstants, up), MEMBER(MarkerConstants, forward),
+             MEMBER(MarkerConstants, size), MEMBER(MarkerConstants, first),
+             MEMBER(MarkerConstants, end), MEMBER(MarkerConstants, half_width),
+             MEMBER(MarkerConstants, dug)),
       STRUCT(OverlayConstants, MEMBER(OverlayConstants, ndc_from_pixel)),
   };
 #undef STRUCT

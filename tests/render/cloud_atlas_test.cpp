@@ -147,7 +147,8 @@ TEST(CloudAtlas, MaximaOfCellsBoundEveryValueWithin) {
                             random() % static_cast<unsigned>(v.cell_count.z));
       const glm::ivec3 coarse = cell >> static_cast<int>(level);
       const double most = cell_of(*atlas, level, v.first_cell / (edge / 8) + coarse)[3] / 255.0;
-      const glm::dvec3 at = glm::dvec3(v.cell_low + cell * 8) + glm::dvec3(static_cast<double>(random() % 80)) / 10.0;
+      const glm::dvec3 at =
+          glm::dvec3(v.cell_low + cell * 8) + glm::dvec3(static_cast<double>(random() % 80)) / 10.0;
       EXPECT_LE(looked_up(*atlas, v, at), most * static_cast<double>(v.value_range) + 1e-6);
       empty += most == 0.0;
     }

@@ -64,8 +64,8 @@ double optical_length(glm::dvec3 origin, glm::dvec3 dir, int edge) {
 
 TEST_F(CloudsOnGpu, AnEvenBoxLetsThroughWhatItsDepthLeaves) {
   const double scale = 1.5;
-  const glm::dmat4 turned = glm::rotate(
-      glm::scale(glm::dmat4(1.0), glm::dvec3(scale)), 0.4, glm::normalize(glm::dvec3(1, 2, 3)));
+  const glm::dmat4 turned = glm::rotate(glm::scale(glm::dmat4(1.0), glm::dvec3(scale)), 0.4,
+                                        glm::normalize(glm::dvec3(1, 2, 3)));
   FrameInput input;
   input.sky = dusk();
   input.camera = camera_at({7.0, 12.0, -60.0}, 0.0, 0.0, 35.0);
@@ -126,9 +126,11 @@ TEST_F(CloudsOnGpu, WithoutLightACloudIsBlackAndOnlyHidesWhatIsBehind) {
 }
 
 TEST_F(CloudsOnGpu, WhatStandsBeforeACloudIsSeenUnchangedAndWhatStandsBehindIsHidden) {
-  add([](int, int, int z) -> world::BlockId {
-    return z == 12 ? world::block::kStone : world::block::kAirBlock;
-  }, {-1, -1, 0}, {1, 1, 1});
+  add(
+      [](int, int, int z) -> world::BlockId {
+        return z == 12 ? world::block::kStone : world::block::kAirBlock;
+      },
+      {-1, -1, 0}, {1, 1, 1});
   const std::vector<IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
   FrameInput input;
   input.islands = islands;
@@ -154,9 +156,9 @@ TEST_F(CloudsOnGpu, WhatStandsBeforeACloudIsSeenUnchangedAndWhatStandsBehindIsHi
 }
 
 TEST_F(CloudsOnGpu, ACloudShadesTheGroundByWhatItLeavesOfTheLight) {
-  add([](int, int y, int) -> world::BlockId {
-    return y < 0 ? world::block::kStone : world::block::kAirBlock;
-  }, {-1, -1, -1}, {1, 0, 1});
+  add([](int, int y,
+         int) -> world::BlockId { return y < 0 ? world::block::kStone : world::block::kAirBlock; },
+      {-1, -1, -1}, {1, 0, 1});
   const std::vector<IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
   FrameInput input;
   input.islands = islands;

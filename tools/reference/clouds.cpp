@@ -48,8 +48,7 @@ double CloudLayer::extinction_at(glm::dvec3 p) const {
   const double least = 0.62 - 0.42 * cover;
   const double body = ramp(least, least + 0.2, noise.at(at / 2048.0, 0)) - (1.0 - profile);
   if (body <= 0.0) return 0.0;
-  const double detail =
-      1.0 - 0.6 * noise.at(at / 320.0, 1) - 0.4 * noise.at(at / 320.0, 2);
+  const double detail = 1.0 - 0.6 * noise.at(at / 320.0, 1) - 0.4 * noise.at(at / 320.0, 2);
   return extinction * ramp(0.7 * detail, 1.0, body) *
          (1.0 - ramp(kThinning, kEnd, std::hypot(p.x, p.z)));
 }
@@ -64,8 +63,8 @@ double CloudGrid::value_at(glm::dvec3 p) const {
     if (place.x < 0 || place.y < 0 || place.z < 0 || place.x >= size.x || place.y >= size.y ||
         place.z >= size.z)
       continue;
-    const double weight = (i % 2 ? f.x : 1.0 - f.x) * (i / 2 % 2 ? f.y : 1.0 - f.y) *
-                          (i / 4 ? f.z : 1.0 - f.z);
+    const double weight =
+        (i % 2 ? f.x : 1.0 - f.x) * (i / 2 % 2 ? f.y : 1.0 - f.y) * (i / 4 ? f.z : 1.0 - f.z);
     const std::size_t index =
         (static_cast<std::size_t>(place.z) * static_cast<std::size_t>(size.y) +
          static_cast<std::size_t>(place.y)) *
@@ -139,8 +138,8 @@ CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 direction, double begi
   march(way, pair.x, [&](double t, double step) {
     const glm::dvec3 p = direction * t;
     const double tau = clouds.extinction_at(p) * step;
-    out.emitted += clouds.emission_at(p) * (std::exp(-depth) * step *
-                                            (tau > 1e-9 ? -std::expm1(-tau) / tau : 1.0));
+    out.emitted += clouds.emission_at(p) *
+                   (std::exp(-depth) * step * (tau > 1e-9 ? -std::expm1(-tau) / tau : 1.0));
     depth += tau;
     steps.emplace_back(t - pair.x * step, step, depth);
     return depth < 40.0;

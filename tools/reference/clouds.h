@@ -1,5 +1,5 @@
-// Clouds for the reference renderer: the same media as docs/clouds.md describes, looked up in double
-// precision. Places are relative to the camera [blocks].
+// Clouds for the reference renderer: the same media as docs/clouds.md describes, looked up in
+// double precision. Places are relative to the camera [blocks].
 #pragma once
 #include <array>
 #include <cstdint>
@@ -54,9 +54,9 @@ struct Clouds {
 
 /// Where an eye's ray is scattered last, and what comes of it.
 struct CloudMeeting {
-  double clear = 1.0;        ///< what is left of what is behind
-  glm::dvec3 emitted{0.0};   ///< radiance of what glows
-  double at = 0.0;           ///< a place of scattering, as likely as light comes from there [blocks]
+  double clear = 1.0;       ///< what is left of what is behind
+  glm::dvec3 emitted{0.0};  ///< radiance of what glows
+  double at = 0.0;          ///< a place of scattering, as likely as light comes from there [blocks]
 };
 /// @param begin, end of the way [blocks]. @param pair uniform.
 CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 direction, double begin, double end,

@@ -51,8 +51,8 @@ struct Scene {
   std::vector<Island> islands;
   std::vector<Body> bodies;
   std::vector<Light> lights;
-  glm::dvec3 environment{0.0};       ///< radiance that comes from everywhere beyond the voxels
-  std::optional<Sky> sky;            ///< none: `environment` is what is seen behind the voxels
+  glm::dvec3 environment{0.0};  ///< radiance that comes from everywhere beyond the voxels
+  std::optional<Sky> sky;       ///< none: `environment` is what is seen behind the voxels
   Clouds clouds;
   double air_light = 0.0;            ///< share of the sky's light that clouds take, 0..1
   double haze_per_block = 0.0;       ///< extinction of clear air [1/block]

@@ -158,8 +158,7 @@ Seen Shader::through_clouds(Seen behind, glm::dvec3 direction, double begin, dou
   if (!scene_.clouds.layer && scene_.clouds.grids.empty()) return behind;
   const CloudMeeting met = meet_clouds(scene_.clouds, direction, begin, end, sampler.next());
   const glm::dvec3 p = direction * met.at;
-  const double clear_air =
-      scene_.bodies.empty() ? 1.0 : std::exp(-scene_.haze_per_block * met.at);
+  const double clear_air = scene_.bodies.empty() ? 1.0 : std::exp(-scene_.haze_per_block * met.at);
   glm::dvec3 light(0.0);
   for (const Body& body : scene_.bodies) {
     const glm::dvec2 pair = sampler.next(), other = sampler.next();

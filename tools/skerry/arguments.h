@@ -23,6 +23,7 @@ struct SceneArguments {
   std::vector<std::string> clouds;
   std::optional<std::string> scene_file, device, renderer, shading;
   bool validate = false;
+  game::SceneText usual;  ///< below everything typed; a scene file is taken in its place
 };
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments);

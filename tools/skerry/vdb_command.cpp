@@ -95,8 +95,8 @@ void VdbCommand::add_import() {
       ->type_name("BLOCKS");
   import_
       ->add_option("--threshold", threshold_,
-                   "Fog is solid from this density on (default: half the largest); a level set "
-                   "below this distance (default 0)")
+                   "Fog is solid from this density on (default: the mean of what is not empty); a "
+                   "level set below this distance (default 0)")
       ->type_name("VALUE");
   import_->add_option("--up", up_, "Which axis of the file points up (default y)")
       ->type_name("y|z");

@@ -189,17 +189,24 @@ std::optional<Problem> check_grid(const VolumeGrid& grid) {
   return check_overlap(grid);
 }
 
-void find_extremes(VolumeGrid& grid) {
+/// Least, largest and mean value; the mean in double and in the order of the file.
+void find_statistics(VolumeGrid& grid) {
   grid.min_value = grid.max_value = grid.background;
-  const auto widen = [&grid](float low, float high) {
-    grid.min_value = std::min(grid.min_value, low);
-    grid.max_value = std::max(grid.max_value, high);
+  double sum = 0.0, count = 0.0;
+  const auto add = [&](float value, double times) {
+    if (value == grid.background) return;
+    grid.min_value = std::min(grid.min_value, value);
+    grid.max_value = std::max(grid.max_value, value);
+    sum += static_cast<double>(value) * times;
+    count += times;
   };
-  for (const VolumeTile& tile : grid.tiles) widen(tile.value, tile.value);
-  for (const VolumeBrick& brick : grid.bricks) {
-    const auto [low, high] = std::minmax_element(brick.values.begin(), brick.values.end());
-    widen(*low, *high);
+  for (const VolumeTile& tile : grid.tiles) {
+    const double edge = tile.edge;
+    add(tile.value, edge * edge * edge);
   }
+  for (const VolumeBrick& brick : grid.bricks)
+    for (const float value : brick.values) add(value, 1.0);
+  grid.mean_value = count > 0.0 ? static_cast<float>(sum / count) : grid.background;
 }
 
 void make_names_unique(std::vector<VolumeGrid>& grids) {
@@ -255,7 +262,7 @@ Result<std::vector<VolumeGrid>> decode_answer(std::span<const std::byte> bytes) 
     if (!take_grid(in, grid)) return cut;
     if (const auto problem = check_grid(grid))
       return Error{fmt::format("grid '{}' is damaged: {}", grid.name, problem->text)};
-    find_extremes(grid);
+    find_statistics(grid);
   }
   if (!in.empty()) return Error{"the reader's answer is too long; the file is likely damaged"};
   make_names_unique(grids);

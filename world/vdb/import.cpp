@@ -25,7 +25,7 @@ constexpr std::size_t kBatch = 256;                   // chunks between two step
 SolidRule rule_for(const VolumeGrid& grid, const ImportOptions& options) {
   if (holds_block_ids(grid) || grid.kind == VolumeKind::kMask) return {false, 0.5f, true};
   const bool below = grid.kind == VolumeKind::kLevelSet;
-  const double usual = below ? 0.0 : 0.5 * static_cast<double>(grid.max_value);
+  const double usual = below ? 0.0 : static_cast<double>(grid.mean_value);
   return {below, static_cast<float>(options.threshold.value_or(usual))};
 }
 

@@ -23,7 +23,8 @@ struct ImportOptions {
   std::optional<double> scale;
   /// Length of the longest side of the box around all islands. Not beside `scale`.
   std::optional<int> size_blocks;
-  /// Fog is solid from here on, distances are inside below it. None: half the largest density; 0.
+  /// Fog is solid from here on, distances are inside below it. None: the mean
+  /// density of what is not empty; 0.
   std::optional<double> threshold;
   UpAxis up = UpAxis::kY;  ///< which axis of the file points up
 };

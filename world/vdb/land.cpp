@@ -18,9 +18,9 @@ constexpr int kEdge = kChunkEdge + 2 * kApron;
 
 // Upward component of the surface's normal, in 1/256: gentle ground bears grass, slopes bear poorer
 // grass in patches, cliffs are bare.
-constexpr int kGentle = 196, kSlope = 150;
+constexpr int kGentle = 150, kSlope = 96;
 
-constexpr std::int32_t kTallIsland = 80;  // blocks of height from which peaks are white
+constexpr std::int32_t kTallIsland = 140;  // blocks of height from which peaks are white
 
 /// The solid voxels of a chunk and of an apron around it.
 class Surroundings {
@@ -143,8 +143,11 @@ class Painter {
     }
     if (up > kGentle) return {block::kGrass, block::kDirt, true};
     if (up > kSlope) {
-      const bool poor = hash3(land_.seed + 2, at.x, at.y, at.z) % 256 < 96;
-      return {poor ? block::kStoneMossy : block::kGrass, block::kDirt};
+      // Tufts thin out towards the cliff.
+      const auto chance = static_cast<std::uint32_t>((up - kSlope) * 256 / (kGentle - kSlope));
+      if (hash3(land_.seed + 2, at.x, at.y, at.z) % 256 < chance)
+        return {block::kGrass, block::kDirt};
+      return {block::kStoneMossy, block::kStone};
     }
     return {rock(at), block::kStone};
   }
@@ -202,7 +205,7 @@ bool buried(const SolidMasks& masks, IVec3 chunk) {
 std::optional<std::int32_t> snow_line(std::int32_t low, std::int32_t high) {
   const std::int32_t height = high - low;
   if (height < kTallIsland) return std::nullopt;
-  return high - height / 6;
+  return high - height / 8;
 }
 
 Chunk land_chunk(const SolidMasks& masks, IVec3 chunk, const Land& land) {

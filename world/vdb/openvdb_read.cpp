@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/points/PointDataGrid.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -240,7 +239,8 @@ VolumeGrid volume_of(const openvdb::GridBase& grid) {
         extract_as<openvdb::Vec3DGrid>(grid, VolumeKind::kColor, out))
       return out;
   }
-  if (grid.isType<openvdb::points::PointDataGrid>()) {
+  // By name: the header of point grids would triple this file's time to compile.
+  if (out.value_type == "ptdataidx32") {
     refuse(out, "points have no surface");
   } else {
     refuse(out, "values of this type are neither a density, a distance, a block id nor a colour");

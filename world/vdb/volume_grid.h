@@ -66,6 +66,7 @@ struct VolumeGrid {
   std::uint64_t replaced_values = 0;         ///< NaN and infinite ones that became the background
   VolumeBox active_box;                      ///< meaningless without active voxels
   float min_value = 0.0f, max_value = 0.0f;  ///< of bricks, tiles and background
+  float mean_value = 0.0f;  ///< of all values in bricks and tiles that are not the background
   std::vector<VolumeBrick> bricks;
   std::vector<VolumeTile> tiles;
 };

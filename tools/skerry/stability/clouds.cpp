@@ -68,8 +68,8 @@ Result<Rows> through(gpu::Device& device, double front, double depth, const std:
       const glm::dvec3 ray = ray_of(in.camera, kSize, i % kSize.width, i / kSize.width);
       const double exact = std::exp(-extinction * depth * glm::length(ray));
       for (int c = 0; c < 3; ++c) {
-        const double share = static_cast<double>(frame->radiance[i][c]) /
-                             static_cast<double>(clear->radiance[i][c]);
+        const double share =
+            static_cast<double>(frame->radiance[i][c]) / static_cast<double>(clear->radiance[i][c]);
         off = std::max(off, std::abs(share - exact));
         beyond += !(share >= 0.0 && share <= 1.0);
       }
@@ -98,16 +98,15 @@ Result<Rows> lit(gpu::Device& device) {
   std::vector<render::CloudVolumeDesc> volumes(2, box({}, {-20.0, -20.0, 10.0}));
   volumes[1].role = render::CloudRole::kEmission;
   double wrong = 0.0;
-  for (const glm::dvec3 to_sun : {glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(1.0, 0.0, 0.0),
-                                  glm::dvec3(0.6, 1e-6, 0.8)})
+  for (const glm::dvec3 to_sun :
+       {glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.6, 1e-6, 0.8)})
     for (const float density : {0.0f, 1e-6f, 1e-2f, 1e4f}) {
       in.sky = sun_towards(glm::normalize(to_sun));
       settings.clouds.density = settings.clouds.file_density = density;
       const auto frame = look(device, in, settings, volumes);
       if (!frame) return frame.error();
       wrong += non_finite_channels(frame->radiance) + frame->report.pixels.non_finite;
-      for (const glm::vec3& c : frame->radiance)
-        wrong += std::min({c.x, c.y, c.z}) < 0.0f;
+      for (const glm::vec3& c : frame->radiance) wrong += std::min({c.x, c.y, c.z}) < 0.0f;
     }
   return Rows{{"channels that are negative or no number", 0.0, wrong}};
 }
