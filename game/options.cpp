@@ -115,7 +115,8 @@ Result<void> apply_settings(const SceneText& under, const SceneText& over, Setti
 std::string shell_word(std::string_view text) {
   const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
-           c == '.' || c == ',' || c == '-' || c == '+' || c == ':' || c == '=' || c == '/';
+           c == '.' || c == ',' || c == '-' || c == '+' || c == ':' || c == '=' || c == '/' ||
+           c == '@';
   });
   if (plain) return std::string(text);
   std::string out = "'";

@@ -16,9 +16,9 @@ TEST(CloudFiles, APlaceAndAScaleFollowTheLastAt) {
   EXPECT_EQ(*plain, (CloudFile{"a/b.vdb", {}, 1.0}));
   const auto placed = parse_cloud("me@home.vdb@1.5,-20,1099511627776");
   ASSERT_TRUE(placed);
-  EXPECT_EQ(*placed, (CloudFile{"me@home.vdb",
-                                {98304, -20 * 65536, std::int64_t{1099511627776} * 65536},
-                                1.0}));
+  EXPECT_EQ(
+      *placed,
+      (CloudFile{"me@home.vdb", {98304, -20 * 65536, std::int64_t{1099511627776} * 65536}, 1.0}));
   const auto scaled = parse_cloud("b.vdb@0,0,0,2.5");
   ASSERT_TRUE(scaled);
   EXPECT_EQ(scaled->scale, 2.5);

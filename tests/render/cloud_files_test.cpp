@@ -16,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr VkExtent2D kSize{160, 120};
-constexpr double kDistance = 800.0;    // blocks from the eye to the file's origin
+constexpr double kDistance = 800.0;      // blocks from the eye to the file's origin
 constexpr double kHorizontalFov = 40.0;  // degrees
-constexpr double kVoxel = 3.33333;     // blocks
+constexpr double kVoxel = 3.33333;       // blocks
 
 fs::path wdas() {
   return fs::path(SKERRY_SOURCE_DIR) / "../shared/vdb/wdas_cloud_sixteenth.vdb";
