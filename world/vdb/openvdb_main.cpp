@@ -14,6 +14,7 @@
 #include <charconv>
 #include <exception>
 #include <new>
+#include <string>
 #include <string_view>
 
 #include "world/vdb/openvdb_jobs.h"
@@ -87,7 +88,8 @@ Result<void> run(const Arguments& arguments) {
   } catch (const std::bad_alloc&) {
     return Error{"it needs more memory than is allowed; it is damaged or too large"};
   } catch (const std::exception& error) {
-    return Error{error.what()};
+    return Error{std::string("OpenVDB gave up on it (") + error.what() +
+                 "); copy or write it again"};
   }
 }
 
