@@ -2,37 +2,68 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace skerry::game {
 namespace {
 
-using platform::Key;
-
 constexpr double kDegreesPerPixel = 0.12;  // at the default field of view
+constexpr double kPadDegreesPerSecond = 180.0;
 constexpr double kDefaultFov = 70.0;
 constexpr double kViewStep = 1.25;
 constexpr double kSecondsPerDay = 86400.0;
 constexpr double kDayStep = 10.0;  // seconds
 
-double axis(const platform::InputFrame& input, Key plus, Key minus) {
-  return (input.down(plus) ? 1.0 : 0.0) - (input.down(minus) ? 1.0 : 0.0);
+double axis(const ActionFrame& actions, Action plus, Action minus) {
+  return actions.value(plus) - actions.value(minus);
 }
 
 }  // namespace
 
-Intent intent_of(const platform::InputFrame& input) {
+Intent intent_of(const ActionFrame& actions) {
   Intent intent;
-  intent.move = {axis(input, Key::kD, Key::kA), axis(input, Key::kW, Key::kS)};
-  intent.rise = axis(input, Key::kSpace, Key::kShift);
-  intent.jump = input.down(Key::kSpace) || input.pressed(Key::kSpace);
-  intent.fast = input.down(Key::kControl);
+  intent.move = {axis(actions, Action::kRight, Action::kLeft),
+                 axis(actions, Action::kForward, Action::kBack)};
+  intent.rise = axis(actions, Action::kJump, Action::kCrouch);
+  intent.jump = actions.down(Action::kJump) || actions.pressed(Action::kJump);
+  intent.fast = actions.down(Action::kFast);
+  intent.crouch = actions.down(Action::kCrouch);
   return intent;
 }
 
-void look(Player& player, const platform::InputFrame& input, double fov_deg) {
-  const double scale = kDegreesPerPixel * std::min(1.0, fov_deg / kDefaultFov);
+HandIntent hand_intent_of(const ActionFrame& actions) {
+  HandIntent intent;
+  // What was pressed and let go of within a frame still counts for that frame.
+  intent.dig = actions.down(Action::kDig) || actions.pressed(Action::kDig);
+  intent.place = actions.down(Action::kPlace) || actions.pressed(Action::kPlace);
+  intent.take_block = actions.pressed(Action::kPick);
+  intent.undo = actions.pressed(Action::kUndo);
+  intent.redo = actions.pressed(Action::kRedo);
+  for (int slot = 0; slot < kHotbarSlots; ++slot)
+    if (actions.pressed(static_cast<Action>(static_cast<int>(Action::kSlot1) + slot)))
+      intent.slot = slot;
+  intent.scroll = actions.presses(Action::kNextSlot) - actions.presses(Action::kPreviousSlot);
+  return intent;
+}
+
+glm::dvec2 turned_deg(const LookInput& input, double fov_deg) {
+  const Bindings& bindings = *input.bindings;
+  const double zoom = std::min(1.0, fov_deg / kDefaultFov);
+  const double upside = bindings.inverted ? -1.0 : 1.0;
+  const ActionFrame& actions = *input.actions;
+  const glm::dvec2 pad{axis(actions, Action::kLookRight, Action::kLookLeft),
+                       axis(actions, Action::kLookDown, Action::kLookUp)};
+  // Squared: slow where one aims, fast at the stick's end.
+  const glm::dvec2 moved =
+      input.pointer * (kDegreesPerPixel * bindings.mouse_speed) +
+      pad * glm::abs(pad) * (kPadDegreesPerSecond * bindings.pad_speed * input.seconds);
   // Growing yaw turns left (docs/conventions.md), the pointer's y grows downwards.
-  player.turn(-input.mouse_delta.x * scale, -input.mouse_delta.y * scale);
+  return {-moved.x * zoom, -moved.y * zoom * upside};
+}
+
+void look(Player& player, const LookInput& input, double fov_deg) {
+  const glm::dvec2 turned = turned_deg(input, fov_deg);
+  player.turn(turned.x, turned.y);
 }
 
 std::uint32_t stepped_view_distance(std::uint32_t blocks, int steps) {

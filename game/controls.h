@@ -1,25 +1,40 @@
-// What keys and mouse mean. docs/controls.md lists them for players.
+// What actions and the mouse mean. docs/controls.md lists them for players.
 #pragma once
-#include "engine/platform/input.h"
+#include <glm/vec2.hpp>
+
+#include "game/actions.h"
+#include "game/interaction.h"
 #include "game/options.h"
 #include "game/player.h"
 
 namespace skerry::game {
 
-/// What the keys say about the next ticks.
-Intent intent_of(const platform::InputFrame& input);
+/// What the actions say about the next ticks.
+Intent intent_of(const ActionFrame& actions);
 
-/// Turns the head by the mouse's motion. @param fov_deg zooms: a narrower view turns slower.
-void look(Player& player, const platform::InputFrame& input, double fov_deg);
+/// What the actions say about the hands.
+HandIntent hand_intent_of(const ActionFrame& actions);
+
+/// What turns the head during a frame.
+struct LookInput {
+  const ActionFrame* actions;
+  const Bindings* bindings;
+  glm::dvec2 pointer{};  ///< motion [pixels]; zero while the pointer is not captured
+  double seconds = 0.0;
+};
+
+/// By how much yaw and pitch grow. @param fov_deg zooms: a narrower view turns slower.
+glm::dvec2 turned_deg(const LookInput& input, double fov_deg);
+void look(Player& player, const LookInput& input, double fov_deg);
 
 /// View-distance steps: a fifth up or down, within what settings allow.
 std::uint32_t stepped_view_distance(std::uint32_t blocks, int steps);
 
-/// The next level up or down; the ends stay.
 /// A display's settings after keys of the calibration screen: steps of 0.05 and 0.005.
 render::DisplaySettings stepped_display(render::DisplaySettings display, int peak_steps,
                                         int black_steps);
 
+/// The next level up or down; the ends stay.
 Quality stepped_quality(Quality quality, int steps);
 
 /// Time of day as it runs or a held key turns it, in whole steps of ten seconds, wrapped at

@@ -7,17 +7,16 @@
 #include <cmath>
 
 #include "engine/render/display.h"
+#include "game/ui/look.h"
 
 namespace skerry::game {
 namespace {
 
-constexpr float kPanelWidth = 370.0f;  // pixels
+constexpr float kPanelWidth = 420.0f;  // units of layout, as the next
 constexpr float kGraphHeight = 60.0f;
 constexpr std::size_t kMemoryRows = 12;  // the rest is summed up
 
-void text(const std::string& line) {
-  ImGui::TextUnformatted(line.data(), line.data() + line.size());
-}
+using ui::text;
 
 void show_frames(const OverlayFacts& facts) {
   const FrameSpread spread = spread_of_frames(facts.frame_ms);
@@ -27,14 +26,17 @@ void show_frames(const OverlayFacts& facts) {
                    spread.slowest_1_percent));
   ImGui::PlotLines("##frames", facts.frame_ms.data(), static_cast<int>(facts.frame_ms.size()), 0,
                    nullptr, 0.0f, std::max(2.0f * spread.median, spread.slowest_1_percent),
-                   ImVec2(kPanelWidth - 16.0f, kGraphHeight));
+                   ImVec2(-1.0f, kGraphHeight * ui::unit()));
 }
 
 void row(std::string_view name, const std::string& value) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(name.data(), name.data() + name.size());
+  text(name);
   ImGui::TableNextColumn();
+  const float slack = ImGui::GetContentRegionAvail().x -
+                      ImGui::CalcTextSize(value.data(), value.data() + value.size()).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, slack));
   text(value);
 }
 
@@ -50,7 +52,7 @@ void table(const char* id, const std::string& heading, const F& rows) {
 }
 
 std::string megabytes(std::uint64_t bytes) {
-  return fmt::format("{:10.2f} MB", static_cast<double>(bytes) * 1e-6);
+  return fmt::format("{:.2f} MB", static_cast<double>(bytes) * 1e-6);
 }
 
 void show_memory(std::span<const gpu::MemoryUse> memory) {
@@ -69,12 +71,14 @@ void show_memory(std::span<const gpu::MemoryUse> memory) {
 /// A translucent panel in the upper left or right corner, as high as its contents or the picture.
 template <class F>
 void panel(const char* id, bool right, const ImVec2& picture, const F& contents) {
-  constexpr float kGap = 8.0f;
+  const float gap = 8.0f * ui::unit();
+  const float width =
+      std::max(1.0f, std::min(kPanelWidth * ui::unit(), 0.5f * picture.x - 1.5f * gap));
   const float pivot = right ? 1.0f : 0.0f;
-  ImGui::SetNextWindowPos(ImVec2(right ? picture.x - kGap : kGap, kGap), ImGuiCond_Always,
+  ImGui::SetNextWindowPos(ImVec2(right ? picture.x - gap : gap, gap), ImGuiCond_Always,
                           ImVec2(pivot, 0.0f));
-  ImGui::SetNextWindowSizeConstraints(
-      ImVec2(kPanelWidth, 0.0f), ImVec2(kPanelWidth, std::max(32.0f, picture.y - 2.0f * kGap)));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f),
+                                      ImVec2(width, std::max(32.0f, picture.y - 2.0f * gap)));
   ImGui::SetNextWindowBgAlpha(0.6f);
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration |
                                       ImGuiWindowFlags_AlwaysAutoResize |
@@ -101,7 +105,7 @@ void patch(double encoded, double around, const render::DisplaySettings& display
 
 /// Dark squares on black and bright ones on white: what the display can keep apart.
 void show_calibration(const render::DisplaySettings& display, const ImVec2& picture) {
-  constexpr float kEdge = 56.0f;
+  const float edge = 56.0f * ui::unit();
   ImGui::SetNextWindowPos(ImVec2(0.5f * picture.x, 0.5f * picture.y), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowBgAlpha(1.0f);
@@ -113,7 +117,7 @@ void show_calibration(const render::DisplaySettings& display, const ImVec2& pict
   const auto squares = [&](std::span<const int> codes, double around) {
     for (std::size_t i = 0; i < codes.size(); ++i) {
       if (i != 0) ImGui::SameLine();
-      patch(codes[i] / 255.0, around, display, kEdge);
+      patch(codes[i] / 255.0, around, display, edge);
     }
   };
   constexpr int kDark[] = {1, 2, 4, 8, 16}, kBright[] = {254, 252, 248, 240, 224};
@@ -131,74 +135,30 @@ void show_numbers(const OverlayFacts& facts, const ImVec2& picture) {
     show_frames(facts);
     for (const std::string& line : facts.lines) text(line);
     table("counts", "counts", [&] {
-      for (const auto& count : facts.counts) row(count.name, fmt::format("{:>12}", count.value));
+      for (const auto& count : facts.counts) row(count.name, fmt::format("{}", count.value));
     });
   });
   panel("gpu", true, picture, [&] {
     table("passes", fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
       for (const gpu::PassTime& pass : facts.passes)
-        row(pass.name, fmt::format("{:9.3f} ms", pass.ms));
+        row(pass.name, fmt::format("{:.3f} ms", pass.ms));
     });
     show_memory(facts.memory);
   });
 }
 
-/// ImGui's indexed lists as plain triangles, each with its clip rectangle's index.
-OverlayTriangles flatten(const ImDrawData& data) {
-  OverlayTriangles out;
-  for (int l = 0; l < data.CmdListsCount; ++l) {
-    const ImDrawList& list = *data.CmdLists[l];
-    for (const ImDrawCmd& command : list.CmdBuffer) {
-      const auto clip = static_cast<std::uint32_t>(out.clips.size());
-      out.clips.emplace_back(command.ClipRect.x, command.ClipRect.y, command.ClipRect.z,
-                             command.ClipRect.w);
-      for (unsigned i = 0; i < command.ElemCount; ++i) {
-        const ImDrawIdx index = list.IdxBuffer[static_cast<int>(command.IdxOffset + i)];
-        const ImDrawVert& v = list.VtxBuffer[static_cast<int>(command.VtxOffset + index)];
-        out.vertices.push_back({{v.pos.x, v.pos.y}, {v.uv.x, v.uv.y}, v.col, clip});
-      }
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
-Overlay::Overlay() {
-  IMGUI_CHECKVERSION();
-  context_ = ImGui::CreateContext();
-  ImGui::SetCurrentContext(context_);
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // the working directory is not ours to write to
-  io.LogFilename = nullptr;
-  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-}
-
-Overlay::~Overlay() {
-  ImGui::DestroyContext(context_);
-}
-
-FontAtlas Overlay::font() const {
-  ImGui::SetCurrentContext(context_);
-  unsigned char* texels = nullptr;
-  FontAtlas atlas;
-  ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &atlas.width, &atlas.height);
-  atlas.texels = {texels,
-                  static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height)};
-  return atlas;
-}
-
-OverlayTriangles Overlay::layout(const OverlayFacts& facts, std::uint32_t width,
-                                 std::uint32_t height, double seconds) {
-  (void)font();  // NewFrame wants the atlas built
-  ImGuiIO& io = ImGui::GetIO();
-  io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
-  io.DeltaTime = std::max(static_cast<float>(seconds), 1e-6f);
-  ImGui::NewFrame();
-  if (facts.numbers) show_numbers(facts, io.DisplaySize);
-  if (facts.calibration) show_calibration(*facts.calibration, io.DisplaySize);
-  ImGui::Render();
-  return flatten(*ImGui::GetDrawData());
+void show_overlay(const OverlayFacts& facts) {
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
+  ui::push_size(ui::TextSize::kSmall);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(10 * ui::unit(), 8 * ui::unit()));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(6 * ui::unit(), 2 * ui::unit()));
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(4 * ui::unit(), 0.0f));
+  if (facts.numbers) show_numbers(facts, picture);
+  if (facts.calibration) show_calibration(*facts.calibration, picture);
+  ImGui::PopStyleVar(3);
+  ui::pop_size();
 }
 
 FrameSpread spread_of_frames(std::span<const float> frame_ms) {

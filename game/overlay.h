@@ -1,7 +1,5 @@
 #pragma once
-#include <array>
 #include <cstdint>
-#include <glm/vec4.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,9 +9,6 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame_graph.h"
 #include "engine/render/settings.h"
-#include "shaders/shared/overlay.h"
-
-struct ImGuiContext;
 
 namespace skerry::game {
 
@@ -34,36 +29,9 @@ struct OverlayFacts {
       calibration;  ///< the calibration screen (F9) is, with these
 };
 
-/// Triangles to draw over a picture: three vertices each, back to front.
-struct OverlayTriangles {
-  std::vector<shared::OverlayVertex> vertices;
-  std::vector<glm::vec4> clips;  ///< min x, min y, max x, max y [pixels]
-};
-
-/// Coverage of the glyphs, 8 bits a texel.
-struct FontAtlas {
-  int width = 0, height = 0;
-  std::span<const unsigned char> texels;
-};
-
-/// The developer's overlay (F3), laid out by Dear ImGui. Only its core is used: packaged builds of
-/// its Vulkan backend call Vulkan through prototypes, which cannot be linked together with volk's
-/// function pointers of the same names, and its shape is one draw anyway.
-class Overlay {
- public:
-  Overlay();
-  ~Overlay();
-  Overlay(const Overlay&) = delete;
-  Overlay& operator=(const Overlay&) = delete;
-
-  FontAtlas font() const;
-  /// @param width, height of the picture [pixels]. @param seconds since the frame before.
-  OverlayTriangles layout(const OverlayFacts& facts, std::uint32_t width, std::uint32_t height,
-                          double seconds);
-
- private:
-  ImGuiContext* context_;
-};
+/// The developer's overlay (F3) and the calibration screen, between ui::Gui::begin and
+/// ui::Gui::end.
+void show_overlay(const OverlayFacts& facts);
 
 /// Median and the slowest hundredth of some frames [ms]; zeros for none.
 struct FrameSpread {

@@ -29,30 +29,51 @@ Result<void> fill(gpu::Device& device, gpu::Buffer& buffer, const char* name,
   return {};
 }
 
+Result<gpu::Image> make_image(gpu::Device& device, const char* name, VkFormat format, int width,
+                              int height) {
+  return device.create_image(
+      {.name = name,
+       .format = format,
+       .extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)},
+       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+}
+
 }  // namespace
 
 Result<std::unique_ptr<OverlayPass>> OverlayPass::create(gpu::Device& device,
-                                                         const FontAtlas& font) {
-  Result<gpu::Image> image = device.create_image(
-      {.name = "overlay_font",
-       .format = VK_FORMAT_R8_UNORM,
-       .extent = {static_cast<std::uint32_t>(font.width), static_cast<std::uint32_t>(font.height)},
-       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-  if (!image) return image.error();
+                                                         const ui::OverlayImages& images) {
+  const ui::FontAtlas& font = images.font;
+  Result<gpu::Image> glyphs =
+      make_image(device, "overlay_font", VK_FORMAT_R8_UNORM, font.width, font.height);
+  if (!glyphs) return glyphs.error();
+  Result<gpu::Image> pictures = make_image(device, "overlay_pictures", VK_FORMAT_R8G8B8A8_UNORM,
+                                           images.pictures.width, images.pictures.height);
+  if (!pictures) return pictures.error();
   gpu::Uploader uploader(device, gpu::UploadPath::kUpdateBuffer);
-  if (const auto done = uploader.fill_image(*image, std::as_bytes(font.texels)); !done)
+  if (const auto done = uploader.fill_image(*glyphs, std::as_bytes(font.texels)); !done)
     return done.error();
   const Result<VkSampler> sampler = device.sampler({});
   if (!sampler) return sampler.error();
-  return std::unique_ptr<OverlayPass>(new OverlayPass(device, *std::move(image), *sampler));
+  std::unique_ptr<OverlayPass> pass(
+      new OverlayPass(device, *std::move(glyphs), *std::move(pictures), *sampler));
+  if (const auto done = pass->set_pictures(images.pictures); !done) return done.error();
+  return pass;
 }
 
-OverlayPass::OverlayPass(gpu::Device& device, gpu::Image font, VkSampler sampler)
-    : device_(device), font_(std::move(font)), sampler_(sampler) {}
+OverlayPass::OverlayPass(gpu::Device& device, gpu::Image font, gpu::Image pictures,
+                         VkSampler sampler)
+    : device_(device), font_(std::move(font)), pictures_(std::move(pictures)), sampler_(sampler) {}
+
+Result<void> OverlayPass::set_pictures(const ui::PictureView& pictures) {
+  SKERRY_ASSERT(static_cast<std::uint32_t>(pictures.width) == pictures_.desc().extent.width &&
+                static_cast<std::uint32_t>(pictures.height) == pictures_.desc().extent.height);
+  gpu::Uploader uploader(device_, gpu::UploadPath::kUpdateBuffer);
+  return uploader.fill_image(pictures_, std::as_bytes(pictures.pixels));
+}
 
 Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                        gpu::ImageRef picture, VkExtent2D size,
-                                       const OverlayTriangles& triangles, std::uint32_t slot) {
+                                       const ui::OverlayTriangles& triangles, std::uint32_t slot) {
   SKERRY_ASSERT(slot < kSlots);
   if (triangles.vertices.empty()) return picture;
   Slot& buffers = slots_[slot];
@@ -62,7 +83,7 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
     return done.error();
   const gpu::BufferRef vertices = graph.import(buffers.vertices),
                        clips = graph.import(buffers.clips);
-  const gpu::ImageRef font = graph.import(font_);
+  const gpu::ImageRef font = graph.import(font_), pictures = graph.import(pictures_);
   const gpu::Pipeline& pipeline =
       pipelines.get(gpu::GraphicsDesc{.vertex = "draw_overlay.vert",
                                       .fragment = "draw_overlay.frag",
@@ -80,13 +101,16 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
         b.read(vertices, Use::kVertexRead);
         b.read(clips, Use::kVertexRead);
         b.read(font, Use::kFragmentRead);
+        b.read(pictures, Use::kFragmentRead);
         drawn = b.color(picture, gpu::Load::keep());
       },
-      [&pipeline, vertices, clips, font, constants, count, sampler = sampler_](gpu::Commands& c) {
+      [&pipeline, vertices, clips, font, pictures, constants, count,
+       sampler = sampler_](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, vertices);
         c.storage(1, clips);
         c.sampled(2, font, sampler);
+        c.sampled(3, pictures, sampler);
         c.push(constants);
         c.draw(count, 1);
       });

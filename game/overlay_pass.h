@@ -7,7 +7,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame_graph.h"
 #include "engine/gpu/pipeline.h"
-#include "game/overlay.h"
+#include "game/ui/triangles.h"
 
 namespace skerry::game {
 
@@ -18,23 +18,27 @@ class OverlayPass {
   static constexpr std::uint32_t kSlots = 2;
 
   /// Errors: no memory on the device.
-  static Result<std::unique_ptr<OverlayPass>> create(gpu::Device& device, const FontAtlas& font);
+  static Result<std::unique_ptr<OverlayPass>> create(gpu::Device& device,
+                                                     const ui::OverlayImages& images);
+
+  /// Others in place of the pictures, of the same size; waits for the GPU. Errors: no memory.
+  Result<void> set_pictures(const ui::PictureView& pictures);
 
   /// Adds the pass "overlay". @param picture drawn over, format VK_FORMAT_R8G8B8A8_UNORM. @param
   /// slot 0 .. kSlots - 1; the frame that used it last must have completed. @return the picture's
   /// new version. Errors: no memory.
   Result<gpu::ImageRef> add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             gpu::ImageRef picture, VkExtent2D size,
-                            const OverlayTriangles& triangles, std::uint32_t slot);
+                            const ui::OverlayTriangles& triangles, std::uint32_t slot);
 
  private:
   struct Slot {
     gpu::Buffer vertices, clips;
   };
-  OverlayPass(gpu::Device& device, gpu::Image font, VkSampler sampler);
+  OverlayPass(gpu::Device& device, gpu::Image font, gpu::Image pictures, VkSampler sampler);
 
   gpu::Device& device_;
-  gpu::Image font_;
+  gpu::Image font_, pictures_;
   VkSampler sampler_;
   std::array<Slot, kSlots> slots_;
 };

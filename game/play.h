@@ -9,9 +9,10 @@
 namespace skerry::game {
 
 /// The main loop: plays in a window until it is closed. Keys: docs/controls.md.
+/// @param at_title begins with the title, else in the options' world.
 /// @param surface of the window, made with the device's instance; the caller destroys it
 /// afterwards. Errors: the device cannot present to the window, or runs out of memory.
 Result<void> play(platform::Window& window, gpu::Device& device, VkSurfaceKHR surface,
-                  const SceneOptions& options);
+                  const SceneOptions& options, bool at_title);
 
 }  // namespace skerry::game

@@ -12,20 +12,23 @@ namespace {
 // Islands turn about +y only (world::IslandSpec), so "up" and gravity are the same in every
 // lattice.
 
-constexpr double kFallSpeedLimit = 80.0;                                  // blocks/s
-constexpr double kWalkSpeed = 4.5, kSprintSpeed = 8.0, kSwimSpeed = 2.5;  // blocks/s
+constexpr double kFallSpeedLimit = 80.0;  // blocks/s
+constexpr double kWalkSpeed = 4.5, kSprintSpeed = 8.0, kSwimSpeed = 2.5, kCrouchSpeed = 1.5;
 constexpr double kSwimRise = 3.5, kSink = -1.5;  // blocks/s, with and without stroke
 constexpr double kGroundGrip = 12.0, kAirGrip = 2.0, kWaterGrip = 5.0, kFlyGrip = 8.0;  // 1/s
 constexpr double kFastFlight = 5.0;  // times the flying speed
 constexpr double kReach = 16.0;      // blocks beyond an island's sphere in which its frame is kept
 constexpr int kMaxPushOut = 256;     // blocks upwards
+constexpr double kEyeRate = 14.0;    // 1/s, at which the eye comes to its height
+constexpr std::size_t kSafePlaces = 8;
+constexpr std::int64_t kSafeSpacing = 3 * kLatticeBlock;  // between them, along an axis
 
-glm::dvec3 to_lattice(const world::Pose& pose, world::WorldPos place) {
-  return glm::conjugate(pose.rotation) * world::difference_blocks(place, pose.origin);
+LatticePos to_lattice(const world::Pose& pose, world::WorldPos place) {
+  return lattice_pos(glm::conjugate(pose.rotation) * world::difference_blocks(place, pose.origin));
 }
 
-world::WorldPos to_world(const world::Pose& pose, const glm::dvec3& lattice) {
-  return world::moved(pose.origin, pose.rotation * lattice);
+world::WorldPos to_world(const world::Pose& pose, const LatticePos& lattice) {
+  return world::moved(pose.origin, pose.rotation * lattice_blocks(lattice));
 }
 
 double heading_deg(const world::Pose& pose) {
@@ -51,10 +54,34 @@ glm::dvec3 horizontal_wish(glm::dvec2 move, double yaw_deg) {
 }  // namespace
 
 Player::Player(world::WorldPos feet, double yaw_deg, double pitch_deg, double time_s)
-    : pitch_deg_(std::clamp(pitch_deg, -90.0, 90.0)), start_s_(time_s) {
+    : pitch_deg_(std::clamp(pitch_deg, -90.0, 90.0)),
+      start_feet_(feet),
+      fall_from_y_(feet.y),
+      start_s_(time_s) {
   now_.feet = feet;
   now_.yaw_deg = yaw_deg;
   before_ = now_;
+}
+
+Player::Player(const PlayerState& state, double time_s)
+    : Player(state.feet, state.yaw_deg, state.pitch_deg, time_s) {
+  now_.island = state.island;
+  now_.lattice = state.lattice;
+  before_ = now_;
+  velocity_ = state.velocity;
+  mode_ = static_cast<MoveMode>(state.mode);
+  set_fly_speed(state.fly_speed);
+}
+
+PlayerState Player::state() const {
+  return {now_.feet,
+          now_.island,
+          now_.lattice,
+          velocity_,
+          now_.yaw_deg,
+          pitch_deg_,
+          static_cast<std::uint8_t>(mode_),
+          fly_speed_};
 }
 
 void Player::turn(double yaw_deg, double pitch_deg) {
@@ -86,25 +113,48 @@ CameraPlace Player::eye(const Surroundings& around) const {
   const auto pose = now_.island ? around.pose(*now_.island, world_time_s()) : std::nullopt;
   if (pose && before_.island == now_.island) {
     // In the lattice: someone standing still does not move against the ground, however it turns.
-    eye.position = to_world(*pose, glm::mix(before_.lattice, now_.lattice, alpha));
+    const glm::dvec3 before = lattice_blocks(before_.lattice);
+    const glm::dvec3 step = lattice_blocks(now_.lattice - before_.lattice);
+    eye.position = world::moved(pose->origin, pose->rotation * (before + step * alpha));
   } else {
     const glm::dvec3 step = world::difference_blocks(now_.feet, before_.feet);
     eye.position = world::moved(before_.feet, step * alpha);
   }
   if (pose) eye.yaw_deg += heading_deg(*pose);
   eye.yaw_deg = std::remainder(eye.yaw_deg, 360.0);
-  eye.position = world::moved(eye.position, {0.0, kEyeHeight, 0.0});
+  const double lag = glm::mix(before_.eye_lag, now_.eye_lag, alpha);
+  eye.position = world::moved(eye.position, {0.0, kEyeHeight - lag, 0.0});
   return eye;
+}
+
+double Player::return_fade() const {
+  if (returns_ == 0) return 0.0;
+  const double since_s = static_cast<double>(ticks_ - returned_tick_) * kTickSeconds + owed_s_;
+  return std::max(0.0, 1.0 - since_s / kReturnFade);
 }
 
 void Player::tick(const Intent& intent, const Surroundings& around) {
   before_ = now_;
   find_movers(around);
   leave_lost_frame(around);
-  leave_solids(around);
+  if (mode_ != MoveMode::kNoclip) leave_solids(around);
+  crouching_ = intent.crouch && mode_ == MoveMode::kWalk;
+  climbing_ = mode_ == MoveMode::kWalk && (on_ground_ || in_water_) &&
+              !(intent.jump && !in_water_) && intent.move != glm::dvec2(0.0);
   update_velocity(intent);
-  Place target = wanted_place();
+  Place target = wanted_place(around);
   on_ground_ = false;
+  risen_ = 0.0;
+  if (mode_ != MoveMode::kNoclip) collide_all(around, target);
+  now_ = target;
+  ++ticks_;
+  look_for_water(around);
+  lower_eye();
+  note_safe_ground(around);
+  if (is_lost(around)) come_back(around);
+}
+
+void Player::collide_all(const Surroundings& around, Place& target) {
   // Being stopped by one island can push into another; a few rounds settle it. What is left,
   // leave_solids resolves.
   constexpr int kRounds = 3;
@@ -113,9 +163,6 @@ void Player::tick(const Intent& intent, const Surroundings& around) {
     for (const Mover& mover : movers_) touched |= collide(around, mover, target, round > 0);
     if (!touched || movers_.size() == 1) break;
   }
-  now_ = target;
-  ++ticks_;
-  look_for_water(around);
 }
 
 void Player::find_movers(const Surroundings& around) {
@@ -136,9 +183,10 @@ const Player::Mover* Player::mover_of(std::optional<std::uint64_t> island) const
   return found == movers_.end() ? nullptr : &*found;
 }
 
-glm::dvec3 Player::Mover::carry(const glm::dvec3& lattice) const {
+glm::dvec3 Player::Mover::carry(const LatticePos& lattice) const {
+  const glm::dvec3 at = lattice_blocks(lattice);
   const glm::dvec3 drift = world::difference_blocks(to.origin, from.origin);
-  return (drift + to.rotation * lattice - from.rotation * lattice) * double{kTicksPerSecond};
+  return (drift + to.rotation * at - from.rotation * at) * double{kTicksPerSecond};
 }
 
 void Player::leave_lost_frame(const Surroundings& around) {
@@ -154,7 +202,7 @@ void Player::leave_lost_frame(const Surroundings& around) {
 
 void Player::leave_solids(const Surroundings& around) {
   for (const Mover& mover : movers_) {
-    glm::dvec3 lattice =
+    LatticePos lattice =
         now_.island == mover.island ? now_.lattice : to_lattice(mover.from, now_.feet);
     const SolidQuery solid = solid_query(around, mover.island, false);
     if (!box_overlaps(solid, lattice) || !push_out(solid, lattice, kMaxPushOut)) continue;
@@ -168,7 +216,7 @@ void Player::leave_solids(const Surroundings& around) {
 
 void Player::update_velocity(const Intent& intent) {
   glm::dvec3 wish = horizontal_wish(intent.move, now_.yaw_deg);
-  if (mode_ == MoveMode::kFly) {
+  if (mode_ != MoveMode::kWalk) {
     wish.y = std::clamp(intent.rise, -1.0, 1.0);
     const double length = std::max(1.0, glm::length(wish));
     const double speed = std::min(fly_speed_ * (intent.fast ? kFastFlight : 1.0), kMaxFlySpeed);
@@ -176,7 +224,10 @@ void Player::update_velocity(const Intent& intent) {
     for (int axis = 0; axis < 3; ++axis)
       velocity_[axis] = approach(velocity_[axis], wish[axis], kFlyGrip);
   } else {
-    const double speed = in_water_ ? kSwimSpeed : intent.fast ? kSprintSpeed : kWalkSpeed;
+    const double speed = in_water_     ? kSwimSpeed
+                         : crouching_  ? kCrouchSpeed
+                         : intent.fast ? kSprintSpeed
+                                       : kWalkSpeed;
     const double grip = in_water_ ? kWaterGrip : on_ground_ ? kGroundGrip : kAirGrip;
     velocity_.x = approach(velocity_.x, wish.x * speed, grip);
     velocity_.z = approach(velocity_.z, wish.z * speed, grip);
@@ -194,28 +245,39 @@ void Player::update_velocity(const Intent& intent) {
   }
 }
 
-Player::Place Player::wanted_place() const {
+Player::Place Player::wanted_place(const Surroundings& around) {
   Place place = now_;
   const glm::dvec3 step = velocity_ * kTickSeconds;
-  if (const Mover* frame = mover_of(now_.island)) {
-    place.lattice += step;
-    place.feet = to_world(frame->to, place.lattice);
-  } else {
+  const Mover* frame = mover_of(now_.island);
+  if (!frame) {
     place.feet = world::moved(now_.feet, step);
+    return place;
   }
+  LatticePos motion = lattice_pos(step);
+  if (crouching_ && on_ground_ && velocity_.y <= 0.0) {
+    const LatticePos kept =
+        keep_on_edge(solid_query(around, frame->island, true), now_.lattice, motion);
+    for (const int axis : {0, 2})
+      if (kept[axis] != motion[axis]) velocity_[axis] = 0.0;
+    motion = kept;
+  }
+  place.lattice += motion;
+  place.feet = to_world(frame->to, place.lattice);
   return place;
 }
 
 bool Player::collide(const Surroundings& around, const Mover& mover, Place& target,
                      bool only_if_inside) {
   const bool in_frame = target.island == mover.island;
-  const glm::dvec3 from =
+  const LatticePos from =
       now_.island == mover.island ? now_.lattice : to_lattice(mover.from, now_.feet);
-  const glm::dvec3 to = in_frame ? target.lattice : to_lattice(mover.to, target.feet);
+  const LatticePos to = in_frame ? target.lattice : to_lattice(mover.to, target.feet);
   const SolidQuery solid = solid_query(around, mover.island, mode_ == MoveMode::kWalk);
   if (only_if_inside && !box_overlaps(solid, to)) return false;
-  const SweepResult sweep = sweep_box(solid, from, to - from);
+  const SweepResult sweep =
+      climbing_ ? climb_box(solid, from, to - from) : sweep_box(solid, from, to - from);
   if (sweep.blocked == glm::ivec3(0)) return false;
+  risen_ = std::max(risen_, lattice_blocks(sweep.feet - from).y);
 
   // What is left of the motion, seen from this island.
   const Mover* frame = mover_of(target.island);
@@ -255,12 +317,70 @@ SolidQuery Player::solid_query(const Surroundings& around, std::uint64_t island,
 
 void Player::look_for_water(const Surroundings& around) {
   in_water_ = std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
-    glm::dvec3 middle =
-        now_.island == mover.island ? now_.lattice : to_lattice(mover.to, now_.feet);
+    glm::dvec3 middle = lattice_blocks(
+        now_.island == mover.island ? now_.lattice : to_lattice(mover.to, now_.feet));
     middle.y += kPlayerHeight / 2.0;
     const glm::ivec3 voxel = glm::floor(middle);
     return around.block(mover.island, {voxel.x, voxel.y, voxel.z}) == world::block::kWater;
   });
+}
+
+void Player::lower_eye() {
+  // What falls and jumps do is motion, which the eye takes part in; only steps jolt.
+  constexpr double kJolt = 0.25;  // blocks in a tick
+  if (climbing_ && risen_ > kJolt) now_.eye_lag += risen_;
+  now_.eye_lag = approach(now_.eye_lag, crouching_ ? kCrouchDepth : 0.0, kEyeRate);
+}
+
+void Player::note_safe_ground(const Surroundings& around) {
+  if (on_ground_ || in_water_ || mode_ != MoveMode::kWalk) fall_from_y_ = now_.feet.y;
+  if (!on_ground_ || mode_ != MoveMode::kWalk || !now_.island) return;
+  if (!safe_.empty() && safe_.back().island == *now_.island) {
+    const LatticePos away = glm::abs(now_.lattice - safe_.back().lattice);
+    if (std::max({away.x, away.y, away.z}) < kSafeSpacing) return;
+  }
+  // Not with one foot over an edge: the voxel under the middle must hold.
+  const glm::ivec3 below = glm::floor(lattice_blocks(now_.lattice) - glm::dvec3(0.0, 0.5, 0.0));
+  const auto block = around.block(*now_.island, {below.x, below.y, below.z});
+  if (!block || !world::is_solid(*block)) return;
+  safe_.push_back({*now_.island, now_.lattice});
+  if (safe_.size() > kSafePlaces) safe_.pop_front();
+}
+
+bool Player::is_lost(const Surroundings& around) const {
+  if (on_ground_ || in_water_ || mode_ != MoveMode::kWalk) return false;
+  const double fallen = static_cast<double>(fall_from_y_ - now_.feet.y) / world::kUnitsPerBlock;
+  if (fallen < kLostDepth) return false;
+  std::vector<std::uint64_t> near;
+  around.islands_near(now_.feet, kRescueRadius, tick_time_s(), near);
+  return near.empty() || fallen > kDeepestFall;
+}
+
+/// To the last ground that is still there, else to where it all began.
+void Player::come_back(const Surroundings& around) {
+  Place place = now_;
+  if (const auto pose = now_.island ? around.pose(*now_.island, tick_time_s()) : std::nullopt)
+    place.yaw_deg += heading_deg(*pose);
+  place.island.reset();
+  place.feet = start_feet_;
+  place.eye_lag = 0.0;
+  while (!safe_.empty()) {
+    const SafePlace safe = safe_.back();
+    const auto pose = around.pose(safe.island, tick_time_s());
+    if (pose && is_supported(solid_query(around, safe.island, true), safe.lattice)) {
+      place.island = safe.island;
+      place.lattice = safe.lattice;
+      place.feet = to_world(*pose, safe.lattice);
+      place.yaw_deg -= heading_deg(*pose);
+      break;
+    }
+    safe_.pop_back();
+  }
+  now_ = before_ = place;
+  fall_from_y_ = now_.feet.y;
+  velocity_ = {};
+  ++returns_;
+  returned_tick_ = ticks_;
 }
 
 }  // namespace skerry::game

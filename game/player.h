@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "game/collide.h"
 #include "game/parse.h"
+#include "game/player_state.h"
 #include "world/blocks.h"
 #include "world/coords.h"
 #include "world/island.h"
@@ -30,13 +32,18 @@ class Surroundings {
 
 /// What the person wants during a tick.
 struct Intent {
-  glm::dvec2 move{};  ///< x to the right, y forward; length at most 1 counts
-  double rise = 0.0;  ///< flying: -1 down .. 1 up
-  bool jump = false;  ///< walking: jump; in water: swim up
-  bool fast = false;  ///< sprint, or five times the flying speed
+  glm::dvec2 move{};    ///< x to the right, y forward; length at most 1 counts
+  double rise = 0.0;    ///< flying: -1 down .. 1 up
+  bool jump = false;    ///< walking: jump; in water: swim up
+  bool fast = false;    ///< sprint, or five times the flying speed
+  bool crouch = false;  ///< walking: slow, and never over an edge
 };
 
-enum class MoveMode : std::uint8_t { kWalk, kFly };
+enum class MoveMode : std::uint8_t {
+  kWalk,
+  kFly,
+  kNoclip,  ///< flying that no solid stops
+};
 
 /// Ticks a second; every length of frame runs the same ticks, so motion does not depend on the
 /// frame rate.
@@ -45,17 +52,30 @@ inline constexpr double kTickSeconds = 1.0 / kTicksPerSecond;
 inline constexpr double kGravity = 25.0;  ///< blocks/s^2; brisker than nature's, as jumps want
 /// Blocks/s at take-off: rises to kJumpSpeed^2 / (2 kGravity) = 1.25 blocks.
 inline constexpr double kJumpSpeed = 7.9;
-inline constexpr double kEyeHeight = 1.62;                           ///< blocks above the feet
+inline constexpr double kEyeHeight = 1.62;   ///< blocks above the feet
+inline constexpr double kCrouchDepth = 0.3;  ///< blocks that the eye of someone who crouches lowers
 inline constexpr double kMinFlySpeed = 1.0, kMaxFlySpeed = 10000.0;  ///< blocks/s
+
+/// Whoever walks off the world comes back to firm ground after falling so far with nothing near
+/// [blocks], or after falling so far whatever is near.
+inline constexpr double kLostDepth = 96.0, kDeepestFall = 512.0;
+inline constexpr double kRescueRadius = 64.0;  ///< blocks; what counts as near then
+inline constexpr double kReturnFade = 0.8;     ///< seconds in which the view comes back
 
 /// A walking, swimming or flying person. Someone who touched an island stays in its frame (turning
 /// and drifting with it) until touching another or leaving its neighbourhood; the place is then
-/// kept in lattice blocks, else in exact world units.
+/// kept in lattice units, else in exact world units. Whoever walks steps up ledges of one block;
+/// the eye follows smoothly. Whoever falls off the world comes back to ground that held them.
 class Player {
  public:
   /// @param feet where the middle of the soles is. @param time_s the world's time at which that
   /// holds.
   Player(world::WorldPos feet, double yaw_deg, double pitch_deg, double time_s);
+
+  /// As it was saved, at the world's time of then.
+  Player(const PlayerState& state, double time_s);
+  /// After the last tick.
+  PlayerState state() const;
 
   /// Turns the head at once. Pitch stays within +-90.
   void turn(double yaw_deg, double pitch_deg);
@@ -79,7 +99,12 @@ class Player {
   double tick_time_s() const { return time_of(ticks_); }
   bool on_ground() const { return on_ground_; }
   bool in_water() const { return in_water_; }
+  bool crouching() const { return crouching_; }
   std::optional<std::uint64_t> frame_island() const { return now_.island; }
+  /// How often they fell off the world and came back so far.
+  int returns() const { return returns_; }
+  /// How much of the view is still hidden after the last return: 1 at that moment, soon 0.
+  double return_fade() const;
   /// Relative to the frame's island, in its lattice axes; without one, in world axes [blocks/s].
   glm::dvec3 velocity() const { return velocity_; }
 
@@ -89,15 +114,21 @@ class Player {
   struct Place {
     world::WorldPos feet;
     std::optional<std::uint64_t> island;
-    glm::dvec3 lattice{};
+    LatticePos lattice{0};
     double yaw_deg = 0.0;
+    double eye_lag = 0.0;  // blocks that the eye is below its height, after a step or crouching
+  };
+  /// Ground that held.
+  struct SafePlace {
+    std::uint64_t island = 0;
+    LatticePos lattice{0};
   };
   /// An island during one tick.
   struct Mover {
     std::uint64_t island = 0;
     world::Pose from, to;
     /// How fast the island carries a point of its lattice along, in the world [blocks/s].
-    glm::dvec3 carry(const glm::dvec3& lattice) const;
+    glm::dvec3 carry(const LatticePos& lattice) const;
   };
 
   double time_of(std::uint64_t ticks) const {
@@ -109,12 +140,17 @@ class Player {
   void leave_lost_frame(const Surroundings& around);
   void leave_solids(const Surroundings& around);
   void update_velocity(const Intent& intent);
-  Place wanted_place() const;
+  Place wanted_place(const Surroundings& around);
+  void collide_all(const Surroundings& around, Place& target);
   /// Stops `target` at the mover's voxels. @return whether anything was in the way.
   bool collide(const Surroundings& around, const Mover& mover, Place& target, bool only_if_inside);
   SolidQuery solid_query(const Surroundings& around, std::uint64_t island,
                          bool hold_at_unknown) const;
   void look_for_water(const Surroundings& around);
+  void lower_eye();
+  void note_safe_ground(const Surroundings& around);
+  bool is_lost(const Surroundings& around) const;
+  void come_back(const Surroundings& around);
 
   Place before_, now_;
   glm::dvec3 velocity_{};
@@ -123,6 +159,15 @@ class Player {
   MoveMode mode_ = MoveMode::kWalk;
   bool on_ground_ = false;
   bool in_water_ = false;
+  bool crouching_ = false;
+  // During a tick: whether they step up what is in the way, and how far that lifted them [blocks].
+  bool climbing_ = false;
+  double risen_ = 0.0;
+  world::WorldPos start_feet_;
+  std::deque<SafePlace> safe_;    // newest last
+  std::int64_t fall_from_y_ = 0;  // of the feet in the world, when they last had a hold
+  std::uint64_t returned_tick_ = 0;
+  int returns_ = 0;
   double start_s_ = 0.0;
   std::uint64_t ticks_ = 0;
   double owed_s_ = 0.0;  // frame time not yet turned into ticks, 0 .. kTickSeconds

@@ -5,11 +5,11 @@
 namespace skerry::game {
 
 Result<std::unique_ptr<Presenter>> Presenter::create(gpu::Device& device, VkSurfaceKHR surface,
-                                                     const FontAtlas& font) {
+                                                     const ui::OverlayImages& images) {
   constexpr bool kMailbox = true;  // newest frame first: shortest way from the mouse to the eye
   auto swapchain = gpu::Swapchain::create(device, surface, kMailbox);
   if (!swapchain) return swapchain.error();
-  auto overlay_pass = OverlayPass::create(device, font);
+  auto overlay_pass = OverlayPass::create(device, images);
   if (!overlay_pass) return overlay_pass.error();
   return std::unique_ptr<Presenter>(
       new Presenter(device, *std::move(swapchain), *std::move(overlay_pass)));
@@ -20,6 +20,7 @@ Presenter::Presenter(gpu::Device& device, std::unique_ptr<gpu::Swapchain> swapch
     : device_(device),
       pipelines_(device),
       graph_(&device),
+      ring_(device, OverlayPass::kSlots),
       swapchain_(std::move(swapchain)),
       overlay_pass_(std::move(overlay_pass)) {}
 
@@ -39,7 +40,7 @@ Result<void> Presenter::fit_canvas(VkExtent2D size) {
 }
 
 Result<void> Presenter::draw_overlay(VkCommandBuffer commands, gpu::Image& picture,
-                                     const OverlayTriangles& triangles) {
+                                     const ui::OverlayTriangles& triangles) {
   const VkExtent2D size = picture.desc().extent;
   if (auto done = fit_canvas(size); !done) return done;
   slot_ = (slot_ + 1) % OverlayPass::kSlots;
@@ -69,12 +70,22 @@ Result<void> Presenter::draw_overlay(VkCommandBuffer commands, gpu::Image& pictu
 }
 
 Result<void> Presenter::record(VkCommandBuffer commands, gpu::Image& picture,
-                               const gpu::SwapchainFrame& frame, const OverlayTriangles* overlay) {
+                               const gpu::SwapchainFrame& frame,
+                               const ui::OverlayTriangles* overlay) {
   Result<void> done;
   if (overlay) done = draw_overlay(commands, picture, *overlay);
   swapchain_->show(commands, overlay && done ? canvas_ : picture, frame);
   swapchain_->finish(commands, frame);
   return done;
+}
+
+Result<void> Presenter::show_again(gpu::Image& picture, const gpu::SwapchainFrame& frame,
+                                   const ui::OverlayTriangles& overlay) {
+  const gpu::FrameRing::Frame commands = ring_.begin();
+  const Result<void> recorded =
+      record(commands.commands, picture, frame, overlay.vertices.empty() ? nullptr : &overlay);
+  present(frame, ring_.submit({&frame.wait, 1}, {&frame.signal, 1}));
+  return recorded;
 }
 
 void Presenter::present(const gpu::SwapchainFrame& frame, std::uint64_t value) {

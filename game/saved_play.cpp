@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kName = "play";
 constexpr double kMaxTime = 1e9;  // as the setting world.time has it
-constexpr double kMaxLattice = 1 << 21;
+constexpr std::int64_t kMaxLattice = std::int64_t{1} << 40;
 constexpr double kMaxYaw = 3600.0;
 
 bool within(double v, double most) {
@@ -38,14 +38,19 @@ void get(world::ByteReader& in, glm::dvec3& v) {
   for (double* axis : {&v.x, &v.y, &v.z}) *axis = in.f64();
 }
 
+bool in_lattice(const LatticePos& p) {
+  const auto in = [](std::int64_t v) { return v >= -kMaxLattice && v <= kMaxLattice; };
+  return in(p.x) && in(p.y) && in(p.z);
+}
+
 bool sound(const SavedPlay& play) {
   const PlayerState& p = play.player;
-  return within(p.feet) && within(p.lattice, kMaxLattice) && within(p.velocity, kMaxFlySpeed * 8) &&
+  return within(p.feet) && in_lattice(p.lattice) && within(p.velocity, kMaxFlySpeed * 8) &&
          within(p.yaw_deg, kMaxYaw) && within(p.pitch_deg, 90.0) && p.fly_speed >= kMinFlySpeed &&
-         p.fly_speed <= kMaxFlySpeed && within(play.eye.position) &&
-         within(play.eye.yaw_deg, kMaxYaw) && within(play.eye.pitch_deg, 90.0) &&
-         play.time_of_day_s >= 0.0 && play.time_of_day_s < 86400.0 &&
-         within(play.world_time_s, kMaxTime);
+         p.fly_speed <= kMaxFlySpeed && p.mode <= static_cast<std::uint8_t>(MoveMode::kNoclip) &&
+         within(play.eye.position) && within(play.eye.yaw_deg, kMaxYaw) &&
+         within(play.eye.pitch_deg, 90.0) && play.time_of_day_s >= 0.0 &&
+         play.time_of_day_s < 86400.0 && within(play.world_time_s, kMaxTime);
 }
 
 }  // namespace
@@ -55,11 +60,11 @@ void put_play(world::WorldFile::Transaction& transaction, const SavedPlay& play)
   put(out, play.player.feet);
   out.u8(play.player.island.has_value());
   out.u64(play.player.island.value_or(0));
-  put(out, play.player.lattice);
+  for (int axis = 0; axis < 3; ++axis) out.i64(play.player.lattice[axis]);
   put(out, play.player.velocity);
   out.f64(play.player.yaw_deg);
   out.f64(play.player.pitch_deg);
-  out.u8(play.player.flying);
+  out.u8(play.player.mode);
   out.f64(play.player.fly_speed);
   put(out, play.eye.position);
   out.f64(play.eye.yaw_deg);
@@ -78,11 +83,11 @@ std::optional<SavedPlay> saved_play(world::WorldFile& file) {
   const bool on_island = in.u8() != 0;
   const std::uint64_t island = in.u64();
   if (on_island) play.player.island = island;
-  get(in, play.player.lattice);
+  for (int axis = 0; axis < 3; ++axis) play.player.lattice[axis] = in.i64();
   get(in, play.player.velocity);
   play.player.yaw_deg = in.f64();
   play.player.pitch_deg = in.f64();
-  play.player.flying = in.u8() != 0;
+  play.player.mode = in.u8();
   play.player.fly_speed = in.f64();
   get(in, play.eye.position);
   play.eye.yaw_deg = in.f64();

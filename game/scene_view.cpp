@@ -174,7 +174,6 @@ Result<void> SceneView::take_in(world::StreamUpdate update) {
 void SceneView::remove_section(const world::SectionKey& key) {
   const auto found = sections_.find(key);
   SKERRY_ASSERT(found != sections_.end());
-  light_field_.remove(key);
   gpu::Uploader& uploader = renderer_->mesh_uploader();
   light_field_.remove(key);
   const auto slot = island_slots_.find(key.island);
@@ -206,7 +205,6 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
       uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
   if (!added) return added.error();
   section = *added;
-  light_field_.add(ready.key, ready.emitters);
   return {};
 }
 
@@ -315,12 +313,23 @@ render::RenderSettings SceneView::render_settings(
   out.tone = settings_.tone;
   out.display = settings_.display;
   out.bloom = settings_.bloom;
+  out.clouds = settings_.clouds;
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   out.traced_lights = settings_.lights_shadows;
+  out.light_tile = settings_.lights_tile;
   out.light_samples = static_cast<int>(settings_.lights_softness);
   out.lights_oracle = settings_.lights_oracle;
   return out;
+}
+
+/// None if nothing of the island is drawn.
+std::optional<render::BlockMarker> SceneView::marker_of(const Moment& moment) const {
+  if (!moment.marked) return std::nullopt;
+  const auto slot = island_slots_.find(moment.marked->island);
+  if (slot == island_slots_.end()) return std::nullopt;
+  return render::BlockMarker{slot->second, moment.marked->min, moment.marked->max,
+                             static_cast<float>(moment.marked->dug)};
 }
 
 Result<std::uint64_t> SceneView::draw(
@@ -345,6 +354,7 @@ Result<std::uint64_t> SceneView::draw(
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
+  input.marker = marker_of(moment);
   const render::RenderSettings settings = render_settings(moment.camera.position, islands);
   input.parts = settings_.shadow_samples;
   for (; input.part + 1 < input.parts; ++input.part)

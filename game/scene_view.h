@@ -51,6 +51,12 @@ class SceneView {
   std::size_t lights() const { return lights_.lights.size(); }
   double gather_ms() const { return gather_ms_; }
 
+  /// A block to outline, and how far it is dug.
+  struct MarkedBlock {
+    std::uint64_t island = 0;
+    glm::dvec3 min{}, max{};  ///< box in the island's lattice [blocks]
+    double dug = 0.0;         ///< 0 .. 1
+  };
   struct Moment {
     render::Camera camera;
     double time_of_day_s = 43200.0;
@@ -59,6 +65,7 @@ class SceneView {
     bool capture = false;  ///< see render::FrameInput
     /// What the eye has adapted to; the frame is metered for it nonetheless. None: as metered.
     std::optional<double> exposure_ev = {};
+    std::optional<MarkedBlock> marked = {};
   };
   /// See render::Renderer::draw. A fixed exposure in the settings goes over the moment's.
   Result<std::uint64_t> draw(
@@ -87,6 +94,7 @@ class SceneView {
                      std::span<const render::IslandPlacement> islands);
   /// Id of the translucent block the camera is in, or air.
   world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
+  std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
   render::RenderSettings render_settings(const render::FixedPos& camera,
                                          std::span<const render::IslandPlacement> islands) const;
 

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "game/edit_history.h"
 #include "game/player.h"
 #include "world/world.h"
 
@@ -67,6 +68,19 @@ class WorldSurroundings : public Surroundings {
   world::World& world_;
   std::vector<world::IslandSpec> islands_;  // ascending ids
   ChunkLoader loader_;
+};
+
+/// Edits straight into a world.
+class WorldEditor : public BlockEditor {
+ public:
+  /// @param world outlives this.
+  explicit WorldEditor(world::World& world) : world_(world) {}
+  bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) override {
+    return world_.set_block(island, voxel, block);
+  }
+
+ private:
+  world::World& world_;
 };
 
 }  // namespace skerry::game

@@ -11,11 +11,13 @@ layout(push_constant, scalar) uniform Constants { OverlayConstants constants; };
 layout(location = 0) out vec2 out_uv;
 layout(location = 1) out vec4 out_color;
 layout(location = 2) flat out vec4 out_clip;
+layout(location = 3) flat out uint out_picture;
 
 void main() {
   const OverlayVertex vertex = vertices[gl_VertexIndex];
   out_uv = vertex.uv;
   out_color = unpackUnorm4x8(vertex.color);
-  out_clip = clips[vertex.clip];
+  out_clip = clips[vertex.clip & ~kOverlayPicture];
+  out_picture = vertex.clip & kOverlayPicture;
   gl_Position = vec4(vertex.position * constants.ndc_from_pixel - 1.0, 0.0, 1.0);
 }

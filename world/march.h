@@ -25,18 +25,19 @@ inline int floor_to_int(double x) {
 /// Walks a ray through a lattice voxel by voxel (J. Amanatides and A. Woo, A Fast Voxel Traversal
 /// Algorithm for Ray Tracing, Eurographics 1987), over empty bricks and chunks at one step. A step
 /// goes to a plane of the lattice, so coordinates on the axis it crosses are integers and exact.
+/// @param voxels has box_min(), box_max() and cell_at(voxel) -> MarchCell: a Volume, or any other.
 /// @param origin, direction in lattice coordinates, any length.
 /// @param visit crossed(Crossing) and inside(voxel, id, enters, leaves) for plants, in the ray's
 ///   order; either returns true to stop. A ray that begins in a block crosses nothing there.
-template <class Visitor>
-void march(const Volume& volume, glm::dvec3 origin, glm::dvec3 direction, double t_min,
+template <class Voxels, class Visitor>
+void march(const Voxels& voxels, glm::dvec3 origin, glm::dvec3 direction, double t_min,
            double t_max, Visitor&& visit) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   // One voxel of air about the box, so that what lies at its walls is entered and left.
-  const std::array<int, 3> low{volume.box_min().x - 1, volume.box_min().y - 1,
-                               volume.box_min().z - 1};
-  const std::array<int, 3> high{volume.box_max().x + 1, volume.box_max().y + 1,
-                                volume.box_max().z + 1};
+  const std::array<int, 3> low{voxels.box_min().x - 1, voxels.box_min().y - 1,
+                               voxels.box_min().z - 1};
+  const std::array<int, 3> high{voxels.box_max().x + 1, voxels.box_max().y + 1,
+                                voxels.box_max().z + 1};
   std::array<double, 3> inverse;
   std::array<bool, 3> positive;
   double t = t_min;
@@ -61,17 +62,10 @@ void march(const Volume& volume, glm::dvec3 origin, glm::dvec3 direction, double
     v[a] = std::clamp(floor_to_int(origin[a] + direction[a] * t), low[a], high[a] - 1);
   if (entered >= 0) v[entered] = positive[entered] ? low[entered] : high[entered] - 1;
 
-  BlockId previous = entered >= 0 ? kAir : volume.block_at({v[0], v[1], v[2]});
+  BlockId previous = entered >= 0 ? kAir : voxels.cell_at({v[0], v[1], v[2]}).id;
   while (true) {
     const IVec3 voxel{v[0], v[1], v[2]};
-    int size = kChunkEdge;
-    BlockId id = kAir;
-    if (const BrickChunk* chunk = volume.chunk_at(voxel)) {
-      const int x = v[0] & 63, y = v[1] & 63, z = v[2] & 63;
-      const std::uint32_t uniform = chunk->uniform_id(x, y, z);
-      size = uniform == kAir ? BrickChunk::kBrickEdge : 1;
-      id = uniform == BrickChunk::kMixed ? chunk->at(x, y, z) : static_cast<BlockId>(uniform);
-    }
+    const auto [size, id] = voxels.cell_at(voxel);
     if (id != previous && visit.crossed({t, previous, id, entered, positive[entered], voxel}))
       return;
     previous = id;

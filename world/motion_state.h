@@ -20,4 +20,10 @@ struct MotionState {
   }
 };
 
+/// An island and how it moves.
+struct MovingIsland {
+  std::uint64_t island = 0;
+  MotionState state;
+};
+
 }  // namespace skerry::world

@@ -48,6 +48,12 @@ class BrickChunk {
   bool empty_ = true;
 };
 
+/// What a ray meets at a voxel: `id` fills the cube of `size` voxels, aligned to it, around there.
+struct MarchCell {
+  int size = 1;  ///< a power of two; over 1 only of air
+  BlockId id = kAir;
+};
+
 /// The voxels of one lattice, made chunk by chunk when a ray first comes there. Safe on any thread.
 class Volume {
  public:
@@ -80,6 +86,15 @@ class Volume {
     return state == kMade ? slot.chunk.get() : make(slot, {x, y, z});
   }
   BlockId block_at(IVec3 voxel) const;
+  /// For march().
+  MarchCell cell_at(IVec3 voxel) const {
+    const BrickChunk* chunk = chunk_at(voxel);
+    if (!chunk) return {kChunkEdge, kAir};
+    const int x = voxel.x & 63, y = voxel.y & 63, z = voxel.z & 63;
+    const std::uint32_t uniform = chunk->uniform_id(x, y, z);
+    if (uniform == BrickChunk::kMixed) return {1, chunk->at(x, y, z)};
+    return {uniform == kAir ? BrickChunk::kBrickEdge : 1, static_cast<BlockId>(uniform)};
+  }
   /// Chunks asked for so far, empty ones included.
   std::size_t chunks_made() const { return chunks_made_.load(std::memory_order_relaxed); }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 namespace skerry::platform {
@@ -17,67 +18,71 @@ std::string last_problem() {
   return text ? text : "no reason given";
 }
 
-std::optional<Key> key_of(int glfw_key) {
-  switch (glfw_key) {
-    case GLFW_KEY_W:
-      return Key::kW;
-    case GLFW_KEY_A:
-      return Key::kA;
-    case GLFW_KEY_S:
-      return Key::kS;
-    case GLFW_KEY_D:
-      return Key::kD;
-    case GLFW_KEY_F:
-      return Key::kF;
-    case GLFW_KEY_L:
-      return Key::kL;
-    case GLFW_KEY_P:
-      return Key::kP;
-    case GLFW_KEY_T:
-      return Key::kT;
-    case GLFW_KEY_Y:
-      return Key::kY;
-    case GLFW_KEY_SPACE:
-      return Key::kSpace;
-    case GLFW_KEY_LEFT_SHIFT:
-    case GLFW_KEY_RIGHT_SHIFT:
-      return Key::kShift;
-    case GLFW_KEY_LEFT_CONTROL:
-    case GLFW_KEY_RIGHT_CONTROL:
-      return Key::kControl;
-    case GLFW_KEY_ESCAPE:
-      return Key::kEscape;
-    case GLFW_KEY_MINUS:
-    case GLFW_KEY_KP_SUBTRACT:
-      return Key::kMinus;
-    case GLFW_KEY_EQUAL:
-    case GLFW_KEY_KP_ADD:
-      return Key::kPlus;
-    case GLFW_KEY_LEFT_BRACKET:
-      return Key::kLeftBracket;
-    case GLFW_KEY_RIGHT_BRACKET:
-      return Key::kRightBracket;
-    case GLFW_KEY_F2:
-      return Key::kF2;
-    case GLFW_KEY_F3:
-      return Key::kF3;
-    case GLFW_KEY_F8:
-      return Key::kF8;
-    case GLFW_KEY_F9:
-      return Key::kF9;
-    case GLFW_KEY_UP:
-      return Key::kUp;
-    case GLFW_KEY_DOWN:
-      return Key::kDown;
-    case GLFW_KEY_LEFT:
-      return Key::kLeft;
-    case GLFW_KEY_RIGHT:
-      return Key::kRight;
-    case GLFW_KEY_F11:
-      return Key::kF11;
-    default:
-      return std::nullopt;
-  }
+/// A key of ours and the keys of GLFW that are it.
+struct KeyPair {
+  Key key;
+  int first, second = GLFW_KEY_UNKNOWN;
+};
+constexpr KeyPair kKeys[] = {
+    {Key::kF1, GLFW_KEY_F1},
+    {Key::kF2, GLFW_KEY_F2},
+    {Key::kF3, GLFW_KEY_F3},
+    {Key::kF4, GLFW_KEY_F4},
+    {Key::kF5, GLFW_KEY_F5},
+    {Key::kF6, GLFW_KEY_F6},
+    {Key::kF7, GLFW_KEY_F7},
+    {Key::kF8, GLFW_KEY_F8},
+    {Key::kF9, GLFW_KEY_F9},
+    {Key::kF10, GLFW_KEY_F10},
+    {Key::kF11, GLFW_KEY_F11},
+    {Key::kF12, GLFW_KEY_F12},
+    {Key::kSpace, GLFW_KEY_SPACE},
+    {Key::kShift, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
+    {Key::kControl, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
+    {Key::kAlt, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
+    {Key::kTab, GLFW_KEY_TAB},
+    {Key::kEnter, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER},
+    {Key::kBackspace, GLFW_KEY_BACKSPACE},
+    {Key::kEscape, GLFW_KEY_ESCAPE},
+    {Key::kCapsLock, GLFW_KEY_CAPS_LOCK},
+    {Key::kInsert, GLFW_KEY_INSERT},
+    {Key::kDelete, GLFW_KEY_DELETE},
+    {Key::kHome, GLFW_KEY_HOME},
+    {Key::kEnd, GLFW_KEY_END},
+    {Key::kPageUp, GLFW_KEY_PAGE_UP},
+    {Key::kPageDown, GLFW_KEY_PAGE_DOWN},
+    {Key::kUp, GLFW_KEY_UP},
+    {Key::kDown, GLFW_KEY_DOWN},
+    {Key::kLeft, GLFW_KEY_LEFT},
+    {Key::kRight, GLFW_KEY_RIGHT},
+    {Key::kMinus, GLFW_KEY_MINUS, GLFW_KEY_KP_SUBTRACT},
+    {Key::kPlus, GLFW_KEY_EQUAL, GLFW_KEY_KP_ADD},
+    {Key::kLeftBracket, GLFW_KEY_LEFT_BRACKET},
+    {Key::kRightBracket, GLFW_KEY_RIGHT_BRACKET},
+    {Key::kBackslash, GLFW_KEY_BACKSLASH},
+    {Key::kSemicolon, GLFW_KEY_SEMICOLON},
+    {Key::kApostrophe, GLFW_KEY_APOSTROPHE},
+    {Key::kComma, GLFW_KEY_COMMA},
+    {Key::kPeriod, GLFW_KEY_PERIOD},
+    {Key::kSlash, GLFW_KEY_SLASH, GLFW_KEY_KP_DIVIDE},
+    {Key::kGrave, GLFW_KEY_GRAVE_ACCENT},
+};
+constexpr Key kButtons[] = {Key::kMouseLeft, Key::kMouseRight, Key::kMouseMiddle, Key::kMouse4,
+                            Key::kMouse5};
+
+/// The key `steps` after `first` in the order of the enumeration.
+Key key_after(Key first, int steps) {
+  return static_cast<Key>(static_cast<int>(first) + steps);
+}
+
+std::optional<KeyPair> key_of(int glfw_key) {
+  if (glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z)
+    return KeyPair{key_after(Key::kA, glfw_key - GLFW_KEY_A), glfw_key};
+  if (glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9)
+    return KeyPair{key_after(Key::k0, glfw_key - GLFW_KEY_0), glfw_key};
+  for (const KeyPair& pair : kKeys)
+    if (glfw_key == pair.first || glfw_key == pair.second) return pair;
+  return std::nullopt;
 }
 
 Input& input_of(GLFWwindow* handle) {
@@ -85,12 +90,21 @@ Input& input_of(GLFWwindow* handle) {
 }
 
 void on_key(GLFWwindow* handle, int key, int, int action, int) {
-  if (const auto known = key_of(key)) input_of(handle).set_key(*known, action != GLFW_RELEASE);
+  const std::optional<KeyPair> known = key_of(key);
+  if (!known) return;
+  // Of two keys that are one to us, one may go up while the other is held.
+  const int other = key == known->first ? known->second : known->first;
+  const bool held = other != GLFW_KEY_UNKNOWN && glfwGetKey(handle, other) == GLFW_PRESS;
+  input_of(handle).set_key(known->key, action != GLFW_RELEASE || held);
 }
 
 void on_button(GLFWwindow* handle, int button, int action, int) {
-  if (button == GLFW_MOUSE_BUTTON_LEFT)
-    input_of(handle).set_key(Key::kMouseLeft, action != GLFW_RELEASE);
+  if (button >= 0 && button < static_cast<int>(std::size(kButtons)))
+    input_of(handle).set_key(kButtons[button], action != GLFW_RELEASE);
+}
+
+void on_character(GLFWwindow* handle, unsigned character) {
+  input_of(handle).type(character);
 }
 
 void on_pointer(GLFWwindow* handle, double x, double y) {
@@ -101,6 +115,21 @@ void on_scroll(GLFWwindow* handle, double, double y) {
 }
 void on_focus(GLFWwindow* handle, int focused) {
   if (!focused) input_of(handle).lose_focus();
+}
+
+/// The first gamepad that has a known layout.
+std::optional<PadState> pad_state() {
+  static_assert(GLFW_GAMEPAD_BUTTON_LAST + 1 == 15 && GLFW_GAMEPAD_AXIS_LAST + 1 == 6);
+  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+    GLFWgamepadstate seen;
+    if (!glfwJoystickIsGamepad(id) || !glfwGetGamepadState(id, &seen)) continue;
+    PadState pad;
+    for (std::size_t i = 0; i < pad.buttons.size(); ++i)
+      pad.buttons[i] = seen.buttons[i] == GLFW_PRESS;
+    std::copy(std::begin(seen.axes), std::end(seen.axes), pad.axes.begin());
+    return pad;
+  }
+  return std::nullopt;
 }
 
 /// The monitor that shows most of the window.
@@ -160,6 +189,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
 Window::Window(GLFWwindow* handle) : handle_(handle) {
   glfwSetWindowUserPointer(handle_, &input_);
   glfwSetKeyCallback(handle_, on_key);
+  glfwSetCharCallback(handle_, on_character);
   glfwSetMouseButtonCallback(handle_, on_button);
   glfwSetCursorPosCallback(handle_, on_pointer);
   glfwSetScrollCallback(handle_, on_scroll);
@@ -191,7 +221,15 @@ InputFrame Window::poll(double wait_s) {
   } else {
     glfwPollEvents();
   }
-  return input_.take();
+  // A pad's owner may be busy in another window.
+  if (focused()) input_.set_pad(pad_state());
+  InputFrame frame = input_.take();
+  int width = 0, height = 0;
+  glfwGetWindowSize(handle_, &width, &height);
+  const FramebufferSize pixels = framebuffer_size();
+  if (width > 0 && height > 0)
+    frame.pointer *= glm::dvec2(pixels.width, pixels.height) / glm::dvec2(width, height);
+  return frame;
 }
 
 bool Window::should_close() const {
@@ -234,6 +272,15 @@ void Window::toggle_fullscreen() {
   glfwGetWindowSize(handle_, &windowed_.width, &windowed_.height);
   const GLFWvidmode* mode = glfwGetVideoMode(monitor);
   glfwSetWindowMonitor(handle_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+std::string Window::clipboard() const {
+  const char* text = glfwGetClipboardString(handle_);
+  return text ? text : "";
+}
+
+void Window::set_clipboard(const std::string& text) {
+  glfwSetClipboardString(handle_, text.c_str());
 }
 
 void Window::set_title(const std::string& title) {

@@ -52,6 +52,9 @@ class Window {
   /// back.
   void toggle_fullscreen();
   void set_title(const std::string& title);
+  /// UTF-8 text that was copied here or elsewhere; empty if it is no text.
+  std::string clipboard() const;
+  void set_clipboard(const std::string& text);
 
  private:
   explicit Window(GLFWwindow* handle);

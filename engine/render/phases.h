@@ -54,6 +54,7 @@ class Shaded {
  private:
   friend struct ShadePass;
   friend struct LightPass;
+  friend struct CloudPass;
   friend struct TranslucentPass;
   friend struct FaultPass;
   friend struct ResolvePass;
@@ -71,6 +72,7 @@ class Developed {
  private:
   friend struct DevelopPass;
   friend struct MeterPass;
+  friend struct MarkerPass;
   friend struct ShadePass;
   explicit Developed(gpu::ImageRef picture) : picture_(picture) {}
   gpu::ImageRef picture_;

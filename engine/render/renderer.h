@@ -17,6 +17,7 @@
 #include "engine/gpu/uploader.h"
 #include "engine/render/camera.h"
 #include "engine/render/celestial.h"
+#include "engine/render/cloud_atlas.h"
 #include "engine/render/geometry_store.h"
 #include "engine/render/occupancy_store.h"
 #include "engine/render/settings.h"
@@ -33,6 +34,13 @@ struct IslandPlacement {
   FixedPos origin{};                        ///< of its lattice
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< world from lattice
   double bounding_radius = 0.0;             ///< blocks about the origin
+};
+
+/// The block that a player points at: an outline over the picture, and cracks as it is dug.
+struct BlockMarker {
+  std::uint32_t island = 0;       ///< index of FrameInput::islands
+  glm::dvec3 min{0.0}, max{1.0};  ///< box in its lattice [blocks]
+  float dug = 0.0f;               ///< 0 .. 1
 };
 
 /// What a frame can be asked to copy out for measuring, besides the picture.
@@ -82,7 +90,8 @@ struct FrameInput {
   bool freeze_culling =
       false;             ///< keep culling with the camera of the frame in which this became true
   bool capture = false;  ///< copy out what Capture names; the picture is made by way of radiance
-  std::optional<Fault> fault;  ///< implies the way by radiance, too
+  std::optional<BlockMarker> marker;  ///< not drawn over debug views
+  std::optional<Fault> fault;         ///< implies the way by radiance, too
 };
 
 /// Numbers of a frame the GPU has finished. Times are sums over its parts.
@@ -122,6 +131,9 @@ class Renderer {
   /// that is never asked has none, and draws neither. Errors: out of memory.
   Result<OccupancyStore*> occupancy();
   gpu::Uploader& mesh_uploader();
+  /// Clouds of files, in the place of all before. @param volumes what they point to is not kept.
+  /// Errors: see Clouds::set_volumes.
+  Result<void> set_clouds(std::span<const CloudVolumeDesc> volumes, CloudPrecision precision);
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);
   const gpu::FrameGraph& graph() const;  ///< of the last frame, for --explain

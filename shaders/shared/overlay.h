@@ -8,8 +8,9 @@ struct OverlayVertex {
   vec2 position;  // picture [pixels], docs/conventions.md
   vec2 uv;        // font atlas, 0..1
   uint color;     // sRGB with straight alpha: bits 0-7 red, 8-15 green, 16-23 blue, 24-31 alpha
-  uint clip;      // index of the rectangle that bounds it
+  uint clip;      // index of the rectangle that bounds it, kOverlayPicture for a coloured picture
 };
+const uint kOverlayPicture = 0x80000000u;  // uv is of the pictures, not of the font
 
 struct OverlayConstants {
   vec2 ndc_from_pixel;  // 2 / picture size

@@ -8,6 +8,10 @@ namespace {
 using platform::Input;
 using platform::Key;
 
+Intent intent_after(Input& input) {
+  return intent_of(ActionFrame(input.take(), default_bindings()));
+}
+
 TEST(Controls, CalibrationGoesInStepsThereAndBackAndEnds) {
   const render::DisplaySettings before{};
   EXPECT_EQ(stepped_display(before, 0, 0), before);
@@ -23,15 +27,48 @@ TEST(Controls, CalibrationGoesInStepsThereAndBackAndEnds) {
 TEST(Controls, OppositeKeysCancel) {
   Input input;
   for (const Key key : {Key::kW, Key::kS, Key::kD}) input.set_key(key, true);
-  EXPECT_EQ(intent_of(input.take()).move, glm::dvec2(1.0, 0.0));
+  EXPECT_EQ(intent_after(input).move, glm::dvec2(1.0, 0.0));
 }
 
 TEST(Controls, AJumpTappedBetweenFramesStillJumps) {
   Input input;
   input.set_key(Key::kSpace, true);
   input.set_key(Key::kSpace, false);
-  EXPECT_TRUE(intent_of(input.take()).jump);
-  EXPECT_FALSE(intent_of(input.take()).jump);
+  EXPECT_TRUE(intent_after(input).jump);
+  EXPECT_FALSE(intent_after(input).jump);
+}
+
+TEST(Controls, HandsDigPlaceChooseAndTakeBack) {
+  Input input;
+  const auto hands = [&] { return hand_intent_of(ActionFrame(input.take(), default_bindings())); };
+  input.set_key(Key::kMouseLeft, true);
+  EXPECT_TRUE(hands().dig);
+  EXPECT_TRUE(hands().dig);  // held
+  input.set_key(Key::kMouseLeft, false);
+  EXPECT_FALSE(hands().dig);
+  // A click within one frame still places.
+  input.set_key(Key::kMouseRight, true);
+  input.set_key(Key::kMouseRight, false);
+  EXPECT_TRUE(hands().place);
+  EXPECT_FALSE(hands().place);
+  input.set_key(Key::k7, true);
+  EXPECT_EQ(hands().slot, 6);
+  EXPECT_FALSE(hands().slot);
+  input.add_scroll(-2.0);
+  EXPECT_EQ(hands().scroll, 2);
+  input.set_key(Key::kZ, true);
+  EXPECT_FALSE(hands().undo);
+  input.set_key(Key::kZ, false);
+  input.set_key(Key::kControl, true);
+  input.set_key(Key::kZ, true);
+  EXPECT_TRUE(hands().undo);
+  EXPECT_FALSE(hands().undo);  // once
+}
+
+TEST(Controls, ShiftCrouches) {
+  Input input;
+  input.set_key(Key::kShift, true);
+  EXPECT_TRUE(intent_after(input).crouch);
 }
 
 TEST(Controls, ThePointerTurnsTheHeadTheWayItMoves) {
@@ -39,7 +76,10 @@ TEST(Controls, ThePointerTurnsTheHeadTheWayItMoves) {
   Input input;
   input.move_pointer({0.0, 0.0});
   input.move_pointer({10.0, 20.0});  // right and down
-  look(player, input.take(), 70.0);
+  const Bindings bindings = default_bindings();
+  const platform::InputFrame frame = input.take();
+  const ActionFrame actions(frame, bindings);
+  look(player, {&actions, &bindings, frame.mouse_delta, 0.01}, 70.0);
   class Nothing : public Surroundings {
     void islands_near(world::WorldPos, double, double,
                       std::vector<std::uint64_t>& out) const override {

@@ -10,6 +10,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/readback.h"
 #include "game/overlay_pass.h"
+#include "game/ui/gui.h"
 
 namespace skerry::game {
 namespace {
@@ -23,11 +24,17 @@ OverlayFacts some_facts() {
   return {frames, lines, 1.75, passes, counts, memory, true, {}};
 }
 
+ui::OverlayTriangles lay_out(ui::Gui& gui, const OverlayFacts& facts, std::uint32_t width,
+                             std::uint32_t height, double seconds = 0.016) {
+  gui.begin({width, height, seconds, nullptr});
+  show_overlay(facts);
+  return gui.end();
+}
+
 TEST(Overlay, LaysTrianglesOutWithinTheirClipsAndThePicture) {
-  Overlay overlay;
-  OverlayTriangles triangles;
-  for (int frame = 0; frame < 3; ++frame)
-    triangles = overlay.layout(some_facts(), 1280, 720, 0.016);
+  ui::Gui gui;
+  ui::OverlayTriangles triangles;
+  for (int frame = 0; frame < 3; ++frame) triangles = lay_out(gui, some_facts(), 1280, 720);
   ASSERT_GT(triangles.vertices.size(), 600u);  // a hundred glyphs at the least
   EXPECT_EQ(triangles.vertices.size() % 3, 0u);
   for (const shared::OverlayVertex& vertex : triangles.vertices) {
@@ -39,13 +46,13 @@ TEST(Overlay, LaysTrianglesOutWithinTheirClipsAndThePicture) {
 }
 
 TEST(Overlay, ShowsSquaresOfTheDisplaysOwnValuesWhileCalibrating) {
-  Overlay overlay;
+  ui::Gui gui;
   const auto colours = [&](const render::DisplaySettings& display) {
     OverlayFacts facts;
     facts.numbers = false;
     facts.calibration = display;
-    OverlayTriangles triangles;
-    for (int frame = 0; frame < 3; ++frame) triangles = overlay.layout(facts, 640, 480, 0.016);
+    ui::OverlayTriangles triangles;
+    for (int frame = 0; frame < 3; ++frame) triangles = lay_out(gui, facts, 640, 480);
     std::set<std::uint32_t> seen;
     for (const shared::OverlayVertex& vertex : triangles.vertices) seen.insert(vertex.color);
     return seen;
@@ -60,10 +67,10 @@ TEST(Overlay, ShowsSquaresOfTheDisplaysOwnValuesWhileCalibrating) {
 }
 
 TEST(Overlay, SurvivesAWindowOfOnePixelAndNothingToShow) {
-  Overlay overlay;
+  ui::Gui gui;
   for (int frame = 0; frame < 3; ++frame) {
-    (void)overlay.layout({}, 1, 1, 0.0);
-    (void)overlay.layout(some_facts(), 1, 1, 10.0);
+    (void)lay_out(gui, {}, 1, 1, 0.0);
+    (void)lay_out(gui, some_facts(), 1, 1, 10.0);
   }
 }
 
@@ -82,9 +89,9 @@ TEST(OverlayPass, BlendsExactlyInsideItsClip) {
   auto device = gpu::Device::create(options);
   if (!device) FAIL() << device.error().message;  // every platform of ours has a device
   constexpr std::uint32_t kSize = 16;
-  constexpr unsigned char kCovered[4] = {255, 255, 255, 255};
+  constexpr unsigned char kCovered[4] = {255, 255, 255, 255}, kRed[4] = {255, 0, 0, 255};
   {
-    auto pass = OverlayPass::create(**device, {2, 2, kCovered});
+    auto pass = OverlayPass::create(**device, {{2, 2, kCovered}, {1, 1, kRed}});
     ASSERT_TRUE(pass) << pass.error().message;
     auto image = (*device)->create_image({.name = "canvas",
                                           .format = VK_FORMAT_R8G8B8A8_UNORM,
@@ -94,7 +101,7 @@ TEST(OverlayPass, BlendsExactlyInsideItsClip) {
                                                    VK_IMAGE_USAGE_TRANSFER_DST_BIT});
     ASSERT_TRUE(image);
     // One half-transparent red triangle that covers everything, cut to x 4..12, y 2..6.
-    OverlayTriangles triangles;
+    ui::OverlayTriangles triangles;
     triangles.clips.emplace_back(4.0f, 2.0f, 12.0f, 6.0f);
     for (const glm::vec2 corner : {glm::vec2(-20, -20), glm::vec2(60, -20), glm::vec2(-20, 60)}) {
       triangles.vertices.push_back({corner, {0.5f, 0.5f}, 0x800000FFu, 0});

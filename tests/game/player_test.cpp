@@ -8,6 +8,8 @@
 #include <glm/trigonometric.hpp>
 #include <random>
 
+#include "tests/game/test_world.h"
+
 namespace skerry::game {
 namespace {
 
@@ -18,59 +20,12 @@ using world::WorldPos;
 
 constexpr std::int64_t kUnit = world::kUnitsPerBlock;
 
-WorldPos at_blocks(double x, double y, double z) {
-  return world::moved({}, {x, y, z});
-}
-
-/// Islands made of functions: pose of time, block of voxel.
-class TestWorld : public Surroundings {
- public:
-  struct Island {
-    std::function<Pose(double)> pose;
-    std::function<std::optional<BlockId>(IVec3)> block;
-    double radius = 64.0;
-  };
-  std::vector<Island> islands;
-
-  void islands_near(WorldPos place, double radius, double time_s,
-                    std::vector<std::uint64_t>& out) const override {
-    out.clear();
-    for (std::size_t i = 0; i < islands.size(); ++i) {
-      const auto to = world::difference_blocks(place, islands[i].pose(time_s).origin);
-      if (glm::length(to) <= islands[i].radius + radius) out.push_back(i);
-    }
-  }
-  std::optional<Pose> pose(std::uint64_t island, double time_s) const override {
-    if (island >= islands.size()) return std::nullopt;
-    return islands[island].pose(time_s);
-  }
-  std::optional<BlockId> block(std::uint64_t island, IVec3 voxel) const override {
-    return islands[island].block(voxel);
-  }
-};
-
-Pose still(WorldPos origin) {
-  return {origin, glm::dquat(1.0, 0.0, 0.0, 0.0)};
-}
-
-Pose turning(WorldPos origin, double rad_per_s, double time_s) {
-  return {origin, glm::angleAxis(rad_per_s * time_s, glm::dvec3(0.0, 1.0, 0.0))};
-}
-
-/// Stone below y = 0.
-std::optional<BlockId> plain(IVec3 v) {
-  return v.y < 0 ? world::block::kStone : world::block::kAirBlock;
-}
-
 /// A box full of random stone in [-24, 24)^3 with a closed stone wall around it, decided by a hash
 /// of the voxel.
 std::optional<BlockId> rubble(IVec3 v, std::uint32_t seed, std::uint32_t percent) {
   const int edge = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (edge >= 24) return edge < 27 ? world::block::kStone : world::block::kAirBlock;
-  std::uint32_t h = seed;
-  for (const int c : {v.x, v.y, v.z})
-    h = (h ^ static_cast<std::uint32_t>(c + 1000)) * 2654435761u, h ^= h >> 15;
-  return h % 100 < percent ? world::block::kStone : world::block::kAirBlock;
+  return voxel_hash(v, seed) % 100 < percent ? world::block::kStone : world::block::kAirBlock;
 }
 
 /// The truth, voxel by voxel and independent of the sweep: volume shared with any solid.
@@ -91,10 +46,6 @@ double solid_volume(const TestWorld& world, std::size_t island, const glm::dvec3
     }
   }
   return volume;
-}
-
-glm::dvec3 lattice_of(const Pose& pose, WorldPos place) {
-  return glm::conjugate(pose.rotation) * world::difference_blocks(place, pose.origin);
 }
 
 /// The first free place in a rubble box, scanning upwards from a random column.
@@ -351,6 +302,182 @@ TEST(Player, DirectionsFollowTheConventions) {
   EXPECT_TRUE(
       near(flown(0.0, {{1.0, 0.0}, 0.0, false, false}), {-1, 0, 0}));  // right of south is west
   EXPECT_TRUE(near(flown(0.0, {{0.0, 0.0}, 1.0, false, false}), {0, 1, 0}));
+}
+
+TEST(Player, WalksUpLedgesOfOneBlockButNotOfTwo) {
+  for (const int height : {1, 2}) {
+    TestWorld world;
+    world.islands.push_back({[](double) { return still({}); },
+                             [=](IVec3 v) {
+                               return v.y < (v.z < 3 ? 0 : height) ? world::block::kStone
+                                                                   : world::block::kAirBlock;
+                             }});
+    Player player(at_blocks(0.5, 0.01, 0.5), 0.0, 0.0, 0.0);
+    for (int i = 0; i < 90; ++i) player.advance(1.0 / 60.0, {{0.0, 1.0}}, world);
+    const glm::dvec3 feet = world::difference_blocks(player.feet(), {});
+    EXPECT_NEAR(feet.y, height == 1 ? 1.0 : 0.0, 0.001);
+    EXPECT_EQ(feet.z > 3.5, height == 1) << feet.z;
+  }
+}
+
+TEST(Player, TheEyeFollowsAStepSmoothly) {
+  // Stairs of one block each: no frame of a hundredth of a second may lift the eye by a quarter
+  // block, and two seconds after the stairs it is at its height above the feet.
+  TestWorld world;
+  world.islands.push_back({[](double) { return still({}); },
+                           [](IVec3 v) {
+                             const int top = std::clamp(v.z / 3, 0, 4);
+                             return v.y < top ? world::block::kStone : world::block::kAirBlock;
+                           }});
+  Player player(at_blocks(0.5, 0.01, 0.5), 0.0, 0.0, 0.0);
+  double last = world::difference_blocks(player.eye(world).position, {}).y;
+  for (int frame = 0; frame < 500; ++frame) {
+    player.advance(0.01, {{0.0, 1.0}}, world);
+    const double height = world::difference_blocks(player.eye(world).position, {}).y;
+    ASSERT_LT(height - last, 0.25) << frame;
+    last = height;
+  }
+  EXPECT_NEAR(last, 4.0 + kEyeHeight, 0.01);
+}
+
+TEST(Player, WhoeverCrouchesStaysOnTheEdge) {
+  for (const double spin : {0.0, 0.2}) {
+    TestWorld world;
+    world.islands.push_back({[=](double t) { return turning(at_blocks(3.0, 1.0, 2.0), spin, t); },
+                             [](IVec3 v) {
+                               return v.y == -1 && std::abs(v.x) < 3 && std::abs(v.z) < 3
+                                          ? world::block::kStone
+                                          : world::block::kAirBlock;
+                             }});
+    std::mt19937 random(5);
+    Player player(at_blocks(3.0, 1.01, 2.0), 0.0, 0.0, 0.0);
+    player.advance(0.5, {}, world);
+    Intent outwards{{0.0, 1.0}};
+    outwards.crouch = true;
+    double farthest = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+      if (i % 50 == 0) player.turn(static_cast<double>(random() % 360), 0.0);
+      player.advance(1.0 / 60.0, outwards, world);
+      ASSERT_TRUE(player.on_ground()) << i;
+      const glm::dvec3 feet =
+          lattice_of(world.pose(0, player.tick_time_s()).value(), player.feet());
+      farthest = std::max({farthest, std::abs(feet.x), std::abs(feet.z)});
+    }
+    EXPECT_GT(farthest, 2.9) << "never came to an edge";
+    // Without crouching the same walk ends below.
+    outwards.crouch = false;
+    player.advance(2.5, outwards, world);
+    EXPECT_FALSE(player.on_ground());
+  }
+}
+
+TEST(Player, NoSolidStopsNoclipAndLeavingItInsideOneFreesThem) {
+  TestWorld world;
+  world.islands.push_back({[](double) { return still({}); }, plain});
+  Player player(at_blocks(0.5, 2.0, 0.5), 0.0, -90.0, 0.0);
+  player.set_mode(MoveMode::kNoclip);
+  player.advance(2.0, {{}, -1.0}, world);
+  EXPECT_LT(world::difference_blocks(player.feet(), {}).y, -15.0);
+  player.set_mode(MoveMode::kWalk);
+  player.advance(1.0, {}, world);
+  EXPECT_NEAR(world::difference_blocks(player.feet(), {}).y, 0.0, 0.001);
+}
+
+TEST(Player, FallingOffTheWorldEndsOnGroundThatHeld) {
+  TestWorld world;
+  const auto pose = [](double t) { return still(world::moved({}, {2.0 * t, 0.0, 0.0})); };
+  world.islands.push_back({pose,
+                           [](IVec3 v) {
+                             return v.y == -1 && std::abs(v.x) < 8 && std::abs(v.z) < 8
+                                        ? world::block::kStone
+                                        : world::block::kAirBlock;
+                           },
+                           12.0});
+  Player player(at_blocks(0.5, 0.01, 0.5), 0.0, 0.0, 0.0);
+  player.advance(1.0, {}, world);
+  ASSERT_TRUE(player.on_ground());
+  for (int i = 0; i < 3000 && player.returns() == 0; ++i)
+    player.advance(1.0 / 60.0, {{0.0, 1.0}, 0.0, false, true}, world);
+  ASSERT_EQ(player.returns(), 1);
+  EXPECT_GT(player.return_fade(), 0.9);
+  player.advance(kReturnFade + 0.1, {}, world);
+  EXPECT_EQ(player.return_fade(), 0.0);
+  EXPECT_TRUE(player.on_ground());
+  const glm::dvec3 feet = lattice_of(pose(player.tick_time_s()), player.feet());
+  EXPECT_NEAR(feet.y, 0.0, 0.001);
+  EXPECT_LT(std::max(std::abs(feet.x), std::abs(feet.z)), 8.0);
+  // The ground taken away under every place they know: back to where they began.
+  world.islands[0].block = [](IVec3) { return world::block::kAirBlock; };
+  for (int i = 0; i < 3000 && player.returns() == 1; ++i) player.advance(1.0 / 60.0, {}, world);
+  EXPECT_EQ(player.returns(), 2);
+  EXPECT_LT(glm::length(world::difference_blocks(player.feet(), at_blocks(0.5, 0.01, 0.5))), 1.0);
+}
+
+TEST(Player, AFallOntoALowerIslandIsNoLoss) {
+  TestWorld world;
+  const auto floor_at = [](int x_low, int top) {
+    return [=](IVec3 v) {
+      return v.y < top && v.y > top - 4 && v.x >= x_low && v.x < x_low + 20
+                 ? world::block::kStone
+                 : world::block::kAirBlock;
+    };
+  };
+  world.islands.push_back({[](double) { return still({}); }, floor_at(-10, 0), 30.0});
+  world.islands.push_back(
+      {[](double) { return still(at_blocks(0.0, -140.0, 0.0)); }, floor_at(10, 0), 60.0});
+  Player player(at_blocks(8.5, 0.01, 0.5), 90.0, 0.0, 0.0);
+  for (int i = 0; i < 600; ++i) player.advance(1.0 / 60.0, {{0.0, i < 60 ? 1.0 : 0.0}}, world);
+  EXPECT_EQ(player.returns(), 0);
+  EXPECT_EQ(player.frame_island(), 1u);
+  EXPECT_TRUE(player.on_ground());
+}
+
+TEST(Player, SteppingToAnotherIslandKeepsTheVelocityInTheWorld) {
+  // The second island slides past sideways; whoever comes onto it slides on it at first, against
+  // its motion, and comes to rest on it.
+  TestWorld world;
+  const glm::dvec3 slide{0.0, 0.0, 3.0};
+  world.islands.push_back({[](double) { return still({}); },
+                           [](IVec3 v) {
+                             return v.y == -1 && v.x < 2 ? world::block::kStone
+                                                         : world::block::kAirBlock;
+                           }});
+  world.islands.push_back({[=](double t) { return still(world::moved({}, slide * t)); },
+                           [](IVec3 v) {
+                             return v.y == -1 && v.x >= 2 ? world::block::kStone
+                                                          : world::block::kAirBlock;
+                           }});
+  Player player(at_blocks(0.0, 0.01, 0.5), 90.0, 0.0, 0.0);
+  player.advance(0.5, {}, world);
+  ASSERT_EQ(player.frame_island(), 0u);
+  double world_speed = 0.0;
+  for (int i = 0; i < 600 && player.frame_island() != 1u; ++i) {
+    world_speed = player.velocity().z;
+    player.advance(kTickSeconds, {{0.0, 1.0}}, world);
+  }
+  ASSERT_EQ(player.frame_island(), 1u);
+  EXPECT_NEAR(player.velocity().z + slide.z, world_speed, 0.3);  // one tick's grip
+  EXPECT_NEAR(player.velocity().x, 4.5, 0.3);
+  player.advance(2.0, {}, world);
+  EXPECT_NEAR(glm::length(player.velocity()), 0.0, 1e-9);
+  EXPECT_EQ(player.frame_island(), 1u);
+}
+
+TEST(Player, SwimmersClimbOutOntoTheShore) {
+  TestWorld world;
+  world.islands.push_back({[](double) { return still({}); },
+                           [](IVec3 v) {
+                             if (v.z >= 3)
+                               return v.y < 0 ? world::block::kStone : world::block::kAirBlock;
+                             return v.y < -6  ? world::block::kStone
+                                    : v.y < 0 ? world::block::kWater
+                                              : world::block::kAirBlock;
+                           }});
+  Player player(at_blocks(0.5, -4.0, 0.5), 0.0, 0.0, 0.0);
+  player.advance(4.0, {{0.0, 1.0}, 0.0, true, false}, world);
+  const glm::dvec3 feet = world::difference_blocks(player.feet(), {});
+  EXPECT_GE(feet.y, 0.0);
+  EXPECT_GT(feet.z, 3.5);
 }
 
 }  // namespace

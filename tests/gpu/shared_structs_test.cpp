@@ -19,6 +19,7 @@
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/light.h"
+#include "shaders/shared/marker.h"
 #include "shaders/shared/occupancy.h"
 #include "shaders/shared/overlay.h"
 #include "shaders/shared/sky.h"
@@ -120,8 +121,9 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(Light, island_count)),
       STRUCT(ClusterGrid, MEMBER(ClusterGrid, right), MEMBER(ClusterGrid, up),
              MEMBER(ClusterGrid, forward), MEMBER(ClusterGrid, tan_half), MEMBER(ClusterGrid, size),
-             MEMBER(ClusterGrid, near_plane), MEMBER(ClusterGrid, tiles_x),
-             MEMBER(ClusterGrid, tiles_y), MEMBER(ClusterGrid, bins_x), MEMBER(ClusterGrid, bins_y),
+             MEMBER(ClusterGrid, near_plane), MEMBER(ClusterGrid, edge_log2),
+             MEMBER(ClusterGrid, tiles_x), MEMBER(ClusterGrid, tiles_y),
+             MEMBER(ClusterGrid, bins_x), MEMBER(ClusterGrid, bins_y),
              MEMBER(ClusterGrid, light_count), MEMBER(ClusterGrid, light_words),
              MEMBER(ClusterGrid, chunk_words), MEMBER(ClusterGrid, chunks),
              MEMBER(ClusterGrid, unit_log2), MEMBER(ClusterGrid, capacity),
@@ -132,6 +134,11 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(ClusterWork, MEMBER(ClusterWork, groups_x), MEMBER(ClusterWork, groups_y),
              MEMBER(ClusterWork, groups_z), MEMBER(ClusterWork, clusters),
              MEMBER(ClusterWork, units)),
+      STRUCT(MarkerConstants, MEMBER(MarkerConstants, eye), MEMBER(MarkerConstants, right),
+             MEMBER(MarkerConstants, up), MEMBER(MarkerConstants, forward),
+             MEMBER(MarkerConstants, size), MEMBER(MarkerConstants, first),
+             MEMBER(MarkerConstants, end), MEMBER(MarkerConstants, half_width),
+             MEMBER(MarkerConstants, dug)),
       STRUCT(OverlayConstants, MEMBER(OverlayConstants, ndc_from_pixel)),
   };
 #undef STRUCT

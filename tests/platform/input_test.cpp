@@ -53,5 +53,23 @@ TEST(Input, PointerMotionAddsUpAndJumpsDoNotCount) {
   EXPECT_EQ(input.take().scroll, 0.0);
 }
 
+TEST(HeldBack, WhatWasHeldMeansNothingUntilItHasGoneUp) {
+  Input input;
+  HeldBack held_back;
+  input.set_key(Key::kE, true);
+  input.type(U'e');
+  held_back.hold(input.take());
+  input.type(U'e');  // key repeat
+  input.set_key(Key::kW, true);
+  const InputFrame opened = held_back.filtered(input.take());
+  EXPECT_FALSE(opened.down(Key::kE) || opened.pressed(Key::kE));
+  EXPECT_TRUE(opened.pressed(Key::kW));
+  EXPECT_TRUE(opened.text.empty());
+  input.set_key(Key::kE, false);
+  EXPECT_FALSE(held_back.filtered(input.take()).released(Key::kE));
+  input.set_key(Key::kE, true);
+  EXPECT_TRUE(held_back.filtered(input.take()).pressed(Key::kE));
+}
+
 }  // namespace
 }  // namespace skerry::platform

@@ -70,7 +70,7 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
   if (needs_source && !a.text.seed && !a.text.world && !a.scene_file) {
     return usage({"there is nothing to draw: give --seed N, --world PATH or --scene FILE.json"});
   }
-  game::SceneText from_file;
+  game::SceneText from_file = a.usual;
   if (a.scene_file) {
     const auto file = platform::read_text(*a.scene_file, game::kMaxSceneBytes);
     if (!file) return Refusal{kFailed, file.error()};

@@ -22,6 +22,7 @@ struct SceneArguments {
   game::SceneText text;
   std::optional<std::string> scene_file, device, renderer, shading;
   bool validate = false;
+  game::SceneText usual;  ///< below everything typed; a scene file is taken in its place
 };
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments);

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/log.h"
 #include "game/parse.h"
+#include "game/preferences.h"
 #include "tools/skerry/arguments.h"
 #include "tools/skerry/bench_commands.h"
 #include "tools/skerry/devices.h"
@@ -82,10 +84,16 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 }
 
 int CommandLine::run_play() {
+  game::ReadPreferences read = game::load_preferences(game::preferences_path());
+  for (const std::string& problem : read.problems) log_warning(problem);
+  scene.usual = std::move(read.scene);
+  if (scene.text.quality) scene.usual.settings.clear();  // they are changes of another level
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
   if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
-  return play_command(options);
+  const bool asked_for =
+      scene.text.seed || scene.text.world || scene.text.camera || scene.scene_file;
+  return play_command(options, !asked_for);
 }
 
 int CommandLine::run_shot() {

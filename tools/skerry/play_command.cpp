@@ -27,7 +27,7 @@ class Surface {
 
 }  // namespace
 
-int play_command(const game::SceneOptions& scene) {
+int play_command(const game::SceneOptions& scene, bool at_title) {
   const platform::WindowOptions wanted{static_cast<int>(scene.size.width),
                                        static_cast<int>(scene.size.height), "Skerry"};
   auto window = platform::Window::create(wanted);
@@ -37,7 +37,7 @@ int play_command(const game::SceneOptions& scene) {
   const auto surface = (*window)->create_surface((*device)->instance());
   if (!surface) return fail(kFailed, surface.error());
   const Surface owned((*device)->instance(), *surface);
-  const auto played = game::play(**window, **device, owned.handle(), scene);
+  const auto played = game::play(**window, **device, owned.handle(), scene, at_title);
   if (!played) return fail(kFailed, played.error());
   return status_after(**device);
 }

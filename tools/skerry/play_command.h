@@ -4,7 +4,7 @@
 namespace skerry::tools {
 
 /// Opens a window and plays until it is closed. @return the exit status of the command-line
-/// contract; failures print one line on stderr.
-int play_command(const game::SceneOptions& scene);
+/// contract; failures print one line on stderr. @param at_title see game::play.
+int play_command(const game::SceneOptions& scene, bool at_title);
 
 }  // namespace skerry::tools

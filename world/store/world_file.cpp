@@ -30,6 +30,7 @@ Result<void> check_header(const fs::path& path) {
   const fs::file_status status = fs::status(path, code);
   if (status.type() == fs::file_type::not_found)
     return refuse("it does not exist", "use --seed for a new world");
+  if (status.type() == fs::file_type::none) return refuse(code.message(), "check the path");
   if (status.type() == fs::file_type::directory) return refuse("it is a folder", "name a file");
   if (status.type() != fs::file_type::regular) return refuse("it is no file", "name a file");
   std::array<char, 100> header{};  // of SQLite; big-endian numbers at 60 and 68

@@ -121,11 +121,7 @@ class WorldFile {
 struct LoadedWorld {
   std::unique_ptr<World> world;
   /// Islands that left their course, ascending ids; for IslandMotion. They stand where they stood.
-  struct Moving {
-    std::uint64_t island;
-    MotionState state;
-  };
-  std::vector<Moving> moving;
+  std::vector<MovingIsland> moving;
 };
 
 /// Makes a world of everything a file holds. What does not fit the world (an island that its seed

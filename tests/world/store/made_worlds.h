@@ -14,6 +14,13 @@
 
 namespace skerry::world {
 
+inline IslandSpec spec_of(std::uint64_t id, WorldPos origin = {}) {
+  IslandSpec spec;
+  spec.id = id;
+  spec.origin = origin;
+  return spec;
+}
+
 inline WorldInfo info_of_seed_4() {
   WorldInfo info{"Fjord", "4", {}};
   info.desc.seed = 4;

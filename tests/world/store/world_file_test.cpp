@@ -135,7 +135,7 @@ TEST(WorldFile, EditsTakenBackLeaveNoRow) {
   ASSERT_TRUE(file);
   for (const bool some : {true, false}) {
     auto transaction = (*file)->begin();
-    transaction.put_island({IslandSpec{.id = 9}});
+    transaction.put_island({spec_of(9)});
     transaction.put_edits(9, {}, some ? ChunkEdits{{1, block::kStone}} : ChunkEdits{});
     ASSERT_TRUE(transaction.commit());
     EXPECT_EQ((*file)->read().edits.size(), some ? 1u : 0u);
@@ -254,12 +254,12 @@ TEST(WorldFile, FlippedAndTornBytesAreToldAndTheRestIsRead) {
   {
     auto file = WorldFile::create(folder / "good", info_of_seed_4());
     ASSERT_TRUE(file);
-    given = fill(**file, rng, 12);
+    given = fill(**file, rng, 8);
   }
   std::ifstream in(folder / "good", std::ios::binary);
   const std::string good{std::istreambuf_iterator<char>(in), {}};
   const std::size_t all = given.edits.size() + given.chunks.size();
-  constexpr int kRounds = 150;
+  constexpr int kRounds = 90;
   int unreadable = 0;
   std::size_t read = 0;
   for (int round = 0; round < kRounds; ++round) {
@@ -281,7 +281,7 @@ TEST(WorldFile, FlippedAndTornBytesAreToldAndTheRestIsRead) {
     }
     const std::size_t found = expect_same(given, (*file)->read());
     read += found;
-    if (found < all) EXPECT_FALSE((*file)->damage().empty()) << "lost in silence at " << at;
+    EXPECT_TRUE(found == all || !(*file)->damage().empty()) << "lost in silence at " << at;
     for (const std::string& line : (*file)->damage()) EXPECT_EQ(line.find('\n'), std::string::npos);
   }
   // The first page, the tables' roots and the info take the whole file along.
@@ -301,7 +301,7 @@ TEST(WorldFile, AFullDiskIsToldAndNothingIsLost) {
     Rng rng(5);
     const auto save = [&](int count) {
       auto transaction = (*file)->begin();
-      transaction.put_island({IslandSpec{.id = 9}, true});
+      transaction.put_island({spec_of(9), true});
       for (int i = 0; i < count; ++i) transaction.put_chunk(9, {i, 0, 0}, random_chunk(rng));
       return transaction.commit();
     };
@@ -328,9 +328,9 @@ TEST(WorldFile, WithoutPermissionItIsReadButNotWritten) {
   const Folder folder;
   const fs::path path = folder / "w";
   ASSERT_TRUE(WorldFile::create(path, info_of_seed_4()));
-  fs::permissions(folder.path(),
-                  fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
-  fs::permissions(path, fs::perms::owner_read | fs::perms::others_read);
+  // Root, as which tests may run, may do everything: the child is somebody else.
+  fs::permissions(folder.path(), static_cast<fs::perms>(0555));
+  fs::permissions(path, static_cast<fs::perms>(0444));
   const pid_t child = ::fork();
   if (child == 0) {
     constexpr uid_t kNobody = 65534;
@@ -344,6 +344,7 @@ TEST(WorldFile, WithoutPermissionItIsReadButNotWritten) {
   int status = -1;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
+  fs::permissions(folder.path(), fs::perms::owner_all);  // so that it can be taken away
 }
 
 TEST(LoadWorld, EditsIslandsAndMotionsComeBackExactly) {
@@ -364,9 +365,9 @@ TEST(LoadWorld, EditsIslandsAndMotionsComeBackExactly) {
     auto transaction = (*file)->begin();
     transaction.put_island({home, false, motion});
     transaction.put_edits(home.id, {0, 0, 0}, edits);
-    transaction.put_island({IslandSpec{.id = 77, .origin = {5, 6, 7}}, true});
+    transaction.put_island({spec_of(77, {5, 6, 7}), true});
     transaction.put_chunk(77, {-1, 0, 0}, chunk);
-    transaction.put_island({IslandSpec{.id = 1, .origin = {}}});  // of no seed
+    transaction.put_island({spec_of(1)});  // of no seed
     transaction.put_edits(1, {0, 0, 0}, edits);
     ASSERT_TRUE(transaction.commit());
   }

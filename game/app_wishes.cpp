@@ -1,0 +1,195 @@
+// What screens ask for: worlds begin and end, settings are kept.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <random>
+
+#include "engine/core/log.h"
+#include "engine/gpu/readback.h"
+#include "engine/platform/files.h"
+#include "engine/platform/image_file.h"
+#include "game/app.h"
+#include "game/open_world.h"
+#include "game/preferences.h"
+#include "world/store/world_file.h"
+
+namespace skerry::game {
+namespace {
+
+using ui::Screen;
+
+constexpr double kPreviewDelay = 0.5;  // seconds after the last letter of a seed
+constexpr const char* kTitleSeed = "skerry";
+constexpr std::uint32_t kBackdropView = 300;  // blocks
+
+}  // namespace
+
+void App::say(std::string line) {
+  log_warning(line);
+  messages_.say(std::move(line));
+}
+
+Result<void> App::fulfil(const ui::Wishes& wishes) {
+  if (wishes.settings_changed) {
+    settings_changed_ = true;
+    fresh_frames_ = kMeasuringFrames;
+    follow_settings();
+  }
+  bindings_changed_ |= wishes.bindings_changed;
+  if (wishes.photograph) world_->want_screenshot();
+  if (wishes.take) world_->hotbar().take(*wishes.take);
+  if (wishes.draw_lots) draw_lots();
+  if (wishes.preview || wishes.draw_lots) preview_due_s_ = kPreviewDelay;
+  if (wishes.remove) {
+    if (const auto removed = remove_world(*wishes.remove); !removed) say(removed.error().message);
+    screens_.chosen_world.reset();
+    list_again();
+  }
+  if (wishes.create) return create_world(*wishes.create);
+  if (wishes.play) return play_file(*wishes.play);
+  if (wishes.quit) window_.close();
+  if (!wishes.leave_world) return {};
+  leave_world();
+  list_again();
+  screens_.stack.clear();
+  open(Screen::kTitle);
+  return set_backdrop(Backdrop::View::kAround, "");
+}
+
+Result<void> App::set_backdrop(Backdrop::View view, const std::string& seed_text) {
+  SceneOptions options = base_;
+  options.camera.reset();
+  options.seed_text = seed_text.empty() ? kTitleSeed : seed_text;
+  options.settings.view_distance = std::min(options.settings.view_distance, kBackdropView);
+  backdrop_.reset();  // two at a time would need twice the memory
+  auto made = Backdrop::create(device_, options, view);
+  if (!made) return made.error();
+  backdrop_ = *std::move(made);
+  return {};
+}
+
+void App::draw_lots() {
+  std::random_device entropy;
+  const std::string seed = ui::seed_from((std::uint64_t{entropy()} << 32) | entropy());
+  screens_.new_seed.fill('\0');
+  std::memcpy(screens_.new_seed.data(), seed.data(), seed.size());
+}
+
+Result<void> App::play(const SceneOptions& options, std::string name) {
+  backdrop_.reset();
+  auto view = SceneView::create(device_, options);
+  if (!view) return view.error();
+  world_ = std::make_unique<PlayLoop>(window_, device_, *presenter_, bindings_, options,
+                                      *std::move(view));
+  world_path_ = options.world;
+  world_name_ = std::move(name);
+  costs_ = {};
+  screens_.stack.clear();
+  return {};
+}
+
+void App::leave_world() {
+  if (!world_) return;
+  keep_picture();
+  world_.reset();
+  world_path_.reset();
+  costs_ = {};
+}
+
+/// The last picture, small, beside the world's file: for the list.
+void App::keep_picture() {
+  if (!world_path_) return;
+  gpu::Image& picture = world_->view().renderer().picture();
+  const auto pixels = gpu::read_back(device_, picture, 4);
+  if (!pixels) return say(pixels.error().message);
+  const VkExtent2D size = picture.desc().extent;
+  const ui::Rgba small =
+      ui::thumbnail_of(static_cast<int>(size.width), static_cast<int>(size.height),
+                       {reinterpret_cast<const std::uint8_t*>(pixels->data()), pixels->size()});
+  const auto written = platform::write_png(
+      picture_of_world(*world_path_), {static_cast<std::uint32_t>(small.width),
+                                       static_cast<std::uint32_t>(small.height), 4, small.pixels});
+  if (!written) say(written.error().message);
+}
+
+/// What the player has set is of every world from now on.
+void App::follow_settings() {
+  if (!world_) {
+    backdrop_->view().settings() = base_.settings;
+    return;
+  }
+  SceneText kept = chosen_by_player(world_->scene(), world_->settings());
+  base_.quality = world_->scene().quality;
+  base_.fov_deg = world_->scene().fov_deg;
+  set_quality(base_.quality, base_.settings);
+  for (const std::string& assignment : kept.settings)
+    (void)apply_setting(assignment, base_.settings);
+}
+
+void App::keep_settings() {
+  if (std::exchange(settings_changed_, false))
+    if (const auto saved = save_preferences(preferences_path(), base_); !saved)
+      say(saved.error().message);
+  if (std::exchange(bindings_changed_, false))
+    if (const auto saved = save_bindings(bindings_path(), bindings_); !saved)
+      say(saved.error().message);
+}
+
+Result<void> App::play_file(const std::string& path) {
+  const Result<SceneText> saved = scene_of_world(path);
+  const auto file = world::WorldFile::open(path, world::WorldFile::Mode::kRead);
+  if (!saved || !file) {
+    say(!saved ? saved.error().message : file.error().message);
+    list_again();
+    return {};
+  }
+  SceneOptions options = base_;
+  options.world = path;
+  options.seed_text = (*file)->info().seed_text;
+  const Result<SceneOptions> left = make_scene(*saved, {});
+  if (!left) return left.error();
+  options.camera = left->camera;
+  options.time_of_day_s = left->time_of_day_s;
+  options.settings.world_time_s = left->settings.world_time_s;
+  return play(options, (*file)->info().name);
+}
+
+Result<void> App::create_world(const ui::Wishes::NewWorld& wanted) {
+  world::WorldInfo info;
+  info.name = wanted.name.empty() ? "World " + wanted.seed_text : wanted.name;
+  info.seed_text = wanted.seed_text;
+  info.desc.seed = world::seed_from_text(wanted.seed_text);
+  const std::filesystem::path path = new_world_path(info.name);
+  if (const auto made = platform::make_dirs(path.parent_path()); !made) {
+    say(made.error().message);
+    return {};
+  }
+  if (const auto file = world::WorldFile::create(path, info); !file) {
+    say(file.error().message);
+    return {};
+  }
+  return play_file(path.string());
+}
+
+void App::list_again() {
+  cards_.clear();
+  int slot = 0;
+  for (const WorldEntry& entry : list_worlds(worlds_dir())) {
+    ui::WorldCard card{entry.path.string(), entry.name, entry.seed_text, entry.played_s,
+                       entry.bytes,         -1,         entry.problem};
+    if (slot < ui::Pictures::kThumbnails) {
+      const auto image = platform::read_png(picture_of_world(entry.path));
+      if (image) {
+        pictures_.set_thumbnail(
+            slot, ui::thumbnail_of(static_cast<int>(image->width), static_cast<int>(image->height),
+                                   image->pixels));
+        card.thumbnail = slot++;
+      }
+    }
+    cards_.push_back(std::move(card));
+  }
+}
+
+}  // namespace skerry::game

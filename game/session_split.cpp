@@ -1,0 +1,125 @@
+// Islands that break, and shapes of islands that move: worked out beside the frame.
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "game/session_state.h"
+
+namespace skerry::game {
+namespace {
+
+// Beyond so many voxels a shape is made anew rather than told of each.
+constexpr std::uint64_t kNamedVoxels = 4096;
+
+std::vector<world::IVec3> voxels_of(const world::Fragment& fragment) {
+  std::vector<world::IVec3> out;
+  if (fragment.mass.blocks > kNamedVoxels) return out;
+  for (const auto& [at, bits] : fragment.bricks) {
+    for (int y = 0; y < world::BitBrick::kEdge; ++y) {
+      for (std::uint64_t layer = bits.layers[y]; layer != 0; layer &= layer - 1) {
+        const int bit = std::countr_zero(layer);
+        out.push_back({at.x * 8 + bit / 8, at.y * 8 + y, at.z * 8 + bit % 8});
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+/// An edit was made: motion and the search for fragments follow it.
+void Session::State::follow_edit(const Edit& edit, world::BlockId was) {
+  const bool solid = world::is_solid(edit.block);
+  if (solid == world::is_solid(was)) return;
+  motion.edited(edit.island, {&edit.voxel, 1}, solid);
+  worker.add([this, edit, solid, at_s = time_s] { look_for_fragments(edit, solid, at_s); });
+}
+
+/// @param at_s the world's time; where the island is decides where its pieces are first seen.
+void Session::State::look_for_fragments(const Edit& edit, bool solid, double at_s) {
+  const std::uint64_t island = edit.island;
+  const auto found = std::find_if(grids.begin(), grids.end(), [&](const KnownGrid& known) {
+    return known.grid && known.island == island;
+  });
+  if (found == grids.end() && solid) return;  // what is not known breaks off nothing
+  if (found == grids.end()) {
+    grids.back() = {
+        island, std::make_unique<world::SolidGrid>(world::SolidGrid::of_island(*world, island))};
+    std::rotate(grids.begin(), grids.end() - 1, grids.end());
+  } else {
+    std::rotate(grids.begin(), found, found + 1);
+  }
+  world::SolidGrid& grid = *grids.front().grid;
+  grid.set(edit.voxel, solid);
+  if (solid) return;
+  for (const world::Fragment& fragment : world::find_fragments(grid, {&edit.voxel, 1}).fragments) {
+    BrokenPiece piece;
+    piece.broken_off = island;
+    piece.mass = fragment.mass;
+    piece.voxels = voxels_of(fragment);
+    const std::optional<world::Pose> pose = world->pose(island, at_s);
+    if (!pose) return;
+    {
+      const std::scoped_lock lock(breaking, saving);
+      const world::BrokenOff off = world::break_off(*world, island, fragment, *pose);
+      piece.island = off.island;
+      piece.shift = fragment.mass.centre - off.mass.centre;
+      const std::lock_guard unsaved_lock(unsaved_mutex);
+      unsaved.islands.insert(off.island);
+      for (const auto& [at, bits] : fragment.bricks) {
+        // Plants and water above went along, up to the next chunk.
+        const world::IVec3 chunk{at.x >> 3, at.y >> 3, at.z >> 3};
+        unsaved.chunks.insert({island, chunk});
+        unsaved.chunks.insert({island, {chunk.x, chunk.y + 1, chunk.z}});
+      }
+      for (const world::IVec3& chunk : world->chunks(off.island, 0))
+        unsaved.chunks.insert({off.island, chunk});
+    }
+    for (const auto& [at, bits] : fragment.bricks) grid.clear(at, bits);
+    piece.shape = std::make_unique<world::Shape>(world::SolidGrid::of_island(*world, piece.island));
+    pieces.put(std::move(piece));
+  }
+}
+
+/// Frame thread: pieces fly on as their voxels did.
+void Session::State::take_in_pieces() {
+  for (BrokenPiece& piece : pieces.take()) {
+    const auto was = motion.motion_at(piece.broken_off, piece.mass.centre);
+    if (!was) continue;
+    world::MotionState state;
+    state.pose = {world::moved(was->pose.origin, was->pose.rotation * piece.shift),
+                  was->pose.rotation};
+    state.velocity = was->velocity;
+    state.spin = was->spin;
+    motion.add(piece.island, state, std::move(piece.shape));
+    ++edit_counts[piece.broken_off];
+    if (piece.voxels.empty()) {
+      motion.reshape(piece.broken_off);
+    } else {
+      motion.edited(piece.broken_off, piece.voxels, false);
+    }
+    answers.put(IslandAdded{piece.island, piece.broken_off, piece.mass.blocks});
+  }
+}
+
+/// Shapes are made on the worker. One that edits have overtaken is made again.
+std::unique_ptr<world::Shape> Session::State::shape_for(std::uint64_t island) {
+  const std::uint64_t edits = edit_counts[island];
+  const auto found = shapes.find(island);
+  if (found != shapes.end()) {
+    std::vector<std::unique_ptr<world::Shape>> made = found->second.box->take();
+    if (made.empty()) return nullptr;
+    const bool fresh = found->second.edits == edits;
+    shapes.erase(found);
+    if (fresh) return std::move(made.front());
+  }
+  ShapeOnItsWay& way = shapes[island];
+  way.edits = edits;
+  way.box = std::make_shared<Mailbox<std::unique_ptr<world::Shape>>>();
+  worker.add([this, island, box = way.box] {
+    box->put(std::make_unique<world::Shape>(world::SolidGrid::of_island(*world, island)));
+  });
+  return nullptr;
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,71 @@
+// Dear ImGui, fed with our input and drawn by our pass.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/platform/input.h"
+#include "game/ui/fonts.h"
+#include "game/ui/triangles.h"
+
+struct ImGuiContext;
+
+namespace skerry::game::ui {
+
+/// A frame of the window, as screens see it.
+struct GuiFrame {
+  std::uint32_t width = 0, height = 0;          ///< of the picture [pixels]
+  double seconds = 0.0;                         ///< since the frame before
+  const platform::InputFrame* input = nullptr;  ///< null: the keys mean the world, not the screens
+};
+
+/// Where copied text goes and comes from.
+struct Clipboard {
+  std::function<std::string()> read;
+  std::function<void(const std::string&)> write;
+};
+
+/// The longest text that is taken from a clipboard at once [bytes]; of a longer one, the beginning.
+inline constexpr std::size_t kMaxPasted = 512;
+
+/// The beginning of a text, cut between characters, up to `max_bytes` or the end of its first line.
+std::string pasted_text(std::string_view text, std::size_t max_bytes);
+
+/// ImGui's context, fonts and input. Only its core is used: packaged builds of its Vulkan backend
+/// call Vulkan through prototypes, which cannot be linked together with volk's function pointers of
+/// the same names, and its shape is one draw anyway. Between begin() and end(), functions that show
+/// something call ImGui.
+class Gui {
+ public:
+  /// @param clipboard without functions: a text copied here can be pasted here only.
+  explicit Gui(Clipboard clipboard = {});
+  ~Gui();
+  Gui(const Gui&) = delete;
+  Gui& operator=(const Gui&) = delete;
+
+  FontAtlas font() const;
+  void begin(const GuiFrame& frame);
+  OverlayTriangles end();
+  /// Whether the keys go into a text field, as of the last frame.
+  bool typing() const;
+
+ private:
+  friend struct ClipboardCalls;
+  void feed(const platform::InputFrame& input);
+  void release_all();
+
+  ImGuiContext* context_;
+  Clipboard clipboard_;
+  std::string clipboard_text_;  // what ImGui was handed last
+  Fonts fonts_;
+  bool fed_ = false;
+};
+
+/// Whether Enter, or its like on a gamepad, went down in this frame; between Gui::begin and end.
+bool confirmed();
+
+}  // namespace skerry::game::ui

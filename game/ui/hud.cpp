@@ -1,0 +1,163 @@
+#include "game/ui/hud.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "game/parse.h"
+#include "game/ui/look.h"
+#include "game/ui/screens.h"
+
+namespace skerry::game::ui {
+namespace {
+
+constexpr ImU32 kGlass = IM_COL32(8, 14, 18, 120);
+constexpr ImU32 kShadow = IM_COL32(0, 0, 0, 150);
+
+ImU32 faded(ImU32 colour, double strength) {
+  ImVec4 value = ImGui::ColorConvertU32ToFloat4(colour);
+  value.w *= static_cast<float>(std::clamp(strength, 0.0, 1.0));
+  return ImGui::ColorConvertFloat4ToU32(value);
+}
+
+/// Text that reads on any ground; `across` 0 is left of `at`, 0.5 about it, 1 right of it.
+void write(ImDrawList& list, ImVec2 at, float across, ImU32 colour, const std::string& line,
+           double strength = 1.0) {
+  const ImVec2 size = ImGui::CalcTextSize(line.c_str());
+  const ImVec2 low(std::floor(at.x - (1.0f - across) * size.x), std::floor(at.y));
+  const float offset = std::max(1.0f, unit());
+  list.AddText(ImVec2(low.x + offset, low.y + offset), faded(kShadow, strength), line.c_str());
+  list.AddText(low, faded(colour, strength), line.c_str());
+}
+
+void draw_crosshair(ImDrawList& list, ImVec2 middle) {
+  const float arm = std::round(9 * unit()), half = std::max(0.5f, std::round(unit()) * 0.5f);
+  const ImVec2 m(std::floor(middle.x), std::floor(middle.y));
+  for (const float grow : {1.0f, 0.0f}) {
+    const ImU32 colour = grow > 0.0f ? kShadow : colour::kText;
+    list.AddRectFilled(ImVec2(m.x - arm - grow, m.y - half - grow),
+                       ImVec2(m.x + arm + grow, m.y + half + grow), colour);
+    list.AddRectFilled(ImVec2(m.x - half - grow, m.y - arm - grow),
+                       ImVec2(m.x + half + grow, m.y + arm + grow), colour);
+  }
+}
+
+void draw_hotbar(ImDrawList& list, const HudFacts& facts, const Pictures& pictures, ImVec2 window) {
+  if (facts.hotbar.empty()) return;
+  const float edge = std::round(52 * unit()), between = std::round(4 * unit());
+  const auto count = static_cast<float>(facts.hotbar.size());
+  const float left = std::floor(0.5f * (window.x - count * edge - (count - 1) * between));
+  const float top = std::floor(window.y - edge - 14 * unit());
+  for (std::size_t i = 0; i < facts.hotbar.size(); ++i) {
+    const float x = left + static_cast<float>(i) * (edge + between);
+    const ImVec2 low(x, top), high(x + edge, top + edge);
+    const bool selected = static_cast<int>(i) == facts.selected;
+    list.AddRectFilled(low, high, kGlass, 6 * unit());
+    if (selected)
+      list.AddRect(low, high, colour::kAccent, 6 * unit(), 0, std::max(1.5f, 2.5f * unit()));
+    if (facts.hotbar[i] == world::kAir) continue;
+    const PicturePart part = pictures.block(facts.hotbar[i]);
+    const float inset = 6 * unit();
+    list.AddImage(pictures_id(), ImVec2(low.x + inset, low.y + inset),
+                  ImVec2(high.x - inset, high.y - inset), part.low, part.high);
+  }
+  const world::BlockId held = facts.hotbar[static_cast<std::size_t>(facts.selected)];
+  if (held != world::kAir)
+    write(list, ImVec2(0.5f * window.x, top - 22 * unit()), 0.5f, colour::kText, block_label(held));
+}
+
+void draw_compass(ImDrawList& list, double yaw_deg, float middle_x) {
+  constexpr double kSpan = 60.0;  // degrees to either side
+  constexpr const char* kNames[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+  const float half = 190 * unit(), top = 10 * unit(), height = 30 * unit();
+  list.AddRectFilled(ImVec2(middle_x - half, top), ImVec2(middle_x + half, top + height), kGlass,
+                     6 * unit());
+  const double ahead = bearing_deg(yaw_deg);
+  for (int step = 0; step < 24; ++step) {
+    const double off = std::remainder(step * 15.0 - ahead, 360.0);
+    if (std::abs(off) >= kSpan) continue;
+    const float x = middle_x + static_cast<float>(off / kSpan) * half * 0.94f;
+    const double strength = 1.0 - std::pow(std::abs(off) / kSpan, 3.0);
+    if (step % 3 == 0) {
+      write(list, ImVec2(x, top + 0.5f * (height - ImGui::GetTextLineHeight())), 0.5f,
+            step == 0 ? colour::kAccent : colour::kText, kNames[step / 3], strength);
+    } else {
+      list.AddLine(ImVec2(x, top + 0.38f * height), ImVec2(x, top + 0.62f * height),
+                   faded(colour::kFaint, strength), std::max(1.0f, unit()));
+    }
+  }
+  list.AddTriangleFilled(ImVec2(middle_x - 5 * unit(), top + height),
+                         ImVec2(middle_x + 5 * unit(), top + height),
+                         ImVec2(middle_x, top + height - 6 * unit()), colour::kAccent);
+}
+
+}  // namespace
+
+void Messages::say(std::string line) {
+  if (!lines_.empty() && lines_.back().text == line) {
+    lines_.back().age_s = 0.0;
+    return;
+  }
+  if (lines_.size() == kMost) lines_.erase(lines_.begin());
+  lines_.push_back({std::move(line), 0.0});
+}
+
+void Messages::pass(double seconds) {
+  for (Line& line : lines_) line.age_s += seconds;
+  std::erase_if(lines_, [](const Line& line) { return line.age_s >= kShown + kFading; });
+}
+
+double Messages::Line::strength() const {
+  return std::clamp((kShown + kFading - age_s) / kFading, 0.0, 1.0);
+}
+
+double bearing_deg(double yaw_deg) {
+  // Yaw 0 looks along +z, which is south, and grows to the left, towards the east.
+  const double bearing = std::fmod(180.0 - yaw_deg, 360.0);
+  return bearing < 0.0 ? bearing + 360.0 : bearing;
+}
+
+void show_hud(const HudFacts& facts, const Pictures& pictures) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  if (facts.hidden > 0.0)
+    list.AddRectFilled(ImVec2(0, 0), window,
+                       ImColor(0.0f, 0.0f, 0.0f, static_cast<float>(facts.hidden)));
+  push_size(TextSize::kSmall);
+  draw_crosshair(list, ImVec2(0.5f * window.x, 0.5f * window.y));
+  draw_hotbar(list, facts, pictures, window);
+  draw_compass(list, facts.yaw_deg, 0.5f * window.x);
+  const float line = ImGui::GetTextLineHeight() + 3 * unit(), edge = 14 * unit();
+  write(list, ImVec2(window.x - edge, edge), 0.0f, colour::kText,
+        format_time_of_day(facts.time_of_day_s).substr(0, 5));
+  write(list, ImVec2(window.x - edge, edge + line), 0.0f, colour::kFaint, facts.place);
+  if (facts.steering)
+    write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kAccent,
+          fmt::format("At the helm of {}   {:.1f} blocks/s", facts.steering->island,
+                      facts.steering->speed));
+  else if (facts.islands_to_come != 0)
+    write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kFaint,
+          fmt::format("Islands come into view: {} parts left", facts.islands_to_come));
+  pop_size();
+}
+
+void show_messages(const Messages& messages) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  push_size(TextSize::kSmall);
+  const float line = ImGui::GetTextLineHeight() + 10 * unit();
+  float y = window.y - 110 * unit();
+  for (std::size_t i = messages.lines().size(); i-- > 0; y -= line) {
+    const Messages::Line& message = messages.lines()[i];
+    const ImVec2 size = ImGui::CalcTextSize(message.text.c_str());
+    const float x = std::max(8 * unit(), 0.5f * (window.x - size.x)), inset = 10 * unit();
+    list.AddRectFilled(ImVec2(x - inset, y - 4 * unit()),
+                       ImVec2(x + size.x + inset, y + size.y + 4 * unit()),
+                       faded(IM_COL32(8, 14, 18, 190), message.strength()), 5 * unit());
+    list.AddText(ImVec2(x, y), faded(colour::kText, message.strength()), message.text.c_str());
+  }
+  pop_size();
+}
+
+}  // namespace skerry::game::ui

@@ -1,0 +1,187 @@
+#include "game/ui/look.h"
+
+#include <algorithm>
+
+#include "game/ui/gui.h"
+
+namespace skerry::game::ui {
+namespace {
+
+constexpr float kLeastUnit = 0.62f, kMostUnit = 4.0f;  // pixels
+
+struct Look {
+  const Fonts* fonts = nullptr;
+  float unit = 1.0f;
+};
+Look look;  // ImGui's context is as global, and there is one of either
+
+ImVec4 with_alpha(ImU32 packed, float alpha) {
+  ImVec4 value = ImGui::ColorConvertU32ToFloat4(packed);
+  value.w = alpha;
+  return value;
+}
+
+void set_colours(ImGuiStyle& style) {
+  ImGui::StyleColorsDark(&style);
+  const auto set = [&](ImGuiCol which, const ImVec4& value) { style.Colors[which] = value; };
+  set(ImGuiCol_Text, with_alpha(colour::kText, 1.0f));
+  set(ImGuiCol_TextDisabled, with_alpha(colour::kFaint, 1.0f));
+  set(ImGuiCol_WindowBg, ImGui::ColorConvertU32ToFloat4(colour::kPanel));
+  set(ImGuiCol_ChildBg, ImVec4(0, 0, 0, 0));
+  set(ImGuiCol_PopupBg, ImVec4(0.07f, 0.11f, 0.13f, 0.98f));
+  set(ImGuiCol_Border, ImVec4(1, 1, 1, 0.09f));
+  for (const ImGuiCol which : {ImGuiCol_FrameBg, ImGuiCol_Button})
+    set(which, ImVec4(1, 1, 1, 0.075f));
+  for (const ImGuiCol which :
+       {ImGuiCol_FrameBgHovered, ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered})
+    set(which, with_alpha(colour::kAccent, 0.26f));
+  for (const ImGuiCol which :
+       {ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive})
+    set(which, with_alpha(colour::kAccent, 0.42f));
+  set(ImGuiCol_Header, with_alpha(colour::kAccent, 0.20f));
+  for (const ImGuiCol which : {ImGuiCol_CheckMark, ImGuiCol_PlotLines})
+    set(which, with_alpha(colour::kAccent, 1.0f));
+  // The value is written over the grab.
+  set(ImGuiCol_SliderGrab, with_alpha(colour::kAccent, 0.42f));
+  set(ImGuiCol_SliderGrabActive, with_alpha(colour::kAccent, 0.70f));
+  set(ImGuiCol_NavHighlight, with_alpha(colour::kAccent, 1.0f));
+  set(ImGuiCol_TextSelectedBg, with_alpha(colour::kAccent, 0.40f));
+  set(ImGuiCol_ScrollbarBg, ImVec4(0, 0, 0, 0));
+  set(ImGuiCol_ScrollbarGrab, ImVec4(1, 1, 1, 0.18f));
+  set(ImGuiCol_ScrollbarGrabHovered, ImVec4(1, 1, 1, 0.30f));
+  set(ImGuiCol_ScrollbarGrabActive, ImVec4(1, 1, 1, 0.40f));
+  set(ImGuiCol_Separator, ImVec4(1, 1, 1, 0.12f));
+  set(ImGuiCol_ModalWindowDimBg, ImVec4(0.02f, 0.04f, 0.05f, 0.6f));
+}
+
+void set_sizes(ImGuiStyle& style, float u) {
+  style.WindowPadding = ImVec2(28 * u, 24 * u);
+  style.WindowRounding = 10 * u;
+  style.ChildRounding = 6 * u;
+  style.PopupRounding = 8 * u;
+  style.FramePadding = ImVec2(14 * u, 7 * u);
+  style.FrameRounding = 6 * u;
+  style.ItemSpacing = ImVec2(10 * u, 8 * u);
+  style.ItemInnerSpacing = ImVec2(8 * u, 6 * u);
+  style.CellPadding = ImVec2(6 * u, 3 * u);
+  style.ScrollbarSize = 12 * u;
+  style.ScrollbarRounding = 6 * u;
+  style.GrabMinSize = 14 * u;
+  style.GrabRounding = 4 * u;
+  style.WindowBorderSize = style.PopupBorderSize = 1.0f;
+  style.WindowMinSize = ImVec2(1, 1);
+}
+
+}  // namespace
+
+float unit() {
+  return look.unit;
+}
+
+void begin_look(const Fonts& fonts, float width, float height) {
+  look = {&fonts, std::clamp(std::min(width / 1280.0f, height / 720.0f), kLeastUnit, kMostUnit)};
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  set_colours(style);
+  set_sizes(style, look.unit);
+  ImGui::GetIO().FontDefault = fonts.at(TextSize::kBody, look.unit);
+}
+
+void push_size(TextSize size) {
+  ImGui::PushFont(look.fonts->at(size, look.unit));
+}
+
+void pop_size() {
+  ImGui::PopFont();
+}
+
+void text(std::string_view line) {
+  ImGui::TextUnformatted(line.data(), line.data() + line.size());
+}
+
+void text_in(ImU32 colour, std::string_view line) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  text(line);
+  ImGui::PopStyleColor();
+}
+
+void text_wrapped(ImU32 colour, std::string_view lines) {
+  ImGui::PushTextWrapPos(0.0f);
+  text_in(colour, lines);
+  ImGui::PopTextWrapPos();
+}
+
+void heading(std::string_view line) {
+  push_size(TextSize::kHeading);
+  text(line);
+  pop_size();
+  gap(6);
+}
+
+void gap(float units) {
+  ImGui::Dummy(ImVec2(1.0f, units * unit()));
+}
+
+bool button(const char* label, float width) {
+  const float pixels = width > 0.0f ? width * unit() : -1.0f;
+  return ImGui::Button(label, ImVec2(pixels, 40 * unit()));
+}
+
+bool first_button(const char* label, float width) {
+  ImVec4 accent = ImGui::ColorConvertU32ToFloat4(colour::kAccent);
+  accent.w = 0.30f;
+  ImGui::PushStyleColor(ImGuiCol_Button, accent);
+  const bool pressed = button(label, width);
+  ImGui::PopStyleColor();
+  ImGui::SetItemDefaultFocus();
+  // ImGui goes to it on the first key and presses it on the second.
+  const bool first_key = !ImGui::GetIO().NavVisible && ImGui::IsWindowFocused() &&
+                         !ImGui::IsAnyItemActive() && confirmed();
+  return pressed || first_key;
+}
+
+bool danger_button(const char* label, float width) {
+  ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.75f, 0.25f, 0.20f, 0.45f));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImVec4(0.80f, 0.28f, 0.22f, 0.75f));
+  const bool pressed = button(label, width);
+  ImGui::PopStyleColor(2);
+  return pressed;
+}
+
+void begin_panel(const char* id, Place place, float width, float height) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float edge = 16 * unit();
+  const ImVec2 size(std::max(1.0f, std::min(width * unit(), window.x - 2 * edge)),
+                    std::max(1.0f, std::min(height * unit(), window.y - 2 * edge)));
+  const bool left = place == Place::kLeft;
+  const float x = left ? std::min(56 * unit(), std::max(edge, window.x - size.x - edge))
+                       : 0.5f * (window.x - size.x);
+  ImGui::SetNextWindowPos(ImVec2(x, 0.5f * (window.y - size.y)), ImGuiCond_Always);
+  ImGui::SetNextWindowSize(size, ImGuiCond_Always);
+  ImGui::Begin(id, nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+}
+
+void end_panel() {
+  ImGui::End();
+}
+
+void begin_scroll(const char* id, float height) {
+#if IMGUI_VERSION_NUM >= 19090
+  ImGui::BeginChild(id, ImVec2(0.0f, height), ImGuiChildFlags_NavFlattened);
+#else
+  ImGui::BeginChild(id, ImVec2(0.0f, height), false, ImGuiWindowFlags_NavFlattened);
+#endif
+}
+
+void end_scroll() {
+  ImGui::EndChild();
+}
+
+void shade() {
+  ImGui::GetBackgroundDrawList()->AddRectFilled(ImVec2(0, 0), ImGui::GetIO().DisplaySize,
+                                                colour::kShade);
+}
+
+}  // namespace skerry::game::ui

@@ -1,0 +1,57 @@
+// How our screens look: sizes that follow the window, colours, and the few widgets they are made
+// of.
+#pragma once
+#include <imgui.h>
+
+#include <string>
+#include <string_view>
+
+#include "game/ui/fonts.h"
+
+namespace skerry::game::ui {
+
+/// Pixels of one unit of layout: 1 in a window of 1280x720.
+float unit();
+
+namespace colour {
+inline constexpr ImU32 kText = IM_COL32(236, 240, 238, 255);
+inline constexpr ImU32 kFaint = IM_COL32(168, 182, 184, 255);
+inline constexpr ImU32 kAccent = IM_COL32(122, 204, 190, 255);
+inline constexpr ImU32 kWarning = IM_COL32(240, 184, 96, 255);
+inline constexpr ImU32 kPanel = IM_COL32(16, 26, 32, 226);
+inline constexpr ImU32 kShade = IM_COL32(8, 14, 18, 150);
+}  // namespace colour
+
+/// For the frame between Gui::begin and Gui::end: where the functions below find fonts and scale.
+/// @param fonts outlives the frame.
+void begin_look(const Fonts& fonts, float width, float height);
+
+void push_size(TextSize size);
+void pop_size();
+
+void text(std::string_view line);
+void text_in(ImU32 colour, std::string_view line);
+/// Broken into lines at the window's edge.
+void text_wrapped(ImU32 colour, std::string_view lines);
+void heading(std::string_view line);
+void gap(float units);
+
+/// A button as wide as `width` units; 0: as wide as what is left. @return whether it was pressed.
+bool button(const char* label, float width = 0.0f);
+/// The one that Enter, or its like on a gamepad, presses before another has been gone to.
+bool first_button(const char* label, float width = 0.0f);
+bool danger_button(const char* label, float width = 0.0f);
+
+/// Where a panel stands.
+enum class Place { kLeft, kMiddle };
+/// A panel of at most so many units, never larger than the window. Call end_panel in any case.
+void begin_panel(const char* id, Place place, float width, float height);
+void end_panel();
+/// A part that scrolls, of a panel; keys move into it and out of it.
+void begin_scroll(const char* id, float height);
+void end_scroll();
+
+/// Darkens what is behind.
+void shade();
+
+}  // namespace skerry::game::ui

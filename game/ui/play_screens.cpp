@@ -1,0 +1,131 @@
+// Over a world: pause, all blocks, photo mode.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "game/parse.h"
+#include "game/ui/look.h"
+#include "game/ui/screens.h"
+
+namespace skerry::game::ui {
+
+std::string block_label(world::BlockId block) {
+  std::string label(world::block_types()[block].name);
+  std::replace(label.begin(), label.end(), '_', ' ');
+  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
+}
+
+std::vector<world::BlockId> find_blocks(std::string_view search) {
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  const std::string wanted = lower(std::string(search));
+  std::vector<world::BlockId> out;
+  for (world::BlockId block = 1; block < world::block::kBuiltInCount; ++block) {
+    const std::string name = lower(block_label(block));
+    bool all = true;
+    for (std::size_t at = 0; at < wanted.size();) {
+      const std::size_t end = std::min(wanted.find(' ', at), wanted.size());
+      all &= name.find(wanted.substr(at, end - at)) != std::string::npos;
+      at = end + 1;
+    }
+    if (all) out.push_back(block);
+  }
+  return out;
+}
+
+void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  shade();
+  begin_panel("pause", Place::kMiddle, 380, 470);
+  heading("Paused");
+  if (facts.world) text_in(colour::kFaint, *facts.world);
+  gap(8);
+  if (first_button("Go on")) state.stack.clear();
+  if (button("Settings")) state.stack.open(Screen::kSettings);
+  if (button("Controls")) state.stack.open(Screen::kControls);
+  if (button("Photo mode")) state.stack.open(Screen::kPhoto);
+  if (button("Save and leave")) wishes.leave_world = true;
+  if (button("Save and quit Skerry")) wishes.quit = true;
+  end_panel();
+}
+
+void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  begin_panel("palette", Place::kMiddle, 840, 560);
+  heading("Blocks");
+  ImGui::SetNextItemWidth(-1.0f);
+  if (state.fresh) ImGui::SetKeyboardFocusHere();
+  const bool entered =
+      ImGui::InputTextWithHint("##search", "Search", state.palette_search.data(),
+                               state.palette_search.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  const std::vector<world::BlockId> found = find_blocks(state.palette_search.data());
+  if (entered && !found.empty()) wishes.take = found.front();
+  gap(2);
+  std::string named = found.empty() ? "No block of that name" : "";
+  const float foot = ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
+  begin_scroll("blocks", -foot);
+  const float edge = 60 * unit(), spacing = 6 * unit();
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing, spacing));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6 * unit(), 6 * unit()));
+  const int across = std::max(
+      1, static_cast<int>((ImGui::GetContentRegionAvail().x + spacing) / (edge + spacing)));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (i % static_cast<std::size_t>(across) != 0) ImGui::SameLine();
+    ImGui::PushID(static_cast<int>(found[i]));
+    if (ImGui::Button("##block", ImVec2(edge, edge))) wishes.take = found[i];
+    if (ImGui::IsItemHovered() || ImGui::IsItemFocused()) named = block_label(found[i]);
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const PicturePart part = facts.pictures->block(found[i]);
+    const float inset = 6 * unit();
+    ImGui::GetWindowDrawList()->AddImage(pictures_id(), ImVec2(low.x + inset, low.y + inset),
+                                         ImVec2(high.x - inset, high.y - inset), part.low,
+                                         part.high);
+    ImGui::PopID();
+  }
+  ImGui::PopStyleVar(2);
+  end_scroll();
+  text_in(colour::kFaint, named.empty() ? "Choose one for the hand" : named);
+  end_panel();
+  if (wishes.take) state.stack.back();
+}
+
+void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  PhotoSettings& photo = *facts.photo;
+  if (photo.bare) return;
+  begin_panel("photo", Place::kLeft, 360, 470);
+  heading("Photo mode");
+  text_in(colour::kFaint, "Time of day");
+  ImGui::SetNextItemWidth(-1.0f);
+  int ten_minutes = photo.time_of_day_s / 600;
+  const std::string time = format_time_of_day(photo.time_of_day_s);
+  if (ImGui::SliderInt("##time", &ten_minutes, 0, 143, time.c_str()))
+    photo.time_of_day_s = ten_minutes * 600;
+  text_in(colour::kFaint, "Exposure");
+  bool adapts = !photo.exposure_ev;
+  if (ImGui::Checkbox("as the eye adapts", &adapts)) {
+    photo.exposure_ev.reset();
+    if (!adapts) photo.exposure_ev = facts.adapted_ev;
+  }
+  ImGui::BeginDisabled(adapts);
+  auto stops = static_cast<float>(photo.exposure_ev.value_or(facts.adapted_ev));
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderFloat("##exposure", &stops, -12.0f, 18.0f, "%.1f stops",
+                         ImGuiSliderFlags_AlwaysClamp))
+    photo.exposure_ev = std::round(double{stops} * 10.0) / 10.0;
+  ImGui::EndDisabled();
+  text_in(colour::kFaint, "Field of view");
+  ImGui::SetNextItemWidth(-1.0f);
+  auto fov = static_cast<float>(photo.fov_deg);
+  if (ImGui::SliderFloat("##fov", &fov, 5.0f, 120.0f, "%.0f degrees", ImGuiSliderFlags_AlwaysClamp))
+    photo.fov_deg = std::round(double{fov});
+  gap(8);
+  if (first_button("Take the picture")) wishes.photograph = true;
+  if (button("Fly the camera")) photo.bare = true;
+  if (button("Back")) state.stack.back();
+  end_panel();
+}
+
+}  // namespace skerry::game::ui

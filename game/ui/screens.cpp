@@ -1,0 +1,73 @@
+#include "game/ui/screens.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "game/ui/look.h"
+
+namespace skerry::game::ui {
+
+void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  const std::optional<Screen> top = state.stack.top();
+  if (!top) return;
+  switch (*top) {
+    case Screen::kTitle:
+      show_title(state, facts, wishes);
+      break;
+    case Screen::kWorlds:
+      show_worlds(state, facts, wishes);
+      break;
+    case Screen::kNewWorld:
+      show_new_world(state, wishes);
+      break;
+    case Screen::kSettings:
+      show_settings(state, facts, wishes);
+      break;
+    case Screen::kControls:
+      show_controls(state, facts, wishes);
+      break;
+    case Screen::kPause:
+      show_pause(state, facts, wishes);
+      break;
+    case Screen::kPalette:
+      show_palette(state, facts, wishes);
+      break;
+    case Screen::kPhoto:
+      show_photo(state, facts, wishes);
+      break;
+  }
+  state.fresh = state.stack.top() != top;
+}
+
+void go_back(ScreenState& state, bool typing) {
+  if (state.listening) {
+    state.listening.reset();
+    return;
+  }
+  const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
+  if (typing || popup) return;
+  state.stack.back();
+  state.fresh = true;
+}
+
+std::string seed_from(std::uint64_t entropy) {
+  constexpr std::uint64_t kSeeds = 1'000'000'000;
+  return fmt::format("{}", entropy % kSeeds);
+}
+
+std::string ago(std::int64_t seconds) {
+  const auto some = [](std::int64_t count, const char* what) {
+    return fmt::format("{} {}{} ago", count, what, count == 1 ? "" : "s");
+  };
+  constexpr std::int64_t kMinute = 60, kHour = 60 * kMinute, kDay = 24 * kHour;
+  if (seconds < kMinute) return "just now";
+  if (seconds < kHour) return some(seconds / kMinute, "minute");
+  if (seconds < kDay) return some(seconds / kHour, "hour");
+  if (seconds < 60 * kDay) return some(seconds / kDay, "day");
+  return some(seconds / (30 * kDay), "month");
+}
+
+}  // namespace skerry::game::ui

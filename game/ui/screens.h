@@ -1,0 +1,131 @@
+// The screens: plain functions from values to ImGui calls. What a player asks for comes back as
+// wishes; nothing here touches a world, a file or the device.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "game/actions.h"
+#include "game/settings.h"
+#include "game/ui/knob_costs.h"
+#include "game/ui/pictures.h"
+#include "game/ui/screen_stack.h"
+
+namespace skerry::game::ui {
+
+/// A saved world as the list shows it.
+struct WorldCard {
+  std::string path, name, seed_text;
+  std::int64_t played_s = 0;  ///< Unix time
+  std::uint64_t bytes = 0;
+  int thumbnail = -1;   ///< slot of Pictures; -1: none
+  std::string problem;  ///< not empty: why it cannot be played
+};
+
+inline constexpr std::size_t kMaxNameBytes = 64, kMaxSeedBytes = 256;
+
+/// Text that is being typed, ended by a zero.
+template <std::size_t kBytes>
+using Field = std::array<char, kBytes + 1>;
+
+/// What the screens remember between frames.
+struct ScreenState {
+  ScreenStack stack;
+  bool fresh = true;  ///< the topmost was not shown in the last frame
+
+  std::optional<std::string> chosen_world;  ///< path
+  bool asks_to_delete = false;
+
+  Field<kMaxNameBytes> new_name{};
+  Field<kMaxSeedBytes> new_seed{};
+
+  /// Which binding waits for a key.
+  struct Listening {
+    Action action;
+    bool pad;
+  };
+  std::optional<Listening> listening;
+
+  Field<32> palette_search{};
+  bool calibrating = false;
+};
+
+/// Photo mode's knobs; its camera belongs to the one who draws.
+struct PhotoSettings {
+  int time_of_day_s = 0;
+  std::optional<double> exposure_ev;  ///< none: as the eye adapts
+  double fov_deg = 70.0;
+  bool bare = false;  ///< nothing but the picture, and the camera flies
+};
+
+/// What there is to show. Pointers are to what a screen may change at once; nobody else does while
+/// it is shown.
+struct ScreenFacts {
+  const Pictures* pictures = nullptr;
+  std::span<const WorldCard> worlds;
+  std::int64_t now_s = 0;            ///< Unix time
+  std::optional<std::string> world;  ///< name of the one being played
+  Quality* quality = nullptr;
+  Settings* settings = nullptr;
+  double* fov_deg = nullptr;
+  Bindings* bindings = nullptr;
+  KnobCosts* costs = nullptr;
+  PhotoSettings* photo = nullptr;
+  double adapted_ev = 0.0;                       ///< what photo mode's exposure begins at
+  platform::Key pressed = platform::Key::kNone;  ///< first key that went down in this frame
+  bool control = false;                          ///< while Ctrl was held
+  bool control_up = false;                       ///< Ctrl was let go of
+  bool back = false;                             ///< Escape, or its like on a gamepad, went down
+  std::string_view version;
+};
+
+/// What the player asked for in a frame.
+struct Wishes {
+  std::optional<std::string> play;    ///< path of a world
+  std::optional<std::string> remove;  ///< likewise, for good
+  struct NewWorld {
+    std::string name, seed_text;
+  };
+  std::optional<NewWorld> create;
+  std::optional<world::BlockId> take;  ///< into the hand
+  bool preview = false;                ///< the new world's seed has changed
+  bool draw_lots = false;              ///< another seed for it
+  bool leave_world = false;            ///< saved, to the title
+  bool quit = false;
+  bool photograph = false;
+  bool settings_changed = false, bindings_changed = false;
+};
+
+/// Shows the topmost screen, if any.
+void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+
+/// Escape, or its like on a gamepad: closes what is topmost. @param typing into a text field, which
+/// the key leaves first.
+void go_back(ScreenState& state, bool typing);
+
+/// A seed for who has none in mind, short enough to be told to a friend.
+std::string seed_from(std::uint64_t entropy);
+
+/// "3 hours ago", for lists. Times to come are "just now": clocks are set.
+std::string ago(std::int64_t seconds);
+
+/// Blocks of the palette that a search finds, in the table's order: all words must occur in the
+/// name, in any case. No air.
+std::vector<world::BlockId> find_blocks(std::string_view search);
+/// "stone_mossy" as "Stone mossy".
+std::string block_label(world::BlockId block);
+
+// One function a screen.
+void show_title(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+void show_new_world(ScreenState& state, Wishes& wishes);
+void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+
+}  // namespace skerry::game::ui

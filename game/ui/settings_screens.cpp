@@ -1,0 +1,276 @@
+// Settings and controls.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "game/ui/look.h"
+#include "game/ui/screens.h"
+
+namespace skerry::game::ui {
+namespace {
+
+constexpr float kLabelWidth = 230.0f, kCostWidth = 104.0f;  // units
+
+/// Label to the left, a control in the middle, what it cost to the right.
+class Rows {
+ public:
+  Rows(const ScreenFacts& facts, Wishes& wishes) : facts_(facts), wishes_(wishes) {}
+
+  template <class Control>
+  void row(const char* label, std::optional<Knob> knob, const Control& control) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    text(label);
+    ImGui::TableNextColumn();
+    ImGui::PushID(label);
+    ImGui::SetNextItemWidth(-1.0f);
+    const bool changed = control();
+    ImGui::PopID();
+    ImGui::TableNextColumn();
+    if (!knob) {
+      wishes_.settings_changed |= changed;
+      return;
+    }
+    ImGui::AlignTextToFramePadding();
+    show_cost(*knob);
+    if (!changed) return;
+    wishes_.settings_changed = true;
+    facts_.costs->turned(*knob);
+  }
+
+  /// One of some values, by name.
+  template <class T, std::size_t kCount>
+  void choice(const char* label, std::optional<Knob> knob, T& value, const T (&values)[kCount],
+              const char* const (&names)[kCount]) {
+    row(label, knob, [&] {
+      // What is between two of them shows as the lower.
+      const auto above = std::upper_bound(std::begin(values), std::end(values), value);
+      int at = std::max(0, static_cast<int>(above - std::begin(values)) - 1);
+      if (!ImGui::SliderInt("##", &at, 0, static_cast<int>(kCount) - 1, names[at])) return false;
+      value = values[at];
+      return true;
+    });
+  }
+
+ private:
+  void show_cost(Knob knob) const {
+    if (facts_.costs->measuring(knob)) {
+      text_in(colour::kFaint, "measuring");
+      return;
+    }
+    const std::optional<double> cost = facts_.costs->cost_ms(knob);
+    if (!cost) return;
+    text_in(*cost > 0.05    ? colour::kWarning
+            : *cost < -0.05 ? colour::kAccent
+                            : colour::kFaint,
+            fmt::format("{:+.1f} ms", *cost));
+  }
+  const ScreenFacts& facts_;
+  Wishes& wishes_;
+};
+
+bool slide_blocks(std::uint32_t& blocks, int least, int most) {
+  int value = static_cast<int>(blocks);
+  if (!ImGui::SliderInt("##", &value, least, most, "%d blocks",
+                        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    return false;
+  blocks = static_cast<std::uint32_t>(value);
+  return true;
+}
+
+bool slide(float& value, float least, float most, const char* format) {
+  return ImGui::SliderFloat("##", &value, least, most, format, ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool slide(double& value, float least, float most, const char* format) {
+  auto narrow = static_cast<float>(value);
+  if (!slide(narrow, least, most, format)) return false;
+  value = std::round(double{narrow} * 100.0) / 100.0;
+  return true;
+}
+
+void show_knobs(const ScreenFacts& facts, Rows& rows) {
+  Settings& settings = *facts.settings;
+  constexpr Quality kLevels[] = {Quality::kLow, Quality::kMedium, Quality::kHigh, Quality::kUltra};
+  constexpr const char* kLevelNames[] = {"low", "medium", "high", "ultra"};
+  const Quality before = *facts.quality;
+  rows.choice("Quality", Knob::kQuality, *facts.quality, kLevels, kLevelNames);
+  if (*facts.quality != before) set_quality(*facts.quality, settings);
+  rows.row("View distance", Knob::kViewDistance,
+           [&] { return slide_blocks(settings.view_distance, kMinViewDistance, 4096); });
+  rows.row("Full detail up to", Knob::kViewDetail,
+           [&] { return slide_blocks(settings.view_detail, 32, 1024); });
+  std::uint32_t shadows = settings.shadow_enabled ? settings.shadow_size : 0;
+  constexpr std::uint32_t kShadows[] = {0, 512, 1024, 2048, 4096};
+  constexpr const char* kShadowNames[] = {"off", "coarse", "fair", "fine", "finest"};
+  const std::uint32_t shadows_before = shadows;
+  rows.choice("Shadows", Knob::kShadows, shadows, kShadows, kShadowNames);
+  if (shadows != shadows_before) {
+    settings.shadow_enabled = shadows != 0;
+    if (shadows != 0) settings.shadow_size = shadows;
+  }
+  constexpr std::uint32_t kWalls[] = {0, 1, 2, 4, 8, render::kEveryLight};
+  constexpr const char* kWallNames[] = {"none",      "1 a pixel", "2 a pixel",
+                                        "4 a pixel", "8 a pixel", "all"};
+  rows.choice("Lights that walls stop", Knob::kLightShadows, settings.lights_shadows, kWalls,
+              kWallNames);
+  rows.row("Dark corners", Knob::kCorners,
+           [&] { return slide(settings.ao_strength, 0.0f, 0.9f, "%.2f"); });
+  rows.row("Glow of bright things", Knob::kBloom,
+           [&] { return slide(settings.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
+  constexpr std::uint32_t kSamples[] = {1, 4, 16};
+  constexpr const char* kSampleNames[] = {"off", "4 samples", "16 samples"};
+  rows.choice("Smooth edges", Knob::kAntialiasing, settings.aa_samples, kSamples, kSampleNames);
+  constexpr std::uint32_t kLayers[] = {1, 2, 3, 4};
+  constexpr const char* kLayerNames[] = {"1 layer", "2 layers", "3 layers", "4 layers"};
+  rows.choice("Water and glass", Knob::kWater, settings.water_layers, kLayers, kLayerNames);
+  rows.row("Field of view", std::nullopt,
+           [&] { return slide(*facts.fov_deg, 40.0f, 110.0f, "%.0f degrees"); });
+  rows.row("Display: white", std::nullopt, [&] {
+    return slide(settings.display.peak, static_cast<float>(kMinDisplayPeak), 1.0f, "%.2f");
+  });
+  rows.row("Display: black", std::nullopt, [&] {
+    return slide(settings.display.black, 0.0f, static_cast<float>(kMaxDisplayBlack), "%.3f");
+  });
+}
+
+// Controls.
+
+std::string chord_label(Chord chord) {
+  if (chord.key == platform::Key::kNone) return "-";
+  std::string label = print_chord(chord);
+  if (label.starts_with("pad_")) label.erase(0, 4);
+  std::replace(label.begin(), label.end(), '_', ' ');
+  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
+}
+
+/// Takes the key that was pressed for the binding that waits for one. Delete clears it; Ctrl begins
+/// a chord, unless it goes up again alone.
+void listen(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  using platform::Key;
+  if (!state.listening) return;
+  const ScreenState::Listening waiting = *state.listening;
+  Key key = facts.pressed;
+  if (key == Key::kControl) return;
+  if (key == Key::kNone && facts.control_up) key = Key::kControl;
+  if (key == Key::kNone) return;
+  const bool clears = key == Key::kDelete;
+  if (!clears && platform::is_pad(key) != waiting.pad) return;
+  Binding& binding = (*facts.bindings)[waiting.action];
+  const bool chord = facts.control && !waiting.pad && key != Key::kControl;
+  (waiting.pad ? binding.pad : binding.key) = clears ? Chord{} : Chord{key, chord};
+  state.listening.reset();
+  wishes.bindings_changed = true;
+}
+
+void binding_button(ScreenState& state, const ScreenFacts& facts, Action action, bool pad) {
+  ImGui::TableNextColumn();
+  const Binding& binding = (*facts.bindings)[action];
+  const bool waits =
+      state.listening && state.listening->action == action && state.listening->pad == pad;
+  const std::string label = (waits ? std::string(pad ? "press a button" : "press a key")
+                                   : chord_label(pad ? binding.pad : binding.key)) +
+                            (pad ? "##pad" : "##key");
+  if (ImGui::Button(label.c_str(), ImVec2(-1.0f, 0.0f)) && !state.listening)
+    state.listening = ScreenState::Listening{action, pad};
+}
+
+void binding_row(ScreenState& state, const ScreenFacts& facts, Action action) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  const std::vector<Action> conflicts = conflicts_of(*facts.bindings, action);
+  text_in(conflicts.empty() ? colour::kText : colour::kWarning, action_type(action).label);
+  ImGui::PushID(static_cast<int>(action));
+  binding_button(state, facts, action, false);
+  binding_button(state, facts, action, true);
+  ImGui::PopID();
+  if (conflicts.empty()) return;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TableNextColumn();
+  text_in(colour::kWarning, fmt::format("also: {}", action_type(conflicts.front()).label));
+}
+
+}  // namespace
+
+void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  // No shade: the picture behind is what the knobs change.
+  begin_panel("settings", Place::kLeft, 680, 660);
+  heading("Settings");
+  const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
+  begin_scroll("knobs", -foot);
+  if (ImGui::BeginTable("rows", 3)) {
+    ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, kLabelWidth * unit());
+    ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("cost", ImGuiTableColumnFlags_WidthFixed, kCostWidth * unit());
+    Rows rows(facts, wishes);
+    show_knobs(facts, rows);
+    ImGui::EndTable();
+  }
+  end_scroll();
+  gap(0);
+  if (first_button("Back", 150)) state.stack.back();
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  text_in(colour::kFaint, fmt::format("GPU {:.1f} ms a frame", facts.costs->now_ms()));
+  end_panel();
+}
+
+void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  shade();
+  listen(state, facts, wishes);
+  begin_panel("controls", Place::kMiddle, 860, 660);
+  heading("Controls");
+  Bindings& bindings = *facts.bindings;
+  const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
+  begin_scroll("actions", -foot);
+  if (ImGui::BeginTable("turning", 2)) {
+    ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, kLabelWidth * unit());
+    ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthStretch);
+    const auto speed = [&](const char* label, double& value) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::AlignTextToFramePadding();
+      text(label);
+      ImGui::TableNextColumn();
+      ImGui::PushID(label);
+      ImGui::SetNextItemWidth(-1.0f);
+      wishes.bindings_changed |= slide(value, static_cast<float>(kMinTurnSpeed),
+                                       static_cast<float>(kMaxTurnSpeed), "%.2f");
+      ImGui::PopID();
+    };
+    speed("Mouse speed", bindings.mouse_speed);
+    speed("Gamepad speed", bindings.pad_speed);
+    ImGui::EndTable();
+  }
+  wishes.bindings_changed |= ImGui::Checkbox("Up looks down", &bindings.inverted);
+  gap(4);
+  if (ImGui::BeginTable("bindings", 3)) {
+    ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch, 1.1f);
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    ImGui::TableSetupColumn("pad", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    ImGui::TableNextRow();
+    for (const char* title : {"", "Keyboard and mouse", "Gamepad"}) {
+      ImGui::TableNextColumn();
+      text_in(colour::kAccent, title);
+    }
+    for (std::size_t i = 0; i < kActions; ++i) binding_row(state, facts, static_cast<Action>(i));
+    ImGui::EndTable();
+  }
+  end_scroll();
+  gap(0);
+  if (first_button("Back", 150)) state.stack.back();
+  ImGui::SameLine();
+  if (button("Back to the usual keys", 260)) {
+    bindings = default_bindings();
+    wishes.bindings_changed = true;
+  }
+  end_panel();
+}
+
+}  // namespace skerry::game::ui

@@ -1,0 +1,376 @@
+#include "game/ui/screens.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <set>
+
+#include "game/ui/gui.h"
+
+namespace skerry::game::ui {
+namespace {
+
+using platform::Input;
+using platform::Key;
+using platform::PadState;
+
+struct Size {
+  std::uint32_t width, height;
+};
+constexpr Size kSizes[] = {{640, 360}, {1280, 720}, {2560, 1440}};
+constexpr Screen kScreens[] = {Screen::kTitle,    Screen::kWorlds,   Screen::kNewWorld,
+                               Screen::kSettings, Screen::kControls, Screen::kPause,
+                               Screen::kPalette,  Screen::kPhoto};
+
+/// A person at the screens.
+class Sitting {
+ public:
+  explicit Sitting(Screen screen, Size size = {1280, 720}) : size_(size) {
+    state.stack.open(screen);
+    facts.pictures = &pictures();
+    facts.worlds = worlds;
+    facts.now_s = 1'000'000;
+    facts.quality = &quality;
+    facts.settings = &settings;
+    facts.fov_deg = &fov_deg;
+    facts.bindings = &bindings;
+    facts.costs = &costs;
+    facts.photo = &photo;
+    facts.version = "1.2.3";
+  }
+
+  /// Shows a frame. @return what is to be drawn.
+  OverlayTriangles frame() {
+    const platform::InputFrame taken = input.take();
+    facts.pressed = taken.any_pressed();
+    facts.control = taken.down(Key::kControl);
+    facts.control_up = taken.released(Key::kControl);
+    facts.back = taken.pressed(Key::kEscape) || taken.pressed(Key::kPadB);
+    if (facts.back) go_back(state, gui.typing());
+    const bool fed = !state.listening;
+    gui.begin({size_.width, size_.height, 0.05, fed ? &taken : nullptr});
+    show_screens(state, facts, wishes);
+    return gui.end();
+  }
+  void tap(Key key) {
+    for (const bool down : {true, false}) {
+      input.set_key(key, down);
+      frame();
+    }
+    frame();
+  }
+  void tap_pad(std::size_t button) {
+    for (const bool down : {true, false}) {
+      PadState pad{{}, {0.0f, 0.0f, 0.0f, 0.0f, -1.0f, -1.0f}};
+      pad.buttons[button] = down;
+      input.set_pad(pad);
+      frame();
+    }
+    frame();
+  }
+  void settle() {
+    for (int i = 0; i < 3; ++i) frame();
+  }
+
+  static const Pictures& pictures() {
+    static const Pictures made;
+    return made;
+  }
+
+  std::vector<WorldCard> worlds{
+      {"/a.skerry", "Home", "1", 990'000, 120'000, -1, ""},
+      {"/b.skerry", std::string(64, 'W'), std::string(256, 'x'), 0, 1'500'000'000, 0, ""},
+      {"/c.skerry", "Broken", "", 0, 12, -1, "it is damaged beyond reading; restore a copy"}};
+  Gui gui;
+  ScreenState state;
+  ScreenFacts facts;
+  Wishes wishes;
+  Input input;
+  Quality quality = Quality::kMedium;
+  Settings settings;
+  double fov_deg = 70.0;
+  Bindings bindings = default_bindings();
+  KnobCosts costs;
+  PhotoSettings photo;
+
+ private:
+  Size size_;
+};
+
+TEST(Screens, NothingLeavesItsWindowAtAnySize) {
+  for (const Size size : kSizes) {
+    for (const Screen screen : kScreens) {
+      Sitting sitting(screen, size);
+      sitting.settle();
+      const ImGuiContext& context = *ImGui::GetCurrentContext();
+      const std::string where =
+          std::to_string(static_cast<int>(screen)) + " at " + std::to_string(size.height);
+      bool any = false;
+      for (const ImGuiWindow* window : context.Windows) {
+        if (!window->Active || window->Flags & ImGuiWindowFlags_Tooltip ||
+            std::string_view(window->Name).starts_with("Debug"))
+          continue;
+        any = true;
+        EXPECT_GE(window->Pos.x, 0.0f) << where;
+        EXPECT_GE(window->Pos.y, 0.0f) << where;
+        EXPECT_LE(window->Pos.x + window->Size.x, static_cast<float>(size.width)) << where;
+        EXPECT_LE(window->Pos.y + window->Size.y, static_cast<float>(size.height)) << where;
+        // Sideways nothing scrolls, so nothing may be wider than what holds it.
+        EXPECT_LE(window->ContentSize.x, window->WorkRect.GetWidth() + 0.5f)
+            << window->Name << where;
+        // What has no scrolling part of its own must fit in height as well.
+        const bool scrolls = std::string_view(window->Name).find('/') != std::string_view::npos;
+        if (!scrolls && size.height >= 720)
+          EXPECT_EQ(window->ScrollMax.y, 0.0f) << window->Name << where;
+      }
+      EXPECT_TRUE(any) << where;
+    }
+  }
+}
+
+TEST(Screens, TextIsNeverSmallerThanItReads) {
+  for (const Size size : kSizes) {
+    Sitting sitting(Screen::kSettings, size);
+    sitting.settle();
+    EXPECT_GE(ImGui::GetIO().FontDefault->FontSize, 12.0f);
+    EXPECT_NEAR(ImGui::GetIO().FontDefault->FontSize, std::max(12.0, 18.0 * size.height / 720.0),
+                4.0);
+  }
+}
+
+TEST(Screens, SurviveAWindowOfOnePixel) {
+  for (const Screen screen : kScreens) {
+    Sitting sitting(screen, {1, 1});
+    sitting.settle();
+  }
+}
+
+TEST(Screens, AreAllReachedAndLeftWithTheKeyboardAlone) {
+  Sitting sitting(Screen::kTitle);
+  sitting.settle();
+  sitting.tap(Key::kEnter);  // the first button has the focus
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kWorlds);
+  sitting.tap(Key::kEscape);
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kTitle);
+  sitting.tap(Key::kEscape);  // no further
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kTitle);
+  sitting.tap(Key::kDown);
+  sitting.tap(Key::kDown);
+  sitting.tap(Key::kEnter);
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kSettings);
+}
+
+TEST(Screens, AreAllReachedAndLeftWithAGamepadAlone) {
+  constexpr std::size_t kA = 0, kB = 1, kDown = 13;
+  Sitting sitting(Screen::kTitle);
+  sitting.settle();
+  sitting.tap_pad(kA);
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kWorlds);
+  sitting.tap_pad(kB);
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kTitle);
+  for (int i = 0; i < 3; ++i) sitting.tap_pad(kDown);
+  sitting.tap_pad(kA);
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kControls);
+}
+
+TEST(Screens, EnterOnTheWorldListPlaysTheLatest) {
+  Sitting sitting(Screen::kWorlds);
+  sitting.settle();
+  for (int i = 0; i < 12 && !sitting.wishes.play; ++i) {
+    sitting.tap(Key::kEnter);
+    if (!sitting.wishes.play) sitting.tap(Key::kDown);
+  }
+  EXPECT_EQ(sitting.wishes.play, "/a.skerry");
+}
+
+TEST(Screens, AWorldIsDeletedOnlyAfterASecondQuestion) {
+  Sitting sitting(Screen::kWorlds);
+  sitting.settle();
+  sitting.state.asks_to_delete = true;
+  sitting.settle();
+  sitting.tap(Key::kEnter);  // "Keep it" has the focus
+  EXPECT_FALSE(sitting.wishes.remove);
+  sitting.state.asks_to_delete = true;
+  sitting.settle();
+  sitting.tap(Key::kEscape);  // closes the question, not the list
+  EXPECT_FALSE(sitting.wishes.remove);
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kWorlds);
+  sitting.state.asks_to_delete = true;
+  sitting.settle();
+  sitting.tap(Key::kRight);
+  sitting.tap(Key::kEnter);
+  EXPECT_EQ(sitting.wishes.remove, "/a.skerry");
+}
+
+TEST(Screens, AMegabyteOfPastedTextBecomesAShortSeed) {
+  std::string huge(1 << 20, 'a');
+  huge.replace(0, 3, "\xe2\x82\xac");  // a character of three bytes
+  Clipboard clipboard{[&] { return huge; }, [](const std::string&) {}};
+  Gui gui(clipboard);
+  Field<kMaxSeedBytes> field{};
+  Input input;
+  const auto frame = [&] {
+    const platform::InputFrame taken = input.take();
+    gui.begin({640, 360, 0.05, &taken});
+    ImGui::Begin("seed");
+    ImGui::SetKeyboardFocusHere();
+    ImGui::InputText("##seed", field.data(), field.size());
+    ImGui::End();
+    gui.end();
+  };
+  for (int i = 0; i < 3; ++i) frame();
+  input.set_key(Key::kControl, true);
+  input.set_key(Key::kV, true);
+  frame();
+  frame();
+  const std::string pasted = field.data();
+  EXPECT_LE(pasted.size(), kMaxSeedBytes);
+  EXPECT_GT(pasted.size(), 100u);
+  EXPECT_TRUE(huge.starts_with(pasted));
+}
+
+TEST(PastedText, IsCutBetweenCharactersAndAtTheFirstLine) {
+  EXPECT_EQ(pasted_text("one\ntwo", 100), "one");
+  EXPECT_EQ(pasted_text(std::string_view("a\0b", 3), 100), "a");
+  EXPECT_EQ(pasted_text("a\xe2\x82\xac", 3), "a");
+  EXPECT_EQ(pasted_text("a\xe2\x82\xac", 4), "a\xe2\x82\xac");
+  EXPECT_EQ(pasted_text("\x80\x80\x80", 2), "");
+}
+
+TEST(Controls, AKeyIsBoundWithItsChordAndConflictsAreShown) {
+  Sitting sitting(Screen::kControls);
+  sitting.settle();
+  sitting.state.listening = ScreenState::Listening{Action::kJump, false};
+  sitting.input.set_key(Key::kControl, true);
+  sitting.frame();
+  EXPECT_TRUE(sitting.state.listening);  // Ctrl alone may begin a chord
+  sitting.input.set_key(Key::kJ, true);
+  sitting.frame();
+  EXPECT_EQ(sitting.bindings[Action::kJump].key, (Chord{Key::kJ, true}));
+  EXPECT_TRUE(sitting.wishes.bindings_changed);
+}
+
+TEST(Controls, CtrlAloneEscapeAndDeleteMeanWhatTheySay) {
+  Sitting sitting(Screen::kControls);
+  sitting.settle();
+  const auto listen = [&](bool pad) { sitting.state.listening = {Action::kJump, pad}; };
+  listen(false);
+  sitting.tap(Key::kControl);
+  EXPECT_EQ(sitting.bindings[Action::kJump].key, Chord{Key::kControl});
+  listen(false);
+  sitting.tap(Key::kEscape);  // keeps it, and the screen stays
+  EXPECT_EQ(sitting.bindings[Action::kJump].key, Chord{Key::kControl});
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kControls);
+  listen(false);
+  sitting.tap(Key::kDelete);
+  EXPECT_EQ(sitting.bindings[Action::kJump].key, Chord{});
+  listen(true);
+  sitting.tap(Key::kW);  // no gamepad's
+  EXPECT_TRUE(sitting.state.listening);
+  sitting.tap_pad(2);
+  EXPECT_EQ(sitting.bindings[Action::kJump].pad, Chord{Key::kPadX});
+}
+
+TEST(Palette, FindsBlocksByAllWordsInAnyCase) {
+  EXPECT_EQ(find_blocks("").size(), std::size_t{world::block::kBuiltInCount} - 1);
+  EXPECT_EQ(find_blocks("TORCH"), std::vector<world::BlockId>{world::block::kTorch});
+  for (const world::BlockId block : find_blocks("leaves oak"))
+    EXPECT_EQ(block, world::block::kOakLeaves);
+  EXPECT_TRUE(find_blocks("no such thing").empty());
+}
+
+TEST(Palette, EnterTakesTheFirstThatWasFound) {
+  Sitting sitting(Screen::kPalette);
+  sitting.settle();
+  for (const char32_t c : U"lamp")
+    if (c) sitting.input.type(c);
+  sitting.frame();
+  sitting.tap(Key::kEnter);
+  EXPECT_EQ(sitting.wishes.take, world::block::kLamp);
+  EXPECT_TRUE(sitting.state.stack.empty());
+}
+
+TEST(Ago, SaysItInTheLargestUnit) {
+  EXPECT_EQ(ago(-5), "just now");
+  EXPECT_EQ(ago(59), "just now");
+  EXPECT_EQ(ago(60), "1 minute ago");
+  EXPECT_EQ(ago(7200), "2 hours ago");
+  EXPECT_EQ(ago(86400 * 3), "3 days ago");
+  EXPECT_EQ(ago(86400 * 90), "3 months ago");
+}
+
+TEST(ScreenStack, GoesBackToWhereOneCameFrom) {
+  ScreenStack stack;
+  stack.open(Screen::kPause);
+  stack.open(Screen::kSettings);
+  stack.back();
+  EXPECT_EQ(stack.top(), Screen::kPause);
+  stack.open(Screen::kControls);
+  stack.open(Screen::kPause);  // open already: what lay over it closes
+  EXPECT_EQ(stack.size(), 1u);
+  stack.back();
+  EXPECT_TRUE(stack.empty());
+  stack.back();
+  EXPECT_TRUE(stack.empty());
+}
+
+TEST(KnobCosts, AreTheDifferenceOfMediansAfterWhatWasOnItsWay) {
+  KnobCosts costs;
+  costs.turned(Knob::kShadows);
+  EXPECT_FALSE(costs.cost_ms(Knob::kShadows));
+  KnobCosts steady;
+  for (int i = 0; i < 20; ++i) steady.note_frame(i % 5 == 0 ? 90.0 : 10.0);  // hitches do not count
+  EXPECT_EQ(steady.now_ms(), 10.0);
+  steady.turned(Knob::kShadows);
+  EXPECT_TRUE(steady.measuring(Knob::kShadows));
+  for (std::size_t i = 0; i < KnobCosts::kSkipped; ++i) steady.note_frame(10.0);
+  for (std::size_t i = 0; i < KnobCosts::kFrames; ++i) {
+    EXPECT_FALSE(steady.cost_ms(Knob::kShadows));
+    steady.note_frame(13.5);
+  }
+  EXPECT_EQ(steady.cost_ms(Knob::kShadows), 3.5);
+  EXPECT_FALSE(steady.cost_ms(Knob::kBloom));
+  EXPECT_FALSE(steady.measuring(Knob::kShadows));
+}
+
+TEST(KnobCosts, ASliderDraggedThroughManyPlacesCountsFromItsFirst) {
+  KnobCosts costs;
+  for (int i = 0; i < 9; ++i) costs.note_frame(10.0);
+  for (int i = 0; i < 8; ++i) {
+    costs.turned(Knob::kViewDistance);
+    costs.note_frame(11.0 + i);
+  }
+  for (int i = 0; i < 20; ++i) costs.note_frame(20.0);
+  EXPECT_EQ(costs.cost_ms(Knob::kViewDistance), 10.0);
+}
+
+TEST(Thumbnails, KeepColoursAndCutToTheMiddle) {
+  // Left and right edges are red, what is in the middle is green: 16:9 of a 4:1 picture is middle.
+  constexpr int kWidth = 800, kHeight = 200;
+  std::vector<std::uint8_t> pixels;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const bool middle = x >= 200 && x < 600;
+      pixels.insert(pixels.end(), {static_cast<std::uint8_t>(middle ? 0 : 255),
+                                   static_cast<std::uint8_t>(middle ? 255 : 0), 0, 255});
+    }
+  const Rgba small = thumbnail_of(kWidth, kHeight, pixels);
+  ASSERT_EQ(small.pixels.size(), std::size_t{kThumbnailWidth} * kThumbnailHeight * 4);
+  for (std::size_t i = 0; i < small.pixels.size(); i += 4) ASSERT_EQ(small.pixels[i + 1], 255) << i;
+  EXPECT_TRUE(thumbnail_of(0, 0, {}).pixels.empty());
+  EXPECT_EQ(thumbnail_of(1, 1, std::vector<std::uint8_t>{1, 2, 3, 4}).pixels[1], 2);
+}
+
+TEST(Pictures, EveryBlockHasOneThatShowsSomething) {
+  for (world::BlockId block = 1; block < world::block::kBuiltInCount; ++block) {
+    const Rgba picture = block_picture(block);
+    std::size_t seen = 0;
+    for (std::size_t i = 3; i < picture.pixels.size(); i += 4) seen += picture.pixels[i] > 32;
+    EXPECT_GT(seen, 100u) << world::block_types()[block].name;
+  }
+}
+
+}  // namespace
+}  // namespace skerry::game::ui
