@@ -157,6 +157,41 @@ TEST(VdbExport, ImportsBackToTheSameBlocksForAnyWorldAndBox) {
   EXPECT_GE(compared, 8);
 }
 
+TEST(VdbExport, ImportsBackToTheSameBlocksOfASeedsIslands) {
+  SKIP_WITHOUT_OPENVDB();
+  const Folder folder;
+  Jobs jobs(2);
+  for (const std::uint64_t seed : {1u, 7u}) {
+    World world(WorldDesc{.seed = seed});
+    const Spawn spawn = world.spawn();
+    const glm::dvec3 feet = difference_blocks(spawn.feet, {});
+    BlockBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      box.low[a] = static_cast<std::int64_t>(feet[axis]) - 40;
+      box.high[a] = box.low[a] + 75;
+    }
+    const auto grids = volumes_of(world, box);
+    ASSERT_TRUE(grids) << grids.error().message;
+    ASSERT_TRUE(write_vdb(*grids, folder / "seed.vdb"));
+    const auto back = read_vdb(folder / "seed.vdb");
+    ASSERT_TRUE(back) << back.error().message;
+    const auto islands = import_islands(*back, {.grid = back->front().name}, jobs);
+    ASSERT_TRUE(islands) << islands.error().message;
+    Blocks blocks;
+    const Pose pose = *world.pose(spawn.island, 0.0);
+    std::vector<BlockId> padded(kPaddedVoxels);
+    for (const IVec3 at : world.chunks(spawn.island, 0)) {
+      if (!world.generate_padded(spawn.island, at, 0, padded)) continue;
+      for_each_block(chunk_from_padded(padded), at, [&](IVec3 voxel, BlockId id) {
+        if (holds(box, centre_of(pose, voxel))) blocks.emplace(voxel, id);
+      });
+    }
+    EXPECT_GT(blocks.size(), 10'000u);
+    EXPECT_TRUE(equal(islands->front(), *world.island(spawn.island), blocks)) << seed;
+  }
+}
+
 TEST(VdbExport, IsReadByTheToolsOfOthers) {
   SKIP_WITHOUT_OPENVDB();
   if (std::system("command -v vdb_print >/dev/null 2>&1") != 0)
