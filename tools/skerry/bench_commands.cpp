@@ -12,6 +12,7 @@
 #include "tools/skerry/bench_lights.h"
 #include "tools/skerry/bench_mesh.h"
 #include "tools/skerry/bench_upload.h"
+#include "tools/skerry/bench_world.h"
 #include "tools/skerry/scene_device.h"
 
 namespace skerry::tools {
@@ -36,6 +37,7 @@ BenchCommands::BenchCommands(CLI::App& app)
   mesh_->add_option("--input", input_, "Folder of .bin voxel sets (default: chunks of seed 1)")
       ->type_name("DIR");
   generate_ = add("generate", "Time the world generator");
+  world_ = add("world", "Time saving, breaking and moving islands");
   upload_ = add("upload", "Time the three ways of sending data to the GPU");
   add_device_options(*upload_);
   cull_ = add("cull", "Time culling on the GPU");
@@ -70,15 +72,18 @@ int BenchCommands::run() {
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   if (chosen == mesh_) return run_mesh();
   if (chosen == generate_) return bench_generate({path_of(json_)});
+  if (chosen == world_) return bench_world({path_of(json_)});
   return run_on_device(*chosen);
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh", "generate", "upload", "cull", "lights", "frame"};
+  constexpr std::string_view kNames[] = {"mesh", "generate", "world", "upload",
+                                         "cull", "lights",   "frame"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
-    return fail(kUsage,
-                {"bench does not say what: give mesh, generate, upload, cull, lights or frame"});
+    return fail(
+        kUsage,
+        {"bench does not say what: give mesh, generate, world, upload, cull, lights or frame"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
