@@ -125,7 +125,9 @@ void PlayLoop::go_on(double seconds, const Intent& intent) {
   // The player's ticks ask where islands will be at their ends.
   session_->advance(player_.tick_time_s() + seconds + kTickSeconds);
   hear_session();
+  const int returns = player_.returns();
   player_.advance(seconds, intent, around_);
+  if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
   scene_.camera = player_.eye(around_);
 }
 
@@ -138,7 +140,10 @@ void PlayLoop::hear_session() {
 }
 
 void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
-  const HandIntent intent = hand_intent_of(actions);
+  HandIntent intent = hand_intent_of(actions);
+  // The click that captured the pointer, or closed a screen, means nothing to the hands.
+  hands_free_ = window_.pointer_captured() && (hands_free_ || (!intent.dig && !intent.place));
+  if (!hands_free_) intent.dig = intent.place = false;
   hands_.advance(seconds, intent, player_, *scene_.camera, around_, editor_);
 }
 

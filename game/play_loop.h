@@ -100,6 +100,7 @@ class PlayLoop {
   SessionEditor editor_;
   std::optional<std::uint64_t> helm_;  // the island that is steered
   Interaction hands_;
+  bool hands_free_ = false;  // captured, and no button held from before that
   DayClock day_;
   std::optional<double> exposure_ev_;  // what the eye has adapted to by now; none before it saw
   std::optional<PhotoView> photo_;
