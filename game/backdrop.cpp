@@ -7,7 +7,8 @@
 namespace skerry::game {
 namespace {
 
-constexpr double kTurnDegPerSecond = 1.5;
+constexpr double kTurnDegPerSecond = 1.0;
+constexpr double kStartDeg = -60.0;  // with the morning's sun behind the camera
 constexpr double kLookDownDeg = 16.0;
 constexpr int kMorningS = 9 * 3600 + 1800;
 constexpr double kNearest = 70.0, kFarthest = 190.0;  // blocks from the island's middle
@@ -44,12 +45,13 @@ SceneView::Moment Backdrop::moment() const {
     moment.camera.yaw_deg += kWindowSide + 12.0 * std::sin(glm::radians(4.0 * turned_deg));
     return moment;
   }
-  const double yaw = glm::radians(turned_deg), pitch = glm::radians(kLookDownDeg);
+  const double yaw_deg = kStartDeg + turned_deg;
+  const double yaw = glm::radians(yaw_deg), pitch = glm::radians(kLookDownDeg);
   const glm::dvec3 back{-std::sin(yaw) * std::cos(pitch), std::sin(pitch),
                         -std::cos(yaw) * std::cos(pitch)};
   const world::WorldPos eye = world::moved(middle_, back * distance_);
   moment.camera.position = {eye.x, eye.y, eye.z};
-  moment.camera.yaw_deg = turned_deg + kWindowSide;
+  moment.camera.yaw_deg = yaw_deg + kWindowSide;
   moment.camera.pitch_deg = -kLookDownDeg;
   return moment;
 }

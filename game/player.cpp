@@ -74,8 +74,14 @@ Player::Player(const PlayerState& state, double time_s)
 }
 
 PlayerState Player::state() const {
-  return {now_.feet,   now_.island, now_.lattice, velocity_, now_.yaw_deg,
-          pitch_deg_, static_cast<std::uint8_t>(mode_), fly_speed_};
+  return {now_.feet,
+          now_.island,
+          now_.lattice,
+          velocity_,
+          now_.yaw_deg,
+          pitch_deg_,
+          static_cast<std::uint8_t>(mode_),
+          fly_speed_};
 }
 
 void Player::turn(double yaw_deg, double pitch_deg) {

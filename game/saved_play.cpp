@@ -47,10 +47,10 @@ bool sound(const SavedPlay& play) {
   const PlayerState& p = play.player;
   return within(p.feet) && in_lattice(p.lattice) && within(p.velocity, kMaxFlySpeed * 8) &&
          within(p.yaw_deg, kMaxYaw) && within(p.pitch_deg, 90.0) && p.fly_speed >= kMinFlySpeed &&
-         p.fly_speed <= kMaxFlySpeed && p.mode <= static_cast<std::uint8_t>(MoveMode::kNoclip) && within(play.eye.position) &&
-         within(play.eye.yaw_deg, kMaxYaw) && within(play.eye.pitch_deg, 90.0) &&
-         play.time_of_day_s >= 0.0 && play.time_of_day_s < 86400.0 &&
-         within(play.world_time_s, kMaxTime);
+         p.fly_speed <= kMaxFlySpeed && p.mode <= static_cast<std::uint8_t>(MoveMode::kNoclip) &&
+         within(play.eye.position) && within(play.eye.yaw_deg, kMaxYaw) &&
+         within(play.eye.pitch_deg, 90.0) && play.time_of_day_s >= 0.0 &&
+         play.time_of_day_s < 86400.0 && within(play.world_time_s, kMaxTime);
 }
 
 }  // namespace

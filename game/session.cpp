@@ -18,7 +18,8 @@ namespace {
 using world::BlockId;
 using world::WorldFile;
 
-constexpr std::int32_t kFarthestVoxel = 1 << 20;  // as far from its middle as an island may be built
+constexpr std::int32_t kFarthestVoxel = 1
+                                        << 20;  // as far from its middle as an island may be built
 
 bool may_write(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -125,8 +126,8 @@ void Session::State::handle(const Request& request) {
         s.answers.put(IslandMoved{m.island, m.state});
     }
     void operator()(const ChunkWanted& wanted) {
-      s.answers.put(ChunkChanges{wanted.island, wanted.chunk,
-                                 s.world->edits(wanted.island, wanted.chunk)});
+      s.answers.put(
+          ChunkChanges{wanted.island, wanted.chunk, s.world->edits(wanted.island, wanted.chunk)});
     }
     void operator()(const Edit& edit) { s.answers.put(s.edit(edit)); }
     void operator()(const PlayerMoved& moved) { s.play = moved.play; }
@@ -149,8 +150,8 @@ EditVerdict Session::State::verdict(const Edit& edit, BlockId& was) {
   const std::optional<world::Pose> pose = world->pose(edit.island, time_s);
   if (!pose) return EditVerdict::kNoSuchIsland;
   if (!play) return EditVerdict::kTooFar;
-  const glm::dvec3 eye = glm::conjugate(pose->rotation) *
-                         world::difference_blocks(play->eye.position, pose->origin);
+  const glm::dvec3 eye =
+      glm::conjugate(pose->rotation) * world::difference_blocks(play->eye.position, pose->origin);
   if (!(distance_to(v, eye) <= kSessionReach)) return EditVerdict::kTooFar;
   const std::optional<BlockId> there = world->block_at(edit.island, v);
   if (!there) return EditVerdict::kUnknown;

@@ -43,8 +43,8 @@ void Session::State::look_for_fragments(const Edit& edit, bool solid, double at_
   });
   if (found == grids.end() && solid) return;  // what is not known breaks off nothing
   if (found == grids.end()) {
-    grids.back() = {island, std::make_unique<world::SolidGrid>(
-                                world::SolidGrid::of_island(*world, island))};
+    grids.back() = {
+        island, std::make_unique<world::SolidGrid>(world::SolidGrid::of_island(*world, island))};
     std::rotate(grids.begin(), grids.end() - 1, grids.end());
   } else {
     std::rotate(grids.begin(), found, found + 1);
@@ -76,8 +76,7 @@ void Session::State::look_for_fragments(const Edit& edit, bool solid, double at_
         unsaved.chunks.insert({off.island, chunk});
     }
     for (const auto& [at, bits] : fragment.bricks) grid.clear(at, bits);
-    piece.shape =
-        std::make_unique<world::Shape>(world::SolidGrid::of_island(*world, piece.island));
+    piece.shape = std::make_unique<world::Shape>(world::SolidGrid::of_island(*world, piece.island));
     pieces.put(std::move(piece));
   }
 }

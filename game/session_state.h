@@ -30,9 +30,9 @@ struct Unsaved {
 /// A fragment that has become an island, on its way to the frame thread.
 struct BrokenPiece {
   std::uint64_t island = 0, broken_off = 0;
-  world::Mass mass;                   ///< in the old lattice
-  glm::dvec3 shift{};                 ///< from the old lattice to the new
-  std::vector<world::IVec3> voxels;   ///< in the old lattice; none: too many to name
+  world::Mass mass;                  ///< in the old lattice
+  glm::dvec3 shift{};                ///< from the old lattice to the new
+  std::vector<world::IVec3> voxels;  ///< in the old lattice; none: too many to name
   std::unique_ptr<world::Shape> shape;
 };
 

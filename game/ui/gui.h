@@ -65,4 +65,7 @@ class Gui {
   bool fed_ = false;
 };
 
+/// Whether Enter, or its like on a gamepad, went down in this frame; between Gui::begin and end.
+bool confirmed();
+
 }  // namespace skerry::game::ui

@@ -88,6 +88,11 @@ void Gui::feed(const InputFrame& input) {
     io.AddInputCharacter(static_cast<unsigned>(character));
 }
 
+bool confirmed() {
+  return ImGui::IsKeyPressed(ImGuiKey_Enter, false) ||
+         ImGui::IsKeyPressed(ImGuiKey_GamepadFaceDown, false);
+}
+
 void Gui::release_all() {
   feed({});
   ImGui::GetIO().AddMousePosEvent(-FLT_MAX, -FLT_MAX);
@@ -136,6 +141,10 @@ void Gui::feed(const InputFrame& input) {
   if (input.pressed(Key::kEnter) && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
   for (const char32_t character : input.text)
     io.AddInputCharacter(static_cast<unsigned>(character));
+}
+
+bool confirmed() {
+  return ImGui::GetIO().NavInputsDownDuration[ImGuiNavInput_Activate] == 0.0f;
 }
 
 void Gui::release_all() {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "game/ui/gui.h"
+
 namespace skerry::game::ui {
 namespace {
 
@@ -132,7 +134,10 @@ bool first_button(const char* label, float width) {
   const bool pressed = button(label, width);
   ImGui::PopStyleColor();
   ImGui::SetItemDefaultFocus();
-  return pressed;
+  // ImGui goes to it on the first key and presses it on the second.
+  const bool first_key = !ImGui::GetIO().NavVisible && ImGui::IsWindowFocused() &&
+                         !ImGui::IsAnyItemActive() && confirmed();
+  return pressed || first_key;
 }
 
 bool danger_button(const char* label, float width) {

@@ -38,7 +38,7 @@ void gap(float units);
 
 /// A button as wide as `width` units; 0: as wide as what is left. @return whether it was pressed.
 bool button(const char* label, float width = 0.0f);
-/// The one that Enter on a fresh screen presses.
+/// The one that Enter, or its like on a gamepad, presses before another has been gone to.
 bool first_button(const char* label, float width = 0.0f);
 bool danger_button(const char* label, float width = 0.0f);
 
