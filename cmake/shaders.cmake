@@ -3,7 +3,6 @@
 find_program(GLSLANG glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 file(GLOB shader_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*.vert ${CMAKE_SOURCE_DIR}/shaders/*.frag ${CMAKE_SOURCE_DIR}/shaders/*.comp)
-file(GLOB shader_headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/include/*.glsl ${CMAKE_SOURCE_DIR}/shaders/shared/*.h)
 set(shader_dir ${CMAKE_BINARY_DIR}/shaders)
 file(MAKE_DIRECTORY ${shader_dir})
 set(spirv_files)
@@ -13,10 +12,10 @@ foreach(source ${shader_sources})
   get_filename_component(name ${source} NAME)
   set(spirv ${shader_dir}/${name}.spv)
   # -g keeps names for the reflection test in an unoptimised twin; the shipped one is optimised.
-  add_custom_command(OUTPUT ${spirv} ${shader_dir}/${name}.full.spv
-    COMMAND ${GLSLANG} --target-env vulkan1.2 -g -Od --quiet -I${CMAKE_SOURCE_DIR}/shaders -I${CMAKE_SOURCE_DIR}/shaders/shared ${source} -o ${shader_dir}/${name}.full.spv
+  add_custom_command(OUTPUT ${shader_dir}/${name}.full.spv ${spirv}
+    COMMAND ${GLSLANG} --target-env vulkan1.2 -g -Od --quiet -I${CMAKE_SOURCE_DIR}/shaders -I${CMAKE_SOURCE_DIR}/shaders/shared ${source} --depfile ${shader_dir}/${name}.d -o ${shader_dir}/${name}.full.spv
     COMMAND ${SPIRV_OPT} -O --strip-debug ${shader_dir}/${name}.full.spv -o ${spirv}
-    DEPENDS ${source} ${shader_headers} COMMENT "Compiling shader ${name}" VERBATIM)
+    DEPENDS ${source} DEPFILE ${shader_dir}/${name}.d COMMENT "Compiling shader ${name}" VERBATIM)
   list(APPEND spirv_files ${spirv})
   string(MAKE_C_IDENTIFIER ${name} id)
   string(APPEND assembly ".balign 16\n.global skerry_shader_${id}\nskerry_shader_${id}:\n.incbin \"${spirv}\"\n.global skerry_shader_${id}_end\nskerry_shader_${id}_end:\n")

@@ -84,12 +84,17 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
     player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, double(faster)));
   const double reach = glm::length(player_.velocity()) * kLongestFrame;
   around_.refresh(player_.feet(), reach, player_.world_time_s());
+  const int returns = player_.returns();
   player_.advance(seconds, intent_of(actions), around_);
+  if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
   scene_.camera = player_.eye(around_);
 }
 
 void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
-  const HandIntent intent = hand_intent_of(actions);
+  HandIntent intent = hand_intent_of(actions);
+  // The click that captured the pointer, or closed a screen, means nothing to the hands.
+  hands_free_ = window_.pointer_captured() && (hands_free_ || (!intent.dig && !intent.place));
+  if (!hands_free_) intent.dig = intent.place = false;
   hands_.advance(seconds, intent, player_, *scene_.camera, around_, editor_);
 }
 

@@ -93,6 +93,7 @@ class PlayLoop {
   WorldSurroundings around_;
   WorldEditor editor_;
   Interaction hands_;
+  bool hands_free_ = false;  // captured, and no button held from before that
   DayClock day_;
   std::optional<double> exposure_ev_;  // what the eye has adapted to by now; none before it saw
   std::optional<PhotoView> photo_;

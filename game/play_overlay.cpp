@@ -32,9 +32,11 @@ std::vector<std::string> PlayLoop::overlay_lines() const {
           fmt::format("x {} y {} z {}", format_blocks(eye.position.x),
                       format_blocks(eye.position.y), format_blocks(eye.position.z)),
           fmt::format("yaw {:.1f} pitch {:.1f}   {} {:.1f} blocks/s", eye.yaw_deg, eye.pitch_deg,
-                      player_.mode() == MoveMode::kFly ? "flying"
-                      : player_.in_water()             ? "swimming"
-                                                       : "walking",
+                      player_.mode() == MoveMode::kNoclip ? "flying through walls"
+                      : player_.mode() == MoveMode::kFly  ? "flying"
+                      : player_.in_water()                ? "swimming"
+                      : player_.crouching()               ? "crouching"
+                                                          : "walking",
                       glm::length(player_.velocity())),
           fmt::format("time {}   islands at {:.1f} s", format_time_of_day(day_.time_of_day_s()),
                       player_.world_time_s()),
@@ -80,6 +82,7 @@ ui::HudFacts PlayLoop::hud() const {
     return world::floor_div(units, world::kUnitsPerBlock);
   };
   facts.yaw_deg = eye.yaw_deg;
+  facts.hidden = player_.return_fade();
   facts.hotbar = hands_.hotbar().blocks;
   facts.selected = hands_.hotbar().selected;
   facts.time_of_day_s = day_.time_of_day_s();

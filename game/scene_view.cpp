@@ -313,9 +313,11 @@ render::RenderSettings SceneView::render_settings(
   out.tone = settings_.tone;
   out.display = settings_.display;
   out.bloom = settings_.bloom;
+  out.clouds = settings_.clouds;
   out.leave_out = settings_.leave_out;
   out.debug_view = settings_.debug_view;
   out.traced_lights = settings_.lights_shadows;
+  out.light_tile = settings_.lights_tile;
   out.light_samples = static_cast<int>(settings_.lights_softness);
   out.lights_oracle = settings_.lights_oracle;
   return out;

@@ -25,13 +25,16 @@ constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct1
 constexpr std::array<std::string_view, 3> kPositionNames{"depth", "rgba16f", "rgba32f"};
 constexpr std::array<std::string_view, 2> kDepthNames{"d32", "d16"};
 constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
+constexpr std::array<std::string_view, 4> kTileNames{"8", "16", "32", "64"};
+constexpr std::array<std::string_view, 2> kResolutionNames{"full", "half"};
+constexpr std::array<std::string_view, 3> kPrecisionNames{"8", "16", "32"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{
-    {{"low", 400, 128, 1024, 0.0f, 1},
-     {"medium", 1000, 192, 2048, 0.0f, 4},
-     {"high", 2000, 320, 4096, 0.1f, 8},
-     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight}}};
+    {{"low", 400, 128, 1024, 0.0f, 1, 32, 2},
+     {"medium", 1000, 192, 2048, 0.0f, 4, 48, 2},
+     {"high", 2000, 320, 4096, 0.1f, 8, 96, 1},
+     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight, 160, 1}}};
 
 std::string listed(std::span<const std::string_view> names) {
   return fmt::format("{}", fmt::join(names, ", "));
@@ -142,6 +145,20 @@ Result<void> parse_leave_out(std::string_view text, Settings& s) {
     }
   }
   s.leave_out = set;
+  return {};
+}
+
+Result<void> parse_cloud_resolution(std::string_view text, Settings& s) {
+  const auto name = parse_name(text, "clouds.resolution", kResolutionNames);
+  if (!name) return name.error();
+  s.clouds.resolution = static_cast<int>(*name) + 1;
+  return {};
+}
+
+Result<void> parse_cloud_precision(std::string_view text, Settings& s) {
+  const auto name = parse_name(text, "clouds.precision", kPrecisionNames);
+  if (!name) return name.error();
+  s.clouds.precision = 8 << *name;
   return {};
 }
 
@@ -341,6 +358,62 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "bloom.levels", 1, 8), s.bloom.levels);
      },
      [](const Settings& s) { return std::to_string(s.bloom.levels); }},
+    {"clouds.coverage", "0 to 1",
+     "Share of the sky that the cloud layer covers; 0: there is no layer.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "clouds.coverage", 0.0, 1.0), s.clouds.coverage);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.clouds.coverage); }},
+    {"clouds.altitude", "blocks, -1000000 to 1000000",
+     "Where the layer's clouds begin, above the world's origin.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "clouds.altitude", -1e6, 1e6), s.clouds.altitude);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.clouds.altitude); }},
+    {"clouds.thickness", "blocks, 1 to 10000",
+     "How high the layer's highest clouds reach above that.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "clouds.thickness", 1.0, 10000.0), s.clouds.thickness);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.clouds.thickness); }},
+    {"clouds.density", "1/block, 0 to 10000",
+     "Extinction in the middle of the layer's clouds.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "clouds.density", 0.0, 1e4), s.clouds.density);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.clouds.density); }},
+    {"clouds.file_density", "1/block, 0 to 10000",
+     "Extinction of density 1 in clouds of files.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "clouds.file_density", 0.0, 1e4), s.clouds.file_density);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.clouds.file_density); }},
+    {"clouds.file_emission", "radiance/block, 0 to 10000",
+     "What the hottest place of a file's fire sends out.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "clouds.file_emission", 0.0, 1e4), s.clouds.file_emission);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.clouds.file_emission); }},
+    {"clouds.steps", "8 to 1024",
+     "Places where a ray looks at the layer, or at a file's cloud.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "clouds.steps", 8, 1024), s.clouds.steps);
+     },
+     [](const Settings& s) { return std::to_string(s.clouds.steps); }},
+    {"clouds.shadow_steps", "4 to 128",
+     "Places along the light's way through a cloud.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "clouds.shadow_steps", 4, 128), s.clouds.shadow_steps);
+     },
+     [](const Settings& s) { return std::to_string(s.clouds.shadow_steps); }},
+    {"clouds.resolution", "full or half",
+     "A ray through clouds for every pixel, or for every second one each way and along edges.",
+     parse_cloud_resolution,
+     [](const Settings& s) {
+       return std::string(kResolutionNames[static_cast<std::size_t>(s.clouds.resolution - 1)]);
+     }},
+    {"clouds.precision", "8, 16 or 32", "Bits that a density of a file's cloud is kept in.",
+     parse_cloud_precision, [](const Settings& s) { return std::to_string(s.clouds.precision); }},
     {"tone", "aces or agx", "Tone curve: from exposed light to what a display can show.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "tone", kToneNames), s.tone);
@@ -393,13 +466,21 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "lights.softness", 1, 16), s.lights_softness);
      },
      [](const Settings& s) { return std::to_string(s.lights_softness); }},
+    {"lights.tile", "8, 16, 32 or 64",
+     "Pixels along the tiles that lights are sorted into; changes no picture, only its cost.",
+     [](std::string_view t, Settings& s) {
+       const auto name = parse_name(t, "lights.tile", kTileNames);
+       if (!name) return Result<void>(name.error());
+       return into(parse_integer(kTileNames[*name], "lights.tile", 8, 64), s.lights_tile);
+     },
+     [](const Settings& s) { return std::to_string(s.lights_tile); }},
     {"lights.oracle", "0 or 1",
      "For measuring: every pixel asks every light, instead of those of its cluster.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "lights.oracle", kSwitchNames), s.lights_oracle);
      },
      [](const Settings& s) { return std::string(s.lights_oracle ? "1" : "0"); }},
-    {"leave.out", "none, or of sun, moon, water, cutouts, stars, discs, haze, lights, joined by +",
+    {"leave.out", "none, or of sun, moon, water, cutouts, stars, discs, haze, lights, clouds, joined by +",
      "Draws as if the scene had none of these.", parse_leave_out, print_leave_out},
     {"upload.path", "update, staging or mapped",
      "How meshes travel to the GPU: vkCmdUpdateBuffer, copies, mapped memory.",
@@ -492,6 +573,8 @@ void set_quality(Quality quality, Settings& settings) {
   settings.shadow_size = level.shadow_size;
   settings.bloom.intensity = level.bloom_intensity;
   settings.lights_shadows = level.lights_shadows;
+  settings.clouds.steps = level.cloud_steps;
+  settings.clouds.resolution = level.cloud_resolution;
 }
 
 std::vector<std::string> assignments_from(Quality quality, const Settings& settings) {

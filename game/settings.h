@@ -54,6 +54,7 @@ struct Settings {
   render::ToneCurve tone = render::ToneCurve::kAces;
   render::DisplaySettings display;
   render::BloomSettings bloom;
+  render::CloudSettings clouds;
   RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;
   DebugView debug_view = DebugView::kNone;
@@ -62,6 +63,7 @@ struct Settings {
   std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
   /// Lights of a pixel that walls are looked for before: 0 none, 1 .. 8, or render::kEveryLight.
   std::uint32_t lights_shadows = 4;
+  std::uint32_t lights_tile = 16;        ///< pixels along a light cluster's tile: 8, 16, 32, 64
   std::uint32_t lights_softness = 1;     ///< ways to a light that has a size, 1 .. 16
   bool lights_oracle = false;            ///< every pixel asks every light
   render::FeatureSet leave_out;          ///< drawn of no scene
@@ -94,6 +96,7 @@ struct QualityLevel {
   std::uint32_t view_distance, view_detail, shadow_size;
   float bloom_intensity;
   std::uint32_t lights_shadows;
+  int cloud_steps, cloud_resolution;
 };
 const QualityLevel& quality_level(Quality quality);
 Result<Quality> parse_quality(std::string_view text);

@@ -126,13 +126,4 @@ std::optional<world::BlockId> WorldSurroundings::block(std::uint64_t island,
   return world_.block_at(island, voxel);
 }
 
-bool WorldEditor::set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) {
-  const std::optional<world::IslandSpec> spec = world_.island(island);
-  if (!spec) return false;
-  const auto in = [](int at, int low, int high) { return at >= low && at < high; };
-  return in(voxel.x, spec->box_min.x, spec->box_max.x) &&
-         in(voxel.y, spec->box_min.y, spec->box_max.y) &&
-         in(voxel.z, spec->box_min.z, spec->box_max.z) && world_.set_block(island, voxel, block);
-}
-
 }  // namespace skerry::game

@@ -70,12 +70,14 @@ class WorldSurroundings : public Surroundings {
   ChunkLoader loader_;
 };
 
-/// Edits straight into a world, within the islands' boxes: beyond them nothing is streamed.
+/// Edits straight into a world.
 class WorldEditor : public BlockEditor {
  public:
   /// @param world outlives this.
   explicit WorldEditor(world::World& world) : world_(world) {}
-  bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) override;
+  bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) override {
+    return world_.set_block(island, voxel, block);
+  }
 
  private:
   world::World& world_;

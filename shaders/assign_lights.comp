@@ -29,7 +29,7 @@ void main() {
   uvec2 at = uvec2(tile % grid.tiles_x, tile / grid.tiles_x);
   TileDepths t = tiles[tile];
   float far = slice + 1u < kClusterSlices ? min(t.farthest, slice_begin(slice + 1u)) : t.farthest;
-  Cell cell = cell_of(at * kClusterEdge, min((at + 1u) * kClusterEdge, grid.size), max(t.nearest, slice_begin(slice)), far);
+  Cell cell = cell_of(at << grid.edge_log2, min((at + 1u) << grid.edge_log2, grid.size), max(t.nearest, slice_begin(slice)), far);
   uint bin = (at.y / kBinClusters * grid.bins_x + at.x / kBinClusters) * grid.light_words;
   uint place = slot * grid.chunks + chunk;
   bool write = push.list != 0u;

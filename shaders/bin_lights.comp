@@ -15,8 +15,6 @@ layout(scalar, binding = 3) writeonly buffer Bins { uint bins[]; };  // [bin][wo
 
 #include "include/clusters.glsl"
 
-const uint kBinEdge = kBinClusters * kClusterEdge;  // pixels
-
 void main() {
   uint bin = gl_GlobalInvocationID.x, word = gl_WorkGroupID.y;
   if (bin >= grid.bins_x * grid.bins_y) return;
@@ -30,7 +28,8 @@ void main() {
   }
   uint bits = 0u;
   if (nearest <= farthest) {
-    Cell cell = cell_of(at * kBinEdge, min((at + 1u) * kBinEdge, grid.size), nearest, farthest);
+    uint edge = kBinClusters << grid.edge_log2;  // pixels
+    Cell cell = cell_of(at * edge, min((at + 1u) * edge, grid.size), nearest, farthest);
     uint end = min(word * 32u + 32u, grid.light_count);
     // A wider margin than a cluster's: what reaches a cluster must reach its bin.
     for (uint i = word * 32u; i < end; ++i)

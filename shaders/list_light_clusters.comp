@@ -8,13 +8,11 @@ layout(local_size_x = 64) in;
 
 layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
 layout(scalar, binding = 1) readonly buffer Small { TileDepths small_tiles[]; };  // of 8x8 pixels
-layout(scalar, binding = 2) writeonly buffer Large { TileDepths tiles[]; };       // of kClusterEdge
+layout(scalar, binding = 2) writeonly buffer Large { TileDepths tiles[]; };       // of the grid
 layout(scalar, binding = 3) buffer Work { ClusterWork work; };
 layout(scalar, binding = 4) writeonly buffer Occupied { uint occupied[]; };
 
 #include "include/clusters.glsl"
-
-const uint kSmall = kClusterEdge / kTileEdge;  // small tiles along a large one
 
 void list_cluster(uint cluster) {
   uint slot = atomicAdd(work.clusters, 1u), group = slot / kClusterGroup;
@@ -28,11 +26,12 @@ void list_cluster(uint cluster) {
 void main() {
   uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (tile >= grid.tiles_x * grid.tiles_y) return;
+  uint along = (1u << grid.edge_log2) / kTileEdge;  // small tiles along a large one
   uvec2 small_count = (grid.size + kTileEdge - 1u) / kTileEdge;
-  uvec2 low = uvec2(tile % grid.tiles_x, tile / grid.tiles_x) * kSmall;
+  uvec2 low = uvec2(tile % grid.tiles_x, tile / grid.tiles_x) * along;
   TileDepths t = TileDepths(0u, 1e30, 0.0);
-  for (uint i = 0u; i < kSmall * kSmall; ++i) {
-    uvec2 at = min(low + uvec2(i % kSmall, i / kSmall), small_count - 1u);
+  for (uint i = 0u; i < along * along; ++i) {
+    uvec2 at = min(low + uvec2(i % along, i / along), small_count - 1u);
     TileDepths s = small_tiles[at.y * small_count.x + at.x];
     t.slices |= s.slices;
     t.nearest = min(t.nearest, s.nearest);

@@ -39,6 +39,7 @@ struct DeviceOptions {
 struct DeviceLimits {
   std::uint64_t max_storage_range = 0;  ///< bytes one storage buffer binding may cover
   std::uint32_t max_image_edge = 0;     ///< pixels, 2D
+  std::uint32_t max_volume_edge = 0;    ///< texels, 3D
   std::uint32_t max_draw_count = 0;     ///< of an indirect draw
   float timestamp_period_ns = 0.0f;     ///< 0: the queue cannot measure
 };

@@ -174,6 +174,7 @@ DeviceLimits read_limits(VkPhysicalDevice device) {
   DeviceLimits out;
   out.max_storage_range = limits.maxStorageBufferRange;
   out.max_image_edge = limits.maxImageDimension2D;
+  out.max_volume_edge = limits.maxImageDimension3D;
   out.max_draw_count = limits.maxDrawIndirectCount;
   out.timestamp_period_ns = has_timestamps(device) ? limits.timestampPeriod : 0.0f;
   return out;

@@ -150,6 +150,7 @@ Result<void> Device::check_image(const VkImageCreateInfo& info, const std::strin
                  " for this use; choose another with --device"};
   }
   if (info.extent.width > limits.maxExtent.width || info.extent.height > limits.maxExtent.height ||
+      info.extent.depth > limits.maxExtent.depth ||
       info.arrayLayers > limits.maxArrayLayers || info.mipLevels > limits.maxMipLevels) {
     return Error{what + "this device allows " + std::to_string(limits.maxExtent.width) + "x" +
                  std::to_string(limits.maxExtent.height) + ", " +
@@ -160,9 +161,9 @@ Result<void> Device::check_image(const VkImageCreateInfo& info, const std::strin
 
 Result<Image> Device::create_image(const ImageDesc& desc) {
   auto info = vk_struct<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
-  info.imageType = VK_IMAGE_TYPE_2D;
+  info.imageType = desc.depth != 0 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
   info.format = desc.format;
-  info.extent = {desc.extent.width, desc.extent.height, 1};
+  info.extent = {desc.extent.width, desc.extent.height, std::max(desc.depth, 1u)};
   info.mipLevels = desc.mips;
   info.arrayLayers = desc.layers;
   info.samples = VK_SAMPLE_COUNT_1_BIT;

@@ -185,8 +185,8 @@ std::optional<VkDescriptorType> descriptor_type(const Module& module, std::uint3
   if (storage_class != kUniformConstant) return std::nullopt;
   if (type.op == kOpTypeSampledImage) return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
   if (type.op == kOpTypeSampler) return VK_DESCRIPTOR_TYPE_SAMPLER;
-  constexpr std::uint32_t kStorageImage = 2, kDim2D = 1;
-  if (type.op == kOpTypeImage && type.operands[2] == kDim2D) {
+  constexpr std::uint32_t kStorageImage = 2, kDim2D = 1, kDim3D = 2;
+  if (type.op == kOpTypeImage && (type.operands[2] == kDim2D || type.operands[2] == kDim3D)) {
     return type.operands[6] == kStorageImage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
                                              : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
   }
@@ -214,7 +214,7 @@ Result<ShaderReflection> reflect(std::span<const std::uint32_t> words) {
     if (module.decoration(id, kDescriptorSet).value_or(0) != 0)
       return Error{what + " is not in descriptor set 0"};
     const std::optional<VkDescriptorType> type = descriptor_type(module, storage_class, pointee);
-    if (!type) return Error{what + " is not a buffer, 2D storage image, texture or sampler"};
+    if (!type) return Error{what + " is not a buffer, 2D or 3D storage image, texture or sampler"};
     // Two variables may share a binding, say to read a buffer as two types.
     const ShaderReflection::Binding entry{*binding, *type};
     if (std::find(out.bindings.begin(), out.bindings.end(), entry) == out.bindings.end())

@@ -66,8 +66,8 @@ void Image::adopt(Device& device, VkDeviceMemory memory, std::uint64_t allocated
   views_ = new Views;
   if (!(desc.usage & kViewable)) return;
   const bool array = desc.array || desc.layers > 1;
-  view_ = create_view(device, handle_, desc,
-                      array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
+  const VkImageViewType flat = array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+  view_ = create_view(device, handle_, desc, desc.depth != 0 ? VK_IMAGE_VIEW_TYPE_3D : flat,
                       {aspect(), 0, desc.mips, 0, desc.layers});
 }
 

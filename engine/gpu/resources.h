@@ -44,11 +44,12 @@ struct ImageDesc {
   std::uint32_t mips = 1;
   std::uint32_t layers = 1;
   VkImageUsageFlags usage = 0;
-  bool array = false;  ///< view as an array even with one layer
+  bool array = false;       ///< view as an array even with one layer
+  std::uint32_t depth = 0;  ///< texels; not 0: a 3D image, of one layer
   bool operator==(const ImageDesc& other) const {
     return name == other.name && format == other.format && extent.width == other.extent.width &&
            extent.height == other.extent.height && mips == other.mips && layers == other.layers &&
-           usage == other.usage && array == other.array;
+           usage == other.usage && array == other.array && depth == other.depth;
   }
 };
 
@@ -90,7 +91,7 @@ class Buffer {
   std::string name_;
 };
 
-/// A move-only 2D image (array) with its memory and views. Same life as Buffer.
+/// A move-only 2D image (array) or 3D image with its memory and views. Same life as Buffer.
 class Image {
  public:
   Image() = default;

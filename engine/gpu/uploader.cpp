@@ -227,8 +227,8 @@ Result<void> Uploader::fill_image(Image& image, std::span<const std::byte> bytes
   const auto edge = [](std::uint32_t size, std::uint32_t mip) { return std::max(1u, size >> mip); };
   std::uint64_t texels = 0;
   for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
-    texels +=
-        std::uint64_t{edge(desc.extent.width, mip)} * edge(desc.extent.height, mip) * desc.layers;
+    texels += std::uint64_t{edge(desc.extent.width, mip)} * edge(desc.extent.height, mip) *
+              edge(desc.depth, mip) * desc.layers;
   }
   const std::uint64_t texel_bytes = bytes.size() / texels;
   SKERRY_ASSERT(texel_bytes > 0 && texel_bytes * texels == bytes.size());
@@ -243,9 +243,11 @@ Result<void> Uploader::fill_image(Image& image, std::span<const std::byte> bytes
     VkBufferImageCopy region{};
     region.bufferOffset = offset;
     region.imageSubresource = {image.aspect(), mip, 0, desc.layers};
-    region.imageExtent = {edge(desc.extent.width, mip), edge(desc.extent.height, mip), 1};
+    region.imageExtent = {edge(desc.extent.width, mip), edge(desc.extent.height, mip),
+                          edge(desc.depth, mip)};
     regions.push_back(region);
-    offset += texel_bytes * region.imageExtent.width * region.imageExtent.height * desc.layers;
+    offset += texel_bytes * region.imageExtent.width * region.imageExtent.height *
+              region.imageExtent.depth * desc.layers;
   }
   state_->device.run_now([&](VkCommandBuffer commands) {
     touch(state_->device, commands, image,

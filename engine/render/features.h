@@ -10,9 +10,19 @@ namespace skerry::render {
 
 /// What a scene can do without. A frame that lacks one spends nothing on it: no pass, no draw, no
 /// pipeline, no memory.
-enum class Feature : std::uint8_t { kSun, kMoon, kWater, kCutouts, kStars, kDiscs, kHaze, kLights };
-inline constexpr std::array<std::string_view, 8> kFeatureNames{"sun",   "moon",  "water", "cutouts",
-                                                               "stars", "discs", "haze",  "lights"};
+enum class Feature : std::uint8_t {
+  kSun,
+  kMoon,
+  kWater,
+  kCutouts,
+  kStars,
+  kDiscs,
+  kHaze,
+  kLights,
+  kClouds
+};
+inline constexpr std::array<std::string_view, 9> kFeatureNames{
+    "sun", "moon", "water", "cutouts", "stars", "discs", "haze", "lights", "clouds"};
 
 class FeatureSet {
  public:

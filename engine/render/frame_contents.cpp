@@ -46,7 +46,7 @@ std::vector<shared::Light> find_lights(FrameFeatures& features, const FrameInput
 
 FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
                           const FrameTables& tables, const shared::SkyConstants& sky,
-                          const GeometryStore& geometry) {
+                          const GeometryStore& geometry, bool cloud_volumes) {
   FrameContents out{FrameFeatures(settings.leave_out), {}, {}};
   FrameFeatures& features = out.features;
   if (!input.sky.sun_casts) features.set_absent(Feature::kSun, "the sun is below the horizon");
@@ -57,6 +57,8 @@ FrameContents contents_of(const FrameInput& input, const RenderSettings& setting
   if (sky.stars == 0.0f) features.set_absent(Feature::kStars, "it is not dark enough");
   if (!disc_in_view(input.sky, tables.constants))
     features.set_absent(Feature::kDiscs, "sun and moon are outside the picture or have set");
+  if (settings.clouds.coverage == 0.0f && !cloud_volumes)
+    features.set_absent(Feature::kClouds, "clouds.coverage=0 and there is no cloud of a file");
   find_water(features, input, tables, geometry);
   out.cutouts_in_view = find_cutouts(features, tables, geometry);
   out.lights = find_lights(features, input, tables, geometry);

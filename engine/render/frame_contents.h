@@ -15,9 +15,9 @@ struct FrameContents {
 };
 
 /// Asked of the tables as they are before culling is frozen: a frozen camera changes what is drawn,
-/// never which passes a picture has.
+/// never which passes a picture has. @param cloud_volumes whether there are clouds of files.
 FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
                           const FrameTables& tables, const shared::SkyConstants& sky,
-                          const GeometryStore& geometry);
+                          const GeometryStore& geometry, bool cloud_volumes);
 
 }  // namespace skerry::render

@@ -43,26 +43,27 @@ shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body,
   return out;
 }
 
-/// Extinction of clear air, taken back as the brighter body sets: haze is lit by it, and must not
-/// end in a step when it is gone.
-float haze_per_block(const Celestial& sky) {
-  constexpr float kClearAir = 0.0005f, kFullAt = 0.05f;
-  const float sun = glm::dot(sky.sun_irradiance, glm::vec3(1.0f / 3.0f));
-  const float moon =
-      glm::dot(sky.moon_irradiance, glm::vec3(1.0f / 3.0f)) / static_cast<float>(kMoonToSun);
-  return kClearAir * glm::smoothstep(0.0f, kFullAt, sky.sun_casts ? sun : moon);
-}
-
 void append_islands(std::vector<shared::IslandTransform>& out,
                     std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
 }
+
+/// Extinction of clear air [1/block].
+constexpr float kClearAir = 0.0005f;
 
 glm::vec3 unpack_box(std::uint32_t packed) {
   return {packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u};
 }
 
 }  // namespace
+
+float air_light(const Celestial& sky) {
+  constexpr float kFullAt = 0.05f;
+  const float sun = glm::dot(sky.sun_irradiance, glm::vec3(1.0f / 3.0f));
+  const float moon =
+      glm::dot(sky.moon_irradiance, glm::vec3(1.0f / 3.0f)) / static_cast<float>(kMoonToSun);
+  return glm::smoothstep(0.0f, kFullAt, sky.sun_casts ? sun : moon);
+}
 
 shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to) {
   const glm::dmat3 axes = glm::mat3_cast(island.rotation);
@@ -93,7 +94,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.bodies[1] = shader_body(input.sky.to_moon, input.sky.moon_irradiance, 1, cascades);
 
   f.corner_darkening = settings.corner_darkening;
-  f.haze_per_block = haze_per_block(input.sky);
+  f.haze_per_block = kClearAir * air_light(input.sky);
 
   shared::CullView view{};
   for (std::size_t i = 0; i < camera.planes.size(); ++i) view.planes[i] = camera.planes[i];

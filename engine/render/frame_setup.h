@@ -26,6 +26,10 @@ shared::IslandTransform transform_of(const IslandPlacement& island, const FixedP
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
                          std::span<const ActiveCascade> cascades);
 
+/// How much of the light that air and clouds take from the sky there is, 0..1: taken back as the
+/// brighter body sets, so that nothing ends in a step when it is gone.
+float air_light(const Celestial& sky);
+
 /// Whether the sun's or the moon's disc may touch the picture: a cone about the view axis. What has
 /// set is swallowed by mist.
 bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame);

@@ -15,7 +15,7 @@ gpu::ImageRef target(gpu::FrameGraph& graph, const char* name, VkFormat format, 
 }
 
 /// Pipeline of opaque quads, and of cut-outs.
-std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store) {
+std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store, bool finest_coverage) {
   gpu::GraphicsDesc opaque{.vertex = "draw_quads.vert",
                            .fragment = "write_surface.frag",
                            .constants = {},
@@ -24,6 +24,7 @@ std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store) {
   gpu::GraphicsDesc cutout = opaque;
   cutout.fragment = "write_cutout.frag";
   cutout.constants = {{0, 1}};
+  if (finest_coverage) cutout.constants.push_back({17, 1});
   cutout.cull = VK_CULL_MODE_NONE;
   const VkFormat normal = normal_format(store.normal), position = position_format(store.position);
   if (normal == VK_FORMAT_UNDEFINED && position == VK_FORMAT_UNDEFINED) return {opaque, cutout};
@@ -42,14 +43,14 @@ std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store) {
 
 Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                            const SceneRefs& scene, const CulledDraws& draws, bool cutouts,
-                           const GBufferStore& store) {
+                           bool finest_coverage, const GBufferStore& store) {
   Geometry out;
   out.store_ = store;
   out.surfaces_ = target(graph, "surfaces", VK_FORMAT_R32_UINT, scene.size);
   out.depth_ = target(graph, "depth", depth_format(store.depth), scene.size);
   out.normals_ = target(graph, "normals", normal_format(store.normal), scene.size);
   out.positions_ = target(graph, "positions", position_format(store.position), scene.size);
-  const std::array<gpu::GraphicsDesc, 2> descs = pipeline_descs(store);
+  const std::array<gpu::GraphicsDesc, 2> descs = pipeline_descs(store, finest_coverage);
   const gpu::Pipeline& opaque_pipeline = pipelines.get(descs[0]);
   const gpu::Pipeline* cutout_pipeline = cutouts ? &pipelines.get(descs[1]) : nullptr;
 

@@ -9,9 +9,12 @@ namespace skerry::render {
 /// position and block textures (docs/decisions/0002).
 struct GeometryPass {
   /// @param cutouts false leaves the pass's alpha-tested half out.
+  /// @param finest_coverage tests alpha on the finest texels, as suits several samples a pixel;
+  /// mips of thin plants keep nothing of them where a block is smaller than a sample.
   /// @param store what is written besides the word, see gbuffer_formats.h.
   static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                      const CulledDraws& draws, bool cutouts, const GBufferStore& store);
+                      const CulledDraws& draws, bool cutouts, bool finest_coverage,
+                      const GBufferStore& store);
 };
 
 }  // namespace skerry::render

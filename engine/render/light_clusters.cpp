@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.h"
@@ -19,9 +20,9 @@ constexpr VkBufferUsageFlags kTable =
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 /// Room for lists to begin with. What a frame wants beyond is made for later ones.
 constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 14, kFirstEntries = 1u << 22;
-/// 4,096 lights are looked through at a stretch: more would leave a GPU idle, and lavapipe ends an
+/// 256 lights are looked through at a stretch: more would leave a GPU idle, and lavapipe ends an
 /// invocation after 65,535 rounds of its loops, without a word.
-constexpr std::uint32_t kLeastChunkWords = 128, kMostChunks = 16;
+constexpr std::uint32_t kLeastChunkWords = 8, kMostChunks = 16;
 /// Lists never take more: what does not fit is looked for among all lights.
 constexpr std::uint64_t kMostEntryBytes = 512u << 20;
 
@@ -29,9 +30,9 @@ std::uint32_t groups(std::uint32_t threads, std::uint32_t group) {
   return gpu::Commands::groups(threads, group);
 }
 
-std::uint32_t bins_of(VkExtent2D size) {
-  constexpr std::uint32_t kEdge = shared::kClusterEdge * shared::kBinClusters;
-  return groups(size.width, kEdge) * groups(size.height, kEdge);
+std::uint32_t bins_of(const ClusterPicture& picture) {
+  const std::uint32_t edge = picture.tile_edge * shared::kBinClusters;
+  return groups(picture.size.width, edge) * groups(picture.size.height, edge);
 }
 
 std::uint64_t most_entries(const gpu::DeviceLimits& limits) {
@@ -58,32 +59,34 @@ std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
   return out;
 }
 
-std::uint32_t most_lights(const gpu::DeviceLimits& limits, VkExtent2D size) {
+std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture& picture) {
   // A dispatch has a row of bins for each word of 32 lights, and a device takes 65,535 rows.
   const std::uint64_t by_lights = limits.max_storage_range / sizeof(shared::Light);
-  const std::uint64_t words = limits.max_storage_range / sizeof(std::uint32_t) / bins_of(size);
+  const std::uint64_t words = limits.max_storage_range / sizeof(std::uint32_t) / bins_of(picture);
   return static_cast<std::uint32_t>(
       std::min(by_lights, 32 * std::min<std::uint64_t>(words, 65535)));
 }
 
-shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size, bool inside_medium,
+shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
                                  std::uint32_t light_count, std::uint64_t entries) {
   shared::ClusterGrid g{};
   g.right = camera.right;
   g.up = camera.up;
   g.forward = camera.forward;
   g.tan_half = {camera.tan_half_x, camera.tan_half_y};
-  g.size = {size.width, size.height};
+  g.size = {picture.size.width, picture.size.height};
   g.near_plane = kNearPlane;
-  g.tiles_x = groups(size.width, shared::kClusterEdge);
-  g.tiles_y = groups(size.height, shared::kClusterEdge);
+  SKERRY_ASSERT(std::has_single_bit(picture.tile_edge) && picture.tile_edge >= shared::kTileEdge);
+  g.edge_log2 = static_cast<std::uint32_t>(std::countr_zero(picture.tile_edge));
+  g.tiles_x = groups(g.size.x, picture.tile_edge);
+  g.tiles_y = groups(g.size.y, picture.tile_edge);
   g.bins_x = groups(g.tiles_x, shared::kBinClusters);
   g.bins_y = groups(g.tiles_y, shared::kBinClusters);
   g.light_count = light_count;
   g.light_words = groups(light_count, 32);
   g.chunk_words = std::max(kLeastChunkWords, groups(g.light_words, kMostChunks));
   g.chunks = groups(g.light_words, g.chunk_words);
-  g.marked_slices = inside_medium ? 1u : 0u;
+  g.marked_slices = picture.inside_medium ? 1u : 0u;
   // The counter that hands out room has 32 bits: even if every light reached every cluster it must
   // not wrap.
   const std::uint64_t clusters = std::uint64_t{g.tiles_x} * g.tiles_y * shared::kClusterSlices;
@@ -127,15 +130,15 @@ Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
 }
 
 Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
-                                   const CameraView& camera, VkExtent2D size, bool inside_medium) {
+                                   const CameraView& camera, const ClusterPicture& picture) {
   SKERRY_ASSERT(!lights.empty());
-  const std::uint32_t most = most_lights(device_.limits(), size);
+  const std::uint32_t most = most_lights(device_.limits(), picture);
   if (lights.size() > most) {
     if (!said_too_many_)
       log_error(
           fmt::format("cannot light a picture with {} lights: this device can sort {} at "
                       "{}x{} pixels; the others stay dark, use fewer lights in view",
-                      lights.size(), most, size.width, size.height));
+                      lights.size(), most, picture.size.width, picture.size.height));
     said_too_many_ = true;
     lights = lights.first(most);
   }
@@ -153,7 +156,7 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
                                   lights.size_bytes());
   if (Result<void> ok = reserve(lights_, "lights", bytes); !ok) return ok;
   if (Result<void> ok = reserve(grid_buffer_, "cluster grid", sizeof(grid_)); !ok) return ok;
-  grid_ = cluster_grid(camera, size, inside_medium, static_cast<std::uint32_t>(lights.size()),
+  grid_ = cluster_grid(camera, picture, static_cast<std::uint32_t>(lights.size()),
                        entries_.size_bytes() / sizeof(std::uint32_t));
   uploader.write(lights_, 0, lights);
   uploader.write(grid_buffer_, 0, std::span<const shared::ClusterGrid>(&grid_, 1));

@@ -21,12 +21,18 @@ struct CameraView;
 std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
                                           const shared::CullView& view);
 
-/// The most lights of a picture that a device can sort.
-std::uint32_t most_lights(const gpu::DeviceLimits& limits, VkExtent2D size);
+/// A picture to be cut into clusters.
+struct ClusterPicture {
+  VkExtent2D size{};             ///< pixels
+  bool inside_medium = false;    ///< the camera is in a translucent block
+  std::uint32_t tile_edge = 16;  ///< pixels along a cluster's tile: 8, 16, 32 or 64
+};
 
-/// The grid for a picture. @param entries that there is room for; @param inside_medium the camera
-/// is in a translucent block.
-shared::ClusterGrid cluster_grid(const CameraView& camera, VkExtent2D size, bool inside_medium,
+/// The most lights of a picture that a device can sort.
+std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture& picture);
+
+/// The grid for a picture. @param entries that there is room for.
+shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
                                  std::uint32_t light_count, std::uint64_t entries);
 
 /// A frame's lights, sorted: what a pass needs that includes shaders/include/clustered.glsl.
@@ -59,7 +65,7 @@ class LightClusters {
   /// Takes a frame's lights to the GPU. More than most_lights() are cut off, and said so once.
   /// @param lights not empty, in view. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
-                      const CameraView& camera, VkExtent2D size, bool inside_medium);
+                      const CameraView& camera, const ClusterPicture& picture);
   /// Adds the passes that sort what was uploaded last. @param oracle see ClusteredLights.
   ClusteredLights add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const ClusterDepths& depths, bool oracle);

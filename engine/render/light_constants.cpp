@@ -15,4 +15,13 @@ std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
   return own;
 }
 
+std::optional<CloudRefs> clouds_before_light(const SceneRefs& scene) {
+  return scene.bodies != 0 ? scene.clouds : std::nullopt;
+}
+
+std::vector<gpu::SpecConstant> with_clouds(std::vector<gpu::SpecConstant> own,
+                                           const std::optional<CloudRefs>& clouds) {
+  return clouds ? clouds->with_clouds(std::move(own)) : own;
+}
+
 }  // namespace skerry::render

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "engine/gpu/pipeline.h"
@@ -11,5 +12,11 @@ namespace skerry::render {
 /// filtered, if there are maps.
 std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
                                           const SceneRefs& scene, bool shadows);
+
+/// The clouds that sun or moon may stand behind; none if neither gives light.
+std::optional<CloudRefs> clouds_before_light(const SceneRefs& scene);
+/// Adds what the light functions under clouds are specialised by, if there are clouds.
+std::vector<gpu::SpecConstant> with_clouds(std::vector<gpu::SpecConstant> own,
+                                           const std::optional<CloudRefs>& clouds);
 
 }  // namespace skerry::render

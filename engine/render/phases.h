@@ -54,6 +54,7 @@ class Shaded {
  private:
   friend struct ShadePass;
   friend struct LightPass;
+  friend struct CloudPass;
   friend struct TranslucentPass;
   friend struct FaultPass;
   friend struct ResolvePass;

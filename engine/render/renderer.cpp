@@ -12,6 +12,8 @@
 #include "engine/render/block_textures.h"
 #include "engine/render/bloom_pass.h"
 #include "engine/render/capture.h"
+#include "engine/render/cloud_pass.h"
+#include "engine/render/clouds.h"
 #include "engine/render/cull_pass.h"
 #include "engine/render/develop_pass.h"
 #include "engine/render/frame_contents.h"
@@ -71,7 +73,7 @@ bool meters(const FrameInput& input, const RenderSettings& settings) {
 /// Whether the picture takes the way over a radiance image though no pass comes between.
 bool by_radiance(const FrameInput& input, const RenderSettings& settings,
                  const FrameFeatures& features) {
-  return features.has(Feature::kLights) || settings.bloom.intensity > 0.0f ||
+  return features.has(Feature::kLights) || features.has(Feature::kClouds) || settings.bloom.intensity > 0.0f ||
          meters(input, settings) || input.capture || input.fault.has_value() ||
          samples_per_edge(settings) > 1 || input.parts > 1;
 }
@@ -117,6 +119,7 @@ struct Renderer::State {
         mesh_uploader(d, desc.upload_path),
         shadows(d),
         light_clusters(d),
+        clouds(d),
         captures(d),
         ring(d, kFramesInFlight),
         upload_budget(desc.upload_budget_bytes) {}
@@ -141,6 +144,7 @@ struct Renderer::State {
              std::span<const ActiveCascade> cascades, const shared::SkyConstants& sky_now,
              Slot& slot);
   void explain_absent(const FrameFeatures& features);
+  void add_clouds(SceneRefs& scene, const FrameFeatures& features);
   std::optional<ClusteredLights> add_lights(const SceneRefs& scene, const Geometry& surfaces,
                                             const TranslucentPass::Layers& layers,
                                             const RenderSettings& settings,
@@ -163,6 +167,7 @@ struct Renderer::State {
   std::unique_ptr<OccupancyStore> occupancy;  // null: never asked for
   ShadowMaps shadows;
   LightClusters light_clusters;
+  Clouds clouds;
   Captures captures;
   gpu::FrameRing ring;
   std::uint64_t upload_budget;
@@ -504,8 +509,11 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
           "shade_surfaces", "draw_translucent", "classify_translucent_tiles", "shade_translucent"})
       graph.leave_out(name, "no geometry is resident");
     if (by_radiance(input, settings, features)) {
-      (void)finish_picture(scene, ShadePass::add_sky_only(graph, pipelines, scene, shade_in), input,
-                           settings);
+      add_clouds(scene, features);
+      Shaded shaded = ShadePass::add_sky_only(graph, pipelines, scene, shade_in);
+      if (scene.clouds)
+        shaded = CloudPass::add(graph, pipelines, scene, {}, std::move(shaded), settings.clouds);
+      (void)finish_picture(scene, std::move(shaded), input, settings);
     } else {
       graph.leave_out("develop", "nothing comes between shading and picture");
       (void)ShadePass::add_sky_only_to_picture(graph, pipelines, scene, shade_in, picture);
@@ -516,7 +524,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
   const CulledDraws draws = add_cull_passes(
       graph, pipelines, scene, {geometry->section_slots(), geometry->quads_resident(), view_count});
   Geometry surfaces = GeometryPass::add(graph, pipelines, scene, draws, contents.cutouts_in_view[0],
-                                        settings.gbuffer);
+                                        samples_per_edge(settings) > 1, settings.gbuffer);
   Shadows maps = add_shadows(scene, draws, settings, contents, cascades);
   const bool debug = shows_channel(settings);
   const char* no_translucent = features.why_not(Feature::kWater);
@@ -545,16 +553,22 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
           ShadePass::add_to_picture(graph, pipelines, scene, surfaces, maps, shade_in, picture),
           input);
     } else {
+      add_clouds(scene, features);
       Shaded shaded = ShadePass::add(graph, pipelines, scene, surfaces, maps, shade_in);
       if (lights)
         shaded =
             LightPass::add(graph, pipelines, scene, surfaces, *lights, std::move(shaded), settings);
       if (input.fault && input.fault->in == Fault::In::kShaded)
         shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
+      const CloudPass::View view{&surfaces, maps.maps(), layers.depth[0]};
+      if (scene.clouds && layers.count != 0)
+        shaded = CloudPass::add_behind(graph, pipelines, scene, view, std::move(shaded));
       if (!no_translucent)
         shaded = TranslucentPass::add(graph, pipelines, scene, surfaces, maps, layers,
                                       lights ? &*lights : nullptr, std::move(shaded), settings,
                                       input.camera_medium != 0);
+      if (scene.clouds && input.camera_medium == 0)
+        shaded = CloudPass::add(graph, pipelines, scene, view, std::move(shaded), settings.clouds);
       if (std::optional<Developed> developed =
               finish_picture(scene, std::move(shaded), input, settings))
         add_marker(scene, surfaces, *std::move(developed), input);
@@ -567,6 +581,11 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
     if (maps.maps()) captures.add(graph, Capture::kShadowMaps, maps.maps());
   }
   add_readback(slot, scene, &draws.stats, view_count);
+}
+
+/// Clouds of the frame, if it has any, and what light comes through them.
+void Renderer::State::add_clouds(SceneRefs& scene, const FrameFeatures& features) {
+  if (features.has(Feature::kClouds)) scene.clouds = clouds.add_light(graph, pipelines, scene);
 }
 
 void Renderer::State::explain_absent(const FrameFeatures& features) {
@@ -679,7 +698,8 @@ Result<std::uint64_t> Renderer::draw(
       return ok.error();
   FrameTables tables = build_tables(input, settings, drawn, *cascades);
   tables.constants.picture_size = {size.width, size.height};
-  const FrameContents contents = contents_of(input, settings, tables, sky_now, *s.geometry);
+  const FrameContents contents = contents_of(input, settings, tables, sky_now,
+                                             *s.geometry, s.clouds.has_volumes());
   if (!input.freeze_culling)
     s.frozen.reset();
   else if (!s.frozen)
@@ -690,10 +710,13 @@ Result<std::uint64_t> Renderer::draw(
   }
   if (Result<void> ok = s.upload_tables(tables, input, sky_now); !ok) return ok.error();
   if (!contents.lights.empty())
-    if (Result<void> ok = s.light_clusters.upload(s.frame_uploader, contents.lights,
-                                                  view_of(input.camera, drawn.width, drawn.height),
-                                                  drawn, input.camera_medium != 0);
+    if (Result<void> ok = s.light_clusters.upload(
+            s.frame_uploader, contents.lights, view_of(input.camera, drawn.width, drawn.height),
+            {drawn, input.camera_medium != 0, settings.light_tile});
         !ok)
+      return ok.error();
+  if (contents.features.has(Feature::kClouds))
+    if (Result<void> ok = s.clouds.prepare(s.frame_uploader, input, settings, sky_now); !ok)
       return ok.error();
   if (s.occupancy && settings.traced_lights != 0 && !input.light_islands.empty())
     if (Result<void> ok = s.upload(s.light_islands, "light islands", input.light_islands); !ok)
@@ -740,6 +763,10 @@ void Renderer::finish() {
 
 GeometryStore& Renderer::geometry() {
   return *state_->geometry;
+}
+Result<void> Renderer::set_clouds(std::span<const CloudVolumeDesc> volumes,
+                                  CloudPrecision precision) {
+  return state_->clouds.set_volumes(state_->frame_uploader, volumes, precision);
 }
 void Renderer::set_upload_budget(std::uint64_t bytes) {
   state_->upload_budget = bytes;

@@ -17,6 +17,7 @@
 #include "engine/gpu/uploader.h"
 #include "engine/render/camera.h"
 #include "engine/render/celestial.h"
+#include "engine/render/cloud_atlas.h"
 #include "engine/render/geometry_store.h"
 #include "engine/render/occupancy_store.h"
 #include "engine/render/settings.h"
@@ -130,6 +131,9 @@ class Renderer {
   /// that is never asked has none, and draws neither. Errors: out of memory.
   Result<OccupancyStore*> occupancy();
   gpu::Uploader& mesh_uploader();
+  /// Clouds of files, in the place of all before. @param volumes what they point to is not kept.
+  /// Errors: see Clouds::set_volumes.
+  Result<void> set_clouds(std::span<const CloudVolumeDesc> volumes, CloudPrecision precision);
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);
   const gpu::FrameGraph& graph() const;  ///< of the last frame, for --explain

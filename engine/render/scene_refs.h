@@ -2,9 +2,11 @@
 #include <volk.h>
 
 #include <glm/mat4x4.hpp>
+#include <optional>
 #include <span>
 
 #include "engine/gpu/frame_graph.h"
+#include "engine/render/cloud_refs.h"
 #include "engine/render/settings.h"
 
 namespace skerry::render {
@@ -40,6 +42,7 @@ struct SceneRefs {
   ToneCurve tone = ToneCurve::kAces;
   bool calibrated = false;  ///< whether the display takes other than 0 to 1
   bool corners = false;     ///< whether they darken; then there is an occupancy store
+  std::optional<CloudRefs> clouds;          ///< none: the frame has no clouds
   VkExtent2D size{};
 };
 

@@ -66,6 +66,21 @@ struct BloomSettings {
   bool operator==(const BloomSettings&) const = default;
 };
 
+/// Clouds, of the layer and of files. docs/clouds.md.
+struct CloudSettings {
+  float coverage = 0.0f;          ///< of the layer: share of the sky, 0..1; 0: there is no layer
+  double altitude = 360.0;        ///< of the layer's base [blocks]
+  float thickness = 240.0f;       ///< of the layer [blocks], > 0
+  float density = 0.06f;          ///< extinction in the middle of the layer's clouds [1/block]
+  float file_density = 0.1f;      ///< extinction of density 1 in a file [1/block]
+  float file_emission = 0.2f;     ///< radiance a block that a file's hottest place sends out
+  int steps = 48;                 ///< of the eye's way through the layer or a file's box, 8..1024
+  int shadow_steps = 32;          ///< of the light's way, 4..128
+  int resolution = 2;             ///< 1: a ray for every pixel; 2: for every second one each way
+  int precision = 8;              ///< bits of a density in a file's bricks: 8, 16 or 32
+  bool operator==(const CloudSettings&) const = default;
+};
+
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
   double view_distance_blocks =
@@ -90,12 +105,14 @@ struct RenderSettings {
   BloomSettings bloom;
   ToneCurve tone = ToneCurve::kAces;
   DisplaySettings display;
+  CloudSettings clouds;
   /// For how many lights of a pixel walls are looked for: none, kEveryLight, or those that send the
   /// most light to the eye, 1..8; the others are dimmed by the same share.
   std::uint32_t traced_lights = 4;
-  int light_samples = 1;       ///< ways to a light that has a size, 1..16
-  bool lights_oracle = false;  ///< every pixel asks every light: slow, to hold clusters against
-  FeatureSet leave_out;        ///< absent even where the scene has them
+  std::uint32_t light_tile = 16;  ///< pixels along a light cluster's tile: 8, 16, 32 or 64
+  int light_samples = 1;          ///< ways to a light that has a size, 1..16
+  bool lights_oracle = false;     ///< every pixel asks every light: slow, to hold clusters against
+  FeatureSet leave_out;           ///< absent even where the scene has them
   DebugView debug_view = DebugView::kNone;
 };
 

@@ -33,13 +33,17 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
   const OccupancyReads occupancy(scene, scene.corners && scene.bodies != 0);
+  const std::optional<CloudRefs> clouds = clouds_before_light(scene);
   const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
   const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
-      std::string("shade_surfaces") + (maps ? "" : "_unshadowed") + surfaces.suffix() + suffix,
+      std::string("shade_surfaces") + (maps ? "" : "_unshadowed") + surfaces.suffix() +
+          (clouds ? "_clouded" : "") + suffix,
       with_target(
-          with_corners(surfaces.with_store(with_light(
-                           {{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene, bool{maps})),
-                       bool{occupancy}),
+          with_clouds(with_corners(surfaces.with_store(with_light(
+                                       {{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene,
+                                       bool{maps})),
+                                   bool{occupancy}),
+                      clouds),
           scene, to_picture)});
   graph.add_pass(
       "shade_surfaces",
@@ -49,6 +53,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         declare_tiles(b, tiles);
         surfaces.declare(b);
         occupancy.declare(b);
+        if (clouds) clouds->declare_light(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         b.read(scene.sky_lut, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
@@ -56,7 +61,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&surface_pipeline, scene, tiles, surfaces, occupancy, maps, target,
+      [&surface_pipeline, scene, tiles, surfaces, occupancy, clouds, maps, target,
        to_picture](gpu::Commands& c) {
         c.bind(surface_pipeline);
         c.storage(0, scene.frame);
@@ -65,6 +70,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         c.storage(4, scene.pixel_stats);
         surfaces.bind(c, scene.point_sampler, 5, 6);
         occupancy.bind(c);
+        if (clouds) clouds->bind_light(c);
         c.sampled(7, scene.block_textures, scene.block_sampler);
         c.sampled(8, scene.sky_lut, scene.lut_sampler);
         c.storage(9, target);

@@ -67,10 +67,12 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
   const gpu::ImageRef maps = shadows.maps();
   std::vector<gpu::SpecConstant> constants = with_light({{0, layers.count}}, scene, bool{maps});
   const WallReads walls(scene, settings, false);
+  const std::optional<CloudRefs> clouds = clouds_before_light(scene);
+  constants = with_clouds(std::move(constants), clouds);
   if (lights) constants = walls.with_walls(lights->with_lights(std::move(constants)));
   const gpu::Pipeline& pipeline = pipelines.get(
       gpu::ComputeDesc{std::string("shade_translucent") + (maps ? "" : "_unshadowed") +
-                           (lights ? "_lit.comp" : ".comp"),
+                           (lights ? "_lit" : "") + (clouds ? "_clouded.comp" : ".comp"),
                        std::move(constants)});
   graph.add_pass(
       "shade_translucent",
@@ -78,6 +80,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
+        if (clouds) clouds->declare_light(b);
         if (lights) {
           lights->declare(b);
           walls.declare(b);
@@ -92,7 +95,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, walls, &pipeline,
+      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, walls, clouds, &pipeline,
        lit = lights ? std::optional(*lights) : std::nullopt](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, scene.frame);
@@ -104,6 +107,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         c.storage(9, radiance);
         if (maps) c.sampled(10, maps, scene.point_sampler);
         c.sampled(11, scene.block_textures, scene.block_sampler);
+        if (clouds) clouds->bind_light(c);
         // Layers that are not kept are never read; they are bound to the first so that every
         // binding is valid.
         for (std::uint32_t k = 0; k < 4; ++k) {

@@ -121,6 +121,9 @@ double bearing_deg(double yaw_deg) {
 void show_hud(const HudFacts& facts, const Pictures& pictures) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  if (facts.hidden > 0.0)
+    list.AddRectFilled(ImVec2(0, 0), window,
+                       ImColor(0.0f, 0.0f, 0.0f, static_cast<float>(facts.hidden)));
   push_size(TextSize::kSmall);
   draw_crosshair(list, ImVec2(0.5f * window.x, 0.5f * window.y));
   draw_hotbar(list, facts, pictures, window);

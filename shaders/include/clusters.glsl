@@ -17,7 +17,7 @@ uint slice_at(float z) {
 }
 float slice_begin(uint slice) { return slice == 0u ? 0.0 : uintBitsToFloat((kFirstSlice + slice - 1u) << kHalfOctave); }
 
-uint tile_at(uvec2 pixel) { return pixel.y / kClusterEdge * grid.tiles_x + pixel.x / kClusterEdge; }
+uint tile_at(uvec2 pixel) { return (pixel.y >> grid.edge_log2) * grid.tiles_x + (pixel.x >> grid.edge_log2); }
 uint cluster_of(uint tile, uint slice) { return tile * kClusterSlices + slice; }
 
 // A part of the view's pyramid, in view axes (right, up, forward): the box around it and the slopes of its sides.

@@ -16,6 +16,13 @@ const uint kMoonCascade = 0u;
 #define light_in_air(first_cascade, p) 1.0
 #endif
 
+// Share of a body's light that clouds let through to a place in the open.
+#ifdef SKERRY_CLOUDS
+#define past_clouds(body, p) light_through_clouds(body, p)
+#else
+#define past_clouds(body, p) 1.0
+#endif
+
 // How far light on its way out of a plant's voxel goes [blocks].
 float way_out(Surface s, vec3 to_light) {
   vec3 way = vec3(dot(s.axis_x, to_light), dot(s.axis_y, to_light), dot(s.axis_z, to_light));
@@ -31,20 +38,21 @@ float surface_visibility(Surface s, vec3 to_light, const uint first_cascade, flo
 }
 
 // Radiance that a surface sends to the eye under one body. A face turned away is in its own block's shadow.
-vec3 reflected(Surface s, Brdf b, vec3 to_eye, Body body, const uint first_cascade) {
+vec3 reflected(Surface s, Brdf b, vec3 to_eye, const uint index, const uint first_cascade) {
+  Body body = frame.bodies[index];
   float n_dot_l = dot(s.normal, body.to_light);
-  float visibility = surface_visibility(s, body.to_light, first_cascade, n_dot_l);
+  float visibility = surface_visibility(s, body.to_light, first_cascade, n_dot_l) * past_clouds(index, s.position);
   float cosine = frame.shading_flat != 0u ? 1.0 : n_dot_l;
   vec3 share = brdf(b, s.normal, to_eye, body.to_light, max(n_dot_l, 0.0)) * cosine;
   return n_dot_l > 0.0 ? body.irradiance * (share * visibility) : vec3(0.0);
 }
 
 // What the air between eye and surface does to a surface's radiance: it takes a part away and sends light of its own, the colour of the sky behind,
-// as far as sun or moon reach it at three places along the way. No haze where they do not: a cave stays black.
+// as far as sun or moon reach it at three places along the way, and past clouds at one. No haze where they do not: a cave stays black.
 vec3 seen_through_air(vec3 radiance, vec3 p) {
   if (kBodies == 0u || !kHaze) return radiance;
   // The sun's cascades, or the moon's when it is alone: the first either way.
-  float lit = light_in_air(0u, p);
+  float lit = light_in_air(0u, p) * past_clouds((kBodies & 1u) != 0u ? 0u : 1u, p * 0.5);
   float clear = clear_air(p);
   return radiance * clear + sample_sky(sky_lut, p / length(p)) * (lit * (1.0 - clear));
 }
@@ -54,8 +62,8 @@ vec3 shade_surface(Surface s) {
   vec3 to_eye = -normalize(s.position);
   Brdf b = surface_brdf(s, to_eye);
   vec3 radiance = vec3(0.0);
-  if ((kBodies & 1u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[0], 0u);
-  if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[1], kMoonCascade);
+  if ((kBodies & 1u) != 0u) radiance += reflected(s, b, to_eye, 0u, 0u);
+  if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, 1u, kMoonCascade);
   return radiance * s.openness + s.emitted;
 }
 #endif

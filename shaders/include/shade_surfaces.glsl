@@ -24,6 +24,9 @@ layout(constant_id = 0) const uint kTextureTaps = 2u;
 #include "include/output.glsl"
 #include "include/surface.glsl"
 #include "include/sky.glsl"
+#ifdef SKERRY_CLOUDS
+#include "include/cloud_light.glsl"
+#endif
 #include "include/lighting.glsl"
 #include "include/corners.glsl"
 

@@ -42,6 +42,9 @@ layout(constant_id = 0) const uint kLayers = 3u;
 #include "include/tiles.glsl"
 #include "include/surface.glsl"
 #include "include/sky.glsl"
+#ifdef SKERRY_CLOUDS
+#include "include/cloud_light.glsl"
+#endif
 #include "include/lighting.glsl"
 #ifdef SKERRY_LIGHTS
 #include "include/clustered.glsl"

@@ -45,11 +45,13 @@ struct Reach {   // what lights bring to a point of a surface
   float any;     // largest visibility of sun and moon: where neither is seen, the sky is not taken for granted either
 };
 
-void add_light(inout Reach r, Body body, const uint first_cascade, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+void add_light(inout Reach r, const uint index, const uint first_cascade, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+  Body body = frame.bodies[index];
   float n_dot_l = dot(n, body.to_light);
   float visibility = n_dot_l > 0.0 ? body_visibility(first_cascade, p, n, n_dot_l) : 0.0;
-  r.light += body.irradiance * (visibility * max(n_dot_l, 0.0));
-  r.mirrored += visibility * glitter(body.irradiance, body.to_light, shading_normal, to_eye, roughness);
+  vec3 irradiance = body.irradiance * (visibility * past_clouds(index, p));
+  r.light += irradiance * max(n_dot_l, 0.0);
+  r.mirrored += glitter(irradiance, body.to_light, shading_normal, to_eye, roughness);
   r.any = max(r.any, visibility);
 }
 
@@ -85,8 +87,8 @@ void add_lights(inout Reach r, uvec2 pixel, float z, uint word, vec3 p, vec3 n, 
 // @param z of p along the view axis, as the depth of the pixel says; @param word of its surface, 0 in the open.
 Reach light_at(uvec2 pixel, float z, uint word, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
   Reach r = Reach(vec3(0.0), vec3(0.0), 0.0);
-  if ((kBodies & 1u) != 0u) add_light(r, frame.bodies[0], 0u, p, n, shading_normal, to_eye, roughness);
-  if ((kBodies & 2u) != 0u) add_light(r, frame.bodies[1], kMoonCascade, p, n, shading_normal, to_eye, roughness);
+  if ((kBodies & 1u) != 0u) add_light(r, 0u, 0u, p, n, shading_normal, to_eye, roughness);
+  if ((kBodies & 2u) != 0u) add_light(r, 1u, kMoonCascade, p, n, shading_normal, to_eye, roughness);
   add_lights(r, pixel, z, word, p, n, shading_normal, to_eye, roughness);
   return r;
 }

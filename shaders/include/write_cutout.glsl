@@ -8,6 +8,7 @@ layout(scalar, binding = 4) uniform Materials { Material materials[kMaxMaterials
 layout(binding = 5) uniform sampler2DArray block_textures;
 
 layout(constant_id = 1) const bool kWriteSurface = true;  // false in shadow passes, which have depth only
+layout(constant_id = 17) const bool kFinestCoverage = false;  // where several samples make a pixel: their mean is its coverage
 
 layout(location = 0) flat in uint in_surface;
 layout(location = 1) in vec2 in_uv;
@@ -19,7 +20,7 @@ void main() {
   uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
   // A shadow map takes the finest texels: its filter averages what several of its own texels hit.
   vec3 uv = vec3(face >= 6u ? plant_uv(in_uv) : in_uv, float(layer));
-  float alpha = kWriteSurface ? texture(block_textures, uv).a : textureLod(block_textures, uv, 0.0).a;
+  float alpha = kWriteSurface && !kFinestCoverage ? texture(block_textures, uv).a : textureLod(block_textures, uv, 0.0).a;
   // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.
   bool behind = face < kFaceCount && !gl_FrontFacing;
   if (behind || alpha < 0.5) discard;

@@ -5,7 +5,6 @@
 #include "types.h"
 SHARED_BEGIN
 
-SHARED_CONST uint kClusterEdge = 16u;        // pixels along a cluster's tile
 SHARED_CONST uint kClusterSlices = 24u;      // of depth: two an octave from one block on
 SHARED_CONST uint kBinClusters = 4u;         // tiles along a coarse bin
 SHARED_CONST uint kClusterGroup = 64u;       // invocations of a work group
@@ -19,7 +18,8 @@ struct ClusterGrid {
   vec2 tan_half;     // of the field of view, along right and up
   uvec2 size;        // picture [pixels]
   float near_plane;  // blocks
-  uint tiles_x;      // of kClusterEdge pixels
+  uint edge_log2;    // of the pixels along a tile, 3 to 6
+  uint tiles_x;      // in the picture
   uint tiles_y;
   uint bins_x;  // of kBinClusters tiles
   uint bins_y;

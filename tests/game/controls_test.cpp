@@ -38,6 +38,39 @@ TEST(Controls, AJumpTappedBetweenFramesStillJumps) {
   EXPECT_FALSE(intent_after(input).jump);
 }
 
+TEST(Controls, HandsDigPlaceChooseAndTakeBack) {
+  Input input;
+  const auto hands = [&] { return hand_intent_of(ActionFrame(input.take(), default_bindings())); };
+  input.set_key(Key::kMouseLeft, true);
+  EXPECT_TRUE(hands().dig);
+  EXPECT_TRUE(hands().dig);  // held
+  input.set_key(Key::kMouseLeft, false);
+  EXPECT_FALSE(hands().dig);
+  // A click within one frame still places.
+  input.set_key(Key::kMouseRight, true);
+  input.set_key(Key::kMouseRight, false);
+  EXPECT_TRUE(hands().place);
+  EXPECT_FALSE(hands().place);
+  input.set_key(Key::k7, true);
+  EXPECT_EQ(hands().slot, 6);
+  EXPECT_FALSE(hands().slot);
+  input.add_scroll(-2.0);
+  EXPECT_EQ(hands().scroll, 2);
+  input.set_key(Key::kZ, true);
+  EXPECT_FALSE(hands().undo);
+  input.set_key(Key::kZ, false);
+  input.set_key(Key::kControl, true);
+  input.set_key(Key::kZ, true);
+  EXPECT_TRUE(hands().undo);
+  EXPECT_FALSE(hands().undo);  // once
+}
+
+TEST(Controls, ShiftCrouches) {
+  Input input;
+  input.set_key(Key::kShift, true);
+  EXPECT_TRUE(intent_after(input).crouch);
+}
+
 TEST(Controls, ThePointerTurnsTheHeadTheWayItMoves) {
   Player player({}, 0.0, 0.0, 0.0);
   Input input;

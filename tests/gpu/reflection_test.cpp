@@ -80,12 +80,23 @@ TEST(Reflection, UniformAndStorageBuffersAreToldApart) {
   EXPECT_EQ(reflect_ok(shader).bindings, expected);
 }
 
+TEST(Reflection, ImagesMayHaveThreeDimensions) {
+  const TestShader shader("volume.comp", R"(
+    layout(local_size_x = 1) in;
+    layout(binding = 0) uniform sampler3D from;
+    layout(binding = 1, r16f) uniform writeonly image3D to;
+    void main() { imageStore(to, ivec3(0), textureLod(from, vec3(0.5), 0.0)); })");
+  const std::vector<ShaderReflection::Binding> expected{
+      {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}, {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}};
+  EXPECT_EQ(reflect_ok(shader).bindings, expected);
+}
+
 TEST(Reflection, DescriptorsWithoutAUseHereAreRefused) {
   const TestShader shader("texels.comp", R"(
     layout(local_size_x = 1) in;
     layout(binding = 0) uniform samplerBuffer texels;
-    layout(binding = 1, rgba8) uniform image3D volume;
-    void main() { imageStore(volume, ivec3(0), texelFetch(texels, 0)); })");
+    layout(binding = 1, rgba8) uniform image1D line;
+    void main() { imageStore(line, 0, texelFetch(texels, 0)); })");
   EXPECT_FALSE(reflect(shader.words()));
 }
 

@@ -36,6 +36,7 @@ struct View {
   std::vector<float> depth;                // reverse-Z; 0 where there is nothing
   std::vector<std::vector<float>> layers;  // translucent
   bool inside_medium = false;
+  std::uint32_t tile = 16;  // pixels along a cluster's
 };
 
 float depth_at(float z) {
@@ -151,7 +152,8 @@ class LightClustersOnGpu : public gpu::GpuTest {
     SceneRefs scene;
     scene.size = view.size;
     scene.point_sampler = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
-    EXPECT_TRUE(clusters_->upload(*uploader_, lights, view.camera, view.size, view.inside_medium));
+    EXPECT_TRUE(clusters_->upload(*uploader_, lights, view.camera,
+                                  {view.size, view.inside_medium, view.tile}));
     std::vector<gpu::Image> images;
     images.reserve(2 + view.layers.size());
     images.push_back(image(view, VK_FORMAT_R32_UINT, std::vector<float>(view.depth.size())));
@@ -193,8 +195,8 @@ class LightClustersOnGpu : public gpu::GpuTest {
     return std::min<std::uint32_t>(static_cast<std::uint32_t>(slice), shared::kClusterSlices - 1);
   }
   static std::uint32_t cluster_of(const View& view, std::uint32_t x, std::uint32_t y, float z) {
-    const std::uint32_t tiles_x = (view.size.width + 15) / 16;
-    return (y / 16 * tiles_x + x / 16) * shared::kClusterSlices + slice_of(z);
+    const std::uint32_t tiles_x = (view.size.width + view.tile - 1) / view.tile;
+    return (y / view.tile * tiles_x + x / view.tile) * shared::kClusterSlices + slice_of(z);
   }
   /// Calls see(x, y, z) for each surface of a view.
   template <class See>
@@ -238,8 +240,8 @@ class LightClustersOnGpu : public gpu::GpuTest {
       if (!fresh) return;
       for (const std::uint32_t corner : {0u, 1u, 2u, 3u})
         for (const double end : {low, std::min(high, 1e4)}) {
-          const glm::dvec3 at =
-              place(view, x / 16 * 16 + (corner & 1) * 16, y / 16 * 16 + (corner >> 1) * 16, end);
+          const glm::dvec3 at = place(view, (x / view.tile + (corner & 1)) * view.tile,
+                                      (y / view.tile + (corner >> 1)) * view.tile, end);
           box->second.first = glm::min(box->second.first, at);
           box->second.second = glm::max(box->second.second, at);
         }
@@ -323,7 +325,8 @@ TEST_F(LightClustersOnGpu, ListsOfRandomViewsHoldWhatReachesTheirSurfacesAndNoth
   const VkExtent2D sizes[] = {{97, 61}, {64, 64}, {16, 130}, {130, 33}, {200, 120}};
   for (int round = 0; round < 40; ++round) {
     SCOPED_TRACE(round);
-    const View view = random_view(random, sizes[round % 5]);
+    View view = random_view(random, sizes[round % 5]);
+    view.tile = 8u << round % 4;
     const std::vector<shared::Light> lights = random_lights(random, view, 100);
     const Sorted found = sorted(view, lights);
     EXPECT_EQ(found.work.clusters, found.lists.size());
@@ -401,7 +404,7 @@ TEST_F(LightClustersOnGpu, DirectionalLightsReachEverything) {
 TEST(ClusterGrid, TheRoomCounterCannotWrapHoweverManyLightsReachAllClusters) {
   const CameraView camera = view_of({}, 7680, 4320);
   for (const std::uint32_t lights : {1u, 1000u, 65536u, 2097120u}) {
-    const shared::ClusterGrid g = cluster_grid(camera, {7680, 4320}, false, lights, 1u << 20);
+    const shared::ClusterGrid g = cluster_grid(camera, {{7680, 4320}}, lights, 1u << 20);
     const std::uint64_t units = std::uint64_t{(lights - 1) >> g.unit_log2} + 1;
     EXPECT_LT(std::uint64_t{g.tiles_x} * g.tiles_y * shared::kClusterSlices * units, 1ull << 32);
     EXPECT_LE(std::uint64_t{g.capacity} << g.unit_log2, 1u << 20);
@@ -411,10 +414,10 @@ TEST(ClusterGrid, TheRoomCounterCannotWrapHoweverManyLightsReachAllClusters) {
 TEST(ClusterGrid, MoreLightsThanADeviceCanSortAreCounted) {
   gpu::DeviceLimits limits;
   limits.max_storage_range = 128u << 20;
-  EXPECT_EQ(most_lights(limits, {1920, 1080}), 2097120u);
-  EXPECT_EQ(most_lights(limits, {15360, 8640}), 32u * ((32u << 20) / (240 * 135)));
+  EXPECT_EQ(most_lights(limits, {{1920, 1080}}), 2097120u);
+  EXPECT_EQ(most_lights(limits, {{15360, 8640}}), 32u * ((32u << 20) / (240 * 135)));
   limits.max_storage_range = 1u << 20;
-  EXPECT_EQ(most_lights(limits, {64, 64}), (1u << 20) / sizeof(shared::Light));
+  EXPECT_EQ(most_lights(limits, {{64, 64}}), (1u << 20) / sizeof(shared::Light));
 }
 
 TEST(LightsInView, OnlyThoseThatTouchTheFrustumAndShineAreKeptInOrder) {

@@ -7,6 +7,7 @@
 
 #include "game/parse.h"
 #include "tools/skerry/bench_cull.h"
+#include "tools/skerry/bench_edit.h"
 #include "tools/skerry/bench_frame.h"
 #include "tools/skerry/bench_generate.h"
 #include "tools/skerry/bench_lights.h"
@@ -44,6 +45,8 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_scene_options(*lights_, scene_);
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
   add_scene_options(*frame_, scene_);
+  edit_ = add("edit", "Time from an edit to the first picture that shows it");
+  add_scene_options(*edit_, scene_);
 }
 
 CLI::App* BenchCommands::add(const char* name, const char* description) {
@@ -67,6 +70,7 @@ int BenchCommands::run() {
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == lights_) return run_lights();
   if (chosen == frame_) return run_frame();
+  if (chosen == edit_) return run_edit();
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   if (chosen == mesh_) return run_mesh();
   if (chosen == generate_) return bench_generate({path_of(json_)});
@@ -74,11 +78,13 @@ int BenchCommands::run() {
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh", "generate", "upload", "cull", "lights", "frame"};
+  constexpr std::string_view kNames[] = {"mesh",   "generate", "upload", "cull",
+                                         "lights", "frame",    "edit"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
-    return fail(kUsage,
-                {"bench does not say what: give mesh, generate, upload, cull, lights or frame"});
+    return fail(
+        kUsage,
+        {"bench does not say what: give mesh, generate, upload, cull, lights, frame or edit"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
@@ -118,6 +124,15 @@ int BenchCommands::run_frame() {
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   options.json = path_of(json_);
   return bench_frame(options);
+}
+
+int BenchCommands::run_edit() {
+  BenchEditOptions options;
+  if (const auto refusal = resolve(scene_, true, options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_output(json_)) return refuse(*refusal);
+  options.json = path_of(json_);
+  return bench_edit(options);
 }
 
 }  // namespace skerry::tools

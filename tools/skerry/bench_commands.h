@@ -7,7 +7,8 @@
 
 namespace skerry::tools {
 
-/// `skerry bench mesh|generate|upload|cull|lights|frame`: options, and which function each calls.
+/// `skerry bench mesh|generate|upload|cull|lights|frame|edit`: options, and which function each
+/// calls.
 class BenchCommands {
  public:
   /// Adds `bench` and its sub-commands.
@@ -26,6 +27,7 @@ class BenchCommands {
   int run_on_device(const CLI::App& chosen);
   int run_lights();
   int run_frame();
+  int run_edit();
   int refuse_unknown() const;
 
   CLI::App* bench_;
@@ -35,6 +37,7 @@ class BenchCommands {
   CLI::App* cull_;
   CLI::App* lights_;
   CLI::App* frame_;
+  CLI::App* edit_;
   std::optional<std::string> input_, json_, device_;
   bool validate_ = false;
   SceneArguments scene_;

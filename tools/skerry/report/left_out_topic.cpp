@@ -36,7 +36,7 @@ constexpr Count kCounts[] = {
     {"memory_bytes", [](const LeftOutSide& s) { return s.memory_bytes; }}};
 
 ordered_json side_json(const LeftOutSide& side) {
-  ordered_json j{{"ms_median", side.ms}};
+  ordered_json j{{"ms_median", side.ms}, {"start_ms_median", side.start_ms}};
   for (const Count& count : kCounts) j[count.name] = count.of(side);
   return j;
 }
@@ -78,13 +78,13 @@ std::vector<Defect> defects_of(const std::vector<LeftOutRow>& rows) {
 }
 
 std::string left_out_csv(const std::vector<LeftOutRow>& rows) {
-  std::string out = "feature,renderer,same_picture,ms_median";
+  std::string out = "feature,renderer,same_picture,ms_median,start_ms_median";
   for (const Count& count : kCounts) out += fmt::format(",{}", count.name);
   out += "\n";
   for (const LeftOutRow& row : rows) {
     for (const LeftOutSide* side : {&row.as_is, &row.without}) {
-      out += fmt::format("{},{},{},{}", row.feature, side == &row.as_is ? "as_is" : "without",
-                         row.same_picture ? 1 : 0, side->ms);
+      out += fmt::format("{},{},{},{},{}", row.feature, side == &row.as_is ? "as_is" : "without",
+                         row.same_picture ? 1 : 0, side->ms, side->start_ms);
       for (const Count& count : kCounts) out += fmt::format(",{}", count.of(*side));
       out += "\n";
     }
@@ -115,7 +115,7 @@ Result<std::string> write_left_out(const std::vector<LeftOutRow>& rows,
     return done.error();
   std::vector<std::string_view> headings{"feature", "left out because", "picture"};
   for (const Count& count : kCounts) headings.emplace_back(count.name);
-  headings.insert(headings.end(), {"ms as it is", "ms without"});
+  headings.insert(headings.end(), {"frame ms", "without", "start ms", "without"});
   std::vector<measure::TableRow> lines;
   for (const LeftOutRow& row : rows) {
     const bool equal = row.same_picture && row.same_counts();
@@ -125,6 +125,8 @@ Result<std::string> write_left_out(const std::vector<LeftOutRow>& rows,
     for (const Count& count : kCounts) line.cells.push_back(cell(count, row));
     line.cells.push_back(fmt::format("{:.3f}", row.as_is.ms));
     line.cells.push_back(fmt::format("{:.3f}", row.without.ms));
+    line.cells.push_back(fmt::format("{:.1f}", row.as_is.start_ms));
+    line.cells.push_back(fmt::format("{:.1f}", row.without.start_ms));
     lines.push_back(std::move(line));
   }
   const measure::Attribute id{"id", kLeftOutTopic};

@@ -17,6 +17,13 @@ constexpr ReportScene kScenes[] = {
      R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
     {"torches", "a meadow at night under 1,024 torches",
      R"({"seed": 3, "time": "00:00", "settings": {"sky.moon_phase": 0, "lights.random": 1024}})"},
+    {"lamps", "a meadow at night under a tube and a sphere that have a size",
+     R"({"seed": 4, "time": "00:00", "camera": [34.53, 8.8, -32.65, 123.8, -12],
+         "settings": {"sky.moon_phase": 0},
+         "lights": [{"kind": "tube", "position": [39.8, 8.9, -35.6], "color": [0.3, 0.7, 1],
+                     "power": 60, "range": 24, "axis": [0.556, 0, 0.831], "size": 1.5},
+                    {"kind": "sphere", "position": [42.1, 9.4, -33], "color": [1, 0.5, 0.2],
+                     "power": 90, "range": 24, "size": 0.6}]})"},
 };
 
 constexpr TopicPoint kShadowSizes[] = {{"256", "shadow.size=256"},
@@ -76,6 +83,21 @@ constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"4", "water.layers=4"}};
 constexpr TopicPoint kLightLists[] = {{"clusters", "lights.oracle=0"},
                                       {"all lights", "lights.oracle=1"}};
+constexpr TopicPoint kLightTiles[] = {{"8", "lights.tile=8"},
+                                      {"16", "lights.tile=16"},
+                                      {"32", "lights.tile=32"},
+                                      {"64", "lights.tile=64"}};
+constexpr TopicPoint kLightShadows[] = {{"off", "lights.shadows=off"},
+                                        {"nearest:1", "lights.shadows=nearest:1"},
+                                        {"nearest:2", "lights.shadows=nearest:2"},
+                                        {"nearest:4", "lights.shadows=nearest:4"},
+                                        {"nearest:8", "lights.shadows=nearest:8"},
+                                        {"all", "lights.shadows=all"}};
+constexpr TopicPoint kLightSoftness[] = {{"1", "lights.shadows=all lights.softness=1"},
+                                         {"2", "lights.shadows=all lights.softness=2"},
+                                         {"4", "lights.shadows=all lights.softness=4"},
+                                         {"8", "lights.shadows=all lights.softness=8"},
+                                         {"16", "lights.shadows=all lights.softness=16"}};
 constexpr TopicPoint kMeterStrides[] = {{"16", "exposure.stride=16"},
                                         {"8", "exposure.stride=8"},
                                         {"4", "exposure.stride=4"},
@@ -97,6 +119,7 @@ constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kGlow[] = {"lava"};
 constexpr std::string_view kWater[] = {"water"};
 constexpr std::string_view kTorches[] = {"torches"};
+constexpr std::string_view kGallery[] = {"lamps"};
 
 constexpr Topic kTopics[] = {
     {"shadow_size", "texels along the edge of a shadow map", kShadowSizes, kShadowScenes},
@@ -137,6 +160,12 @@ constexpr Topic kTopics[] = {
      Judge::kReference, CostOf::kShading, false, "bloom.intensity=0.1 bloom.levels=8"},
     {"light_lists", "lights that a pixel asks: those of its cluster, or all", kLightLists, kTorches,
      Judge::kEqual, CostOf::kShading},
+    {"light_tiles", "pixels along the tiles that lights are sorted into", kLightTiles, kTorches,
+     Judge::kEqual},
+    {"light_shadows", "lights of a pixel that walls are looked for before", kLightShadows, kTorches,
+     Judge::kReference, CostOf::kShading},
+    {"light_softness", "ways looked along to a light that has a size", kLightSoftness, kGallery,
+     Judge::kReference, CostOf::kShading},
     {"upload_path", "how meshes travel to the GPU", kUploadPaths, kDay, Judge::kEqual,
      CostOf::kUpload, true},
 };

@@ -229,6 +229,74 @@ Result<Rows> jumps() {
       {"lost height of a jump over what ticks and frames may lose, dt 1e-4 to 0.1 s", 1.0, ratio}};
 }
 
+/// Stairs of one block each along +z, then a plain.
+world::BlockId stairs(IVec3 v) {
+  return solid_if(v.y < std::clamp((v.z + 12) / 3, 0, 8));
+}
+
+/// Walks up stairs, turning and not, at every time step: where it ends, and what on the way was
+/// inside of a step or lifted the eye at a jolt.
+Result<Rows> climbing() {
+  double missing = 0.0, volume = 0.0, jolt = 0.0;
+  for (const double spin : {0.0, 0.3}) {
+    for (const double dt : kTimeSteps) {
+      const PlaceToPlay island({moving(spin, 0.0), stairs});
+      Player player(world::moved(island.pose(0, 0.0)->origin, {0.5, 0.1, -13.5}), 0.0, 0.0, 0.0);
+      double eye_y = 0.0;
+      for (double t = 0.0; t < 12.0; t += dt) {
+        player.advance(dt, {{0.0, t > 1.0 ? 1.0 : 0.0}, 0.0, false, false}, island);
+        const glm::dvec3 feet = island.lattice(player.feet(), player.tick_time_s());
+        volume = std::max(volume, volume_in_solids(island, feet));
+        const double now_y = island.lattice(player.eye(island).position, player.tick_time_s()).y;
+        if (dt < 0.01 && t > 1.0) jolt = std::max(jolt, now_y - eye_y);
+        eye_y = now_y;
+      }
+      const double top = island.lattice(player.feet(), player.tick_time_s()).y;
+      missing = std::max(missing, 8.0 - top);
+    }
+  }
+  // The eye comes to its height at 14 a second; a whole tick may pass in one short frame, and in it
+  // steps of two blocks at most are on the way.
+  return Rows{
+      {"blocks of stairs not climbed in 11 s, dt 1e-4 to 1 s", 0.0, missing},
+      {"blocks^3 of a player in stairs, dt 1e-4 to 1 s", 0.0, volume},
+      {"blocks the eye jolts upwards in a frame of 1/144 s at most", 2.0 * 14.0 / 60.0, jolt}};
+}
+
+/// A table of 7 x 7 blocks in the air.
+world::BlockId table(IVec3 v) {
+  return solid_if(v.y == -1 && std::max(std::abs(v.x), std::abs(v.z)) <= 3);
+}
+
+/// Crouches about a table in the air at every time step, as fast as it goes; then falls off, and
+/// comes back.
+Result<Rows> edges() {
+  double falls = 0.0, not_back = 0.0, off_ground = 0.0;
+  for (const double spin : {0.0, 0.5}) {
+    for (const double dt : kTimeSteps) {
+      const PlaceToPlay island({moving(spin, 0.2), table, 8.0});
+      Player player(world::moved(island.pose(0, 0.0)->origin, {0.5, 0.1, 0.5}), 0.0, 0.0, 0.0);
+      player.advance(1.0, {}, island);
+      Intent crouch{{0.0, 1.0}, 0.0, false, true};
+      crouch.crouch = true;
+      for (double t = 0.0, turned = 0.0; t < 60.0; t += dt) {
+        if (t - turned > 2.5) player.turn(77.0, 0.0), turned = t;
+        player.advance(dt, crouch, island);
+        falls += !player.on_ground();
+      }
+      for (double t = 0.0; t < 30.0 && player.returns() == 0; t += dt)
+        player.advance(dt, {{0.0, 1.0}, 0.0, false, true}, island);
+      not_back += player.returns() == 0;
+      player.advance(2.0, {}, island);
+      off_ground += !player.on_ground();
+    }
+  }
+  return Rows{
+      {"frames in the air, crouching about a table for a minute, dt 1e-4 to 1 s", 0.0, falls},
+      {"falls off the world that last more than 30 s", 0.0, not_back},
+      {"players in the air two seconds after they came back", 0.0, off_ground}};
+}
+
 /// An island turns under a player by more than a turn a tick; nothing can be right then, but
 /// everything must stay finite, and players must not end inside blocks.
 Result<Rows> whirl() {
@@ -253,7 +321,8 @@ Result<Rows> whirl() {
 constexpr Case kCases[] = {
     {"physics.tunnelling", tunnelling}, {"physics.clutter", clutter},
     {"physics.standing", standing},     {"physics.energy", energy_of_the_thrown},
-    {"physics.jumps", jumps},           {"physics.whirl", whirl}};
+    {"physics.jumps", jumps},           {"physics.climbing", climbing},
+    {"physics.edges", edges},           {"physics.whirl", whirl}};
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 
 #include "engine/gpu/readback.h"
 #include "game/materials.h"
+#include "world/mesh/occupancy.h"
 
 namespace skerry::tools::stability {
 namespace {
@@ -23,8 +24,7 @@ std::vector<T> texels_of(const render::Captured& image) {
 
 }  // namespace
 
-MeshedChunk mesh_chunk_of(const BlockAt& block_at, world::IVec3 chunk,
-                          std::uint32_t voxel_size_log2) {
+std::vector<world::BlockId> padded_chunk(const BlockAt& block_at, world::IVec3 chunk) {
   constexpr int kChunk = static_cast<int>(shared::kChunkEdge);
   std::vector<world::BlockId> voxels(world::kPaddedVoxels);
   std::size_t index = 0;
@@ -33,6 +33,13 @@ MeshedChunk mesh_chunk_of(const BlockAt& block_at, world::IVec3 chunk,
       for (int z = -1; z <= kChunk; ++z)
         voxels[index++] =
             block_at(chunk.x * kChunk + x, chunk.y * kChunk + y, chunk.z * kChunk + z);
+  return voxels;
+}
+
+MeshedChunk mesh_chunk_of(const BlockAt& block_at, world::IVec3 chunk,
+                          std::uint32_t voxel_size_log2) {
+  constexpr int kChunk = static_cast<int>(shared::kChunkEdge);
+  const std::vector<world::BlockId> voxels = padded_chunk(block_at, chunk);
   world::MeshScratch scratch;
   world::ChunkMesh mesh;
   world::mesh_chunk(voxels, scratch, mesh);
@@ -74,6 +81,27 @@ Result<void> Stage::add(const BlockAt& block_at, world::IVec3 low, world::IVec3 
         const Result<render::SectionId> added =
             renderer_->geometry().add(renderer_->mesh_uploader(), chunk.section, chunk.quads);
         if (!added) return added.error();
+      }
+  return {};
+}
+
+Result<void> Stage::add_walls(const BlockAt& block_at, world::IVec3 low, world::IVec3 high,
+                              std::uint32_t island) {
+  const Result<render::OccupancyStore*> store = renderer_->occupancy();
+  if (!store) return store.error();
+  gpu::Uploader& uploader = renderer_->mesh_uploader();
+  const render::IslandChunks box{
+      {low.x, low.y, low.z}, {high.x - low.x, high.y - low.y, high.z - low.z}, 0};
+  if (Result<void> begun = (*store)->begin_island(uploader, island, box); !begun) return begun;
+  for (int y = low.y; y < high.y; ++y)
+    for (int x = low.x; x < high.x; ++x)
+      for (int z = low.z; z < high.z; ++z) {
+        const world::ChunkOccupancy chunk = world::occupancy_of(padded_chunk(block_at, {x, y, z}));
+        if (chunk.fill == world::ChunkOccupancy::Fill::kEmpty) continue;
+        const render::OccupancyBits bits{chunk.fill == world::ChunkOccupancy::Fill::kFull,
+                                         chunk.table, chunk.words};
+        if (Result<void> added = (*store)->add(uploader, island, {x, y, z}, bits); !added)
+          return added;
       }
   return {};
 }

@@ -19,6 +19,9 @@ namespace skerry::tools::stability {
 /// The block at a voxel of an island's lattice [voxels of the level].
 using BlockAt = std::function<world::BlockId(int x, int y, int z)>;
 
+/// A chunk's blocks with the shell about it, as world::mesh_chunk takes them.
+std::vector<world::BlockId> padded_chunk(const BlockAt& block_at, world::IVec3 chunk);
+
 /// A chunk meshed as the game does it, and its record without island and quads' place.
 struct MeshedChunk {
   shared::Section section{};
@@ -47,6 +50,9 @@ class Stage {
   /// Adds all chunks of a box of chunks, [low, high), that have a face.
   Result<void> add(const BlockAt& block_at, world::IVec3 low, world::IVec3 high,
                    std::uint32_t island = 0, std::uint32_t voxel_size_log2 = 0);
+  /// Lets a box of chunks, [low, high), block lights.
+  Result<void> add_walls(const BlockAt& block_at, world::IVec3 low, world::IVec3 high,
+                         std::uint32_t island = 0);
   /// Draws, waits and copies out.
   Result<Frame> draw(const render::FrameInput& input, const render::RenderSettings& settings,
                      VkExtent2D size);

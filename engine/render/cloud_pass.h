@@ -1,0 +1,26 @@
+#pragma once
+#include "engine/render/phases.h"
+#include "engine/render/scene_refs.h"
+#include "engine/render/settings.h"
+#include "engine/render/translucent_pass.h"
+
+namespace skerry::render {
+
+/// Clouds before what is shaded: marched once for every pixel, or for every fourth and along edges.
+/// docs/clouds.md.
+struct CloudPass {
+  /// What a ray has before it.
+  struct View {
+    const Geometry* geometry = nullptr;  ///< null: nothing but sky
+    gpu::ImageRef shadow_maps;           ///< empty: nothing casts
+    gpu::ImageRef layer_depth;           ///< of the nearest water or glass; empty: there is none
+  };
+  /// Clouds behind the nearest water or glass. @pre view.layer_depth
+  static Shaded add_behind(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                           const View& view, Shaded shaded);
+  /// Clouds before it, and everywhere else.
+  static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const View& view, Shaded shaded, const CloudSettings& settings);
+};
+
+}  // namespace skerry::render

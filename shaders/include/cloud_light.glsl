@@ -1,0 +1,60 @@
+// How much of a body's light clouds let through to a place: optical depths that trace_cloud_layer.comp and trace_cloud_volume.comp have
+// filled in. Model: docs/clouds.md.
+#ifndef SKERRY_CLOUD_LIGHT_GLSL
+#define SKERRY_CLOUD_LIGHT_GLSL
+#include "shared/clouds.h"
+#include "include/cloud_columns.glsl"
+
+layout(scalar, binding = 3) uniform Clouds { CloudConstants clouds; };
+layout(binding = 30) uniform sampler3D layer_light;
+layout(binding = 31) uniform sampler3D volume_light;
+
+layout(constant_id = 20) const bool kCloudLayer = false;
+layout(constant_id = 21) const uint kCloudVolumes = 0u;
+
+vec3 index_from_world(const uint v, vec3 p) {
+  vec4 q = vec4(p, 1.0);
+  return vec3(dot(clouds.volumes[v].index_x, q), dot(clouds.volumes[v].index_y, q), dot(clouds.volumes[v].index_z, q));
+}
+vec3 index_from_world_vector(const uint v, vec3 d) {
+  return vec3(dot(clouds.volumes[v].index_x.xyz, d), dot(clouds.volumes[v].index_y.xyz, d), dot(clouds.volumes[v].index_z.xyz, d));
+}
+
+// Where a line in a volume's index space is inside its box: from x to y; x > y: nowhere.
+vec2 box_range(const uint v, vec3 origin, vec3 along) {
+  vec3 safe = mix(along, vec3(1e-20), lessThan(abs(along), vec3(1e-20)));
+  vec3 a = (clouds.volumes[v].low - origin) / safe, b = (clouds.volumes[v].high - origin) / safe;
+  vec3 low = min(a, b), high = max(a, b);
+  return vec2(max(max(low.x, low.y), low.z), min(min(high.x, high.y), high.z));
+}
+
+// A point above the layer reads its top, where nothing is left to pass; one below reads its base, on the same column.
+float layer_depth(const uint body, vec3 p) {
+  float slices = clouds.shadow_steps + 1.0;
+  float height = clamp((p.y + clouds.layer.place.y) / clouds.layer.thickness, 0.0, 1.0);
+  float slice = height * clouds.shadow_steps + 0.5 + float(body) * slices;
+  vec2 at = column_texel(column_through(p, clouds.lights[body].to_light, clouds.layer));
+  return textureLod(layer_light, vec3(at, slice / (slices * float(kBodyCount))), 0.0).r;
+}
+
+// What lies on the way to the light: all of the volume's, from where the way enters its box.
+float volume_depth(const uint v, const uint body, vec3 p) {
+  vec3 at = index_from_world(v, p), to_light = index_from_world_vector(v, clouds.lights[body].to_light);
+  vec2 range = box_range(v, at, to_light);
+  if (range.y <= max(range.x, 0.0)) return 0.0;
+  at += to_light * max(range.x, 0.0);
+  vec3 size = clouds.volumes[v].light_texels;
+  vec3 texel = (at - clouds.volumes[v].low) / (clouds.volumes[v].high - clouds.volumes[v].low) * size;
+  texel = clamp(texel, vec3(0.5), size - 0.5) + vec3(0.0, 0.0, clouds.volumes[v].light_first[body]);
+  return textureLod(volume_light, texel / vec3(textureSize(volume_light, 0)), 0.0).r;
+}
+
+// Optical depth of all clouds between a place and a body. @param p world.
+float cloud_depth(const uint body, vec3 p) {
+  float depth = 0.0;
+  if (kCloudLayer) depth += layer_depth(body, p);
+  for (uint v = 0u; v < kCloudVolumes; ++v) depth += volume_depth(v, body, p);
+  return depth;
+}
+float light_through_clouds(const uint body, vec3 p) { return exp(-cloud_depth(body, p)); }
+#endif

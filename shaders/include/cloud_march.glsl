@@ -1,0 +1,142 @@
+// The march of a ray through all clouds, front to back; analytic within a step, so that no step length loses or makes light (Hillaire,
+// Physically Based Sky, Atmosphere and Cloud Rendering in Frostbite, 2016). Needs before the include: `frame`, `sky_lut`, what
+// cloud_light.glsl, cloud_layer.glsl, cloud_volumes.glsl and reflection.glsl have; with SKERRY_SHADOWS what shadow.glsl has.
+#ifndef SKERRY_CLOUD_MARCH_GLSL
+#define SKERRY_CLOUD_MARCH_GLSL
+#include "include/cloud_scattering.glsl"
+
+// What a ray through clouds brings.
+struct Clouded {
+  vec3 light;   // radiance of the clouds
+  float clear;  // share of what is behind them that is left
+};
+
+const float kClearEnough = 5e-4;    // what is left of the view when a march may end
+const float kLayerStepGrowth = 100.0;  // blocks: the layer's steps are even up to here, then grow with the distance
+
+// Light of a body that islands leave to a place in the open. Past the last map nothing stands in its way.
+float past_islands(const uint first_cascade, vec3 p) {
+#ifdef SKERRY_SHADOWS
+  uint index = cascades_within(first_cascade, kCascades, length(p));
+  Cascade c = pick_cascade(first_cascade, min(index, kCascades - 1u));
+  return index >= kCascades ? 1.0 : air_tap(c, p);
+#else
+  return 1.0;
+#endif
+}
+
+// Where a ray is inside the layer; x > y: nowhere.
+vec2 layer_range(vec3 dir, float begin, float end) {
+  float rise = abs(dir.y) < 1e-6 ? 1e-6 : dir.y;
+  float a = -clouds.layer.place.y / rise, b = (clouds.layer.thickness - clouds.layer.place.y) / rise;
+  return vec2(max(min(a, b), begin), min(min(max(a, b), end), kLayerFadeEnd));
+}
+
+// Everything there is at a place.
+struct Medium {
+  float extinction;  // 1/block
+  vec3 emitted;      // radiance a block
+  float empty;       // so far along the ray there is nothing for certain [blocks]
+};
+
+void add_volume(const uint v, vec3 p, vec3 dir, inout Medium m) {
+  vec3 at = index_from_world(v, p);
+  vec3 cell = cell_of_index(v, at);
+  vec4 found = cell_at(v, ivec3(cell), 0);
+  if (found.a > 0.0) {
+    float value = volume_value(v, at, found, cell);
+    m.extinction += value * clouds.volumes[v].extinction;
+    m.emitted += value * clouds.volumes[v].emission;
+    m.empty = 0.0;
+  } else {
+    m.empty = min(m.empty, empty_way(v, at, index_from_world_vector(v, dir)));
+  }
+}
+
+// Radiance that clouds at a place send to the eye, over their extinction. @param air what clear air leaves of it, @param sky the light it has.
+vec3 source_at(vec3 p, vec4 sun_phases, vec4 moon_phases, float air, vec3 sky) {
+  if (kBodies == 0u) return vec3(0.0);
+  vec3 light = vec3(0.0);
+  float depth = 0.0, open = 0.0;
+  if ((kBodies & 2u) != 0u) {
+    depth = cloud_depth(1u, p);
+    open = past_islands(kMoonCascade, p);
+    light += clouds.lights[1].irradiance * (octaves_left(moon_phases, depth) * open);
+  }
+  if ((kBodies & 1u) != 0u) {
+    depth = cloud_depth(0u, p);
+    open = past_islands(0u, p);
+    light += clouds.lights[0].irradiance * (octaves_left(sun_phases, depth) * open);
+  }
+  // The sky's light goes in from all sides, as the last octave does.
+  light += clouds.sky_above * (open * exp(-depth * kOctaveDepth.w));
+  return light * (kCloudAlbedo * air) + sky * (open * (1.0 - air));
+}
+
+// @param dir unit; @param begin, end blocks along it; @param jitter 0..1: how much of the first step is taken.
+Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter) {
+  vec2 in_layer = kCloudLayer ? layer_range(dir, begin, end) : vec2(1.0, 0.0);
+  float growth = pow((kLayerStepGrowth + in_layer.y) / (kLayerStepGrowth + in_layer.x), 1.0 / clouds.steps) - 1.0;
+  float stop = in_layer.y > in_layer.x ? in_layer.y : 0.0, t = in_layer.y > in_layer.x ? in_layer.x : 1e30;
+  vec2 in_volume[kMaxCloudVolumes];
+  for (uint v = 0u; v < kCloudVolumes; ++v) {
+    vec2 range = box_range(v, index_from_world(v, vec3(0.0)), index_from_world_vector(v, dir));
+    in_volume[v] = vec2(max(range.x, begin), min(range.y, end));
+    bool met = in_volume[v].y > in_volume[v].x;
+    stop = met ? max(stop, in_volume[v].y) : stop;
+    t = met ? min(t, in_volume[v].x) : t;
+  }
+  Clouded seen = Clouded(vec3(0.0), 1.0);
+  vec4 sun_phases = octave_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = octave_phases(dot(dir, clouds.lights[1].to_light));
+  vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir) : vec3(0.0);
+  uint most = 2u * (uint(clouds.steps) + 2u) * (kCloudVolumes + 1u);
+  for (uint i = 0u; i < most && t < stop && seen.clear > kClearEnough; ++i) {
+    float step_end = stop;
+    bool inside = false;
+    if (kCloudLayer && t < in_layer.y) {
+      inside = t >= in_layer.x;
+      step_end = inside ? min(in_layer.y, t + (kLayerStepGrowth + t) * growth) : in_layer.x;
+    }
+    for (uint v = 0u; v < kCloudVolumes; ++v) {
+      if (t >= in_volume[v].y || in_volume[v].y <= in_volume[v].x) continue;
+      bool here = t >= in_volume[v].x;
+      inside = inside || here;
+      step_end = min(step_end, here ? min(in_volume[v].y, t + clouds.volumes[v].step_blocks) : in_volume[v].x);
+    }
+    // The step is not lost in the distance's last digits.
+    step_end = max(step_end, t * 1.000001);
+    if (!inside) {
+      t = step_end;
+      continue;
+    }
+    float length_blocks = (step_end - t) * jitter;
+    jitter = 1.0;
+    vec3 p = dir * (t + 0.5 * length_blocks);
+    Medium m = Medium(0.0, vec3(0.0), 1e30);
+    if (kCloudLayer && t >= in_layer.x && t < in_layer.y) {
+      m.extinction = layer_extinction(p, clouds.layer);
+      m.empty = 0.0;
+    }
+    for (uint v = 0u; v < kCloudVolumes; ++v)
+      if (t >= in_volume[v].x && t < in_volume[v].y) add_volume(v, p, dir, m);
+    float depth = m.extinction * length_blocks;
+    if (m.extinction > 0.0 || m.emitted != vec3(0.0)) {
+      float opacity = opacity_of(depth);
+      // In a dense step what is seen is what lies in front.
+      vec3 place = dir * (t + min(0.5 * length_blocks, 1.0 / max(m.extinction, 1e-6)));
+      float air = clear_air(place);
+      vec3 source = source_at(place, sun_phases, moon_phases, air, sky) * opacity;
+      source += m.emitted * (air * (depth > 1e-4 ? opacity / m.extinction : length_blocks));
+      seen.light += seen.clear * source;
+      seen.clear *= 1.0 - opacity;
+    }
+    // Whole steps only, so that where samples lie does not show where bricks do.
+    float skipped = max(t + 0.5 * length_blocks + m.empty - step_end, 0.0) / max(step_end - t, 1e-6);
+    t = t + length_blocks + (m.empty > 0.0 ? min(floor(skipped), 1e6) * (step_end - t) : 0.0);
+  }
+  return seen;
+}
+
+// A value of a pixel that its neighbours' differ from as much as they can (Jimenez, Next Generation Post Processing in Call of Duty, 2014).
+float gradient_jitter(uvec2 pixel) { return fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715)))); }
+#endif

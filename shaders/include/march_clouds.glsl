@@ -1,0 +1,15 @@
+// Body of march_clouds*.comp: clouds along the rays of every second pixel each way.
+#include "include/cloud_view.glsl"
+
+layout(binding = 14, rgba16f) writeonly uniform image2D coarse;
+
+void main() {
+  uvec2 size = (frame.size + 1u) / 2u;
+  uvec2 texel = gl_GlobalInvocationID.xy;
+  bool here = all(lessThan(texel, size));
+  uvec2 pixel = min(texel * 2u, frame.size - 1u);
+  vec2 way = open_way(pixel);
+  if (!here) way = vec2(0.0);
+  Clouded seen = clouds_seen(pixel, way, gradient_jitter(texel));
+  if (here) imageStore(coarse, ivec2(texel), vec4(min(seen.light, vec3(kMaxRadiance)), seen.clear));
+}

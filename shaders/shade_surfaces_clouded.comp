@@ -1,0 +1,6 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Deferred light under clouds, with shadow maps, to radiance. docs/conventions.md.
+#define SKERRY_SHADOWS
+#define SKERRY_CLOUDS
+#include "include/shade_surfaces.glsl"

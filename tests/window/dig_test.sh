@@ -1,0 +1,139 @@
+#!/usr/bin/env bash
+# Digs, places, takes back and lights in a window under Xvfb, as a person would, and compares what the window shows. Any validation message
+# fails it.
+# usage: dig_test.sh SKERRY_PROGRAM [FOLDER]     exit: 0 passed, 1 failed, 77 no Xvfb, xdotool or ImageMagick here
+# The pictures are left in FOLDER, if one is given.
+set -euo pipefail
+skerry=$1
+for tool in Xvfb xdotool convert compare import; do
+  command -v "$tool" >/dev/null || { echo "no $tool here"; exit 77; }
+done
+
+work=$(mktemp -d)
+server= game=
+cleanup() {
+  [ -z "$game" ] || kill "$game" 2>/dev/null || true
+  [ -z "$server" ] || kill "$server" 2>/dev/null || true
+  wait 2>/dev/null || true
+  rm -rf "$work"
+}
+trap cleanup EXIT
+pictures=${2:-$work}
+mkdir -p "$pictures"
+fail() {
+  echo "FAILED: $1"
+  cat "$work/out" "$work/err" 2>/dev/null || true
+  exit 1
+}
+
+Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
+server=$!
+for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
+[ -s "$work/display" ] || fail "Xvfb did not start"
+DISPLAY=:$(cat "$work/display")
+export DISPLAY XDG_DATA_HOME="$work/data" XDG_CACHE_HOME="$work/cache" XDG_CONFIG_HOME="$work/config"
+unset WAYLAND_DISPLAY
+
+"$skerry" play --seed 1 --size 320x180 --quality low --time 22:00 --set view.distance=64 --validate >"$work/out" 2>"$work/err" &
+game=$!
+alive() { kill -0 "$game" 2>/dev/null || fail "the game ended $1"; }
+
+window=
+for _ in $(seq 300); do
+  alive "while opening its window"
+  window=$(xdotool search --pid "$game" --onlyvisible 2>/dev/null | head -n 1) && [ -n "$window" ] && break
+  sleep 0.2
+done
+[ -n "$window" ] || fail "no window appeared"
+xdotool windowfocus "$window"
+for _ in $(seq 300); do
+  alive "before it drew"
+  xdotool getwindowname "$window" | grep -q fps && break
+  sleep 0.2
+done
+sleep 4
+
+key() { xdotool key --window 0 "$1"; sleep "${2:-0.7}"; alive "after $1"; }
+# In several motions: one alone may be taken for the pointer's first place.
+turn() { for _ in 1 2 3 4; do xdotool mousemove_relative -- $(($1 / 4)) $(($2 / 4)); sleep 0.3; done; sleep 0.5; }
+grab() { import -silent -window "$window" "$pictures/$1.png"; }
+brightness() { convert "$pictures/$1.png" -colorspace gray -format '%[fx:mean]' info:; }
+# Pixels that differ by more than 6%, of the lower half: islands drift behind the upper one.
+changed() {
+  compare -metric AE -fuzz 6% "$pictures/$1.png[320x90+0+90]" "$pictures/$2.png[320x90+0+90]" null: 2>&1 || true
+}
+expect_change() {  # FROM TO LEAST WHAT
+  local count
+  count=$(changed "$1" "$2")
+  awk -v c="$count" -v least="$3" 'BEGIN { exit !(c >= least) }' || fail "$4 changed $count pixels only"
+}
+expect_same() {  # FROM TO MOST WHAT
+  local count
+  count=$(changed "$1" "$2")
+  awk -v c="$count" -v most="$3" 'BEGIN { exit !(c <= most) }' || fail "$4: $count pixels differ"
+}
+
+# The day stands still, the head looks down at the ground three blocks ahead, the eye has adapted.
+key p
+turn 0 300
+sleep 6
+grab night
+
+# A torch on the ground: the night is lit within a second or two.
+key 1
+xdotool click 3
+sleep 3
+grab torch
+awk -v a="$(brightness night)" -v b="$(brightness torch)" 'BEGIN { exit !(b > a) }' || fail "the torch gave no light"
+expect_change night torch 2000 "a torch at night"
+
+# Taking it back makes it dark again, doing it again lights it.
+key ctrl+z 6
+grab undone
+awk -v a="$(brightness undone)" -v b="$(brightness torch)" 'BEGIN { exit !(b > a) }' || fail "undo left the light on"
+key ctrl+y 4
+grab redone
+awk -v a="$(brightness undone)" -v b="$(brightness redone)" 'BEGIN { exit !(b > a) }' || fail "redo lit nothing"
+
+# Beside the torch: dig a hole, put a block of planks into it, take both back.
+turn 200 0
+sleep 3
+grab ground
+xdotool mousedown 1
+sleep 3
+xdotool mouseup 1
+sleep 2
+grab hole
+expect_change ground hole 600 "digging"
+key 3
+xdotool click 3
+sleep 3
+grab planks
+expect_change hole planks 300 "placing planks"
+key ctrl+z 3
+grab hole_again
+expect_change planks hole_again 300 "undoing the planks"
+# The middle button takes the block looked at, the wheel chooses others: nothing of the world changes.
+xdotool click 2
+xdotool click 4
+xdotool click 5
+sleep 1
+alive "after picking a block"
+
+# Walking: the picture follows.
+xdotool keydown w
+sleep 2
+xdotool keyup w
+sleep 1
+grab walked
+expect_change hole_again walked 1500 "walking"
+
+xdotool windowquit "$window"
+for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
+kill -0 "$game" 2>/dev/null && fail "closing the window did not end it"
+status=0
+wait "$game" || status=$?
+game=
+[ "$status" -eq 0 ] || fail "it exited with $status"
+[ ! -s "$work/err" ] || fail "it complained"
+echo "passed"
