@@ -15,7 +15,7 @@ struct ClipboardCalls {
   static const char* read(void* user) {
     Gui& gui = *static_cast<Gui*>(user);
     if (gui.clipboard_.read) gui.clipboard_text_ = gui.clipboard_.read();
-    gui.clipboard_text_ = pasted_text(gui.clipboard_text_, kMaxPasted);
+    gui.clipboard_text_ = pasted_text(gui.clipboard_text_, paste_room());
     return gui.clipboard_text_.c_str();
   }
   static void write(void* user, const char* text) {
