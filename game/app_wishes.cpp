@@ -98,6 +98,7 @@ void App::leave_world() {
   world_.reset();
   world_path_.reset();
   costs_ = {};
+  window_.set_title("Skerry");
 }
 
 /// The last picture, small, beside the world's file: for the list.
@@ -122,12 +123,9 @@ void App::follow_settings() {
     backdrop_->view().settings() = base_.settings;
     return;
   }
-  SceneText kept = chosen_by_player(world_->scene(), world_->settings());
   base_.quality = world_->scene().quality;
   base_.fov_deg = world_->scene().fov_deg;
-  set_quality(base_.quality, base_.settings);
-  for (const std::string& assignment : kept.settings)
-    (void)apply_setting(assignment, base_.settings);
+  take_preferences(world_->settings(), base_.settings);
 }
 
 void App::keep_settings() {

@@ -97,6 +97,7 @@ Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
       helm_.reset();
     } else if (player_.frame_island()) {
       helm_ = player_.frame_island();
+      helm_speed_ = 0.0;
       said_.emplace_back("At the helm: forward and back drive, left and right turn");
     } else {
       said_.emplace_back("Stand on an island to take its helm");
@@ -134,6 +135,8 @@ void PlayLoop::go_on(double seconds, const Intent& intent) {
 void PlayLoop::hear_session() {
   for (const Answer& answer : session_->receive()) {
     if (const auto* notice = std::get_if<Notice>(&answer)) said_.push_back(notice->text);
+    if (const auto* moved = std::get_if<IslandMoved>(&answer); moved && moved->island == helm_)
+      helm_speed_ = glm::length(moved->motion.velocity);
     if (const auto* piece = std::get_if<IslandAdded>(&answer); piece && piece->blocks > 1)
       said_.push_back(fmt::format("{} blocks broke off", piece->blocks));
   }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "engine/core/log.h"
 #include "game/screenshot.h"
 
 namespace skerry::game {
@@ -120,6 +121,7 @@ void PlayLoop::take_screenshot() {
   }
   const auto path = save_screenshot(device_, view_->renderer().picture(), taken);
   if (!path) {
+    log_error(path.error().message);
     said_.push_back(path.error().message);
     return;
   }

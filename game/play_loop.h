@@ -99,6 +99,7 @@ class PlayLoop {
   WorldSurroundings around_;
   SessionEditor editor_;
   std::optional<std::uint64_t> helm_;  // the island that is steered
+  double helm_speed_ = 0.0;            // of it [blocks/s]
   Interaction hands_;
   bool hands_free_ = false;  // captured, and no button held from before that
   DayClock day_;

@@ -161,7 +161,7 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
 }
 
 void show_new_world(ScreenState& state, Wishes& wishes) {
-  begin_panel("new_world", Place::kLeft, 440, 500);
+  begin_panel("new_world", Place::kLeft, 440, 440);
   heading("New world");
   text_in(colour::kFaint, "Name");
   ImGui::SetNextItemWidth(-1.0f);

@@ -80,6 +80,7 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
                                 parsed.error().message)});
     }
     from_file = *parsed;
+    game::find_world_beside(*a.scene_file, from_file);
   }
   game::SceneText typed = a.text;
   if (a.renderer) typed.settings.push_back("renderer=" + *a.renderer);

@@ -110,6 +110,7 @@ class Painter {
 
  private:
   void paint_column(int x, int z) {
+    noise_ = noise_at(place(x, 0, z));
     Cover cover;
     int depth = kSoil + 1;  // of solid voxels above; no cover reaches deeper than kSoil
     for (int y = kChunkEdge + kSoil; y >= 0; --y) {
@@ -134,10 +135,8 @@ class Painter {
   /// Of an open voxel's floor.
   Cover cover_of(int x, int y, int z) const {
     const IVec3 at = place(x, y, z);
-    const int wobble =
-        noise::gradient2(land_.seed + 1, at.x * 256, at.z * 256, 12) / 160;  // +-25 of 256
-    const int up = around_.steepness(x, y, z) + wobble;
-    if (land_.snow_from && at.y + wobble / 3 >= *land_.snow_from) {
+    const int up = around_.steepness(x, y, z) + noise_.wobble;
+    if (land_.snow_from && at.y + noise_.wobble / 3 >= *land_.snow_from) {
       if (up > kSlope) return {block::kSnow, block::kSnow};
       return {rock(at), block::kStone};
     }
@@ -157,8 +156,7 @@ class Painter {
     const IVec3 at = place(x, y, z);
     const std::uint32_t dice = hash3(land_.seed + 3, at.x, at.y, at.z);
     // Most of the ground is bare, so that the dear question for the slope comes last.
-    const int lush = 40 + noise::gradient2(land_.seed + 4, at.x * 256, at.z * 256, 20) / 24;
-    if (static_cast<int>(dice % 512) >= lush || !cover_of(x, y, z).meadow) return kAir;
+    if (static_cast<int>(dice % 512) >= noise_.lush || !cover_of(x, y, z).meadow) return kAir;
     switch (dice / 512 % 16) {
       case 0:
         return block::kFlowerYellow;
@@ -173,8 +171,7 @@ class Painter {
 
   /// Strata that bend gently.
   BlockId rock(IVec3 at) const {
-    const int bend = noise::gradient2(land_.seed, at.x * 256, at.z * 256, 96) / 512;
-    const auto layer = static_cast<std::int32_t>(floor_mod(at.y + bend, 29));
+    const auto layer = static_cast<std::int32_t>(floor_mod(at.y + noise_.bend, 29));
     if (layer < 3) return block::kSlate;
     if (layer == 13 || layer == 14) return block::kLimestone;
     return hash3(land_.seed + 5, at.x, at.y, at.z) % 400 == 0 ? block::kCoalOre : block::kStone;
@@ -183,7 +180,21 @@ class Painter {
   IVec3 place(int x, int y, int z) const { return {origin_.x + x, origin_.y + y, origin_.z + z}; }
   void put(int x, int y, int z, BlockId id) { voxels_[voxel_index(x, y, z)] = id; }
 
+  /// What changes from column to column only.
+  struct ColumnNoise {
+    int wobble = 0;  // of slopes and of the snow line, +-25
+    int lush = 0;    // of 512 places, how many bear a plant
+    int bend = 0;    // of strata, +-8 blocks
+  };
+  ColumnNoise noise_at(IVec3 at) const {
+    const auto gradient = [&](std::uint32_t salt, int wavelength) {
+      return noise::gradient2(land_.seed + salt, at.x * 256, at.z * 256, wavelength);
+    };
+    return {gradient(1, 12) / 160, 40 + gradient(4, 20) / 24, gradient(0, 96) / 512};
+  }
+
   const Land& land_;
+  ColumnNoise noise_;
   Surroundings around_;
   IVec3 origin_;
   std::vector<BlockId> voxels_;

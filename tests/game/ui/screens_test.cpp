@@ -122,8 +122,9 @@ TEST(Screens, NothingLeavesItsWindowAtAnySize) {
             << window->Name << where;
         // What has no scrolling part of its own must fit in height as well.
         const bool scrolls = std::string_view(window->Name).find('/') != std::string_view::npos;
-        if (!scrolls && size.height >= 720)
+        if (!scrolls && size.height >= 720) {
           EXPECT_EQ(window->ScrollMax.y, 0.0f) << window->Name << where;
+        }
       }
       EXPECT_TRUE(any) << where;
     }

@@ -83,8 +83,9 @@ Result<TestScene> read_scene(const fs::path& file) {
   const auto wrong = [&file](const Error& why) {
     return Error{fmt::format("cannot use {}: {}", game::quote_text(file.string()), why.message)};
   };
-  const Result<game::SceneText> parsed = game::parse_scene(*text);
+  Result<game::SceneText> parsed = game::parse_scene(*text);
   if (!parsed) return wrong(parsed.error());
+  game::find_world_beside(file.string(), *parsed);
   Result<game::SceneOptions> scene = game::make_scene(*parsed, {});
   if (!scene) return wrong(scene.error());
   const Result<void> masked = game::check_masks(parsed->expectations.masks, scene->size);
