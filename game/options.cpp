@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 namespace skerry::game {
@@ -152,6 +153,11 @@ Result<void> choose_source(const SceneText& under, const SceneText& over, SceneO
 }
 
 }  // namespace
+
+void find_world_beside(const std::string& scene_file, SceneText& scene) {
+  if (!scene.world || scene.world->empty()) return;
+  scene.world = (std::filesystem::path(scene_file).parent_path() / *scene.world).string();
+}
 
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
   SceneOptions scene;

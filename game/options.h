@@ -51,6 +51,9 @@ inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 /// checked by make_scene, but for lights; masks by check_masks.
 Result<SceneText> parse_scene(std::string_view json_text);
 
+/// Makes the world's path that a scene file names one from the file's own folder.
+void find_world_beside(const std::string& scene_file, SceneText& scene);
+
 /// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied
 /// first. A seed and a world exclude each other.
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over);

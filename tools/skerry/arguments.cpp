@@ -85,6 +85,7 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
                                 parsed.error().message)});
     }
     from_file = *parsed;
+    game::find_world_beside(*a.scene_file, from_file);
     game::find_beside(*a.scene_file, from_file.clouds);
   }
   game::SceneText typed = a.text;

@@ -94,9 +94,10 @@ void VdbCommand::add_import() {
   import_->add_option("--size", size_, "Blocks along the longest side of it all")
       ->type_name("BLOCKS");
   import_
-      ->add_option("--threshold", threshold_,
-                   "Fog is solid from this density on (default: the mean of what is not empty); a "
-                   "level set below this distance (default 0)")
+      ->add_option(
+          "--threshold", threshold_,
+          "Fog is solid from this density on (default: half the mean of what is not empty); a "
+          "level set below this distance (default 0)")
       ->type_name("VALUE");
   import_->add_option("--up", up_, "Which axis of the file points up (default y)")
       ->type_name("y|z");

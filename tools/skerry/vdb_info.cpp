@@ -50,7 +50,7 @@ std::string use_of(const VolumeGrid& grid, bool imported) {
   } else if (grid.kind == VolumeKind::kLevelSet) {
     use += ": solid below 0";
   } else if (grid.kind == VolumeKind::kFog) {
-    use += fmt::format(": solid from {:.4g}; drawn by --cloud", grid.mean_value);
+    use += fmt::format(": solid from {:.4g}; drawn by --cloud", 0.5f * grid.mean_value);
   }
   return use;
 }

@@ -25,7 +25,7 @@ constexpr std::size_t kBatch = 256;                   // chunks between two step
 SolidRule rule_for(const VolumeGrid& grid, const ImportOptions& options) {
   if (holds_block_ids(grid) || grid.kind == VolumeKind::kMask) return {false, 0.5f, true};
   const bool below = grid.kind == VolumeKind::kLevelSet;
-  const double usual = below ? 0.0 : static_cast<double>(grid.mean_value);
+  const double usual = below ? 0.0 : 0.5 * static_cast<double>(grid.mean_value);
   return {below, static_cast<float>(options.threshold.value_or(usual))};
 }
 
@@ -50,7 +50,7 @@ Result<std::vector<const VolumeGrid*>> chosen(const std::vector<VolumeGrid>& gri
   if (out.empty()) return Error{"none of its grids has an inside; see skerry vdb info"};
   // Beside a grid with something in it, empty ones are no reason to refuse the file.
   const auto empty = [&options](const VolumeGrid* grid) {
-    return content_of(*grid, rule_for(*grid, options)).empty();
+    return content_of(VolumeField(*grid), rule_for(*grid, options)).empty();
   };
   if (!std::all_of(out.begin(), out.end(), empty)) std::erase_if(out, empty);
   const VolumeGrid& first = *out.front();
@@ -76,7 +76,7 @@ double blocks_per_unit_of(const std::vector<const VolumeGrid*>& grids,
   if (!options.size_blocks) return options.scale.value_or(1.0) / voxel_size(*grids.front());
   Bounds all = Bounds::none();
   for (const VolumeGrid* grid : grids) {
-    const Bounds content = content_of(*grid, rule_for(*grid, options));
+    const Bounds content = content_of(VolumeField(*grid), rule_for(*grid, options));
     if (content.empty()) continue;
     const Bounds placed = image_of(blocks_from_index(*grid, 1.0, options.up), content);
     all.add(placed.low);
@@ -156,7 +156,7 @@ class Builder {
 
 Result<void> Builder::prepare(const ReadProgress& progress) {
   if (rule_(grid_.background)) return Error{"its outside is solid; give another --threshold"};
-  const Bounds content = content_of(grid_, rule_);
+  const Bounds content = content_of(field_, rule_);
   if (content.empty())
     return Error{fmt::format("nothing in it is solid at threshold {}; its values are {} to {}",
                              rule_.threshold, grid_.min_value, grid_.max_value)};

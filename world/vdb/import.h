@@ -17,15 +17,15 @@ namespace skerry::world {
 enum class UpAxis : std::uint8_t { kY, kZ };
 
 struct ImportOptions {
-  std::optional<std::string> grid;  ///< only this one; none: importable_grids chooses
+  std::optional<std::string> grid = {};  ///< only this one; none: importable_grids chooses
   /// Blocks along a voxel's edge; of a box-shaped voxel, along the edge of the cube of its volume.
   /// All grids of a file are scaled as the first. None: 1, or what `size_blocks` asks for.
-  std::optional<double> scale;
+  std::optional<double> scale = {};
   /// Length of the longest side of the box around all islands. Not beside `scale`.
-  std::optional<int> size_blocks;
-  /// Fog is solid from here on, distances are inside below it. None: the mean
-  /// density of what is not empty; 0.
-  std::optional<double> threshold;
+  std::optional<int> size_blocks = {};
+  /// Fog is solid from here on, distances are inside below it. None: half
+  /// the mean density of what is not empty; 0.
+  std::optional<double> threshold = {};
   UpAxis up = UpAxis::kY;  ///< which axis of the file points up
 };
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "world/generate/noise.h"
@@ -15,6 +15,7 @@ constexpr int kSoil = 3;         // blocks of dirt under grass
 constexpr int kNormalReach = 3;  // blocks around a voxel that decide its slope
 constexpr int kApron = kSoil + kNormalReach;
 constexpr int kEdge = kChunkEdge + 2 * kApron;
+constexpr int kCell = 8, kCells = kChunkEdge / kCell;
 
 // Upward component of the surface's normal, in 1/256: gentle ground bears grass, slopes bear poorer
 // grass in patches, cliffs are bare.
@@ -33,6 +34,22 @@ class Surroundings {
 
   /// Chunk-local, -kApron .. 63 + kApron.
   bool at(int x, int y, int z) const { return solid_[index(x, y, z)] != 0; }
+
+  /// Whether a cell of 8^3 and all that is within the apron's width of it is solid.
+  bool deep(int cell_x, int cell_y, int cell_z) const {
+    constexpr int kWidth = kCell + 2 * kApron;
+    static constexpr std::array<std::uint8_t, kWidth> kFull = [] {
+      std::array<std::uint8_t, kWidth> ones{};
+      ones.fill(1);
+      return ones;
+    }();
+    const int x0 = cell_x * kCell - kApron, y0 = cell_y * kCell - kApron;
+    for (int y = y0; y < y0 + kWidth; ++y)
+      for (int x = x0; x < x0 + kWidth; ++x)
+        if (std::memcmp(&solid_[index(x, y, cell_z * kCell - kApron)], kFull.data(), kWidth) != 0)
+          return false;
+    return true;
+  }
 
   bool exposed(int x, int y, int z) const {
     return !(at(x - 1, y, z) && at(x + 1, y, z) && at(x, y - 1, z) && at(x, y + 1, z) &&
@@ -100,6 +117,9 @@ class Painter {
   Painter(const SolidMasks& masks, IVec3 chunk, const Land& land)
       : land_(land), around_(masks, chunk), voxels_(kChunkVoxels, kAir) {
     origin_ = {chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
+    for (int x = 0; x < kCells; ++x)
+      for (int y = 0; y < kCells; ++y)
+        for (int z = 0; z < kCells; ++z) deep_[deep_index(x, y, z)] = around_.deep(x, y, z);
   }
 
   Chunk run() {
@@ -110,9 +130,15 @@ class Painter {
 
  private:
   void paint_column(int x, int z) {
+    noise_ = noise_at(place(x, 0, z));
     Cover cover;
     int depth = kSoil + 1;  // of solid voxels above; no cover reaches deeper than kSoil
     for (int y = kChunkEdge + kSoil; y >= 0; --y) {
+      if (y < kChunkEdge && deep_[deep_index(x / kCell, y / kCell, z / kCell)]) {
+        put(x, y, z, block::kStone);
+        depth = kSoil + 1;
+        continue;
+      }
       if (!around_.at(x, y, z)) {
         depth = 0;
         if (y < kChunkEdge && around_.at(x, y - 1, z)) put(x, y, z, plant_on(x, y - 1, z));
@@ -134,10 +160,8 @@ class Painter {
   /// Of an open voxel's floor.
   Cover cover_of(int x, int y, int z) const {
     const IVec3 at = place(x, y, z);
-    const int wobble =
-        noise::gradient2(land_.seed + 1, at.x * 256, at.z * 256, 12) / 160;  // +-25 of 256
-    const int up = around_.steepness(x, y, z) + wobble;
-    if (land_.snow_from && at.y + wobble / 3 >= *land_.snow_from) {
+    const int up = around_.steepness(x, y, z) + noise_.wobble;
+    if (land_.snow_from && at.y + noise_.wobble / 3 >= *land_.snow_from) {
       if (up > kSlope) return {block::kSnow, block::kSnow};
       return {rock(at), block::kStone};
     }
@@ -157,8 +181,7 @@ class Painter {
     const IVec3 at = place(x, y, z);
     const std::uint32_t dice = hash3(land_.seed + 3, at.x, at.y, at.z);
     // Most of the ground is bare, so that the dear question for the slope comes last.
-    const int lush = 40 + noise::gradient2(land_.seed + 4, at.x * 256, at.z * 256, 20) / 24;
-    if (static_cast<int>(dice % 512) >= lush || !cover_of(x, y, z).meadow) return kAir;
+    if (static_cast<int>(dice % 512) >= noise_.lush || !cover_of(x, y, z).meadow) return kAir;
     switch (dice / 512 % 16) {
       case 0:
         return block::kFlowerYellow;
@@ -173,8 +196,7 @@ class Painter {
 
   /// Strata that bend gently.
   BlockId rock(IVec3 at) const {
-    const int bend = noise::gradient2(land_.seed, at.x * 256, at.z * 256, 96) / 512;
-    const auto layer = static_cast<std::int32_t>(floor_mod(at.y + bend, 29));
+    const auto layer = static_cast<std::int32_t>(floor_mod(at.y + noise_.bend, 29));
     if (layer < 3) return block::kSlate;
     if (layer == 13 || layer == 14) return block::kLimestone;
     return hash3(land_.seed + 5, at.x, at.y, at.z) % 400 == 0 ? block::kCoalOre : block::kStone;
@@ -183,7 +205,27 @@ class Painter {
   IVec3 place(int x, int y, int z) const { return {origin_.x + x, origin_.y + y, origin_.z + z}; }
   void put(int x, int y, int z, BlockId id) { voxels_[voxel_index(x, y, z)] = id; }
 
+  /// What changes from column to column only.
+  struct ColumnNoise {
+    int wobble = 0;  // of slopes and of the snow line, +-25
+    int lush = 0;    // of 512 places, how many bear a plant
+    int bend = 0;    // of strata, +-8 blocks
+  };
+  ColumnNoise noise_at(IVec3 at) const {
+    const auto gradient = [&](std::uint32_t salt, int wavelength) {
+      return noise::gradient2(land_.seed + salt, at.x * 256, at.z * 256, wavelength);
+    };
+    return {gradient(1, 12) / 160, 40 + gradient(4, 20) / 24, gradient(0, 96) / 512};
+  }
+
+  static std::size_t deep_index(int x, int y, int z) {
+    return static_cast<std::size_t>(x + kCells * (y + kCells * z));
+  }
+
   const Land& land_;
+  // Rock that nobody comes to see is plain, which keeps chunks small, and exports of them.
+  std::array<bool, kCells * kCells * kCells> deep_{};
+  ColumnNoise noise_;
   Surroundings around_;
   IVec3 origin_;
   std::vector<BlockId> voxels_;

@@ -14,6 +14,7 @@
 #include <charconv>
 #include <exception>
 #include <new>
+#include <string>
 #include <string_view>
 
 #include "world/vdb/openvdb_jobs.h"
@@ -30,6 +31,15 @@ bool write_all(std::span<const std::byte> bytes) {
   }
   return true;
 }
+
+// AddressSanitizer's own books are terabytes of address space.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kAddressesAreScarce = false;
+#elif defined(__has_feature)
+constexpr bool kAddressesAreScarce = !__has_feature(address_sanitizer);
+#else
+constexpr bool kAddressesAreScarce = true;
+#endif
 
 void limit(int what, rlim_t amount) {
   const rlimit both{amount, amount};
@@ -58,7 +68,7 @@ void confine(const Arguments& arguments) {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, arguments.cpu_s);
-  limit(RLIMIT_AS, arguments.memory_bytes);
+  if (kAddressesAreScarce) limit(RLIMIT_AS, arguments.memory_bytes);
   ::signal(SIGXFSZ, SIG_IGN);  // a full answer is an error that can be told
   if (arguments.job == "read") limit(RLIMIT_FSIZE, arguments.answer_bytes);
   // Each thread of the allocator's or TBB's own would reserve address space by the gigabyte.
@@ -87,7 +97,8 @@ Result<void> run(const Arguments& arguments) {
   } catch (const std::bad_alloc&) {
     return Error{"it needs more memory than is allowed; it is damaged or too large"};
   } catch (const std::exception& error) {
-    return Error{error.what()};
+    return Error{std::string("OpenVDB gave up on it (") + error.what() +
+                 "); copy or write it again"};
   }
 }
 

@@ -159,6 +159,11 @@ bool names_color(std::string name) {
   return name == "cd" || name == "color" || name == "colour" || name == "rgb" || name == "albedo";
 }
 
+/// A grid that is not what its file says of it.
+struct Damaged {
+  std::string message;
+};
+
 void refuse(VolumeGrid& out, std::string why) {
   out.kind = VolumeKind::kOther;
   out.remark = std::move(why);
@@ -181,8 +186,9 @@ void check_metadata(const openvdb::GridBase& grid, const VolumeGrid& out) {
   const openvdb::Vec3i a = low->value(), b = high->value();
   const VolumeBox& box = out.active_box;
   if (IVec3{a.x(), a.y(), a.z()} != box.min || IVec3{b.x(), b.y(), b.z()} != box.max) {
-    throw std::runtime_error(
-        fmt::format("grid '{}' is damaged: its active voxels are not where it states", out.name));
+    throw Damaged(fmt::format(
+        "grid '{}' is damaged: its active voxels are not where it states; copy it again",
+        out.name));
   }
 }
 
@@ -267,9 +273,13 @@ Result<void> read_openvdb(int input, const ByteSink& sink) {
     return Error{fmt::format("it holds more than {} grids", kMaxVolumeGrids)};
   const Error full{"its values take more than is allowed; make it smaller"};
   if (!begin_answer(static_cast<std::uint32_t>(grids->size()), sink)) return full;
-  for (openvdb::GridBase::Ptr& grid : *grids) {
-    if (!encode_grid(volume_of(*grid), sink)) return full;
-    grid.reset();
+  try {
+    for (openvdb::GridBase::Ptr& grid : *grids) {
+      if (!encode_grid(volume_of(*grid), sink)) return full;
+      grid.reset();
+    }
+  } catch (const Damaged& damaged) {
+    return Error{damaged.message};
   }
   return {};
 }

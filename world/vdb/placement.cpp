@@ -1,9 +1,11 @@
 #include "world/vdb/placement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <utility>
 
 namespace skerry::world {
 namespace {
@@ -54,6 +56,17 @@ double yaw_of(const glm::dmat3& from_upright) {
   return upright && even ? std::atan2(-x.z, x.x) : 0.0;
 }
 
+/// How far outwards from a solid voxel its solid reaches: 0..1 voxel.
+double reach_of(const VolumeField& field, const SolidRule& rule, IVec3 at, int axis, int step) {
+  if (rule.nearest) return 0.5;
+  const double inside = static_cast<double>(field.at(at));
+  (axis == 0 ? at.x : axis == 1 ? at.y : at.z) += step;
+  const float value = field.at(at);
+  if (rule(value)) return 1.0;  // that voxel, or a tile, goes on from here
+  const double outside = static_cast<double>(value);
+  return (static_cast<double>(rule.threshold) - inside) / (outside - inside);
+}
+
 }  // namespace
 
 Affine Affine::inverse() const {
@@ -91,20 +104,31 @@ double voxel_size(const VolumeGrid& grid) {
   return std::cbrt(std::abs(glm::determinant(glm::dmat3(grid.world_from_index))));
 }
 
-Bounds content_of(const VolumeGrid& grid, const SolidRule& rule) {
+Bounds content_of(const VolumeField& field, const SolidRule& rule) {
   Bounds box = Bounds::none();
-  const auto add = [&box](IVec3 at, std::int32_t edge) {
-    const glm::dvec3 low{at.x, at.y, at.z};
-    box.add(low - 0.5);
-    box.add(low + (edge - 0.5));
+  const auto add = [&](IVec3 low, IVec3 high) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const auto& [at, step] : {std::pair(low, -1), std::pair(high, 1)}) {
+        const double place = std::array{at.x, at.y, at.z}[static_cast<std::size_t>(axis)];
+        // No reach exceeds one voxel, so that most voxels need no closer look.
+        if (step < 0 ? place - 1.0 >= box.low[axis] : place + 1.0 <= box.high[axis]) continue;
+        const double edge = place + step * reach_of(field, rule, at, axis, step);
+        box.low[axis] = std::min(box.low[axis], edge);
+        box.high[axis] = std::max(box.high[axis], edge);
+      }
+    }
   };
-  for (const VolumeTile& tile : grid.tiles)
-    if (rule(tile.value)) add(tile.origin, tile.edge);
-  for (const VolumeBrick& brick : grid.bricks) {
+  for (const VolumeTile& tile : field.grid().tiles) {
+    const std::int32_t last = tile.edge - 1;
+    const IVec3& at = tile.origin;
+    if (rule(tile.value)) add(at, {at.x + last, at.y + last, at.z + last});
+  }
+  for (const VolumeBrick& brick : field.grid().bricks) {
     for (std::int32_t i = 0; i < 512; ++i) {
       if (!rule(brick.values[static_cast<std::size_t>(i)])) continue;
       const IVec3& at = brick.origin;
-      add({at.x + (i >> 6), at.y + (i >> 3 & 7), at.z + (i & 7)}, 1);
+      const IVec3 voxel{at.x + (i >> 6), at.y + (i >> 3 & 7), at.z + (i & 7)};
+      add(voxel, voxel);
     }
   }
   return box;

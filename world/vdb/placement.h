@@ -6,6 +6,7 @@
 #include "world/coords.h"
 #include "world/vdb/import.h"
 #include "world/vdb/solid_rule.h"
+#include "world/vdb/volume_field.h"
 #include "world/vdb/volume_grid.h"
 
 namespace skerry::world {
@@ -36,8 +37,9 @@ Affine blocks_from_index(const VolumeGrid& grid, double blocks_per_unit, UpAxis 
 /// The edge of the cube that has a voxel's volume, in the file's units.
 double voxel_size(const VolumeGrid& grid);
 
-/// The box around a grid's solid voxels, whole voxels; empty if there are none.
-Bounds content_of(const VolumeGrid& grid, const SolidRule& rule);
+/// The box around what is solid in a grid, in index space; empty if nothing is. Voxels that are
+/// cubes count whole; of smooth ones, where the value crosses the threshold on its way out.
+Bounds content_of(const VolumeField& field, const SolidRule& rule);
 
 /// Where an island's lattice lies in a grid.
 struct Placement {

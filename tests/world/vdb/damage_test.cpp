@@ -75,7 +75,7 @@ void try_mutant(const Mutant& mutant, const std::filesystem::path& path, Jobs& o
   if (mutant.truncated) ++tally.truncated_read;
   // What was let through must go all the way, or be refused on it.
   const auto islands = import_islands(*grids, {.size_blocks = 64}, one);
-  if (!islands) EXPECT_FALSE(islands.error().message.empty());
+  EXPECT_TRUE(static_cast<bool>(islands) || !islands.error().message.empty());
 }
 
 TEST(VdbDamage, NoDamagedFileHurtsTheProgram) {

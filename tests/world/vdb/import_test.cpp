@@ -144,8 +144,8 @@ TEST(VdbImport, ReachesTheSizeAskedFor) {
     const std::vector<ImportedIsland> islands = imported({ball_grid(15.0)}, {.size_blocks = size});
     ASSERT_EQ(islands.size(), 1u);
     const IslandSpec& spec = islands[0].spec;
-    EXPECT_NEAR(spec.box_max.x - spec.box_min.x, size, 0.08 * size + 1.0);
-    EXPECT_LE(spec.box_max.x - spec.box_min.x, size + 1);
+    EXPECT_NEAR(spec.box_max.x - spec.box_min.x, size, 1.0);
+    EXPECT_NEAR(spec.box_max.z - spec.box_min.z, size, 1.0);
   }
 }
 
@@ -250,7 +250,7 @@ VolumeGrid tile_grid(int tiles_a_side) {
 TEST(VdbImport, RefusesAMillionMillionVoxelsAndTakesThemSmaller) {
   const VolumeGrid grid = tile_grid(3);  // 1.9e12 active voxels
   EXPECT_NE(refusal_of({grid}).find("--size"), std::string::npos);
-  const std::vector<ImportedIsland> islands = imported({grid}, {.size_blocks = 1024});
+  const std::vector<ImportedIsland> islands = imported({grid}, {.size_blocks = 512});
   ASSERT_EQ(islands.size(), 1u);
   std::uint64_t solid = 0, uniform = 0;
   for (const auto& [at, chunk] : islands[0].chunks) {
@@ -259,8 +259,8 @@ TEST(VdbImport, RefusesAMillionMillionVoxelsAndTakesThemSmaller) {
     chunk.unpack(voxels);
     for (const BlockId id : voxels) solid += is_solid(id) ? 1 : 0;
   }
-  EXPECT_NEAR(static_cast<double>(solid), std::pow(1024.0, 3.0), 3.2e6);
-  EXPECT_GT(uniform, 14u * 14u * 14u);
+  EXPECT_NEAR(static_cast<double>(solid), std::pow(512.0, 3.0), 8e5);
+  EXPECT_GE(uniform, 6u * 6u * 6u);
 }
 
 TEST(VdbImport, MakesAnIslandOfEachGridWhereItsTransformPutsIt) {

@@ -7,6 +7,7 @@
 #include <openvdb/points/PointDataGrid.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -45,6 +46,34 @@ openvdb::FloatGrid::Ptr ball(const std::string& name, double radius) {
         const double distance = std::sqrt(x * x + y * y + z * z) - radius;
         if (std::abs(distance) < kBand)
           grid->tree().setValueOn(Coord(x + 2, y - 3, z + 5), static_cast<float>(distance));
+      }
+    }
+  }
+  openvdb::tools::signedFloodFill(grid->tree());
+  return grid;
+}
+
+/// An island as a modeller would shape one, some 50 voxels wide: hills above, a ragged cone below.
+/// The file tests/scenes/islet.vdb is this one.
+openvdb::FloatGrid::Ptr islet() {
+  constexpr float kBand = 1.5f;
+  constexpr int kReach = 34, kDepth = 28;
+  const auto grid = named<openvdb::FloatGrid>("islet", kBand);
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  grid->setSaveFloatAsHalf(true);
+  for (int x = -kReach; x <= kReach; ++x) {
+    for (int z = -kReach; z <= kReach; ++z) {
+      const double hill = std::exp(-((x - 7) * (x - 7) + (z + 5) * (z + 5)) / 70.0);
+      const double top = 2.0 * std::sin(x * 0.16) + 2.0 * std::cos(z * 0.2) + 14.0 * hill;
+      const double radius = std::sqrt(x * x + z * z), angle = std::atan2(z, x);
+      for (int y = -kReach; y <= kReach; ++y) {
+        const double cone = 23.0 * std::sqrt(std::clamp((y + kDepth) / double(kDepth), 0.0, 1.0));
+        const double rags = 2.0 * std::sin(5.0 * angle + y * 0.25) + std::sin(11.0 * angle);
+        // Hills and rags stretch distances by up to some 1.8.
+        const double side = std::max(radius - cone - rags, double(-kDepth - y));
+        const double distance = std::max(y - top, side) / 1.8;
+        if (std::abs(distance) < kBand)
+          grid->tree().setValueOn(Coord(x, y, z), static_cast<float>(distance));
       }
     }
   }
@@ -151,6 +180,7 @@ int main(int count, char** words) {
   UInt8Grid::registerGrid();
   const std::string folder = std::string(words[1]) + "/";
   write(folder + "ball.vdb", {ball("ball", 20.0)});
+  write(folder + "islet.vdb", {islet()});
   write(folder + "cloud.vdb", {cloud("density")});
   write(folder + "types.vdb", every_type());
   write(folder + "wild.vdb", wild_values());

@@ -14,6 +14,7 @@ namespace {
 
 using world::block::kAirBlock;
 using world::block::kStone;
+using world::block::kWater;
 
 constexpr VkExtent2D kSize{96, 54};
 constexpr world::IVec3 kLow{-1, -1, -1}, kHigh{1, 1, 1};  // chunks that are there
@@ -29,6 +30,14 @@ world::BlockId room(int x, int y, int z) {
 /// The same without a roof.
 world::BlockId court(int x, int y, int z) {
   return y > 3 ? world::BlockId{kAirBlock} : room(x, y, z);
+}
+
+/// Both, with water knee-deep on the floor.
+world::BlockId pool(int x, int y, int z) {
+  return in_room(x, y, z) && y < -2 ? world::BlockId{kWater} : room(x, y, z);
+}
+world::BlockId open_pool(int x, int y, int z) {
+  return in_room(x, y, z) && y < -2 ? world::BlockId{kWater} : court(x, y, z);
 }
 
 /// Where a light outside the room is put: before a wall, an edge and a corner, seen from the
@@ -174,8 +183,33 @@ Result<Rows> places(gpu::Device& device) {
       {"pixels lit in a sealed room, lights on the wall's other side", 0.0, leaks}};
 }
 
-constexpr Case kCases[] = {
-    {"rays.lengths", lengths}, {"rays.turns", turns}, {"rays.places", places}};
+/// Water mirrors and scatters light, too: walls hold it off as they do from stone.
+Result<Rows> pools(gpu::Device& device) {
+  Result<View> sealed = View::create(device, pool), open = View::create(device, open_pool);
+  if (!sealed) return sealed.error();
+  if (!open) return open.error();
+  double leaks = 0.0, dark = 0.0, non_finite = 0.0;
+  for (int i = 0; i < 32; ++i) {
+    const auto at = static_cast<std::size_t>(i) % kWays.size();
+    const auto seen =
+        sealed->look(kMiddle + kWays[at] * (7.0 + i), 60.0f, kKinds[i / 4 % 2], 0.4 * i);
+    if (!seen) return seen.error();
+    leaks += seen->lit;
+    const auto above =
+        open->look(kMiddle + glm::dvec3{0.0, 5.0 + i, 0.0}, 60.0f, kKinds[i % 2], 0.0);
+    if (!above) return above.error();
+    dark += above->lit == 0.0;
+    non_finite += seen->non_finite + above->non_finite;
+  }
+  return Rows{{"pixels lit in a sealed room with water in it", 0.0, leaks},
+              {"views of water in an open court left dark", 0.0, dark},
+              {"channels or pixels not finite, lights over water", 0.0, non_finite}};
+}
+
+constexpr Case kCases[] = {{"rays.lengths", lengths},
+                           {"rays.turns", turns},
+                           {"rays.places", places},
+                           {"rays.pools", pools}};
 
 }  // namespace
 
