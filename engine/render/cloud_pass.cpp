@@ -108,8 +108,9 @@ gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       },
       [reads, coarse, radiance, stats = scene.pixel_stats, size = scene.size, lut = scene.sky_lut,
        sampler = scene.point_sampler,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           reads.program("blend_clouds"), reads.constants(std::move(constants))})](gpu::Commands& c) {
+       &pipeline = pipelines.get(
+           gpu::ComputeDesc{reads.program("blend_clouds"), reads.constants(std::move(constants))})](
+          gpu::Commands& c) {
         c.bind(pipeline);
         reads.bind(c);
         c.storage(4, stats);
@@ -153,8 +154,8 @@ void CloudRefs::bind_media(gpu::Commands& c) const {
 Shaded CloudPass::add_behind(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                              const View& view, Shaded shaded) {
   const ViewReads reads(scene, view, Part::kBehind);
-  return Shaded(blend(graph, pipelines, scene, "blend_clouds_behind_water", reads, {},
-                      shaded.radiance()));
+  return Shaded(
+      blend(graph, pipelines, scene, "blend_clouds_behind_water", reads, {}, shaded.radiance()));
 }
 
 Shaded CloudPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,

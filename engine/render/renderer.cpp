@@ -73,9 +73,9 @@ bool meters(const FrameInput& input, const RenderSettings& settings) {
 /// Whether the picture takes the way over a radiance image though no pass comes between.
 bool by_radiance(const FrameInput& input, const RenderSettings& settings,
                  const FrameFeatures& features) {
-  return features.has(Feature::kLights) || features.has(Feature::kClouds) || settings.bloom.intensity > 0.0f ||
-         meters(input, settings) || input.capture || input.fault.has_value() ||
-         samples_per_edge(settings) > 1 || input.parts > 1;
+  return features.has(Feature::kLights) || features.has(Feature::kClouds) ||
+         settings.bloom.intensity > 0.0f || meters(input, settings) || input.capture ||
+         input.fault.has_value() || samples_per_edge(settings) > 1 || input.parts > 1;
 }
 
 /// The sky whose sun and moon stand at the middle of a part's share of their discs: points of a
@@ -698,8 +698,8 @@ Result<std::uint64_t> Renderer::draw(
       return ok.error();
   FrameTables tables = build_tables(input, settings, drawn, *cascades);
   tables.constants.picture_size = {size.width, size.height};
-  const FrameContents contents = contents_of(input, settings, tables, sky_now,
-                                             *s.geometry, s.clouds.has_volumes());
+  const FrameContents contents =
+      contents_of(input, settings, tables, sky_now, *s.geometry, s.clouds.has_volumes());
   if (!input.freeze_culling)
     s.frozen.reset();
   else if (!s.frozen)
