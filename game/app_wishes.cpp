@@ -98,6 +98,7 @@ void App::leave_world() {
   world_.reset();
   world_path_.reset();
   costs_ = {};
+  window_.set_title("Skerry");
 }
 
 /// The last picture, small, beside the world's file: for the list.

@@ -71,7 +71,7 @@ struct CloudSettings {
   float coverage = 0.0f;       ///< of the layer: share of the sky, 0..1; 0: there is no layer
   double altitude = 360.0;     ///< of the layer's base [blocks]
   float thickness = 240.0f;    ///< of the layer [blocks], > 0
-  float density = 0.06f;       ///< extinction in the middle of the layer's clouds [1/block]
+  float density = 0.12f;       ///< extinction in the middle of the layer's clouds [1/block]
   float file_density = 0.1f;   ///< extinction of density 1 in a file [1/block]
   float file_emission = 0.2f;  ///< radiance a block that a file's hottest place sends out
   int steps = 48;              ///< of the eye's way through the layer or a file's box, 8..1024

@@ -29,9 +29,6 @@ struct Clipboard {
   std::function<void(const std::string&)> write;
 };
 
-/// The longest text that is taken from a clipboard at once [bytes]; of a longer one, the beginning.
-inline constexpr std::size_t kMaxPasted = 512;
-
 /// The beginning of a text, cut between characters, up to `max_bytes` or the end of its first line.
 std::string pasted_text(std::string_view text, std::size_t max_bytes);
 

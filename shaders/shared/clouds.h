@@ -11,7 +11,7 @@ SHARED_CONST uint kMaxCloudVolumes = 8u;
 // The layer's noise repeats after these distances [blocks]; all divide kLayerPeriod.
 SHARED_CONST uint kCloudNoiseEdge = 128u;  // texels
 SHARED_CONST float kCloudShapePeriod = 2048.0f;
-SHARED_CONST float kCloudDetailPeriod = 256.0f;
+SHARED_CONST float kCloudDetailPeriod = 320.0f;
 SHARED_CONST float kCloudWeatherPeriod = 10240.0f;
 SHARED_CONST uint kLayerPeriod = 10240u;
 // The layer thins out between these distances from the eye [blocks].

@@ -30,6 +30,9 @@ DISPLAY=:$(cat "$work/display")
 export DISPLAY XDG_DATA_HOME="$work/data" XDG_CACHE_HOME="$work/cache" XDG_CONFIG_HOME="$work/config"
 unset WAYLAND_DISPLAY
 
+# Pipelines are made once for all, so that no key waits for them below.
+"$skerry" shot --seed 1 --size 320x180 --quality low --set view.distance=200 --out "$work/warm.png" 2>"$work/err" || fail "no picture"
+
 # Controls that cannot be read: told, and nothing is lost.
 mkdir -p "$work/config/skerry"
 echo '{"actions": {"jump": 7' >"$work/config/skerry/controls.json"
@@ -53,9 +56,10 @@ until_true() {
 }
 grab() { import -silent -window "$window" "$1"; }
 shown() { grab "$work/now.png" && [ "$(convert "$work/now.png" -format '%[fx:int(1000*standard_deviation)]' info:)" -gt 30 ]; }
-shots() { find "$work/data/skerry/screenshots" -name '*.png' 2>/dev/null | wc -l; }
+shots() { { find "$work/data/skerry/screenshots" -name '*.png' 2>/dev/null || true; } | wc -l; }
 has_shots() { [ "$(shots)" -ge "$1" ]; }
 playing() { xdotool getwindowname "$window" | grep -q fps; }
+left() { [ "$(xdotool getwindowname "$window")" = Skerry ]; }
 # The camera of the last screenshot's command: X,Y,Z,YAW,PITCH.
 camera() { grep -o -- '--camera [^ ]*' "$work/out" | tail -n 1 | cut -d ' ' -f 2; }
 # Blocks between two cameras.
@@ -69,9 +73,9 @@ screenshot() {
 
 until_true "the title is shown" shown
 sleep 2
-key Return 2  # new world: there is none yet
+key Return 8  # new world: there is none yet
 xdotool type --delay 200 Harbour
-sleep 1
+sleep 3
 key Return 1
 until_true "a world is played" playing
 [ "$(find "$work/data/skerry/worlds" -name '*.skerry' | wc -l)" = 1 ] || fail "no world file was made"
@@ -89,11 +93,14 @@ grab "$work/before.png"
 # Pause: the fifth button saves and leaves.
 key Escape 1
 for _ in 1 2 3 4; do key Down; done
-key Return 3
+key Return 1
+until_true "the world has been left" left
 [ -n "$(find "$work/data/skerry/worlds" -name '*.png')" ] || fail "the world has no picture"
 # The title's first button now lists the worlds, the list's first plays the last one.
-key Return 2
+sleep 3
+key Return 4
 key Return 1
+until_true "the world is played again" playing
 sleep 8
 screenshot
 again=$(camera)

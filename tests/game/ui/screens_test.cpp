@@ -8,6 +8,7 @@
 #include <set>
 
 #include "game/ui/gui.h"
+#include "game/ui/look.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -217,7 +218,7 @@ TEST(Screens, AMegabyteOfPastedTextBecomesAShortSeed) {
     gui.begin({640, 360, 0.05, &taken});
     ImGui::Begin("seed");
     ImGui::SetKeyboardFocusHere();
-    ImGui::InputText("##seed", field.data(), field.size());
+    text_field("##seed", field);
     ImGui::End();
     gui.end();
   };
