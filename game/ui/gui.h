@@ -59,7 +59,7 @@ class Gui {
   Clipboard clipboard_;
   std::string clipboard_text_;  // what ImGui was handed last
   Fonts fonts_;
-  bool fed_ = false;
+  bool fed_ = true;  // in the last frame; before the first, so that keys are mapped whatever comes
 };
 
 /// Whether Enter, or its like on a gamepad, went down in this frame; between Gui::begin and end.

@@ -7,8 +7,8 @@
 
 namespace skerry::tools {
 
-/// `skerry bench mesh|generate|world|upload|cull|lights|frame|edit`: options, and which function each
-/// calls.
+/// `skerry bench mesh|generate|world|upload|cull|lights|frame|edit`: options, and which function
+/// each calls.
 class BenchCommands {
  public:
   /// Adds `bench` and its sub-commands.

@@ -13,7 +13,7 @@ struct BlockColor {
   std::array<std::uint8_t, 3> srgb;
 };
 
-/// Blocks that a colour may become: opaque, dull, and of one look from all sides or nearly so.
+/// Blocks that a colour may become: solid, without light of their own.
 std::span<const BlockColor> block_colors();
 
 /// The block whose colour is nearest, as the eye sees differences: distance in OKLab

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "world/generate/noise.h"
@@ -15,6 +15,7 @@ constexpr int kSoil = 3;         // blocks of dirt under grass
 constexpr int kNormalReach = 3;  // blocks around a voxel that decide its slope
 constexpr int kApron = kSoil + kNormalReach;
 constexpr int kEdge = kChunkEdge + 2 * kApron;
+constexpr int kCell = 8, kCells = kChunkEdge / kCell;
 
 // Upward component of the surface's normal, in 1/256: gentle ground bears grass, slopes bear poorer
 // grass in patches, cliffs are bare.
@@ -33,6 +34,22 @@ class Surroundings {
 
   /// Chunk-local, -kApron .. 63 + kApron.
   bool at(int x, int y, int z) const { return solid_[index(x, y, z)] != 0; }
+
+  /// Whether a cell of 8^3 and all that is within the apron's width of it is solid.
+  bool deep(int cell_x, int cell_y, int cell_z) const {
+    constexpr int kWidth = kCell + 2 * kApron;
+    static constexpr std::array<std::uint8_t, kWidth> kFull = [] {
+      std::array<std::uint8_t, kWidth> ones{};
+      ones.fill(1);
+      return ones;
+    }();
+    const int x0 = cell_x * kCell - kApron, y0 = cell_y * kCell - kApron;
+    for (int y = y0; y < y0 + kWidth; ++y)
+      for (int x = x0; x < x0 + kWidth; ++x)
+        if (std::memcmp(&solid_[index(x, y, cell_z * kCell - kApron)], kFull.data(), kWidth) != 0)
+          return false;
+    return true;
+  }
 
   bool exposed(int x, int y, int z) const {
     return !(at(x - 1, y, z) && at(x + 1, y, z) && at(x, y - 1, z) && at(x, y + 1, z) &&
@@ -100,6 +117,9 @@ class Painter {
   Painter(const SolidMasks& masks, IVec3 chunk, const Land& land)
       : land_(land), around_(masks, chunk), voxels_(kChunkVoxels, kAir) {
     origin_ = {chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
+    for (int x = 0; x < kCells; ++x)
+      for (int y = 0; y < kCells; ++y)
+        for (int z = 0; z < kCells; ++z) deep_[deep_index(x, y, z)] = around_.deep(x, y, z);
   }
 
   Chunk run() {
@@ -114,6 +134,11 @@ class Painter {
     Cover cover;
     int depth = kSoil + 1;  // of solid voxels above; no cover reaches deeper than kSoil
     for (int y = kChunkEdge + kSoil; y >= 0; --y) {
+      if (y < kChunkEdge && deep_[deep_index(x / kCell, y / kCell, z / kCell)]) {
+        put(x, y, z, block::kStone);
+        depth = kSoil + 1;
+        continue;
+      }
       if (!around_.at(x, y, z)) {
         depth = 0;
         if (y < kChunkEdge && around_.at(x, y - 1, z)) put(x, y, z, plant_on(x, y - 1, z));
@@ -193,7 +218,13 @@ class Painter {
     return {gradient(1, 12) / 160, 40 + gradient(4, 20) / 24, gradient(0, 96) / 512};
   }
 
+  static std::size_t deep_index(int x, int y, int z) {
+    return static_cast<std::size_t>(x + kCells * (y + kCells * z));
+  }
+
   const Land& land_;
+  // Rock that nobody comes to see is plain, which keeps chunks small, and exports of them.
+  std::array<bool, kCells * kCells * kCells> deep_{};
   ColumnNoise noise_;
   Surroundings around_;
   IVec3 origin_;

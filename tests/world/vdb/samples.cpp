@@ -53,23 +53,25 @@ openvdb::FloatGrid::Ptr ball(const std::string& name, double radius) {
   return grid;
 }
 
-/// An island as a modeller would shape one, some 64 voxels wide: hills above, a ragged cone below.
+/// An island as a modeller would shape one, some 50 voxels wide: hills above, a ragged cone below.
 /// The file tests/scenes/islet.vdb is this one.
 openvdb::FloatGrid::Ptr islet() {
-  constexpr float kBand = 3.0f;
+  constexpr float kBand = 1.5f;
+  constexpr int kReach = 34, kDepth = 28;
   const auto grid = named<openvdb::FloatGrid>("islet", kBand);
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
   grid->setSaveFloatAsHalf(true);
-  for (int x = -42; x <= 42; ++x) {
-    for (int z = -42; z <= 42; ++z) {
-      const double hill = std::exp(-((x - 9) * (x - 9) + (z + 7) * (z + 7)) / 110.0);
-      const double top = 3.0 * std::sin(x * 0.13) + 3.0 * std::cos(z * 0.17) + 19.0 * hill;
+  for (int x = -kReach; x <= kReach; ++x) {
+    for (int z = -kReach; z <= kReach; ++z) {
+      const double hill = std::exp(-((x - 7) * (x - 7) + (z + 5) * (z + 5)) / 70.0);
+      const double top = 2.0 * std::sin(x * 0.16) + 2.0 * std::cos(z * 0.2) + 14.0 * hill;
       const double radius = std::sqrt(x * x + z * z), angle = std::atan2(z, x);
-      for (int y = -45; y <= 32; ++y) {
-        const double cone = 31.0 * std::sqrt(std::clamp((y + 38) / 38.0, 0.0, 1.0));
-        const double rags = 2.5 * std::sin(5.0 * angle + y * 0.21) + 1.5 * std::sin(11.0 * angle);
+      for (int y = -kReach; y <= kReach; ++y) {
+        const double cone = 23.0 * std::sqrt(std::clamp((y + kDepth) / double(kDepth), 0.0, 1.0));
+        const double rags = 2.0 * std::sin(5.0 * angle + y * 0.25) + std::sin(11.0 * angle);
         // Hills and rags stretch distances by up to some 1.8.
-        const double distance = std::max(y - top, radius - cone - rags) / 1.8;
+        const double side = std::max(radius - cone - rags, double(-kDepth - y));
+        const double distance = std::max(y - top, side) / 1.8;
         if (std::abs(distance) < kBand)
           grid->tree().setValueOn(Coord(x, y, z), static_cast<float>(distance));
       }
