@@ -22,12 +22,13 @@ using ui::text;
 void show_frames(const OverlayFacts& facts) {
   const FrameSpread spread = spread_of_frames(facts.frame_ms);
   if (facts.frame_ms.empty()) return;
-  text(fmt::format("{:.1f} fps   median {:.2f} ms   slowest 1% {:.2f} ms",
-                   1000.0f / std::max(spread.median, 1e-3f), spread.median,
-                   spread.slowest_1_percent));
+  ui::text_wrapped(ui::colour::kText,
+                   fmt::format("{:.1f} fps   median {:.2f} ms   slowest 1% {:.2f} ms",
+                               1000.0f / std::max(spread.median, 1e-3f), spread.median,
+                               spread.slowest_1_percent));
   ImGui::PlotLines("##frames", facts.frame_ms.data(), static_cast<int>(facts.frame_ms.size()), 0,
                    nullptr, 0.0f, std::max(2.0f * spread.median, spread.slowest_1_percent),
-                   ImVec2(-1.0f, kGraphHeight * ui::unit()));
+                   ImVec2(ImGui::GetContentRegionAvail().x, kGraphHeight * ui::unit()));
 }
 
 /// @param share draws a bar of that part of the row's width behind it.
@@ -146,7 +147,7 @@ void show_calibration(const render::DisplaySettings& display, const ImVec2& pict
 void show_numbers(const OverlayFacts& facts, const ImVec2& picture) {
   panel("state", false, picture, [&] {
     show_frames(facts);
-    for (const std::string& line : facts.lines) text(line);
+    for (const std::string& line : facts.lines) ui::text_wrapped(ui::colour::kText, line);
     table("counts", "counts", [&] {
       for (const auto& count : facts.counts) row(count.name, fmt::format("{}", count.value));
     });

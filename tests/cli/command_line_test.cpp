@@ -120,7 +120,7 @@ TEST(CommandLine, FilesThatCannotBeUsedExitWithOne) {
   expect_refusal(run({"bench", "cull", "--json", "/no/such/a.json"}), 1, {"a.json"}, "bench json");
   expect_refusal(run({"report", "--out", "/no/such/report"}), 1, {"/no/such/report", "--out"},
                  "report");
-  expect_refusal(run({"--world", "/"}), 1, {"cannot load saved worlds"}, "play world");
+  expect_refusal(run({"--world", "/"}), 1, {"is a folder"}, "play world");
 }
 
 TEST(CommandLine, MistakesInASceneFileAreUsageErrors) {

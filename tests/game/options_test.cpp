@@ -133,5 +133,24 @@ TEST(Scene, TheCommandOfASceneRebuildsIt) {
   EXPECT_EQ(back->settings, scene.settings);
 }
 
+TEST(Options, AWorldStandsInPlaceOfASeed) {
+  SceneText file, typed;
+  file.seed = "fjord";
+  typed.world = "my worlds/a.skerry";
+  const Result<SceneOptions> scene = make_scene(file, typed);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->world, "my worlds/a.skerry");
+  const std::string command = shot_command(*scene);
+  EXPECT_TRUE(command.starts_with("skerry shot --world 'my worlds/a.skerry' --fov")) << command;
+  EXPECT_FALSE(make_scene(typed, file)->world);  // and the other way round
+  typed.seed = "4";
+  EXPECT_FALSE(make_scene({}, typed));
+  typed.seed.reset();
+  typed.world = "";
+  EXPECT_FALSE(make_scene({}, typed));
+  EXPECT_EQ(parse_scene(R"({"world": "a"})")->world, "a");
+  EXPECT_FALSE(parse_scene(R"({"world": true})"));
+}
+
 }  // namespace
 }  // namespace skerry::game
