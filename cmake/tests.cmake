@@ -44,6 +44,8 @@ if(test_sources)
 endif()
 add_test(NAME window.play COMMAND ${CMAKE_SOURCE_DIR}/tests/window/play_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.play PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
+add_test(NAME window.screens COMMAND ${CMAKE_SOURCE_DIR}/tests/window/screens_test.sh $<TARGET_FILE:skerry>)
+set_tests_properties(window.screens PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_test(NAME window.dig COMMAND ${CMAKE_SOURCE_DIR}/tests/window/dig_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.dig PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 

@@ -129,7 +129,9 @@ ActionFrame::State ActionFrame::state_of(Chord chord, const InputFrame& input,
   if (chord.key == Key::kNone) return state;
   // A key that went up does so for every chord it is in: nothing is left held.
   state.released = input.released(chord.key);
-  const bool control = input.down(Key::kControl) || input.pressed(Key::kControl);
+  // Held at some moment of the frame: a quick chord may end within the frame in which it is seen.
+  const bool control =
+      input.down(Key::kControl) || input.pressed(Key::kControl) || input.released(Key::kControl);
   if (chord.control ? !control : control && has_control_chord(bindings, chord.key)) return state;
   state.down = input.down(chord.key);
   const double value = input.value(chord.key);

@@ -119,11 +119,17 @@ void App::act(const platform::InputFrame& input, double seconds) {
     world_->act({}, seconds);
   else
     world_->rest(seconds);
-  if (screens_.stack.top() == Screen::kPhoto)
-    fly_photo_camera(input, actions, seconds);
+  const bool was_photo = std::exchange(in_photo_, screens_.stack.top() == Screen::kPhoto);
+  if (in_photo_ && !was_photo) {
+    photo_.start_at(*world_->scene().camera);
+    photo_settings_ = {world_->day().time_of_day_s(), std::nullopt, world_->scene().fov_deg, false};
+  }
+  // The key that opened it means nothing in it.
+  if (in_photo_)
+    fly_photo_camera(input, was_photo ? actions : ActionFrame(), seconds);
   else
     world_->set_photo(std::nullopt);
-  for (std::string& line : world_->take_messages()) say(std::move(line));
+  for (std::string& line : world_->take_messages()) messages_.say(std::move(line));
 }
 
 void App::act_on_screens(const platform::InputFrame& input, const ActionFrame& actions) {
@@ -133,9 +139,6 @@ void App::act_on_screens(const platform::InputFrame& input, const ActionFrame& a
     if (actions.pressed(Action::kPalette)) open(Screen::kPalette);
     if (actions.pressed(Action::kPhoto)) open(Screen::kPhoto);
     if (actions.pressed(Action::kHideHud)) hud_hidden_ = !hud_hidden_;
-    if (screens_.stack.top() != Screen::kPhoto) return;
-    photo_.start_at(*world_->scene().camera);
-    photo_settings_ = {world_->day().time_of_day_s(), std::nullopt, world_->scene().fov_deg, false};
     return;
   }
   back_ = input.pressed(Key::kEscape) || input.pressed(Key::kPadB);

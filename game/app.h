@@ -83,6 +83,7 @@ class App {
   std::optional<double> preview_due_s_;  // until the new world's seed is shown
   PhotoCamera photo_;
   ui::PhotoSettings photo_settings_;
+  bool in_photo_ = false;
   platform::HeldBack held_back_;
   // Frames left in which the world behind a screen is drawn in any case: after the screen has come
   // up, and after a knob was turned, until its cost is known.

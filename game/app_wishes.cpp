@@ -78,11 +78,13 @@ void App::draw_lots() {
 }
 
 Result<void> App::play(const SceneOptions& options, std::string name) {
+  auto session = Session::open(options);
+  if (!session) return session.error();
   backdrop_.reset();
-  auto view = SceneView::create(device_, options);
+  auto view = SceneView::create(device_, options, (*session)->world());
   if (!view) return view.error();
   world_ = std::make_unique<PlayLoop>(window_, device_, *presenter_, bindings_, options,
-                                      *std::move(view));
+                                      *std::move(session), *std::move(view));
   world_path_ = options.world;
   world_name_ = std::move(name);
   costs_ = {};
@@ -96,6 +98,7 @@ void App::leave_world() {
   world_.reset();
   world_path_.reset();
   costs_ = {};
+  window_.set_title("Skerry");
 }
 
 /// The last picture, small, beside the world's file: for the list.
@@ -120,12 +123,9 @@ void App::follow_settings() {
     backdrop_->view().settings() = base_.settings;
     return;
   }
-  SceneText kept = chosen_by_player(world_->scene(), world_->settings());
   base_.quality = world_->scene().quality;
   base_.fov_deg = world_->scene().fov_deg;
-  set_quality(base_.quality, base_.settings);
-  for (const std::string& assignment : kept.settings)
-    (void)apply_setting(assignment, base_.settings);
+  take_preferences(world_->settings(), base_.settings);
 }
 
 void App::keep_settings() {
@@ -153,7 +153,12 @@ Result<void> App::play_file(const std::string& path) {
   options.camera = left->camera;
   options.time_of_day_s = left->time_of_day_s;
   options.settings.world_time_s = left->settings.world_time_s;
-  return play(options, (*file)->info().name);
+  if (const Result<void> playing = play(options, (*file)->info().name); !playing) {
+    if (!backdrop_) return playing;  // the world was open, so it is the device that failed
+    say(playing.error().message);
+    list_again();
+  }
+  return {};
 }
 
 Result<void> App::create_world(const ui::Wishes::NewWorld& wanted) {

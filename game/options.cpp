@@ -12,8 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 9> kFields{"seed", "world",   "camera",   "fov",   "time",
-                                                  "size", "quality", "settings", "lights"};
+constexpr std::array<std::string_view, 10> kFields{
+    "seed", "world", "camera", "fov", "time", "size", "quality", "settings", "lights", "clouds"};
 
 /// A scalar as the text a person would have typed, or nothing for other kinds.
 std::optional<std::string> scalar_text(const json& value) {
@@ -69,6 +69,12 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
     Result<std::vector<WorldLight>> lights = read_lights(value);
     if (!lights) return lights.error();
     scene.lights = *std::move(lights);
+    return {};
+  }
+  if (key == "clouds") {
+    Result<std::vector<CloudFile>> clouds = read_clouds(value);
+    if (!clouds) return clouds.error();
+    scene.clouds = *std::move(clouds);
     return {};
   }
   if (std::count(std::begin(kExpectationFields), std::end(kExpectationFields), key) != 0)
@@ -182,6 +188,8 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
   }
   scene.lights = under.lights;
   scene.lights.insert(scene.lights.end(), over.lights.begin(), over.lights.end());
+  scene.clouds = under.clouds;
+  scene.clouds.insert(scene.clouds.end(), over.clouds.begin(), over.clouds.end());
   scene.settings = settings_of(scene.quality);
   if (const auto done = apply_settings(under, over, scene.settings); !done) return done.error();
   return scene;
@@ -189,7 +197,9 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
 
 std::string shot_command(const SceneOptions& scene) {
   std::string command = "skerry shot";
-  if (!scene.lights.empty() && scene.scene_file)
+  const bool file_clouds = std::any_of(scene.clouds.begin(), scene.clouds.end(),
+                                       [](const CloudFile& cloud) { return cloud.of_scene_file; });
+  if ((!scene.lights.empty() || file_clouds) && scene.scene_file)
     command += " --scene " + shell_word(*scene.scene_file);
   command += scene.world ? " --world " + shell_word(*scene.world)
                          : " --seed " + shell_word(scene.seed_text);
@@ -200,6 +210,8 @@ std::string shot_command(const SceneOptions& scene) {
   for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
     command += " --set " + shell_word(assignment);
   }
+  for (const CloudFile& cloud : scene.clouds)
+    if (!cloud.of_scene_file) command += " --cloud " + shell_word(format_cloud(cloud));
   return command;
 }
 

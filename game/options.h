@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "game/cloud_files.h"
 #include "game/expectations.h"
 #include "game/parse.h"
 #include "game/scene_lights.h"
@@ -25,6 +26,7 @@ struct SceneOptions {
   Quality quality = Quality::kMedium;
   Settings settings;
   std::vector<WorldLight> lights;         ///< of the scene file
+  std::vector<CloudFile> clouds;          ///< of the scene file, then of the command line
   std::optional<std::string> scene_file;  ///< where the lights are from
   std::optional<std::uint32_t> device;    ///< none: the best
   bool validate = false;
@@ -35,14 +37,16 @@ struct SceneText {
   std::optional<std::string> seed, world, camera, fov, time, size, quality;
   std::vector<std::string> settings;  ///< KEY=VALUE, later ones win
   std::vector<WorldLight> lights;     ///< of a scene file
-  Expectations expectations;          ///< of a scene file; no concern of make_scene
+  std::vector<CloudFile> clouds;
+  Expectations expectations;  ///< of a scene file; no concern of make_scene
 };
 
 /// The longest scene file worth reading.
 inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 
 /// Reads a scene: a JSON object with the fields seed, world, camera (five numbers or strings), fov,
-/// time, size, quality, settings (an object) and lights (read_lights), and those of Expectations.
+/// time, size, quality, settings (an object), lights (read_lights), clouds (read_clouds)
+/// and those of Expectations.
 /// Errors: no JSON, an unknown field (names the nearest), a value of the wrong kind. Values are
 /// checked by make_scene, but for lights; masks by check_masks.
 Result<SceneText> parse_scene(std::string_view json_text);

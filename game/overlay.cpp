@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kPanelWidth = 420.0f;  // units of layout, as the next
 constexpr float kGraphHeight = 60.0f;
+constexpr ImU32 kBar = IM_COL32(122, 204, 190, 70);
 constexpr std::size_t kMemoryRows = 12;  // the rest is summed up
 
 using ui::text;
@@ -29,13 +30,20 @@ void show_frames(const OverlayFacts& facts) {
                    ImVec2(-1.0f, kGraphHeight * ui::unit()));
 }
 
-void row(std::string_view name, const std::string& value) {
+/// @param share draws a bar of that part of the row's width behind it.
+void row(std::string_view name, const std::string& value, double share = 0.0) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
+  if (share > 0.0)
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        at, ImVec2(at.x + static_cast<float>(share) * width, at.y + ImGui::GetTextLineHeight()),
+        kBar);
   text(name);
   ImGui::TableNextColumn();
-  const float slack = ImGui::GetContentRegionAvail().x -
-                      ImGui::CalcTextSize(value.data(), value.data() + value.size()).x;
+  const ImVec2 size = ImGui::CalcTextSize(value.data(), value.data() + value.size());
+  const float slack = ImGui::GetContentRegionAvail().x - size.x;
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, slack));
   text(value);
 }
@@ -46,7 +54,12 @@ template <class F>
 void table(const char* id, const std::string& heading, const F& rows) {
   ImGui::Separator();
   text(heading);
-  if (!ImGui::BeginTable(id, 2)) return;
+  // Of a given width: a table that makes its window as wide as itself would be as narrow as it can.
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp,
+                         ImVec2(ImGui::GetContentRegionAvail().x, 0.0f)))
+    return;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 2.0f);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.0f);
   rows();
   ImGui::EndTable();
 }
@@ -140,8 +153,10 @@ void show_numbers(const OverlayFacts& facts, const ImVec2& picture) {
   });
   panel("gpu", true, picture, [&] {
     table("passes", fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
-      for (const gpu::PassTime& pass : facts.passes)
-        row(pass.name, fmt::format("{:.3f} ms", pass.ms));
+      for (const gpu::PassTime& pass : facts.passes) {
+        const double share = facts.gpu_ms > 0.0 ? pass.ms / facts.gpu_ms : 0.0;
+        row(pass.name, fmt::format("{:.3f} ms", pass.ms), share);
+      }
     });
     show_memory(facts.memory);
   });

@@ -1,4 +1,6 @@
 // What input does to a run of the game.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -84,10 +86,60 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
     player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, double(faster)));
   const double reach = glm::length(player_.velocity()) * kLongestFrame;
   around_.refresh(player_.feet(), reach, player_.world_time_s());
+  go_on(seconds, steer(actions, intent_of(actions)));
+}
+
+/// At the helm, what would move the player moves the island. @return what is left to the player.
+Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
+  if (actions.pressed(Action::kHelm)) {
+    if (helm_) {
+      session_->send(Steer{*helm_, {}, 0.0});
+      helm_.reset();
+    } else if (player_.frame_island()) {
+      helm_ = player_.frame_island();
+      helm_speed_ = 0.0;
+      said_.emplace_back("At the helm: forward and back drive, left and right turn");
+    } else {
+      said_.emplace_back("Stand on an island to take its helm");
+    }
+  }
+  if (!helm_) return intent;
+  const double yaw = glm::radians(player_.state().yaw_deg);  // in the island's axes
+  const glm::dvec3 ahead{std::sin(yaw), 0.0, std::cos(yaw)};
+  session_->send(
+      Steer{*helm_, ahead * intent.move.y + glm::dvec3{0.0, intent.rise, 0.0}, -intent.move.x});
+  if (player_.frame_island() != helm_) {  // fell off, or was taken off
+    session_->send(Steer{*helm_, {}, 0.0});
+    helm_.reset();
+  }
+  return {};
+}
+
+/// The world goes on by so much, and the player in it.
+void PlayLoop::go_on(double seconds, const Intent& intent) {
+  SavedPlay now;
+  now.player = player_.state();
+  now.eye = player_.eye(around_);
+  now.time_of_day_s = day_.time_of_day_s();
+  now.world_time_s = player_.tick_time_s();
+  session_->send(PlayerMoved{now});
+  // The player's ticks ask where islands will be at their ends.
+  session_->advance(player_.tick_time_s() + seconds + kTickSeconds);
+  hear_session();
   const int returns = player_.returns();
-  player_.advance(seconds, intent_of(actions), around_);
+  player_.advance(seconds, intent, around_);
   if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
   scene_.camera = player_.eye(around_);
+}
+
+void PlayLoop::hear_session() {
+  for (const Answer& answer : session_->receive()) {
+    if (const auto* notice = std::get_if<Notice>(&answer)) said_.push_back(notice->text);
+    if (const auto* moved = std::get_if<IslandMoved>(&answer); moved && moved->island == helm_)
+      helm_speed_ = glm::length(moved->motion.velocity);
+    if (const auto* piece = std::get_if<IslandAdded>(&answer); piece && piece->blocks > 1)
+      said_.push_back(fmt::format("{} blocks broke off", piece->blocks));
+  }
 }
 
 void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {

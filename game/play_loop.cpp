@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "engine/core/log.h"
 #include "game/screenshot.h"
 
 namespace skerry::game {
@@ -28,19 +29,25 @@ Player player_at(const render::Camera& eye, double time_s) {
 
 PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
                    const Bindings& bindings, const SceneOptions& options,
-                   std::unique_ptr<SceneView> view)
+                   std::unique_ptr<Session> session, std::unique_ptr<SceneView> view)
     : window_(window),
       device_(device),
       presenter_(presenter),
       bindings_(&bindings),
       scene_(options),
+      session_(std::move(session)),
       view_(std::move(view)),
       player_(player_at(view_->start_camera(), options.settings.world_time_s)),
       around_(view_->world()),
-      editor_(view_->world()),
+      editor_(*session_),
       day_(options.time_of_day_s) {
-  // A place that was asked for is a view, most often in the air.
-  if (options.camera) player_.set_mode(MoveMode::kFly);
+  const std::optional<SavedPlay>& left = session_->saved_play();
+  if (left && options.camera == left->eye) {
+    player_ = Player(left->player, left->world_time_s);
+  } else if (options.camera) {
+    // A place that was asked for is a view, most often in the air.
+    player_.set_mode(MoveMode::kFly);
+  }
   scene_.camera = player_.eye(around_);
 }
 
@@ -114,6 +121,7 @@ void PlayLoop::take_screenshot() {
   }
   const auto path = save_screenshot(device_, view_->renderer().picture(), taken);
   if (!path) {
+    log_error(path.error().message);
     said_.push_back(path.error().message);
     return;
   }

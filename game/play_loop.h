@@ -18,6 +18,7 @@
 #include "game/player.h"
 #include "game/presenter.h"
 #include "game/scene_view.h"
+#include "game/session_editor.h"
 #include "game/ui/hud.h"
 #include "game/world_surroundings.h"
 
@@ -38,9 +39,10 @@ struct PhotoView {
 /// what the overlay, the title and the display say in play_overlay.cpp.
 class PlayLoop {
  public:
-  /// All but the options and the view outlive this.
+  /// All but the options, the session and its view outlive this.
   PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
-           const Bindings& bindings, const SceneOptions& options, std::unique_ptr<SceneView> view);
+           const Bindings& bindings, const SceneOptions& options, std::unique_ptr<Session> session,
+           std::unique_ptr<SceneView> view);
 
   /// A frame's input, and what it does to the world.
   void act(const platform::InputFrame& input, double seconds);
@@ -78,6 +80,9 @@ class PlayLoop {
   void act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
                       double seconds);
   void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
+  Intent steer(const ActionFrame& actions, const Intent& intent);
+  void go_on(double seconds, const Intent& intent);
+  void hear_session();
   void use_hands(const ActionFrame& actions, double seconds);
   void take_screenshot();
   std::vector<std::string> overlay_lines() const;
@@ -88,10 +93,13 @@ class PlayLoop {
   Presenter& presenter_;
   const Bindings* bindings_;
   SceneOptions scene_;  // what F2 writes down; quality, time, camera and size follow the play
+  std::unique_ptr<Session> session_;
   std::unique_ptr<SceneView> view_;
   Player player_;
   WorldSurroundings around_;
-  WorldEditor editor_;
+  SessionEditor editor_;
+  std::optional<std::uint64_t> helm_;  // the island that is steered
+  double helm_speed_ = 0.0;            // of it [blocks/s]
   Interaction hands_;
   bool hands_free_ = false;  // captured, and no button held from before that
   DayClock day_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "game/island_name.h"
 #include "game/play_loop.h"
 
 namespace skerry::game {
@@ -87,6 +88,7 @@ ui::HudFacts PlayLoop::hud() const {
   facts.selected = hands_.hotbar().selected;
   facts.time_of_day_s = day_.time_of_day_s();
   facts.place = fmt::format("{}  {}  {}", whole(feet.x), whole(feet.y), whole(feet.z));
+  if (helm_) facts.steering = ui::HudFacts::Steering{island_name(*helm_), helm_speed_};
   if (!view_->complete()) facts.islands_to_come = view_->streamer().stats().tasks_left;
   return facts;
 }

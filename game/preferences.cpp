@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kKept[] = {"view.distance",   "view.detail",    "shadow.enabled",
                                       "shadow.size",     "lights.shadows", "ao.strength",
                                       "bloom.intensity", "aa.samples",     "water.layers",
-                                      "display.peak",    "display.black"};
+                                      "display.peak",    "display.black",  "clouds.coverage"};
 
 bool is_kept(std::string_view assignment) {
   const std::string_view key = assignment.substr(0, assignment.find('='));
@@ -50,24 +50,20 @@ ReadPreferences read_preferences(std::string_view json_text) {
   return read;
 }
 
-SceneText chosen_by_player(const SceneOptions& scene, const Settings& settings) {
-  SceneText kept;
-  kept.quality = std::string(quality_level(scene.quality).name);
-  kept.fov = fmt::format("{}", scene.fov_deg);
-  for (std::string& assignment : assignments_from(scene.quality, settings))
-    if (is_kept(assignment)) kept.settings.push_back(std::move(assignment));
-  return kept;
+void take_preferences(const Settings& from, Settings& into) {
+  for (const SettingKey& entry : setting_keys())
+    if (is_kept(entry.key)) (void)entry.parse(entry.print(from), into);  // its own text is valid
 }
 
 std::string print_preferences(const SceneOptions& scene) {
-  const SceneText kept = chosen_by_player(scene, scene.settings);
   nlohmann::json root;
-  root["quality"] = *kept.quality;
+  root["quality"] = std::string(quality_level(scene.quality).name);
   root["fov"] = scene.fov_deg;
   root["settings"] = nlohmann::json::object();
-  for (const std::string& assignment : kept.settings) {
+  for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
     const std::size_t sign = assignment.find('=');
-    root["settings"][assignment.substr(0, sign)] = assignment.substr(sign + 1);
+    if (is_kept(assignment))
+      root["settings"][assignment.substr(0, sign)] = assignment.substr(sign + 1);
   }
   return root.dump(2) + "\n";
 }

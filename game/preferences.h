@@ -16,8 +16,8 @@ struct ReadPreferences {
   std::vector<std::string> problems;  ///< of what was not, each a line for the player
 };
 ReadPreferences read_preferences(std::string_view json_text);
-/// What of a scene and its settings, as they are while it is played, is kept.
-SceneText chosen_by_player(const SceneOptions& scene, const Settings& settings);
+/// Makes the settings that are kept those of another; the others stay.
+void take_preferences(const Settings& from, Settings& into);
 std::string print_preferences(const SceneOptions& scene);
 
 /// `settings.json` in the user's folder for configuration; empty if there is none.

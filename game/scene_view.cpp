@@ -119,6 +119,15 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
   if (!renderer) return renderer.error();
   view->renderer_ = *std::move(renderer);
   if (Result<void> ok = view->follow_settings(); !ok) return ok.error();
+  if (!options.clouds.empty()) {
+    const Result<LoadedClouds> clouds = load_clouds(options.clouds);
+    if (!clouds) return clouds.error();
+    if (Result<void> ok = view->renderer_->set_clouds(
+            clouds->volumes,
+            static_cast<render::CloudPrecision>(options.settings.clouds.precision));
+        !ok)
+      return ok.error();
+  }
   return view;
 }
 

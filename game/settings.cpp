@@ -376,14 +376,12 @@ constexpr SettingKey kKeys[] = {
        return into_number(parse_number(t, "clouds.thickness", 1.0, 10000.0), s.clouds.thickness);
      },
      [](const Settings& s) { return fmt::format("{}", s.clouds.thickness); }},
-    {"clouds.density", "1/block, 0 to 10000",
-     "Extinction in the middle of the layer's clouds.",
+    {"clouds.density", "1/block, 0 to 10000", "Extinction in the middle of the layer's clouds.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "clouds.density", 0.0, 1e4), s.clouds.density);
      },
      [](const Settings& s) { return fmt::format("{}", s.clouds.density); }},
-    {"clouds.file_density", "1/block, 0 to 10000",
-     "Extinction of density 1 in clouds of files.",
+    {"clouds.file_density", "1/block, 0 to 10000", "Extinction of density 1 in clouds of files.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "clouds.file_density", 0.0, 1e4), s.clouds.file_density);
      },
@@ -391,17 +389,16 @@ constexpr SettingKey kKeys[] = {
     {"clouds.file_emission", "radiance/block, 0 to 10000",
      "What the hottest place of a file's fire sends out.",
      [](std::string_view t, Settings& s) {
-       return into_number(parse_number(t, "clouds.file_emission", 0.0, 1e4), s.clouds.file_emission);
+       return into_number(parse_number(t, "clouds.file_emission", 0.0, 1e4),
+                          s.clouds.file_emission);
      },
      [](const Settings& s) { return fmt::format("{}", s.clouds.file_emission); }},
-    {"clouds.steps", "8 to 1024",
-     "Places where a ray looks at the layer, or at a file's cloud.",
+    {"clouds.steps", "8 to 1024", "Places where a ray looks at the layer, or at a file's cloud.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "clouds.steps", 8, 1024), s.clouds.steps);
      },
      [](const Settings& s) { return std::to_string(s.clouds.steps); }},
-    {"clouds.shadow_steps", "4 to 128",
-     "Places along the light's way through a cloud.",
+    {"clouds.shadow_steps", "4 to 128", "Places along the light's way through a cloud.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "clouds.shadow_steps", 4, 128), s.clouds.shadow_steps);
      },
@@ -480,7 +477,8 @@ constexpr SettingKey kKeys[] = {
        return into_name(parse_name(t, "lights.oracle", kSwitchNames), s.lights_oracle);
      },
      [](const Settings& s) { return std::string(s.lights_oracle ? "1" : "0"); }},
-    {"leave.out", "none, or of sun, moon, water, cutouts, stars, discs, haze, lights, clouds, joined by +",
+    {"leave.out",
+     "none, or of sun, moon, water, cutouts, stars, discs, haze, lights, clouds, joined by +",
      "Draws as if the scene had none of these.", parse_leave_out, print_leave_out},
     {"upload.path", "update, staging or mapped",
      "How meshes travel to the GPU: vkCmdUpdateBuffer, copies, mapped memory.",

@@ -65,7 +65,7 @@ void main() {
   float large = billows(place, 4, 6u), middle = billows(place, 8, 7u), small = billows(place, 16, 8u), least = billows(place, 32, 9u);
   float lumps = 0.625 * large + 0.25 * middle + 0.125 * small;
   // Billows where gradient noise is high (Schneider, The Real-time Volumetric Cloudscapes of Horizon Zero Dawn, 2015).
-  float shape = clamp((ragged - lumps + 1.0) / (2.0 - lumps), 0.0, 1.0) * 0.5 + 0.5 * lumps;
+  float shape = 0.5 * ragged + 0.5 * lumps;
   vec4 value = vec4(shape, 0.625 * middle + 0.375 * small, 0.625 * small + 0.375 * least, smooth_field);
   imageStore(noise, ivec3(texel), clamp(value, 0.0, 1.0));
 }

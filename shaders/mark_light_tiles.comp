@@ -35,7 +35,7 @@ void main() {
   if (tile >= count.x * count.y) return;
   ivec2 low = ivec2(tile % count.x, tile / count.x) * int(kTileEdge), last = ivec2(grid.size) - 1;
   TileDepths t = TileDepths(grid.marked_slices, 1e30, 0.0);
-  if (grid.marked_slices != 0u) t = TileDepths(grid.marked_slices, 0.0, slice_begin(1u));
+  if (grid.marked_slices != 0u) t = TileDepths(grid.marked_slices, 0.0, slice_begin(uint(findMSB(grid.marked_slices)) + 1u));
   for (int y = 0; y < int(kTileEdge); ++y) {
     for (int x = 0; x < int(kTileEdge); ++x) {
       ivec2 pixel = min(low + ivec2(x, y), last);

@@ -197,9 +197,10 @@ void IslandMotion::meet_courses(Body& body) {
   if (!body.looked_from || length(since) > 0.5 * kLookAround) {
     body.looked_from = place;
     body.course_islands.clear();
+    // One that has left its course does not come back to it.
     for (const IslandSpec& spec :
          world_.islands_near(place, body.radius() + kLookAround, static_cast<double>(tick_) * kDt))
-      body.course_islands.push_back(spec.id);
+      if (!bodies_.contains(spec.id)) body.course_islands.push_back(spec.id);
   }
   for (const std::uint64_t id : body.course_islands) {
     if (bodies_.contains(id)) continue;

@@ -53,10 +53,19 @@ void press(const SolidGrid& grid, const glm::dvec3& p, glm::dvec3& normal, doubl
   }
 }
 
+/// Whether a place is within some reach of the ball about an island.
+bool within(const glm::dvec3& place, const Shape& island, double reach) {
+  const glm::dvec3 away = place - island.mass().centre;
+  reach += island.radius();
+  return glm::dot(away, away) <= reach * reach;
+}
+
+/// Half a brick's diagonal and a ball.
+constexpr double kBrickReach = 7.5;
+
 bool any_near(const SolidGrid& grid, const glm::dvec3& middle) {
-  // Half a brick's diagonal and a ball.
-  constexpr double kReach = 7.5;
-  const IVec3 low = brick_of(floored(middle - kReach)), high = brick_of(floored(middle + kReach));
+  const IVec3 low = brick_of(floored(middle - kBrickReach));
+  const IVec3 high = brick_of(floored(middle + kBrickReach));
   for (std::int32_t y = low.y; y <= high.y; ++y)
     for (std::int32_t x = low.x; x <= high.x; ++x)
       for (std::int32_t z = low.z; z <= high.z; ++z)
@@ -81,16 +90,16 @@ Touch balls_on_cubes(const Shape& a, const Pose& pose_a, const Shape& b, const P
   for (const auto& [at, voxels] : a.surface()) {
     const glm::dvec3 corner{double{kEdge} * at.x, double{kEdge} * at.y, double{kEdge} * at.z};
     const glm::dvec3 middle = to_b(corner + 0.5 * kEdge);
-    const glm::dvec3 from_b = middle - b.mass().centre;
-    const double reach = b.radius() + kEdge;
-    if (glm::dot(from_b, from_b) > reach * reach || !any_near(b.grid(), middle)) continue;
+    if (!within(middle, b, kBrickReach) || !any_near(b.grid(), middle)) continue;
     for (int y = 0; y < kEdge; ++y) {
       for (std::uint64_t layer = voxels.layers[y]; layer != 0; layer &= layer - 1) {
         const int bit = std::countr_zero(layer);
         const glm::dvec3 place = corner + middle_of({bit / kEdge, y, bit % kEdge});
+        const glm::dvec3 there = to_b(place);
+        if (!within(there, b, kBall)) continue;
         glm::dvec3 normal{};
         double depth = 0.0;
-        press(b.grid(), to_b(place), normal, depth);
+        press(b.grid(), there, normal, depth);
         if (depth == 0.0) continue;
         touch.overlap += depth;
         keep_deepest(touch.contacts, {turn_a(place - a.mass().centre), turn_b(normal), depth});

@@ -150,8 +150,8 @@ Result<void> Device::check_image(const VkImageCreateInfo& info, const std::strin
                  " for this use; choose another with --device"};
   }
   if (info.extent.width > limits.maxExtent.width || info.extent.height > limits.maxExtent.height ||
-      info.extent.depth > limits.maxExtent.depth ||
-      info.arrayLayers > limits.maxArrayLayers || info.mipLevels > limits.maxMipLevels) {
+      info.extent.depth > limits.maxExtent.depth || info.arrayLayers > limits.maxArrayLayers ||
+      info.mipLevels > limits.maxMipLevels) {
     return Error{what + "this device allows " + std::to_string(limits.maxExtent.width) + "x" +
                  std::to_string(limits.maxExtent.height) + ", " +
                  std::to_string(limits.maxArrayLayers) + " layers; lower --size or --quality"};

@@ -130,8 +130,9 @@ InputFrame HeldBack::filtered(InputFrame frame) {
   frame.released_ &= ~hidden;
   for (std::size_t i = 0; i < frame.axes_.size(); ++i)
     if (hidden[InputFrame::kFirstAxis + i]) frame.axes_[i] = 0.0f;
+  // A key that is held goes on typing.
+  if (text_ || hidden.any()) frame.text.clear();
   if (text_) {
-    frame.text.clear();
     frame.scroll = 0.0;
     frame.mouse_delta = {};
   }

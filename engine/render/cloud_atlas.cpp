@@ -37,7 +37,7 @@ class Cells {
   /// Errors: too many cells.
   static Result<Cells> of(const CloudVolumeDesc& desc);
   bool empty() const { return count_.x == 0; }
-  glm::ivec3 low() const { return low_; }      ///< first cell; its own samples are all 0
+  glm::ivec3 low() const { return low_; }  ///< first cell; its own samples are all 0
   glm::ivec3 count() const { return count_; }
   /// Samples of a cell and the first ones of those behind it, x fastest; empty if all are 0.
   /// @param value set to the one value of all samples, if they come from one tile.
@@ -83,10 +83,11 @@ Result<Cells> Cells::of(const CloudVolumeDesc& desc) {
       std::int64_t{out.size_.x} * std::int64_t{out.size_.y} * std::int64_t{out.size_.z};
   if (out.size_.x > (1 << 20) || out.size_.y > (1 << 20) || out.size_.z > (1 << 20) ||
       cells > kMostCells)
-    return Error{fmt::format("the cloud's box of {} x {} x {} voxels is too large to be drawn: it "
-                             "may have {} cells of 8 x 8 x 8; crop or resample the grid",
-                             out.count_.x * std::int64_t{kEdge}, out.count_.y * std::int64_t{kEdge},
-                             out.count_.z * std::int64_t{kEdge}, kMostCells)};
+    return Error{
+        fmt::format("the cloud's box of {} x {} x {} voxels is too large to be drawn: it "
+                    "may have {} cells of 8 x 8 x 8; crop or resample the grid",
+                    out.count_.x * std::int64_t{kEdge}, out.count_.y * std::int64_t{kEdge},
+                    out.count_.z * std::int64_t{kEdge}, kMostCells)};
   out.sources_.resize(static_cast<std::size_t>(cells));
   for (const CloudBrick& brick : desc.bricks)
     if (any_above_zero(brick))
@@ -168,7 +169,8 @@ std::vector<std::byte> Bricks::image(glm::uvec3 columns) const {
     const glm::uvec3 at(brick % columns.x, brick / columns.x % columns.y,
                         brick / (columns.x * columns.y));
     for (std::uint32_t r = 0; r < kTexels * kTexels; ++r) {
-      const glm::uvec3 texel = at * shared::kCloudBrickTexels + glm::uvec3(0, r % kTexels, r / kTexels);
+      const glm::uvec3 texel =
+          at * shared::kCloudBrickTexels + glm::uvec3(0, r % kTexels, r / kTexels);
       const std::size_t to =
           (std::size_t{texel.z} * size.y + texel.y) * size.x + std::size_t{texel.x};
       std::memcpy(out.data() + to * texel_bytes(),
@@ -235,18 +237,18 @@ Result<void> pack_one(const CloudVolumeDesc& desc, Bricks& bricks, std::uint64_t
         std::optional<float> even;
         if (!cells->fill({x, y, z}, values, even)) continue;
         const float most = *std::max_element(values.begin(), values.end());
-        texel.most =
-            static_cast<std::uint8_t>(std::clamp(std::ceil(most / out.value_range * 255.0f), 1.0f,
-                                                 255.0f));
+        texel.most = static_cast<std::uint8_t>(
+            std::clamp(std::ceil(most / out.value_range * 255.0f), 1.0f, 255.0f));
         const auto known = even ? even_bricks.find(*even) : even_bricks.end();
         if (known != even_bricks.end()) {
           texel.brick = known->second;
           continue;
         }
         if (bricks.count() >= most_bricks)
-          return Error{fmt::format("the clouds are too large to be drawn: their bricks may take {} "
-                                   "MiB; use fewer files, or clouds.precision=8",
-                                   kMostBrickBytes >> 20)};
+          return Error{
+              fmt::format("the clouds are too large to be drawn: their bricks may take {} "
+                          "MiB; use fewer files, or clouds.precision=8",
+                          kMostBrickBytes >> 20)};
         texel.brick = bricks.add(values, out.value_range);
         if (even) even_bricks.emplace(*even, texel.brick);
       }
@@ -285,8 +287,8 @@ std::vector<std::byte> cell_image(const CloudAtlas& atlas, glm::uvec3 columns,
         std::byte most{0};
         for (std::uint32_t c = 0; c < 8; ++c)
           most = std::max(
-              most, out[finer + at(p * 2u + glm::uvec3(c & 1u, (c >> 1) & 1u, c >> 2), size * 2u) +
-                        3]);
+              most,
+              out[finer + at(p * 2u + glm::uvec3(c & 1u, (c >> 1) & 1u, c >> 2), size * 2u) + 3]);
         out[begin + at(p, size) + 3] = most;
       }
     }
@@ -301,9 +303,10 @@ std::vector<std::byte> cell_image(const CloudAtlas& atlas, glm::uvec3 columns,
 Result<CloudAtlas> pack_clouds(std::span<const CloudVolumeDesc> volumes, CloudPrecision precision,
                                std::uint32_t most_texels) {
   if (volumes.size() > shared::kMaxCloudVolumes)
-    return Error{fmt::format("there are {} clouds of files: at most {} can be drawn, one for each "
-                             "grid; leave some out",
-                             volumes.size(), shared::kMaxCloudVolumes)};
+    return Error{
+        fmt::format("there are {} clouds of files: at most {} can be drawn, one for each "
+                    "grid; leave some out",
+                    volumes.size(), shared::kMaxCloudVolumes)};
   CloudAtlas out;
   Bricks bricks(precision);
   const std::uint64_t edge =
@@ -324,9 +327,10 @@ Result<CloudAtlas> pack_clouds(std::span<const CloudVolumeDesc> volumes, CloudPr
   if (bricks.count() == 0) return out;
   const auto most = static_cast<std::uint32_t>(std::max({cells.x, cells.y, cells.z}));
   if (most > most_texels)
-    return Error{fmt::format("the clouds are too large to be drawn: {} cells of 8 x 8 x 8 voxels "
-                             "along an edge, this device takes {}; crop or resample the grids",
-                             most, most_texels)};
+    return Error{
+        fmt::format("the clouds are too large to be drawn: {} cells of 8 x 8 x 8 voxels "
+                    "along an edge, this device takes {}; crop or resample the grids",
+                    most, most_texels)};
   const auto side = static_cast<std::uint32_t>(std::ceil(std::cbrt(bricks.count())));
   glm::uvec3 columns(side, side, (bricks.count() + side * side - 1) / (side * side));
   out.brick_count = bricks.count();

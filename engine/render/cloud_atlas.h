@@ -26,7 +26,7 @@ struct PackedVolume {
 struct CloudAtlas {
   glm::uvec3 brick_texels{0};  ///< size of the bricks' image
   std::vector<std::byte> bricks;
-  glm::uvec3 cells{0};  ///< size of the cells' image, RGBA8, kCloudCellLevels mips
+  glm::uvec3 cells{0};                 ///< size of the cells' image, RGBA8, kCloudCellLevels mips
   std::vector<std::byte> cell_texels;  ///< mip by mip
   std::uint32_t brick_count = 0;
   std::vector<PackedVolume> volumes;

@@ -22,16 +22,19 @@ class ViewReads {
       depth16_ = view.geometry->store().depth == DepthStore::kD16;
     }
     if (part != Part::kAll) layer_depth_ = view.layer_depth;
+    if (view.lights) lights_ = *view.lights;
   }
 
   std::string program(const char* name) const {
-    return std::string(name) + (!depth_ ? "_sky.comp" : maps_ ? ".comp" : "_unshadowed.comp");
+    if (!depth_) return std::string(name) + "_sky.comp";
+    return std::string(name) + (maps_ ? "" : "_unshadowed") + (lights_ ? "_lit.comp" : ".comp");
   }
   std::vector<gpu::SpecConstant> constants(std::vector<gpu::SpecConstant> own) const {
     if (depth16_) own.push_back({6, 1});
     if (layer_depth_) own.push_back({22, 1});
     if (part_ == Part::kBehind) own.push_back({23, 1});
-    return clouds_.with_clouds(with_light(std::move(own), scene_, bool{maps_}));
+    own = clouds_.with_clouds(with_light(std::move(own), scene_, bool{maps_}));
+    return lights_ ? lights_->with_lights(std::move(own)) : own;
   }
   void declare(gpu::PassBuilder& b) const {
     b.read(scene_.frame, Use::kComputeRead);
@@ -44,6 +47,7 @@ class ViewReads {
     b.read(scene_.sky_lut, Use::kComputeSampled);
     clouds_.declare_light(b);
     clouds_.declare_media(b);
+    if (lights_) lights_->declare(b);
   }
   void bind(gpu::Commands& c) const {
     c.storage(0, scene_.frame);
@@ -57,12 +61,14 @@ class ViewReads {
     if (maps_) c.sampled(12, maps_, scene_.point_sampler);
     clouds_.bind_light(c);
     clouds_.bind_media(c);
+    if (lights_) lights_->bind(c);
   }
 
  private:
   const SceneRefs scene_;
   CloudRefs clouds_;
   gpu::ImageRef maps_, surfaces_, depth_, layer_depth_;
+  std::optional<ClusteredLights> lights_;
   bool depth16_ = false;
   Part part_;
 };
@@ -108,8 +114,9 @@ gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       },
       [reads, coarse, radiance, stats = scene.pixel_stats, size = scene.size, lut = scene.sky_lut,
        sampler = scene.point_sampler,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           reads.program("blend_clouds"), reads.constants(std::move(constants))})](gpu::Commands& c) {
+       &pipeline = pipelines.get(
+           gpu::ComputeDesc{reads.program("blend_clouds"), reads.constants(std::move(constants))})](
+          gpu::Commands& c) {
         c.bind(pipeline);
         reads.bind(c);
         c.storage(4, stats);
@@ -153,8 +160,8 @@ void CloudRefs::bind_media(gpu::Commands& c) const {
 Shaded CloudPass::add_behind(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                              const View& view, Shaded shaded) {
   const ViewReads reads(scene, view, Part::kBehind);
-  return Shaded(blend(graph, pipelines, scene, "blend_clouds_behind_water", reads, {},
-                      shaded.radiance()));
+  return Shaded(
+      blend(graph, pipelines, scene, "blend_clouds_behind_water", reads, {}, shaded.radiance()));
 }
 
 Shaded CloudPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,

@@ -14,6 +14,7 @@ struct CloudPass {
     const Geometry* geometry = nullptr;  ///< null: nothing but sky
     gpu::ImageRef shadow_maps;           ///< empty: nothing casts
     gpu::ImageRef layer_depth;           ///< of the nearest water or glass; empty: there is none
+    const ClusteredLights* lights = nullptr;  ///< null: there are none
   };
   /// Clouds behind the nearest water or glass. @pre view.layer_depth
   static Shaded add_behind(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,

@@ -27,8 +27,8 @@ enum class CloudRole : std::uint8_t { kDensity, kEmission };
 /// A sparse grid that is drawn as a cloud. Between samples, which lie at whole indices, it is
 /// trilinear; beyond bricks and tiles it is 0, and so is what is negative.
 struct CloudVolumeDesc {
-  FixedPos origin{};                   ///< that blocks_from_index is relative to
-  glm::dmat4 blocks_from_index{1.0};   ///< affine, invertible
+  FixedPos origin{};                  ///< that blocks_from_index is relative to
+  glm::dmat4 blocks_from_index{1.0};  ///< affine, invertible
   CloudRole role = CloudRole::kDensity;
   std::vector<CloudBrick> bricks;
   std::vector<CloudTile> tiles;

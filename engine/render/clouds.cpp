@@ -39,8 +39,8 @@ glm::dvec3 mean_sky(const shared::SkyConstants& sky) {
 double in_period(std::int64_t units, double drift_blocks, std::int64_t period) {
   const std::int64_t whole = period * 65536;
   const std::int64_t rest = ((units % whole) + whole) % whole;
-  const double place = static_cast<double>(rest) / 65536.0 -
-                       std::fmod(drift_blocks, static_cast<double>(period));
+  const double place =
+      static_cast<double>(rest) / 65536.0 - std::fmod(drift_blocks, static_cast<double>(period));
   const double wrapped = std::fmod(place, static_cast<double>(period));
   return wrapped < 0.0 ? wrapped + static_cast<double>(period) : wrapped;
 }
@@ -48,9 +48,9 @@ double in_period(std::int64_t units, double drift_blocks, std::int64_t period) {
 shared::CloudLayer layer_of(const FrameInput& input, const CloudSettings& settings) {
   const FixedPos& camera = input.camera.position;
   const auto at = [&](int axis, double wind) {
-    return static_cast<float>(in_period(camera[static_cast<std::size_t>(axis)] -
-                                            input.anchor[static_cast<std::size_t>(axis)],
-                                        wind * input.time_s, shared::kLayerPeriod));
+    return static_cast<float>(in_period(
+        camera[static_cast<std::size_t>(axis)] - input.anchor[static_cast<std::size_t>(axis)],
+        wind * input.time_s, shared::kLayerPeriod));
   };
   const double height =
       static_cast<double>(camera[1] - input.anchor[1]) / 65536.0 - settings.altitude;
@@ -143,9 +143,10 @@ Result<void> Clouds::set_volumes(gpu::Uploader& uploader, std::span<const CloudV
   VkFormatProperties properties{};
   vkGetPhysicalDeviceFormatProperties(device_.physical(), format, &properties);
   if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT))
-    return Error{fmt::format("this device cannot blend between clouds' values of {} bits: use "
-                             "clouds.precision=8 or 16",
-                             static_cast<int>(precision))};
+    return Error{
+        fmt::format("this device cannot blend between clouds' values of {} bits: use "
+                    "clouds.precision=8 or 16",
+                    static_cast<int>(precision))};
   const auto filled = [&](gpu::Image& image, const char* name, VkFormat of, glm::uvec3 size,
                           std::uint32_t mips, std::span<const std::byte> texels) -> Result<void> {
     Result<gpu::Image> made = device_.create_image({.name = name,
@@ -172,18 +173,17 @@ std::uint64_t Clouds::atlas_bytes() const {
 
 Result<void> Clouds::make_layer(const CloudSettings& settings) {
   if (!noise_) {
-    Result<gpu::Image> made = device_.create_image(
-        {.name = "cloud noise",
-         .format = VK_FORMAT_R8G8B8A8_UNORM,
-         .extent = {shared::kCloudNoiseEdge, shared::kCloudNoiseEdge},
-         .usage = kBaked,
-         .depth = shared::kCloudNoiseEdge});
+    Result<gpu::Image> made =
+        device_.create_image({.name = "cloud noise",
+                              .format = VK_FORMAT_R8G8B8A8_UNORM,
+                              .extent = {shared::kCloudNoiseEdge, shared::kCloudNoiseEdge},
+                              .usage = kBaked,
+                              .depth = shared::kCloudNoiseEdge});
     if (!made) return made.error();
     noise_ = *std::move(made);
     noise_baked_ = false;
   }
-  const auto slices =
-      static_cast<std::uint32_t>(settings.shadow_steps + 1) * shared::kBodyCount;
+  const auto slices = static_cast<std::uint32_t>(settings.shadow_steps + 1) * shared::kBodyCount;
   if (layer_light_ && layer_light_.desc().depth == slices) return {};
   layer_light_ = {};
   Result<gpu::Image> made =
@@ -199,13 +199,13 @@ Result<void> Clouds::make_layer(const CloudSettings& settings) {
 
 Result<void> Clouds::make_volume_light() {
   if (volume_light_) return {};
-  Result<gpu::Image> made = device_.create_image(
-      {.name = "cloud volume light",
-       .format = VK_FORMAT_R16_SFLOAT,
-       .extent = {shared::kVolumeLightEdge, shared::kVolumeLightEdge},
-       .usage = kBaked,
-       .depth = static_cast<std::uint32_t>(volumes_.size()) * shared::kBodyCount *
-                shared::kVolumeLightEdge});
+  Result<gpu::Image> made =
+      device_.create_image({.name = "cloud volume light",
+                            .format = VK_FORMAT_R16_SFLOAT,
+                            .extent = {shared::kVolumeLightEdge, shared::kVolumeLightEdge},
+                            .usage = kBaked,
+                            .depth = static_cast<std::uint32_t>(volumes_.size()) *
+                                     shared::kBodyCount * shared::kVolumeLightEdge});
   if (!made) return made.error();
   volume_light_ = *std::move(made);
   return {};
@@ -269,8 +269,8 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
         b.read(refs.noise, Use::kComputeSampled);
         refs.layer_light = b.write(refs.layer_light, Use::kComputeWrite);
       },
-      [refs, body,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"trace_cloud_layer.comp", {}})](gpu::Commands& c) {
+      [refs, body, &pipeline = pipelines.get(gpu::ComputeDesc{"trace_cloud_layer.comp", {}})](
+          gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, refs.constants);
         c.sampled(1, refs.noise, refs.repeating);

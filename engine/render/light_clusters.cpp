@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.h"
@@ -67,6 +68,18 @@ std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture&
       std::min(by_lights, 32 * std::min<std::uint64_t>(words, 65535)));
 }
 
+std::uint32_t slices_lit(std::span<const shared::Light> lights) {
+  constexpr std::uint32_t kAll = (1u << shared::kClusterSlices) - 1u;
+  float reach = 1.0f;
+  for (const shared::Light& light : lights) {
+    if ((light.kind & shared::kLightKindMask) == shared::kLightDirectional) return kAll;
+    reach = std::max(reach, glm::length(light.position) + light.range);
+  }
+  // Two slices an octave from one block on; one more for what rounding does.
+  const auto last = static_cast<std::uint32_t>(2.0f * std::log2(reach)) + 2u;
+  return last >= shared::kClusterSlices ? kAll : (2u << last) - 1u;
+}
+
 shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
                                  std::uint32_t light_count, std::uint64_t entries) {
   shared::ClusterGrid g{};
@@ -86,7 +99,7 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
   g.light_words = groups(light_count, 32);
   g.chunk_words = std::max(kLeastChunkWords, groups(g.light_words, kMostChunks));
   g.chunks = groups(g.light_words, g.chunk_words);
-  g.marked_slices = picture.inside_medium ? 1u : 0u;
+  g.marked_slices = picture.marked_slices;
   // The counter that hands out room has 32 bits: even if every light reached every cluster it must
   // not wrap.
   const std::uint64_t clusters = std::uint64_t{g.tiles_x} * g.tiles_y * shared::kClusterSlices;

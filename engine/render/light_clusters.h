@@ -23,10 +23,16 @@ std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
 
 /// A picture to be cut into clusters.
 struct ClusterPicture {
-  VkExtent2D size{};             ///< pixels
-  bool inside_medium = false;    ///< the camera is in a translucent block
+  VkExtent2D size{};  ///< pixels
+  /// Slices of depth that show something in every tile, a bit each: the first about a camera in a
+  /// translucent block.
+  std::uint32_t marked_slices = 0;
   std::uint32_t tile_edge = 16;  ///< pixels along a cluster's tile: 8, 16, 32 or 64
 };
+
+/// All slices of depth up to where the farthest light ends, a bit each: where a medium that fills
+/// the open may be lit.
+std::uint32_t slices_lit(std::span<const shared::Light> lights);
 
 /// The most lights of a picture that a device can sort.
 std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture& picture);

@@ -73,9 +73,16 @@ bool meters(const FrameInput& input, const RenderSettings& settings) {
 /// Whether the picture takes the way over a radiance image though no pass comes between.
 bool by_radiance(const FrameInput& input, const RenderSettings& settings,
                  const FrameFeatures& features) {
-  return features.has(Feature::kLights) || features.has(Feature::kClouds) || settings.bloom.intensity > 0.0f ||
-         meters(input, settings) || input.capture || input.fault.has_value() ||
-         samples_per_edge(settings) > 1 || input.parts > 1;
+  return features.has(Feature::kLights) || features.has(Feature::kClouds) ||
+         settings.bloom.intensity > 0.0f || meters(input, settings) || input.capture ||
+         input.fault.has_value() || samples_per_edge(settings) > 1 || input.parts > 1;
+}
+
+/// Slices of depth in which lights show without a surface: about an eye in water, and in clouds.
+std::uint32_t marked_slices(const FrameInput& input, const FrameContents& contents) {
+  const std::uint32_t lit =
+      contents.features.has(Feature::kClouds) ? slices_lit(contents.lights) : 0u;
+  return lit | (input.camera_medium != 0 ? 1u : 0u);
 }
 
 /// The sky whose sun and moon stand at the middle of a part's share of their discs: points of a
@@ -560,7 +567,8 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
             LightPass::add(graph, pipelines, scene, surfaces, *lights, std::move(shaded), settings);
       if (input.fault && input.fault->in == Fault::In::kShaded)
         shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
-      const CloudPass::View view{&surfaces, maps.maps(), layers.depth[0]};
+      const CloudPass::View view{&surfaces, maps.maps(), layers.depth[0],
+                                 lights ? &*lights : nullptr};
       if (scene.clouds && layers.count != 0)
         shaded = CloudPass::add_behind(graph, pipelines, scene, view, std::move(shaded));
       if (!no_translucent)
@@ -698,8 +706,8 @@ Result<std::uint64_t> Renderer::draw(
       return ok.error();
   FrameTables tables = build_tables(input, settings, drawn, *cascades);
   tables.constants.picture_size = {size.width, size.height};
-  const FrameContents contents = contents_of(input, settings, tables, sky_now,
-                                             *s.geometry, s.clouds.has_volumes());
+  const FrameContents contents =
+      contents_of(input, settings, tables, sky_now, *s.geometry, s.clouds.has_volumes());
   if (!input.freeze_culling)
     s.frozen.reset();
   else if (!s.frozen)
@@ -712,7 +720,7 @@ Result<std::uint64_t> Renderer::draw(
   if (!contents.lights.empty())
     if (Result<void> ok = s.light_clusters.upload(
             s.frame_uploader, contents.lights, view_of(input.camera, drawn.width, drawn.height),
-            {drawn, input.camera_medium != 0, settings.light_tile});
+            {drawn, marked_slices(input, contents), settings.light_tile});
         !ok)
       return ok.error();
   if (contents.features.has(Feature::kClouds))

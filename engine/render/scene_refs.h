@@ -40,9 +40,9 @@ struct SceneRefs {
   bool penumbrae = true;                               ///< whether shadow_penumbra_blocks is not 0
   bool haze = true;
   ToneCurve tone = ToneCurve::kAces;
-  bool calibrated = false;  ///< whether the display takes other than 0 to 1
-  bool corners = false;     ///< whether they darken; then there is an occupancy store
-  std::optional<CloudRefs> clouds;          ///< none: the frame has no clouds
+  bool calibrated = false;          ///< whether the display takes other than 0 to 1
+  bool corners = false;             ///< whether they darken; then there is an occupancy store
+  std::optional<CloudRefs> clouds;  ///< none: the frame has no clouds
   VkExtent2D size{};
 };
 

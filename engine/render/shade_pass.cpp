@@ -38,13 +38,12 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
       std::string("shade_surfaces") + (maps ? "" : "_unshadowed") + surfaces.suffix() +
           (clouds ? "_clouded" : "") + suffix,
-      with_target(
-          with_clouds(with_corners(surfaces.with_store(with_light(
-                                       {{0, static_cast<std::uint32_t>(in.texture_taps)}}, scene,
-                                       bool{maps})),
-                                   bool{occupancy}),
-                      clouds),
-          scene, to_picture)});
+      with_target(with_clouds(with_corners(surfaces.with_store(with_light(
+                                               {{0, static_cast<std::uint32_t>(in.texture_taps)}},
+                                               scene, bool{maps})),
+                                           bool{occupancy}),
+                              clouds),
+                  scene, to_picture)});
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {

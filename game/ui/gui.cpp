@@ -15,7 +15,7 @@ struct ClipboardCalls {
   static const char* read(void* user) {
     Gui& gui = *static_cast<Gui*>(user);
     if (gui.clipboard_.read) gui.clipboard_text_ = gui.clipboard_.read();
-    gui.clipboard_text_ = pasted_text(gui.clipboard_text_, kMaxPasted);
+    gui.clipboard_text_ = pasted_text(gui.clipboard_text_, paste_room());
     return gui.clipboard_text_.c_str();
   }
   static void write(void* user, const char* text) {
@@ -78,6 +78,7 @@ Gui::Gui(Clipboard clipboard) : context_(make_context()), clipboard_(std::move(c
   io.ClipboardUserData = this;
   io.GetClipboardTextFn = ClipboardCalls::read;
   io.SetClipboardTextFn = ClipboardCalls::write;
+  release_all();  // ImGui wants to know its keys before the first frame
 }
 
 Gui::~Gui() {

@@ -29,9 +29,6 @@ struct Clipboard {
   std::function<void(const std::string&)> write;
 };
 
-/// The longest text that is taken from a clipboard at once [bytes]; of a longer one, the beginning.
-inline constexpr std::size_t kMaxPasted = 512;
-
 /// The beginning of a text, cut between characters, up to `max_bytes` or the end of its first line.
 std::string pasted_text(std::string_view text, std::size_t max_bytes);
 
@@ -62,7 +59,7 @@ class Gui {
   Clipboard clipboard_;
   std::string clipboard_text_;  // what ImGui was handed last
   Fonts fonts_;
-  bool fed_ = false;
+  bool fed_ = true;  // in the last frame; before the first, so that keys are mapped whatever comes
 };
 
 /// Whether Enter, or its like on a gamepad, went down in this frame; between Gui::begin and end.

@@ -131,7 +131,7 @@ void show_hud(const HudFacts& facts, const Pictures& pictures) {
   const float line = ImGui::GetTextLineHeight() + 3 * unit(), edge = 14 * unit();
   write(list, ImVec2(window.x - edge, edge), 0.0f, colour::kText,
         format_time_of_day(facts.time_of_day_s).substr(0, 5));
-  write(list, ImVec2(window.x - edge, edge + line), 0.0f, colour::kFaint, facts.place);
+  write(list, ImVec2(window.x - edge, edge + line), 0.0f, colour::kText, facts.place);
   if (facts.steering)
     write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kAccent,
           fmt::format("At the helm of {}   {:.1f} blocks/s", facts.steering->island,
@@ -146,16 +146,18 @@ void show_messages(const Messages& messages) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImDrawList& list = *ImGui::GetForegroundDrawList();
   push_size(TextSize::kSmall);
-  const float line = ImGui::GetTextLineHeight() + 10 * unit();
-  float y = window.y - 110 * unit();
-  for (std::size_t i = messages.lines().size(); i-- > 0; y -= line) {
+  const float inset = 10 * unit(), room = std::max(1.0f, window.x - 6 * inset);
+  float bottom = window.y - 94 * unit();
+  for (std::size_t i = messages.lines().size(); i-- > 0;) {
     const Messages::Line& message = messages.lines()[i];
-    const ImVec2 size = ImGui::CalcTextSize(message.text.c_str());
-    const float x = std::max(8 * unit(), 0.5f * (window.x - size.x)), inset = 10 * unit();
-    list.AddRectFilled(ImVec2(x - inset, y - 4 * unit()),
-                       ImVec2(x + size.x + inset, y + size.y + 4 * unit()),
+    const ImVec2 size = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, room);
+    const ImVec2 at(0.5f * (window.x - size.x), bottom - size.y);
+    list.AddRectFilled(ImVec2(at.x - inset, at.y - 4 * unit()),
+                       ImVec2(at.x + size.x + inset, bottom + 4 * unit()),
                        faded(IM_COL32(8, 14, 18, 190), message.strength()), 5 * unit());
-    list.AddText(ImVec2(x, y), faded(colour::kText, message.strength()), message.text.c_str());
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
+                 faded(colour::kText, message.strength()), message.text.c_str(), nullptr, room);
+    bottom = at.y - 10 * unit();
   }
   pop_size();
 }

@@ -23,7 +23,7 @@ struct HudFacts {
     double speed = 0.0;  ///< blocks/s
   };
   std::optional<Steering> steering;
-  double hidden = 0.0;  ///< how much of the world black covers, 0 .. 1: after a fall
+  double hidden = 0.0;              ///< how much of the world black covers, 0 .. 1: after a fall
   std::size_t islands_to_come = 0;  ///< tasks left until the neighbourhood is there
 };
 

@@ -18,6 +18,7 @@ enum class Knob : std::uint8_t {
   kBloom,
   kAntialiasing,
   kWater,
+  kClouds,
   kCount
 };
 

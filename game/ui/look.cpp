@@ -1,6 +1,7 @@
 #include "game/ui/look.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "game/ui/gui.h"
 
@@ -12,6 +13,7 @@ constexpr float kLeastUnit = 0.62f, kMostUnit = 4.0f;  // pixels
 struct Look {
   const Fonts* fonts = nullptr;
   float unit = 1.0f;
+  std::size_t paste_room = 0;
 };
 Look look;  // ImGui's context is as global, and there is one of either
 
@@ -79,7 +81,7 @@ float unit() {
 }
 
 void begin_look(const Fonts& fonts, float width, float height) {
-  look = {&fonts, std::clamp(std::min(width / 1280.0f, height / 720.0f), kLeastUnit, kMostUnit)};
+  look = {&fonts, std::clamp(std::min(width / 1280.0f, height / 720.0f), kLeastUnit, kMostUnit), 0};
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
   set_colours(style);
@@ -120,6 +122,16 @@ void heading(std::string_view line) {
 
 void gap(float units) {
   ImGui::Dummy(ImVec2(1.0f, units * unit()));
+}
+
+std::size_t paste_room() {
+  return look.paste_room;
+}
+
+bool text_field(const char* id, char* text, std::size_t bytes, const char* hint) {
+  // ImGui refuses a text that does not fit, as a whole.
+  look.paste_room = bytes - 1 - std::min(bytes - 1, std::strlen(text));
+  return ImGui::InputTextWithHint(id, hint, text, bytes, ImGuiInputTextFlags_EnterReturnsTrue);
 }
 
 bool button(const char* label, float width) {

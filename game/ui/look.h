@@ -3,6 +3,8 @@
 #pragma once
 #include <imgui.h>
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -35,6 +37,16 @@ void text_in(ImU32 colour, std::string_view line);
 void text_wrapped(ImU32 colour, std::string_view lines);
 void heading(std::string_view line);
 void gap(float units);
+
+/// A line to type into, of `bytes` with the zero at its end. What is pasted is cut to what fits.
+/// @return whether Enter was pressed in it.
+bool text_field(const char* id, char* text, std::size_t bytes, const char* hint);
+template <std::size_t kBytes>
+bool text_field(const char* id, std::array<char, kBytes>& text, const char* hint = "") {
+  return text_field(id, text.data(), kBytes, hint);
+}
+/// Bytes that the field being shown has room for; for the clipboard.
+std::size_t paste_room();
 
 /// A button as wide as `width` units; 0: as wide as what is left. @return whether it was pressed.
 bool button(const char* label, float width = 0.0f);

@@ -18,6 +18,10 @@ static_assert(kThumbnailsTop + Pictures::kThumbnails / kThumbnailsPerRow * kThum
               Pictures::kHeight);
 static_assert(world::block::kBuiltInCount <= kBlocksPerRow * (kThumbnailsTop / kBlockPictureEdge));
 
+constexpr float kClear = 0.06f;  // absorption of what looks like nothing [1/block]
+constexpr float kDepth = 1.6f;   // optical, of what absorbs most, in a picture
+constexpr float kSeen = 190.0f;  // alpha of it
+
 using Texel = std::array<float, 4>;  // sRGB values 0 .. 255, alpha
 
 /// A face of a block, sampled at u right and v down, 0 .. 1.
@@ -58,9 +62,21 @@ Texel cube_at(const render::BlockTextures& textures, const world::BlockType& typ
   return shaded(sample(textures, type.side, across, down), left ? 0.80f : 0.62f);
 }
 
+/// What takes light all the way through, as water does, is seen by that and not by its faces.
+Texel tinted(Texel texel, const world::BlockType& type) {
+  const float strongest = *std::max_element(type.absorption.begin(), type.absorption.end());
+  if (type.kind != world::BlockKind::kTranslucent || strongest < kClear) return texel;
+  const bool on_a_face = texel[0] + texel[1] + texel[2] > 0.0f;
+  if (!on_a_face) return texel;
+  for (std::size_t c = 0; c < 3; ++c)
+    texel[c] = 255.0f * std::exp(-kDepth / strongest * type.absorption[c]);
+  texel[3] = std::max(texel[3], kSeen);
+  return texel;
+}
+
 Texel picture_at(const render::BlockTextures& textures, const world::BlockType& type, float x,
                  float y) {
-  if (type.kind != world::BlockKind::kPlant) return cube_at(textures, type, x, y);
+  if (type.kind != world::BlockKind::kPlant) return tinted(cube_at(textures, type, x, y), type);
   constexpr float kMargin = 0.08f;
   const float u = (x - kMargin) / (1.0f - 2.0f * kMargin);
   const float v = (y - kMargin) / (1.0f - 2.0f * kMargin);

@@ -58,9 +58,7 @@ void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
   heading("Blocks");
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
-  const bool entered =
-      ImGui::InputTextWithHint("##search", "Search", state.palette_search.data(),
-                               state.palette_search.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = text_field("##search", state.palette_search, "Search");
   const std::vector<world::BlockId> found = find_blocks(state.palette_search.data());
   if (entered && !found.empty()) wishes.take = found.front();
   gap(2);
@@ -95,7 +93,7 @@ void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
 void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   PhotoSettings& photo = *facts.photo;
   if (photo.bare) return;
-  begin_panel("photo", Place::kLeft, 360, 470);
+  begin_panel("photo", Place::kLeft, 360, 520);
   heading("Photo mode");
   text_in(colour::kFaint, "Time of day");
   ImGui::SetNextItemWidth(-1.0f);

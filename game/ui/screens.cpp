@@ -48,7 +48,8 @@ void go_back(ScreenState& state, bool typing) {
     return;
   }
   const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
-  if (typing || popup) return;
+  const bool field_first = typing && state.stack.top() != Screen::kPalette;
+  if (field_first || popup) return;
   state.stack.back();
   state.fresh = true;
 }

@@ -103,7 +103,7 @@ struct Wishes {
 void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 
 /// Escape, or its like on a gamepad: closes what is topmost. @param typing into a text field, which
-/// the key leaves first.
+/// the key leaves first; but for the palette's, which is always typed into.
 void go_back(ScreenState& state, bool typing);
 
 /// A seed for who has none in mind, short enough to be told to a friend.

@@ -127,6 +127,8 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
   constexpr std::uint32_t kLayers[] = {1, 2, 3, 4};
   constexpr const char* kLayerNames[] = {"1 layer", "2 layers", "3 layers", "4 layers"};
   rows.choice("Water and glass", Knob::kWater, settings.water_layers, kLayers, kLayerNames);
+  rows.row("Clouds", Knob::kClouds,
+           [&] { return slide(settings.clouds.coverage, 0.0f, 1.0f, "%.2f of the sky"); });
   rows.row("Field of view", std::nullopt,
            [&] { return slide(*facts.fov_deg, 40.0f, 110.0f, "%.0f degrees"); });
   rows.row("Display: white", std::nullopt, [&] {

@@ -161,24 +161,24 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
 }
 
 void show_new_world(ScreenState& state, Wishes& wishes) {
-  begin_panel("new_world", Place::kLeft, 440, 500);
+  begin_panel("new_world", Place::kLeft, 440, 440);
   heading("New world");
   text_in(colour::kFaint, "Name");
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
-  const bool entered = ImGui::InputText("##name", state.new_name.data(), state.new_name.size(),
-                                        ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = text_field("##name", state.new_name);
   gap(4);
   text_in(colour::kFaint, "Seed");
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::InputText("##seed", state.new_seed.data(), state.new_seed.size()))
-    wishes.preview = true;
+  const std::string before = state.new_seed.data();
+  const bool seed_entered = text_field("##seed", state.new_seed);
+  wishes.preview |= before != state.new_seed.data();
   if (button("Another seed", 184)) wishes.draw_lots = true;
   text_wrapped(colour::kFaint,
                "Any text or number. The same seed makes the same islands; to the right is what you "
                "will see first.");
   gap(12);
-  if (first_button("Create", 184) || entered)
+  if (first_button("Create", 184) || entered || seed_entered)
     wishes.create = Wishes::NewWorld{state.new_name.data(), state.new_seed.data()};
   ImGui::SameLine();
   if (button("Back", 184)) state.stack.back();

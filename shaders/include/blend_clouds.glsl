@@ -13,7 +13,7 @@ float take(uvec2 texel, float share, vec2 way, inout vec4 sum) {
   vec2 its_way = open_way(min(texel * 2u, frame.size - 1u));
   bool alike = abs(its_way.y - way.y) <= 0.08 * min(its_way.y, way.y);
   // Nothing within a longer way: nothing within the pixel's.
-  bool nothing = seen.a == 1.0 && its_way.y >= way.y;
+  bool nothing = seen == vec4(0.0, 0.0, 0.0, 1.0) && its_way.y >= way.y;
   float taken = alike || nothing ? share : 0.0;
   sum += seen * taken;
   return taken;

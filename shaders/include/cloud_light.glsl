@@ -20,6 +20,9 @@ vec3 index_from_world_vector(const uint v, vec3 d) {
   return vec3(dot(clouds.volumes[v].index_x.xyz, d), dot(clouds.volumes[v].index_y.xyz, d), dot(clouds.volumes[v].index_z.xyz, d));
 }
 
+// Of an image's part, in which values are looked up so far from its ends: what lies beyond takes no part in a blend, for it may be anything.
+const float kRim = 0.51;  // texels
+
 // Where a line in a volume's index space is inside its box: from x to y; x > y: nowhere.
 vec2 box_range(const uint v, vec3 origin, vec3 along) {
   vec3 safe = mix(along, vec3(1e-20), lessThan(abs(along), vec3(1e-20)));
@@ -32,7 +35,7 @@ vec2 box_range(const uint v, vec3 origin, vec3 along) {
 float layer_depth(const uint body, vec3 p) {
   float slices = clouds.shadow_steps + 1.0;
   float height = clamp((p.y + clouds.layer.place.y) / clouds.layer.thickness, 0.0, 1.0);
-  float slice = height * clouds.shadow_steps + 0.5 + float(body) * slices;
+  float slice = clamp(height * clouds.shadow_steps + 0.5, kRim, slices - kRim) + float(body) * slices;
   vec2 at = column_texel(column_through(p, clouds.lights[body].to_light, clouds.layer));
   return textureLod(layer_light, vec3(at, slice / (slices * float(kBodyCount))), 0.0).r;
 }
@@ -41,12 +44,14 @@ float layer_depth(const uint body, vec3 p) {
 float volume_depth(const uint v, const uint body, vec3 p) {
   vec3 at = index_from_world(v, p), to_light = index_from_world_vector(v, clouds.lights[body].to_light);
   vec2 range = box_range(v, at, to_light);
-  if (range.y <= max(range.x, 0.0)) return 0.0;
-  at += to_light * max(range.x, 0.0);
+  bool met = range.y > max(range.x, 0.0);
+  // Where nothing is met, something is looked up even so: lavapipe takes all lanes along, and not every number is a place.
+  at = met ? at + to_light * clamp(range.x, 0.0, 1e9) : clouds.volumes[v].low;
   vec3 size = clouds.volumes[v].light_texels;
   vec3 texel = (at - clouds.volumes[v].low) / (clouds.volumes[v].high - clouds.volumes[v].low) * size;
-  texel = clamp(texel, vec3(0.5), size - 0.5) + vec3(0.0, 0.0, clouds.volumes[v].light_first[body]);
-  return textureLod(volume_light, texel / vec3(textureSize(volume_light, 0)), 0.0).r;
+  texel = clamp(texel, vec3(kRim), size - kRim) + vec3(0.0, 0.0, clouds.volumes[v].light_first[body]);
+  float depth = textureLod(volume_light, texel / vec3(textureSize(volume_light, 0)), 0.0).r;
+  return met ? depth : 0.0;
 }
 
 // Optical depth of all clouds between a place and a body. @param p world.

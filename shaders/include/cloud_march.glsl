@@ -12,6 +12,8 @@ struct Clouded {
 };
 
 const float kClearEnough = 5e-4;    // what is left of the view when a march may end
+const float kFinerSteps = 4.0;    // steps within clouds to one in the open
+const float kNearestToFog = 0.3;  // of a light: nearer it makes fog no brighter [blocks]
 const float kLayerStepGrowth = 100.0;  // blocks: the layer's steps are even up to here, then grow with the distance
 
 // Light of a body that islands leave to a place in the open. Past the last map nothing stands in its way.
@@ -61,17 +63,44 @@ vec3 source_at(vec3 p, vec4 sun_phases, vec4 moon_phases, float air, vec3 sky) {
   if ((kBodies & 2u) != 0u) {
     depth = cloud_depth(1u, p);
     open = past_islands(kMoonCascade, p);
-    light += clouds.lights[1].irradiance * (octaves_left(moon_phases, depth) * open);
+    light += clouds.lights[1].irradiance * (terms_left(moon_phases, depth) * open);
   }
   if ((kBodies & 1u) != 0u) {
     depth = cloud_depth(0u, p);
     open = past_islands(0u, p);
-    light += clouds.lights[0].irradiance * (octaves_left(sun_phases, depth) * open);
+    light += clouds.lights[0].irradiance * (terms_left(sun_phases, depth) * open);
   }
-  // The sky's light goes in from all sides, as the last octave does.
-  light += clouds.sky_above * (open * exp(-depth * kOctaveDepth.w));
+  // The sky's light comes from all sides, and goes in as far as what is scattered most.
+  light += clouds.sky_above * (open * exp(-depth * kTermDepth.z));
   return light * (kCloudAlbedo * air) + sky * (open * (1.0 - air));
 }
+
+#ifdef SKERRY_LIGHTS
+// Mean radiance that the lights of a pixel's cluster make a stretch of cloud send to the eye, over its extinction; nothing stands in their way but
+// the cloud, taken for as dense as here. Light falls off so fast that it is integrated along the stretch, not looked at in its middle.
+vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float extinction) {
+  float middle = t + 0.5 * length_blocks;
+  Cluster list = lights_at(pixel, middle * dot(dir, frame.ray_forward));
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < list.count; ++i) {
+    Light light = lights[light_index(list, i)];
+    bool placed = (light.kind & kLightKindMask) != kLightDirectional;
+    float along = placed ? dot(light.position, dir) : middle;
+    float nearest = clamp(along, t, t + length_blocks);
+    vec3 way = placed ? light.position - dir * nearest : -light.axis;
+    float aside = max(length(light.position - dir * along), max(light.size, kNearestToFog));
+    // The mean of 1 / d^2 along the stretch.
+    float mean = (atan((t + length_blocks - along) / aside) - atan((t - along) / aside)) / (aside * length_blocks);
+    float distance = max(length(way), 1e-6);
+    vec3 to_light = way / distance;
+    if (!placed) mean = 1.0;
+    else mean *= light_window(light, min(distance, light.range) * min(distance, light.range));
+    if ((light.kind & kLightKindMask) == kLightSpot) mean *= light_cone(light, to_light);
+    sum += light.intensity * (mean * terms_left(term_phases(dot(dir, to_light)), placed ? extinction * distance : 0.0));
+  }
+  return sum * kCloudAlbedo;
+}
+#endif
 
 // @param dir unit; @param begin, end blocks along it; @param jitter 0..1: how much of the first step is taken.
 Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter) {
@@ -86,10 +115,12 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
     stop = met ? max(stop, in_volume[v].y) : stop;
     t = met ? min(t, in_volume[v].x) : t;
   }
+  t = min(t, stop);
   Clouded seen = Clouded(vec3(0.0), 1.0);
-  vec4 sun_phases = octave_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = octave_phases(dot(dir, clouds.lights[1].to_light));
+  vec4 sun_phases = term_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = term_phases(dot(dir, clouds.lights[1].to_light));
   vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir) : vec3(0.0);
-  uint most = 2u * (uint(clouds.steps) + 2u) * (kCloudVolumes + 1u);
+  uint most = uint(kFinerSteps + 1.0) * (uint(clouds.steps) + 2u) * (kCloudVolumes + 1u);
+  float fine = 0.0;  // steps that are still taken finely
   for (uint i = 0u; i < most && t < stop && seen.clear > kClearEnough; ++i) {
     float step_end = stop;
     bool inside = false;
@@ -109,8 +140,7 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
       t = step_end;
       continue;
     }
-    float length_blocks = (step_end - t) * jitter;
-    jitter = 1.0;
+    float length_blocks = (step_end - t) * jitter * (fine > 0.0 ? 1.0 / kFinerSteps : 1.0);
     vec3 p = dir * (t + 0.5 * length_blocks);
     Medium m = Medium(0.0, vec3(0.0), 1e30);
     if (kCloudLayer && t >= in_layer.x && t < in_layer.y) {
@@ -119,6 +149,13 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
     }
     for (uint v = 0u; v < kCloudVolumes; ++v)
       if (t >= in_volume[v].x && t < in_volume[v].y) add_volume(v, p, dir, m);
+    // Something is met: this step again, and finely, until there has been nothing for a whole step.
+    if (fine == 0.0 && m.empty == 0.0 && m.extinction > 0.0) {
+      fine = kFinerSteps;
+      continue;
+    }
+    jitter = 1.0;
+    fine = m.extinction > 0.0 ? kFinerSteps : max(fine - 1.0, 0.0);
     float depth = m.extinction * length_blocks;
     if (m.extinction > 0.0 || m.emitted != vec3(0.0)) {
       float opacity = opacity_of(depth);
@@ -126,6 +163,9 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
       vec3 place = dir * (t + min(0.5 * length_blocks, 1.0 / max(m.extinction, 1e-6)));
       float air = clear_air(place);
       vec3 source = source_at(place, sun_phases, moon_phases, air, sky) * opacity;
+#ifdef SKERRY_LIGHTS
+      source += lit_by_lights(pixel, dir, t, length_blocks, m.extinction) * (opacity * air);
+#endif
       source += m.emitted * (air * (depth > 1e-4 ? opacity / m.extinction : length_blocks));
       seen.light += seen.clear * source;
       seen.clear *= 1.0 - opacity;

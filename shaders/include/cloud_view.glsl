@@ -31,6 +31,9 @@ layout(constant_id = 23) const bool kBehind = false;       // march behind the n
 #include "include/shadow.glsl"
 #endif
 #include "include/lighting.glsl"
+#ifdef SKERRY_LIGHTS
+#include "include/clustered.glsl"
+#endif
 #include "include/cloud_march.glsl"
 
 const float kSkyDistance = 1e6;  // blocks

@@ -9,9 +9,9 @@ SHARED_BEGIN
 SHARED_CONST uint kMaxCloudVolumes = 8u;
 
 // The layer's noise repeats after these distances [blocks]; all divide kLayerPeriod.
-SHARED_CONST uint kCloudNoiseEdge = 128u;      // texels
+SHARED_CONST uint kCloudNoiseEdge = 128u;  // texels
 SHARED_CONST float kCloudShapePeriod = 2048.0f;
-SHARED_CONST float kCloudDetailPeriod = 256.0f;
+SHARED_CONST float kCloudDetailPeriod = 320.0f;
 SHARED_CONST float kCloudWeatherPeriod = 10240.0f;
 SHARED_CONST uint kLayerPeriod = 10240u;
 // The layer thins out between these distances from the eye [blocks].
@@ -19,17 +19,18 @@ SHARED_CONST float kLayerFadeBegin = 12000.0f;
 SHARED_CONST float kLayerFadeEnd = 16000.0f;
 
 // Optical depth of the layer towards a body: columns along the light, denser near the camera.
-SHARED_CONST uint kLayerLightEdge = 256u;        // columns
-SHARED_CONST float kLayerLightNear = 1500.0f;    // distance at which columns are twice as far apart...
+SHARED_CONST uint kLayerLightEdge = 256u;  // columns
+SHARED_CONST float kLayerLightNear =
+    1500.0f;  // distance at which columns are twice as far apart...
 SHARED_CONST float kLayerLightReach = 16000.0f;  // last column's distance [blocks]
 SHARED_CONST float kLeastLightSine = 0.04f;      // lower light takes the way of this altitude
 
 // Optical depth of a volume towards a body: a box of texels over the volume's box.
 SHARED_CONST uint kVolumeLightEdge = 64u;
 
-SHARED_CONST uint kCloudBrickEdge = 8u;       // voxels of a brick, as an OpenVDB leaf
-SHARED_CONST uint kCloudBrickTexels = 9u;     // along a brick in the atlas: its voxels and one beyond
-SHARED_CONST uint kCloudCellLevels = 3u; // of the maxima: cells of 1, 2 and 4 bricks
+SHARED_CONST uint kCloudBrickEdge = 8u;    // voxels of a brick, as an OpenVDB leaf
+SHARED_CONST uint kCloudBrickTexels = 9u;  // along a brick in the atlas: its voxels and one beyond
+SHARED_CONST uint kCloudCellLevels = 3u;   // of the maxima: cells of 1, 2 and 4 bricks
 
 // The light of one body in clouds.
 struct CloudLight {
@@ -38,7 +39,7 @@ struct CloudLight {
 };
 
 struct CloudLayer {
-  vec3 place;        // of the camera: x and z in the noise, 0..kLayerPeriod; y over the base [blocks]
+  vec3 place;  // of the camera: x and z in the noise, 0..kLayerPeriod; y over the base [blocks]
   float thickness;   // blocks
   float extinction;  // of its densest places [1/block]
   float coverage;    // 0..1
@@ -46,18 +47,18 @@ struct CloudLayer {
 
 // A grid of a file. Values are 0..1, of its largest.
 struct CloudVolume {
-  vec4 index_x;        // index from world: dot(row, (p, 1))
+  vec4 index_x;  // index from world: dot(row, (p, 1))
   vec4 index_y;
   vec4 index_z;
-  vec3 low;            // support box [index]: beyond it there is nothing
+  vec3 low;  // support box [index]: beyond it there is nothing
   vec3 high;
-  float extinction;    // of value 1 [1/block]
-  vec3 emission;       // of value 1 [radiance/block]
-  float step_blocks;   // of the march
-  vec3 first_cell;     // of its region in the cells [cells]
+  float extinction;   // of value 1 [1/block]
+  vec3 emission;      // of value 1 [radiance/block]
+  float step_blocks;  // of the march
+  vec3 first_cell;    // of its region in the cells [cells]
   vec3 cell_count;
-  vec3 cell_low;       // its first brick [index]
-  vec3 light_texels;   // of its region in the light image
+  vec3 cell_low;                  // its first brick [index]
+  vec3 light_texels;              // of its region in the light image
   float light_first[kBodyCount];  // where that begins along z [texels], a body
 };
 
@@ -65,7 +66,7 @@ struct CloudConstants {
   CloudLight lights[kBodyCount];
   vec3 sky_above;  // mean radiance of the sky's upper half: what clouds receive besides
   float shadow_steps;
-  float steps;       // of the layer
+  float steps;  // of the layer
   CloudLayer layer;
   CloudVolume volumes[kMaxCloudVolumes];
 };

@@ -27,9 +27,10 @@ struct ClusterGrid {
   uint light_words;  // 32-bit words that hold a bit a light
   uint chunk_words;  // of them that one invocation looks through
   uint chunks;
-  uint unit_log2;      // lists begin at multiples of 2^this entries
-  uint capacity;       // of the entries [such units]
-  uint marked_slices;  // 1: slice 0 is occupied in every tile, as when the camera is in water
+  uint unit_log2;  // lists begin at multiples of 2^this entries
+  uint capacity;   // of the entries [such units]
+  uint
+      marked_slices;  // a bit a slice: occupied in every tile, as about a camera in water or clouds
 };
 
 // What an 8x8-pixel tile, or a cluster's tile, shows.

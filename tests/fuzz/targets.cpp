@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include <array>
 #include <cmath>
@@ -12,6 +13,9 @@
 #include "engine/core/check.h"
 #include "engine/platform/image_file.h"
 #include "game/options.h"
+#include "world/store/bytes.h"
+#include "world/store/chunk_blob.h"
+#include "world/store/rows.h"
 #include "world/vdb/answer.h"
 
 namespace skerry::fuzz {
@@ -82,12 +86,67 @@ void vdb_answer(std::span<const std::uint8_t> input) {
   }
 }
 
-constexpr std::array<Target, 6> kTargets{{{"scene", scene},
+constexpr world::ChunkName kChunk{7, {-1, 2, 3}};
+
+/// A blob of a world file as it is described, about any payload: nothing behind the checksum would
+/// be reached otherwise.
+std::vector<std::byte> blob_about(std::uint32_t magic, std::span<const std::byte> payload) {
+  world::ByteWriter key, blob;
+  key.u64(kChunk.island);
+  for (const std::int32_t axis : {kChunk.chunk.x, kChunk.chunk.y, kChunk.chunk.z})
+    key.u32(static_cast<std::uint32_t>(axis));
+  blob.u32(magic);
+  blob.u32(static_cast<std::uint32_t>(payload.size()));
+  blob.u64(world::checksum(payload, world::checksum(key.bytes())));
+  std::vector<std::byte> out = blob.take();
+  const std::size_t header = out.size();
+  out.resize(header + ZSTD_compressBound(payload.size()));
+  out.resize(header + ZSTD_compress(out.data() + header, out.size() - header, payload.data(),
+                                    payload.size(), 1));
+  return out;
+}
+
+void check_edits(std::span<const std::byte> blob) {
+  const Result<world::ChunkEdits> edits = world::decode_edits(kChunk, blob);
+  if (!edits) return check_line(edits.error());
+  for (const world::VoxelEdit& edit : *edits)
+    SKERRY_ASSERT(edit.index < world::kChunkVoxels && edit.block < world::block::kBuiltInCount);
+  SKERRY_ASSERT(*world::decode_edits(kChunk, world::encode_edits(kChunk, *edits)) == *edits);
+}
+
+void chunk_blob(std::span<const std::uint8_t> input) {
+  const std::span<const std::byte> bytes = std::as_bytes(input);
+  check_edits(bytes);
+  check_edits(blob_about(0x31456b53, bytes));
+  const Result<world::Chunk> chunk = world::decode_chunk(kChunk, bytes);
+  if (!chunk) check_line(chunk.error());
+  const Result<world::Chunk> made = world::decode_chunk(kChunk, blob_about(0x31576b53, bytes));
+  if (!made) check_line(made.error());
+}
+
+/// Whatever decodes can be used, and encodes to the same bytes.
+void world_rows(std::span<const std::uint8_t> input) {
+  const std::span<const std::byte> bytes = std::as_bytes(input);
+  const auto same = [&](const std::vector<std::byte>& again) {
+    SKERRY_ASSERT(std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()));
+  };
+  if (const auto motion = world::decode_motion(bytes)) same(world::encode_motion(*motion));
+  if (const auto spec = world::decode_spec(1, bytes)) {
+    same(world::encode_spec(*spec));
+    world::pose_at(*spec, 1e9);
+  }
+  if (const auto info = world::decode_info(bytes))
+    SKERRY_ASSERT(world::decode_info(world::encode_info(*info)) == info);
+}
+
+constexpr std::array<Target, 8> kTargets{{{"scene", scene},
                                           {"setting", setting},
                                           {"camera", camera},
                                           {"time_and_size", time_and_size},
                                           {"png", png},
-                                          {"vdb_answer", vdb_answer}}};
+                                          {"vdb_answer", vdb_answer},
+                                          {"chunk_blob", chunk_blob},
+                                          {"world_rows", world_rows}}};
 
 }  // namespace
 

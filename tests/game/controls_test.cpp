@@ -63,6 +63,10 @@ TEST(Controls, HandsDigPlaceChooseAndTakeBack) {
   input.set_key(Key::kZ, true);
   EXPECT_TRUE(hands().undo);
   EXPECT_FALSE(hands().undo);  // once
+  // Ctrl that was down before, and goes up in the frame that sees the key: the chord still counts.
+  for (const bool down : {true, false}) input.set_key(Key::kY, down);
+  input.set_key(Key::kControl, false);
+  EXPECT_TRUE(hands().redo);
 }
 
 TEST(Controls, ShiftCrouches) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "shaders/shared/bloom.h"
+#include "shaders/shared/clouds.h"
 #include "shaders/shared/clusters.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
@@ -100,6 +101,19 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(Exposure, MEMBER(Exposure, ev), MEMBER(Exposure, metered_ev),
              MEMBER(Exposure, metered), MEMBER(Exposure, first_bin), MEMBER(Exposure, last_bin),
              MEMBER(Exposure, most)),
+      STRUCT(CloudLight, MEMBER(CloudLight, to_light), MEMBER(CloudLight, irradiance)),
+      STRUCT(CloudLayer, MEMBER(CloudLayer, place), MEMBER(CloudLayer, thickness),
+             MEMBER(CloudLayer, extinction), MEMBER(CloudLayer, coverage)),
+      STRUCT(CloudVolume, MEMBER(CloudVolume, index_x), MEMBER(CloudVolume, index_y),
+             MEMBER(CloudVolume, index_z), MEMBER(CloudVolume, low), MEMBER(CloudVolume, high),
+             MEMBER(CloudVolume, extinction), MEMBER(CloudVolume, emission),
+             MEMBER(CloudVolume, step_blocks), MEMBER(CloudVolume, first_cell),
+             MEMBER(CloudVolume, cell_count), MEMBER(CloudVolume, cell_low),
+             MEMBER(CloudVolume, light_texels), MEMBER(CloudVolume, light_first)),
+      STRUCT(CloudConstants, MEMBER(CloudConstants, lights), MEMBER(CloudConstants, sky_above),
+             MEMBER(CloudConstants, shadow_steps), MEMBER(CloudConstants, steps),
+             MEMBER(CloudConstants, layer), MEMBER(CloudConstants, volumes)),
+      STRUCT(CloudLightJob, MEMBER(CloudLightJob, volume), MEMBER(CloudLightJob, body)),
       STRUCT(BloomStep, MEMBER(BloomStep, fine_size), MEMBER(BloomStep, coarse_size),
              MEMBER(BloomStep, threshold), MEMBER(BloomStep, intensity)),
       STRUCT(SkyBody, MEMBER(SkyBody, to_body), MEMBER(SkyBody, perez_a), MEMBER(SkyBody, perez_b),

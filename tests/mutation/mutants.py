@@ -20,7 +20,7 @@ class Mutant:
 MUTANTS = (
     # Light
     Mutant("moon_off", "the moon gives no light", "shaders/include/lighting.glsl",
-           "if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, frame.bodies[1], kMoonCascade);", "",
+           "if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, 1u, kMoonCascade);", "",
            "moonlit mycelium"),
     Mutant("normal_of_z_faces", "faces along z have the opposite normal", "shaders/include/common.glsl",
            "axis == 2u ? s : 0.0", "axis == 2u ? -s : 0.0", "debug_normal day"),
@@ -63,7 +63,22 @@ MUTANTS = (
            "engine/render/frame_setup.cpp", "light.planes[5] = glm::vec4(\n        0, 0, 0, 1);",
            "light.planes[5] = glm::vec4(\n        0, 0, 0, -1);", "day"),
     Mutant("haze_ignores_shadow", "haze glows in caves", "shaders/include/lighting.glsl",
-           "float lit = light_in_air(0u, p);", "float lit = 1.0;", "cave cave_mouth sealed_dark"),
+           "float lit = light_in_air(0u, p) *", "float lit =", "cave cave_mouth sealed_dark"),
+    # Clouds
+    Mutant("clouds_cast_nothing", "clouds leave all light to the land", "shaders/include/cloud_light.glsl",
+           "return exp(-cloud_depth(body, p));", "return 1.0;", "cloud_of_a_file clouds_among_islands"),
+    Mutant("clouds_shade_no_cloud", "no cloud is in a cloud's shadow", "shaders/include/cloud_scattering.glsl",
+           "dot(phases, exp(-depth * kTermDepth))", "dot(phases, vec4(1.0))", "clouds_noon clouds_sunset"),
+    Mutant("clouds_before_all", "clouds are marched through islands", "shaders/include/cloud_view.glsl",
+           "if (!kTranslucent) return vec2(0.0, surface);", "if (!kTranslucent) return vec2(0.0, kSkyDistance);",
+           "clouds_noon clouds_among_islands"),
+    Mutant("cloud_cells_shifted", "bricks are found a cell beside", "shaders/include/cloud_volumes.glsl",
+           "first + (known ? cell : ivec3(0))", "first + (known ? cell + ivec3(0, 0, 1) : ivec3(0))", "cloud_of_a_file"),
+    Mutant("cloud_lights_lost", "lamps light no cloud", "shaders/include/cloud_march.glsl",
+           "return sum * kCloudAlbedo;", "return vec3(0.0);", "cloud_on_fire"),
+    Mutant("thin_bricks_lost", "bricks of small values are taken for empty", "shaders/include/cloud_volumes.glsl",
+           "return cell_found.a > 0.0 ? value : 0.0;", "return cell_found.a > 0.5 ? value : 0.0;",
+           "cloud_on_fire cloud_of_a_file"),
     # Corners
     Mutant("corners_lost", "corners are as bright as faces", "shaders/include/corners.glsl",
            "1.0 - frame.corner_darkening * (1.0 - openness)", "1.0", "mesa tropical"),

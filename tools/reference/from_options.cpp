@@ -8,6 +8,7 @@
 
 #include "engine/render/celestial.h"
 #include "engine/render/sky_model.h"
+#include "game/cloud_files.h"
 #include "game/light_setup.h"
 #include "game/open_world.h"
 #include "game/player.h"
@@ -136,6 +137,86 @@ void add_sky(const game::SceneOptions& options, const render::Celestial& sky, do
   scene.corner_occlusion = scene.flat_shading ? 0.0 : options.settings.ao_strength;
 }
 
+/// The layer as docs/clouds.md has it. What it repeats with is taken off in integers.
+CloudLayer cloud_layer(const render::CloudSettings& settings, world::WorldPos camera,
+                       world::WorldPos origin, double time_s) {
+  constexpr std::int64_t kPeriod = 10240 * 65536LL;
+  const auto in_noise = [&](std::int64_t units, double wind) {
+    return static_cast<double>(units % kPeriod) / 65536.0 - std::fmod(wind * time_s, 10240.0);
+  };
+  CloudLayer out;
+  out.eye = {in_noise(camera.x - origin.x, 5.0),
+             static_cast<double>(camera.y - origin.y) / 65536.0 - settings.altitude,
+             in_noise(camera.z - origin.z, 2.0)};
+  out.thickness = static_cast<double>(settings.thickness);
+  out.extinction = static_cast<double>(settings.density);
+  out.coverage = static_cast<double>(settings.coverage);
+  return out;
+}
+
+/// A volume's samples in one box. Errors: the box is too large.
+Result<CloudGrid> cloud_grid(const render::CloudVolumeDesc& volume,
+                             const render::CloudSettings& settings, world::WorldPos camera) {
+  constexpr std::int64_t kMostSamples = std::int64_t{1} << 27;
+  CloudGrid out;
+  glm::ivec3 low(1 << 30), end(-(1 << 30));
+  const auto take = [&](glm::ivec3 first, int edge) {
+    low = glm::min(low, first);
+    end = glm::max(end, first + edge);
+  };
+  for (const render::CloudBrick& brick : volume.bricks) take(brick.origin, 8);
+  for (const render::CloudTile& tile : volume.tiles) take(tile.origin, tile.edge);
+  if (low.x >= end.x) return out;
+  out.low = low;
+  out.size = end - low;
+  const std::int64_t count = std::int64_t{out.size.x} * out.size.y * out.size.z;
+  if (count <= 0 || count > kMostSamples)
+    return Error{"a cloud's box is too large for a reference picture: use renderer=deferred"};
+  out.samples.resize(static_cast<std::size_t>(count));
+  float most = 0.0f;
+  const auto put = [&](glm::ivec3 at, float value) {
+    at -= low;
+    most = std::max(most, value);
+    out.samples[(static_cast<std::size_t>(at.z) * static_cast<std::size_t>(out.size.y) +
+                 static_cast<std::size_t>(at.y)) *
+                    static_cast<std::size_t>(out.size.x) +
+                static_cast<std::size_t>(at.x)] = value;
+  };
+  for (const render::CloudBrick& brick : volume.bricks)
+    for (int i = 0; i < 512; ++i)
+      put(brick.origin + glm::ivec3(i / 64, i / 8 % 8, i % 8), brick.values[i]);
+  for (const render::CloudTile& tile : volume.tiles)
+    for (int z = 0; z < tile.edge; ++z)
+      for (int y = 0; y < tile.edge; ++y)
+        for (int x = 0; x < tile.edge; ++x) put(tile.origin + glm::ivec3(x, y, z), tile.value);
+  glm::dmat4 world_from_index = volume.blocks_from_index;
+  const world::WorldPos origin{volume.origin[0], volume.origin[1], volume.origin[2]};
+  world_from_index[3] += glm::dvec4(world::difference_blocks(origin, camera), 0.0);
+  out.index_from_world = glm::inverse(world_from_index);
+  if (volume.role == render::CloudRole::kDensity)
+    out.extinction = static_cast<double>(settings.file_density);
+  else if (most > 0.0f)
+    out.emission = glm::dvec3(1.0, 0.42, 0.10) *
+                   (static_cast<double>(settings.file_emission) / static_cast<double>(most));
+  return out;
+}
+
+Result<void> add_clouds(const game::SceneOptions& options, world::WorldPos camera,
+                        world::WorldPos origin, Scene& scene) {
+  const render::CloudSettings& settings = options.settings.clouds;
+  scene.air_light = scene.haze_per_block / 0.0005;
+  if (settings.coverage > 0.0f)
+    scene.clouds.layer = cloud_layer(settings, camera, origin, options.settings.world_time_s);
+  const Result<game::LoadedClouds> loaded = game::load_clouds(options.clouds);
+  if (!loaded) return loaded.error();
+  for (const render::CloudVolumeDesc& volume : loaded->volumes) {
+    Result<CloudGrid> grid = cloud_grid(volume, settings, camera);
+    if (!grid) return grid.error();
+    scene.clouds.grids.push_back(*std::move(grid));
+  }
+  return {};
+}
+
 }  // namespace
 
 ReferenceSettings settings_from(const game::SceneOptions& options) {
@@ -174,6 +255,8 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   scene.view.medium = medium_at_eye(scene.islands);
   scene.time_s = options.settings.world_time_s;
   add_sky(options, sky, settings.body_radius, scene);
+  if (Result<void> added = add_clouds(options, camera.position, world.origin(), scene); !added)
+    return added.error();
   ReferencePicture picture = render(scene, settings, progress);
   picture.ev = options.settings.exposure_ev
                    ? *options.settings.exposure_ev

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shaders/shared/sky.h"
+#include "tools/reference/clouds.h"
 #include "tools/reference/lights.h"
 #include "world/blocks.h"
 #include "world/volume.h"
@@ -50,8 +51,10 @@ struct Scene {
   std::vector<Island> islands;
   std::vector<Body> bodies;
   std::vector<Light> lights;
-  glm::dvec3 environment{0.0};       ///< radiance that comes from everywhere beyond the voxels
-  std::optional<Sky> sky;            ///< none: `environment` is what is seen behind the voxels
+  glm::dvec3 environment{0.0};  ///< radiance that comes from everywhere beyond the voxels
+  std::optional<Sky> sky;       ///< none: `environment` is what is seen behind the voxels
+  Clouds clouds;
+  double air_light = 0.0;            ///< share of the sky's light that clouds take, 0..1
   double haze_per_block = 0.0;       ///< extinction of clear air [1/block]
   double time_s = 0.0;               ///< of the ripples on water
   bool shadows = true;               ///< whether bodies are hidden by voxels

@@ -50,7 +50,7 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
     const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(pair, spread));
     if (glm::dot(at.normal, to_light) <= 0.0 || !body_seen(at, to_light)) continue;
-    take(Arrival{to_light, body.irradiance, true});
+    take(Arrival{to_light, body.irradiance * past_clouds(at.point, to_light, sampler), true});
   }
   lights_.reaching(at.point, [&](const Light& light) {
     const std::optional<LightRay> ray = sample_light(light, at.point, sampler);
@@ -138,7 +138,44 @@ glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double
   const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
   const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(sampler.next(), spread));
   const bool lit = body_seen({direction * std::min(at, distance), to_light}, to_light);
-  return radiance * clear + (lit ? behind_voxels(direction) * lost : glm::dvec3(0.0));
+  if (!lit) return radiance * clear;
+  const double past = past_clouds(direction * std::min(at, distance), to_light, sampler);
+  return radiance * clear + behind_voxels(direction) * (lost * past);
+}
+
+// --- Clouds
+
+/// Share of a body's light that clouds let through.
+double Shader::past_clouds(glm::dvec3 from, glm::dvec3 to_light, Sampler& sampler) const {
+  if (!scene_.clouds.layer && scene_.clouds.grids.empty()) return 1.0;
+  return std::exp(-scene_.clouds.depth(from, to_light, sampler.next().x));
+}
+
+/// Light that clouds scatter at one place, as likely as what the eye sees was scattered there last;
+/// the air before them; and what is left of what is behind.
+Seen Shader::through_clouds(Seen behind, glm::dvec3 direction, double begin, double end,
+                            Sampler& sampler) const {
+  if (!scene_.clouds.layer && scene_.clouds.grids.empty()) return behind;
+  const CloudMeeting met = meet_clouds(scene_.clouds, direction, begin, end, sampler.next());
+  const glm::dvec3 p = direction * met.at;
+  const double clear_air = scene_.bodies.empty() ? 1.0 : std::exp(-scene_.haze_per_block * met.at);
+  glm::dvec3 light(0.0);
+  for (const Body& body : scene_.bodies) {
+    const glm::dvec2 pair = sampler.next(), other = sampler.next();
+    const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
+    const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(pair, spread));
+    const double depth = scene_.clouds.depth(p, to_light, other.x);
+    if (!body_seen({p, to_light}, to_light)) continue;
+    light += body.irradiance * scattered_share(glm::dot(direction, to_light), depth) * clear_air;
+    if (&body != &scene_.bodies.front()) continue;
+    light += behind_voxels(direction) * (1.0 - clear_air);
+    const double y = 1.0 - 2.0 * sampler.next().x, turn = 2.0 * kPi * other.y;
+    const double r = std::sqrt(std::max(0.0, 1.0 - y * y));
+    light += behind_voxels({r * std::sin(turn), y, r * std::cos(turn)}) *
+             (sky_share(depth) * scene_.air_light * clear_air);
+  }
+  return {behind.radiance * met.clear + light * (1.0 - met.clear) + met.emitted * clear_air,
+          behind.open * met.clear};
 }
 
 Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
@@ -155,8 +192,14 @@ Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
       if (moon_hides_stars(fine, *scene_.sky)) seen.open = glm::dvec3(0.0);
     }
   }
-  if (trace.layers.empty() && scene_.view.medium == world::kAir) return seen;
-  return through_media(trace, direction, fine, seen, sampler);
+  const double end = trace.hit ? trace.hit->t : kFar;
+  if (trace.layers.empty() && scene_.view.medium == world::kAir)
+    return through_clouds(seen, direction, 0.0, end, sampler);
+  const double surface = trace.layers.empty() ? end : trace.layers.front().t;
+  seen = through_clouds(seen, direction, surface, end, sampler);
+  seen = through_media(trace, direction, fine, seen, sampler);
+  if (scene_.view.medium != world::kAir) return seen;
+  return through_clouds(seen, direction, 0.0, surface, sampler);
 }
 
 // --- Water and glass

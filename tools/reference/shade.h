@@ -56,6 +56,9 @@ class Shader {
   glm::dvec3 through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,
                          Sampler& sampler) const;
 
+  double past_clouds(glm::dvec3 from, glm::dvec3 to_light, Sampler& sampler) const;
+  Seen through_clouds(Seen behind, glm::dvec3 direction, double begin, double end,
+                      Sampler& sampler) const;
   Seen through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,
                      Sampler& sampler) const;
   void pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine, Passage& passage,

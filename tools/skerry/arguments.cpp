@@ -39,6 +39,11 @@ void add_scene_options(CLI::App& command, SceneArguments& a) {
   command.add_option("--seed", a.text.seed, "World seed: a number or any text");
   command.add_option("--world", a.text.world, "Saved world (docs/saving.md); excludes --seed")
       ->type_name("PATH");
+  command
+      .add_option("--cloud", a.clouds,
+                  "Fog of a .vdb file as a cloud, at a place in blocks; may be repeated")
+      ->type_name("FILE.vdb[@X,Y,Z[,SCALE]]")
+      ->allow_extra_args(false);
   command.add_option("--scene", a.scene_file, "JSON file with a scene (docs/settings.md)")
       ->type_name("FILE");
   command
@@ -81,10 +86,16 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
     }
     from_file = *parsed;
     game::find_world_beside(*a.scene_file, from_file);
+    game::find_beside(*a.scene_file, from_file.clouds);
   }
   game::SceneText typed = a.text;
   if (a.renderer) typed.settings.push_back("renderer=" + *a.renderer);
   if (a.shading) typed.settings.push_back("shading=" + *a.shading);
+  for (const std::string& text : a.clouds) {
+    const auto cloud = game::parse_cloud(text);
+    if (!cloud) return usage(cloud.error());
+    typed.clouds.push_back(*cloud);
+  }
   auto made = game::make_scene(from_file, typed);
   if (!made) return usage(made.error());
   if (made->world) {

@@ -20,6 +20,7 @@ struct Refusal {
 /// Options of every command that draws a scene, as typed.
 struct SceneArguments {
   game::SceneText text;
+  std::vector<std::string> clouds;
   std::optional<std::string> scene_file, device, renderer, shading;
   bool validate = false;
   game::SceneText usual;  ///< below everything typed; a scene file is taken in its place

@@ -13,6 +13,7 @@
 #include "tools/skerry/bench_lights.h"
 #include "tools/skerry/bench_mesh.h"
 #include "tools/skerry/bench_upload.h"
+#include "tools/skerry/bench_world.h"
 #include "tools/skerry/scene_device.h"
 
 namespace skerry::tools {
@@ -37,6 +38,7 @@ BenchCommands::BenchCommands(CLI::App& app)
   mesh_->add_option("--input", input_, "Folder of .bin voxel sets (default: chunks of seed 1)")
       ->type_name("DIR");
   generate_ = add("generate", "Time the world generator");
+  world_ = add("world", "Time saving, breaking and moving islands");
   upload_ = add("upload", "Time the three ways of sending data to the GPU");
   add_device_options(*upload_);
   cull_ = add("cull", "Time culling on the GPU");
@@ -74,17 +76,19 @@ int BenchCommands::run() {
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   if (chosen == mesh_) return run_mesh();
   if (chosen == generate_) return bench_generate({path_of(json_)});
+  if (chosen == world_) return bench_world({path_of(json_)});
   return run_on_device(*chosen);
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh",   "generate", "upload", "cull",
-                                         "lights", "frame",    "edit"};
+  constexpr std::string_view kNames[] = {"mesh", "generate", "world", "upload",
+                                         "cull", "lights",   "frame", "edit"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
     return fail(
         kUsage,
-        {"bench does not say what: give mesh, generate, upload, cull, lights, frame or edit"});
+        {"bench does not say what: give mesh, generate, world, upload, cull, lights, frame or "
+         "edit"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",

@@ -7,8 +7,8 @@
 
 namespace skerry::tools {
 
-/// `skerry bench mesh|generate|upload|cull|lights|frame|edit`: options, and which function each
-/// calls.
+/// `skerry bench mesh|generate|world|upload|cull|lights|frame|edit`: options, and which function
+/// each calls.
 class BenchCommands {
  public:
   /// Adds `bench` and its sub-commands.
@@ -33,6 +33,7 @@ class BenchCommands {
   CLI::App* bench_;
   CLI::App* mesh_;
   CLI::App* generate_;
+  CLI::App* world_;
   CLI::App* upload_;
   CLI::App* cull_;
   CLI::App* lights_;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "game/ui/gui.h"
+#include "game/ui/look.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -122,8 +123,9 @@ TEST(Screens, NothingLeavesItsWindowAtAnySize) {
             << window->Name << where;
         // What has no scrolling part of its own must fit in height as well.
         const bool scrolls = std::string_view(window->Name).find('/') != std::string_view::npos;
-        if (!scrolls && size.height >= 720)
+        if (!scrolls && size.height >= 720) {
           EXPECT_EQ(window->ScrollMax.y, 0.0f) << window->Name << where;
+        }
       }
       EXPECT_TRUE(any) << where;
     }
@@ -216,7 +218,7 @@ TEST(Screens, AMegabyteOfPastedTextBecomesAShortSeed) {
     gui.begin({640, 360, 0.05, &taken});
     ImGui::Begin("seed");
     ImGui::SetKeyboardFocusHere();
-    ImGui::InputText("##seed", field.data(), field.size());
+    text_field("##seed", field);
     ImGui::End();
     gui.end();
   };

@@ -15,6 +15,12 @@ constexpr ReportScene kScenes[] = {
      R"({"seed": 8, "time": "18:10", "camera": [250.7, 145.85, -146.0, 270, -21.8]})"},
     {"far", "islands to the horizon",
      R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
+    {"clouds", "a layer of clouds over islands",
+     R"({"seed": 1, "time": "09:30", "camera": [0, 120, -60, 20, 14],
+         "settings": {"clouds.coverage": 0.6}})"},
+    {"puff", "a small cloud of a file before the sky",
+     R"({"seed": 1, "time": "15:00", "camera": [0, 300, -70, 0, 0], "settings": {"world.islands": 0},
+         "clouds": [{"file": "tests/scenes/puff.vdb", "position": [0, 300, 0]}]})"},
     {"torches", "a meadow at night under 1,024 torches",
      R"({"seed": 3, "time": "00:00", "settings": {"sky.moon_phase": 0, "lights.random": 1024}})"},
     {"lamps", "a meadow at night under a tube and a sphere that have a size",
@@ -113,12 +119,27 @@ constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
                                        {"staging", "upload.path=staging"},
                                        {"mapped", "upload.path=mapped"}};
 
+constexpr TopicPoint kCloudSteps[] = {{"16", "clouds.steps=16"},   {"32", "clouds.steps=32"},
+                                      {"48", "clouds.steps=48"},   {"96", "clouds.steps=96"},
+                                      {"160", "clouds.steps=160"}, {"1024", "clouds.steps=1024"}};
+constexpr TopicPoint kCloudShadowSteps[] = {{"4", "clouds.shadow_steps=4"},
+                                            {"8", "clouds.shadow_steps=8"},
+                                            {"16", "clouds.shadow_steps=16"},
+                                            {"32", "clouds.shadow_steps=32"},
+                                            {"128", "clouds.shadow_steps=128"}};
+constexpr TopicPoint kCloudResolutions[] = {{"half", "clouds.resolution=half"},
+                                            {"full", "clouds.resolution=full"}};
+constexpr TopicPoint kCloudPrecisions[] = {
+    {"8", "clouds.precision=8"}, {"16", "clouds.precision=16"}, {"32", "clouds.precision=32"}};
+
 constexpr std::string_view kShadowScenes[] = {"day", "low_sun", "water"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kGlow[] = {"lava"};
 constexpr std::string_view kWater[] = {"water"};
 constexpr std::string_view kTorches[] = {"torches"};
+constexpr std::string_view kClouds[] = {"clouds", "puff"};
+constexpr std::string_view kPuff[] = {"puff"};
 constexpr std::string_view kGallery[] = {"lamps"};
 
 constexpr Topic kTopics[] = {
@@ -158,6 +179,14 @@ constexpr Topic kTopics[] = {
      true},
     {"bloom_levels", "levels of the pyramid that spreads bright light", kBloomLevels, kGlow,
      Judge::kReference, CostOf::kShading, false, "bloom.intensity=0.1 bloom.levels=8"},
+    {"clouds_steps", "places where a ray looks at clouds", kCloudSteps, kClouds, Judge::kLimit,
+     CostOf::kShading},
+    {"clouds_shadow_steps", "places along the light's way through clouds", kCloudShadowSteps,
+     kClouds, Judge::kLimit, CostOf::kShading},
+    {"clouds_resolution", "whether every pixel has a ray of its own through clouds",
+     kCloudResolutions, kClouds, Judge::kReference, CostOf::kShading},
+    {"clouds_precision", "bits of a density of a file's cloud", kCloudPrecisions, kPuff,
+     Judge::kLimit, CostOf::kShading, true},
     {"light_lists", "lights that a pixel asks: those of its cluster, or all", kLightLists, kTorches,
      Judge::kEqual, CostOf::kShading},
     {"light_tiles", "pixels along the tiles that lights are sorted into", kLightTiles, kTorches,

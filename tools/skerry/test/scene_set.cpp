@@ -86,6 +86,7 @@ Result<TestScene> read_scene(const fs::path& file) {
   Result<game::SceneText> parsed = game::parse_scene(*text);
   if (!parsed) return wrong(parsed.error());
   game::find_world_beside(file.string(), *parsed);
+  game::find_beside(file.string(), parsed->clouds);
   Result<game::SceneOptions> scene = game::make_scene(*parsed, {});
   if (!scene) return wrong(scene.error());
   const Result<void> masked = game::check_masks(parsed->expectations.masks, scene->size);

@@ -1,0 +1,240 @@
+#include "game/session.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "tests/folder.h"
+#include "tests/world/made_islands.h"
+#include "world/store/world_file.h"
+
+namespace skerry::game {
+namespace {
+
+namespace fs = std::filesystem;
+using world::IVec3;
+
+/// A file with one island of our own: a plate, a neck, a smaller plate above.
+struct Saved {
+  Folder folder;
+  fs::path path = folder / "w.skerry";
+  std::uint64_t island = 77;
+  IVec3 neck{0, 5, 0};
+
+  Saved() {
+    std::vector<IVec3> voxels = world::voxels_in({-8, 0, -8}, {9, 3, 9});
+    for (const IVec3& v : world::voxels_in({0, 3, 0}, {1, 8, 1})) voxels.push_back(v);
+    for (const IVec3& v : world::voxels_in({-3, 8, -3}, {4, 10, 4})) voxels.push_back(v);
+    world::WorldInfo info{"Plates", "9", {}};
+    info.desc.seed = 9;
+    info.desc.generated = false;
+    auto file = world::WorldFile::create(path, info);
+    EXPECT_TRUE(file);
+    auto transaction = (*file)->begin();
+    world::IslandSpec spec;
+    spec.id = island;
+    spec.origin = world::blocks(100.0, 0.0, 0.0);
+    transaction.put_island({spec, true, {}});
+    for (const auto& [at, chunk] : world::chunks_from(voxels, world::block::kStone))
+      transaction.put_chunk(island, at, chunk);
+    EXPECT_TRUE(transaction.commit());
+  }
+
+  std::unique_ptr<Session> open() const {
+    SceneOptions options;
+    options.world = path.string();
+    auto session = Session::open(options);
+    EXPECT_TRUE(session) << session.error().message;
+    if (!session) return nullptr;
+    for (const IVec3& chunk : (*session)->world()->chunks(island, 0))
+      (*session)->world()->ensure_chunk(island, chunk);
+    return *std::move(session);
+  }
+};
+
+SavedPlay at(const glm::dvec3& blocks) {
+  SavedPlay play;
+  play.eye.position = world::blocks(blocks.x, blocks.y, blocks.z);
+  play.player.feet = world::blocks(blocks.x, blocks.y - 1.62, blocks.z);
+  play.player.velocity = {0.1, -0.25, 1.0 / 3.0};
+  play.player.yaw_deg = 12.34;
+  play.player.island = 77;
+  play.player.lattice = {1, 2, 3};
+  play.time_of_day_s = 4321.0;
+  play.world_time_s = 17.0 + 1.0 / 3.0;
+  return play;
+}
+
+EditVerdict verdict_of(Session& session, std::uint64_t island, IVec3 voxel, world::BlockId block) {
+  return session.request({island, voxel, block}).verdict;
+}
+
+TEST(Session, ChecksReachKindAndRate) {
+  const Saved saved;
+  const auto session = saved.open();
+  ASSERT_TRUE(session);
+  const std::uint64_t id = saved.island;
+  using V = EditVerdict;
+  const world::BlockId lamp = world::block::kLamp;
+  EXPECT_EQ(verdict_of(*session, id, {1, 3, 1}, lamp), V::kTooFar) << "nobody is there yet";
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  session->advance(17.5);
+  EXPECT_EQ(verdict_of(*session, id, {1, 3, 1}, lamp), V::kDone);
+  EXPECT_EQ(verdict_of(*session, id, {1, 3, 1}, world::block::kStone), V::kOccupied);
+  EXPECT_EQ(verdict_of(*session, id, {2, 3, 1}, world::kAir), V::kEmpty);
+  EXPECT_EQ(verdict_of(*session, id, {2, 3, 1}, world::block::kBuiltInCount), V::kNoSuchBlock);
+  EXPECT_EQ(verdict_of(*session, 5, {2, 3, 1}, lamp), V::kNoSuchIsland);
+  EXPECT_EQ(verdict_of(*session, id, {1, 14, 1}, lamp), V::kTooFar);
+  EXPECT_EQ(verdict_of(*session, id, {1, INT32_MIN, 1}, lamp), V::kTooFar);
+  // 8 blocks and not more, to the voxel's nearest point: from x = 1.5 to x = 9.
+  EXPECT_EQ(verdict_of(*session, id, {9, 5, 1}, lamp), V::kDone);
+  EXPECT_EQ(verdict_of(*session, id, {10, 5, 1}, lamp), V::kTooFar);
+  int done = 0;
+  for (int i = 0; i < 200; ++i)
+    done += verdict_of(*session, id, {2, 4, 1}, i % 2 == 0 ? lamp : world::kAir) == V::kDone;
+  EXPECT_EQ(done, static_cast<int>(kEditBurst) - 2);
+  EXPECT_EQ(verdict_of(*session, id, {3, 4, 1}, lamp), V::kTooFast);
+  session->advance(18.5);
+  EXPECT_EQ(verdict_of(*session, id, {3, 4, 1}, lamp), V::kDone);
+}
+
+TEST(Session, AnswersMessagesInOrder) {
+  const Saved saved;
+  const auto session = saved.open();
+  session->send(Join{"me"});
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  session->send(Edit{saved.island, {1, 3, 1}, world::block::kLamp});
+  session->send(ChunkWanted{saved.island, {0, 0, 0}});
+  session->advance(1.0);
+  const std::vector<Answer> answers = session->receive();
+  ASSERT_EQ(answers.size(), 4u);
+  EXPECT_EQ(std::get<Joined>(answers[0]).world.name, "Plates");
+  EXPECT_FALSE(std::get<Joined>(answers[0]).play);
+  EXPECT_EQ(std::get<EditAnswer>(answers[2]).verdict, EditVerdict::kDone);
+  EXPECT_EQ(std::get<ChunkChanges>(answers[3]).edits.size(), 1u);
+  EXPECT_TRUE(session->receive().empty());
+}
+
+TEST(Session, EverythingComesBackExactly) {
+  const Saved saved;
+  const SavedPlay play = at({101.5, 5.0, 1.5});
+  std::vector<world::MotionState> moving;
+  {
+    const auto session = saved.open();
+    session->send(Join{});
+    session->send(PlayerMoved{play});
+    session->send(Steer{saved.island, {0.3, 0.1, 0.9}, 0.5});
+    session->advance(0.1);
+    EXPECT_EQ(verdict_of(*session, saved.island, {1, 3, 1}, world::block::kTorch),
+              EditVerdict::kDone);
+    // The shape comes from the worker; then it flies.
+    for (int i = 0; i < 400; ++i) {
+      session->advance(0.1 + 0.01 * i);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    session->advance(4.2);
+    session->send(Join{});
+    session->advance(4.2);  // requests are answered before islands move
+    for (const Answer& answer : session->receive())
+      if (const auto* moved = std::get_if<IslandMoved>(&answer)) moving = {moved->motion};
+    ASSERT_EQ(moving.size(), 1u);
+    EXPECT_GT(moving[0].velocity.z, 0.5);
+    ASSERT_TRUE(session->save());
+    auto other = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
+    ASSERT_FALSE(other) << "two sessions write one world";
+  }
+  const auto session = saved.open();
+  EXPECT_EQ(session->saved_play(), play);
+  EXPECT_EQ(session->world()->block_at(saved.island, {1, 3, 1}), world::block::kTorch);
+  session->send(Join{});
+  session->advance(4.2);
+  bool found = false;
+  for (const Answer& answer : session->receive()) {
+    if (const auto* moved = std::get_if<IslandMoved>(&answer)) {
+      EXPECT_EQ(moved->motion.pose.origin, moving[0].pose.origin);
+      EXPECT_EQ(moved->motion.pose.rotation, moving[0].pose.rotation);
+      EXPECT_EQ(moved->motion.velocity, moving[0].velocity);
+      EXPECT_EQ(moved->motion.spin, moving[0].spin);
+      found = true;
+    }
+  }
+  EXPECT_TRUE(found);
+}
+
+/// Solid blocks of all islands together.
+std::size_t all_blocks(world::World& world) {
+  std::size_t count = 0;
+  for (const std::uint64_t id : world.added_islands())
+    for (const IVec3& at : world.chunks(id, 0)) {
+      const world::Chunk chunk = world.chunk_now(id, at);
+      for (std::size_t i = 0; i < world::kChunkVoxels; ++i) count += chunk.at(i) != world::kAir;
+    }
+  return count;
+}
+
+TEST(Session, CuttingANeckMakesAnIslandThatIsSaved) {
+  const Saved saved;
+  std::size_t blocks = 0;
+  std::uint64_t piece = 0;
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+    session->advance(1.0);
+    blocks = all_blocks(*session->world());
+    ASSERT_EQ(verdict_of(*session, saved.island, saved.neck, world::kAir), EditVerdict::kDone);
+    ASSERT_TRUE(session->save());
+    for (const Answer& answer : session->receive())
+      if (const auto* added = std::get_if<IslandAdded>(&answer)) {
+        piece = added->island;
+        EXPECT_EQ(added->broken_off, saved.island);
+        EXPECT_EQ(added->blocks, 2u + 7 * 7 * 2);
+      }
+    ASSERT_NE(piece, 0u);
+    EXPECT_EQ(session->world()->added_islands().size(), 2u);
+    EXPECT_EQ(all_blocks(*session->world()), blocks - 1);
+  }
+  const auto session = saved.open();
+  EXPECT_EQ(session->world()->added_islands().size(), 2u);
+  EXPECT_EQ(all_blocks(*session->world()), blocks - 1);
+  EXPECT_TRUE(session->world()->island(piece));
+  EXPECT_TRUE(session->receive().empty()) << "nothing is damaged";
+}
+
+TEST(Session, AFullDiskIsToldAndLosesNothing) {
+  const Saved saved;
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+    session->advance(1.0);
+    ASSERT_EQ(verdict_of(*session, saved.island, {1, 3, 1}, world::block::kLamp),
+              EditVerdict::kDone);
+    const auto before = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{};
+    ::getrlimit(RLIMIT_FSIZE, &limit);
+    const rlimit none{100, limit.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+    const Result<void> failed = session->save();
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, before);
+    ASSERT_FALSE(failed);
+    EXPECT_NE(failed.error().message.find("cannot save"), std::string::npos);
+    EXPECT_EQ(session->world()->block_at(saved.island, {1, 3, 1}), world::block::kLamp);
+  }
+  EXPECT_EQ(saved.open()->world()->block_at(saved.island, {1, 3, 1}), world::block::kLamp);
+}
+
+TEST(Session, AWorldOfASeedIsSavedNowhere) {
+  SceneOptions options;
+  options.seed_text = "4";
+  const auto session = Session::open(options);
+  ASSERT_TRUE(session);
+  EXPECT_FALSE((*session)->read_only());
+  EXPECT_TRUE((*session)->save());
+  EXPECT_EQ((*session)->world()->seed(), 4u);
+}
+
+}  // namespace
+}  // namespace skerry::game

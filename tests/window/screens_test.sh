@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# From the title into a world and back, under Xvfb, with the keyboard alone: makes a world, walks, saves, leaves, loads, and is where it was.
+# usage: screens_test.sh SKERRY_PROGRAM     exit: 0 passed, 1 failed, 77 no Xvfb, xdotool or ImageMagick here
+set -euo pipefail
+skerry=$1
+for tool in Xvfb xdotool convert identify compare; do
+  command -v "$tool" >/dev/null || { echo "no $tool here"; exit 77; }
+done
+
+work=$(mktemp -d)
+server= game=
+cleanup() {
+  [ -z "$game" ] || kill "$game" 2>/dev/null || true
+  [ -z "$server" ] || kill "$server" 2>/dev/null || true
+  wait 2>/dev/null || true
+  rm -rf "$work"
+}
+trap cleanup EXIT
+fail() {
+  echo "FAILED: $1"
+  cat "$work/out" "$work/err" 2>/dev/null || true
+  exit 1
+}
+
+Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
+server=$!
+for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
+[ -s "$work/display" ] || fail "Xvfb did not start"
+DISPLAY=:$(cat "$work/display")
+export DISPLAY XDG_DATA_HOME="$work/data" XDG_CACHE_HOME="$work/cache" XDG_CONFIG_HOME="$work/config"
+unset WAYLAND_DISPLAY
+
+# Pipelines are made once for all, so that no key waits for them below.
+"$skerry" shot --seed 1 --size 320x180 --quality low --set view.distance=200 --out "$work/warm.png" 2>"$work/err" || fail "no picture"
+
+# Controls that cannot be read: told, and nothing is lost.
+mkdir -p "$work/config/skerry"
+echo '{"actions": {"jump": 7' >"$work/config/skerry/controls.json"
+
+"$skerry" play --size 320x180 --quality low --set view.distance=200 --validate >"$work/out" 2>"$work/err" &
+game=$!
+alive() { kill -0 "$game" 2>/dev/null || fail "the game ended $1"; }
+window=
+for _ in $(seq 300); do
+  alive "while opening its window"
+  window=$(xdotool search --pid "$game" --onlyvisible 2>/dev/null | head -n 1) && [ -n "$window" ] && break
+  sleep 0.2
+done
+[ -n "$window" ] || fail "no window appeared"
+xdotool windowfocus "$window"
+key() { xdotool key --window 0 "$1"; sleep "${2:-0.6}"; alive "after $1"; }
+# Waits until a command comes true.
+until_true() {
+  for _ in $(seq 200); do "${@:2}" && return; sleep 0.2; alive "while waiting until $1"; done
+  fail "it never came to be that $1"
+}
+grab() { import -silent -window "$window" "$1"; }
+shown() { grab "$work/now.png" && [ "$(convert "$work/now.png" -format '%[fx:int(1000*standard_deviation)]' info:)" -gt 30 ]; }
+shots() { { find "$work/data/skerry/screenshots" -name '*.png' 2>/dev/null || true; } | wc -l; }
+has_shots() { [ "$(shots)" -ge "$1" ]; }
+playing() { xdotool getwindowname "$window" | grep -q fps; }
+left() { [ "$(xdotool getwindowname "$window")" = Skerry ]; }
+# The camera of the last screenshot's command: X,Y,Z,YAW,PITCH.
+camera() { grep -o -- '--camera [^ ]*' "$work/out" | tail -n 1 | cut -d ' ' -f 2; }
+# Blocks between two cameras.
+apart() { awk -v a="$1" -v b="$2" 'BEGIN { split(a, p, ","); split(b, q, ","); for (i = 1; i <= 3; ++i) s += (p[i] - q[i]) ^ 2; print sqrt(s) }'; }
+screenshot() {
+  local before
+  before=$(shots)
+  key F2
+  until_true "a screenshot is saved" has_shots $((before + 1))
+}
+
+until_true "the title is shown" shown
+sleep 2
+key Return 8  # new world: there is none yet
+xdotool type --delay 200 Harbour
+sleep 3
+key Return 1
+until_true "a world is played" playing
+[ "$(find "$work/data/skerry/worlds" -name '*.skerry' | wc -l)" = 1 ] || fail "no world file was made"
+sleep 4
+key p  # the day stands still, so that pictures can be compared
+screenshot
+spawn=$(camera)
+xdotool keydown s; sleep 2; xdotool keyup s; sleep 1
+screenshot
+walked=$(camera)
+awk -v d="$(apart "$spawn" "$walked")" 'BEGIN { exit !(d > 0.3) }' || fail "it did not walk: $spawn, then $walked"
+sleep 2
+grab "$work/before.png"
+
+# Pause: the fifth button saves and leaves.
+key Escape 1
+for _ in 1 2 3 4; do key Down; done
+key Return 1
+until_true "the world has been left" left
+[ -n "$(find "$work/data/skerry/worlds" -name '*.png')" ] || fail "the world has no picture"
+# The title's first button now lists the worlds, the list's first plays the last one.
+sleep 3
+key Return 4
+key Return 1
+until_true "the world is played again" playing
+sleep 8
+screenshot
+again=$(camera)
+awk -v d="$(apart "$walked" "$again")" 'BEGIN { exit !(d < 1.0) }' || fail "it came back elsewhere: $walked, then $again"
+grab "$work/after.png"
+difference=$(compare -metric RMSE "$work/before.png" "$work/after.png" null: 2>&1 | sed 's/.*(\(.*\))/\1/' || true)
+awk -v d="$difference" 'BEGIN { exit !(d < 0.15) }' || fail "the world looks another: RMSE $difference"
+
+key Escape 1
+for _ in 1 2 3 4 5 6 7; do key Down; done
+xdotool key Return
+for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
+kill -0 "$game" 2>/dev/null && fail "it did not quit"
+status=0
+wait "$game" || status=$?
+game=
+[ "$status" -eq 0 ] || fail "it exited with $status"
+[ "$(wc -l <"$work/err")" -eq 1 ] && grep -q 'controls.json' "$work/err" || fail "it complained of more than the controls"
+grep -q '"jump": 7' "$work/config/skerry/controls.json" || fail "the controls that were not understood are gone"
+echo "passed"

@@ -1,0 +1,73 @@
+// Clouds for the reference renderer: the same media as docs/clouds.md describes, looked up in
+// double precision. Places are relative to the camera [blocks].
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+namespace skerry::reference {
+
+/// The layer's noise: four values for each of 128^3 texels, in steps of 1/255, from formulas.
+class CloudNoise {
+ public:
+  static const CloudNoise& shared();
+  /// Trilinear between texels' centres; repeats with 1. @param channel 0..3
+  double at(glm::dvec3 place, int channel) const;
+
+ private:
+  CloudNoise();
+  std::vector<std::array<std::uint8_t, 4>> texels_;
+};
+
+struct CloudLayer {
+  glm::dvec3 eye{0.0};  ///< in the noise (x, z), and over the layer's base (y)
+  double thickness = 1.0, extinction = 0.0, coverage = 0.0;
+  double extinction_at(glm::dvec3 p) const;
+};
+
+/// A grid of samples at whole indices; 0 beyond it.
+struct CloudGrid {
+  glm::dmat4 index_from_world{1.0};
+  glm::ivec3 low{0}, size{0};
+  std::vector<float> samples;  ///< x fastest
+  double extinction = 0.0;     ///< of value 1 [1/block]
+  glm::dvec3 emission{0.0};    ///< of value 1 [radiance/block]
+  double value_at(glm::dvec3 p) const;
+};
+
+struct Clouds {
+  std::optional<CloudLayer> layer;
+  std::vector<CloudGrid> grids;
+
+  double extinction_at(glm::dvec3 p) const;
+  glm::dvec3 emission_at(glm::dvec3 p) const;
+  /// Where a ray may be in any cloud; x > y: nowhere.
+  glm::dvec2 range(glm::dvec3 origin, glm::dvec3 direction) const;
+  /// Optical depth of a way. @param direction unit. @param offset 0..1: where in its steps a march
+  /// looks; a mean over offsets is exact.
+  double depth(glm::dvec3 origin, glm::dvec3 direction, double offset) const;
+};
+
+/// Where an eye's ray is scattered last, and what comes of it.
+struct CloudMeeting {
+  double clear = 1.0;       ///< what is left of what is behind
+  glm::dvec3 emitted{0.0};  ///< radiance of what glows
+  double at = 0.0;          ///< a place of scattering, as likely as light comes from there [blocks]
+};
+/// @param begin, end of the way [blocks]. @param pair uniform.
+CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 direction, double begin, double end,
+                         glm::dvec2 pair);
+
+/// Share of irradiance that a cloud sends on in a direction, over extinction [1/sr], with light
+/// scattered more than once. @param cosine of the angle that light is turned by. @param depth
+/// optical, to the light.
+double scattered_share(double cosine, double depth);
+/// Share of the sky's mean radiance that reaches a place.
+double sky_share(double depth);
+inline constexpr double kCloudAlbedo = 0.99;
+
+}  // namespace skerry::reference
