@@ -18,7 +18,7 @@ Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options) {
                                                            options.settings.world_offset,
                                                            options.settings.world_islands});
   }
-  if (is_vdb(*options.world)) return world_of_vdb(*options.world);
+  if (is_vdb(*options.world)) return world_of_vdb(*options.world, options.import);
   auto file = world::WorldFile::open(*options.world, world::WorldFile::Mode::kRead);
   if (!file) return file.error();
   world::LoadedWorld loaded = world::load_world(**file);

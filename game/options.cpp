@@ -7,13 +7,16 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "game/vdb_options.h"
+
 namespace skerry::game {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 10> kFields{
-    "seed", "world", "camera", "fov", "time", "size", "quality", "settings", "lights", "clouds"};
+constexpr std::array<std::string_view, 11> kFields{"seed",   "world",  "camera",  "fov",
+                                                   "time",   "size",   "quality", "settings",
+                                                   "lights", "clouds", "import"};
 
 /// A scalar as the text a person would have typed, or nothing for other kinds.
 std::optional<std::string> scalar_text(const json& value) {
@@ -46,12 +49,14 @@ Result<std::string> camera_text(const json& value) {
   return text;
 }
 
-Result<void> read_settings(const json& value, SceneText& scene) {
-  if (!value.is_object()) return field_error("settings", "an object of key: value");
+/// An object as KEY=VALUE.
+Result<void> read_assignments(const std::string& field, const json& value,
+                              std::vector<std::string>& out) {
+  if (!value.is_object()) return field_error(field, "an object of key: value");
   for (const auto& [key, entry] : value.items()) {
     const auto text = scalar_text(entry);
-    if (!text) return field_error("settings." + quote_text(key), "a string or a number");
-    scene.settings.push_back(key + "=" + *text);
+    if (!text) return field_error(field + "." + quote_text(key), "a string or a number");
+    out.push_back(key + "=" + *text);
   }
   return {};
 }
@@ -64,7 +69,8 @@ Error unknown_field(const std::string& key) {
 }
 
 Result<void> read_field(const std::string& key, const json& value, SceneText& scene) {
-  if (key == "settings") return read_settings(value, scene);
+  if (key == "settings") return read_assignments(key, value, scene.settings);
+  if (key == "import") return read_assignments(key, value, scene.import);
   if (key == "lights") {
     Result<std::vector<WorldLight>> lights = read_lights(value);
     if (!lights) return lights.error();
@@ -140,6 +146,18 @@ Result<SceneText> parse_scene(std::string_view json_text) {
 
 namespace {
 
+Result<void> apply_imports(const SceneText& under, const SceneText& over, SceneOptions& scene) {
+  const bool own_world = over.seed || over.world;
+  for (const SceneText* text : {&under, &over}) {
+    if (text == &under && own_world) continue;
+    for (const std::string& assignment : text->import)
+      if (const auto done = apply_import(assignment, scene.import); !done) return done;
+    if (!text->import.empty() && (!scene.world || !is_vdb(*scene.world)))
+      return Error{"--import is for worlds that are .vdb files: give --world FILE.vdb"};
+  }
+  return {};
+}
+
 /// A source named in `over` replaces the one of `under`, whichever kind it is.
 Result<void> choose_source(const SceneText& under, const SceneText& over, SceneOptions& scene) {
   const SceneText& named = over.seed || over.world ? over : under;
@@ -162,6 +180,7 @@ void find_world_beside(const std::string& scene_file, SceneText& scene) {
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
   SceneOptions scene;
   if (const auto source = choose_source(under, over, scene); !source) return source.error();
+  if (const auto done = apply_imports(under, over, scene); !done) return done.error();
   if (const auto* text = chosen(under.camera, over.camera)) {
     const auto camera = parse_camera(*text);
     if (!camera) return camera.error();
@@ -204,6 +223,9 @@ std::string shot_command(const SceneOptions& scene) {
     command += " --scene " + shell_word(*scene.scene_file);
   command += scene.world ? " --world " + shell_word(*scene.world)
                          : " --seed " + shell_word(scene.seed_text);
+  if (scene.world && is_vdb(*scene.world))
+    for (const std::string& assignment : import_assignments(scene.import))
+      command += " --import " + shell_word(assignment);
   if (scene.camera) command += " --camera " + format_camera(*scene.camera);
   command += fmt::format(" --fov {} --time {} --size {}x{} --quality {}", scene.fov_deg,
                          format_time_of_day(scene.time_of_day_s), scene.size.width,

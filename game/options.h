@@ -12,6 +12,7 @@
 #include "game/parse.h"
 #include "game/scene_lights.h"
 #include "game/settings.h"
+#include "world/vdb/import.h"
 
 namespace skerry::game {
 
@@ -19,6 +20,7 @@ namespace skerry::game {
 struct SceneOptions {
   std::string seed_text = "1";        ///< world::seed_from_text makes the seed
   std::optional<std::string> world;   ///< a file in place of a seed (open_world.h)
+  world::ImportOptions import;        ///< of a .vdb file as the world
   std::optional<CameraPlace> camera;  ///< none: the seed's spawn view
   double fov_deg = 70.0;              ///< vertical, 0.1 .. 175
   int time_of_day_s = 12 * 3600;      ///< since midnight
@@ -36,6 +38,7 @@ struct SceneOptions {
 struct SceneText {
   std::optional<std::string> seed, world, camera, fov, time, size, quality;
   std::vector<std::string> settings;  ///< KEY=VALUE, later ones win
+  std::vector<std::string> import;    ///< KEY=VALUE (vdb_options.h), later ones win
   std::vector<WorldLight> lights;     ///< of a scene file
   std::vector<CloudFile> clouds;
   Expectations expectations;  ///< of a scene file; no concern of make_scene
@@ -45,7 +48,7 @@ struct SceneText {
 inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 
 /// Reads a scene: a JSON object with the fields seed, world, camera (five numbers or strings), fov,
-/// time, size, quality, settings (an object), lights (read_lights), clouds (read_clouds)
+/// time, size, quality, settings and import (objects), lights (read_lights), clouds (read_clouds)
 /// and those of Expectations.
 /// Errors: no JSON, an unknown field (names the nearest), a value of the wrong kind. Values are
 /// checked by make_scene, but for lights; masks by check_masks.
@@ -55,7 +58,7 @@ Result<SceneText> parse_scene(std::string_view json_text);
 void find_world_beside(const std::string& scene_file, SceneText& scene);
 
 /// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied
-/// first. A seed and a world exclude each other.
+/// first. A seed and a world exclude each other. What `under` imports goes with its world.
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over);
 
 /// A word of a command line: in single quotes unless every character is harmless to a shell.

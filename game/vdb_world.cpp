@@ -33,10 +33,6 @@ Result<void> write(const std::vector<world::ImportedIsland>& islands,
 
 }  // namespace
 
-bool is_vdb(const std::filesystem::path& path) {
-  return path.extension() == ".vdb";
-}
-
 Result<std::vector<world::ImportedIsland>> islands_of_vdb(const std::filesystem::path& path,
                                                           const world::ImportOptions& options,
                                                           const world::ReadProgress& progress) {
@@ -54,8 +50,9 @@ Result<std::vector<world::ImportedIsland>> islands_of_vdb(const std::filesystem:
       fmt::format("cannot import {}: {}", quote_text(path.string()), islands.error().message)};
 }
 
-Result<std::unique_ptr<world::World>> world_of_vdb(const std::filesystem::path& path) {
-  auto islands = islands_of_vdb(path, {});
+Result<std::unique_ptr<world::World>> world_of_vdb(const std::filesystem::path& path,
+                                                   const world::ImportOptions& options) {
+  auto islands = islands_of_vdb(path, options);
   if (!islands) return islands.error();
   auto world = std::make_unique<world::World>(desc_of_imported());
   for (world::ImportedIsland& island : *islands)

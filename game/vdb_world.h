@@ -4,13 +4,11 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "game/vdb_options.h"
 #include "world/vdb/import.h"
 #include "world/world.h"
 
 namespace skerry::game {
-
-/// Whether a path names a .vdb file, by its ending.
-bool is_vdb(const std::filesystem::path& path);
 
 /// The islands of a .vdb file. Errors: those of world::read_vdb and world::import_islands, with the
 /// file's name.
@@ -20,7 +18,8 @@ Result<std::vector<world::ImportedIsland>> islands_of_vdb(const std::filesystem:
                                                           const world::ReadProgress& progress = {});
 
 /// A world of the islands of a .vdb file and nothing else. Errors: as above.
-Result<std::unique_ptr<world::World>> world_of_vdb(const std::filesystem::path& path);
+Result<std::unique_ptr<world::World>> world_of_vdb(const std::filesystem::path& path,
+                                                   const world::ImportOptions& options);
 
 /// Writes a world file of imported islands: complete or not at all. Errors: the file is there
 /// already, or cannot be written.

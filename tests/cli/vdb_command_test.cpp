@@ -23,6 +23,7 @@ TEST(VdbCommand, InfoTellsWhatEachGridIsForAsTextAndAsJson) {
   const nlohmann::json grid = nlohmann::json::parse(json.out).at("grids").at(0);
   EXPECT_EQ(grid.at("name"), "ball");
   EXPECT_EQ(grid.at("kind"), "level set");
+  EXPECT_EQ(grid.at("class"), "level set");
   EXPECT_EQ(grid.at("index_min"), nlohmann::json({-20, -25, -17}));
 }
 
@@ -88,6 +89,9 @@ TEST(VdbCommand, AFileIsAWorldToShot) {
   const Outcome drawn = run({"shot", "--world", sample("ball.vdb"), "--camera", "40,30,40,225,-25",
                              "--size", "64x36", "--out", picture});
   EXPECT_EQ(drawn.status, 0) << drawn.err;
+  expect_refusal(
+      run({"shot", "--world", sample("ball.vdb"), "--import", "grid=bull", "--out", picture}), 1,
+      {"'ball'"}, "no such grid");
   expect_refusal(run({"shot", "--world", sample("vectors.vdb"), "--out", picture}), 1,
                  {"vectors.vdb"}, "nothing to stand on");
 }

@@ -35,6 +35,45 @@ TEST(Scene, EveryFieldOfAFileArrives) {
   EXPECT_EQ(scene->settings.shadow_size, 1024u);
 }
 
+TEST(Scene, ImportOptionsOfAFileAndOfTheCommandLineArriveAndAreSaidAgain) {
+  const auto file = parse_scene(
+      R"({"world": "a.vdb", "import": {"grid": "my density", "scale": 2.5, "up": "z"}})");
+  ASSERT_TRUE(file) << file.error().message;
+  SceneText typed;
+  typed.import = {"scale=0.5", "threshold=-0.25"};
+  const auto scene = make_scene(*file, typed);
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->import.grid, "my density");
+  EXPECT_EQ(scene->import.scale, 0.5);
+  EXPECT_EQ(scene->import.threshold, -0.25);
+  EXPECT_EQ(scene->import.up, world::UpAxis::kZ);
+  EXPECT_NE(shot_command(*scene).find("--world a.vdb --import 'grid=my density' --import scale=0.5 "
+                                      "--import threshold=-0.25 --import up=z"),
+            std::string::npos)
+      << shot_command(*scene);
+  // They belong to the file's world.
+  typed = {};
+  typed.world = "b.vdb";
+  EXPECT_FALSE(make_scene(*file, typed)->import.grid);
+}
+
+TEST(Scene, MistakesInImportOptionsAreNamed) {
+  const auto refusal = [](const std::string& world, std::vector<std::string> import) {
+    SceneText typed;
+    typed.world = world;
+    typed.import = std::move(import);
+    const auto scene = make_scene({}, typed);
+    return scene ? "" : scene.error().message;
+  };
+  EXPECT_EQ(refusal("a.vdb", {"size=100"}), "");
+  EXPECT_NE(refusal("a.skerry", {"size=100"}).find("FILE.vdb"), std::string::npos);
+  EXPECT_NE(refusal("a.vdb", {"sise=100"}).find("'size'"), std::string::npos);
+  EXPECT_NE(refusal("a.vdb", {"size"}).find("KEY=VALUE"), std::string::npos);
+  EXPECT_NE(refusal("a.vdb", {"size=1", "scale=1"}).find("exclude"), std::string::npos);
+  EXPECT_NE(refusal("a.vdb", {"up=x"}).find("y or z"), std::string::npos);
+  EXPECT_NE(refusal("a.vdb", {"scale=-1"}).find("scale"), std::string::npos);
+}
+
 TEST(Scene, NumbersServeAsSeedAndKeepAllTheirDigits) {
   EXPECT_EQ(*parse_scene(R"({"seed": 18446744073709551615})")->seed, "18446744073709551615");
 }

@@ -40,6 +40,12 @@ void add_scene_options(CLI::App& command, SceneArguments& a) {
   command.add_option("--world", a.text.world, "Saved world (docs/saving.md); excludes --seed")
       ->type_name("PATH");
   command
+      .add_option("--import", a.text.import,
+                  "How a .vdb file given as --world becomes land: grid, scale, size, threshold or "
+                  "up (docs/openvdb.md); may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command
       .add_option("--cloud", a.clouds,
                   "Fog of a .vdb file as a cloud, at a place in blocks; may be repeated")
       ->type_name("FILE.vdb[@X,Y,Z[,SCALE]]")

@@ -8,9 +8,11 @@
 #include "engine/core/clock.h"
 #include "engine/platform/files.h"
 #include "game/parse.h"
+#include "game/vdb_options.h"
 #include "tools/skerry/progress.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/test/page.h"
+#include "world/vdb/worker.h"
 
 namespace skerry::tools {
 namespace {
@@ -19,6 +21,10 @@ namespace fs = std::filesystem;
 
 Refusal usage(Error error) {
   return {kUsage, std::move(error)};
+}
+
+bool needs_openvdb(const game::SceneOptions& scene) {
+  return !scene.clouds.empty() || (scene.world && game::is_vdb(*scene.world));
 }
 
 /// Reads a whole number, if one was given, into `field`.
@@ -136,9 +142,14 @@ std::optional<Refusal> TestCommand::read_set(std::vector<TestScene>& scenes,
   for (const fs::path& file : *files) {
     Result<TestScene> scene = read_scene(file);
     if (!scene) return usage(scene.error());
+    if (needs_openvdb(scene->scene) && !world::has_openvdb()) {
+      fmt::print("skipped: {}: this build has no OpenVDB\n", scene->name);
+      continue;
+    }
     scenes.push_back(*std::move(scene));
   }
   in_set = scenes.size();
+  if (in_set == 0) return Refusal{kFailed, {"no scene is left that this build can draw"}};
   scenes = shard_of(std::move(scenes), shard_);
   if (!scenes.empty()) return std::nullopt;
   return Refusal{kFailed,

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "game/parse.h"
+#include "game/vdb_options.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/vdb_info.h"
 #include "tools/skerry/vdb_transfer.h"
@@ -23,26 +25,13 @@ Result<world::ImportOptions> import_options(const std::optional<std::string>& gr
                                             const std::optional<std::string>& threshold,
                                             const std::optional<std::string>& up) {
   world::ImportOptions out;
-  out.grid = grid;
-  if (scale && size) return Error{"--scale and --size exclude each other: give one of them"};
-  if (scale) {
-    const Result<double> value = game::parse_number(*scale, "--scale", 1e-6, 1e6);
-    if (!value) return value.error();
-    out.scale = *value;
+  const std::pair<const char*, const std::optional<std::string>&> typed[] = {
+      {"grid", grid}, {"scale", scale}, {"size", size}, {"threshold", threshold}, {"up", up}};
+  for (const auto& [key, value] : typed) {
+    if (!value) continue;
+    const auto set = game::set_import(key, *value, fmt::format("--{}", key), out);
+    if (!set) return set.error();
   }
-  if (size) {
-    const Result<std::int64_t> value = game::parse_integer(*size, "--size", 1, 1'000'000);
-    if (!value) return value.error();
-    out.size_blocks = static_cast<int>(*value);
-  }
-  if (threshold) {
-    const Result<double> value = game::parse_number(*threshold, "--threshold", -1e30, 1e30);
-    if (!value) return value.error();
-    out.threshold = *value;
-  }
-  if (up && *up != "y" && *up != "z")
-    return Error{fmt::format("--up cannot be {}: give y or z", game::quote_text(*up))};
-  out.up = up == "z" ? world::UpAxis::kZ : world::UpAxis::kY;
   return out;
 }
 

@@ -84,7 +84,8 @@ void print_table(const std::vector<VolumeGrid>& grids) {
     const VolumeGrid& grid = grids[i];
     const world::VolumeBox& box = grid.active_box;
     fmt::print("{}\n", grid.name.empty() ? "(no name)" : grid.name);
-    fmt::print("  kind     {}, {}\n", kind_name(grid.kind), grid.value_type);
+    fmt::print("  kind     {}, {}, class {}\n", kind_name(grid.kind), grid.value_type,
+               grid.grid_class);
     fmt::print("  active   {} voxels, {} tiles, {} leaves, {:.1f} MiB\n", grid.active_voxels,
                grid.active_tiles, grid.leaves, static_cast<double>(grid.memory_bytes) / 1048576.0);
     if (grid.active_voxels > 0)
@@ -114,6 +115,7 @@ void print_json(const std::vector<VolumeGrid>& grids) {
       for (int row = 0; row < 4; ++row) matrix.push_back(grid.world_from_index[column][row]);
     rows.push_back({{"name", grid.name},
                     {"type", grid.value_type},
+                    {"class", grid.grid_class},
                     {"kind", kind_name(grid.kind)},
                     {"active_voxels", grid.active_voxels},
                     {"active_tiles", grid.active_tiles},

@@ -8,19 +8,18 @@
 #include <glm/matrix.hpp>
 #include <map>
 #include <optional>
-#include <set>
 #include <type_traits>
 
 namespace skerry::world {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x314c4f564b53ull;  // "SKVOL1"
+constexpr std::uint64_t kMagic = 0x324c4f564b53ull;  // "SKVOL2"
 enum Status : std::uint32_t { kGrids = 0, kRefused = 1 };
 
 // Volumes that a few values stretch over more than this are no use to anyone and only overflow.
 constexpr double kMaxMatrixElement = 1e15;
 // Below this share of the volume that its axes' lengths could span, a voxel is flat.
-constexpr double kMinVolumeShare = 1e-6;
+constexpr double kMinVolumeShare = 1e-3;
 
 template <class T>
 bool put(const ByteSink& sink, const T& value) {
@@ -82,8 +81,9 @@ struct Problem {
 };
 
 bool take_grid(Reader& in, VolumeGrid& grid) {
-  return in.take_text(grid.name) && in.take_text(grid.value_type) && in.take(grid.kind) &&
-         in.take_text(grid.remark) && in.take(grid.world_from_index) && in.take(grid.background) &&
+  return in.take_text(grid.name) && in.take_text(grid.value_type) &&
+         in.take_text(grid.grid_class) && in.take(grid.kind) && in.take_text(grid.remark) &&
+         in.take(grid.world_from_index) && in.take(grid.background) &&
          in.take(grid.active_voxels) && in.take(grid.active_tiles) && in.take(grid.leaves) &&
          in.take(grid.memory_bytes) && in.take(grid.replaced_values) && in.take(grid.active_box) &&
          in.take_array(grid.tiles) && in.take_array(grid.bricks);
@@ -143,19 +143,31 @@ std::optional<Problem> check_bricks(const std::vector<VolumeBrick>& bricks) {
   return std::nullopt;
 }
 
+/// Whether every value is a packed colour; what reads them takes them for integers.
+std::optional<Problem> check_colors(const VolumeGrid& grid) {
+  const auto fits = [](float v) { return v >= 0.0f && v <= static_cast<float>(0xffffff); };
+  const auto tile_fits = [&](const VolumeTile& tile) { return fits(tile.value); };
+  const auto brick_fits = [&](const VolumeBrick& brick) {
+    return std::all_of(brick.values.begin(), brick.values.end(), fits);
+  };
+  if (fits(grid.background) && std::all_of(grid.tiles.begin(), grid.tiles.end(), tile_fits) &&
+      std::all_of(grid.bricks.begin(), grid.bricks.end(), brick_fits))
+    return std::nullopt;
+  return Problem{"a colour is none"};
+}
+
 /// Whether something lies in a larger tile. Tiles of one edge share no origin, so that they cannot
 /// overlap each other.
 std::optional<Problem> check_overlap(const VolumeGrid& grid) {
-  std::map<std::int32_t, std::set<IVec3>> by_edge;
-  for (const VolumeTile& tile : grid.tiles) by_edge[tile.edge].insert(tile.origin);
+  std::map<std::int32_t, std::vector<IVec3>> by_edge;  // each sorted, as the tiles are
+  for (const VolumeTile& tile : grid.tiles) by_edge[tile.edge].push_back(tile.origin);
   for (const auto& [edge, origins] : by_edge) {
     const auto covered = [edge = edge, &origins = origins](IVec3 at, std::int32_t own) {
-      return own < edge && origins.contains(snapped(at, edge));
+      return own < edge && std::binary_search(origins.begin(), origins.end(), snapped(at, edge));
     };
     const auto tile_covered = [&](const VolumeTile& t) { return covered(t.origin, t.edge); };
-    const auto brick_covered = [&origins = origins, edge = edge](const VolumeBrick& b) {
-      return origins.contains(snapped(b.origin, edge));
-    };
+    // Even a tile of a brick's own size covers it.
+    const auto brick_covered = [&](const VolumeBrick& b) { return covered(b.origin, 0); };
     if (std::any_of(grid.tiles.begin(), grid.tiles.end(), tile_covered) ||
         std::any_of(grid.bricks.begin(), grid.bricks.end(), brick_covered))
       return Problem{"bricks and tiles overlap"};
@@ -186,6 +198,8 @@ std::optional<Problem> check_grid(const VolumeGrid& grid) {
   if (auto problem = check_matrix(grid.world_from_index)) return problem;
   if (auto problem = check_tiles(grid.tiles)) return problem;
   if (auto problem = check_bricks(grid.bricks)) return problem;
+  if (grid.kind == VolumeKind::kColor)
+    if (auto problem = check_colors(grid)) return problem;
   return check_overlap(grid);
 }
 
@@ -225,12 +239,12 @@ bool begin_answer(std::uint32_t grids, const ByteSink& sink) {
 }
 
 bool encode_grid(const VolumeGrid& grid, const ByteSink& sink) {
-  return put_text(sink, grid.name) && put_text(sink, grid.value_type) && put(sink, grid.kind) &&
-         put_text(sink, grid.remark) && put(sink, grid.world_from_index) &&
-         put(sink, grid.background) && put(sink, grid.active_voxels) &&
-         put(sink, grid.active_tiles) && put(sink, grid.leaves) && put(sink, grid.memory_bytes) &&
-         put(sink, grid.replaced_values) && put(sink, grid.active_box) &&
-         put_array(sink, grid.tiles) && put_array(sink, grid.bricks);
+  return put_text(sink, grid.name) && put_text(sink, grid.value_type) &&
+         put_text(sink, grid.grid_class) && put(sink, grid.kind) && put_text(sink, grid.remark) &&
+         put(sink, grid.world_from_index) && put(sink, grid.background) &&
+         put(sink, grid.active_voxels) && put(sink, grid.active_tiles) && put(sink, grid.leaves) &&
+         put(sink, grid.memory_bytes) && put(sink, grid.replaced_values) &&
+         put(sink, grid.active_box) && put_array(sink, grid.tiles) && put_array(sink, grid.bricks);
 }
 
 bool encode_error(std::string_view message, const ByteSink& sink) {
@@ -257,9 +271,14 @@ Result<std::vector<VolumeGrid>> decode_answer(std::span<const std::byte> bytes) 
   }
   if (!in.take(count) || count > kMaxVolumeGrids) return cut;
   std::vector<VolumeGrid> grids;
+  std::size_t tiles = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     VolumeGrid& grid = grids.emplace_back();
     if (!take_grid(in, grid)) return cut;
+    tiles += grid.tiles.size();
+    if (tiles > kMaxVolumeTiles)
+      return Error{fmt::format("it holds more than {} tiles and even bricks; make it smaller",
+                               kMaxVolumeTiles)};
     if (const auto problem = check_grid(grid))
       return Error{fmt::format("grid '{}' is damaged: {}", grid.name, problem->text)};
     find_statistics(grid);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -28,9 +29,28 @@ class Frame {
 
   /// Whether the centre of a voxel lies in the box.
   bool holds(IVec3 voxel) const {
-    const glm::dvec3 centre = glm::dvec3{voxel.x, voxel.y, voxel.z} + 0.5;
-    const glm::dvec3 p = origin_ + pose_.rotation * centre;
+    const glm::dvec3 p = centre_of(voxel);
     return glm::all(glm::greaterThanEqual(p, low_)) && glm::all(glm::lessThan(p, high_));
+  }
+
+  enum class Part : std::uint8_t { kNone, kSome, kAll };
+  /// How many voxels of a chunk lie in the box. A few that have none may be told to have some.
+  Part part_of(IVec3 origin) const {
+    constexpr int kLast = kChunkEdge - 1;
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    bool all = true;
+    for (int corner = 0; corner < 8; ++corner) {
+      const IVec3 voxel{origin.x + kLast * (corner & 1), origin.y + kLast * (corner >> 1 & 1),
+                        origin.z + kLast * (corner >> 2)};
+      const glm::dvec3 p = centre_of(voxel);
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+      all = all && holds(voxel);
+    }
+    if (all) return Part::kAll;  // both are convex
+    const bool apart =
+        glm::any(glm::lessThan(high, low_)) || glm::any(glm::greaterThanEqual(low, high_));
+    return apart ? Part::kNone : Part::kSome;
   }
 
   glm::dmat4 world_from_index() const {
@@ -41,6 +61,10 @@ class Frame {
   }
 
  private:
+  glm::dvec3 centre_of(IVec3 voxel) const {
+    return origin_ + pose_.rotation * (glm::dvec3{voxel.x, voxel.y, voxel.z} + 0.5);
+  }
+
   Pose pose_;
   glm::dvec3 low_{}, high_{}, origin_{};
 };
@@ -122,20 +146,22 @@ class IslandExport {
         density_("density" + suffix, VolumeKind::kFog, frame_) {}
 
   void add(IVec3 chunk) {
+    const IVec3 origin{chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
+    const Frame::Part part = frame_.part_of(origin);
+    if (part == Frame::Part::kNone) return;
     std::vector<BlockId> padded(kPaddedVoxels);
     if (!world_.generate_padded(spec_.id, chunk, 0, padded)) return;
+    const Chunk made = chunk_from_padded(padded);
+    if (made.is_uniform() && part == Frame::Part::kAll) {
+      add_tile(origin, made.at(std::size_t{0}));
+      return;
+    }
     std::vector<BlockId> voxels(kChunkVoxels);
-    chunk_from_padded(padded).unpack(voxels);
-    const IVec3 origin{chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
-    cut(voxels, origin);
+    made.unpack(voxels);
+    if (part == Frame::Part::kSome) cut(voxels, origin);
     const bool even =
         std::all_of(voxels.begin(), voxels.end(), [&](BlockId id) { return id == voxels[0]; });
-    if (even) {
-      ids_.add_tile(origin, kChunkEdge, voxels[0]);
-      density_.add_tile(origin, kChunkEdge, density_of(voxels[0]));
-    } else {
-      add_bricks(voxels, origin);
-    }
+    even ? add_tile(origin, voxels[0]) : add_bricks(voxels, origin);
   }
 
   std::size_t parts() const { return ids_.parts() + density_.parts(); }
@@ -146,6 +172,11 @@ class IslandExport {
   }
 
  private:
+  void add_tile(IVec3 origin, BlockId id) {
+    ids_.add_tile(origin, kChunkEdge, id);
+    density_.add_tile(origin, kChunkEdge, density_of(id));
+  }
+
   /// Makes everything outside the box air.
   void cut(std::vector<BlockId>& voxels, IVec3 origin) const {
     for (int y = 0; y < kChunkEdge; ++y) {
@@ -188,13 +219,31 @@ std::vector<IslandSpec> islands_in(World& world, const BlockBox& box) {
     return (box.low[axis] + (box.high[axis] - box.low[axis]) / 2) * kUnitsPerBlock;
   };
   centre = {middle(0), middle(1), middle(2)};
-  return world.islands_near(centre, glm::length(half) + 1.0, 0.0);
+  std::vector<IslandSpec> islands = world.islands_near(centre, glm::length(half) + 1.0, 0.0);
+  // The ball around the box reaches much further than the box.
+  std::erase_if(islands, [&](const IslandSpec& spec) {
+    const glm::dvec3 away =
+        glm::abs(difference_blocks(world.pose(spec.id, 0.0)->origin, centre)) - half;
+    return glm::length(glm::max(away, 0.0)) > spec.bounding_radius + 1.0;
+  });
+  return islands;
+}
+
+/// Whether a box is small enough to look for all islands that a seed makes in it.
+bool can_be_searched(const World& world, const BlockBox& box) {
+  if (!world.desc().generated) return true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (box.high[axis] - box.low[axis] > kMaxSeedBoxBlocks) return false;
+  return true;
 }
 
 }  // namespace
 
 Result<std::vector<VolumeGrid>> volumes_of(World& world, const BlockBox& box,
                                            const ReadProgress& progress) {
+  if (!can_be_searched(world, box))
+    return Error{fmt::format("its box is more than {} blocks long; give a smaller --box",
+                             kMaxSeedBoxBlocks)};
   const std::vector<IslandSpec> islands = islands_in(world, box);
   std::vector<VolumeGrid> grids;
   std::size_t parts = 0;

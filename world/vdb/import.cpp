@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "world/edits.h"
 #include "world/hash.h"
 #include "world/vdb/answer.h"
 #include "world/vdb/block_colors.h"
@@ -36,6 +37,18 @@ std::string list_of(const std::vector<VolumeGrid>& grids) {
   return names;
 }
 
+/// A grid that becomes an island, with the look-ups that every step needs.
+struct Source {
+  Source(const VolumeGrid& grid, const ImportOptions& options)
+      : field(grid), rule(rule_for(grid, options)), content(content_of(field, rule)) {}
+
+  const VolumeGrid& grid() const { return field.grid(); }
+
+  VolumeField field;
+  SolidRule rule;
+  Bounds content;  // in index space
+};
+
 Result<std::vector<const VolumeGrid*>> chosen(const std::vector<VolumeGrid>& grids,
                                               const ImportOptions& options) {
   std::vector<const VolumeGrid*> out;
@@ -48,16 +61,24 @@ Result<std::vector<const VolumeGrid*>> chosen(const std::vector<VolumeGrid>& gri
     return Error{fmt::format("it has no grid '{}'; give one of {}", printable(*options.grid),
                              list_of(grids))};
   if (out.empty()) return Error{"none of its grids has an inside; see skerry vdb info"};
-  // Beside a grid with something in it, empty ones are no reason to refuse the file.
-  const auto empty = [&options](const VolumeGrid* grid) {
-    return content_of(VolumeField(*grid), rule_for(*grid, options)).empty();
-  };
-  if (!std::all_of(out.begin(), out.end(), empty)) std::erase_if(out, empty);
   const VolumeGrid& first = *out.front();
   if (first.kind == VolumeKind::kOther || first.kind == VolumeKind::kColor)
     return Error{fmt::format("grid '{}' has no inside: {}; give another --grid", first.name,
                              first.remark.empty() ? "it holds colours" : first.remark)};
   return out;
+}
+
+std::vector<Source> sources_of(const std::vector<const VolumeGrid*>& grids,
+                               const ImportOptions& options) {
+  std::vector<Source> out;
+  out.reserve(grids.size());
+  for (const VolumeGrid* grid : grids) out.emplace_back(*grid, options);
+  // Beside a grid with something in it, empty ones are no reason to refuse the file.
+  const auto empty = [](const Source& source) { return source.content.empty(); };
+  std::vector<Source> full;
+  for (Source& source : out)
+    if (!empty(source)) full.push_back(std::move(source));
+  return full.empty() ? std::move(out) : std::move(full);
 }
 
 bool names_density(const VolumeGrid& grid) {
@@ -71,14 +92,13 @@ bool names_heat(const VolumeGrid& grid) {
                      [&](std::string_view name) { return grid.name.starts_with(name); });
 }
 
-double blocks_per_unit_of(const std::vector<const VolumeGrid*>& grids,
-                          const ImportOptions& options) {
-  if (!options.size_blocks) return options.scale.value_or(1.0) / voxel_size(*grids.front());
+double blocks_per_unit_of(const std::vector<Source>& sources, const ImportOptions& options) {
+  if (!options.size_blocks) return options.scale.value_or(1.0) / voxel_size(sources[0].grid());
   Bounds all = Bounds::none();
-  for (const VolumeGrid* grid : grids) {
-    const Bounds content = content_of(VolumeField(*grid), rule_for(*grid, options));
-    if (content.empty()) continue;
-    const Bounds placed = image_of(blocks_from_index(*grid, 1.0, options.up), content);
+  for (const Source& source : sources) {
+    if (source.content.empty()) continue;
+    const Bounds placed =
+        image_of(blocks_from_index(source.grid(), 1.0, options.up), source.content);
     all.add(placed.low);
     all.add(placed.high);
   }
@@ -115,6 +135,15 @@ std::uint64_t count_blocks(const Chunk& chunk) {
   return kChunkVoxels - static_cast<std::uint64_t>(std::count(voxels.begin(), voxels.end(), kAir));
 }
 
+/// Whether this program knows the block of an id above air's.
+bool is_known(float id) {
+  return id < static_cast<float>(block::kBuiltInCount) - 0.5f;
+}
+
+BlockId block_of(float id) {
+  return is_known(id) ? static_cast<BlockId>(id + 0.5f) : BlockId{block::kStone};
+}
+
 glm::dvec3 centre_of(IVec3 voxel) {
   return glm::dvec3{voxel.x, voxel.y, voxel.z} + 0.5;
 }
@@ -122,13 +151,14 @@ glm::dvec3 centre_of(IVec3 voxel) {
 /// Makes one island.
 class Builder {
  public:
-  Builder(const VolumeGrid& grid, const ImportOptions& options, double blocks_per_unit, Jobs& jobs)
-      : grid_(grid),
+  Builder(const Source& source, const ImportOptions& options, double blocks_per_unit, Jobs& jobs)
+      : grid_(source.grid()),
+        field_(source.field),
+        content_(source.content),
+        rule_(source.rule),
         options_(options),
         blocks_per_unit_(blocks_per_unit),
-        jobs_(jobs),
-        rule_(rule_for(grid, options)),
-        field_(grid) {}
+        jobs_(jobs) {}
 
   Result<ImportedIsland> run(const VolumeField* colors, std::uint64_t id,
                              const ReadProgress& progress);
@@ -138,17 +168,20 @@ class Builder {
   void find_box();
   Chunk land_of(IVec3 chunk, const Land& land) const { return land_chunk(masks_, chunk, land); }
   Chunk ids_of(IVec3 chunk, std::uint64_t& unknown) const;
+  std::optional<float> id_of_all(IVec3 low, int edge) const;
+  void fill_ids(IVec3 low, int edge, std::vector<BlockId>& voxels, std::uint64_t& unknown) const;
   std::vector<IVec3> chunk_list(bool with_plants) const;
   Result<void> fill(ImportedIsland& out, const Land& land, const ReadProgress& progress);
   IslandSpec spec_of(std::uint64_t id) const;
   Land land_with(const VolumeField* colors) const;
 
   const VolumeGrid& grid_;
+  const VolumeField& field_;
+  const Bounds& content_;
+  SolidRule rule_;
   const ImportOptions& options_;
   double blocks_per_unit_;
   Jobs& jobs_;
-  SolidRule rule_;
-  VolumeField field_;
   Placement placement_;
   SolidMasks masks_;
   IVec3 low_{}, high_{};  // of solid voxels, inclusive
@@ -156,11 +189,10 @@ class Builder {
 
 Result<void> Builder::prepare(const ReadProgress& progress) {
   if (rule_(grid_.background)) return Error{"its outside is solid; give another --threshold"};
-  const Bounds content = content_of(field_, rule_);
-  if (content.empty())
+  if (content_.empty())
     return Error{fmt::format("nothing in it is solid at threshold {}; its values are {} to {}",
                              rule_.threshold, grid_.min_value, grid_.max_value)};
-  Result<Placement> placement = place(grid_, content, blocks_per_unit_, options_.up);
+  Result<Placement> placement = place(grid_, content_, blocks_per_unit_, options_.up);
   if (!placement) return placement.error();
   placement_ = *placement;
   const Result<std::set<IVec3>> chunks = chunks_of(grid_, rule_, placement_);
@@ -181,24 +213,50 @@ void Builder::find_box() {
 }
 
 Chunk Builder::ids_of(IVec3 chunk, std::uint64_t& unknown) const {
-  const auto mask = masks_.find(chunk);
+  const IVec3 origin{chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
+  if (const std::optional<float> id = id_of_all(origin, kChunkEdge)) {
+    unknown += is_known(*id) ? 0 : kChunkVoxels;
+    return Chunk(block_of(*id));
+  }
   std::vector<BlockId> voxels(kChunkVoxels, kAir);
-  for (int y = 0; y < kChunkEdge; ++y) {
-    for (int x = 0; x < kChunkEdge; ++x) {
-      const std::uint64_t row = mask->second.row(x, y);
-      for (int z = 0; z < kChunkEdge; ++z) {
-        if ((row >> z & 1) == 0) continue;
-        const IVec3 voxel{chunk.x * kChunkEdge + x, chunk.y * kChunkEdge + y,
-                          chunk.z * kChunkEdge + z};
-        const float value = field_.nearest(placement_.index_from_lattice(centre_of(voxel)));
-        const bool known = value < static_cast<float>(block::kBuiltInCount) - 0.5f;
-        if (!known) ++unknown;
-        voxels[voxel_index(x, y, z)] =
-            known ? static_cast<BlockId>(value + 0.5f) : BlockId{block::kStone};
+  fill_ids(origin, kChunkEdge, voxels, unknown);
+  return Chunk::from_voxels(voxels);
+}
+
+/// The id of all voxels of a cube where bounds of the values tell it, 0 for air.
+std::optional<float> Builder::id_of_all(IVec3 low, int edge) const {
+  const VolumeField::Range seen =
+      values_in_cube(field_, placement_, glm::dvec3{low.x, low.y, low.z}, edge);
+  if (seen.min != seen.max) return std::nullopt;
+  return rule_(seen.min) ? seen.min : 0.0f;
+}
+
+/// Whole cubes at once where that is possible: tiles may be large.
+void Builder::fill_ids(IVec3 low, int edge, std::vector<BlockId>& voxels,
+                       std::uint64_t& unknown) const {
+  constexpr int kLeastCube = 4;
+  const std::optional<float> all = id_of_all(low, edge);
+  if (all == 0.0f) return;
+  if (!all && edge > kLeastCube) {
+    const int half = edge / 2;
+    for (int part = 0; part < 8; ++part)
+      fill_ids(
+          {low.x + half * (part & 1), low.y + half * (part >> 1 & 1), low.z + half * (part >> 2)},
+          half, voxels, unknown);
+    return;
+  }
+  for (int y = low.y; y < low.y + edge; ++y) {
+    for (int x = low.x; x < low.x + edge; ++x) {
+      for (int z = low.z; z < low.z + edge; ++z) {
+        const IVec3 voxel{x, y, z};
+        const float id =
+            all ? *all : field_.nearest(placement_.index_from_lattice(centre_of(voxel)));
+        if (!rule_(id)) continue;
+        unknown += is_known(id) ? 0 : 1;
+        voxels[index_in_chunk(voxel)] = block_of(id);
       }
     }
   }
-  return Chunk::from_voxels(voxels);
 }
 
 std::vector<IVec3> Builder::chunk_list(bool with_plants) const {
@@ -334,19 +392,20 @@ Result<std::vector<ImportedIsland>> import_islands(const std::vector<VolumeGrid>
                                                    const ReadProgress& progress) {
   const Result<std::vector<const VolumeGrid*>> wanted = chosen(grids, options);
   if (!wanted) return wanted.error();
-  const double blocks_per_unit = blocks_per_unit_of(*wanted, options);
+  const std::vector<Source> sources = sources_of(*wanted, options);
+  const double blocks_per_unit = blocks_per_unit_of(sources, options);
   const std::optional<VolumeField> colors = color_field(grids);
   std::vector<ImportedIsland> islands;
-  for (std::size_t i = 0; i < wanted->size(); ++i) {
-    const VolumeGrid& grid = *(*wanted)[i];
-    const double share = 1.0 / static_cast<double>(wanted->size());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const double share = 1.0 / static_cast<double>(sources.size());
     const ReadProgress part = !progress ? ReadProgress() : [&, i](double done) {
       progress((static_cast<double>(i) + done) * share);
     };
-    Builder builder(grid, options, blocks_per_unit, jobs);
+    Builder builder(sources[i], options, blocks_per_unit, jobs);
     Result<ImportedIsland> island =
         builder.run(colors ? &*colors : nullptr, mix64(i + 0x5ce44), part);
-    if (!island) return Error{fmt::format("grid '{}': {}", grid.name, island.error().message)};
+    if (!island)
+      return Error{fmt::format("grid '{}': {}", sources[i].grid().name, island.error().message)};
     islands.push_back(std::move(*island));
   }
   return islands;

@@ -41,8 +41,8 @@ constexpr bool kAddressesAreScarce = !__has_feature(address_sanitizer);
 constexpr bool kAddressesAreScarce = true;
 #endif
 
-void limit(int what, rlim_t amount) {
-  const rlimit both{amount, amount};
+void limit(int what, rlim_t amount, rlim_t more = 0) {
+  const rlimit both{amount, amount + more};
   ::setrlimit(static_cast<__rlimit_resource>(what), &both);
 }
 
@@ -67,7 +67,8 @@ void confine(const Arguments& arguments) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, arguments.cpu_s);
+  // SIGXCPU comes first, so that SIGKILL is left to mean that the system ran out of memory.
+  limit(RLIMIT_CPU, arguments.cpu_s, 2);
   if (kAddressesAreScarce) limit(RLIMIT_AS, arguments.memory_bytes);
   ::signal(SIGXFSZ, SIG_IGN);  // a full answer is an error that can be told
   if (arguments.job == "read") limit(RLIMIT_FSIZE, arguments.answer_bytes);

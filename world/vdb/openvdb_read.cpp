@@ -9,7 +9,6 @@
 #include <cmath>
 #include <istream>
 #include <limits>
-#include <stdexcept>
 #include <streambuf>
 #include <string>
 #include <type_traits>
@@ -175,9 +174,9 @@ void check_metadata(const openvdb::GridBase& grid, const VolumeGrid& out) {
   using openvdb::GridBase;
   const auto voxels = grid.getMetadata<openvdb::Int64Metadata>(GridBase::META_FILE_VOXEL_COUNT);
   if (voxels && static_cast<std::uint64_t>(voxels->value()) != out.active_voxels) {
-    throw std::runtime_error(
-        fmt::format("grid '{}' is damaged: it states {} active voxels and "
-                    "holds {}",
+    throw Damaged(
+        fmt::format("grid '{}' is damaged: it states {} active voxels and holds {}; "
+                    "copy it again",
                     out.name, voxels->value(), out.active_voxels));
   }
   const auto low = grid.getMetadata<openvdb::Vec3IMetadata>(GridBase::META_FILE_BBOX_MIN);
@@ -195,6 +194,7 @@ void check_metadata(const openvdb::GridBase& grid, const VolumeGrid& out) {
 void describe(const openvdb::GridBase& grid, VolumeGrid& out) {
   out.name = printable(grid.getName());
   out.value_type = grid.valueType();
+  out.grid_class = openvdb::GridBase::gridClassToString(grid.getGridClass());
   out.active_voxels = grid.activeVoxelCount();
   out.active_tiles = grid.baseTree().activeTileCount();
   out.leaves = grid.baseTree().leafCount();

@@ -11,6 +11,9 @@
 namespace skerry::world {
 namespace {
 
+// Chunks that all bricks and tiles together may name, one of several counted for each: those of
+// sheared grids overlap, and a set that they name again and again takes time without growing.
+constexpr double kMaxNamedChunks = 1 << 23;
 constexpr int kLeastCube = 4;  // blocks; below, asking each block costs less than asking for bounds
 
 IVec3 clamped(glm::dvec3 v) {
@@ -69,10 +72,7 @@ class Sampler {
 
   /// Bounds of all values that blocks of the cube can see.
   VolumeField::Range values_in(IVec3 low, int edge) const {
-    const glm::dvec3 corner = origin_ + glm::dvec3{low.x, low.y, low.z};
-    const Bounds seen = image_of(placement_.index_from_lattice,
-                                 {corner + 0.5, corner + (static_cast<double>(edge) - 0.5)});
-    return field_.range(clamped(glm::floor(seen.low)), clamped(glm::ceil(seen.high)));
+    return values_in_cube(field_, placement_, origin_ + glm::dvec3{low.x, low.y, low.z}, edge);
   }
 
   void fill(IVec3 low, int edge) {
@@ -133,7 +133,11 @@ class ChunkCollector {
     const IVec3 last{chunk(box.high.x), chunk(box.high.y), chunk(box.high.z)};
     const double count =
         (last.x - first.x + 1.0) * (last.y - first.y + 1.0) * (last.z - first.z + 1.0);
-    if (count <= kMaxImportChunks) insert(first, last);
+    const bool again = first == last_first_ && last == last_last_ && !chunks_.empty();
+    if (count <= kMaxImportChunks && !again) insert(first, last);
+    named_ += again ? 0.0 : count;
+    if (named_ > kMaxNamedChunks)
+      return Error{"its bricks overlap too many chunks; give a smaller --scale or --size"};
     if (count > kMaxImportChunks || chunks_.size() > kMaxImportChunks) {
       return Error{
           fmt::format("it would fill more than {} chunks of 64^3 blocks; give a smaller "
@@ -147,7 +151,6 @@ class ChunkCollector {
 
  private:
   void insert(IVec3 first, IVec3 last) {
-    if (first == last_first_ && last == last_last_ && !chunks_.empty()) return;
     for (std::int32_t x = first.x; x <= last.x; ++x)
       for (std::int32_t y = first.y; y <= last.y; ++y)
         for (std::int32_t z = first.z; z <= last.z; ++z) chunks_.insert({x, y, z});
@@ -157,10 +160,18 @@ class ChunkCollector {
 
   const Placement& placement_;
   std::set<IVec3> chunks_;
+  double named_ = 0.0;
   IVec3 last_first_, last_last_;  // bricks come sorted: neighbours mostly ask for the same
 };
 
 }  // namespace
+
+VolumeField::Range values_in_cube(const VolumeField& field, const Placement& placement,
+                                  glm::dvec3 corner, int edge) {
+  const Bounds seen = image_of(placement.index_from_lattice,
+                               {corner + 0.5, corner + (static_cast<double>(edge) - 0.5)});
+  return field.range(clamped(glm::floor(seen.low)), clamped(glm::ceil(seen.high)));
+}
 
 Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,
                                   const Placement& placement) {

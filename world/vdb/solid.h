@@ -31,6 +31,11 @@ struct ChunkMask {
 /// A lattice's solid voxels by chunk; chunks that are not named are empty.
 using SolidMasks = std::map<IVec3, ChunkMask>;
 
+/// Bounds of all values that the blocks of a cube of the lattice can see.
+/// @param corner of its lowest voxel.
+VolumeField::Range values_in_cube(const VolumeField& field, const Placement& placement,
+                                  glm::dvec3 corner, int edge);
+
 /// Chunks into which a brick or tile with a solid value reaches.
 /// Errors: more than kMaxImportChunks, or further than kMaxImportReach.
 Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,

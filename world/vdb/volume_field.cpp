@@ -53,7 +53,8 @@ VolumeField::VolumeField(const VolumeGrid& grid) : grid_(grid), nodes_(kTopLevel
   for (const VolumeBrick& brick : grid.bricks) {
     bricks_.emplace(shifted(brick.origin, kBrickLog2), &brick);
     const auto [low, high] = std::minmax_element(brick.values.begin(), brick.values.end());
-    add(0, brick.origin, {*low, *high});
+    nodes_[0].emplace(shifted(brick.origin, kBrickLog2), Range{*low, *high});
+    widen_above(0, brick.origin, {*low, *high});
   }
   for (const VolumeTile& tile : grid.tiles) {
     const int log2 = std::countr_zero(static_cast<std::uint32_t>(tile.edge));
@@ -62,12 +63,12 @@ VolumeField::VolumeField(const VolumeGrid& grid) : grid_(grid), nodes_(kTopLevel
                               [level](const TileLevel& t) { return t.level == level; });
     if (found == tile_levels_.end()) found = tile_levels_.insert(tile_levels_.end(), {level, {}});
     found->values.emplace(shifted(tile.origin, log2), tile.value);
-    add(level, tile.origin, {tile.value, tile.value});
+    // Its own cube needs no node: where there is none, beside_bricks knows the value.
+    widen_above(level, tile.origin, {tile.value, tile.value});
   }
 }
 
-void VolumeField::add(int level, IVec3 origin, Range range) {
-  nodes_[level].emplace(shifted(origin, level + kBrickLog2), range);
+void VolumeField::widen_above(int level, IVec3 origin, Range range) {
   range.min = std::min(range.min, grid_.background);
   range.max = std::max(range.max, grid_.background);
   for (int up = level + 1; up <= kTopLevel; ++up) {
@@ -127,10 +128,11 @@ VolumeField::Range VolumeField::node(int level, IVec3 key) const {
 }
 
 VolumeField::Range VolumeField::range(IVec3 low, IVec3 high) const {
-  const std::int32_t extent =
-      std::max({high.x - low.x, high.y - low.y, high.z - low.z, std::int32_t{1}});
+  const auto side = [](std::int32_t from, std::int32_t to) { return std::int64_t{to} - from; };
+  const std::int64_t extent =
+      std::max({side(low.x, high.x), side(low.y, high.y), side(low.z, high.z), std::int64_t{1}});
   // The least cubes that are as long as the box: at most two a side then hold it.
-  const int log2 = static_cast<int>(std::bit_width(static_cast<std::uint32_t>(extent)));
+  const int log2 = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(extent)));
   const int level = std::clamp(log2 - kBrickLog2, 0, kTopLevel);
   const IVec3 first = shifted(low, level + kBrickLog2);
   const IVec3 last = shifted(high, level + kBrickLog2);

@@ -42,13 +42,13 @@ class VolumeField {
 
   const VolumeBrick* brick_at(IVec3 index) const;
   float beside_bricks(IVec3 index) const;
-  void add(int level, IVec3 origin, Range range);
+  void widen_above(int level, IVec3 origin, Range range);
   Range node(int level, IVec3 key) const;
 
   const VolumeGrid& grid_;
   Map<const VolumeBrick*> bricks_;      // by origin / 8
   std::vector<TileLevel> tile_levels_;  // one a tile size; keys are origin / edge
-  std::vector<Map<Range>> nodes_;       // [n]: cubes of edge 8 * 2^n that hold anything
+  std::vector<Map<Range>> nodes_;  // [n]: cubes of edge 8 * 2^n that hold parts of smaller ones
 };
 
 }  // namespace skerry::world

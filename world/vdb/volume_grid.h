@@ -28,6 +28,8 @@ struct VolumeTile {
   float value = 0.0f;
 };
 inline constexpr std::int32_t kMaxTileEdge = 4096;
+/// Most tiles of all grids of a file: looking one up takes some 70 bytes beside its own.
+inline constexpr std::size_t kMaxVolumeTiles = std::size_t{1} << 22;
 
 /// No index of a grid is further from 0: so far, differences fit 32 bits.
 inline constexpr std::int32_t kMaxVolumeIndex = 1 << 30;
@@ -55,6 +57,7 @@ struct VolumeBox {
 struct VolumeGrid {
   std::string name;        ///< unique in the file: grids of one name get [0], [1] ...
   std::string value_type;  ///< "float", "bool", "int32", "vec3s" ..., of OpenVDB
+  std::string grid_class;  ///< as the file states it: "level set", "fog volume", "unknown" ...
   VolumeKind kind = VolumeKind::kOther;
   std::string remark;                ///< kOther: why its values are not held, else empty
   glm::dmat4 world_from_index{1.0};  ///< affine, finite, invertible unless kOther

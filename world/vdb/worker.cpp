@@ -88,6 +88,27 @@ std::optional<int> wait_for(pid_t child, int input, std::uint64_t input_bytes, d
   return status;
 }
 
+/// What a child's end means. @param status none: it was killed after limits.wall_s.
+Result<void> outcome_of(std::optional<int> status, bool writes, const ReadLimits& limits) {
+  const char* const job = writes ? "writing" : "reading";
+  const char* const advice = writes ? "export less" : "the file is damaged or too large";
+  if (!status) return Error{fmt::format("{} took more than {} s; {}", job, limits.wall_s, advice)};
+  if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGXCPU)
+    return Error{
+        fmt::format("{} took more than {} s of processor time; {}", job, limits.cpu_s, advice)};
+  if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL)
+    return Error{fmt::format("the system ended {}, most likely for want of memory; {}", job,
+                             writes ? advice : "close other programs or make the file smaller")};
+  if (WIFSIGNALED(*status) && writes)
+    return Error{fmt::format("OpenVDB crashed (signal {}); {}", WTERMSIG(*status), advice)};
+  if (WIFSIGNALED(*status))
+    return Error{
+        fmt::format("the file is damaged: OpenVDB crashed on it (signal {})", WTERMSIG(*status))};
+  if (WEXITSTATUS(*status) == 0) return {};
+  return Error{writes ? "OpenVDB gave up without a word; check the space on the disk"
+                      : "the file is damaged: OpenVDB gave up on it without a word"};
+}
+
 }  // namespace
 
 Descriptor::~Descriptor() {
@@ -140,6 +161,10 @@ Result<std::span<const std::byte>> MemoryFile::seal() {
   return std::span(static_cast<const std::byte*>(mapped_), size_);
 }
 
+bool has_openvdb() {
+  return kHasOpenVdb;
+}
+
 std::filesystem::path worker_path() {
   std::error_code ignored;
   return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "skerry_openvdb";
@@ -160,20 +185,7 @@ Result<void> run_worker(const std::vector<std::string>& arguments, int input, in
   if (!child) return child.error();
   const std::optional<int> status =
       wait_for(*child, in->get(), input_bytes, limits.wall_s, progress);
-  if (!status)
-    return Error{fmt::format("reading took more than {} s; the file is damaged or too large",
-                             limits.wall_s)};
-  if (WIFSIGNALED(*status) && (WTERMSIG(*status) == SIGXCPU || WTERMSIG(*status) == SIGKILL))
-    return Error{
-        fmt::format("reading took more than {} s of processor time; the file is damaged "
-                    "or too large",
-                    limits.cpu_s)};
-  if (WIFSIGNALED(*status))
-    return Error{
-        fmt::format("the file is damaged: OpenVDB crashed on it (signal {})", WTERMSIG(*status))};
-  if (WEXITSTATUS(*status) != 0)
-    return Error{"the file is damaged: OpenVDB gave up on it without a word"};
-  return {};
+  return outcome_of(status, arguments.front() == "write", limits);
 }
 
 }  // namespace skerry::world

@@ -47,6 +47,9 @@ class MemoryFile {
   std::size_t size_ = 0;
 };
 
+/// Whether this build has an OpenVDB process.
+bool has_openvdb();
+
 /// Where the OpenVDB process's program should be: beside the running executable.
 std::filesystem::path worker_path();
 

@@ -26,6 +26,7 @@ VolumeGrid sample() {
   VolumeGrid grid = random_volume(1, 20, 3);
   grid.name = "density";
   grid.value_type = "float";
+  grid.grid_class = "fog volume";
   grid.active_voxels = 5;
   grid.active_box = {{-8, -8, -8}, {7, 7, 7}};
   return grid;
@@ -47,6 +48,7 @@ TEST(VdbAnswer, GivesBackWhatWasEncoded) {
   const VolumeGrid& one = (*back)[1];
   EXPECT_EQ(one.world_from_index, grid.world_from_index);
   EXPECT_EQ(one.active_voxels, 5u);
+  EXPECT_EQ(one.grid_class, "fog volume");
   ASSERT_EQ(one.bricks.size(), grid.bricks.size());
   ASSERT_EQ(one.tiles.size(), grid.tiles.size());
   for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
@@ -100,12 +102,59 @@ TEST(VdbAnswer, RefusesWhatItsPromisesForbid) {
   EXPECT_NE(spoiled([](VolumeGrid& g) { g.tiles = {{{-128, -128, -128}, 128, 1.0f}}; }), "");
   EXPECT_NE(spoiled([](VolumeGrid& g) { g.world_from_index[1] = g.world_from_index[0]; }), "");
   EXPECT_NE(spoiled([](VolumeGrid& g) { g.world_from_index[1] *= 0.0; }), "");
+  EXPECT_EQ(spoiled([](VolumeGrid& g) { g.world_from_index[1] = {0.99, 0.01, 0.0, 0.0}; }), "");
+  EXPECT_NE(spoiled([](VolumeGrid& g) { g.world_from_index[1] = {1.0, 5e-4, 0.0, 0.0}; }), "");
   EXPECT_NE(spoiled([](VolumeGrid& g) { g.world_from_index[3][0] = 1e300; }), "");
   EXPECT_NE(spoiled([](VolumeGrid& g) { g.world_from_index[0][3] = 1.0; }), "");
   EXPECT_NE(spoiled([&](VolumeGrid& g) { g.world_from_index[2][2] = std::nan(""); }), "");
   EXPECT_NE(spoiled([](VolumeGrid& g) { g.kind = VolumeKind::kOther; }), "");
   EXPECT_NE(spoiled([](VolumeGrid& g) { g.kind = static_cast<VolumeKind>(77); }), "");
   EXPECT_NE(spoiled([](VolumeGrid& g) { g.active_box.max.x = -9; }), "");
+}
+
+TEST(VdbAnswer, RefusesColoursOutOfRange) {
+  VolumeGrid grid = sample();
+  grid.kind = VolumeKind::kColor;
+  grid.tiles.clear();
+  for (VolumeBrick& brick : grid.bricks) brick.values.fill(16777215.0f);
+  EXPECT_EQ(refusal_of(grid), "");
+  for (const float value : {-1.0f, 16777216.0f, 1e30f}) {
+    grid.bricks[0].values[7] = value;
+    EXPECT_NE(refusal_of(grid), "") << value;
+  }
+  grid.bricks[0].values[7] = 0.0f;
+  grid.tiles = {{{256, 0, 0}, 16, -3.0f}};
+  EXPECT_NE(refusal_of(grid), "");
+  grid.tiles.clear();
+  grid.background = 1e30f;
+  EXPECT_NE(refusal_of(grid), "");
+}
+
+TEST(VdbAnswer, FindsBricksAndTilesThatLieInTiles) {
+  VolumeGrid grid = sample();
+  grid.bricks.resize(1);
+  grid.bricks[0].origin = {64, 8, 0};
+  const auto with_tile = [&grid](IVec3 origin, std::int32_t edge) {
+    grid.tiles = {{{0, 0, 0}, 16, 1.0f}, {origin, edge, 1.0f}};
+    return refusal_of(grid);
+  };
+  EXPECT_EQ(with_tile({64, 0, 0}, 8), "");
+  EXPECT_NE(with_tile({64, 8, 0}, 8), "");
+  EXPECT_NE(with_tile({64, 0, 0}, 64), "");
+  EXPECT_NE(with_tile({8, 8, 8}, 8), "");
+}
+
+TEST(VdbAnswer, RefusesMoreTilesThanItCanLookUp) {
+  VolumeGrid grid;
+  grid.kind = VolumeKind::kFog;
+  const auto with_tiles = [&grid](std::size_t count) {
+    grid.tiles.clear();
+    for (std::size_t i = 0; i < count; ++i)
+      grid.tiles.push_back({{static_cast<std::int32_t>(i) * 8, 0, 0}, 8, 1.0f});
+    return refusal_of(grid);
+  };
+  EXPECT_EQ(with_tiles(kMaxVolumeTiles), "");
+  EXPECT_NE(with_tiles(kMaxVolumeTiles + 1).find("tiles"), std::string::npos);
 }
 
 TEST(VdbAnswer, BelievesNoCount) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "tests/world/vdb/sample_files.h"
+#include "tests/world/vdb/volumes.h"
 #include "world/hash.h"
 #include "world/mesh/mesh.h"
 #include "world/stored_voxels.h"
@@ -190,6 +191,56 @@ TEST(VdbExport, ImportsBackToTheSameBlocksOfASeedsIslands) {
     EXPECT_GT(blocks.size(), 10'000u);
     EXPECT_TRUE(equal(islands->front(), *world.island(spawn.island), blocks)) << seed;
   }
+}
+
+TEST(VdbExport, TellsVolumesApartByTheirValuesAlone) {
+  VolumeGrid whole;
+  whole.tiles = {{{-64, 0, 64}, 64, 3.0f}};
+  VolumeGrid parts;
+  for (int x = 0; x < 64; x += 16)
+    for (int y = 0; y < 64; y += 16)
+      for (int z = 0; z < 64; z += 16) parts.tiles.push_back({{x - 64, y, z + 64}, 16, 3.0f});
+  EXPECT_EQ(content_hash(whole), content_hash(parts));
+  parts.tiles[5].value = 4.0f;
+  EXPECT_NE(content_hash(whole), content_hash(parts));
+  VolumeGrid moved = whole;
+  moved.tiles[0].origin.y = 64;
+  EXPECT_NE(content_hash(whole), content_hash(moved));
+  const VolumeGrid bricks = filled_volume(VolumeKind::kIds, {0, 0, 0}, {20, 9, 9}, 0.0f,
+                                          [](IVec3 at) { return static_cast<float>(at.x); });
+  VolumeGrid changed = bricks;
+  std::swap(changed.bricks[0].values[0], changed.bricks[0].values[100]);
+  EXPECT_NE(content_hash(bricks), content_hash(changed));
+}
+
+TEST(VdbExport, TakesWholeChunksOfATurnedIslandThatABoxCuts) {
+  std::map<IVec3, Chunk> chunks;
+  for (int x = -2; x < 2; ++x)
+    for (int y = -1; y < 1; ++y)
+      for (int z = -2; z < 2; ++z) chunks.insert_or_assign({x, y, z}, Chunk(block::kStone));
+  World world(RandomWorld::desc());
+  IslandSpec spec;
+  spec.id = 1;
+  spec.yaw_rad = 0.6;
+  const auto voxels = std::make_shared<const StoredVoxels>(std::move(chunks));
+  world.add_island(fitted(spec, *voxels), voxels);
+  const BlockBox box{{-150, -100, -110}, {90, 60, 110}};
+  const auto grids = volumes_of(world, box);
+  ASSERT_TRUE(grids) << grids.error().message;
+  const std::map<std::uint64_t, Blocks> expected = blocks_in(world, box);
+  EXPECT_EQ(grids->front().active_voxels, expected.at(1).size());
+  // Those wholly inside are tiles still.
+  EXPECT_GE(std::count_if(grids->front().tiles.begin(), grids->front().tiles.end(),
+                          [](const VolumeTile& tile) { return tile.edge == kChunkEdge; }),
+            1);
+}
+
+TEST(VdbExport, RefusesABoxThatNobodyCouldSearchInASeedsWorld) {
+  World world(WorldDesc{.seed = 1});
+  constexpr std::int64_t kFar = kMaxBlock;
+  const auto grids = volumes_of(world, {{-kFar, -100, -kFar}, {kFar, 100, kFar}});
+  ASSERT_FALSE(grids);
+  EXPECT_NE(grids.error().message.find("--box"), std::string::npos);
 }
 
 TEST(VdbExport, IsReadByTheToolsOfOthers) {

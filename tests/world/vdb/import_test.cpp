@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -261,6 +262,39 @@ TEST(VdbImport, RefusesAMillionMillionVoxelsAndTakesThemSmaller) {
   }
   EXPECT_NEAR(static_cast<double>(solid), std::pow(512.0, 3.0), 8e5);
   EXPECT_GE(uniform, 6u * 6u * 6u);
+}
+
+TEST(VdbImport, MakesUniformChunksOfBlockIdsOfATile) {
+  VolumeGrid grid;
+  grid.kind = VolumeKind::kIds;
+  // One by one, these 1.2e9 blocks would take minutes.
+  grid.tiles = {{{0, 0, 0}, 1024, 7.0f}, {{1024, 0, 0}, 512, 1000.0f}};
+  const std::clock_t start = std::clock();  // of this process, however busy the machine is
+  const std::vector<ImportedIsland> islands = imported({grid});
+  ASSERT_EQ(islands.size(), 1u);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 20.0);
+  EXPECT_EQ(islands[0].blocks, (std::uint64_t{1} << 30) + (1 << 27));
+  EXPECT_EQ(islands[0].unknown_ids, 1u << 27);
+  const VolumeField field(grid);
+  for (int x = islands[0].spec.box_min.x - 2; x < islands[0].spec.box_max.x + 2; ++x) {
+    const IVec3 voxel{x, -200, -200};
+    const float id = field.nearest(centre_in_world(islands[0], voxel));
+    const BlockId expected = id == 1000.0f ? BlockId{block::kStone} : static_cast<BlockId>(id);
+    ASSERT_EQ(block_of(islands[0], voxel), expected) << x;
+  }
+}
+
+TEST(VdbImport, RefusesSlantedGridsThatNameTheSameChunksAgainAndAgain) {
+  VolumeGrid grid;
+  grid.kind = VolumeKind::kFog;
+  // A slant of 1 in 300: the box around a brick's image is 300 times as long as the brick.
+  grid.world_from_index = {
+      {1.0, 0.0, 0.0, 0.0}, {300.0, 1.0, 0.0, 0.0}, {0.0, 300.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
+  for (int x = 0; x < 72; ++x)
+    for (int y = 0; y < 72; ++y)
+      for (int z = 0; z < 72; ++z) grid.tiles.push_back({{x * 8, y * 8, z * 8}, 8, 1.0f});
+  grid.mean_value = grid.max_value = 1.0f;
+  EXPECT_NE(refusal_of({grid}, {.scale = 0.1}).find("overlap"), std::string::npos);
 }
 
 TEST(VdbImport, MakesAnIslandOfEachGridWhereItsTransformPutsIt) {

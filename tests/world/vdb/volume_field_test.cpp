@@ -96,5 +96,16 @@ TEST(VolumeField, BoundsAreTightInsideATileAndFarFromAll) {
   EXPECT_EQ(outside.max, 2.0f);
 }
 
+TEST(VolumeField, BoundsReachFromEndToEndOfIndexSpace) {
+  VolumeGrid grid;
+  grid.background = 2.0f;
+  grid.tiles = {{{4096, 0, 0}, 4096, -1.0f}};
+  const VolumeField::Range all =
+      VolumeField(grid).range({-kMaxVolumeIndex, -kMaxVolumeIndex, -kMaxVolumeIndex},
+                              {kMaxVolumeIndex, kMaxVolumeIndex, kMaxVolumeIndex});
+  EXPECT_EQ(all.min, -1.0f);
+  EXPECT_EQ(all.max, 2.0f);
+}
+
 }  // namespace
 }  // namespace skerry::world
