@@ -145,20 +145,43 @@ render::CloudRole cloud_role(std::string_view grid_name) {
   return render::CloudRole::kDensity;
 }
 
+std::vector<std::size_t> drawn_grids(std::span<const std::string> names) {
+  const auto named_density = [](const std::string& name) {
+    return lower_case(name).find("density") != std::string::npos;
+  };
+  const bool told = std::any_of(names.begin(), names.end(), named_density);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!told || named_density(names[i]) || cloud_role(names[i]) == render::CloudRole::kEmission)
+      out.push_back(i);
+  return out;
+}
+
 Result<LoadedClouds> load_clouds(std::span<const CloudFile> files) {
   LoadedClouds out;
   for (const CloudFile& file : files) {
     Result<std::vector<world::VolumeGrid>> grids = world::read_volumes(file.path);
     if (!grids) return grids.error();
     out.grids.push_back(std::make_unique<std::vector<world::VolumeGrid>>(*std::move(grids)));
-    const std::size_t before = out.volumes.size();
-    for (const world::VolumeGrid& grid : *out.grids.back())
-      if (grid.kind == world::VolumeKind::kFog) out.volumes.push_back(volume_of(grid, file));
-    if (out.volumes.size() == before)
+    std::vector<const world::VolumeGrid*> fog;
+    std::vector<std::string> names;
+    for (const world::VolumeGrid& grid : *out.grids.back()) {
+      if (grid.kind != world::VolumeKind::kFog) continue;
+      fog.push_back(&grid);
+      names.push_back(grid.name);
+    }
+    if (fog.empty())
       return Error{
           fmt::format("cannot draw {} as a cloud: it holds no fog volume; open solid "
                       "volumes with --world",
                       quote_text(file.path))};
+    const std::vector<std::size_t> drawn = drawn_grids(names);
+    for (const std::size_t i : drawn) out.volumes.push_back(volume_of(*fog[i], file));
+    if (drawn.size() == fog.size()) continue;
+    out.remarks.push_back(
+        fmt::format("{} of the {} fog grids of {} are not drawn: it has density, and they are "
+                    "neither density nor heat",
+                    fog.size() - drawn.size(), fog.size(), quote_text(file.path)));
   }
   return out;
 }

@@ -40,10 +40,14 @@ void find_beside(const std::string& scene_file, std::vector<CloudFile>& clouds);
 struct LoadedClouds {
   std::vector<std::unique_ptr<std::vector<world::VolumeGrid>>> grids;
   std::vector<render::CloudVolumeDesc> volumes;
+  std::vector<std::string> remarks;  ///< a line for each file of which grids are left out
 };
 
 /// What a fog grid of this name is: heat glows, everything else is density.
 render::CloudRole cloud_role(std::string_view grid_name);
+/// Which of a file's fog grids are drawn, in their order: all, but where any is named for density,
+/// those and the ones that glow alone. Fuel, pressure and the like are no density.
+std::vector<std::size_t> drawn_grids(std::span<const std::string> names);
 
 /// Reads the fog grids of all files. Errors, naming the file: it cannot be read; it holds no fog.
 Result<LoadedClouds> load_clouds(std::span<const CloudFile> files);

@@ -1,7 +1,10 @@
 #include "game/scene_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "engine/core/check.h"
 #include "engine/core/clock.h"
@@ -122,6 +125,7 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
   if (!options.clouds.empty()) {
     const Result<LoadedClouds> clouds = load_clouds(options.clouds);
     if (!clouds) return clouds.error();
+    for (const std::string& line : clouds->remarks) fmt::print(stderr, "skerry: {}\n", line);
     if (Result<void> ok = view->renderer_->set_clouds(
             clouds->volumes,
             static_cast<render::CloudPrecision>(options.settings.clouds.precision));

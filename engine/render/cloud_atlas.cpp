@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -26,6 +27,12 @@ constexpr std::uint64_t kMostBrickBytes = std::uint64_t{1} << 30;
 /// A brick's place has eight bits an axis.
 constexpr std::uint32_t kMostBricksAnEdge = 255;
 constexpr int kCellStep = 1 << (shared::kCloudCellLevels - 1);
+/// Densities beyond count as this. So one value that is absurd takes no digits from all others.
+constexpr float kMostDensity = 1e4f;
+
+float most_value(CloudRole role) {
+  return role == CloudRole::kDensity ? kMostDensity : std::numeric_limits<float>::max();
+}
 
 int floor_cell(int index) {
   return index >> 3;
@@ -56,6 +63,7 @@ class Cells {
            static_cast<std::size_t>(cell.x);
   }
   glm::ivec3 low_{0}, count_{0}, size_{0};
+  float most_value_ = 0.0f;
   std::vector<Source> sources_;  // one layer more than count_ each way
 };
 
@@ -65,6 +73,7 @@ bool any_above_zero(const CloudBrick& brick) {
 
 Result<Cells> Cells::of(const CloudVolumeDesc& desc) {
   Cells out;
+  out.most_value_ = most_value(desc.role);
   glm::ivec3 low(1 << 28), end(-(1 << 28));
   const auto take = [&](glm::ivec3 first, int edge) {
     low = glm::min(low, glm::ivec3(floor_cell(first.x), floor_cell(first.y), floor_cell(first.z)));
@@ -97,7 +106,8 @@ Result<Cells> Cells::of(const CloudVolumeDesc& desc) {
     const glm::ivec3 first = tile.origin / kEdge - out.low_, last = first + tile.edge / kEdge;
     for (int z = first.z; z < last.z; ++z)
       for (int y = first.y; y < last.y; ++y)
-        for (int x = first.x; x < last.x; ++x) out.sources_[out.slot({x, y, z})].value = tile.value;
+        for (int x = first.x; x < last.x; ++x)
+          out.sources_[out.slot({x, y, z})].value = std::min(tile.value, out.most_value_);
   }
   return out;
 }
@@ -120,7 +130,7 @@ bool Cells::fill(glm::ivec3 cell, std::array<float, kBrickSize>& out,
         const glm::ivec3 beyond(x / kEdge, y / kEdge, z / kEdge);
         const Source& s = sources_[slot(cell + beyond)];
         const int index = z % kEdge + 8 * (y % kEdge) + 64 * (x % kEdge);
-        const float v = s.values ? std::max(s.values[index], 0.0f) : s.value;
+        const float v = s.values ? std::clamp(s.values[index], 0.0f, most_value_) : s.value;
         out[static_cast<std::size_t>(x + kTexels * (y + kTexels * z))] = v;
         most = std::max(most, v);
       }
@@ -205,7 +215,7 @@ void find_support(const CloudVolumeDesc& desc, PackedVolume& out) {
     high = glm::max(high, tile.origin + (tile.edge - 1));
     most = std::max(most, tile.value);
   }
-  out.value_range = most;
+  out.value_range = std::min(most, most_value(desc.role));
   out.low = low - 1;
   out.high = high + 1;
 }
@@ -302,11 +312,6 @@ std::vector<std::byte> cell_image(const CloudAtlas& atlas, glm::uvec3 columns,
 
 Result<CloudAtlas> pack_clouds(std::span<const CloudVolumeDesc> volumes, CloudPrecision precision,
                                std::uint32_t most_texels) {
-  if (volumes.size() > shared::kMaxCloudVolumes)
-    return Error{
-        fmt::format("there are {} clouds of files: at most {} can be drawn, one for each "
-                    "grid; leave some out",
-                    volumes.size(), shared::kMaxCloudVolumes)};
   CloudAtlas out;
   Bricks bricks(precision);
   const std::uint64_t edge =
@@ -315,10 +320,17 @@ Result<CloudAtlas> pack_clouds(std::span<const CloudVolumeDesc> volumes, CloudPr
       std::min(edge * edge * edge, kMostBrickBytes / (kBrickSize * bricks.texel_bytes()));
   std::vector<std::vector<CellTexel>> texels;
   glm::ivec3 cells(0);
+  std::uint32_t drawn = 0;
   for (const CloudVolumeDesc& desc : volumes) {
     PackedVolume& packed = out.volumes.emplace_back();
     if (Result<void> ok = pack_one(desc, bricks, most_bricks, packed, texels.emplace_back()); !ok)
       return ok.error();
+    if (packed.value_range == 0.0f) continue;
+    if (++drawn > shared::kMaxCloudVolumes)
+      return Error{
+          fmt::format("there are more than {} grids in the clouds' files: no more can be drawn; "
+                      "leave some files out",
+                      shared::kMaxCloudVolumes)};
     packed.first_cell = {0, 0, cells.z};
     cells = {std::max(cells.x, packed.cell_count.x), std::max(cells.y, packed.cell_count.y),
              cells.z + packed.cell_count.z};
@@ -331,6 +343,13 @@ Result<CloudAtlas> pack_clouds(std::span<const CloudVolumeDesc> volumes, CloudPr
         fmt::format("the clouds are too large to be drawn: {} cells of 8 x 8 x 8 voxels "
                     "along an edge, this device takes {}; crop or resample the grids",
                     most, most_texels)};
+  // Volumes lie one behind the other in one image, which is as wide and high as the largest is.
+  const std::int64_t together = std::int64_t{cells.x} * cells.y * cells.z;
+  if (together > kMostCells)
+    return Error{
+        fmt::format("the clouds are too large to be drawn: their boxes take {} cells of 8 x 8 x 8 "
+                    "voxels together, and may take {}; crop the grids or use fewer files",
+                    together, kMostCells)};
   const auto side = static_cast<std::uint32_t>(std::ceil(std::cbrt(bricks.count())));
   glm::uvec3 columns(side, side, (bricks.count() + side * side - 1) / (side * side));
   out.brick_count = bricks.count();

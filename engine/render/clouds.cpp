@@ -81,7 +81,7 @@ shared::CloudVolume volume_of(const CloudVolumeDesc& desc, const PackedVolume& p
   out.low = packed.low;
   out.high = packed.high;
   if (desc.role == CloudRole::kDensity)
-    out.extinction = std::min(packed.value_range * settings.file_density, 1e6f);
+    out.extinction = packed.value_range * settings.file_density;
   else
     out.emission = kFlame * settings.file_emission;
   const glm::dvec3 extent(packed.high - packed.low);
@@ -98,6 +98,21 @@ shared::CloudVolume volume_of(const CloudVolumeDesc& desc, const PackedVolume& p
     out.light_first[body] =
         static_cast<float>((slot * shared::kBodyCount + body) * shared::kVolumeLightEdge);
   return out;
+}
+
+/// Of the bricks' image. Errors: the device cannot filter it.
+Result<VkFormat> brick_format(gpu::Device& device, CloudPrecision precision) {
+  const VkFormat format = precision == CloudPrecision::k8    ? VK_FORMAT_R8_UNORM
+                          : precision == CloudPrecision::k16 ? VK_FORMAT_R16_SFLOAT
+                                                             : VK_FORMAT_R32_SFLOAT;
+  VkFormatProperties properties{};
+  vkGetPhysicalDeviceFormatProperties(device.physical(), format, &properties);
+  if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT))
+    return Error{
+        fmt::format("this device cannot blend between clouds' values of {} bits: use "
+                    "clouds.precision=8 or 16",
+                    static_cast<int>(precision))};
+  return format;
 }
 
 }  // namespace
@@ -124,47 +139,51 @@ Result<void> Clouds::set_volumes(gpu::Uploader& uploader, std::span<const CloudV
                                  CloudPrecision precision) {
   Result<CloudAtlas> atlas = pack_clouds(volumes, precision, device_.limits().max_volume_edge);
   if (!atlas) return atlas.error();
-  volumes_.clear();
-  packed_.clear();
-  lit_ = {};
-  bricks_ = {};
-  cells_ = {};
-  volume_light_ = {};
-  brick_count_ = atlas->brick_count;
+  std::vector<CloudVolumeDesc> kept;
+  std::vector<PackedVolume> packed;
   for (std::size_t v = 0; v < volumes.size(); ++v) {
     if (atlas->volumes[v].value_range == 0.0f) continue;  // there is nothing in it
-    volumes_.push_back({volumes[v].origin, volumes[v].blocks_from_index, volumes[v].role, {}, {}});
-    packed_.push_back(atlas->volumes[v]);
+    kept.push_back({volumes[v].origin, volumes[v].blocks_from_index, volumes[v].role, {}, {}});
+    packed.push_back(atlas->volumes[v]);
   }
-  if (volumes_.empty()) return {};
-  const VkFormat format = precision == CloudPrecision::k8    ? VK_FORMAT_R8_UNORM
-                          : precision == CloudPrecision::k16 ? VK_FORMAT_R16_SFLOAT
-                                                             : VK_FORMAT_R32_SFLOAT;
-  VkFormatProperties properties{};
-  vkGetPhysicalDeviceFormatProperties(device_.physical(), format, &properties);
-  if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT))
-    return Error{
-        fmt::format("this device cannot blend between clouds' values of {} bits: use "
-                    "clouds.precision=8 or 16",
-                    static_cast<int>(precision))};
-  const auto filled = [&](gpu::Image& image, const char* name, VkFormat of, glm::uvec3 size,
-                          std::uint32_t mips, std::span<const std::byte> texels) -> Result<void> {
-    Result<gpu::Image> made = device_.create_image({.name = name,
-                                                    .format = of,
-                                                    .extent = {size.x, size.y},
-                                                    .mips = mips,
-                                                    .usage = kFilled,
-                                                    .depth = size.z});
-    if (!made) return made.error();
-    image = *std::move(made);
-    return uploader.fill_image(image, texels);
-  };
-  if (Result<void> ok =
-          filled(bricks_, "cloud bricks", format, atlas->brick_texels, 1, atlas->bricks);
-      !ok)
-    return ok;
-  return filled(cells_, "cloud cells", VK_FORMAT_R8G8B8A8_UNORM, atlas->cells,
-                shared::kCloudCellLevels, atlas->cell_texels);
+  gpu::Image bricks, cells;
+  if (!kept.empty()) {
+    const Result<VkFormat> format = brick_format(device_, precision);
+    if (!format) return format.error();
+    const auto filled = [&](gpu::Image& image, const char* name, VkFormat of, glm::uvec3 size,
+                            std::uint32_t mips, std::span<const std::byte> texels) -> Result<void> {
+      Result<gpu::Image> made = device_.create_image({.name = name,
+                                                      .format = of,
+                                                      .extent = {size.x, size.y},
+                                                      .mips = mips,
+                                                      .usage = kFilled,
+                                                      .depth = size.z});
+      if (!made) return made.error();
+      image = *std::move(made);
+      return uploader.fill_image(image, texels);
+    };
+    if (Result<void> ok =
+            filled(bricks, "cloud bricks", *format, atlas->brick_texels, 1, atlas->bricks);
+        !ok)
+      return ok;
+    if (Result<void> ok = filled(cells, "cloud cells", VK_FORMAT_R8G8B8A8_UNORM, atlas->cells,
+                                 shared::kCloudCellLevels, atlas->cell_texels);
+        !ok)
+      return ok;
+  }
+  volumes_ = std::move(kept);
+  packed_ = std::move(packed);
+  bricks_ = std::move(bricks);
+  cells_ = std::move(cells);
+  brick_count_ = atlas->brick_count;
+  volume_light_ = {};
+  lit_ = {};
+  return {};
+}
+
+void Clouds::forget() {
+  noise_baked_ = false;
+  lit_ = {};
 }
 
 std::uint64_t Clouds::atlas_bytes() const {

@@ -22,8 +22,9 @@ class Clouds {
  public:
   explicit Clouds(gpu::Device& device) : device_(device) {}
 
-  /// Takes the place of all volumes so far. @param volumes what they point to is not kept.
-  /// Errors: those of pack_clouds; out of memory; the device cannot filter this precision.
+  /// Takes the place of all volumes so far, which stay as they are if it fails.
+  /// @param volumes what they point to is not kept. Errors: those of pack_clouds; out of memory;
+  /// the device cannot filter this precision.
   Result<void> set_volumes(gpu::Uploader& uploader, std::span<const CloudVolumeDesc> volumes,
                            CloudPrecision precision);
   bool has_volumes() const { return bricks_.operator bool(); }
@@ -38,6 +39,8 @@ class Clouds {
   /// Adds the passes that find out how much light of the frame's bodies comes through.
   /// @pre prepare()
   CloudRefs add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene);
+  /// What add_light() has added was not executed: images that are kept are to be filled again.
+  void forget();
 
  private:
   Result<void> make_layer(const CloudSettings& settings);

@@ -746,6 +746,7 @@ Result<std::uint64_t> Renderer::draw(
   if (const std::optional<Error> failure = s.graph.allocation_failure()) {
     s.ring.submit();
     s.shadows.forget();
+    s.clouds.forget();
     return *failure;
   }
   s.graph.execute(frame.commands, frame.slot);

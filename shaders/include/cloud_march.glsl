@@ -11,7 +11,8 @@ struct Clouded {
   float clear;  // share of what is behind them that is left
 };
 
-const float kClearEnough = 5e-4;    // what is left of the view when a march may end
+const float kClearEnough = 1e-7;  // what is left of the view when a march ends: so little of the sun's disc is not seen
+const float kLitEnough = 5e-4;    // what is left of the view when clouds' own light adds nothing more
 const float kFinerSteps = 4.0;    // steps within clouds to one in the open
 const float kNearestToFog = 0.3;  // of a light: nearer it makes fog no brighter [blocks]
 const float kLayerStepGrowth = 100.0;  // blocks: the layer's steps are even up to here, then grow with the distance
@@ -80,7 +81,10 @@ vec3 source_at(vec3 p, vec4 sun_phases, vec4 moon_phases, float air, vec3 sky) {
 // the cloud, taken for as dense as here. Light falls off so fast that it is integrated along the stretch, not looked at in its middle.
 vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float extinction) {
   float middle = t + 0.5 * length_blocks;
-  Cluster list = lights_at(pixel, middle * dot(dir, frame.ray_forward));
+  float z = middle * dot(dir, frame.ray_forward);
+  Cluster list = lights_at(pixel, z);
+  // In other slices no light reaches anything, and nobody has written the clusters that show no surface.
+  if (!kOracle && ((grid.marked_slices >> slice_at(z)) & 1u) == 0u) list.count = 0u;
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < list.count; ++i) {
     Light light = lights[light_index(list, i)];
@@ -89,8 +93,9 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
     float nearest = clamp(along, t, t + length_blocks);
     vec3 way = placed ? light.position - dir * nearest : -light.axis;
     float aside = max(length(light.position - dir * along), max(light.size, kNearestToFog));
-    // The mean of 1 / d^2 along the stretch.
-    float mean = (atan((t + length_blocks - along) / aside) - atan((t - along) / aside)) / (aside * length_blocks);
+    // The mean of 1 / d^2 along the stretch: the angle that it spans, seen from the light, over its length.
+    float angle = atan(length_blocks * aside, aside * aside + (t + length_blocks - along) * (t - along));
+    float mean = angle / (aside * length_blocks);
     float distance = max(length(way), 1e-6);
     vec3 to_light = way / distance;
     if (!placed) mean = 1.0;
@@ -102,7 +107,20 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
 }
 #endif
 
-// @param dir unit; @param begin, end blocks along it; @param jitter 0..1: how much of the first step is taken.
+// Where the clusters of a place on a ray end, if lights reach any as far away.
+float lights_change_at(vec3 dir, float t) {
+#ifdef SKERRY_LIGHTS
+  float forward = dot(dir, frame.ray_forward);
+  uint slice = slice_at(t * forward);
+  // What rounding leaves of a slice is not worth a step.
+  if (slice_begin(slice + 1u) <= t * forward * 1.00001) ++slice;
+  return ((grid.marked_slices >> slice) & 1u) != 0u && slice + 1u < kClusterSlices ? slice_begin(slice + 1u) / forward : 1e30;
+#else
+  return 1e30;
+#endif
+}
+
+// @param dir unit; @param begin, end blocks along it; @param jitter over 0, up to 1: how much of the first step is taken.
 Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter) {
   vec2 in_layer = kCloudLayer ? layer_range(dir, begin, end) : vec2(1.0, 0.0);
   float growth = pow((kLayerStepGrowth + in_layer.y) / (kLayerStepGrowth + in_layer.x), 1.0 / clouds.steps) - 1.0;
@@ -120,30 +138,39 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
   vec4 sun_phases = term_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = term_phases(dot(dir, clouds.lights[1].to_light));
   vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir) : vec3(0.0);
   uint most = uint(kFinerSteps + 1.0) * (uint(clouds.steps) + 2u) * (kCloudVolumes + 1u);
+#ifdef SKERRY_LIGHTS
+  most += 2u * kClusterSlices;
+#endif
   float fine = 0.0;  // steps that are still taken finely
   for (uint i = 0u; i < most && t < stop && seen.clear > kClearEnough; ++i) {
-    float step_end = stop;
-    bool inside = false;
-    if (kCloudLayer && t < in_layer.y) {
-      inside = t >= in_layer.x;
-      step_end = inside ? min(in_layer.y, t + (kLayerStepGrowth + t) * growth) : in_layer.x;
+    float whole = 1e30;  // step: the shortest of what is here
+    float change = stop, begins = stop;  // where something here ends or anything begins; where anything begins
+    bool in_here = kCloudLayer && t >= in_layer.x && t < in_layer.y;
+    if (in_here) {
+      whole = (kLayerStepGrowth + t) * growth;
+      change = min(change, in_layer.y);
+    } else if (kCloudLayer && t < in_layer.x && in_layer.x < in_layer.y) {
+      begins = min(begins, in_layer.x);
     }
     for (uint v = 0u; v < kCloudVolumes; ++v) {
       if (t >= in_volume[v].y || in_volume[v].y <= in_volume[v].x) continue;
       bool here = t >= in_volume[v].x;
-      inside = inside || here;
-      step_end = min(step_end, here ? min(in_volume[v].y, t + clouds.volumes[v].step_blocks) : in_volume[v].x);
+      whole = here ? min(whole, clouds.volumes[v].step_blocks) : whole;
+      change = here ? min(change, in_volume[v].y) : change;
+      begins = here ? begins : min(begins, in_volume[v].x);
     }
-    // The step is not lost in the distance's last digits.
-    step_end = max(step_end, t * 1.000001);
-    if (!inside) {
-      t = step_end;
+    change = min(change, begins);
+    if (whole == 1e30) {
+      t = max(change, t * 1.000001);
       continue;
     }
-    float length_blocks = (step_end - t) * jitter * (fine > 0.0 ? 1.0 / kFinerSteps : 1.0);
+    change = min(change, lights_change_at(dir, t));
+    // The step is not lost in the distance's last digits.
+    float least = max(t * 1e-6, 1e-4);
+    float length_blocks = max(min(whole * jitter * (fine > 0.0 ? 1.0 / kFinerSteps : 1.0), change - t), least);
     vec3 p = dir * (t + 0.5 * length_blocks);
     Medium m = Medium(0.0, vec3(0.0), 1e30);
-    if (kCloudLayer && t >= in_layer.x && t < in_layer.y) {
+    if (in_here) {
       m.extinction = layer_extinction(p, clouds.layer);
       m.empty = 0.0;
     }
@@ -160,23 +187,31 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
     if (m.extinction > 0.0 || m.emitted != vec3(0.0)) {
       float opacity = opacity_of(depth);
       // In a dense step what is seen is what lies in front.
-      vec3 place = dir * (t + min(0.5 * length_blocks, 1.0 / max(m.extinction, 1e-6)));
+      float free_path = 1.0 / max(m.extinction, 1e-6);
+      vec3 place = dir * (t + min(0.5 * length_blocks, free_path));
       float air = clear_air(place);
-      vec3 source = source_at(place, sun_phases, moon_phases, air, sky) * opacity;
+      vec3 source = m.emitted * (air * (depth > 1e-4 ? opacity / m.extinction : length_blocks));
+      if (seen.clear > kLitEnough) {
+        source += source_at(place, sun_phases, moon_phases, air, sky) * opacity;
 #ifdef SKERRY_LIGHTS
-      source += lit_by_lights(pixel, dir, t, length_blocks, m.extinction) * (opacity * air);
+        source += lit_by_lights(pixel, dir, t, min(length_blocks, free_path), m.extinction) * (opacity * air);
 #endif
-      source += m.emitted * (air * (depth > 1e-4 ? opacity / m.extinction : length_blocks));
+      }
       seen.light += seen.clear * source;
       seen.clear *= 1.0 - opacity;
     }
-    // Whole steps only, so that where samples lie does not show where bricks do.
-    float skipped = max(t + 0.5 * length_blocks + m.empty - step_end, 0.0) / max(step_end - t, 1e-6);
-    t = t + length_blocks + (m.empty > 0.0 ? min(floor(skipped), 1e6) * (step_end - t) : 0.0);
+    // Whole steps only, so that where samples lie does not show where bricks do; and none over what begins.
+    float passed = t + length_blocks;
+    float skipped = (min(t + 0.5 * length_blocks + m.empty, begins) - passed) / max(whole, least);
+    t = passed + (m.empty > 0.0 ? clamp(floor(skipped), 0.0, 1e6) * whole : 0.0);
   }
+  if (seen.clear <= kClearEnough) seen.clear = 0.0;
   return seen;
 }
 
-// A value of a pixel that its neighbours' differ from as much as they can (Jimenez, Next Generation Post Processing in Call of Duty, 2014).
-float gradient_jitter(uvec2 pixel) { return fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715)))); }
+// A value of a pixel that its neighbours' differ from as much as they can (Jimenez, Next Generation Post Processing in Call of Duty, 2014); more
+// than 0, for it is the share of a step.
+float gradient_jitter(uvec2 pixel) {
+  return max(fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715)))), 1.0 / 64.0);
+}
 #endif

@@ -77,6 +77,16 @@ TEST(CloudFiles, HeatGlowsAndAllElseIsDensity) {
     EXPECT_EQ(cloud_role(dense), render::CloudRole::kDensity) << dense;
 }
 
+TEST(CloudFiles, WhereDensityIsNamedOnlyThatAndHeatAreDrawn) {
+  using Places = std::vector<std::size_t>;
+  const std::vector<std::string> told{"fuel", "density", "Temperature", "pressure",
+                                      "smoke_Density"};
+  EXPECT_EQ(drawn_grids(told), (Places{1, 2, 4}));
+  const std::vector<std::string> untold{"smoke", "flame", "steam"};
+  EXPECT_EQ(drawn_grids(untold), (Places{0, 1, 2})) << "any of them may be density";
+  EXPECT_EQ(drawn_grids({}), Places{});
+}
+
 TEST(CloudFiles, AFileThatIsNotThereIsOneLine) {
   const CloudFile file{"/nowhere/cloud.vdb", {}, 1.0};
   const auto loaded = load_clouds(std::span(&file, 1));

@@ -187,6 +187,23 @@ TEST(CloudAtlas, PrecisionsRoundByHalfAStep) {
   }
 }
 
+TEST(CloudAtlas, AnAbsurdDensityTakesNoDigitsFromTheOthers) {
+  MadeGrid grid;
+  for (int i = 0; i < 100; ++i) grid.set(i % 10, i / 10, 0, 1.0f);
+  grid.set(40, 0, 0, 1e30f);
+  CloudVolumeDesc desc = grid.desc();
+  const Result<CloudAtlas> dense =
+      pack_clouds(std::span(&desc, 1), CloudPrecision::k32, kMostTexels);
+  ASSERT_TRUE(dense);
+  EXPECT_EQ(dense->volumes[0].value_range, 1e4f);
+  EXPECT_NEAR(looked_up(*dense, dense->volumes[0], {4.5, 4.5, 0.0}), 1.0, 1e-6);
+  EXPECT_NEAR(looked_up(*dense, dense->volumes[0], {40.0, 0.0, 0.0}), 1e4, 1e-2);
+  desc.role = CloudRole::kEmission;
+  const Result<CloudAtlas> hot = pack_clouds(std::span(&desc, 1), CloudPrecision::k32, kMostTexels);
+  ASSERT_TRUE(hot);
+  EXPECT_EQ(hot->volumes[0].value_range, 1e30f) << "a glow is relative to its largest value";
+}
+
 TEST(CloudAtlas, RefusesWhatCannotBeDrawn) {
   CloudVolumeDesc far;
   far.tiles.push_back({{0, 0, 0}, 8, 1.0f});
@@ -196,7 +213,18 @@ TEST(CloudAtlas, RefusesWhatCannotBeDrawn) {
   flat.tiles.push_back({{0, 0, 0}, 8, 1.0f});
   flat.blocks_from_index[1] = glm::dvec4(0.0);
   EXPECT_FALSE(pack_clouds(std::span(&flat, 1), CloudPrecision::k8, kMostTexels));
-  const std::vector<CloudVolumeDesc> many(shared::kMaxCloudVolumes + 1);
+  // Each box is small enough, but the image that would hold both is as wide as one and as high as
+  // the other.
+  std::vector<CloudVolumeDesc> wide_and_high(2);
+  for (CloudVolumeDesc& desc : wide_and_high) desc.tiles.push_back({{0, 0, 0}, 8, 1.0f});
+  wide_and_high[0].tiles.push_back({{16000, 0, 40}, 8, 1.0f});
+  wide_and_high[1].tiles.push_back({{0, 16000, 40}, 8, 1.0f});
+  for (const CloudVolumeDesc& desc : wide_and_high)
+    EXPECT_TRUE(pack_clouds(std::span(&desc, 1), CloudPrecision::k8, kMostTexels));
+  EXPECT_FALSE(pack_clouds(wide_and_high, CloudPrecision::k8, kMostTexels));
+  std::vector<CloudVolumeDesc> many(shared::kMaxCloudVolumes + 1);
+  EXPECT_TRUE(pack_clouds(many, CloudPrecision::k8, kMostTexels)) << "there is nothing in them";
+  for (CloudVolumeDesc& desc : many) desc.tiles.push_back({{0, 0, 0}, 8, 1.0f});
   EXPECT_FALSE(pack_clouds(many, CloudPrecision::k8, kMostTexels));
   CloudVolumeDesc nothing;
   nothing.tiles.push_back({{0, 0, 0}, 8, -1.0f});

@@ -195,6 +195,115 @@ TEST_F(CloudsOnGpu, SeveralVolumesTakeTheirOpticalDepthsTogether) {
   EXPECT_NEAR(seen[middle].y / clear[middle].y, left, 3e-3);
 }
 
+TEST_F(CloudsOnGpu, EmptinessIsNotPassedOverIntoWhatBeginsWithinIt) {
+  // Two far corners of a box that is empty else, and a small box in its middle.
+  CloudVolumeDesc sparse;
+  sparse.blocks_from_index = glm::translate(glm::dmat4(1.0), {-128.0, -128.0, 10.0});
+  sparse.tiles = {{{0, 0, 0}, 8, 0.01f}, {{248, 248, 248}, 8, 0.01f}};
+  FrameInput input;
+  input.sky = dusk();
+  input.camera = camera_at({0.0, 0.0, 0.0}, 0.0, 0.0, 1.0);
+  RenderSettings settings;
+  settings.clouds.file_density = 1.0f;
+  settings.clouds.steps = 96;
+  settings.clouds.resolution = 1;
+  const std::vector<glm::vec4> clear = radiance(input, settings);
+  const std::size_t middle = kSize.height / 2 * kSize.width + kSize.width / 2;
+  for (const double z : {84.0, 91.0, 98.0, 105.0, 112.0}) {
+    const std::vector<CloudVolumeDesc> both{
+        sparse, even_box(8, 0.25f, glm::translate(glm::dmat4(1.0), {-3.5, -3.5, z}))};
+    set(both);
+    const std::vector<glm::vec4> seen = radiance(input, settings);
+    EXPECT_NEAR(seen[middle].y / clear[middle].y, std::exp(-8.0 * 0.25), 4e-3) << z;
+  }
+}
+
+TEST_F(CloudsOnGpu, TheSunsDiscDoesNotShineThroughADenseCloud) {
+  FrameInput input;
+  input.sky = sun_at(20.0, 0.0);
+  input.camera = camera_at({0.0, 0.0, 0.0}, 0.0, 20.0, 4.0);
+  RenderSettings settings;
+  settings.clouds.file_density = 1.0f;
+  const std::size_t middle = kSize.height / 2 * kSize.width + kSize.width / 2;
+  const std::vector<glm::vec4> clear = radiance(input, settings);
+  ASSERT_GT(clear[middle].y, 100.0f * clear[0].y) << "the disc is in view";
+  // Thirty blocks and more of extinction 1 before the sun.
+  const CloudVolumeDesc box = even_box(64, 1.0f, glm::translate(glm::dmat4(1.0), {-32, -24, 20}));
+  set(std::span(&box, 1));
+  for (const int resolution : {1, 2}) {
+    settings.clouds.resolution = resolution;
+    const std::vector<glm::vec4> seen = radiance(input, settings);
+    EXPECT_GT(seen[middle].y, 0.0f);
+    EXPECT_NEAR(seen[middle].y, seen[middle + 16].y, 0.1f * seen[middle + 16].y);
+  }
+}
+
+TEST_F(CloudsOnGpu, AFireBehindAWallDoesNotShowOverItsEdgesAtHalfResolution) {
+  add(
+      [](int x, int, int z) -> world::BlockId {
+        return z == 12 && x < 0 ? world::block::kStone : world::block::kAirBlock;
+      },
+      {-1, -1, 0}, {1, 1, 1});
+  const std::vector<IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
+  FrameInput input;
+  input.islands = islands;
+  input.sky = dusk();
+  // Turned, so that the edge passes through pixels of all four places in their square.
+  input.camera = camera_at({0.5, 0.5, 0.5}, 3.0, 20.0, 60.0);
+  RenderSettings settings;
+  settings.clouds.file_emission = 10.0f;
+  const std::vector<glm::vec4> clear = radiance(input, settings);
+  CloudVolumeDesc fire = even_box(64, 1.0f, glm::translate(glm::dmat4(1.0), {-32, -32, 16}));
+  fire.role = CloudRole::kEmission;
+  set(std::span(&fire, 1));
+  settings.clouds.resolution = 1;
+  const std::vector<glm::vec4> full = radiance(input, settings);
+  settings.clouds.resolution = 2;
+  const std::vector<glm::vec4> half = radiance(input, settings);
+  int wall = 0;
+  for (std::size_t i = 0; i < clear.size(); ++i) {
+    if (full[i] != clear[i]) continue;
+    ++wall;
+    EXPECT_EQ(half[i], clear[i]) << "pixel " << i % kSize.width << ", " << i / kSize.width;
+  }
+  EXPECT_GT(wall, 300);
+  EXPECT_LT(wall, static_cast<int>(clear.size()) - 300);
+}
+
+TEST_F(CloudsOnGpu, CloudsAskOnlyClustersThatAreWritten) {
+  add(
+      [](int x, int y, int z) -> world::BlockId {
+        return z == 6 && x == 0 && y == 0 ? world::block::kStone : world::block::kAirBlock;
+      },
+      {-1, -1, 0}, {1, 1, 1});
+  const std::vector<IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
+  FrameInput input;
+  input.islands = islands;
+  input.sky = dusk();
+  input.camera = camera_at({0.5, 0.5, 0.5}, 0.0, 0.0, 60.0);
+  // From about the eye to far beyond what a lamp reaches.
+  const CloudVolumeDesc box = even_box(
+      64, 0.004f, glm::scale(glm::translate(glm::dmat4(1.0), {-160, -160, -20}), {5, 5, 5}));
+  set(std::span(&box, 1));
+  RenderSettings settings;
+  settings.clouds.file_density = 1.0f;
+  shared::Light lamp{};
+  lamp.range = 8.0f;
+  lamp.intensity = glm::vec3(5.0f);
+  lamp.kind = shared::kLightPoint;
+  lamp.position = {1.0f, 0.5f, 3.0f};
+  lamp.axis = {0.0f, 1.0f, 0.0f};
+  // A frame of many lights that reach everywhere leaves its clusters in memory that the next uses.
+  std::vector<shared::Light> many(200, lamp);
+  for (shared::Light& light : many) light.range = 400.0f;
+  input.lights = many;
+  radiance(input, settings);
+  input.lights = std::span(&lamp, 1);
+  const std::vector<glm::vec4> seen = radiance(input, settings);
+  settings.lights_oracle = true;
+  EXPECT_EQ(radiance(input, settings), seen);
+}
+
 TEST_F(CloudsOnGpu, TheLayerMovesWithTheWorldAndTimeAlone) {
   FrameInput input;
   input.sky = sun_at(40.0, 100.0);

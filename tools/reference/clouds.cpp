@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <span>
 
 namespace skerry::reference {
 namespace {
@@ -12,9 +13,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 /// Distances at which the layer thins out and ends [blocks].
 constexpr double kThinning = 12000.0, kEnd = 16000.0;
-/// Of a march [blocks], and the most steps of one: far ways through the layer are marched in
-/// longer ones.
+/// Of a march through the layer [blocks], and the most steps of one: far ways are marched in longer
+/// ones.
 constexpr double kStep = 2.0, kMostSteps = 1024.0;
+/// Of a march through any stretch.
+constexpr double kEndless = 65536.0;
 
 double ramp(double low, double high, double x) {
   return std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -24,14 +27,35 @@ double lobe(double cosine, double g) {
   return (1.0 - g * g) / (4.0 * kPi * std::pow(1.0 + g * g - 2.0 * g * cosine, 1.5));
 }
 
-/// Calls visit(t, length) for the steps of a way.
+/// Calls visit(t, length) for the steps of a way, until it says no.
+/// @param offset 0..1: where in a step t is.
 template <class Visit>
-void march(glm::dvec2 way, double offset, Visit&& visit) {
-  const double length = way.y - way.x;
-  if (!(length > 0.0)) return;
-  const double steps = std::min(kMostSteps, std::ceil(length / kStep)), step = length / steps;
-  for (double i = 0.0; i < steps; ++i)
-    if (!visit(way.x + (i + offset) * step, step)) return;
+void march(std::span<const Stretch> stretches, double begin, double end, double offset,
+           Visit&& visit) {
+  for (const Stretch& stretch : stretches) {
+    const double from = std::max(stretch.from, begin), length = std::min(stretch.to, end) - from;
+    if (!(length > 0.0)) continue;
+    const double steps = std::min(kEndless, std::ceil(length / stretch.step));
+    const double step = length / steps;
+    for (double i = 0.0; i < steps; ++i)
+      if (!visit(from + (i + offset) * step, step)) return;
+  }
+}
+
+/// Cuts ranges that overlap: each part has the shortest step of those that it is of.
+std::vector<Stretch> cut(std::span<const Stretch> ranges) {
+  std::vector<double> ends;
+  for (const Stretch& range : ranges) ends.insert(ends.end(), {range.from, range.to});
+  std::sort(ends.begin(), ends.end());
+  std::vector<Stretch> out;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    Stretch part{ends[i - 1], ends[i], 0.0};
+    for (const Stretch& range : ranges)
+      if (range.from <= part.from && part.to <= range.to)
+        part.step = part.step == 0.0 ? range.step : std::min(part.step, range.step);
+    if (part.step > 0.0 && part.to > part.from) out.push_back(part);
+  }
+  return out;
 }
 
 }  // namespace
@@ -89,19 +113,16 @@ glm::dvec3 Clouds::emission_at(glm::dvec3 p) const {
   return sum;
 }
 
-glm::dvec2 Clouds::range(glm::dvec3 origin, glm::dvec3 direction) const {
-  glm::dvec2 all(kEnd * 4.0, 0.0);
-  const auto take = [&](double from, double to) {
-    from = std::max(from, 0.0);
-    if (!(to > from)) return;
-    all = {std::min(all.x, from), std::max(all.y, to)};
-  };
+std::vector<Stretch> Clouds::stretches(glm::dvec3 origin, glm::dvec3 direction) const {
+  std::vector<Stretch> ranges;
   if (layer) {
     const double rise = std::abs(direction.y) < 1e-9 ? 1e-9 : direction.y;
     const double a = (-layer->eye.y - origin.y) / rise;
     const double b = (layer->thickness - layer->eye.y - origin.y) / rise;
     // Beyond its end there is no layer, whatever the direction.
-    take(std::min(a, b), std::min(std::max(a, b), 2.0 * kEnd));
+    const double from = std::max(std::min(a, b), 0.0);
+    const double to = std::min(std::max(a, b), 2.0 * kEnd);
+    if (to > from) ranges.push_back({from, to, std::max(kStep, (to - from) / kMostSteps)});
   }
   for (const CloudGrid& grid : grids) {
     const glm::dvec3 at(grid.index_from_world * glm::dvec4(origin, 1.0));
@@ -114,14 +135,15 @@ glm::dvec2 Clouds::range(glm::dvec3 origin, glm::dvec3 direction) const {
       from = std::max(from, std::min(a, b));
       to = std::min(to, std::max(a, b));
     }
-    take(from, to);
+    if (to > from) ranges.push_back({from, to, grid.step});
   }
-  return all;
+  return cut(ranges);
 }
 
-double Clouds::depth(glm::dvec3 origin, glm::dvec3 direction, double offset) const {
+double Clouds::depth(glm::dvec3 origin, glm::dvec3 direction, double offset,
+                     double distance) const {
   double sum = 0.0;
-  march(range(origin, direction), offset, [&](double t, double step) {
+  march(stretches(origin, direction), 0.0, distance, offset, [&](double t, double step) {
     sum += extinction_at(origin + direction * t) * step;
     return true;
   });
@@ -129,17 +151,16 @@ double Clouds::depth(glm::dvec3 origin, glm::dvec3 direction, double offset) con
 }
 
 CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 direction, double begin, double end,
-                         glm::dvec2 pair) {
+                         double air, glm::dvec2 pair) {
   CloudMeeting out;
-  const glm::dvec2 all = clouds.range(glm::dvec3(0.0), direction);
-  const glm::dvec2 way(std::max(all.x, begin), std::min(all.y, end));
   std::vector<glm::dvec3> steps;  // where, length, optical depth up to its end
   double depth = 0.0;
-  march(way, pair.x, [&](double t, double step) {
+  const std::vector<Stretch> stretches = clouds.stretches(glm::dvec3(0.0), direction);
+  march(stretches, begin, end, pair.x, [&](double t, double step) {
     const glm::dvec3 p = direction * t;
     const double tau = clouds.extinction_at(p) * step;
-    out.emitted += clouds.emission_at(p) *
-                   (std::exp(-depth) * step * (tau > 1e-9 ? -std::expm1(-tau) / tau : 1.0));
+    out.emitted += clouds.emission_at(p) * (std::exp(-depth - air * t) * step *
+                                            (tau > 1e-9 ? -std::expm1(-tau) / tau : 1.0));
     depth += tau;
     steps.emplace_back(t - pair.x * step, step, depth);
     return depth < 40.0;

@@ -36,7 +36,13 @@ struct CloudGrid {
   std::vector<float> samples;  ///< x fastest
   double extinction = 0.0;     ///< of value 1 [1/block]
   glm::dvec3 emission{0.0};    ///< of value 1 [radiance/block]
+  double step = 1.0;           ///< of a march: half the distance of the nearest samples [blocks]
   double value_at(glm::dvec3 p) const;
+};
+
+/// A part of a ray that is in some cloud, and how finely it is marched [blocks].
+struct Stretch {
+  double from = 0.0, to = 0.0, step = 1.0;
 };
 
 struct Clouds {
@@ -45,22 +51,24 @@ struct Clouds {
 
   double extinction_at(glm::dvec3 p) const;
   glm::dvec3 emission_at(glm::dvec3 p) const;
-  /// Where a ray may be in any cloud; x > y: nowhere.
-  glm::dvec2 range(glm::dvec3 origin, glm::dvec3 direction) const;
+  /// Where a ray may be in any cloud, near to far.
+  std::vector<Stretch> stretches(glm::dvec3 origin, glm::dvec3 direction) const;
   /// Optical depth of a way. @param direction unit. @param offset 0..1: where in its steps a march
-  /// looks; a mean over offsets is exact.
-  double depth(glm::dvec3 origin, glm::dvec3 direction, double offset) const;
+  /// looks; a mean over offsets is exact. @param distance how long the way is [blocks].
+  double depth(glm::dvec3 origin, glm::dvec3 direction, double offset,
+               double distance = 1e30) const;
 };
 
 /// Where an eye's ray is scattered last, and what comes of it.
 struct CloudMeeting {
   double clear = 1.0;       ///< what is left of what is behind
-  glm::dvec3 emitted{0.0};  ///< radiance of what glows
+  glm::dvec3 emitted{0.0};  ///< radiance of what glows, past the air before it
   double at = 0.0;          ///< a place of scattering, as likely as light comes from there [blocks]
 };
-/// @param begin, end of the way [blocks]. @param pair uniform.
+/// @param begin, end of the way [blocks]. @param air extinction of clear air [1/block]. @param pair
+/// uniform.
 CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 direction, double begin, double end,
-                         glm::dvec2 pair);
+                         double air, glm::dvec2 pair);
 
 /// Share of irradiance that a cloud sends on in a direction, over extinction [1/sr], with light
 /// scattered more than once. @param cosine of the angle that light is turned by. @param depth

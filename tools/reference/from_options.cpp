@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 #include "engine/render/celestial.h"
 #include "engine/render/sky_model.h"
@@ -174,8 +175,12 @@ Result<CloudGrid> cloud_grid(const render::CloudVolumeDesc& volume,
     return Error{"a cloud's box is too large for a reference picture: use renderer=deferred"};
   out.samples.resize(static_cast<std::size_t>(count));
   float most = 0.0f;
+  // Densities beyond count as this: docs/clouds.md.
+  const float limit =
+      volume.role == render::CloudRole::kDensity ? 1e4f : std::numeric_limits<float>::max();
   const auto put = [&](glm::ivec3 at, float value) {
     at -= low;
+    value = std::min(value, limit);
     most = std::max(most, value);
     out.samples[(static_cast<std::size_t>(at.z) * static_cast<std::size_t>(out.size.y) +
                  static_cast<std::size_t>(at.y)) *
@@ -193,6 +198,8 @@ Result<CloudGrid> cloud_grid(const render::CloudVolumeDesc& volume,
   const world::WorldPos origin{volume.origin[0], volume.origin[1], volume.origin[2]};
   world_from_index[3] += glm::dvec4(world::difference_blocks(origin, camera), 0.0);
   out.index_from_world = glm::inverse(world_from_index);
+  const glm::dmat3 axes(world_from_index);
+  out.step = 0.5 * std::min({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
   if (volume.role == render::CloudRole::kDensity)
     out.extinction = static_cast<double>(settings.file_density);
   else if (most > 0.0f)

@@ -151,15 +151,35 @@ double Shader::past_clouds(glm::dvec3 from, glm::dvec3 to_light, Sampler& sample
   return std::exp(-scene_.clouds.depth(from, to_light, sampler.next().x));
 }
 
+/// What lamps that are seen make a cloud send to the eye, over its extinction.
+glm::dvec3 Shader::lamps_in_cloud(glm::dvec3 p, glm::dvec3 direction, Sampler& sampler) const {
+  constexpr double kNearest = 0.3;  // blocks: nearer a lamp makes fog no brighter
+  glm::dvec3 sum(0.0);
+  lights_.reaching(p, [&](const Light& light) {
+    const std::optional<LightRay> ray = sample_light(light, p, sampler);
+    const bool placed = light.kind != shared::kLightDirectional;
+    if (!ray || tracer_.hidden(p, ray->to_light, ray->distance, nullptr,
+                               placed ? &light.position : nullptr))
+      return;
+    const double depth = scene_.clouds.depth(p, ray->to_light, sampler.next().x, ray->distance);
+    const double close = placed ? std::min(1.0, ray->distance / kNearest) : 1.0;
+    sum += ray->irradiance *
+           (close * close * scattered_share(glm::dot(direction, ray->to_light), depth));
+  });
+  return sum;
+}
+
 /// Light that clouds scatter at one place, as likely as what the eye sees was scattered there last;
 /// the air before them; and what is left of what is behind.
 Seen Shader::through_clouds(Seen behind, glm::dvec3 direction, double begin, double end,
                             Sampler& sampler) const {
   if (!scene_.clouds.layer && scene_.clouds.grids.empty()) return behind;
-  const CloudMeeting met = meet_clouds(scene_.clouds, direction, begin, end, sampler.next());
+  const double air = scene_.bodies.empty() ? 0.0 : scene_.haze_per_block;
+  const CloudMeeting met = meet_clouds(scene_.clouds, direction, begin, end, air, sampler.next());
+  if (met.clear == 1.0) return {behind.radiance + met.emitted, behind.open};
   const glm::dvec3 p = direction * met.at;
-  const double clear_air = scene_.bodies.empty() ? 1.0 : std::exp(-scene_.haze_per_block * met.at);
-  glm::dvec3 light(0.0);
+  const double clear_air = std::exp(-air * met.at);
+  glm::dvec3 light = lamps_in_cloud(p, direction, sampler) * clear_air;
   for (const Body& body : scene_.bodies) {
     const glm::dvec2 pair = sampler.next(), other = sampler.next();
     const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
@@ -174,7 +194,7 @@ Seen Shader::through_clouds(Seen behind, glm::dvec3 direction, double begin, dou
     light += behind_voxels({r * std::sin(turn), y, r * std::cos(turn)}) *
              (sky_share(depth) * scene_.air_light * clear_air);
   }
-  return {behind.radiance * met.clear + light * (1.0 - met.clear) + met.emitted * clear_air,
+  return {behind.radiance * met.clear + light * (1.0 - met.clear) + met.emitted,
           behind.open * met.clear};
 }
 

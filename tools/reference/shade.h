@@ -57,6 +57,7 @@ class Shader {
                          Sampler& sampler) const;
 
   double past_clouds(glm::dvec3 from, glm::dvec3 to_light, Sampler& sampler) const;
+  glm::dvec3 lamps_in_cloud(glm::dvec3 p, glm::dvec3 direction, Sampler& sampler) const;
   Seen through_clouds(Seen behind, glm::dvec3 direction, double begin, double end,
                       Sampler& sampler) const;
   Seen through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,
