@@ -19,9 +19,9 @@ constexpr ActionType kTypes[] = {
     {"crouch", "Crouch, sink", "shift", "pad_b"},
     {"fast", "Sprint", "ctrl", "pad_left_thumb"},
     {"fly", "Fly or walk", "f", "pad_y"},
-    {"noclip", "Fly through walls", "n", "none"},
-    {"faster_flight", "Faster flight", "ctrl+wheel_up", "none"},
-    {"slower_flight", "Slower flight", "ctrl+wheel_down", "none"},
+    {"noclip", "Fly through walls", "n", "pad_back+pad_y"},
+    {"faster_flight", "Faster flight", "ctrl+wheel_up", "pad_back+pad_right_bumper"},
+    {"slower_flight", "Slower flight", "ctrl+wheel_down", "pad_back+pad_left_bumper"},
     {"look_up", "Look up", "none", "pad_right_stick_up"},
     {"look_down", "Look down", "none", "pad_right_stick_down"},
     {"look_left", "Look left", "none", "pad_right_stick_left"},
@@ -45,14 +45,14 @@ constexpr ActionType kTypes[] = {
     {"palette", "All blocks", "e", "pad_x"},
     {"torch", "Torch in the hand", "l", "pad_up"},
     {"helm", "Take the helm", "h", "pad_down"},
-    {"later", "Later in the day", "t", "none"},
-    {"earlier", "Earlier in the day", "y", "none"},
-    {"stop_day", "Stop the day", "p", "none"},
+    {"later", "Later in the day", "t", "pad_back+pad_right"},
+    {"earlier", "Earlier in the day", "y", "pad_back+pad_left"},
+    {"stop_day", "Stop the day", "p", "pad_back+pad_down"},
     {"pause", "Pause", "escape", "pad_start"},
-    {"screenshot", "Screenshot", "f2", "none"},
-    {"photo", "Photo mode", "f10", "pad_back"},
-    {"hide_hud", "Hide all displays", "f1", "none"},
-    {"overlay", "Numbers", "f3", "none"},
+    {"screenshot", "Screenshot", "f2", "pad_back+pad_x"},
+    {"photo", "Photo mode", "f10", "pad_back+pad_a"},
+    {"hide_hud", "Hide all displays", "f1", "pad_back+pad_up"},
+    {"overlay", "Numbers", "f3", "pad_back+pad_start"},
     {"fullscreen", "Fullscreen", "f11", "none"},
     {"farther_view", "See farther", "right_bracket", "none"},
     {"nearer_view", "See less far", "left_bracket", "none"},
@@ -63,13 +63,11 @@ constexpr ActionType kTypes[] = {
 };
 static_assert(std::size(kTypes) == kActions);
 
-constexpr std::string_view kControlPrefix = "ctrl+";
+constexpr std::string_view kControlPrefix = "ctrl+", kPadPrefix = "pad_back+";
 
-/// Whether some action wants this key together with Ctrl: then the key alone means nothing while
-/// Ctrl is held.
-bool has_control_chord(const Bindings& bindings, Key key) {
+bool is_bound(const Bindings& bindings, Chord chord) {
   return std::any_of(bindings.of_action.begin(), bindings.of_action.end(),
-                     [&](const Binding& b) { return b.key.control && b.key.key == key; });
+                     [&](const Binding& b) { return b.key == chord || b.pad == chord; });
 }
 
 }  // namespace
@@ -85,19 +83,23 @@ std::optional<Action> action_named(std::string_view name) {
   return static_cast<Action>(found - std::begin(kTypes));
 }
 
+Key control_of(Key key) {
+  return platform::is_pad(key) ? Key::kPadBack : Key::kControl;
+}
+
 std::string print_chord(Chord chord) {
-  return std::string(chord.control ? kControlPrefix : "") +
-         std::string(platform::key_name(chord.key));
+  const std::string_view prefix = platform::is_pad(chord.key) ? kPadPrefix : kControlPrefix;
+  return std::string(chord.control ? prefix : "") + std::string(platform::key_name(chord.key));
 }
 
 std::optional<Chord> parse_chord(std::string_view text) {
   Chord chord;
-  chord.control = text.starts_with(kControlPrefix);
-  if (chord.control) text.remove_prefix(kControlPrefix.size());
+  const bool on_pad = text.starts_with(kPadPrefix);
+  chord.control = on_pad || text.starts_with(kControlPrefix);
+  if (chord.control) text.remove_prefix((on_pad ? kPadPrefix : kControlPrefix).size());
   const std::optional<Key> key = platform::key_named(text);
-  const bool fits =
-      key &&
-      !(chord.control && (*key == Key::kNone || *key == Key::kControl || platform::is_pad(*key)));
+  const bool fits = key && !(chord.control && (*key == Key::kNone || *key == control_of(*key) ||
+                                               platform::is_pad(*key) != on_pad));
   if (!fits) return std::nullopt;
   chord.key = *key;
   return chord;
@@ -130,9 +132,10 @@ ActionFrame::State ActionFrame::state_of(Chord chord, const InputFrame& input,
   // A key that went up does so for every chord it is in: nothing is left held.
   state.released = input.released(chord.key);
   // Held at some moment of the frame: a quick chord may end within the frame in which it is seen.
-  const bool control =
-      input.down(Key::kControl) || input.pressed(Key::kControl) || input.released(Key::kControl);
-  if (chord.control ? !control : control && has_control_chord(bindings, chord.key)) return state;
+  const Key with = control_of(chord.key);
+  const bool control = input.down(with) || input.pressed(with) || input.released(with);
+  // A key alone means nothing while it may be one of a chord.
+  if (chord.control ? !control : control && is_bound(bindings, {chord.key, true})) return state;
   state.down = input.down(chord.key);
   const double value = input.value(chord.key);
   if (input.pressed(chord.key)) state.presses = std::max(1, static_cast<int>(std::lround(value)));
@@ -150,6 +153,9 @@ ActionFrame::ActionFrame(const InputFrame& input, const Bindings& bindings) {
     state.released = (key.released || pad.released) && !state.down;
     state.value = std::max(key.value, pad.value);
   }
+  State& pause = states_[index(Action::kPause)];
+  for (const Key key : {Key::kEscape, Key::kPadStart})
+    if (!is_bound(bindings, {key})) pause.presses += state_of({key}, input, bindings).presses;
 }
 
 }  // namespace skerry::game

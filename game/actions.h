@@ -79,12 +79,15 @@ struct ActionType {
 const ActionType& action_type(Action action);
 std::optional<Action> action_named(std::string_view name);
 
-/// A key, maybe together with Ctrl. Written "ctrl+z", or "none".
+/// A key, maybe together with Ctrl, or on a gamepad with Back. Written "ctrl+z", "pad_back+pad_y",
+/// or "none".
 struct Chord {
   platform::Key key = platform::Key::kNone;
-  bool control = false;
+  bool control = false;  ///< together with control_of(key)
   bool operator==(const Chord&) const = default;
 };
+/// What a key makes chords with: Ctrl, or Back on a gamepad.
+platform::Key control_of(platform::Key key);
 std::string print_chord(Chord chord);
 std::optional<Chord> parse_chord(std::string_view text);
 
@@ -115,7 +118,8 @@ Bindings default_bindings();
 /// Other actions that the same chord does.
 std::vector<Action> conflicts_of(const Bindings& bindings, Action action);
 
-/// What a frame's keys mean.
+/// What a frame's keys mean. Escape and a gamepad's Start pause wherever they are bound to nothing
+/// else, so that no bindings lock anybody in.
 class ActionFrame {
  public:
   ActionFrame() = default;  ///< nobody does anything

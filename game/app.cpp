@@ -13,7 +13,6 @@ namespace skerry::game {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using platform::Key;
 using ui::Screen;
 
 constexpr double kIdleWait = 0.05;  // seconds between looks at a window that shows nothing
@@ -33,8 +32,10 @@ bool world_goes_on(const ui::ScreenStack& stack) {
 
 }  // namespace
 
-App::App(platform::Window& window, gpu::Device& device, const SceneOptions& options)
+App::App(platform::Window& window, gpu::Device& device, const SceneOptions& options,
+         const std::vector<std::string>& notes)
     : window_(window), device_(device), base_(options), gui_(clipboard_of(window)) {
+  for (const std::string& note : notes) messages_.say(note);
   ReadBindings read = load_bindings(bindings_path());
   for (std::string& problem : read.problems) say(std::move(problem));
   bindings_ = std::move(read.bindings);
@@ -55,7 +56,12 @@ Result<void> App::start(VkSurfaceKHR surface, bool at_title) {
 Result<void> App::run() {
   Clock::time_point before = Clock::now();
   bool drawn = true;
-  while (!window_.should_close()) {
+  for (;;) {
+    if (window_.should_close()) {
+      keep_settings();
+      if (save_world()) break;
+      window_.stay_open();
+    }
     const platform::InputFrame input = held_back_.filtered(window_.poll(!drawn   ? kIdleWait
                                                                         : still_ ? kStillWait
                                                                                  : 0.0));
@@ -66,7 +72,6 @@ Result<void> App::run() {
     if (!done) return done.error();
     drawn = *done;
   }
-  keep_settings();
   leave_world();
   return {};
 }
@@ -78,6 +83,7 @@ void App::open(Screen screen) {
 
 Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   const std::optional<Screen> before = screens_.stack.top();
+  const bool listened = screens_.listening.has_value();
   act(input, std::min(seconds, kLongestFrame));
   const auto layout = [&](VkExtent2D size) { return lay_out(size, input, seconds); };
   if (pictures_shown_ != pictures_.version()) {
@@ -89,7 +95,8 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   const Result<bool> drawn = draw(seconds, layout);
   if (!drawn) return drawn;
   if (const auto done = fulfil(wishes_); !done) return done.error();
-  // What was held while one thing was shown shall not act on the next.
+  // What was held while one thing was shown shall not act on the next, nor what was bound just now.
+  if (listened && !screens_.listening) held_back_.hold(input);
   if (screens_.stack.top() == before) return drawn;
   fresh_frames_ = std::max(fresh_frames_, kSettlingFrames);
   held_back_.hold(input);
@@ -135,13 +142,14 @@ void App::act(const platform::InputFrame& input, double seconds) {
 void App::act_on_screens(const platform::InputFrame& input, const ActionFrame& actions) {
   back_ = false;
   if (screens_.stack.empty()) {
+    screens_.unsaved.reset();
     if (actions.pressed(Action::kPause)) open(Screen::kPause);
     if (actions.pressed(Action::kPalette)) open(Screen::kPalette);
     if (actions.pressed(Action::kPhoto)) open(Screen::kPhoto);
     if (actions.pressed(Action::kHideHud)) hud_hidden_ = !hud_hidden_;
     return;
   }
-  back_ = input.pressed(Key::kEscape) || input.pressed(Key::kPadB);
+  back_ = ui::goes_back(screens_, input);
   if (!back_) return;
   if (std::exchange(photo_settings_.bare, false)) return;
   ui::go_back(screens_, gui_.typing());
@@ -252,9 +260,7 @@ ui::ScreenFacts App::screen_facts(const platform::InputFrame& input) {
   facts.costs = &costs_;
   facts.photo = &photo_settings_;
   if (world_) facts.adapted_ev = world_->exposure_ev().value_or(0.0);
-  facts.pressed = input.any_pressed();
-  facts.control = input.down(Key::kControl);
-  facts.control_up = input.released(Key::kControl);
+  ui::take_keys(screens_, input, facts);
   facts.back = back_;
   facts.version = SKERRY_VERSION;
   return facts;

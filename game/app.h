@@ -26,7 +26,9 @@ namespace skerry::game {
 class App {
  public:
   /// The window and the device outlive this. @param options of every world that is played.
-  App(platform::Window& window, gpu::Device& device, const SceneOptions& options);
+  /// @param notes for the player, each a line.
+  App(platform::Window& window, gpu::Device& device, const SceneOptions& options,
+      const std::vector<std::string>& notes);
 
   /// Into the options' world, or to the title. Errors: the device cannot present to the surface, no
   /// memory, no such world.
@@ -54,6 +56,7 @@ class App {
   Result<void> play(const SceneOptions& options, std::string name);
   Result<void> play_file(const std::string& path);
   Result<void> create_world(const ui::Wishes::NewWorld& wanted);
+  bool save_world();
   void leave_world();
   void keep_picture();
   void follow_settings();
@@ -61,6 +64,7 @@ class App {
   void list_again();
   Result<void> set_backdrop(Backdrop::View view, const std::string& seed_text);
   void draw_lots();
+  void draw_name();
   void say(std::string line);
 
   platform::Window& window_;

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cctype>
 #include <ctime>
 #include <random>
 
@@ -11,6 +11,7 @@
 #include "engine/platform/files.h"
 #include "engine/platform/image_file.h"
 #include "game/app.h"
+#include "game/island_name.h"
 #include "game/open_world.h"
 #include "game/preferences.h"
 #include "world/store/world_file.h"
@@ -23,6 +24,19 @@ using ui::Screen;
 constexpr double kPreviewDelay = 0.5;  // seconds after the last letter of a seed
 constexpr const char* kTitleSeed = "skerry";
 constexpr std::uint32_t kBackdropView = 300;  // blocks
+
+std::uint64_t entropy() {
+  std::random_device source;
+  return (std::uint64_t{source()} << 32) | source();
+}
+
+/// Leaves no handle of the file open: closing one that outlived a session's opening of the same
+/// file would drop the session's locks.
+Result<world::WorldInfo> info_of(const std::string& path) {
+  const auto file = world::WorldFile::open(path, world::WorldFile::Mode::kRead);
+  if (!file) return file.error();
+  return (*file)->info();
+}
 
 }  // namespace
 
@@ -40,6 +54,7 @@ Result<void> App::fulfil(const ui::Wishes& wishes) {
   bindings_changed_ |= wishes.bindings_changed;
   if (wishes.photograph) world_->want_screenshot();
   if (wishes.take) world_->hotbar().take(*wishes.take);
+  if (wishes.draw_name) draw_name();
   if (wishes.draw_lots) draw_lots();
   if (wishes.preview || wishes.draw_lots) preview_due_s_ = kPreviewDelay;
   if (wishes.remove) {
@@ -49,8 +64,9 @@ Result<void> App::fulfil(const ui::Wishes& wishes) {
   }
   if (wishes.create) return create_world(*wishes.create);
   if (wishes.play) return play_file(*wishes.play);
-  if (wishes.quit) window_.close();
-  if (!wishes.leave_world) return {};
+  if (wishes.quit) window_.close();  // run() saves, and opens it again if that fails
+  if (!wishes.leave_world && !wishes.leave_unsaved) return {};
+  if (!wishes.leave_unsaved && !save_world()) return {};
   leave_world();
   list_again();
   screens_.stack.clear();
@@ -60,21 +76,31 @@ Result<void> App::fulfil(const ui::Wishes& wishes) {
 
 Result<void> App::set_backdrop(Backdrop::View view, const std::string& seed_text) {
   SceneOptions options = base_;
+  // Of a world that was named on the command line nothing belongs behind the screens.
+  options.world.reset();
   options.camera.reset();
+  options.settings.world_time_s = 0.0;
   options.seed_text = seed_text.empty() ? kTitleSeed : seed_text;
   options.settings.view_distance = std::min(options.settings.view_distance, kBackdropView);
   backdrop_.reset();  // two at a time would need twice the memory
   auto made = Backdrop::create(device_, options, view);
+  if (!made && !seed_text.empty()) {
+    say(made.error().message);
+    return set_backdrop(Backdrop::View::kAround, "");
+  }
   if (!made) return made.error();
   backdrop_ = *std::move(made);
   return {};
 }
 
 void App::draw_lots() {
-  std::random_device entropy;
-  const std::string seed = ui::seed_from((std::uint64_t{entropy()} << 32) | entropy());
-  screens_.new_seed.fill('\0');
-  std::memcpy(screens_.new_seed.data(), seed.data(), seed.size());
+  ui::set_field(screens_.new_seed, ui::seed_from(entropy()));
+}
+
+void App::draw_name() {
+  std::string name = island_name(entropy());
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  ui::set_field(screens_.new_name, name);
 }
 
 Result<void> App::play(const SceneOptions& options, std::string name) {
@@ -90,6 +116,20 @@ Result<void> App::play(const SceneOptions& options, std::string name) {
   costs_ = {};
   screens_.stack.clear();
   return {};
+}
+
+/// @return whether there is nothing left to save; else the player is asked what to do.
+bool App::save_world() {
+  if (!world_) return true;
+  const Result<void> saved = world_->save();
+  if (saved) return true;
+  log_warning(saved.error().message);
+  if (screens_.stack.top() != Screen::kPause) {
+    screens_.stack.clear();
+    open(Screen::kPause);
+  }
+  screens_.unsaved = saved.error().message;
+  return false;
 }
 
 void App::leave_world() {
@@ -139,21 +179,21 @@ void App::keep_settings() {
 
 Result<void> App::play_file(const std::string& path) {
   const Result<SceneText> saved = scene_of_world(path);
-  const auto file = world::WorldFile::open(path, world::WorldFile::Mode::kRead);
-  if (!saved || !file) {
-    say(!saved ? saved.error().message : file.error().message);
+  const Result<world::WorldInfo> info = info_of(path);
+  if (!saved || !info) {
+    say(!saved ? saved.error().message : info.error().message);
     list_again();
     return {};
   }
   SceneOptions options = base_;
   options.world = path;
-  options.seed_text = (*file)->info().seed_text;
+  options.seed_text = info->seed_text;
   const Result<SceneOptions> left = make_scene(*saved, {});
   if (!left) return left.error();
   options.camera = left->camera;
   options.time_of_day_s = left->time_of_day_s;
   options.settings.world_time_s = left->settings.world_time_s;
-  if (const Result<void> playing = play(options, (*file)->info().name); !playing) {
+  if (const Result<void> playing = play(options, info->name); !playing) {
     if (!backdrop_) return playing;  // the world was open, so it is the device that failed
     say(playing.error().message);
     list_again();
@@ -163,7 +203,8 @@ Result<void> App::play_file(const std::string& path) {
 
 Result<void> App::create_world(const ui::Wishes::NewWorld& wanted) {
   world::WorldInfo info;
-  info.name = wanted.name.empty() ? "World " + wanted.seed_text : wanted.name;
+  info.name = wanted.name.empty() ? ui::pasted_text("World " + wanted.seed_text, ui::kMaxNameBytes)
+                                  : wanted.name;
   info.seed_text = wanted.seed_text;
   info.desc.seed = world::seed_from_text(wanted.seed_text);
   const std::filesystem::path path = new_world_path(info.name);

@@ -1,18 +1,26 @@
 #include "game/edit_history.h"
 
+#include <optional>
 #include <utility>
 
 namespace skerry::game {
 namespace {
 
-/// Makes changes that still fit what is there.
-void apply(const EditAct& act, const Surroundings& around, BlockEditor& blocks,
-           const VoxelFree& free) {
+/// Makes changes that still fit what is there. @return kNothing: none does, nor ever will.
+Replay apply(const EditAct& act, const Surroundings& around, BlockEditor& blocks,
+             const VoxelFree& free) {
+  Replay came = Replay::kNothing;
   for (const BlockChange& change : act) {
-    if (around.block(change.island, change.voxel) != change.before) continue;
-    if (world::is_solid(change.after) && !free(change.island, change.voxel)) continue;
-    blocks.set_block(change.island, change.voxel, change.after);
+    const std::optional<world::BlockId> there = around.block(change.island, change.voxel);
+    if (there && *there != change.before) continue;
+    const bool denied =
+        !there || (world::is_solid(change.after) && !free(change.island, change.voxel));
+    if (!denied && blocks.set_block(change.island, change.voxel, change.after))
+      came = Replay::kDone;
+    else if (came == Replay::kNothing)
+      came = Replay::kRefused;
   }
+  return came;
 }
 
 /// What puts an act's blocks back: last changed, first restored.
@@ -37,20 +45,28 @@ bool EditHistory::perform(const EditAct& act, BlockEditor& blocks) {
   return true;
 }
 
-bool EditHistory::undo(const Surroundings& around, BlockEditor& blocks, const VoxelFree& free) {
-  if (done_.empty()) return false;
-  apply(reversed(done_.back()), around, blocks, free);
-  undone_.push_back(std::move(done_.back()));
-  done_.pop_back();
-  return true;
+Replay EditHistory::undo(const Surroundings& around, BlockEditor& blocks, const VoxelFree& free) {
+  for (; !done_.empty(); done_.pop_back()) {
+    const Replay came = apply(reversed(done_.back()), around, blocks, free);
+    if (came == Replay::kNothing) continue;
+    if (came == Replay::kRefused) return came;
+    undone_.push_back(std::move(done_.back()));
+    done_.pop_back();
+    return came;
+  }
+  return Replay::kNothing;
 }
 
-bool EditHistory::redo(const Surroundings& around, BlockEditor& blocks, const VoxelFree& free) {
-  if (undone_.empty()) return false;
-  apply(undone_.back(), around, blocks, free);
-  done_.push_back(std::move(undone_.back()));
-  undone_.pop_back();
-  return true;
+Replay EditHistory::redo(const Surroundings& around, BlockEditor& blocks, const VoxelFree& free) {
+  for (; !undone_.empty(); undone_.pop_back()) {
+    const Replay came = apply(undone_.back(), around, blocks, free);
+    if (came == Replay::kNothing) continue;
+    if (came == Replay::kRefused) return came;
+    done_.push_back(std::move(undone_.back()));
+    undone_.pop_back();
+    return came;
+  }
+  return Replay::kNothing;
 }
 
 }  // namespace skerry::game

@@ -27,8 +27,9 @@ void Interaction::advance(double seconds, const HandIntent& intent, const Player
   const VoxelFree free = [&](std::uint64_t island, world::IVec3 voxel) {
     return leaves_free(player, around, island, voxel);
   };
-  if (intent.undo) history_.undo(around, blocks, free);
-  if (intent.redo) history_.redo(around, blocks, free);
+  replay_refused_ = false;
+  if (intent.undo) replay_refused_ |= history_.undo(around, blocks, free) == Replay::kRefused;
+  if (intent.redo) replay_refused_ |= history_.redo(around, blocks, free) == Replay::kRefused;
 
   const auto point = [&] {
     return pick_block(around, eye.position, view_direction(eye.yaw_deg, eye.pitch_deg), kHandReach,

@@ -1,11 +1,11 @@
 // What a player's hands do: point at a block, dig it, place another, choose which, take it back.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 #include "game/edit_history.h"
+#include "game/hotbar.h"
 #include "game/pick.h"
 #include "game/player.h"
 #include "world/blocks.h"
@@ -16,24 +16,6 @@ namespace skerry::game {
 inline constexpr double kHandReach = 6.0;
 /// Someone who holds the button places a block so often [s].
 inline constexpr double kPlacePeriod = 0.2;
-
-inline constexpr int kHotbarSlots = 9;
-
-/// The blocks at hand. An empty slot holds air: with it, nothing is placed.
-struct Hotbar {
-  std::array<world::BlockId, kHotbarSlots> blocks{
-      world::block::kTorch,  world::block::kLamp,   world::block::kPlanks,
-      world::block::kCobble, world::block::kBricks, world::block::kGlass,
-      world::block::kDirt,   world::block::kOakLog, world::block::kGlowstone};
-  int selected = 0;  ///< 0 .. kHotbarSlots - 1
-
-  world::BlockId held() const { return blocks[static_cast<std::size_t>(selected)]; }
-  /// Goes so many slots on, around the ends.
-  void scroll(int slots);
-  /// Brings a block into the hand: selects its slot, or else puts it into the selected one.
-  void take(world::BlockId block);
-  bool operator==(const Hotbar&) const = default;
-};
 
 /// What the person wants their hands to do in a frame.
 struct HandIntent {
@@ -61,6 +43,8 @@ class Interaction {
   Hotbar& hotbar() { return hotbar_; }
   const Hotbar& hotbar() const { return hotbar_; }
   const EditHistory& history() const { return history_; }
+  /// Whether the last frame's undo or redo found an act that cannot be done from here, or now.
+  bool replay_refused() const { return replay_refused_; }
 
  private:
   void dig(double seconds, const Surroundings& around, BlockEditor& blocks);
@@ -71,6 +55,7 @@ class Interaction {
   double until_place_s_ = 0.0;  // while the button is held
   Hotbar hotbar_;
   EditHistory history_;
+  bool replay_refused_ = false;
 };
 
 }  // namespace skerry::game

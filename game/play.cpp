@@ -5,8 +5,9 @@
 namespace skerry::game {
 
 Result<void> play(platform::Window& window, gpu::Device& device, VkSurfaceKHR surface,
-                  const SceneOptions& options, bool at_title) {
-  App app(window, device, options);
+                  const SceneOptions& options, bool at_title,
+                  const std::vector<std::string>& notes) {
+  App app(window, device, options, notes);
   if (const auto started = app.start(surface, at_title); !started) return started;
   return app.run();
 }

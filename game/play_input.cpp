@@ -21,6 +21,7 @@ constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
 
 void PlayLoop::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, *bindings_);
+  rests_ = false;
   act_on_picture(input, actions, seconds);
   if (actions.pressed(Action::kFly)) {
     player_.set_mode(player_.mode() == MoveMode::kWalk ? MoveMode::kFly : MoveMode::kWalk);
@@ -35,6 +36,13 @@ void PlayLoop::act(const platform::InputFrame& input, double seconds) {
 
 void PlayLoop::rest(double seconds) {
   scene_.camera = player_.eye(around_);
+  if (!std::exchange(rests_, true)) {
+    // Who pauses may be about to leave the machine alone.
+    tell_session();
+    session_->save_next();
+  }
+  session_->rest();
+  hear_session();
   adapt_eye(seconds);
 }
 
@@ -117,12 +125,6 @@ Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
 
 /// The world goes on by so much, and the player in it.
 void PlayLoop::go_on(double seconds, const Intent& intent) {
-  SavedPlay now;
-  now.player = player_.state();
-  now.eye = player_.eye(around_);
-  now.time_of_day_s = day_.time_of_day_s();
-  now.world_time_s = player_.tick_time_s();
-  session_->send(PlayerMoved{now});
   // The player's ticks ask where islands will be at their ends.
   session_->advance(player_.tick_time_s() + seconds + kTickSeconds);
   hear_session();
@@ -130,6 +132,19 @@ void PlayLoop::go_on(double seconds, const Intent& intent) {
   player_.advance(seconds, intent, around_);
   if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
   scene_.camera = player_.eye(around_);
+  tell_session();  // before the hands want anything: what they reach is told by where they are now
+}
+
+/// Where the player is, and all else that a saved play keeps.
+void PlayLoop::tell_session() {
+  SavedPlay now;
+  now.player = player_.state();
+  now.eye = player_.eye(around_);
+  now.time_of_day_s = day_.time_of_day_s();
+  now.world_time_s = player_.tick_time_s();
+  now.hotbar = hands_.hotbar();
+  now.day_stands = day_stands_;
+  session_->send(PlayerMoved{now});
 }
 
 void PlayLoop::hear_session() {
@@ -148,6 +163,8 @@ void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
   hands_free_ = window_.pointer_captured() && (hands_free_ || (!intent.dig && !intent.place));
   if (!hands_free_) intent.dig = intent.place = false;
   hands_.advance(seconds, intent, player_, *scene_.camera, around_, editor_);
+  if (hands_.replay_refused())
+    said_.push_back("Not from here, or not now: go closer, and stand beside it");
 }
 
 }  // namespace skerry::game

@@ -25,6 +25,20 @@ Player player_at(const render::Camera& eye, double time_s) {
           time_s};
 }
 
+/// Ground at the spawn, wherever its island has drifted since. None: there is none.
+std::optional<Footing> home_of(const world::World& world) {
+  const world::Spawn spawn = world.spawn();
+  (void)world.islands_near(spawn.feet, 0.0, 0.0);  // makes its island known
+  const std::optional<world::IslandSpec> spec = world.island(spawn.island);
+  if (!spec) return std::nullopt;
+  // Where the spawn is told for: of an island that has left its course, too.
+  const std::optional<world::Pose> now = world.pose(spawn.island, 0.0);
+  const world::Pose pose = world.desc().generated || !now ? world::pose_at(*spec, 0.0) : *now;
+  const glm::dvec3 feet =
+      glm::conjugate(pose.rotation) * world::difference_blocks(spawn.feet, pose.origin);
+  return Footing{spawn.island, lattice_pos(feet) + LatticePos{0, kContactGap, 0}};
+}
+
 }  // namespace
 
 PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
@@ -42,13 +56,24 @@ PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, Presenter& pre
       editor_(*session_),
       day_(options.time_of_day_s) {
   const std::optional<SavedPlay>& left = session_->saved_play();
+  if (left) hands_.hotbar() = left->hotbar;
   if (left && options.camera == left->eye) {
     player_ = Player(left->player, left->world_time_s);
+    day_stands_ = left->day_stands;
   } else if (options.camera) {
     // A place that was asked for is a view, most often in the air.
     player_.set_mode(MoveMode::kFly);
   }
+  // Where the seed makes no islands, the search for a spawn goes through all voxels of one.
+  const bool home_wanted = view_->world().desc().generated || !left || !left->player.safe;
+  if (const auto home = home_wanted ? home_of(view_->world()) : std::nullopt)
+    player_.set_home(*home);
   scene_.camera = player_.eye(around_);
+}
+
+Result<void> PlayLoop::save() {
+  tell_session();
+  return session_->save();
 }
 
 void PlayLoop::want_screenshot() {

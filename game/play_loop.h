@@ -53,6 +53,8 @@ class PlayLoop {
   using Layout = std::function<ui::OverlayTriangles(VkExtent2D)>;
   Result<bool> draw(const Layout& layout);
 
+  /// Blocks until the world is saved as it is. Errors: those of its file; the play may go on.
+  Result<void> save();
   /// The next picture drawn is saved, with the command that draws it again.
   void want_screenshot();
   /// Looks from elsewhere; none: from the player's eye.
@@ -84,6 +86,7 @@ class PlayLoop {
   void go_on(double seconds, const Intent& intent);
   void hear_session();
   void use_hands(const ActionFrame& actions, double seconds);
+  void tell_session();
   void take_screenshot();
   std::vector<std::string> overlay_lines() const;
   SceneView::Moment moment() const;
@@ -109,6 +112,7 @@ class PlayLoop {
   bool calibrating_ = false;
   bool culling_frozen_ = false;
   bool day_stands_ = false;
+  bool rests_ = false;  // the last frame did
   bool screenshot_wanted_ = false;
   std::vector<std::string> said_;
   std::vector<float> frame_ms_;

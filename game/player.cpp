@@ -71,6 +71,7 @@ Player::Player(const PlayerState& state, double time_s)
   velocity_ = state.velocity;
   mode_ = static_cast<MoveMode>(state.mode);
   set_fly_speed(state.fly_speed);
+  if (state.safe) safe_.push_back(*state.safe);
 }
 
 PlayerState Player::state() const {
@@ -81,7 +82,8 @@ PlayerState Player::state() const {
           now_.yaw_deg,
           pitch_deg_,
           static_cast<std::uint8_t>(mode_),
-          fly_speed_};
+          fly_speed_,
+          safe_.empty() ? std::nullopt : std::optional(safe_.back())};
 }
 
 void Player::turn(double yaw_deg, double pitch_deg) {
@@ -356,6 +358,18 @@ bool Player::is_lost(const Surroundings& around) const {
   return near.empty() || fallen > kDeepestFall;
 }
 
+/// @return whether that ground is still there; then the place is on it.
+bool Player::stand_on(const Footing& ground, const Surroundings& around, Place& place) const {
+  const auto pose = around.pose(ground.island, tick_time_s());
+  if (!pose || !is_supported(solid_query(around, ground.island, true), ground.lattice))
+    return false;
+  place.island = ground.island;
+  place.lattice = ground.lattice;
+  place.feet = to_world(*pose, ground.lattice);
+  place.yaw_deg -= heading_deg(*pose);
+  return true;
+}
+
 /// To the last ground that is still there, else to where it all began.
 void Player::come_back(const Surroundings& around) {
   Place place = now_;
@@ -364,18 +378,8 @@ void Player::come_back(const Surroundings& around) {
   place.island.reset();
   place.feet = start_feet_;
   place.eye_lag = 0.0;
-  while (!safe_.empty()) {
-    const SafePlace safe = safe_.back();
-    const auto pose = around.pose(safe.island, tick_time_s());
-    if (pose && is_supported(solid_query(around, safe.island, true), safe.lattice)) {
-      place.island = safe.island;
-      place.lattice = safe.lattice;
-      place.feet = to_world(*pose, safe.lattice);
-      place.yaw_deg -= heading_deg(*pose);
-      break;
-    }
-    safe_.pop_back();
-  }
+  while (!safe_.empty() && !stand_on(safe_.back(), around, place)) safe_.pop_back();
+  if (safe_.empty() && home_) stand_on(*home_, around, place);
   now_ = before_ = place;
   fall_from_y_ = now_.feet.y;
   velocity_ = {};

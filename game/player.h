@@ -76,6 +76,8 @@ class Player {
   Player(const PlayerState& state, double time_s);
   /// After the last tick.
   PlayerState state() const;
+  /// Where they come back to if no ground that they stood on is left.
+  void set_home(const Footing& home) { home_ = home; }
 
   /// Turns the head at once. Pitch stays within +-90.
   void turn(double yaw_deg, double pitch_deg);
@@ -118,11 +120,6 @@ class Player {
     double yaw_deg = 0.0;
     double eye_lag = 0.0;  // blocks that the eye is below its height, after a step or crouching
   };
-  /// Ground that held.
-  struct SafePlace {
-    std::uint64_t island = 0;
-    LatticePos lattice{0};
-  };
   /// An island during one tick.
   struct Mover {
     std::uint64_t island = 0;
@@ -150,6 +147,7 @@ class Player {
   void lower_eye();
   void note_safe_ground(const Surroundings& around);
   bool is_lost(const Surroundings& around) const;
+  bool stand_on(const Footing& ground, const Surroundings& around, Place& place) const;
   void come_back(const Surroundings& around);
 
   Place before_, now_;
@@ -164,7 +162,8 @@ class Player {
   bool climbing_ = false;
   double risen_ = 0.0;
   world::WorldPos start_feet_;
-  std::deque<SafePlace> safe_;    // newest last
+  std::optional<Footing> home_;
+  std::deque<Footing> safe_;      // newest last
   std::int64_t fall_from_y_ = 0;  // of the feet in the world, when they last had a hold
   std::uint64_t returned_tick_ = 0;
   int returns_ = 0;

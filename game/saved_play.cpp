@@ -9,7 +9,8 @@ namespace skerry::game {
 namespace {
 
 constexpr std::string_view kName = "play";
-constexpr double kMaxTime = 1e9;  // as the setting world.time has it
+constexpr std::string_view kHabits = "habits";  // what whoever only wants a place may leave unread
+constexpr double kMaxTime = 1e9;                // as the setting world.time has it
 constexpr std::int64_t kMaxLattice = std::int64_t{1} << 40;
 constexpr double kMaxYaw = 3600.0;
 
@@ -53,6 +54,46 @@ bool sound(const SavedPlay& play) {
          play.time_of_day_s < 86400.0 && within(play.world_time_s, kMaxTime);
 }
 
+void put_habits(world::WorldFile::Transaction& transaction, const SavedPlay& play) {
+  world::ByteWriter out;
+  for (const world::BlockId block : play.hotbar.blocks) out.u32(block);
+  out.u8(static_cast<std::uint8_t>(play.hotbar.selected));
+  out.u8(play.day_stands);
+  const Footing safe = play.player.safe.value_or(Footing{});
+  out.u8(play.player.safe.has_value());
+  out.u64(safe.island);
+  for (int axis = 0; axis < 3; ++axis) out.i64(safe.lattice[axis]);
+  transaction.put_value(kHabits, out.bytes());
+}
+
+/// Leaves the usual ones where a file has none, or nonsense.
+void get_habits(world::WorldFile& file, SavedPlay& play) {
+  const auto bytes = file.value(kHabits);
+  if (!bytes) return;
+  world::ByteReader in(*bytes);
+  bool good = true;
+  Hotbar hotbar;
+  for (world::BlockId& block : hotbar.blocks) {
+    const std::uint32_t id = in.u32();
+    good &= id < world::block::kBuiltInCount;
+    block = static_cast<world::BlockId>(id);
+  }
+  hotbar.selected = in.u8();
+  good &= hotbar.selected < kHotbarSlots;
+  const bool day_stands = in.u8() != 0;
+  const bool stood = in.u8() != 0;
+  Footing safe;
+  safe.island = in.u64();
+  for (int axis = 0; axis < 3; ++axis) safe.lattice[axis] = in.i64();
+  if (!in.done() || !good || !in_lattice(safe.lattice)) {
+    file.note_damage("the saved world says nonsense about the player's hands: they hold the usual");
+    return;
+  }
+  play.hotbar = hotbar;
+  play.day_stands = day_stands;
+  if (stood) play.player.safe = safe;
+}
+
 }  // namespace
 
 void put_play(world::WorldFile::Transaction& transaction, const SavedPlay& play) {
@@ -72,6 +113,7 @@ void put_play(world::WorldFile::Transaction& transaction, const SavedPlay& play)
   out.f64(play.time_of_day_s);
   out.f64(play.world_time_s);
   transaction.put_value(kName, out.bytes());
+  put_habits(transaction, play);
 }
 
 std::optional<SavedPlay> saved_play(world::WorldFile& file) {
@@ -94,7 +136,10 @@ std::optional<SavedPlay> saved_play(world::WorldFile& file) {
   play.eye.pitch_deg = in.f64();
   play.time_of_day_s = in.f64();
   play.world_time_s = in.f64();
-  if (in.done() && sound(play)) return play;
+  if (in.done() && sound(play)) {
+    get_habits(file, play);
+    return play;
+  }
   file.note_damage("the saved world says nonsense about the player: back to its spawn");
   return std::nullopt;
 }

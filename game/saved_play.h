@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "game/hotbar.h"
 #include "game/parse.h"
 #include "game/player_state.h"
 #include "world/store/world_file.h"
@@ -13,6 +14,8 @@ struct SavedPlay {
   CameraPlace eye;                 ///< for who only wants to look
   double time_of_day_s = 43200.0;  ///< 0 .. 86400
   double world_time_s = 0.0;       ///< how long the islands have drifted
+  Hotbar hotbar;
+  bool day_stands = false;  ///< stopped by the player
   bool operator==(const SavedPlay&) const = default;
 };
 

@@ -97,6 +97,7 @@ std::vector<Answer> Session::receive() {
 }
 
 EditAnswer Session::request(const Edit& edit) {
+  state_->handle_sent();
   return state_->edit(edit);
 }
 
@@ -105,10 +106,18 @@ void Session::advance(double world_time_s) {
   const double passed = std::clamp(world_time_s - s.time_s, 0.0, 1.0);
   s.time_s = world_time_s;
   s.edits_left = std::min(kEditBurst, s.edits_left + passed * kEditsPerSecond);
-  for (const Request& request : s.requests.take()) s.handle(request);
+  s.handle_sent();
   s.take_in_pieces();
   s.motion.advance_to(world_time_s);
   s.save_soon();
+}
+
+void Session::rest() {
+  advance(state_->time_s);
+}
+
+void Session::State::handle_sent() {
+  for (const Request& request : requests.take()) handle(request);
 }
 
 void Session::State::handle(const Request& request) {

@@ -143,11 +143,16 @@ class Session {
   void send(Request request);
   std::vector<Answer> receive();
 
-  /// Handles one edit now; for the client in this process. Frame thread, as advance().
+  /// Handles one edit now, after all that was sent before; for the client in this process. Frame
+  /// thread, as advance().
   EditAnswer request(const Edit& edit);
   /// Handles what was sent, moves the islands up to the time, and saves now and then. Never waits
   /// for the disk.
   void advance(double world_time_s);
+  /// As advance(), while the world's time stands still.
+  void rest();
+  /// The next advance() or rest() saves, however short ago that was done.
+  void save_next();
   /// Blocks until all is saved. Errors: those of the file; the play may go on.
   Result<void> save();
 

@@ -44,6 +44,10 @@ void Session::State::save_soon() {
   });
 }
 
+void Session::save_next() {
+  state_->saved_at = Clock::now() - kAutosavePeriod;
+}
+
 /// What cannot be written counts as unsaved again.
 Result<void> Session::State::write(const std::vector<world::MovingIsland>& moving,
                                    const std::optional<SavedPlay>& play_now) {
@@ -93,6 +97,7 @@ Result<void> Session::State::write(const std::vector<world::MovingIsland>& movin
 
 Result<void> Session::save() {
   State& s = *state_;
+  s.handle_sent();
   s.worker.wait();
   s.take_in_pieces();
   if (!s.file || s.read_only) return {};

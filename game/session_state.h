@@ -41,6 +41,7 @@ struct Session::State {
   ~State();
 
   // session.cpp: messages.
+  void handle_sent();
   void handle(const Request& request);
   EditAnswer edit(const Edit& edit);
   EditVerdict verdict(const Edit& edit, world::BlockId& was);

@@ -61,7 +61,9 @@ std::vector<WorldEntry> list_worlds(const fs::path& folder) {
 
 Result<void> remove_world(const fs::path& path) {
   // One that another process writes is not taken from under it; one that cannot be read may go.
-  if (const auto read = WorldFile::open(path, WorldFile::Mode::kRead); read)
+  // The two are not open together: closing any handle of a file drops the locks of all of them.
+  const bool readable = static_cast<bool>(WorldFile::open(path, WorldFile::Mode::kRead));
+  if (readable)
     if (const auto mine = WorldFile::open(path, WorldFile::Mode::kWrite); !mine)
       return mine.error();
   std::error_code code;

@@ -238,6 +238,9 @@ bool Window::should_close() const {
 void Window::close() {
   glfwSetWindowShouldClose(handle_, GLFW_TRUE);
 }
+void Window::stay_open() {
+  glfwSetWindowShouldClose(handle_, GLFW_FALSE);
+}
 
 FramebufferSize Window::framebuffer_size() const {
   // X11 keeps reporting the old size of an iconified window.

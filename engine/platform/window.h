@@ -42,6 +42,8 @@ class Window {
   InputFrame poll(double wait_s = 0.0);
   bool should_close() const;
   void close();
+  /// Takes close(), or the wish of whoever pressed the window's button for it, back.
+  void stay_open();
   FramebufferSize framebuffer_size() const;
   bool focused() const;
 

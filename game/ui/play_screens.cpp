@@ -40,7 +40,7 @@ std::vector<world::BlockId> find_blocks(std::string_view search) {
 
 void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();
-  begin_panel("pause", Place::kMiddle, 380, 470);
+  begin_panel("pause", Place::kMiddle, 380, state.unsaved ? 660 : 470);
   heading("Paused");
   if (facts.world) text_in(colour::kFaint, *facts.world);
   gap(8);
@@ -50,6 +50,11 @@ void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   if (button("Photo mode")) state.stack.open(Screen::kPhoto);
   if (button("Save and leave")) wishes.leave_world = true;
   if (button("Save and quit Skerry")) wishes.quit = true;
+  if (state.unsaved) {
+    gap(4);
+    text_wrapped(colour::kWarning, *state.unsaved);
+    if (danger_button("Leave without saving")) wishes.leave_unsaved = true;
+  }
   end_panel();
 }
 

@@ -42,6 +42,21 @@ void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
   state.fresh = state.stack.top() != top;
 }
 
+bool goes_back(const ScreenState& state, const platform::InputFrame& input) {
+  const bool takes_pad = state.listening && state.listening->pad;
+  return input.pressed(platform::Key::kEscape) ||
+         (input.pressed(platform::Key::kPadB) && !takes_pad);
+}
+
+void take_keys(const ScreenState& state, const platform::InputFrame& input, ScreenFacts& facts) {
+  using platform::Key;
+  const bool takes_pad = state.listening && state.listening->pad;
+  const Key control = control_of(takes_pad ? Key::kPadA : Key::kA);
+  facts.pressed = input.any_pressed();
+  facts.control = input.down(control);
+  facts.control_up = input.released(control);
+}
+
 void go_back(ScreenState& state, bool typing) {
   if (state.listening) {
     state.listening.reset();

@@ -1,6 +1,7 @@
 // The screens: plain functions from values to ImGui calls. What a player asks for comes back as
 // wishes; nothing here touches a world, a file or the device.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -30,6 +31,12 @@ inline constexpr std::size_t kMaxNameBytes = 64, kMaxSeedBytes = 256;
 /// Text that is being typed, ended by a zero.
 template <std::size_t kBytes>
 using Field = std::array<char, kBytes + 1>;
+/// What does not fit is left out.
+template <std::size_t kSize>
+void set_field(std::array<char, kSize>& field, std::string_view text) {
+  field.fill('\0');
+  std::copy_n(text.begin(), std::min(text.size(), kSize - 1), field.begin());
+}
 
 /// What the screens remember between frames.
 struct ScreenState {
@@ -48,6 +55,9 @@ struct ScreenState {
     bool pad;
   };
   std::optional<Listening> listening;
+
+  /// Why the world that was to be left could not be saved.
+  std::optional<std::string> unsaved;
 
   Field<32> palette_search{};
   bool calibrating = false;
@@ -76,9 +86,9 @@ struct ScreenFacts {
   PhotoSettings* photo = nullptr;
   double adapted_ev = 0.0;                       ///< what photo mode's exposure begins at
   platform::Key pressed = platform::Key::kNone;  ///< first key that went down in this frame
-  bool control = false;                          ///< while Ctrl was held
-  bool control_up = false;                       ///< Ctrl was let go of
-  bool back = false;                             ///< Escape, or its like on a gamepad, went down
+  bool control = false;     ///< while the key that makes chords was held (control_of)
+  bool control_up = false;  ///< that one was let go of
+  bool back = false;        ///< Escape, or its like on a gamepad, went down
   std::string_view version;
 };
 
@@ -93,7 +103,9 @@ struct Wishes {
   std::optional<world::BlockId> take;  ///< into the hand
   bool preview = false;                ///< the new world's seed has changed
   bool draw_lots = false;              ///< another seed for it
+  bool draw_name = false;              ///< another name for it
   bool leave_world = false;            ///< saved, to the title
+  bool leave_unsaved = false;          ///< to the title, whatever is lost
   bool quit = false;
   bool photograph = false;
   bool settings_changed = false, bindings_changed = false;
@@ -101,6 +113,12 @@ struct Wishes {
 
 /// Shows the topmost screen, if any.
 void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+
+/// Whether Escape, or its like on a gamepad, went down. A binding that waits for a gamepad's button
+/// takes that one, too.
+bool goes_back(const ScreenState& state, const platform::InputFrame& input);
+/// Fills in which keys went down and up, as a binding that waits for one wants them.
+void take_keys(const ScreenState& state, const platform::InputFrame& input, ScreenFacts& facts);
 
 /// Escape, or its like on a gamepad: closes what is topmost. @param typing into a text field, which
 /// the key leaves first; but for the palette's, which is always typed into.

@@ -144,26 +144,28 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
 std::string chord_label(Chord chord) {
   if (chord.key == platform::Key::kNone) return "-";
   std::string label = print_chord(chord);
-  if (label.starts_with("pad_")) label.erase(0, 4);
+  constexpr std::string_view kPad = "pad_";
+  for (std::size_t at; (at = label.find(kPad)) != std::string::npos;) label.erase(at, kPad.size());
   std::replace(label.begin(), label.end(), '_', ' ');
   label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
   return label;
 }
 
-/// Takes the key that was pressed for the binding that waits for one. Delete clears it; Ctrl begins
-/// a chord, unless it goes up again alone.
+/// Takes the key that was pressed for the binding that waits for one. Delete clears it; Ctrl, or a
+/// gamepad's Back, begins a chord, unless it goes up again alone.
 void listen(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   using platform::Key;
   if (!state.listening) return;
   const ScreenState::Listening waiting = *state.listening;
+  const Key control = control_of(waiting.pad ? Key::kPadA : Key::kA);
   Key key = facts.pressed;
-  if (key == Key::kControl) return;
-  if (key == Key::kNone && facts.control_up) key = Key::kControl;
+  if (key == control) return;
+  if (key == Key::kNone && facts.control_up) key = control;
   if (key == Key::kNone) return;
   const bool clears = key == Key::kDelete;
   if (!clears && platform::is_pad(key) != waiting.pad) return;
   Binding& binding = (*facts.bindings)[waiting.action];
-  const bool chord = facts.control && !waiting.pad && key != Key::kControl;
+  const bool chord = facts.control && key != control;
   (waiting.pad ? binding.pad : binding.key) = clears ? Chord{} : Chord{key, chord};
   state.listening.reset();
   wishes.bindings_changed = true;

@@ -161,12 +161,13 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
 }
 
 void show_new_world(ScreenState& state, Wishes& wishes) {
-  begin_panel("new_world", Place::kLeft, 440, 440);
+  begin_panel("new_world", Place::kLeft, 440, 500);
   heading("New world");
   text_in(colour::kFaint, "Name");
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
   const bool entered = text_field("##name", state.new_name);
+  if (button("Another name", 184)) wishes.draw_name = true;
   gap(4);
   text_in(colour::kFaint, "Seed");
   ImGui::SetNextItemWidth(-1.0f);

@@ -72,6 +72,55 @@ TEST(Actions, ControlMakesAChordAndSilencesThePlainKey) {
   EXPECT_TRUE(both.down(Action::kForward));  // nothing is bound to Ctrl and W
 }
 
+TEST(Actions, AGamepadsBackMakesChordsAsControlDoes) {
+  Input input;
+  PadState pad = resting_pad();
+  pad.buttons.set(3);  // Y
+  input.set_pad(pad);
+  const ActionFrame plain = actions_of(input);
+  EXPECT_TRUE(plain.pressed(Action::kFly) && !plain.pressed(Action::kNoclip));
+  pad.buttons.reset(3);
+  pad.buttons.set(6);  // Back
+  input.set_pad(pad);
+  (void)input.take();
+  pad.buttons.set(3);
+  pad.axes[1] = -1.0f;
+  input.set_pad(pad);
+  const ActionFrame both = actions_of(input);
+  EXPECT_TRUE(both.pressed(Action::kNoclip) && !both.pressed(Action::kFly));
+  EXPECT_TRUE(both.down(Action::kForward));  // nothing is bound to Back and the stick
+}
+
+TEST(Actions, ChordsAreOfOneDevice) {
+  EXPECT_EQ(parse_chord("pad_back+pad_y"), (Chord{Key::kPadY, true}));
+  EXPECT_EQ(parse_chord("pad_back"), Chord{Key::kPadBack});
+  for (const char* text :
+       {"pad_back+y", "ctrl+pad_y", "pad_back+pad_back", "ctrl+ctrl", "ctrl+", "pad_back+none"})
+    EXPECT_FALSE(parse_chord(text)) << text;
+  for (std::size_t i = 0; i < kActions; ++i) {
+    const Binding binding = default_bindings()[static_cast<Action>(i)];
+    EXPECT_EQ(parse_chord(print_chord(binding.key)), binding.key);
+    EXPECT_EQ(parse_chord(print_chord(binding.pad)), binding.pad);
+  }
+}
+
+TEST(Actions, EscapeAndStartPauseUnlessTheyMeanSomethingElse) {
+  const auto pauses = [](const Bindings& bindings, bool on_pad) {
+    Input input;
+    PadState pad = resting_pad();
+    pad.buttons[7] = on_pad;  // Start
+    input.set_pad(pad);
+    input.set_key(Key::kEscape, !on_pad);
+    return actions_of(input, bindings).pressed(Action::kPause);
+  };
+  Bindings bindings = default_bindings();
+  EXPECT_TRUE(pauses(bindings, false) && pauses(bindings, true));
+  bindings[Action::kPause] = {};
+  EXPECT_TRUE(pauses(bindings, false) && pauses(bindings, true));
+  bindings[Action::kTorch] = {{Key::kEscape}, {Key::kPadStart}};
+  EXPECT_FALSE(pauses(bindings, false) || pauses(bindings, true));
+}
+
 TEST(Actions, AKeyLetGoOfIsReleasedWhateverControlDoes) {
   Input input;
   input.set_key(Key::kY, true);

@@ -215,6 +215,41 @@ TEST_F(InteractionTest, UndoLeavesAloneWhatSomeoneElseChangedAndWhereSomeoneStan
   EXPECT_EQ(at(0, -1, 0), world::kAir);
 }
 
+TEST_F(InteractionTest, ARefusedUndoWaitsUntilItCanBeDone) {
+  look(0.0, -50.0);
+  ASSERT_GT(dig(), 0);
+  const IVec3 hole = world_.islands[0].edits.begin()->first;
+  world_.refuses = true;  // as out of reach
+  frame({.undo = true});
+  EXPECT_TRUE(hands_.replay_refused());
+  EXPECT_EQ(hands_.history().undoable(), 1u);
+  EXPECT_EQ(hands_.history().redoable(), 0u);
+  world_.refuses = false;
+  frame({.undo = true});
+  EXPECT_FALSE(hands_.replay_refused());
+  EXPECT_EQ(*world_.block(0, hole), block::kStone);
+  world_.refuses = true;
+  frame({.redo = true});
+  EXPECT_TRUE(hands_.replay_refused());
+  world_.refuses = false;
+  frame({.redo = true});
+  EXPECT_EQ(*world_.block(0, hole), world::kAir);
+}
+
+TEST_F(InteractionTest, AnActThatSomethingElseUndidDoesNotBarTheOneBefore) {
+  look(0.0, -50.0);
+  ASSERT_GT(dig(), 0);
+  const IVec3 first = world_.islands[0].edits.begin()->first;
+  look(90.0, -50.0);
+  ASSERT_GT(dig(), 0);
+  for (const auto& [voxel, id] : world_.islands[0].edits)
+    if (voxel != first) world_.set_block(0, voxel, block::kGlass);
+  frame({.undo = true});
+  EXPECT_FALSE(hands_.replay_refused());
+  EXPECT_EQ(*world_.block(0, first), block::kStone);
+  EXPECT_EQ(hands_.history().undoable(), 0u);
+}
+
 TEST_F(InteractionTest, ARefusedEditIsNoAct) {
   world_.refuses = true;
   look(0.0, -45.0);

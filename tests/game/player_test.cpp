@@ -413,6 +413,50 @@ TEST(Player, FallingOffTheWorldEndsOnGroundThatHeld) {
   EXPECT_LT(glm::length(world::difference_blocks(player.feet(), at_blocks(0.5, 0.01, 0.5))), 1.0);
 }
 
+/// A plate of 16 x 16 blocks that drifts.
+TestWorld drifting_plate() {
+  TestWorld world;
+  world.islands.push_back({[](double t) {
+                             return still(world::moved({}, {2.0 * t, 0.0, 0.0}));
+                           },
+                           [](IVec3 v) {
+                             return v.y == -1 && std::abs(v.x) < 8 && std::abs(v.z) < 8
+                                        ? world::block::kStone
+                                        : world::block::kAirBlock;
+                           },
+                           12.0});
+  return world;
+}
+
+TEST(Player, SavedInTheMiddleOfAFallTheyComeBackToWhereTheyStood) {
+  const TestWorld world = drifting_plate();
+  Player player(at_blocks(0.5, 0.01, 0.5), 0.0, 0.0, 0.0);
+  player.advance(1.0, {}, world);
+  ASSERT_TRUE(player.on_ground());
+  for (int i = 0; i < 3000 && world::difference_blocks(player.feet(), {}).y > -20.0; ++i)
+    player.advance(1.0 / 60.0, {{0.0, 1.0}, 0.0, false, true}, world);
+  ASSERT_TRUE(player.state().safe);
+  Player again(player.state(), player.tick_time_s());
+  for (int i = 0; i < 3000 && again.returns() == 0; ++i) again.advance(1.0 / 60.0, {}, world);
+  again.advance(1.0, {}, world);
+  EXPECT_EQ(again.returns(), 1);
+  EXPECT_TRUE(again.on_ground());
+  EXPECT_EQ(again.frame_island(), 0u);
+}
+
+TEST(Player, WhoKnowsNoGroundFallsNoFurtherThanHome) {
+  const TestWorld world = drifting_plate();
+  PlayerState lost;
+  lost.feet = at_blocks(3000.0, -200.0, 0.0);
+  Player player(lost, 7.0);
+  player.set_home({0, lattice_pos({0.5, 0.0, 0.5}) + LatticePos{0, kContactGap, 0}});
+  for (int i = 0; i < 3000 && player.returns() == 0; ++i) player.advance(1.0 / 60.0, {}, world);
+  player.advance(1.0, {}, world);
+  EXPECT_EQ(player.returns(), 1);
+  EXPECT_TRUE(player.on_ground());
+  EXPECT_EQ(player.frame_island(), 0u);
+}
+
 TEST(Player, AFallOntoALowerIslandIsNoLoss) {
   TestWorld world;
   const auto floor_at = [](int x_low, int top) {

@@ -65,6 +65,11 @@ SavedPlay at(const glm::dvec3& blocks) {
   play.player.lattice = {1, 2, 3};
   play.time_of_day_s = 4321.0;
   play.world_time_s = 17.0 + 1.0 / 3.0;
+  play.player.safe = Footing{77, {-4, 5, 1LL << 40}};
+  play.hotbar.blocks[3] = world::block::kObsidian;
+  play.hotbar.blocks[8] = world::kAir;
+  play.hotbar.selected = 8;
+  play.day_stands = true;
   return play;
 }
 
@@ -162,6 +167,60 @@ TEST(Session, EverythingComesBackExactly) {
     }
   }
   EXPECT_TRUE(found);
+}
+
+TEST(Session, WhatWasSaidLastIsSavedAndDecidesWhatIsInReach) {
+  const Saved saved;
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{at({150.0, 5.0, 1.5})});
+    session->advance(17.5);
+    const Edit edit{saved.island, {1, 3, 1}, world::block::kLamp};
+    EXPECT_EQ(session->request(edit).verdict, EditVerdict::kTooFar);
+    session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+    EXPECT_EQ(session->request(edit).verdict, EditVerdict::kDone);
+    session->send(PlayerMoved{at({102.5, 5.0, 1.5})});
+    ASSERT_TRUE(session->save());
+    auto read = world::WorldFile::open(saved.path, world::WorldFile::Mode::kRead);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(saved_play(**read), at({102.5, 5.0, 1.5}));
+  }
+}
+
+TEST(Session, SavesWhileTheWorldStandsStill) {
+  const Saved saved;
+  const auto session = saved.open();
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  session->save_next();
+  session->rest();
+  const auto written = [&] {
+    const auto read = world::WorldFile::open(saved.path, world::WorldFile::Mode::kRead);
+    return read && saved_play(**read) == at({101.5, 5.0, 1.5});
+  };
+  for (int i = 0; i < 500 && !written(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(written());
+}
+
+TEST(Session, NonsenseInTheHandsLeavesThePlaceAlone) {
+  const Saved saved;
+  const SavedPlay play = at({101.5, 5.0, 1.5});
+  {
+    auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
+    ASSERT_TRUE(file);
+    auto transaction = (*file)->begin();
+    put_play(transaction, play);
+    transaction.put_value("habits", std::vector<std::byte>(11, std::byte{255}));
+    ASSERT_TRUE(transaction.commit());
+  }
+  auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kRead);
+  ASSERT_TRUE(file);
+  SavedPlay expected = play;
+  expected.hotbar = {};
+  expected.day_stands = false;
+  expected.player.safe.reset();
+  EXPECT_EQ(saved_play(**file), expected);
+  EXPECT_EQ((*file)->damage().size(), 1u);
 }
 
 /// Solid blocks of all islands together.

@@ -93,7 +93,7 @@ int CommandLine::run_play() {
   if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
   const bool asked_for =
       scene.text.seed || scene.text.world || scene.text.camera || scene.scene_file;
-  return play_command(options, !asked_for);
+  return play_command(options, !asked_for, read.problems);
 }
 
 int CommandLine::run_shot() {

@@ -27,7 +27,8 @@ class Surface {
 
 }  // namespace
 
-int play_command(const game::SceneOptions& scene, bool at_title) {
+int play_command(const game::SceneOptions& scene, bool at_title,
+                 const std::vector<std::string>& notes) {
   const platform::WindowOptions wanted{static_cast<int>(scene.size.width),
                                        static_cast<int>(scene.size.height), "Skerry"};
   auto window = platform::Window::create(wanted);
@@ -37,7 +38,7 @@ int play_command(const game::SceneOptions& scene, bool at_title) {
   const auto surface = (*window)->create_surface((*device)->instance());
   if (!surface) return fail(kFailed, surface.error());
   const Surface owned((*device)->instance(), *surface);
-  const auto played = game::play(**window, **device, owned.handle(), scene, at_title);
+  const auto played = game::play(**window, **device, owned.handle(), scene, at_title, notes);
   if (!played) return fail(kFailed, played.error());
   return status_after(**device);
 }

@@ -69,8 +69,12 @@ std::optional<std::span<const std::byte>> unsealed(std::string_view table, std::
   return bytes;
 }
 
+bool fits_file(const WorldInfo& info) {
+  return info.name.size() <= kMaxNameBytes && info.seed_text.size() <= kMaxSeedBytes;
+}
+
 std::vector<std::byte> encode_info(const WorldInfo& info) {
-  SKERRY_ASSERT(info.name.size() <= kMaxNameBytes && info.seed_text.size() <= kMaxSeedBytes);
+  SKERRY_ASSERT(fits_file(info));
   ByteWriter out;
   out.text(info.name);
   out.text(info.seed_text);

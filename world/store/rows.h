@@ -18,6 +18,9 @@ std::vector<std::byte> sealed(std::string_view table, std::uint64_t key,
 std::optional<std::span<const std::byte>> unsealed(std::string_view table, std::uint64_t key,
                                                    std::span<const std::byte> blob);
 
+/// Whether its texts are no longer than a file keeps.
+bool fits_file(const WorldInfo& info);
+/// @pre fits_file(info)
 std::vector<std::byte> encode_info(const WorldInfo& info);
 std::optional<WorldInfo> decode_info(std::span<const std::byte> bytes);
 

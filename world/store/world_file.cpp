@@ -91,6 +91,10 @@ void WorldFile::note_damage(std::string line) {
 }
 
 Result<std::unique_ptr<WorldFile>> WorldFile::create(const fs::path& path, const WorldInfo& info) {
+  if (!fits_file(info))
+    return Error{
+        fmt::format("cannot make the world {}: its name or seed is too long; choose a shorter one",
+                    quoted(path))};
   std::error_code code;
   if (fs::exists(path, code))
     return Error{

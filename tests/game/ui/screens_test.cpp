@@ -45,11 +45,9 @@ class Sitting {
   /// Shows a frame. @return what is to be drawn.
   OverlayTriangles frame() {
     const platform::InputFrame taken = input.take();
-    facts.pressed = taken.any_pressed();
-    facts.control = taken.down(Key::kControl);
-    facts.control_up = taken.released(Key::kControl);
-    facts.back = taken.pressed(Key::kEscape) || taken.pressed(Key::kPadB);
+    facts.back = goes_back(state, taken);
     if (facts.back) go_back(state, gui.typing());
+    take_keys(state, taken, facts);
     const bool fed = !state.listening;
     gui.begin({size_.width, size_.height, 0.05, fed ? &taken : nullptr});
     show_screens(state, facts, wishes);
@@ -273,6 +271,61 @@ TEST(Controls, CtrlAloneEscapeAndDeleteMeanWhatTheySay) {
   EXPECT_TRUE(sitting.state.listening);
   sitting.tap_pad(2);
   EXPECT_EQ(sitting.bindings[Action::kJump].pad, Chord{Key::kPadX});
+}
+
+TEST(Controls, AGamepadsBAndChordsCanBeBound) {
+  constexpr std::size_t kB = 1, kX = 2, kBack = 6;
+  Sitting sitting(Screen::kControls);
+  sitting.settle();
+  const auto listen = [&] { sitting.state.listening = {Action::kJump, true}; };
+  const auto& bound = sitting.bindings[Action::kJump].pad;
+  listen();
+  sitting.tap_pad(kB);
+  EXPECT_EQ(bound, Chord{Key::kPadB});
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kControls);
+  listen();
+  sitting.tap_pad(kBack);
+  EXPECT_EQ(bound, Chord{Key::kPadBack});
+  listen();
+  PadState pad{{}, {0.0f, 0.0f, 0.0f, 0.0f, -1.0f, -1.0f}};
+  for (const std::size_t button : {kBack, kX}) {
+    pad.buttons.set(button);
+    sitting.input.set_pad(pad);
+    sitting.frame();
+  }
+  EXPECT_EQ(bound, (Chord{Key::kPadX, true}));
+  listen();
+  sitting.tap(Key::kEscape);
+  EXPECT_FALSE(sitting.state.listening);
+  EXPECT_EQ(bound, (Chord{Key::kPadX, true}));
+}
+
+TEST(Pause, SaysThatSavingFailedAndLeavesAnywayOnlyIfTold) {
+  for (const bool failed : {false, true}) {
+    Sitting sitting(Screen::kPause);
+    if (failed) sitting.state.unsaved = "cannot save the world '/a': the disk is full; make room";
+    sitting.settle();
+    for (int i = 0; i < 6; ++i) sitting.tap(Key::kDown);  // past the six that are always there
+    sitting.tap(Key::kEnter);
+    EXPECT_EQ(sitting.wishes.leave_unsaved, failed);
+  }
+}
+
+TEST(NewWorld, HasANameAndASeedWithoutAKeyboard) {
+  constexpr std::size_t kA = 0, kB = 1, kDown = 13;
+  Sitting sitting(Screen::kNewWorld);
+  sitting.settle();
+  sitting.tap_pad(kB);  // out of the field
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kNewWorld);
+  sitting.tap_pad(kDown);
+  sitting.tap_pad(kA);
+  EXPECT_TRUE(sitting.wishes.draw_name);
+  for (int i = 0; i < 2; ++i) sitting.tap_pad(kDown);  // over the seed's field
+  sitting.tap_pad(kA);
+  EXPECT_TRUE(sitting.wishes.draw_lots);
+  sitting.tap_pad(kDown);
+  sitting.tap_pad(kA);
+  EXPECT_TRUE(sitting.wishes.create);
 }
 
 TEST(Palette, FindsBlocksByAllWordsInAnyCase) {

@@ -114,6 +114,15 @@ TEST(WorldFile, WhatWasCommittedIsRead) {
   }
 }
 
+TEST(WorldFile, ANameOrSeedTooLongIsRefused) {
+  const Folder folder;
+  EXPECT_FALSE(WorldFile::create(folder / "a.skerry", {std::string(201, 'n'), "1", {}}));
+  EXPECT_FALSE(WorldFile::create(folder / "b.skerry", {"n", std::string(4097, '1'), {}}));
+  EXPECT_TRUE(
+      WorldFile::create(folder / "c.skerry", {std::string(200, 'n'), std::string(4096, '1'), {}}));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.skerry"));
+}
+
 TEST(WorldFile, ATransactionLeftAloneChangesNothing) {
   const Folder folder;
   auto file = WorldFile::create(folder / "w", info_of_seed_4());
