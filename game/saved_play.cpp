@@ -9,8 +9,8 @@ namespace skerry::game {
 namespace {
 
 constexpr std::string_view kName = "play";
-constexpr double kMaxTime = 1e9;  // as the setting world.time has it
-constexpr std::int64_t kMaxLattice = std::int64_t{1} << 40;
+constexpr double kMaxTime = 1e9;                             // as the setting world.time has it
+constexpr std::int64_t kMaxLattice = std::int64_t{1} << 52;  // 2^20 blocks of 2^32 units
 constexpr double kMaxYaw = 3600.0;
 
 bool within(double v, double most) {
