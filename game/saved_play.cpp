@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kName = "play";
 constexpr std::string_view kHabits = "habits";  // what whoever only wants a place may leave unread
 constexpr double kMaxTime = 1e9;                // as the setting world.time has it
-constexpr std::int64_t kMaxLattice = std::int64_t{1} << 40;
+constexpr std::int64_t kMaxLattice = std::int64_t{1} << 52;  // 2^20 blocks of 2^32 units
 constexpr double kMaxYaw = 3600.0;
 
 bool within(double v, double most) {

@@ -39,7 +39,9 @@ Session::State::State(std::shared_ptr<world::World> opened)
       motion(*world, [this](std::uint64_t island) { return shape_for(island); }),
       saved_at(std::chrono::steady_clock::now()) {}
 
-Session::State::~State() = default;
+Session::State::~State() {
+  leaving = true;
+}
 
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
@@ -142,8 +144,12 @@ void Session::State::handle(const Request& request) {
     void operator()(const PlayerMoved& moved) { s.play = moved.play; }
     void operator()(const Steer& steer) {
       const auto finite = [](double v) { return std::isfinite(v); };
-      if (finite(steer.thrust.x) && finite(steer.thrust.y) && finite(steer.thrust.z) &&
-          finite(steer.turn))
+      if (!finite(steer.thrust.x) || !finite(steer.thrust.y) || !finite(steer.thrust.z) ||
+          !finite(steer.turn))
+        return;
+      // Only who stands on an island steers it; who fell off may let go.
+      const bool lets_go = steer.thrust == glm::dvec3{} && steer.turn == 0.0;
+      if (lets_go || (s.play && s.play->player.island == steer.island))
         s.motion.steer(steer.island, steer.thrust, steer.turn);
     }
   };
@@ -174,16 +180,16 @@ EditVerdict Session::State::verdict(const Edit& edit, BlockId& was) {
 EditAnswer Session::State::edit(const Edit& edit) {
   EditAnswer answer{edit, EditVerdict::kDone, world::kAir};
   // While voxels go from one island to another, nobody can tell which of them this one is on.
-  const std::unique_lock lock(breaking, std::try_to_lock);
-  answer.verdict = lock ? verdict(edit, answer.was) : EditVerdict::kUnknown;
+  const std::lock_guard lock(breaking);
+  answer.verdict = verdict(edit, answer.was);
   if (answer.verdict != EditVerdict::kDone) return answer;
   edits_left -= 1.0;
   world->set_block(edit.island, edit.voxel, edit.block);
+  ++edits_made;
   {
     const std::lock_guard unsaved_lock(unsaved_mutex);
     unsaved.chunks.insert({edit.island, world::chunk_of(edit.voxel)});
   }
-  ++edit_counts[edit.island];
   follow_edit(edit, answer.was);
   return answer;
 }

@@ -38,7 +38,8 @@ struct Edit {
 struct PlayerMoved {
   SavedPlay play;
 };
-/// Hands on a helm: engines of an island. Lasts until said otherwise; zeros let go.
+/// Hands on a helm: engines of the island that the player stands on. Lasts until said otherwise;
+/// zeros let go, from anywhere.
 struct Steer {
   std::uint64_t island = 0;
   glm::dvec3 thrust{};  ///< in the island's axes; length at most 1 counts

@@ -9,6 +9,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kAutosavePeriod{5};
+// A state is written between two frames; no frame takes longer.
+constexpr double kMostAhead_s = 1.0;
 
 }  // namespace
 
@@ -17,12 +19,13 @@ void Session::State::load(world::LoadedWorld& loaded) {
   play = saved;
   for (const std::string& line : file->damage()) tell(line);
   if (read_only) tell("this world may not be written: nothing of this play will be saved");
-  time_s = saved ? saved->world_time_s : 0.0;
-  // Islands go on at the tick they were saved at, a little ahead of the player's.
-  double start_s = time_s;
+  double islands_s = saved ? saved->world_time_s : 0.0;
   for (const world::MovingIsland& m : loaded.moving)
-    start_s = std::max(start_s, static_cast<double>(m.state.tick) * world::kMotionTickSeconds);
-  motion.start(start_s);
+    islands_s = std::max(islands_s, static_cast<double>(m.state.tick) * world::kMotionTickSeconds);
+  time_s = saved ? saved->world_time_s : islands_s;
+  // Islands go on at the tick they were saved at, a little ahead of the player's. One that is far
+  // ahead is wrong about it: all would stand still till then.
+  motion.start(islands_s - time_s < kMostAhead_s ? islands_s : time_s);
   for (const world::MovingIsland& m : loaded.moving) motion.add(m.island, m.state);
 }
 
@@ -83,7 +86,13 @@ Result<void> Session::State::write(const std::vector<world::MovingIsland>& movin
     }
   }
   world::WorldFile::Transaction transaction = file->begin();
-  for (const auto& [id, row] : rows) transaction.put_island(row);
+  for (const auto& [id, row] : rows) {
+    if (what.islands.contains(id)) {
+      transaction.put_new_island(row);
+    } else {
+      transaction.put_island(row);
+    }
+  }
   for (const auto& [name, list] : edits) transaction.put_edits(name.island, name.chunk, list);
   for (const auto& [name, chunk] : chunks) transaction.put_chunk(name.island, name.chunk, chunk);
   if (play_now) put_play(transaction, *play_now);

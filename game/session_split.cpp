@@ -32,6 +32,8 @@ void Session::State::follow_edit(const Edit& edit, world::BlockId was) {
   const bool solid = world::is_solid(edit.block);
   if (solid == world::is_solid(was)) return;
   motion.edited(edit.island, {&edit.voxel, 1}, solid);
+  if (const auto way = shapes.find(edit.island); way != shapes.end())
+    way->second.edits[edit.voxel] = solid;
   worker.add([this, edit, solid, at_s = time_s] { look_for_fragments(edit, solid, at_s); });
 }
 
@@ -53,46 +55,60 @@ void Session::State::look_for_fragments(const Edit& edit, bool solid, double at_
   grid.set(edit.voxel, solid);
   if (solid) return;
   for (const world::Fragment& fragment : world::find_fragments(grid, {&edit.voxel, 1}).fragments) {
-    BrokenPiece piece;
-    piece.broken_off = island;
-    piece.mass = fragment.mass;
-    piece.voxels = voxels_of(fragment);
-    const std::optional<world::Pose> pose = world->pose(island, at_s);
-    if (!pose) return;
-    {
-      const std::scoped_lock lock(breaking, saving);
-      const world::BrokenOff off = world::break_off(*world, island, fragment, *pose);
-      piece.island = off.island;
-      piece.shift = fragment.mass.centre - off.mass.centre;
-      const std::lock_guard unsaved_lock(unsaved_mutex);
-      unsaved.islands.insert(off.island);
-      for (const auto& [at, bits] : fragment.bricks) {
-        // Plants and water above went along, up to the next chunk.
-        const world::IVec3 chunk{at.x >> 3, at.y >> 3, at.z >> 3};
-        unsaved.chunks.insert({island, chunk});
-        unsaved.chunks.insert({island, {chunk.x, chunk.y + 1, chunk.z}});
-      }
-      for (const world::IVec3& chunk : world->chunks(off.island, 0))
-        unsaved.chunks.insert({off.island, chunk});
-    }
+    const std::optional<world::BrokenOff> off = break_off(island, fragment, at_s);
     for (const auto& [at, bits] : fragment.bricks) grid.clear(at, bits);
+    if (!off) continue;
+    BrokenPiece piece;
+    piece.island = off->island;
+    piece.broken_off = island;
+    piece.shift = off->shift;
+    piece.mass = off->mass;
+    piece.mass.centre += off->shift;
+    piece.voxels = voxels_of(fragment);
     piece.shape = std::make_unique<world::Shape>(world::SolidGrid::of_island(*world, piece.island));
     pieces.put(std::move(piece));
   }
 }
 
+/// Copies the fragment while edits go on, and keeps them waiting only while it changes places.
+std::optional<world::BrokenOff> Session::State::break_off(std::uint64_t island,
+                                                          const world::Fragment& fragment,
+                                                          double at_s) {
+  const std::optional<world::Pose> pose = world->pose(island, at_s);
+  if (!pose) return std::nullopt;
+  std::uint64_t edits_then = edits_made;
+  std::optional<world::LoosePiece> loose = world::copy_piece(*world, island, fragment);
+  const std::scoped_lock lock(breaking, saving);
+  if (edits_then != edits_made) loose = world::copy_piece(*world, island, fragment);
+  if (!loose) return std::nullopt;
+  world::BrokenOff off = world::break_off(*world, island, *loose, *pose);
+  const std::lock_guard unsaved_lock(unsaved_mutex);
+  unsaved.islands.insert(off.island);
+  for (const world::IVec3& chunk : off.changed) unsaved.chunks.insert({island, chunk});
+  for (const world::IVec3& chunk : world->chunks(off.island, 0))
+    unsaved.chunks.insert({off.island, chunk});
+  return off;
+}
+
 /// Frame thread: pieces fly on as their voxels did.
 void Session::State::take_in_pieces() {
-  for (BrokenPiece& piece : pieces.take()) {
+  for (BrokenPiece& piece : pieces.take()) waiting_pieces.push_back(std::move(piece));
+  for (BrokenPiece& piece : std::exchange(waiting_pieces, {})) {
     const auto was = motion.motion_at(piece.broken_off, piece.mass.centre);
-    if (!was) continue;
+    if (!was) {
+      waiting_pieces.push_back(std::move(piece));
+      continue;
+    }
     world::MotionState state;
     state.pose = {world::moved(was->pose.origin, was->pose.rotation * piece.shift),
                   was->pose.rotation};
     state.velocity = was->velocity;
     state.spin = was->spin;
     motion.add(piece.island, state, std::move(piece.shape));
-    ++edit_counts[piece.broken_off];
+    if (const auto way = shapes.find(piece.broken_off); way != shapes.end()) {
+      for (const world::IVec3& voxel : piece.voxels) way->second.edits[voxel] = false;
+      way->second.outdated |= piece.voxels.empty();
+    }
     if (piece.voxels.empty()) {
       motion.reshape(piece.broken_off);
     } else {
@@ -102,22 +118,29 @@ void Session::State::take_in_pieces() {
   }
 }
 
-/// Shapes are made on the worker. One that edits have overtaken is made again.
+/// Shapes are made beside the frame. What was edited meanwhile is made up for; a shape that much
+/// has broken off from is made again.
 std::unique_ptr<world::Shape> Session::State::shape_for(std::uint64_t island) {
-  const std::uint64_t edits = edit_counts[island];
-  const auto found = shapes.find(island);
-  if (found != shapes.end()) {
+  if (const auto found = shapes.find(island); found != shapes.end()) {
     std::vector<std::unique_ptr<world::Shape>> made = found->second.box->take();
     if (made.empty()) return nullptr;
-    const bool fresh = found->second.edits == edits;
+    const ShapeOnItsWay way = std::move(found->second);
     shapes.erase(found);
-    if (fresh) return std::move(made.front());
+    if (!way.outdated) {
+      for (const bool solid : {false, true}) {
+        std::vector<world::IVec3> voxels;
+        for (const auto& [voxel, is_solid] : way.edits)
+          if (is_solid == solid) voxels.push_back(voxel);
+        made.front()->edit(voxels, solid);
+      }
+      return std::move(made.front());
+    }
   }
   ShapeOnItsWay& way = shapes[island];
-  way.edits = edits;
   way.box = std::make_shared<Mailbox<std::unique_ptr<world::Shape>>>();
-  worker.add([this, island, box = way.box] {
-    box->put(std::make_unique<world::Shape>(world::SolidGrid::of_island(*world, island)));
+  shaper.add([this, island, box = way.box] {
+    if (leaving) return;
+    box->put(std::make_unique<world::Shape>(world::SolidGrid::of_island(*world, island, &leaving)));
   });
   return nullptr;
 }

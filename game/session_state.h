@@ -51,6 +51,8 @@ struct Session::State {
   void follow_edit(const Edit& edit, world::BlockId was);
   void look_for_fragments(const Edit& edit, bool solid, double at_s);
   void take_in_pieces();
+  std::optional<world::BrokenOff> break_off(std::uint64_t island, const world::Fragment& fragment,
+                                            double at_s);
   std::unique_ptr<world::Shape> shape_for(std::uint64_t island);
 
   // session_save.cpp.
@@ -71,18 +73,21 @@ struct Session::State {
   std::optional<SavedPlay> play;  // as the client said last
   double edits_left = kEditBurst;
   double time_s = 0.0;
-  std::map<std::uint64_t, std::uint64_t> edit_counts;  // by island; tells shapes that came too late
   struct ShapeOnItsWay {
-    std::uint64_t edits = 0;  // of the island when it was asked for
+    std::map<world::IVec3, bool> edits;  // since it was asked for: what is solid now, what is not
+    bool outdated = false;               // by more than is worth naming
     std::shared_ptr<Mailbox<std::unique_ptr<world::Shape>>> box;
   };
   std::map<std::uint64_t, ShapeOnItsWay> shapes;
   std::chrono::steady_clock::time_point saved_at;
   Mailbox<BrokenPiece> pieces;
+  std::vector<BrokenPiece> waiting_pieces;  // for the shape of what they broke off
 
   // All threads.
-  std::mutex breaking;  // held while voxels go from one island to another
-  std::mutex saving;    // held while a state of the world is taken down
+  std::mutex breaking;  // held while voxels go from one island to another, for a moment
+  std::atomic<std::uint64_t> edits_made = 0;  // grows with `breaking` held
+  std::atomic<bool> leaving = false;          // nobody waits for shapes any more
+  std::mutex saving;                          // held while a state of the world is taken down
   std::mutex unsaved_mutex;
   Unsaved unsaved;
   std::atomic<bool> save_under_way = false;
@@ -97,7 +102,7 @@ struct Session::State {
   std::array<KnownGrid, 4> grids;  // of the islands edited last, newest first
 
   // Last, so that they end first.
-  TaskThread worker, saver;
+  TaskThread worker, shaper, saver;
 };
 
 }  // namespace skerry::game

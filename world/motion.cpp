@@ -220,8 +220,8 @@ void IslandMotion::meet_courses(Body& body) {
   }
 }
 
-/// Pairs whose balls overlap, at least one of them off its course and awake. Sorted along x, then
-/// swept, so that those far apart are never compared.
+/// Pairs whose balls overlap, at least one of them off its course and one of them awake. Sorted
+/// along x, then swept, so that those far apart are never compared.
 std::vector<IslandMotion::Pair> IslandMotion::near_pairs() {
   struct Span {
     std::int64_t low, high;
@@ -241,12 +241,11 @@ std::vector<IslandMotion::Pair> IslandMotion::near_pairs() {
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
     return std::tie(a.low, a.body->id) < std::tie(b.low, b.body->id);
   });
-  const auto moves = [](const Body& b) { return !b.on_course && b.awake(); };
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < spans.size(); ++i) {
     for (std::size_t j = i + 1; j < spans.size() && spans[j].low <= spans[i].high; ++j) {
       Body *a = spans[i].body, *b = spans[j].body;
-      if (!moves(*a) && !moves(*b)) continue;
+      if ((a->on_course && b->on_course) || (!a->awake() && !b->awake())) continue;
       const double reach = a->radius() + b->radius() + 2.0;
       const glm::dvec3 away = difference_blocks(spans[i].place, spans[j].place);
       if (glm::dot(away, away) > reach * reach) continue;
@@ -326,8 +325,7 @@ void IslandMotion::step() {
     drive(*body);
   }
   for (auto& [id, course] : courses_) course->wanted = false;
-  for (auto& [id, body] : bodies_)
-    if (body->awake()) meet_courses(*body);
+  for (auto& [id, body] : bodies_) meet_courses(*body);  // one at rest, too, may be run into
   std::erase_if(courses_, [](const auto& entry) { return !entry.second->wanted; });
   std::vector<Pair> pairs = near_pairs();
   hold(pairs);
@@ -375,7 +373,8 @@ void IslandMotion::advance_to(double time_s) {
     tick_ = wanted - kMaxTicks;
     for (auto& [id, body] : bodies_) body->now.tick = tick_;
   }
-  if (bodies_.empty()) tick_ = std::max(tick_, wanted);
+  if (bodies_.empty()) tick_ = wanted;
+  if (tick_ - wanted > kMaxTicks) start(time_s);
   while (tick_ < wanted) step();
 }
 
@@ -394,6 +393,7 @@ std::optional<IslandMotion::PointMotion> IslandMotion::motion_at(std::uint64_t i
     const MotionState state = on_course_at(*spec, tick_, place);
     return PointMotion{state.pose, state.velocity, state.spin};
   }
+  if (!found->second->shape && !found->second->at_origin) return std::nullopt;
   const MotionState& now = found->second->now;
   const glm::dvec3 arm = Turn::of(now.pose.rotation)(place - found->second->centre());
   return PointMotion{now.pose, now.velocity + carried(now.spin, arm), now.spin};

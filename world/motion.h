@@ -59,13 +59,15 @@ class IslandMotion {
 
   /// One tick. The world is told all poses.
   void step();
-  /// Ticks until the world's poses reach a time, kMaxTicks at most; the clock then jumps.
+  /// Ticks until the world's poses reach a time, kMaxTicks at most; the clock then jumps. It jumps
+  /// back, too, if the time is that far behind it.
   void advance_to(double time_s);
   static constexpr std::int64_t kMaxTicks = 30;
 
   /// States of all disturbed islands, ascending ids.
   std::vector<MovingIsland> states() const;
-  /// How a place of an island's lattice moves at this tick, on its course or not.
+  /// How a place of an island's lattice moves at this tick, on its course or not. None: no such
+  /// island is known, or its centre of mass not yet: the shape is on its way.
   struct PointMotion {
     Pose pose;              ///< of the lattice
     glm::dvec3 velocity{};  ///< of the place [blocks/s]

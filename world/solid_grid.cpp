@@ -32,8 +32,10 @@ SolidGrid::SolidGrid(std::vector<IVec3> chunks, Fill fill) : fill_(std::move(fil
   for (const IVec3& chunk : chunks) slots_.try_emplace(chunk);
 }
 
-SolidGrid SolidGrid::of_island(World& world, std::uint64_t island) {
-  return {world.chunks(island, 0), [&world, island](IVec3 chunk, std::span<BlockId> out) {
+SolidGrid SolidGrid::of_island(World& world, std::uint64_t island,
+                               const std::atomic<bool>* stopped) {
+  return {world.chunks(island, 0), [&world, island, stopped](IVec3 chunk, std::span<BlockId> out) {
+            if (stopped && *stopped) return false;
             const Chunk now = world.chunk_now(island, chunk);
             if (now.is_uniform() && now.at(0) == kAir) return false;
             now.unpack(out);

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -66,8 +67,10 @@ class SolidGrid {
   /// @param chunks all that may hold anything.
   SolidGrid(std::vector<IVec3> chunks, Fill fill);
   /// As the island is now; chunks not yet looked at as they are then. Builds the island's plan if
-  /// need be. @param world outlives the grid.
-  static SolidGrid of_island(World& world, std::uint64_t island);
+  /// need be. @param world outlives the grid. @param stopped outlives it, too; once true, nobody
+  /// wants the grid any more, and chunks not yet looked at count as empty.
+  static SolidGrid of_island(World& world, std::uint64_t island,
+                             const std::atomic<bool>* stopped = nullptr);
 
   bool at(IVec3 voxel) const;
   /// An edit. @return whether it changed anything.

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "engine/core/check.h"
-#include "world/stored_voxels.h"
 
 namespace skerry::world {
 namespace {
@@ -264,35 +263,52 @@ SplitSearch find_fragments(const SolidGrid& grid, std::span<const IVec3> removed
   return {sides.fragments(), sides.bricks_looked_at()};
 }
 
-BrokenOff break_off(World& world, std::uint64_t island, const Fragment& fragment, const Pose& at) {
-  SKERRY_ASSERT(fragment.mass.blocks != 0);
+std::optional<LoosePiece> copy_piece(World& world, std::uint64_t island, const Fragment& fragment) {
+  Blocks blocks(world, island);
   const glm::dvec3 middle = glm::floor(fragment.mass.centre);
   const IVec3 shift{static_cast<std::int32_t>(middle.x), static_cast<std::int32_t>(middle.y),
                     static_cast<std::int32_t>(middle.z)};
-  Blocks blocks(world, island);
   Move move(blocks, shift);
+  MassSum sum;
   for (const auto& [brick, voxels] : fragment.bricks) {
+    BitBrick left;  // someone may have dug since the fragment was found
     for (int y = 0; y < kEdge; ++y) {
       for (std::uint64_t layer = voxels.layers[y]; layer != 0; layer &= layer - 1) {
         const int bit = std::countr_zero(layer);
         IVec3 v{brick.x * kEdge + bit / kEdge, brick.y * kEdge + y, brick.z * kEdge + bit % kEdge};
+        if (!is_solid(blocks.at(v))) continue;
+        left.layers[y] |= layer & -layer;
         move.take(v);
         // Plants and water go along with what they stand on.
         for (++v.y; blocks.at(v) != kAir && !is_solid(blocks.at(v)); ++v.y) move.take(v);
       }
     }
+    if (left.any()) sum.add(brick, left, 1);
   }
-  const auto voxels = std::make_shared<const StoredVoxels>(move.made());
-  IslandSpec spec;
+  if (move.taken().empty()) return std::nullopt;
+  LoosePiece piece;
+  piece.voxels = std::make_shared<const StoredVoxels>(move.made());
+  piece.shift = middle;
+  piece.spec = fitted({}, *piece.voxels);
+  piece.mass = sum.mass();
+  piece.mass.centre -= middle;
+  piece.taken = std::move(move.taken());
+  return piece;
+}
+
+BrokenOff break_off(World& world, std::uint64_t island, const LoosePiece& piece, const Pose& at) {
+  IslandSpec spec = piece.spec;
   spec.id = world.unused_id();
-  spec.origin = moved(at.origin, at.rotation * middle);
+  spec.origin = moved(at.origin, at.rotation * piece.shift);
   spec.yaw_rad = 2.0 * std::atan2(at.rotation.y, at.rotation.w);
-  const bool added = world.add_island(fitted(spec, *voxels), voxels);
+  const bool added = world.add_island(spec, piece.voxels);
   SKERRY_ASSERT(added);
-  for (const auto& [chunk, edits] : move.taken()) world.set_blocks(island, chunk, edits);
-  Mass mass = fragment.mass;
-  mass.centre -= middle;
-  return {spec.id, mass};
+  BrokenOff off{spec.id, piece.mass, piece.shift, {}};
+  for (const auto& [chunk, edits] : piece.taken) {
+    world.set_blocks(island, chunk, edits);
+    off.changed.push_back(chunk);
+  }
+  return off;
 }
 
 }  // namespace skerry::world

@@ -1,11 +1,14 @@
 #pragma once
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "world/motion_state.h"
 #include "world/solid_grid.h"
+#include "world/stored_voxels.h"
 #include "world/world.h"
 
 namespace skerry::world {
@@ -28,16 +31,30 @@ struct SplitSearch {
 /// @param grid without those voxels.
 SplitSearch find_fragments(const SolidGrid& grid, std::span<const IVec3> removed);
 
+/// A fragment's voxels and what stands on them, copied from their island.
+struct LoosePiece {
+  std::shared_ptr<const StoredVoxels> voxels;  ///< in a lattice of their own
+  glm::dvec3 shift{};                          ///< from the island's lattice to that, whole blocks
+  IslandSpec spec;                             ///< box and radius
+  Mass mass;                                   ///< in their own lattice
+  std::map<IVec3, ChunkEdits> taken;           ///< air for each of them, on the island
+};
+/// @param fragment voxels of it that are no longer solid by now are left out. @return none: nothing
+/// of it is left.
+std::optional<LoosePiece> copy_piece(World& world, std::uint64_t island, const Fragment& fragment);
+
 /// What a fragment became.
 struct BrokenOff {
   std::uint64_t island = 0;
-  Mass mass;  ///< in its own lattice
+  Mass mass;                   ///< in its own lattice
+  glm::dvec3 shift{};          ///< from the old lattice to its own
+  std::vector<IVec3> changed;  ///< chunks of the old island that voxels were taken from
 };
 
-/// Moves a fragment's voxels, and what stands on them, into an island of their own. Not a voxel
-/// moves in the world; the new lattice is the old one shifted by whole blocks. The island stands
-/// still where it is until someone moves it (IslandMotion::add).
-/// @param at pose of the old island, which must be known.
-BrokenOff break_off(World& world, std::uint64_t island, const Fragment& fragment, const Pose& at);
+/// Moves a piece into an island of its own. Not a voxel moves in the world; the new lattice is the
+/// old one shifted by whole blocks. The island stands still where it is until someone moves it
+/// (IslandMotion::add).
+/// @param piece as the island is now. @param at pose of the old island, which must be known.
+BrokenOff break_off(World& world, std::uint64_t island, const LoosePiece& piece, const Pose& at);
 
 }  // namespace skerry::world

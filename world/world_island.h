@@ -13,7 +13,7 @@ namespace skerry::world {
 struct World::Island {
   explicit Island(const IslandSpec& island_spec,
                   std::shared_ptr<const VoxelSource> voxels = nullptr)
-      : added(voxels != nullptr), source(std::move(voxels)), spec_(island_spec) {}
+      : added(voxels != nullptr), made(island_spec), source(std::move(voxels)), spec_(made) {}
 
   /// What the voxels come from; built now if it has to be.
   std::shared_ptr<const VoxelSource> plan();
@@ -28,17 +28,18 @@ struct World::Island {
   void put(IVec3 chunk, std::span<const VoxelEdit> edits);
 
   const bool added;          // its source is all there is of it, and stays
+  const IslandSpec made;     // as it came; the seed's voxels follow from it
   std::mutex plan_mutex;     // held while the plan is built
   mutable std::mutex mutex;  // guards everything below; never held for long
   std::shared_ptr<const VoxelSource> source;
   std::map<IVec3, Chunk> chunks;            // loaded, level 0
   std::optional<std::set<IVec3>> may_hold;  // level-0 chunks that are not plain air, if known
-  std::map<IVec3, ChunkEdits> edits;        // by level-0 chunk
-  std::unique_ptr<PoseTrack> track;         // of an island that was moved
-  WorldPos noted;                           // where it was when the world's revision last grew
+  std::map<IVec3, std::shared_ptr<const ChunkEdits>> edits;  // by level-0 chunk; replaced whole
+  std::unique_ptr<PoseTrack> track;                          // of an island that was moved
+  WorldPos noted;  // where it was when the world's revision last grew
 
  private:
-  IslandSpec spec_;
+  IslandSpec spec_;  // `made`, but for a box and a radius that grow with what is built
 };
 
 /// Order of lists of chunks: y, then x, then z.

@@ -79,17 +79,22 @@ std::shared_ptr<const VoxelSource> World::Island::plan() {
   if (auto found = present()) return found;
   const std::lock_guard building(plan_mutex);
   if (auto found = present()) return found;
-  auto built = std::make_shared<const IslandGenerator>(spec());
+  auto built = std::make_shared<const IslandGenerator>(made);
   const std::lock_guard lock(mutex);
   return source = std::move(built);
 }
 
 void World::Island::apply_edits(IVec3 chunk, int level, std::span<BlockId> padded,
                                 bool& any) const {
-  const std::lock_guard lock(mutex);
-  for (const auto& [edited_chunk, voxels] : edits) {
-    if (!overlaps(edited_chunk, chunk, level)) continue;
-    for (const VoxelEdit& edit : voxels) {
+  // Walked through without the lock: there may be very many, and a frame asks for blocks.
+  std::vector<std::pair<IVec3, std::shared_ptr<const ChunkEdits>>> near;
+  {
+    const std::lock_guard lock(mutex);
+    for (const auto& entry : edits)
+      if (overlaps(entry.first, chunk, level)) near.emplace_back(entry);
+  }
+  for (const auto& [edited_chunk, voxels] : near) {
+    for (const VoxelEdit& edit : *voxels) {
       const std::optional<IVec3> shown = shown_at(voxel_of(edited_chunk, edit.index), level);
       if (!shown) continue;
       const std::int64_t x = std::int64_t{shown->x} - std::int64_t{chunk.x} * kChunkEdge + 1;
@@ -103,7 +108,10 @@ void World::Island::apply_edits(IVec3 chunk, int level, std::span<BlockId> padde
 }
 
 void World::Island::put(IVec3 chunk, std::span<const VoxelEdit> newer) {
-  merge_edits(edits[chunk], newer);
+  std::shared_ptr<const ChunkEdits>& held = edits[chunk];
+  ChunkEdits merged = held ? *held : ChunkEdits{};
+  merge_edits(merged, newer);
+  held = std::make_shared<const ChunkEdits>(std::move(merged));
   bool grown = false;
   for (const VoxelEdit& edit : newer)
     if (edit.block != kAir) grown |= include(spec_, voxel_of(chunk, edit.index));
@@ -121,7 +129,7 @@ std::optional<BlockId> World::block_at(std::uint64_t id, IVec3 voxel) const {
     return loaded->second.at(index_in_chunk(voxel));
   }
   if (const auto edited = island->edits.find(at); edited != island->edits.end()) {
-    if (const auto block = edited_block(edited->second, index_in_chunk(voxel))) return block;
+    if (const auto block = edited_block(*edited->second, index_in_chunk(voxel))) return block;
   }
   const IslandSpec& spec = island->spec_locked();
   const bool in_box = voxel.x >= spec.box_min.x && voxel.x < spec.box_max.x &&
@@ -193,17 +201,21 @@ ChunkEdits World::edits(std::uint64_t id, IVec3 chunk) const {
   if (!island) return {};
   const std::lock_guard lock(island->mutex);
   const auto found = island->edits.find(chunk);
-  return found == island->edits.end() ? ChunkEdits{} : found->second;
+  return found == island->edits.end() ? ChunkEdits{} : *found->second;
 }
 
 std::vector<IVec3> World::chunks(std::uint64_t id, int level) {
   const std::shared_ptr<Island> island = find(id);
   if (!island) return {};
   std::vector<IVec3> list = island->plan()->chunks(level);
-  const std::lock_guard lock(island->mutex);
-  if (level == 0) island->may_hold.emplace(list.begin(), list.end());
-  for (const auto& [edited_chunk, voxels] : island->edits) {
-    for (const VoxelEdit& edit : voxels) {
+  std::vector<std::pair<IVec3, std::shared_ptr<const ChunkEdits>>> edited;
+  {
+    const std::lock_guard lock(island->mutex);
+    if (level == 0) island->may_hold.emplace(list.begin(), list.end());
+    edited.assign(island->edits.begin(), island->edits.end());
+  }
+  for (const auto& [edited_chunk, voxels] : edited) {
+    for (const VoxelEdit& edit : *voxels) {
       const auto shown = shown_at(voxel_of(edited_chunk, edit.index), level);
       if (!shown) continue;
       const IVec3 at = chunk_of(*shown);
@@ -232,7 +244,7 @@ void World::keep_chunk(std::uint64_t id, IVec3 at, Chunk chunk) {
   if (!island) return;
   const std::lock_guard lock(island->mutex);
   if (const auto found = island->edits.find(at); found != island->edits.end())
-    put_into(chunk, found->second);
+    put_into(chunk, *found->second);
   island->chunks.insert_or_assign(at, std::move(chunk));
 }
 

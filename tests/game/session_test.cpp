@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <thread>
 
 #include "tests/folder.h"
@@ -293,6 +296,161 @@ TEST(Session, AWorldOfASeedIsSavedNowhere) {
   EXPECT_FALSE((*session)->read_only());
   EXPECT_TRUE((*session)->save());
   EXPECT_EQ((*session)->world()->seed(), 4u);
+}
+
+TEST(Session, APlaceFarFromTheMiddleOfAnIslandIsKept) {
+  const Saved saved;
+  SavedPlay play = at({101.5, 5.0, 1.5});
+  play.player.lattice = LatticePos{std::int64_t{300} << 32, 0, -(std::int64_t{900'000} << 32)};
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{play});
+    session->advance(1.0);
+  }
+  EXPECT_EQ(saved.open()->saved_play(), play);
+}
+
+std::optional<world::MotionState> motion_of(Session& session, std::uint64_t island, double at_s) {
+  session.receive();
+  session.send(Join{});
+  session.advance(at_s);
+  std::optional<world::MotionState> found;
+  for (const Answer& answer : session.receive())
+    if (const auto* moved = std::get_if<IslandMoved>(&answer); moved && moved->island == island)
+      found = moved->motion;
+  return found;
+}
+
+TEST(Session, AnIslandAheadOfTheWorldsTimeMovesAllTheSame) {
+  const Saved saved;
+  {
+    auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
+    auto transaction = (*file)->begin();
+    world::IslandSpec spec;
+    spec.id = saved.island;
+    world::MotionState motion;
+    motion.tick = 5'000'000;
+    motion.velocity = {3.0, 0.0, 0.0};
+    transaction.put_island({spec, true, motion});
+    put_play(transaction, at({101.5, 5.0, 1.5}));
+    ASSERT_TRUE(transaction.commit());
+  }
+  const auto session = saved.open();
+  const double begin_s = session->saved_play()->world_time_s;
+  for (int i = 0; i < 200; ++i) {
+    session->advance(begin_s + 0.01 * i);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const auto now = motion_of(*session, saved.island, begin_s + 2.0);
+  ASSERT_TRUE(now);
+  EXPECT_GT(world::difference_blocks(now->pose.origin, {}).x, 1.0);
+}
+
+TEST(Session, OnlyWhoStandsOnAnIslandSteersIt) {
+  const Saved saved;
+  const auto session = saved.open();
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  session->advance(1.0);
+  EXPECT_FALSE(motion_of(*session, saved.island, 1.1)) << "nobody is there yet";
+  SavedPlay play = at({101.5, 5.0, 1.5});
+  play.player.island = saved.island + 1;
+  session->send(PlayerMoved{play});
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  session->advance(1.2);
+  EXPECT_FALSE(motion_of(*session, saved.island, 1.3)) << "the player is elsewhere";
+  play.player.island = saved.island;
+  session->send(PlayerMoved{play});
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  session->advance(1.4);
+  EXPECT_TRUE(motion_of(*session, saved.island, 1.5));
+}
+
+TEST(Session, AnIslandThatIsDugAllTheTimeFliesAllTheSame) {
+  const Saved saved;
+  const auto session = saved.open();
+  SavedPlay play = at({101.5, 5.0, 1.5});
+  session->send(PlayerMoved{play});
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  double now_s = 1.0;
+  session->advance(now_s);
+  for (int i = 0; i < 150; ++i) {
+    const world::Pose pose = *session->world()->pose(saved.island, now_s);
+    play.eye.position = world::moved(pose.origin, {1.5, 5.0, 1.5});
+    session->send(PlayerMoved{play});
+    session->advance(now_s);
+    ASSERT_EQ(verdict_of(*session, saved.island, {2, 3, 1},
+                         i % 2 == 0 ? world::BlockId{world::block::kStone} : world::kAir),
+              EditVerdict::kDone);
+    session->advance(now_s += 0.04);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  const auto now = motion_of(*session, saved.island, now_s);
+  ASSERT_TRUE(now);
+  EXPECT_GT(now->velocity.z, 0.5);
+}
+
+/// What edit number n does: lamps come, then go again.
+constexpr std::uint64_t kSpots = 20;
+IVec3 spot_of(std::uint64_t n) {
+  const auto i = static_cast<std::int32_t>(n % kSpots);
+  return {1 + i % 5, 3, 1 + i / 5};
+}
+world::BlockId block_of(std::uint64_t n) {
+  return n / kSpots % 2 == 0 ? world::BlockId{world::block::kLamp} : world::kAir;
+}
+
+/// Plays and saves for ever, and says how far it got.
+[[noreturn]] void play_for_ever(const Saved& saved, std::uint64_t first, int told) {
+  const auto session = saved.open();
+  if (!session) ::_exit(1);
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  for (std::uint64_t n = first;; ++n) {
+    session->advance(static_cast<double>(n));
+    if (verdict_of(*session, saved.island, spot_of(n), block_of(n)) != EditVerdict::kDone ||
+        !session->save() || ::write(told, &n, sizeof n) != sizeof n)
+      ::_exit(1);
+  }
+}
+
+/// Whether a saved world is as it was after so many edits.
+bool is_after(const Saved& saved, std::uint64_t edits) {
+  auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kRead);
+  if (!file) return false;
+  const world::LoadedWorld loaded = world::load_world(**file);
+  if (!(*file)->damage().empty()) return false;
+  for (std::uint64_t spot = 0; spot < kSpots; ++spot) {
+    world::BlockId expected = world::kAir;
+    for (std::uint64_t n = spot; n < edits; n += kSpots) expected = block_of(n);
+    const IVec3 v = spot_of(spot);
+    if (loaded.world->chunk_now(saved.island, world::chunk_of(v)).at(v.x, v.y, v.z) != expected)
+      return false;
+  }
+  return true;
+}
+
+/// SKERRY_KILL_ROUNDS as in tests/world/store/kill_test.cpp.
+TEST(SessionKillTest, WhatWasSavedOutlivesThePlay) {
+  const char* asked = std::getenv("SKERRY_KILL_ROUNDS");
+  const int rounds = asked ? std::atoi(asked) : 8;
+  const Saved saved;
+  std::uint64_t done = 0;
+  for (int round = 0; round < rounds; ++round) {
+    int told[2];
+    ASSERT_EQ(::pipe(told), 0);
+    const pid_t child = ::fork();
+    if (child == 0) play_for_ever(saved, done, told[1]);
+    ::close(told[1]);
+    std::this_thread::sleep_for(std::chrono::microseconds(7919 * round % 150'000));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    std::uint64_t n = 0;
+    while (::read(told[0], &n, sizeof n) == sizeof n) done = n + 1;
+    ::close(told[0]);
+    if (is_after(saved, done)) continue;
+    ++done;  // saved, but killed before it could say so
+    ASSERT_TRUE(is_after(saved, done)) << "round " << round;
+  }
+  EXPECT_GT(done, 0u) << "killed before anything was done";
 }
 
 }  // namespace

@@ -279,6 +279,62 @@ TEST(Motion, AnIslandWhoseShapeIsNotKnownYetIsABallThatStands) {
   EXPECT_NE(motion.states()[0].state.pose.origin, WorldPos{});
 }
 
+TEST(Motion, AnIslandOnItsCourseDoesNotPassThroughOneAtRest) {
+  World world(empty_world());
+  const auto stored = std::make_shared<const StoredVoxels>(chunks_from(cube(4), block::kStone));
+  IslandSpec spec;
+  spec.id = world.unused_id();
+  spec.drift_amplitude = {0.0, 0.0, 16.0};  // at most 1.7 blocks/s
+  spec.drift_period_s = 60.0;
+  world.add_island(fitted(spec, *stored), stored);
+  const std::uint64_t course = spec.id;
+  const std::uint64_t resting = add_island(world, {}, cube(2));
+  IslandMotion motion(world);
+  motion.start(0.0);
+  motion.add(resting, state_at(blocks(0.0, 0.0, 12.0)));
+  Shapes shapes;
+  bool hit = false;
+  for (int tick = 0; tick < 30 * kMotionTicksPerSecond; ++tick) {
+    motion.step();
+    const double now = static_cast<double>(motion.tick()) * kMotionTickSeconds;
+    const Touch touch = touch_of(shape_in(shapes, world, course), *world.pose(course, now),
+                                 shape_in(shapes, world, resting), *world.pose(resting, now));
+    if (!touch.contacts.empty()) {
+      ASSERT_LT(touch.contacts.front().depth, 0.4);
+    }
+    hit |= difference_blocks(world.pose(resting, now)->origin, blocks(0.0, 0.0, 12.0)).z > 1.0;
+  }
+  EXPECT_TRUE(hit) << "it is pushed along";
+}
+
+TEST(Motion, TheClockFollowsATimeThatGoesBack) {
+  World world(empty_world());
+  const std::uint64_t id = add_island(world, {}, cube(3));
+  IslandMotion motion(world);
+  motion.start(1000.0);
+  motion.add(id, state_at({}, {2.0, 0.0, 0.0}));
+  for (int i = 0; i <= 60; ++i) motion.advance_to(50.0 + i / 60.0);
+  EXPECT_EQ(motion.tick(), 51 * kMotionTicksPerSecond);
+  EXPECT_GT(difference_blocks(world.pose(id, 51.0)->origin, {}).x, 1.5);
+}
+
+TEST(Motion, HowAPlaceMovesIsNotToldBeforeTheCentreIsKnown) {
+  World world(empty_world());
+  bool known = false;
+  IslandMotion motion(world, [&](std::uint64_t id) {
+    return known ? shape_of(world, id) : std::unique_ptr<Shape>();
+  });
+  motion.start(0.0);
+  const std::uint64_t id = add_island(world, {}, voxels_in({4, 0, 0}, {8, 2, 4}));
+  motion.add(id, state_at({}, {1.0, 0.0, 0.0}, 0.3));
+  EXPECT_FALSE(motion.motion_at(id, {6.0, 1.0, 2.0}));
+  known = true;
+  motion.step();
+  const auto moves = motion.motion_at(id, {6.0, 1.0, 2.0});
+  ASSERT_TRUE(moves);
+  EXPECT_NEAR(moves->velocity.x, 1.0, 0.01);
+  EXPECT_NEAR(moves->velocity.z, 0.0, 0.01);
+}
 TEST(Shape, FollowsEditsAsIfMadeAnew) {
   World world(empty_world());
   const std::uint64_t id = add_island(world, {}, cube(9));

@@ -172,7 +172,7 @@ TEST(Split, NotAVoxelMovesOrIsLostOrHeldTwice) {
       SolidGrid grid = SolidGrid::of_island(world, id);
       for (const Fragment& fragment : find_fragments(grid, {&removed, 1}).fragments) {
         const Voxels moved_voxels = voxels_of(fragment);
-        const BrokenOff off = break_off(world, id, fragment, pose);
+        const BrokenOff off = break_off(world, id, *copy_piece(world, id, fragment), pose);
         EXPECT_EQ(off.mass.blocks, moved_voxels.size());
         const Voxels now = voxels_of(world, off.island);
         ASSERT_EQ(now.size(), moved_voxels.size());
@@ -194,6 +194,43 @@ TEST(Split, NotAVoxelMovesOrIsLostOrHeldTwice) {
   }
 }
 
+TEST(Split, WhatWasDugMeanwhileIsLeftOut) {
+  World world(empty_world());
+  const std::uint64_t id = add_island(world, {}, voxels_in({-8, 0, 0}, {5, 1, 1}));
+  const IVec3 removed{1, 0, 0};
+  world.set_block(id, removed, kAir);
+  SolidGrid grid = SolidGrid::of_island(world, id);
+  const SplitSearch search = find_fragments(grid, {&removed, 1});
+  ASSERT_EQ(search.fragments.size(), 1u);
+  ASSERT_EQ(search.fragments[0].mass.blocks, 3u);
+  world.set_block(id, {2, 0, 0}, kAir);
+  world.set_block(id, {3, 0, 0}, block::kTorch);
+  const auto piece = copy_piece(world, id, search.fragments[0]);
+  ASSERT_TRUE(piece);
+  const BrokenOff off = break_off(world, id, *piece, *world.pose(id, 0.0));
+  EXPECT_EQ(off.mass.blocks, 1u);
+  EXPECT_EQ(off.mass.centre.x, 1.5) << "4.5, from where the middle of the fragment was";
+  EXPECT_EQ(world.chunk_now(id, {0, 0, 0}).at(3, 0, 0), block::kTorch);
+  EXPECT_FALSE(copy_piece(world, id, search.fragments[0]));
+  EXPECT_EQ(world.added_islands().size(), 2u);
+}
+
+TEST(Split, AllChunksOfAWaterColumnCountAsChanged) {
+  World world(empty_world());
+  std::vector<IVec3> voxels = voxels_in({-8, 0, 0}, {3, 1, 1});
+  const std::uint64_t id = add_island(world, {}, voxels);
+  for (int y = 1; y < 150; ++y) world.set_block(id, {2, y, 0}, block::kWater);
+  const IVec3 removed{1, 0, 0};
+  world.set_block(id, removed, kAir);
+  SolidGrid grid = SolidGrid::of_island(world, id);
+  const SplitSearch search = find_fragments(grid, {&removed, 1});
+  ASSERT_EQ(search.fragments.size(), 1u);
+  const auto piece = copy_piece(world, id, search.fragments[0]);
+  ASSERT_TRUE(piece);
+  const BrokenOff off = break_off(world, id, *piece, *world.pose(id, 0.0));
+  EXPECT_EQ(off.changed, (std::vector<IVec3>{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}}));
+}
+
 TEST(Split, WhatStandsOnAFragmentGoesAlong) {
   World world(empty_world());
   std::vector<IVec3> voxels = voxels_in({-4, 0, 0}, {5, 1, 1});
@@ -208,7 +245,8 @@ TEST(Split, WhatStandsOnAFragmentGoesAlong) {
   SolidGrid grid = SolidGrid::of_island(world, id);
   const SplitSearch search = find_fragments(grid, {&removed, 1});
   ASSERT_EQ(search.fragments.size(), 1u);
-  const BrokenOff off = break_off(world, id, search.fragments[0], *world.pose(id, 0.0));
+  const BrokenOff off =
+      break_off(world, id, *copy_piece(world, id, search.fragments[0]), *world.pose(id, 0.0));
   // [2, 5) had its middle at 3.5: the new lattice begins at 3.
   EXPECT_EQ(world.chunk_now(off.island, {0, 0, 0}).at(0, 1, 0), block::kFern);
   EXPECT_EQ(world.chunk_now(off.island, {0, 0, 0}).at(1, 2, 0), block::kWater);
@@ -267,7 +305,7 @@ TEST(Split, APieceFliesOnAsItsVoxelsDid) {
   ASSERT_EQ(search.fragments.size(), 1u);
   const glm::dvec3 middle = search.fragments[0].mass.centre;
   const auto at = *motion.motion_at(id, middle);
-  const BrokenOff off = break_off(world, id, search.fragments[0], at.pose);
+  const BrokenOff off = break_off(world, id, *copy_piece(world, id, search.fragments[0]), at.pose);
   MotionState piece;
   piece.pose = {world.island(off.island)->origin, at.pose.rotation};
   piece.velocity = at.velocity;

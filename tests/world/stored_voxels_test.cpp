@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "world/edits.h"
 #include "world/hash.h"
 #include "world/mesh/mesh.h"
@@ -149,6 +151,33 @@ TEST(MovedIslands, AreWhereTheyWerePut) {
   };
   EXPECT_EQ(listed(spec.origin), 0);
   EXPECT_EQ(listed(far.origin), 1);
+}
+
+TEST(World, BuildingPastAnIslandsEdgeLeavesTheRestOfItAsItWas) {
+  WorldDesc desc;
+  desc.seed = 4;
+  World world(desc), kept(desc);
+  const std::vector<IslandSpec> near = world.islands_near({}, 600.0, 0.0);
+  kept.islands_near({}, 600.0, 0.0);
+  const IslandSpec home =
+      *std::min_element(near.begin(), near.end(), [](const IslandSpec& a, const IslandSpec& b) {
+        return a.bounding_radius < b.bounding_radius;
+      });
+  kept.chunks(home.id, 0);  // its plan is made before anything is built
+  for (World* w : {&world, &kept}) {
+    w->set_block(home.id, {home.box_max.x + 5, 0, 0}, block::kStone);
+    w->set_block(home.id, {20'000, 0, 0}, block::kStone);
+  }
+  EXPECT_EQ(world.island(home.id)->box_max.x, 20'001);
+  world.release_plan(home.id);
+  const std::vector<IVec3> chunks = kept.chunks(home.id, 0);
+  ASSERT_EQ(world.chunks(home.id, 0), chunks);
+  std::vector<BlockId> before(kPaddedVoxels), after(kPaddedVoxels);
+  for (const IVec3& at : chunks) {
+    kept.generate_padded(home.id, at, 0, before);
+    world.generate_padded(home.id, at, 0, after);
+    ASSERT_EQ(before, after);
+  }
 }
 
 }  // namespace

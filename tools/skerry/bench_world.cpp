@@ -158,7 +158,8 @@ void bench_split(Rows& rows) {
     const SplitSearch search = find_fragments(grid, {&neck, 1});
     find_ms.push_back(watch.milliseconds());
     watch.restart();
-    const BrokenOff off = break_off(world, id, search.fragments.front(), *world.pose(id, 0.0));
+    const BrokenOff off = break_off(world, id, *copy_piece(world, id, search.fragments.front()),
+                                    *world.pose(id, 0.0));
     move_ms.push_back(watch.milliseconds());
     blocks = off.mass.blocks;
     bricks = search.bricks_looked_at;

@@ -10,6 +10,10 @@ namespace skerry::world {
 
 struct IslandPlan;
 
+/// Grows whenever a spec no longer generates the voxels that it did: edits that were saved before
+/// lie on other ground then.
+inline constexpr std::uint32_t kGeneratorVersion = 1;
+
 /// Generates one island's voxels. Construction precomputes what all chunks share (height maps, tree
 /// places ...); generate() is const and may run on many threads at once. Integer noise only: same
 /// bits on every compiler, optimisation level, CPU and thread count.

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
 
+#include "world/generate/generate.h"
 #include "world/store/rows.h"
 #include "world/store/world_file_state.h"
 #include "world/stored_voxels.h"
@@ -50,6 +52,14 @@ bool sound(const ChunkName& name) {
   constexpr std::int32_t kFarthest = (1 << 20) / kChunkEdge;
   const auto in = [](std::int32_t c) { return c >= -kFarthest && c < kFarthest; };
   return in(name.chunk.x) && in(name.chunk.y) && in(name.chunk.z);
+}
+
+/// Files from before there were versions are of the first.
+bool made_by_this_generator(WorldFile& file) {
+  std::uint32_t version = 1;
+  if (const auto bytes = file.value("generator"); bytes && bytes->size() == sizeof version)
+    std::memcpy(&version, bytes->data(), sizeof version);
+  return version == kGeneratorVersion;
 }
 
 }  // namespace
@@ -148,6 +158,12 @@ LoadedWorld load_world(WorldFile& file) {
   LoadedWorld loaded;
   loaded.world = std::make_unique<World>(file.info().desc);
   World& world = *loaded.world;
+  if (file.info().desc.generated && !made_by_this_generator(file))
+    file.note_damage(
+        fmt::format("the world {} was made by another version of Skerry's generator: what was "
+                    "built may hang in "
+                    "the air or lie in rock",
+                    quoted(file.path())));
   std::map<std::uint64_t, std::map<IVec3, Chunk>> voxels;
   for (WorldFile::Contents::Whole& whole : contents.chunks)
     voxels[whole.island].emplace(whole.chunk, std::move(whole.voxels));

@@ -154,7 +154,8 @@ std::vector<std::byte> encode_motion(const MotionState& motion) {
 }
 
 std::optional<MotionState> decode_motion(std::span<const std::byte> bytes) {
-  constexpr std::int64_t kMaxTick = std::int64_t{1} << 50;
+  // As far as a world's time goes, 1e9 s.
+  constexpr std::int64_t kMaxTick = std::int64_t{1'000'000'000} * kMotionTicksPerSecond;
   constexpr double kUnitError = 1e-9;
   ByteReader in(bytes);
   MotionState motion;
@@ -165,7 +166,7 @@ std::optional<MotionState> decode_motion(std::span<const std::byte> bytes) {
   motion.velocity = get_vector(in);
   motion.spin = in.f64();
   const bool upright = q.x == 0.0 && q.z == 0.0 && within(q.w * q.w + q.y * q.y - 1.0, kUnitError);
-  const bool sound = in.done() && std::abs(motion.tick) <= kMaxTick &&
+  const bool sound = in.done() && motion.tick >= -kMaxTick && motion.tick <= kMaxTick &&
                      near_enough(motion.pose.origin) && upright &&
                      within(motion.velocity, kMaxSpeed) && within(motion.spin, kMaxSpeed);
   return sound ? std::optional(motion) : std::nullopt;

@@ -1,15 +1,19 @@
 #include "world/store/world_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
 #include "engine/core/check.h"
+#include "world/generate/generate.h"
 #include "world/store/chunk_blob.h"
 #include "world/store/rows.h"
 #include "world/store/schema.h"
@@ -63,6 +67,28 @@ std::optional<Database> open_to_read(const fs::path& path, int& code) {
   return Database::open(immutable_uri(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, code);
 }
 
+/// Gives a complete file its name, unless there is such a file by now. @return SQLITE_OK or an
+/// error.
+int publish(const fs::path& temporary, const fs::path& path) {
+  // The log of a file that is no more would be taken for the new one's.
+  for (const char* companion : {"-wal", "-shm", "-journal"}) {
+    std::error_code code;
+    fs::remove(fs::path(path) += companion, code);
+    if (code) return SQLITE_CANTOPEN;
+  }
+  int done = ::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE);
+  // Not all file systems know that; those that do not mostly know links, which replace nothing.
+  if (done != 0 && errno == EINVAL && (done = ::link(temporary.c_str(), path.c_str())) == 0)
+    ::unlink(temporary.c_str());
+  if (done != 0) return SQLITE_CANTOPEN;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return SQLITE_OK;  // may not be listed; the file is there
+  ::fsync(descriptor);
+  ::close(descriptor);
+  return SQLITE_OK;
+}
+
 }  // namespace
 
 bool WorldInfo::operator==(const WorldInfo& o) const {
@@ -108,9 +134,10 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const fs::path& path, const
         Database::open(temporary.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, failed);
     if (file) failed = make_schema(*file);
     if (file && failed == SQLITE_OK) failed = write_value(*file, "info", encode_info(info));
+    if (file && failed == SQLITE_OK)
+      failed = write_value(*file, "generator", std::as_bytes(std::span(&kGeneratorVersion, 1)));
   }
-  if (failed == SQLITE_OK) fs::rename(temporary, path, code);
-  if (code) failed = SQLITE_CANTOPEN;
+  if (failed == SQLITE_OK) failed = publish(temporary, path);
   if (failed != SQLITE_OK) fs::remove(temporary, code);
   if (failed != SQLITE_OK) return file_error("make", path, failed);
   return open(path, Mode::kWrite);
@@ -198,6 +225,15 @@ void WorldFile::Transaction::put_island(const IslandRow& island) {
           statement.bind(1, id).bind(
               2, sealed("motion", island.spec.id, encode_motion(*island.motion)));
         });
+}
+
+void WorldFile::Transaction::put_new_island(const IslandRow& island) {
+  for (const std::string_view sql :
+       {"DELETE FROM chunk WHERE island = ?1", "DELETE FROM motion WHERE island = ?1"})
+    file_->state_->put(error_, sql, [&](Statement& statement) {
+      statement.bind(1, static_cast<std::int64_t>(island.spec.id));
+    });
+  put_island(island);
 }
 
 void WorldFile::Transaction::put_edits(std::uint64_t island, IVec3 chunk,

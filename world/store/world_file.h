@@ -68,6 +68,8 @@ class WorldFile {
     Transaction(Transaction&&) noexcept;
     ~Transaction();
     void put_island(const IslandRow& island);
+    /// One that has come into being: what an earlier island of its id left in the file is gone.
+    void put_new_island(const IslandRow& island);
     /// A chunk of a generated island: what differs from the seed. None: as generated.
     void put_edits(std::uint64_t island, IVec3 chunk, std::span<const VoxelEdit> edits);
     /// A chunk of an added island, whole.
@@ -125,7 +127,7 @@ struct LoadedWorld {
 };
 
 /// Makes a world of everything a file holds. What does not fit the world (an island that its seed
-/// does not make) is added to the file's damage().
+/// does not make, or that another generator made) is added to the file's damage().
 LoadedWorld load_world(WorldFile& file);
 
 }  // namespace skerry::world

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "tests/world/store/made_worlds.h"
+#include "world/generate/generate.h"
 
 namespace skerry::world {
 namespace {
@@ -391,6 +392,81 @@ TEST(LoadWorld, EditsIslandsAndMotionsComeBackExactly) {
   EXPECT_EQ(loaded.moving[0].state, motion);
   EXPECT_EQ(loaded.world->pose(home.id, 1.0)->origin, motion.pose.origin);
   EXPECT_EQ((*file)->damage().size(), 1u);  // the island that the seed does not make
+}
+
+TEST(WorldFile, TheLogOfAWorldThatIsNoMoreIsNotReadIntoANewOne) {
+  const Folder folder;
+  const fs::path path = folder / "w", log = folder / "w-wal", aside = folder / "aside";
+  {
+    auto file = WorldFile::create(path, info_of_seed_4());
+    ASSERT_TRUE(file);
+    auto transaction = (*file)->begin();
+    transaction.put_island({spec_of(77), true});
+    ASSERT_TRUE(transaction.commit());
+    fs::copy_file(log, aside);
+  }
+  fs::remove(path);
+  fs::rename(aside, log);
+  WorldInfo other = info_of_seed_4();
+  other.name = "Other";
+  auto file = WorldFile::create(path, other);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ((*file)->info(), other);
+  EXPECT_TRUE((*file)->read().islands.empty());
+  EXPECT_FALSE(WorldFile::create(path, other)) << "there is one already";
+}
+
+TEST(WorldFile, ANewIslandHasNothingOfAnEarlierOneOfItsId) {
+  const Folder folder;
+  Rng rng(5);
+  auto file = WorldFile::create(folder / "w", info_of_seed_4());
+  ASSERT_TRUE(file);
+  {
+    auto transaction = (*file)->begin();
+    transaction.put_island({spec_of(77), true, random_motion(rng)});
+    transaction.put_chunk(77, {0, 0, 0}, random_chunk(rng));
+    transaction.put_chunk(77, {3, 0, 0}, random_chunk(rng));
+    transaction.put_chunk(78, {3, 0, 0}, random_chunk(rng));
+    transaction.put_island({spec_of(78), true});
+    ASSERT_TRUE(transaction.commit());
+  }
+  auto transaction = (*file)->begin();
+  transaction.put_new_island({spec_of(77), true});
+  transaction.put_chunk(77, {0, 0, 0}, random_chunk(rng));
+  ASSERT_TRUE(transaction.commit());
+  const WorldFile::Contents contents = (*file)->read();
+  ASSERT_EQ(contents.chunks.size(), 2u);
+  EXPECT_EQ(contents.chunks[0].chunk, (IVec3{0, 0, 0}));
+  EXPECT_EQ(contents.chunks[1].island, 78u);
+  EXPECT_FALSE(contents.islands[0].motion);
+}
+
+TEST(WorldFile, ATickBeyondAllTimeIsRefused) {
+  const Folder folder;
+  auto file = WorldFile::create(folder / "w", info_of_seed_4());
+  ASSERT_TRUE(file);
+  MotionState motion;
+  motion.tick = std::int64_t{1} << 49;
+  auto transaction = (*file)->begin();
+  transaction.put_island({spec_of(77), true, motion});
+  ASSERT_TRUE(transaction.commit());
+  EXPECT_FALSE((*file)->read().islands.at(0).motion);
+  EXPECT_EQ((*file)->damage().size(), 1u);
+}
+
+TEST(LoadWorld, AnotherGeneratorIsTold) {
+  const Folder folder;
+  auto file = WorldFile::create(folder / "w", info_of_seed_4());
+  ASSERT_TRUE(file);
+  load_world(**file);
+  EXPECT_TRUE((*file)->damage().empty());
+  const std::uint32_t version = kGeneratorVersion + 1;
+  auto transaction = (*file)->begin();
+  transaction.put_value("generator", std::as_bytes(std::span(&version, 1)));
+  ASSERT_TRUE(transaction.commit());
+  load_world(**file);
+  ASSERT_EQ((*file)->damage().size(), 1u);
+  EXPECT_NE((*file)->damage()[0].find("generator"), std::string::npos);
 }
 
 }  // namespace
