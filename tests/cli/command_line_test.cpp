@@ -100,14 +100,6 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
     expect_refusal(run(arguments), 2, parts, joined(arguments));
 }
 
-TEST(CommandLine, WhatIsNotInThisBuildIsNotListed) {
-  const Outcome help = run({"--help"});
-  for (const char* command : {"vdb"}) {
-    EXPECT_EQ(help.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
-    EXPECT_EQ(run({command}).status, 2) << command;
-  }
-}
-
 TEST(CommandLine, FilesThatCannotBeUsedExitWithOne) {
   expect_refusal(run({"shot", "--seed", "1", "--out", "/no/such/folder/a.png"}), 1,
                  {"/no/such/folder/a.png", "No such file"}, "out");
