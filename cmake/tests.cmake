@@ -6,7 +6,7 @@ if(test_sources)
   add_executable(skerry_tests ${test_sources})
   target_link_libraries(skerry_tests PRIVATE skerry_commands GTest::gtest_main)
   target_compile_definitions(skerry_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  gtest_discover_tests(skerry_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(skerry_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1200)
 endif()
 
 # What needs neither device nor window, alone: small enough to be built a second and a third time, under sanitizers.
