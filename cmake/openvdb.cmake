@@ -28,3 +28,8 @@ target_link_libraries(skerry_vdb_samples PRIVATE skerry_options OpenVDB::openvdb
 target_compile_options(skerry_vdb_samples PRIVATE -O0)  # runs for a moment, and would compile for minutes
 cmake_language(DEFER CALL add_dependencies skerry_tests skerry_vdb_samples)
 cmake_language(DEFER CALL add_dependencies skerry_cpu_tests skerry_vdb_samples)
+# OpenVDB's templates take many minutes to compile under sanitizers, which are there for our parsers; main keeps them, as it must know of them.
+if(SKERRY_SANITIZE)
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/world/vdb/openvdb_read.cpp ${CMAKE_SOURCE_DIR}/world/vdb/openvdb_write.cpp
+                              ${CMAKE_SOURCE_DIR}/tests/world/vdb/samples.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
+endif()
