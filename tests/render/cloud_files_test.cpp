@@ -2,9 +2,9 @@
 // renderer, vdb_render. Skipped where file or program are missing.
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <glm/gtc/packing.hpp>
 
 #include "game/cloud_files.h"
 #include "tests/folder.h"
@@ -61,20 +61,11 @@ class RealCloud : public RendererOnGpu {
       out.push_back(static_cast<double>(seen[i].y) / static_cast<double>(clear[i].y));
     return out;
   }
-  std::vector<glm::vec4> radiance(FrameInput input, const RenderSettings& settings,
+  std::vector<glm::vec4> radiance(const FrameInput& input, const RenderSettings& settings,
                                   std::span<const CloudVolumeDesc> volumes,
                                   CloudPrecision precision = CloudPrecision::k8) {
     EXPECT_TRUE(renderer().set_clouds(volumes, precision));
-    input.capture = true;
-    drawn(input, settings, kSize);
-    const Captured captured = renderer().captured(Capture::kRadiance);
-    std::vector<glm::vec4> out;
-    for (std::size_t i = 0; i < captured.texels.size(); i += 8) {
-      std::uint64_t texel = 0;
-      std::memcpy(&texel, captured.texels.data() + i, 8);
-      out.push_back(glm::unpackHalf4x16(texel));
-    }
-    return out;
+    return RendererOnGpu::radiance(input, settings, kSize);
   }
   void load() {
     game::CloudFile file;

@@ -1,6 +1,5 @@
 // Clouds as the renderer draws them, against closed forms and against themselves.
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/packing.hpp>
 #include <string>
 
 #include "tests/render/renderer_on_gpu.h"
@@ -20,18 +19,9 @@ CloudVolumeDesc even_box(int edge, float value, const glm::dmat4& blocks_from_in
 
 class CloudsOnGpu : public RendererOnGpu {
  protected:
-  std::vector<glm::vec4> radiance(FrameInput input, const RenderSettings& settings,
+  std::vector<glm::vec4> radiance(const FrameInput& input, const RenderSettings& settings,
                                   VkExtent2D size = kSize) {
-    input.capture = true;
-    drawn(input, settings, size);
-    const Captured captured = renderer().captured(Capture::kRadiance);
-    std::vector<glm::vec4> out;
-    for (std::size_t i = 0; i < captured.texels.size(); i += 8) {
-      std::uint64_t texel = 0;
-      std::memcpy(&texel, captured.texels.data() + i, 8);
-      out.push_back(glm::unpackHalf4x16(texel));
-    }
-    return out;
+    return RendererOnGpu::radiance(input, settings, size);
   }
   void set(std::span<const CloudVolumeDesc> volumes,
            CloudPrecision precision = CloudPrecision::k32) {

@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -59,6 +61,21 @@ class RendererOnGpu : public gpu::GpuTest {
     EXPECT_TRUE(value) << (value ? "" : value.error().message);
     renderer_->finish();
     return renderer_->report().value_or(FrameReport{});
+  }
+  /// Draws, all parts of it, and waits. @return radiance, rows from the top.
+  std::vector<glm::vec4> radiance(FrameInput input, const RenderSettings& settings,
+                                  VkExtent2D size) {
+    input.capture = true;
+    for (input.part = 0; input.part < input.parts; ++input.part) drawn(input, settings, size);
+    const Captured captured = renderer().captured(Capture::kRadiance);
+    EXPECT_EQ(captured.size.width, size.width);
+    std::vector<glm::vec4> out;
+    for (std::size_t i = 0; i < captured.texels.size(); i += 8) {
+      std::uint64_t texel = 0;
+      std::memcpy(&texel, captured.texels.data() + i, 8);
+      out.push_back(glm::unpackHalf4x16(texel));
+    }
+    return out;
   }
   /// RGBA8 of the last frame, rows from the top.
   std::vector<std::uint8_t> picture() {

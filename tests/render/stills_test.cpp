@@ -1,6 +1,5 @@
 // Pictures made of many samples: what is averaged is what single pictures show, and the mean of
 // many suns is the sun's disc.
-#include <glm/gtc/packing.hpp>
 
 #include "tests/render/high_roof.h"
 #include "tests/render/renderer_on_gpu.h"
@@ -13,21 +12,6 @@ constexpr VkExtent2D kSize{80, 50};
 class Stills : public RendererOnGpu {
  protected:
   const std::vector<IslandPlacement> islands_{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
-
-  std::vector<glm::vec4> radiance(FrameInput input, const RenderSettings& settings,
-                                  VkExtent2D size) {
-    input.capture = true;
-    for (input.part = 0; input.part < input.parts; ++input.part) drawn(input, settings, size);
-    const Captured captured = renderer().captured(Capture::kRadiance);
-    EXPECT_EQ(captured.size.width, size.width);
-    std::vector<glm::vec4> out;
-    for (std::size_t i = 0; i < captured.texels.size(); i += 8) {
-      std::uint64_t texel = 0;
-      std::memcpy(&texel, captured.texels.data() + i, 8);
-      out.push_back(glm::unpackHalf4x16(texel));
-    }
-    return out;
-  }
 };
 
 // Of what is solid: leaves and plants take their finest texels where several samples make a pixel.
