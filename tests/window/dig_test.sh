@@ -3,57 +3,17 @@
 # fails it.
 # usage: dig_test.sh SKERRY_PROGRAM [FOLDER]     exit: 0 passed, 1 failed, 77 no Xvfb, xdotool or ImageMagick here
 # The pictures are left in FOLDER, if one is given.
-set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 skerry=$1
-for tool in Xvfb xdotool convert compare import; do
-  command -v "$tool" >/dev/null || { echo "no $tool here"; exit 77; }
-done
-
-work=$(mktemp -d)
-server= game=
-cleanup() {
-  [ -z "$game" ] || kill "$game" 2>/dev/null || true
-  [ -z "$server" ] || kill "$server" 2>/dev/null || true
-  wait 2>/dev/null || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
+key_pause=0.7
+start_display convert compare import
 pictures=${2:-$work}
 mkdir -p "$pictures"
-fail() {
-  echo "FAILED: $1"
-  cat "$work/out" "$work/err" 2>/dev/null || true
-  exit 1
-}
 
-Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
-server=$!
-for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
-[ -s "$work/display" ] || fail "Xvfb did not start"
-DISPLAY=:$(cat "$work/display")
-export DISPLAY XDG_DATA_HOME="$work/data" XDG_CACHE_HOME="$work/cache" XDG_CONFIG_HOME="$work/config"
-unset WAYLAND_DISPLAY
-
-"$skerry" play --seed 1 --size 320x180 --quality low --time 22:00 --set view.distance=64 --validate >"$work/out" 2>"$work/err" &
-game=$!
-alive() { kill -0 "$game" 2>/dev/null || fail "the game ended $1"; }
-
-window=
-for _ in $(seq 300); do
-  alive "while opening its window"
-  window=$(xdotool search --pid "$game" --onlyvisible 2>/dev/null | head -n 1) && [ -n "$window" ] && break
-  sleep 0.2
-done
-[ -n "$window" ] || fail "no window appeared"
-xdotool windowfocus "$window"
-for _ in $(seq 300); do
-  alive "before it drew"
-  xdotool getwindowname "$window" | grep -q fps && break
-  sleep 0.2
-done
+play --seed 1 --time 22:00 --set view.distance=64
+wait_for_frames
 sleep 4
 
-key() { xdotool key --window 0 "$1"; sleep "${2:-0.7}"; alive "after $1"; }
 # In several motions: one alone may be taken for the pointer's first place.
 turn() { for _ in 1 2 3 4; do xdotool mousemove_relative -- $(($1 / 4)) $(($2 / 4)); sleep 0.3; done; sleep 0.5; }
 grab() { import -silent -window "$window" "$pictures/$1.png"; }
@@ -127,11 +87,6 @@ expect_change hole_again walked 1500 "walking"
 key Escape 1
 for _ in 1 2 3 4 5 6 7 8 9; do key Down 0.5; done
 xdotool key Return
-for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
-kill -0 "$game" 2>/dev/null && fail "it did not quit"
-status=0
-wait "$game" || status=$?
-game=
-[ "$status" -eq 0 ] || fail "it exited with $status"
+expect_end
 [ ! -s "$work/err" ] || fail "it complained"
 echo "passed"

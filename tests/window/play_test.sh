@@ -1,56 +1,13 @@
 #!/usr/bin/env bash
 # Plays in a window under Xvfb, as a person would: keys, screenshot, resizing, minimising, quitting. Any validation message fails it.
 # usage: play_test.sh SKERRY_PROGRAM     exit: 0 passed, 1 failed, 77 no Xvfb, xdotool or ImageMagick here
-set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 skerry=$1
-for tool in Xvfb xdotool convert identify; do
-  command -v "$tool" >/dev/null || { echo "no $tool here"; exit 77; }
-done
+key_pause=0.5
+start_display convert identify
 
-work=$(mktemp -d)
-server= game=
-cleanup() {
-  [ -z "$game" ] || kill "$game" 2>/dev/null || true
-  [ -z "$server" ] || kill "$server" 2>/dev/null || true
-  wait 2>/dev/null || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
-fail() {
-  echo "FAILED: $1"
-  cat "$work/out" "$work/err" 2>/dev/null || true
-  exit 1
-}
-
-# -displayfd lets the server choose a free display number.
-Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
-server=$!
-for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
-[ -s "$work/display" ] || fail "Xvfb did not start"
-DISPLAY=:$(cat "$work/display")
-export DISPLAY XDG_DATA_HOME="$work/data" XDG_CACHE_HOME="$work/cache"
-unset WAYLAND_DISPLAY
-
-"$skerry" play --seed 1 --size 320x180 --quality low --set view.distance=200 --validate >"$work/out" 2>"$work/err" &
-game=$!
-alive() { kill -0 "$game" 2>/dev/null || fail "the game ended $1"; }
-
-window=
-for _ in $(seq 300); do
-  alive "while opening its window"
-  window=$(xdotool search --pid "$game" --onlyvisible 2>/dev/null | head -n 1) && [ -n "$window" ] && break
-  sleep 0.2
-done
-[ -n "$window" ] || fail "no window appeared"
-# Without a window manager nobody else hands out the focus.
-xdotool windowfocus "$window"
-key() { xdotool key --window 0 "$1"; sleep "${2:-0.5}"; alive "after $1"; }
-# The title names the frame rate once frames are drawn.
-for _ in $(seq 300); do
-  alive "before it drew"
-  xdotool getwindowname "$window" | grep -q fps && break
-  sleep 0.2
-done
+play --seed 1 --set view.distance=200
+wait_for_frames
 xdotool getwindowname "$window" | grep -q 'seed 1' || fail "the title does not name the seed"
 sleep 3
 
@@ -144,11 +101,6 @@ wait_for_screenshots $((taken + 1))
 key Escape 1
 for _ in 1 2 3 4 5 6 7; do key Down; done
 xdotool key Return
-for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
-kill -0 "$game" 2>/dev/null && fail "it did not quit"
-status=0
-wait "$game" || status=$?
-game=
-[ "$status" -eq 0 ] || fail "it exited with $status"
+expect_end
 [ ! -s "$work/err" ] || fail "it complained"
 echo "passed"

@@ -1,34 +1,10 @@
 #!/usr/bin/env bash
 # From the title into a world and back, under Xvfb, with the keyboard alone: makes a world, walks, saves, leaves, loads, and is where it was.
 # usage: screens_test.sh SKERRY_PROGRAM     exit: 0 passed, 1 failed, 77 no Xvfb, xdotool or ImageMagick here
-set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 skerry=$1
-for tool in Xvfb xdotool convert identify compare; do
-  command -v "$tool" >/dev/null || { echo "no $tool here"; exit 77; }
-done
-
-work=$(mktemp -d)
-server= game=
-cleanup() {
-  [ -z "$game" ] || kill "$game" 2>/dev/null || true
-  [ -z "$server" ] || kill "$server" 2>/dev/null || true
-  wait 2>/dev/null || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
-fail() {
-  echo "FAILED: $1"
-  cat "$work/out" "$work/err" 2>/dev/null || true
-  exit 1
-}
-
-Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
-server=$!
-for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
-[ -s "$work/display" ] || fail "Xvfb did not start"
-DISPLAY=:$(cat "$work/display")
-export DISPLAY XDG_DATA_HOME="$work/data" XDG_CACHE_HOME="$work/cache" XDG_CONFIG_HOME="$work/config"
-unset WAYLAND_DISPLAY
+key_pause=0.6
+start_display convert identify compare
 
 # Pipelines are made once for all, so that no key waits for them below.
 "$skerry" shot --seed 1 --size 320x180 --quality low --set view.distance=200 --out "$work/warm.png" 2>"$work/err" || fail "no picture"
@@ -37,18 +13,7 @@ unset WAYLAND_DISPLAY
 mkdir -p "$work/config/skerry"
 echo '{"actions": {"jump": 7' >"$work/config/skerry/controls.json"
 
-"$skerry" play --size 320x180 --quality low --set view.distance=200 --validate >"$work/out" 2>"$work/err" &
-game=$!
-alive() { kill -0 "$game" 2>/dev/null || fail "the game ended $1"; }
-window=
-for _ in $(seq 300); do
-  alive "while opening its window"
-  window=$(xdotool search --pid "$game" --onlyvisible 2>/dev/null | head -n 1) && [ -n "$window" ] && break
-  sleep 0.2
-done
-[ -n "$window" ] || fail "no window appeared"
-xdotool windowfocus "$window"
-key() { xdotool key --window 0 "$1"; sleep "${2:-0.6}"; alive "after $1"; }
+play --set view.distance=200
 # Waits until a command comes true.
 until_true() {
   for _ in $(seq 200); do "${@:2}" && return; sleep 0.2; alive "while waiting until $1"; done
@@ -113,12 +78,7 @@ awk -v d="$difference" 'BEGIN { exit !(d < 0.15) }' || fail "the world looks ano
 key Escape 1
 for _ in 1 2 3 4 5 6 7; do key Down; done
 xdotool key Return
-for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
-kill -0 "$game" 2>/dev/null && fail "it did not quit"
-status=0
-wait "$game" || status=$?
-game=
-[ "$status" -eq 0 ] || fail "it exited with $status"
+expect_end
 [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q 'controls.json' "$work/err" || fail "it complained of more than the controls"
 grep -q '"jump": 7' "$work/config/skerry/controls.json" || fail "the controls that were not understood are gone"
 echo "passed"

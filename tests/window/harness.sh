@@ -1,0 +1,69 @@
+# Sourced by the tests of this folder: a display and folders of one's own, and the game in a window there.
+# Sets `skerry`, `work` (a temporary folder) and, once play was called, `game` (its process) and `window`.
+set -euo pipefail
+
+work=$(mktemp -d)
+server= game= window=
+cleanup() {
+  [ -z "$game" ] || kill "$game" 2>/dev/null || true
+  [ -z "$server" ] || kill "$server" 2>/dev/null || true
+  wait 2>/dev/null || true
+  rm -rf "$work"
+}
+trap cleanup EXIT
+fail() {
+  echo "FAILED: $1"
+  cat "$work/out" "$work/err" 2>/dev/null || true
+  exit 1
+}
+alive() { kill -0 "$game" 2>/dev/null || fail "the game ended $1"; }
+key() { xdotool key --window 0 "$1"; sleep "${2:-$key_pause}"; alive "after $1"; }
+
+# start_display TOOL...: ends the test as skipped if a tool is missing.
+start_display() {
+  local tool
+  for tool in Xvfb xdotool "$@"; do
+    command -v "$tool" >/dev/null || { echo "no $tool here"; exit 77; }
+  done
+  # -displayfd lets the server choose a free display number.
+  Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
+  server=$!
+  for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
+  [ -s "$work/display" ] || fail "Xvfb did not start"
+  DISPLAY=:$(cat "$work/display")
+  export DISPLAY XDG_DATA_HOME="$work/data" XDG_CACHE_HOME="$work/cache" XDG_CONFIG_HOME="$work/config"
+  unset WAYLAND_DISPLAY
+}
+
+# play OPTION...: under the validation layer; waits for the window and gives it the focus.
+play() {
+  "$skerry" play --size 320x180 --quality low --validate "$@" >"$work/out" 2>"$work/err" &
+  game=$!
+  for _ in $(seq 300); do
+    alive "while opening its window"
+    window=$(xdotool search --pid "$game" --onlyvisible 2>/dev/null | head -n 1) && [ -n "$window" ] && break
+    sleep 0.2
+  done
+  [ -n "$window" ] || fail "no window appeared"
+  # Without a window manager nobody else hands out the focus.
+  xdotool windowfocus "$window"
+}
+
+# The title names the frame rate once frames of a world are drawn.
+wait_for_frames() {
+  for _ in $(seq 300); do
+    alive "before it drew"
+    xdotool getwindowname "$window" | grep -q fps && break
+    sleep 0.2
+  done
+}
+
+# The game must end by itself and well.
+expect_end() {
+  for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
+  kill -0 "$game" 2>/dev/null && fail "it did not quit"
+  local status=0
+  wait "$game" || status=$?
+  game=
+  [ "$status" -eq 0 ] || fail "it exited with $status"
+}
