@@ -119,9 +119,13 @@ constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
                                        {"staging", "upload.path=staging"},
                                        {"mapped", "upload.path=mapped"}};
 
-constexpr TopicPoint kCloudSteps[] = {{"16", "clouds.steps=16"},   {"32", "clouds.steps=32"},
-                                      {"48", "clouds.steps=48"},   {"96", "clouds.steps=96"},
-                                      {"160", "clouds.steps=160"}, {"1024", "clouds.steps=1024"}};
+constexpr TopicPoint kCloudSteps[] = {
+    {"16", "clouds.steps=16"},
+    {"32", "clouds.steps=32"},
+    {"48", "clouds.steps=48"},
+    {"96", "clouds.steps=96"},
+    {"160", "clouds.steps=160"},
+    {"1024, full resolution", "clouds.steps=1024 clouds.resolution=full"}};
 constexpr TopicPoint kCloudShadowSteps[] = {{"4", "clouds.shadow_steps=4"},
                                             {"8", "clouds.shadow_steps=8"},
                                             {"16", "clouds.shadow_steps=16"},
