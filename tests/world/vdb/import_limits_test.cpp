@@ -96,8 +96,8 @@ TEST(VdbImportLimits, LooksOfChunksThatTurnOutEmptyCountToo) {
 }
 
 TEST(VdbImportLimits, EveryGridOfAFileDrawsOnTheSameLimits) {
-  // Each tile has a part in eight chunks, none of which it fills. One such grid is fine; ever so many
-  // of a small file would be work without end.
+  // Each tile has a part in eight chunks, none of which it fills. One such grid is fine; ever so
+  // many of a small file would be work without end.
   VolumeGrid grid;
   grid.kind = VolumeKind::kIds;
   for (int i = 0; i < 400; ++i) grid.tiles.push_back({{128 * i, 0, 0}, 8, 7.0f});
