@@ -39,7 +39,7 @@ TEST(Jail, HoldsThoseWhoOpenConnectOrRun) {
   SKIP_WITHOUT_JAIL();
   const std::function<void()> deeds[] = {
       [] { ::open("/etc/passwd", O_RDONLY); },
-      [] { ::open("/tmp/skerry_jail", O_WRONLY | O_CREAT, 0600); },
+      [] { ::open("skerry_jail", O_WRONLY | O_CREAT, 0600); },
       [] { ::socket(AF_INET, SOCK_STREAM, 0); },
       [] { ::execl("/bin/true", "/bin/true", nullptr); }};
   for (const auto& deed : deeds) {
