@@ -70,7 +70,9 @@ IslandMotion::IslandMotion(World& world, Shapes shapes)
 IslandMotion::~IslandMotion() = default;
 
 void IslandMotion::start(double time_s) {
-  tick_ = static_cast<std::int64_t>(std::floor(time_s * kMotionTicksPerSecond));
+  // A time that was made of a tick is that tick, though a double may say a little less.
+  constexpr double kRounding = 1e-6;
+  tick_ = static_cast<std::int64_t>(std::floor(time_s * kMotionTicksPerSecond + kRounding));
   for (auto& [id, body] : bodies_) {
     body->now.tick = tick_;
     body->told = false;
@@ -361,10 +363,22 @@ void IslandMotion::tell(Body& body) {
   const std::optional<Pose> known = world_.pose(body.id, static_cast<double>(tick_) * kDt);
   const bool still =
       known && known->origin == body.now.pose.origin && known->rotation == body.now.pose.rotation;
-  if (body.told && still) return;
-  if (body.told && known) world_.move_island(body.id, tick_ - 1, *known);
-  world_.move_island(body.id, tick_, body.now.pose);
+  const bool alike = body.now.velocity == body.told_velocity && body.now.spin == body.told_spin;
+  if (body.told && still && alike) return;
+  if (body.told && known && body.told_tick < tick_ - 1) tell_world(body, tick_ - 1, *known);
+  tell_world(body, tick_, body.now.pose);
   body.told = true;
+  body.told_tick = tick_;
+  body.told_velocity = body.now.velocity;
+  body.told_spin = body.now.spin;
+}
+
+void IslandMotion::tell_world(Body& body, std::int64_t tick, const Pose& pose) {
+  world_.move_island(body.id, tick, pose);
+  if (!moves_) return;
+  moves_->push_back({body.id, body.now});
+  moves_->back().state.tick = tick;
+  moves_->back().state.pose = pose;
 }
 
 void IslandMotion::advance_to(double time_s) {

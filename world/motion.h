@@ -64,6 +64,10 @@ class IslandMotion {
   void advance_to(double time_s);
   static constexpr std::int64_t kMaxTicks = 30;
 
+  /// From now on every pose that the world is told, with the motion of that tick, is appended to
+  /// `moves`, which outlives this. Whoever tells another world the same, in this order, has the
+  /// same poses there at any time.
+  void report_to(std::vector<MovingIsland>* moves) { moves_ = moves; }
   /// States of all disturbed islands, ascending ids.
   std::vector<MovingIsland> states() const;
   /// How a place of an island's lattice moves at this tick, on its course or not. None: no such
@@ -96,6 +100,7 @@ class IslandMotion {
   bool leave_courses(std::vector<Pair>& pairs);
   static void exchange_impulses(std::vector<Pair>& pairs);
   void tell(Body& body);
+  void tell_world(Body& body, std::int64_t tick, const Pose& pose);
 
   World& world_;
   Shapes shapes_;
@@ -103,6 +108,7 @@ class IslandMotion {
   Bodies bodies_;   // off their courses
   Bodies courses_;  // on them, near one that is not
   Counts counts_;
+  std::vector<MovingIsland>* moves_ = nullptr;
 };
 
 }  // namespace skerry::world

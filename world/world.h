@@ -62,6 +62,10 @@ class World {
   bool add_island(const IslandSpec& spec, std::shared_ptr<const VoxelSource> source);
   /// Ids of the islands that were added, ascending.
   std::vector<std::uint64_t> added_islands() const;
+  bool is_added(std::uint64_t id) const;
+  /// Ids of the islands that are not as the seed makes them, ascending: added, moved from their
+  /// course, or with edits.
+  std::vector<std::uint64_t> changed_islands() const;
   /// An id that no island of this world has. Depends on the seed and the islands added so far.
   std::uint64_t unused_id() const;
   /// Makes an island of the seed known by its id and mean place. @return false: the seed makes none

@@ -83,6 +83,32 @@ TEST(Motion, WithoutEnginesAnIslandFliesStraightAndSlowsDown) {
   EXPECT_EQ(motion.counts().awake, 0u);
 }
 
+TEST(Motion, TheWorldKnowsEveryTickOfALongFrame) {
+  World world(empty_world()), other(empty_world());
+  const std::uint64_t id = add_island(world, {}, cube(3));
+  ASSERT_EQ(add_island(other, {}, cube(3)), id);
+  std::vector<MovingIsland> moves;
+  IslandMotion motion(world);
+  motion.report_to(&moves);
+  motion.start(1.0);
+  motion.add(id, state_at({}, {6.0, 0.0, 0.0}, 0.5));
+  std::map<std::int64_t, Pose> poses;
+  for (int i = 0; i < 20; ++i) {
+    motion.step();
+    poses[motion.tick()] = motion.states()[0].state.pose;
+  }
+  for (const MovingIsland& move : moves)
+    other.move_island(move.island, move.state.tick, move.state.pose);
+  EXPECT_EQ(moves.size(), 21u);
+  for (const auto& [tick, pose] : poses) {
+    const double time_s = static_cast<double>(tick) * kMotionTickSeconds;
+    EXPECT_NEAR(glm::length(difference_blocks(world.pose(id, time_s)->origin, pose.origin)), 0.0,
+                1e-4)
+        << tick;
+    EXPECT_EQ(other.pose(id, time_s - 0.004)->origin, world.pose(id, time_s - 0.004)->origin);
+  }
+}
+
 TEST(Motion, AnIslandTurnsAboutItsCentreOfMass) {
   World world(empty_world());
   const std::uint64_t id = add_island(world, {}, voxels_in({10, 0, 0}, {20, 1, 10}));
