@@ -69,6 +69,10 @@ std::optional<std::span<const std::byte>> unsealed(std::string_view table, std::
   return bytes;
 }
 
+bool is_vital(std::string_view name) {
+  return name == "info" || name == "generator";
+}
+
 bool fits_file(const WorldInfo& info) {
   return info.name.size() <= kMaxNameBytes && info.seed_text.size() <= kMaxSeedBytes;
 }
@@ -139,6 +143,19 @@ std::optional<IslandSpec> decode_spec(std::uint64_t id, std::span<const std::byt
                      spec.drift_period_s >= kMinPeriod && spec.drift_period_s <= kMaxPeriod &&
                      within(spec.drift_phase_rad, kMaxAngle);
   return sound ? std::optional(spec) : std::nullopt;
+}
+
+std::vector<std::byte> encode_spare(const IslandRow& row) {
+  std::vector<std::byte> bytes = encode_spec(row.spec);
+  bytes.push_back(static_cast<std::byte>(row.added));
+  return bytes;
+}
+
+std::optional<IslandRow> decode_spare(std::uint64_t id, std::span<const std::byte> bytes) {
+  if (bytes.empty()) return std::nullopt;
+  const std::optional<IslandSpec> spec = decode_spec(id, bytes.first(bytes.size() - 1));
+  if (!spec) return std::nullopt;
+  return IslandRow{*spec, bytes.back() != std::byte{0}, {}};
 }
 
 std::vector<std::byte> encode_motion(const MotionState& motion) {
