@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "world/motion_state.h"
@@ -93,6 +95,8 @@ class IslandMotion {
   std::unique_ptr<Body> body_on_course(const IslandSpec& spec) const;
   void want_shape(Body& body);
   static void drop_shape(Body& body);
+  void to_shelf(Body& body);
+  std::unique_ptr<Shape> from_shelf(std::uint64_t island);
   void drive(Body& body) const;
   void meet_courses(Body& body);
   std::vector<Pair> near_pairs();
@@ -107,6 +111,8 @@ class IslandMotion {
   std::int64_t tick_ = 0;
   Bodies bodies_;   // off their courses
   Bodies courses_;  // on them, near one that is not
+  static constexpr std::size_t kShelf = 8;
+  std::deque<std::pair<std::uint64_t, std::unique_ptr<Shape>>> shelf_;  // used last in front
   Counts counts_;
   std::vector<MovingIsland>* moves_ = nullptr;
 };

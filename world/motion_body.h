@@ -16,7 +16,6 @@ struct IslandMotion::Body {
   double ball_radius = 0.0;      // blocks, about the lattice's origin
   glm::dvec3 thrust{};           // island's axes
   double turn = 0.0;
-  bool at_origin = false;  // `now.velocity` is the lattice origin's: the centre is not known
   bool on_course = false;  // follows pose_at: never held, weighs without end
   bool held = false;
   bool wanted = false;         // of courses: near a disturbed island in this tick

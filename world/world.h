@@ -104,7 +104,7 @@ class World {
   Chunk chunk_now(std::uint64_t id, IVec3 chunk);
 
   /// Chunks of an island at a level that can hold blocks, edits included. Order: y, then x, then z.
-  /// Builds the island's plan if need be: seconds of work for a giant, so not for the frame thread.
+  /// Builds the island's plan if need be: some 40 ms for a giant, so not for the frame thread.
   std::vector<IVec3> chunks(std::uint64_t id, int level);
   /// VoxelSource::generate_padded with edits applied: a coarse voxel shows an edit that lies at
   /// its centre, as it shows the generated block there. All air when no such island is known.

@@ -361,6 +361,71 @@ TEST(Motion, HowAPlaceMovesIsNotToldBeforeTheCentreIsKnown) {
   EXPECT_NEAR(moves->velocity.x, 1.0, 0.01);
   EXPECT_NEAR(moves->velocity.z, 0.0, 0.01);
 }
+
+TEST(Motion, AnIslandSavedBeforeItsCentreIsKnownGoesOnAsItWould) {
+  glm::dvec3 velocity[2];
+  for (const bool saved : {false, true}) {
+    World world(empty_world());
+    bool known = false;
+    const IslandMotion::Shapes shapes = [&](std::uint64_t id) {
+      return known ? shape_of(world, id) : std::unique_ptr<Shape>();
+    };
+    const auto stored = std::make_shared<const StoredVoxels>(
+        chunks_from(voxels_in({10, 0, 0}, {14, 2, 4}), block::kStone));
+    IslandSpec spec;
+    spec.id = world.unused_id();
+    spec.spin_rad_per_s = 0.25;
+    world.add_island(fitted(spec, *stored), stored);
+    IslandMotion first(world, shapes), second(world, shapes);
+    first.start(5.0);
+    ASSERT_TRUE(first.disturb(spec.id));
+    const MotionState then = first.states()[0].state;
+    EXPECT_TRUE(then.of_origin);
+    second.start(5.0);
+    second.add(spec.id, then);
+    known = true;
+    IslandMotion& motion = saved ? second : first;
+    motion.step();
+    EXPECT_FALSE(motion.states()[0].state.of_origin);
+    velocity[saved] = motion.states()[0].state.velocity;
+  }
+  EXPECT_EQ(velocity[0], velocity[1]);
+  EXPECT_GT(glm::length(velocity[1]), 0.25 * 11.0) << "the centre goes round";
+}
+
+TEST(Motion, AnIslandThatComesNearAgainNeedsNoNewShape) {
+  World world(empty_world());
+  const auto stored = std::make_shared<const StoredVoxels>(chunks_from(cube(4), block::kStone));
+  IslandSpec spec;
+  spec.id = world.unused_id();
+  spec.drift_amplitude = {0.0, 0.0, 16.0};
+  spec.drift_period_s = 20.0;
+  world.add_island(spec = fitted(spec, *stored), stored);
+  const std::uint64_t flying = add_island(world, {}, cube(2));
+  int asked = 0;
+  IslandMotion motion(world, [&](std::uint64_t id) {
+    asked += id == spec.id;
+    return shape_of(world, id);
+  });
+  motion.start(0.0);
+  const WorldPos place = blocks(6.0, 0.0, 17.0);
+  motion.add(flying, state_at(place));
+  bool near = false;
+  int came = 0;
+  for (int tick = 0; tick < 60 * kMotionTicksPerSecond; ++tick) {
+    motion.step();
+    const Pose pose = pose_at(spec, static_cast<double>(motion.tick()) * kMotionTickSeconds);
+    const double apart = glm::length(difference_blocks(pose.origin, place));
+    if (apart < spec.bounding_radius + 3.0) {
+      came += !near;
+      near = true;
+    }
+    if (apart > spec.bounding_radius + 12.0) near = false;
+  }
+  EXPECT_GT(came, 1);
+  EXPECT_EQ(asked, 1);
+}
+
 TEST(Shape, FollowsEditsAsIfMadeAnew) {
   World world(empty_world());
   const std::uint64_t id = add_island(world, {}, cube(9));

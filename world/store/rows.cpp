@@ -167,6 +167,7 @@ std::vector<std::byte> encode_motion(const MotionState& motion) {
     out.f64(part);
   put(out, motion.velocity);
   out.f64(motion.spin);
+  out.u8(motion.of_origin);
   return out.take();
 }
 
@@ -174,6 +175,7 @@ std::optional<MotionState> decode_motion(std::span<const std::byte> bytes) {
   // As far as a world's time goes, 1e9 s.
   constexpr std::int64_t kMaxTick = std::int64_t{1'000'000'000} * kMotionTicksPerSecond;
   constexpr double kUnitError = 1e-9;
+  constexpr std::size_t kWithoutOrigin = 96;  // as files have it that version 2 wrote
   ByteReader in(bytes);
   MotionState motion;
   motion.tick = in.i64();
@@ -182,6 +184,7 @@ std::optional<MotionState> decode_motion(std::span<const std::byte> bytes) {
   for (double* part : {&q.w, &q.x, &q.y, &q.z}) *part = in.f64();
   motion.velocity = get_vector(in);
   motion.spin = in.f64();
+  if (bytes.size() != kWithoutOrigin) motion.of_origin = in.u8() != 0;
   const bool upright = q.x == 0.0 && q.z == 0.0 && within(q.w * q.w + q.y * q.y - 1.0, kUnitError);
   const bool sound = in.done() && motion.tick >= -kMaxTick && motion.tick <= kMaxTick &&
                      near_enough(motion.pose.origin) && upright &&
