@@ -12,9 +12,11 @@
 
 #include "engine/core/check.h"
 #include "engine/platform/image_file.h"
+#include "game/actions.h"
 #include "game/options.h"
 #include "world/store/bytes.h"
 #include "world/store/chunk_blob.h"
+#include "world/store/pages.h"
 #include "world/store/rows.h"
 #include "world/vdb/answer.h"
 
@@ -65,12 +67,25 @@ void time_and_size(std::span<const std::uint8_t> input) {
     check_line(size.error());
 }
 
-void png(std::span<const std::uint8_t> input) {
-  static const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("skerry_fuzz_{}.png", getpid());
+/// For parsers that take a file's name. @return where the input is now.
+std::filesystem::path written(std::span<const std::uint8_t> input) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("skerry_fuzz_{}", getpid());
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(input.data()),
              static_cast<std::streamsize>(input.size()));
+  return path;
+}
+
+void bindings(std::span<const std::uint8_t> input) {
+  const game::ReadBindings read = game::read_bindings(text_of(input));
+  for (const std::string& problem : read.problems) check_line({problem});
+  const game::ReadBindings again = game::read_bindings(game::print_bindings(read.bindings));
+  SKERRY_ASSERT(again.problems.empty() && again.bindings == read.bindings);
+}
+
+void png(std::span<const std::uint8_t> input) {
+  const std::filesystem::path path = written(input);
   const Result<platform::PngImage> image = platform::read_png(path);
   std::filesystem::remove(path);
   if (!image) return check_line(image.error());
@@ -124,13 +139,16 @@ void chunk_blob(std::span<const std::uint8_t> input) {
   if (!made) check_line(made.error());
 }
 
-/// Whatever decodes can be used, and encodes to the same bytes.
+/// Whatever decodes can be used, and encodes to the same bytes; of rows that an older version wrote
+/// differently, to the same values.
 void world_rows(std::span<const std::uint8_t> input) {
   const std::span<const std::byte> bytes = std::as_bytes(input);
   const auto same = [&](const std::vector<std::byte>& again) {
     SKERRY_ASSERT(std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()));
   };
-  if (const auto motion = world::decode_motion(bytes)) same(world::encode_motion(*motion));
+  if (const auto motion = world::decode_motion(bytes))
+    SKERRY_ASSERT(world::decode_motion(world::encode_motion(*motion)) == motion);
+  if (const auto spare = world::decode_spare(1, bytes)) same(world::encode_spare(*spare));
   if (const auto spec = world::decode_spec(1, bytes)) {
     same(world::encode_spec(*spec));
     world::pose_at(*spec, 1e9);
@@ -139,14 +157,30 @@ void world_rows(std::span<const std::uint8_t> input) {
     SKERRY_ASSERT(world::decode_info(world::encode_info(*info)) == info);
 }
 
-constexpr std::array<Target, 8> kTargets{{{"scene", scene},
-                                          {"setting", setting},
-                                          {"camera", camera},
-                                          {"time_and_size", time_and_size},
-                                          {"png", png},
-                                          {"vdb_answer", vdb_answer},
-                                          {"chunk_blob", chunk_blob},
-                                          {"world_rows", world_rows}}};
+/// Pages of a world file that SQLite would not read any more.
+void world_pages(std::span<const std::uint8_t> input) {
+  const std::filesystem::path path = written(input);
+  world::PageFile file(path);
+  for (std::uint32_t page = 1; page <= file.count(); ++page)
+    file.rows_of(page, [](std::int64_t, std::span<const world::Field> row) {
+      std::size_t sum = 0;  // every byte that a field claims to have is read
+      for (const world::Field& field : row)
+        for (const std::byte byte : field.bytes) sum += std::to_integer<std::size_t>(byte);
+      SKERRY_ASSERT(!row.empty() && sum < SIZE_MAX);
+    });
+  std::filesystem::remove(path);
+}
+
+constexpr std::array<Target, 10> kTargets{{{"scene", scene},
+                                           {"setting", setting},
+                                           {"camera", camera},
+                                           {"time_and_size", time_and_size},
+                                           {"bindings", bindings},
+                                           {"png", png},
+                                           {"vdb_answer", vdb_answer},
+                                           {"chunk_blob", chunk_blob},
+                                           {"world_rows", world_rows},
+                                           {"world_pages", world_pages}}};
 
 }  // namespace
 

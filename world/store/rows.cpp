@@ -154,7 +154,7 @@ std::vector<std::byte> encode_spare(const IslandRow& row) {
 std::optional<IslandRow> decode_spare(std::uint64_t id, std::span<const std::byte> bytes) {
   if (bytes.empty()) return std::nullopt;
   const std::optional<IslandSpec> spec = decode_spec(id, bytes.first(bytes.size() - 1));
-  if (!spec) return std::nullopt;
+  if (!spec || bytes.back() > std::byte{1}) return std::nullopt;
   return IslandRow{*spec, bytes.back() != std::byte{0}, {}};
 }
 
