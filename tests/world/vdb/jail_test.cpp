@@ -37,11 +37,10 @@ int end_of(const std::function<void()>& deed) {
 
 TEST(Jail, HoldsThoseWhoOpenConnectOrRun) {
   SKIP_WITHOUT_JAIL();
-  const std::function<void()> deeds[] = {
-      [] { ::open("/etc/passwd", O_RDONLY); },
-      [] { ::open("skerry_jail", O_WRONLY | O_CREAT, 0600); },
-      [] { ::socket(AF_INET, SOCK_STREAM, 0); },
-      [] { ::execl("/bin/true", "/bin/true", nullptr); }};
+  const std::function<void()> deeds[] = {[] { ::open("/etc/passwd", O_RDONLY); },
+                                         [] { ::open("skerry_jail", O_WRONLY | O_CREAT, 0600); },
+                                         [] { ::socket(AF_INET, SOCK_STREAM, 0); },
+                                         [] { ::execl("/bin/true", "/bin/true", nullptr); }};
   for (const auto& deed : deeds) {
     const int status = end_of(deed);
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) << status;
