@@ -47,7 +47,7 @@ Result<void> App::start(VkSurfaceKHR surface, bool at_title) {
   if (!presenter) return presenter.error();
   presenter_ = *std::move(presenter);
   pictures_shown_ = pictures_.version();
-  if (!at_title) return play(base_, "");
+  if (!at_title) return play_as_asked();
   list_again();
   open(Screen::kTitle);
   return set_backdrop(Backdrop::View::kAround, "");

@@ -53,8 +53,9 @@ class App {
 
   // app_wishes.cpp: what was asked for on a screen.
   Result<void> fulfil(const ui::Wishes& wishes);
-  Result<void> play(const SceneOptions& options, std::string name);
-  Result<void> play_file(const std::string& path);
+  Result<void> play_as_asked();
+  Result<void> play_as_left(const std::string& path, Result<std::unique_ptr<Session>> session);
+  Result<void> play(const SceneOptions& options, std::unique_ptr<SessionClient> session);
   Result<void> create_world(const ui::Wishes::NewWorld& wanted);
   bool save_world();
   void leave_world();

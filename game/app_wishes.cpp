@@ -24,18 +24,17 @@ using ui::Screen;
 constexpr double kPreviewDelay = 0.5;  // seconds after the last letter of a seed
 constexpr const char* kTitleSeed = "skerry";
 constexpr std::uint32_t kBackdropView = 300;  // blocks
+constexpr const char* kPlayer = "player";
 
 std::uint64_t entropy() {
   std::random_device source;
   return (std::uint64_t{source()} << 32) | source();
 }
 
-/// Leaves no handle of the file open: closing one that outlived a session's opening of the same
-/// file would drop the session's locks.
-Result<world::WorldInfo> info_of(const std::string& path) {
-  const auto file = world::WorldFile::open(path, world::WorldFile::Mode::kRead);
-  if (!file) return file.error();
-  return (*file)->info();
+Result<std::unique_ptr<Session>> open_file(const std::string& path) {
+  SceneOptions options;
+  options.world = path;
+  return Session::open(options);
 }
 
 }  // namespace
@@ -63,7 +62,7 @@ Result<void> App::fulfil(const ui::Wishes& wishes) {
     list_again();
   }
   if (wishes.create) return create_world(*wishes.create);
-  if (wishes.play) return play_file(*wishes.play);
+  if (wishes.play) return play_as_left(*wishes.play, open_file(*wishes.play));
   if (wishes.quit) window_.close();  // run() saves, and opens it again if that fails
   if (!wishes.leave_world && !wishes.leave_unsaved) return {};
   if (!wishes.leave_unsaved && !save_world()) return {};
@@ -103,16 +102,43 @@ void App::draw_name() {
   ui::set_field(screens_.new_name, name);
 }
 
-Result<void> App::play(const SceneOptions& options, std::string name) {
-  auto session = Session::open(options);
+/// What the command line names, from where and when it says.
+Result<void> App::play_as_asked() {
+  auto session = Session::open(base_);
   if (!session) return session.error();
+  auto client = std::make_unique<SessionClient>(*std::move(session), kPlayer);
+  if (client->time_s() != base_.settings.world_time_s)
+    client->advance(base_.settings.world_time_s - client->time_s());
+  return play(base_, std::move(client));
+}
+
+/// A world of the list, from where and when it was left.
+Result<void> App::play_as_left(const std::string& path, Result<std::unique_ptr<Session>> session) {
+  if (!session) {
+    say(session.error().message);
+    list_again();
+    return {};
+  }
+  auto client = std::make_unique<SessionClient>(*std::move(session), kPlayer);
+  const SavedPlay left = client->joined().play.value_or(SavedPlay{});
+  SceneOptions options = base_;
+  options.world = path;
+  options.seed_text = client->joined().world.seed_text;
+  options.camera.reset();
+  if (client->joined().play) options.camera = left.eye;
+  options.time_of_day_s = static_cast<int>(left.time_of_day_s);
+  options.settings.world_time_s = client->time_s();
+  return play(options, std::move(client));
+}
+
+Result<void> App::play(const SceneOptions& options, std::unique_ptr<SessionClient> session) {
   backdrop_.reset();
-  auto view = SceneView::create(device_, options, (*session)->world());
+  auto view = SceneView::create(device_, options, session->world());
   if (!view) return view.error();
-  world_ = std::make_unique<PlayLoop>(window_, device_, *presenter_, bindings_, options,
-                                      *std::move(session), *std::move(view));
   world_path_ = options.world;
-  world_name_ = std::move(name);
+  world_name_ = session->joined().world.name;
+  world_ = std::make_unique<PlayLoop>(window_, device_, *presenter_, bindings_, options,
+                                      std::move(session), *std::move(view));
   costs_ = {};
   screens_.stack.clear();
   return {};
@@ -177,30 +203,6 @@ void App::keep_settings() {
       say(saved.error().message);
 }
 
-Result<void> App::play_file(const std::string& path) {
-  const Result<SceneText> saved = scene_of_world(path);
-  const Result<world::WorldInfo> info = info_of(path);
-  if (!saved || !info) {
-    say(!saved ? saved.error().message : info.error().message);
-    list_again();
-    return {};
-  }
-  SceneOptions options = base_;
-  options.world = path;
-  options.seed_text = info->seed_text;
-  const Result<SceneOptions> left = make_scene(*saved, {});
-  if (!left) return left.error();
-  options.camera = left->camera;
-  options.time_of_day_s = left->time_of_day_s;
-  options.settings.world_time_s = left->settings.world_time_s;
-  if (const Result<void> playing = play(options, info->name); !playing) {
-    if (!backdrop_) return playing;  // the world was open, so it is the device that failed
-    say(playing.error().message);
-    list_again();
-  }
-  return {};
-}
-
 Result<void> App::create_world(const ui::Wishes::NewWorld& wanted) {
   world::WorldInfo info;
   info.name = wanted.name.empty() ? ui::pasted_text("World " + wanted.seed_text, ui::kMaxNameBytes)
@@ -208,15 +210,7 @@ Result<void> App::create_world(const ui::Wishes::NewWorld& wanted) {
   info.seed_text = wanted.seed_text;
   info.desc.seed = world::seed_from_text(wanted.seed_text);
   const std::filesystem::path path = new_world_path(info.name);
-  if (const auto made = platform::make_dirs(path.parent_path()); !made) {
-    say(made.error().message);
-    return {};
-  }
-  if (const auto file = world::WorldFile::create(path, info); !file) {
-    say(file.error().message);
-    return {};
-  }
-  return play_file(path.string());
+  return play_as_left(path.string(), Session::create(path, info));
 }
 
 void App::list_again() {

@@ -125,11 +125,13 @@ Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
 
 /// The world goes on by so much, and the player in it.
 void PlayLoop::go_on(double seconds, const Intent& intent) {
-  // The player's ticks ask where islands will be at their ends.
-  session_->advance(player_.tick_time_s() + seconds + kTickSeconds);
+  // First the islands, then the player by the time that has passed for them: their ticks ask where
+  // islands are at their ends.
+  const double before_s = session_->time_s();
+  session_->advance(seconds);
   hear_session();
   const int returns = player_.returns();
-  player_.advance(seconds, intent, around_);
+  player_.advance(session_->time_s() - before_s, intent, around_);
   if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
   scene_.camera = player_.eye(around_);
   tell_session();  // before the hands want anything: what they reach is told by where they are now
@@ -148,12 +150,14 @@ void PlayLoop::tell_session() {
 }
 
 void PlayLoop::hear_session() {
-  for (const Answer& answer : session_->receive()) {
+  for (const Answer& answer : session_->hear()) {
     if (const auto* notice = std::get_if<Notice>(&answer)) said_.push_back(notice->text);
-    if (const auto* moved = std::get_if<IslandMoved>(&answer); moved && moved->island == helm_)
-      helm_speed_ = glm::length(moved->motion.velocity);
-    if (const auto* piece = std::get_if<IslandAdded>(&answer); piece && piece->blocks > 1)
-      said_.push_back(fmt::format("{} blocks broke off", piece->blocks));
+    if (const auto* moved = std::get_if<IslandsMoved>(&answer)) {
+      for (const world::MovingIsland& move : moved->moves)
+        if (move.island == helm_) helm_speed_ = glm::length(move.state.velocity);
+    }
+    if (const auto* island = std::get_if<IslandIs>(&answer); island && island->blocks > 1)
+      said_.push_back(fmt::format("{} blocks broke off", island->blocks));
   }
 }
 
@@ -162,7 +166,7 @@ void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
   // The click that captured the pointer, or closed a screen, means nothing to the hands.
   hands_free_ = window_.pointer_captured() && (hands_free_ || (!intent.dig && !intent.place));
   if (!hands_free_) intent.dig = intent.place = false;
-  hands_.advance(seconds, intent, player_, *scene_.camera, around_, editor_);
+  hands_.advance(seconds, intent, player_, *scene_.camera, around_, *session_);
   if (hands_.replay_refused())
     said_.push_back("Not from here, or not now: go closer, and stand beside it");
 }

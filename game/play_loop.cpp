@@ -43,7 +43,7 @@ std::optional<Footing> home_of(const world::World& world) {
 
 PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
                    const Bindings& bindings, const SceneOptions& options,
-                   std::unique_ptr<Session> session, std::unique_ptr<SceneView> view)
+                   std::unique_ptr<SessionClient> session, std::unique_ptr<SceneView> view)
     : window_(window),
       device_(device),
       presenter_(presenter),
@@ -51,14 +51,13 @@ PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, Presenter& pre
       scene_(options),
       session_(std::move(session)),
       view_(std::move(view)),
-      player_(player_at(view_->start_camera(), options.settings.world_time_s)),
+      player_(player_at(view_->start_camera(), session_->time_s())),
       around_(view_->world()),
-      editor_(*session_),
       day_(options.time_of_day_s) {
-  const std::optional<SavedPlay>& left = session_->saved_play();
+  const std::optional<SavedPlay>& left = session_->joined().play;
   if (left) hands_.hotbar() = left->hotbar;
   if (left && options.camera == left->eye) {
-    player_ = Player(left->player, left->world_time_s);
+    player_ = Player(left->player, session_->time_s());
     day_stands_ = left->day_stands;
   } else if (options.camera) {
     // A place that was asked for is a view, most often in the air.

@@ -18,7 +18,7 @@
 #include "game/player.h"
 #include "game/presenter.h"
 #include "game/scene_view.h"
-#include "game/session_editor.h"
+#include "game/session_client.h"
 #include "game/ui/hud.h"
 #include "game/world_surroundings.h"
 
@@ -41,8 +41,8 @@ class PlayLoop {
  public:
   /// All but the options, the session and its view outlive this.
   PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
-           const Bindings& bindings, const SceneOptions& options, std::unique_ptr<Session> session,
-           std::unique_ptr<SceneView> view);
+           const Bindings& bindings, const SceneOptions& options,
+           std::unique_ptr<SessionClient> session, std::unique_ptr<SceneView> view);
 
   /// A frame's input, and what it does to the world.
   void act(const platform::InputFrame& input, double seconds);
@@ -96,11 +96,10 @@ class PlayLoop {
   Presenter& presenter_;
   const Bindings* bindings_;
   SceneOptions scene_;  // what F2 writes down; quality, time, camera and size follow the play
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<SessionClient> session_;
   std::unique_ptr<SceneView> view_;
   Player player_;
   WorldSurroundings around_;
-  SessionEditor editor_;
   std::optional<std::uint64_t> helm_;  // the island that is steered
   double helm_speed_ = 0.0;            // of it [blocks/s]
   Interaction hands_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "engine/platform/files.h"
 #include "game/open_world.h"
@@ -37,7 +38,9 @@ double distance_to(const world::IVec3& voxel, const glm::dvec3& place) {
 Session::State::State(std::shared_ptr<world::World> opened)
     : world(std::move(opened)),
       motion(*world, [this](std::uint64_t island) { return shape_for(island); }),
-      saved_at(std::chrono::steady_clock::now()) {}
+      saved_at(std::chrono::steady_clock::now()) {
+  motion.report_to(&moves);
+}
 
 Session::State::~State() {
   leaving = true;
@@ -83,13 +86,6 @@ Result<std::unique_ptr<Session>> Session::create(const std::filesystem::path& pa
 std::shared_ptr<world::World> Session::world() const {
   return state_->world;
 }
-const std::optional<SavedPlay>& Session::saved_play() const {
-  return state_->saved;
-}
-bool Session::read_only() const {
-  return state_->read_only;
-}
-
 void Session::send(Request request) {
   state_->requests.put(std::move(request));
 }
@@ -98,24 +94,20 @@ std::vector<Answer> Session::receive() {
   return state_->answers.take();
 }
 
-EditAnswer Session::request(const Edit& edit) {
+void Session::attend() {
   state_->handle_sent();
-  return state_->edit(edit);
 }
 
-void Session::advance(double world_time_s) {
+void Session::advance(double seconds) {
   State& s = *state_;
-  const double passed = std::clamp(world_time_s - s.time_s, 0.0, 1.0);
-  s.time_s = world_time_s;
-  s.edits_left = std::min(kEditBurst, s.edits_left + passed * kEditsPerSecond);
   s.handle_sent();
+  s.time_s += seconds;
+  s.edits_left = std::min(kEditBurst, s.edits_left + std::max(0.0, seconds) * kEditsPerSecond);
   s.take_in_pieces();
-  s.motion.advance_to(world_time_s);
+  s.motion.advance_to(s.time_s);
+  s.tell_moves();
+  if (s.joined && seconds != 0.0) s.answers.put(TimeIs{s.time_s});
   s.save_soon();
-}
-
-void Session::rest() {
-  advance(state_->time_s);
 }
 
 void Session::State::handle_sent() {
@@ -125,22 +117,9 @@ void Session::State::handle_sent() {
 void Session::State::handle(const Request& request) {
   struct Handler {
     State& s;
-    void operator()(const Join&) {
-      Joined joined;
-      joined.play = s.saved;
-      joined.read_only = s.read_only;
-      if (s.file) joined.world = s.file->info();
-      if (!s.file) joined.world.desc = s.world->desc();
-      s.answers.put(joined);
-      s.answers.put(TimeIs{s.time_s});
-      for (const world::MovingIsland& m : s.motion.states())
-        s.answers.put(IslandMoved{m.island, m.state});
-    }
-    void operator()(const ChunkWanted& wanted) {
-      s.answers.put(
-          ChunkChanges{wanted.island, wanted.chunk, s.world->edits(wanted.island, wanted.chunk)});
-    }
-    void operator()(const Edit& edit) { s.answers.put(s.edit(edit)); }
+    void operator()(const Join& join) { s.join(join); }
+    void operator()(const ChunkWanted& wanted) { s.tell_chunk({wanted.island, wanted.chunk}); }
+    void operator()(const Edit& edit) { s.edit(edit); }
     void operator()(const PlayerMoved& moved) { s.play = moved.play; }
     void operator()(const Steer& steer) {
       const auto finite = [](double v) { return std::isfinite(v); };
@@ -154,6 +133,59 @@ void Session::State::handle(const Request& request) {
     }
   };
   std::visit(Handler{*this}, request);
+}
+
+void Session::State::join(const Join& join) {
+  // Nothing breaks between what is listed here and what is told from now on.
+  const std::lock_guard lock(breaking);
+  joined = true;
+  voxels_told = !join.shares_world;
+  introduced.clear();
+  Joined told;
+  told.play = saved;
+  told.read_only = read_only;
+  if (file) told.world = file->info();
+  if (!file) told.world.desc = world->desc();
+  const std::vector<std::uint64_t> islands = world->changed_islands();
+  for (const std::uint64_t id : islands)
+    for (const world::IVec3& chunk :
+         world->is_added(id) ? world->chunks(id, 0) : world->edited_chunks(id))
+      told.changed.push_back({id, chunk});
+  answers.put(std::move(told));
+  answers.put(TimeIs{time_s});
+  for (const std::uint64_t id : islands) introduce(id);
+  answers.put(IslandsMoved{motion.states()});
+}
+
+/// Names an island that is not as the seed makes it, once. With `breaking` held.
+void Session::State::introduce(std::uint64_t island) {
+  if (!introduced.insert(island).second) return;
+  if (const std::optional<world::IslandSpec> spec = world->island(island))
+    answers.put(IslandIs{*spec, world->is_added(island)});
+}
+
+void Session::State::tell_moves() {
+  IslandsMoved told{std::exchange(moves, {})};
+  if (!joined || told.moves.empty()) return;
+  const std::lock_guard lock(breaking);
+  for (const world::MovingIsland& move : told.moves) introduce(move.island);
+  answers.put(std::move(told));
+}
+
+void Session::State::tell_chunk(const world::ChunkName& name) {
+  const std::lock_guard lock(breaking);
+  answers.put(ChunkChanges{name.island, name.chunk, changes_of(name)});
+}
+
+/// Of an island that no seed made, all its blocks.
+world::ChunkEdits Session::State::changes_of(const world::ChunkName& name) {
+  if (!world->is_added(name.island)) return world->edits(name.island, name.chunk);
+  std::vector<BlockId> blocks(world::kChunkVoxels);
+  world->chunk_now(name.island, name.chunk).unpack(blocks);
+  world::ChunkEdits all;
+  for (std::uint32_t i = 0; i < world::kChunkVoxels; ++i)
+    if (blocks[i] != world::kAir) all.push_back({i, blocks[i]});
+  return all;
 }
 
 EditVerdict Session::State::verdict(const Edit& edit, BlockId& was) {
@@ -177,21 +209,22 @@ EditVerdict Session::State::verdict(const Edit& edit, BlockId& was) {
   return EditVerdict::kDone;
 }
 
-EditAnswer Session::State::edit(const Edit& edit) {
+void Session::State::edit(const Edit& edit) {
   EditAnswer answer{edit, EditVerdict::kDone, world::kAir};
   // While voxels go from one island to another, nobody can tell which of them this one is on.
   const std::lock_guard lock(breaking);
   answer.verdict = verdict(edit, answer.was);
-  if (answer.verdict != EditVerdict::kDone) return answer;
-  edits_left -= 1.0;
-  world->set_block(edit.island, edit.voxel, edit.block);
-  ++edits_made;
-  {
-    const std::lock_guard unsaved_lock(unsaved_mutex);
-    unsaved.chunks.insert({edit.island, world::chunk_of(edit.voxel)});
+  if (answer.verdict == EditVerdict::kDone) {
+    edits_left -= 1.0;
+    world->set_block(edit.island, edit.voxel, edit.block);
+    ++edits_made;
+    {
+      const std::lock_guard unsaved_lock(unsaved_mutex);
+      unsaved.chunks.insert({edit.island, world::chunk_of(edit.voxel)});
+    }
+    follow_edit(edit, answer.was);
   }
-  follow_edit(edit, answer.was);
-  return answer;
+  answers.put(answer);
 }
 
 }  // namespace skerry::game

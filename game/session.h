@@ -13,17 +13,21 @@
 #include "game/options.h"
 #include "game/saved_play.h"
 #include "world/edits.h"
+#include "world/motion_state.h"
+#include "world/store/chunk_blob.h"
 #include "world/world.h"
 
 namespace skerry::game {
 
 // From client to session. ------------------------------------------------------------------------
 
-/// The first thing a client says.
+/// The first thing a client says. Before it nothing is told but notices.
 struct Join {
   std::string player;
+  /// It reads Session::world(): voxels that change are not sent unless it asks for them.
+  bool shares_world = false;
 };
-/// What was changed in a chunk of level 0: a client generates the rest itself.
+/// Asks what was changed in a chunk of level 0: a client generates the rest itself.
 struct ChunkWanted {
   std::uint64_t island = 0;
   world::IVec3 chunk;
@@ -49,11 +53,15 @@ using Request = std::variant<Join, ChunkWanted, Edit, PlayerMoved, Steer>;
 
 // From session to client. ------------------------------------------------------------------------
 
+/// What follows at once: the time, every island that is not as the seed makes it, all that move.
 struct Joined {
   world::WorldInfo world;
-  std::optional<SavedPlay> play;  ///< none: begin at the spawn
-  bool read_only = false;         ///< nothing of this play will be saved
+  std::optional<SavedPlay> play;          ///< none: begin at the spawn
+  bool read_only = false;                 ///< nothing of this play will be saved
+  std::vector<world::ChunkName> changed;  ///< what ChunkWanted may be asked for
 };
+/// What was changed in a chunk: the answer to ChunkWanted, or what broke off, whenever it does. An
+/// island that no seed made is air but for what is told.
 struct ChunkChanges {
   std::uint64_t island = 0;
   world::IVec3 chunk;
@@ -69,19 +77,24 @@ enum class EditVerdict : std::uint8_t {
   kEmpty,     ///< a block is taken where none is
   kUnknown,   ///< the voxel is not loaded yet
 };
+/// When done, the voxel is what the edit says; no ChunkChanges tells it again.
 struct EditAnswer {
   Edit edit;
   EditVerdict verdict = EditVerdict::kDone;
   world::BlockId was = world::kAir;  ///< what stood there
 };
-/// An island came into being, broken off another.
-struct IslandAdded {
-  std::uint64_t island = 0, broken_off = 0;
-  std::uint64_t blocks = 0;
+/// An island that is not as the seed makes it. Told before anything else of it that a client could
+/// not know.
+struct IslandIs {
+  world::IslandSpec spec;
+  bool added = false;            ///< no seed made it
+  std::uint64_t broken_off = 0;  ///< the island that it came off just now; 0: it was there before
+  std::uint64_t blocks = 0;      ///< that came off
 };
-struct IslandMoved {
-  std::uint64_t island = 0;
-  world::MotionState motion;
+/// Poses that islands off their course took, in the order of their ticks: between two that follow
+/// one another an island moves straight, else it stood still (World::move_island).
+struct IslandsMoved {
+  std::vector<world::MovingIsland> moves;
 };
 struct TimeIs {
   double world_time_s = 0.0;
@@ -91,7 +104,7 @@ struct Notice {
   std::string text;
 };
 using Answer =
-    std::variant<Joined, ChunkChanges, EditAnswer, IslandAdded, IslandMoved, TimeIs, Notice>;
+    std::variant<Joined, ChunkChanges, EditAnswer, IslandIs, IslandsMoved, TimeIs, Notice>;
 
 /// Messages one way, from any thread to any other.
 template <class Message>
@@ -119,13 +132,13 @@ inline constexpr double kSessionReach = 8.0;
 /// Edits a second in the long run, and how many may come at once.
 inline constexpr double kEditsPerSecond = 32.0, kEditBurst = 64.0;
 
-/// A world that is played: owns it and its file, checks what clients want, moves the islands that
-/// left their course, saves. One client, in this process.
+/// A world that is played: owns it and its file, keeps its time, checks what clients want, moves
+/// the islands that left their course, saves. One client, in this process.
 class Session {
  public:
-  /// A new session on options.world, or on a world of the options' seed that is saved nowhere.
-  /// A file that may not be written is played, too, and read_only(). Errors: those of open_world;
-  /// the file is open in another process.
+  /// A new session on options.world, where it was left, or on a world of the options' seed and time
+  /// that is saved nowhere. A file that may not be written is played, too. Errors: those of
+  /// open_world; the file is open in another process.
   static Result<std::unique_ptr<Session>> open(const SceneOptions& options);
   /// Makes a world's file, its folder if need be, then opens it.
   static Result<std::unique_ptr<Session>> create(const std::filesystem::path& path,
@@ -135,23 +148,21 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  /// For a client in this process, so that nothing is generated or kept twice: to be read only, and
+  /// always as the messages tell it.
   std::shared_ptr<world::World> world() const;
-  /// As the file has it: where to go on.
-  const std::optional<SavedPlay>& saved_play() const;
-  bool read_only() const;
 
-  /// Messages, from any thread. advance() handles requests in order.
+  /// Messages, from any thread. Requests are handled in order, by the calls below.
   void send(Request request);
   std::vector<Answer> receive();
 
-  /// Handles one edit now, after all that was sent before; for the client in this process. Frame
-  /// thread, as advance().
-  EditAnswer request(const Edit& edit);
-  /// Handles what was sent, moves the islands up to the time, and saves now and then. Never waits
-  /// for the disk.
-  void advance(double world_time_s);
+  // By who runs the session, always on one thread. None waits for the disk but save().
+  /// Handles what was sent, now.
+  void attend();
+  /// The same; then time goes on, the islands move, and now and then the world is saved.
+  void advance(double seconds);
   /// As advance(), while the world's time stands still.
-  void rest();
+  void rest() { advance(0.0); }
   /// The next advance() or rest() saves, however short ago that was done.
   void save_next();
   /// Blocks until all is saved. Errors: those of the file; the play may go on.

@@ -109,6 +109,7 @@ Result<void> Session::save() {
   s.handle_sent();
   s.worker.wait();
   s.take_in_pieces();
+  s.tell_moves();
   if (!s.file || s.read_only) return {};
   s.saver.wait();
   return s.write(s.motion.states(), s.play);

@@ -87,7 +87,18 @@ std::optional<world::BrokenOff> Session::State::break_off(std::uint64_t island,
   for (const world::IVec3& chunk : off.changed) unsaved.chunks.insert({island, chunk});
   for (const world::IVec3& chunk : world->chunks(off.island, 0))
     unsaved.chunks.insert({off.island, chunk});
+  if (joined) tell_break(island, *loose, off);
   return off;
+}
+
+void Session::State::tell_break(std::uint64_t island, const world::LoosePiece& loose,
+                                const world::BrokenOff& off) {
+  introduced.insert(off.island);
+  answers.put(IslandIs{*world->island(off.island), true, island, off.mass.blocks});
+  if (!voxels_told) return;
+  for (const auto& [chunk, edits] : loose.taken) answers.put(ChunkChanges{island, chunk, edits});
+  for (const world::IVec3& chunk : world->chunks(off.island, 0))
+    answers.put(ChunkChanges{off.island, chunk, changes_of({off.island, chunk})});
 }
 
 /// Frame thread: pieces fly on as their voxels did.
@@ -114,7 +125,6 @@ void Session::State::take_in_pieces() {
     } else {
       motion.edited(piece.broken_off, piece.voxels, false);
     }
-    answers.put(IslandAdded{piece.island, piece.broken_off, piece.mass.blocks});
   }
 }
 

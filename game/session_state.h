@@ -43,7 +43,12 @@ struct Session::State {
   // session.cpp: messages.
   void handle_sent();
   void handle(const Request& request);
-  EditAnswer edit(const Edit& edit);
+  void join(const Join& join);
+  void introduce(std::uint64_t island);
+  void tell_moves();
+  void tell_chunk(const world::ChunkName& name);
+  world::ChunkEdits changes_of(const world::ChunkName& name);
+  void edit(const Edit& edit);
   EditVerdict verdict(const Edit& edit, world::BlockId& was);
   void tell(std::string text) { answers.put(Notice{std::move(text)}); }
 
@@ -53,6 +58,8 @@ struct Session::State {
   void take_in_pieces();
   std::optional<world::BrokenOff> break_off(std::uint64_t island, const world::Fragment& fragment,
                                             double at_s);
+  void tell_break(std::uint64_t island, const world::LoosePiece& loose,
+                  const world::BrokenOff& off);
   std::unique_ptr<world::Shape> shape_for(std::uint64_t island);
 
   // session_save.cpp.
@@ -70,7 +77,8 @@ struct Session::State {
 
   // Frame thread.
   world::IslandMotion motion;
-  std::optional<SavedPlay> play;  // as the client said last
+  std::vector<world::MovingIsland> moves;  // since they were told
+  std::optional<SavedPlay> play;           // as the client said last
   double edits_left = kEditBurst;
   double time_s = 0.0;
   struct ShapeOnItsWay {
@@ -83,8 +91,13 @@ struct Session::State {
   Mailbox<BrokenPiece> pieces;
   std::vector<BrokenPiece> waiting_pieces;  // for the shape of what they broke off
 
-  // All threads.
+  // All threads. What is told of voxels is put into `answers` with `breaking` held, so that it
+  // comes in the order in which it was done.
   std::mutex breaking;  // held while voxels go from one island to another, for a moment
+  // The frame thread writes these two with `breaking` held, and reads them without.
+  bool joined = false;
+  bool voxels_told = false;
+  std::set<std::uint64_t> introduced;  // with `breaking` held: islands that an IslandIs has named
   std::atomic<std::uint64_t> edits_made = 0;  // grows with `breaking` held
   std::atomic<bool> leaving = false;          // nobody waits for shapes any more
   std::mutex saving;                          // held while a state of the world is taken down

@@ -70,7 +70,9 @@ IslandMotion::IslandMotion(World& world, Shapes shapes)
 IslandMotion::~IslandMotion() = default;
 
 void IslandMotion::start(double time_s) {
-  tick_ = static_cast<std::int64_t>(std::floor(time_s * kMotionTicksPerSecond));
+  // A time that was made of a tick is that tick, though a double may say a little less.
+  constexpr double kRounding = 1e-6;
+  tick_ = static_cast<std::int64_t>(std::floor(time_s * kMotionTicksPerSecond + kRounding));
   for (auto& [id, body] : bodies_) {
     body->now.tick = tick_;
     body->told = false;
@@ -94,17 +96,33 @@ std::unique_ptr<IslandMotion::Body> IslandMotion::body_on_course(const IslandSpe
 }
 
 void IslandMotion::want_shape(Body& body) {
-  if (body.shape) return;
-  body.shape = shapes_(body.id);
-  if (!body.shape || !std::exchange(body.at_origin, false)) return;
+  if (!body.shape) body.shape = from_shelf(body.id);
+  if (!body.shape) body.shape = shapes_(body.id);
+  if (!body.shape || !std::exchange(body.now.of_origin, false)) return;
   body.now.velocity += carried(body.now.spin, Turn::of(body.now.pose.rotation)(body.centre()));
 }
 
 void IslandMotion::drop_shape(Body& body) {
   if (!body.shape) return;
   body.now.velocity -= carried(body.now.spin, Turn::of(body.now.pose.rotation)(body.centre()));
-  body.at_origin = true;
+  body.now.of_origin = true;
   body.shape.reset();
+}
+
+/// Islands that meet others now and then keep their shapes meanwhile, the last kShelf of them.
+void IslandMotion::to_shelf(Body& body) {
+  if (!body.shape) return;
+  shelf_.emplace_front(body.id, std::move(body.shape));
+  if (shelf_.size() > kShelf) shelf_.pop_back();
+}
+
+std::unique_ptr<Shape> IslandMotion::from_shelf(std::uint64_t island) {
+  const auto found = std::find_if(shelf_.begin(), shelf_.end(),
+                                  [&](const auto& kept) { return kept.first == island; });
+  if (found == shelf_.end()) return nullptr;
+  std::unique_ptr<Shape> shape = std::move(found->second);
+  shelf_.erase(found);
+  return shape;
 }
 
 bool IslandMotion::disturb(std::uint64_t island) {
@@ -112,8 +130,10 @@ bool IslandMotion::disturb(std::uint64_t island) {
   const std::optional<IslandSpec> spec = world_.island(island);
   if (!spec) return false;
   std::unique_ptr<Body> body = body_on_course(*spec);
-  body->at_origin = true;
+  body->now.of_origin = true;
   body->on_course = false;
+  if (const auto course = courses_.find(island); course != courses_.end())
+    body->shape = std::move(course->second->shape);
   want_shape(*body);
   body->next = body->now.pose;
   courses_.erase(island);
@@ -153,6 +173,8 @@ bool IslandMotion::steer(std::uint64_t island, glm::dvec3 thrust, double turn) {
 void IslandMotion::edited(std::uint64_t island, std::span<const IVec3> voxels, bool solid) {
   if (const auto course = courses_.find(island); course != courses_.end() && course->second->shape)
     course->second->shape->edit(voxels, solid);
+  for (auto& [id, shape] : shelf_)
+    if (id == island) shape->edit(voxels, solid);
   Body* body = find(island);
   if (!body || !body->shape) return;
   const glm::dvec3 before = body->centre();
@@ -163,6 +185,7 @@ void IslandMotion::edited(std::uint64_t island, std::span<const IVec3> voxels, b
 
 void IslandMotion::reshape(std::uint64_t island) {
   courses_.erase(island);
+  from_shelf(island);
   if (Body* body = find(island)) drop_shape(*body);
 }
 
@@ -326,7 +349,10 @@ void IslandMotion::step() {
   }
   for (auto& [id, course] : courses_) course->wanted = false;
   for (auto& [id, body] : bodies_) meet_courses(*body);  // one at rest, too, may be run into
-  std::erase_if(courses_, [](const auto& entry) { return !entry.second->wanted; });
+  std::erase_if(courses_, [this](const auto& entry) {
+    if (!entry.second->wanted) to_shelf(*entry.second);
+    return !entry.second->wanted;
+  });
   std::vector<Pair> pairs = near_pairs();
   hold(pairs);
   while (leave_courses(pairs)) {
@@ -361,10 +387,22 @@ void IslandMotion::tell(Body& body) {
   const std::optional<Pose> known = world_.pose(body.id, static_cast<double>(tick_) * kDt);
   const bool still =
       known && known->origin == body.now.pose.origin && known->rotation == body.now.pose.rotation;
-  if (body.told && still) return;
-  if (body.told && known) world_.move_island(body.id, tick_ - 1, *known);
-  world_.move_island(body.id, tick_, body.now.pose);
+  const bool alike = body.now.velocity == body.told_velocity && body.now.spin == body.told_spin;
+  if (body.told && still && alike) return;
+  if (body.told && known && body.told_tick < tick_ - 1) tell_world(body, tick_ - 1, *known);
+  tell_world(body, tick_, body.now.pose);
   body.told = true;
+  body.told_tick = tick_;
+  body.told_velocity = body.now.velocity;
+  body.told_spin = body.now.spin;
+}
+
+void IslandMotion::tell_world(Body& body, std::int64_t tick, const Pose& pose) {
+  world_.move_island(body.id, tick, pose);
+  if (!moves_) return;
+  moves_->push_back({body.id, body.now});
+  moves_->back().state.tick = tick;
+  moves_->back().state.pose = pose;
 }
 
 void IslandMotion::advance_to(double time_s) {
@@ -393,7 +431,7 @@ std::optional<IslandMotion::PointMotion> IslandMotion::motion_at(std::uint64_t i
     const MotionState state = on_course_at(*spec, tick_, place);
     return PointMotion{state.pose, state.velocity, state.spin};
   }
-  if (!found->second->shape && !found->second->at_origin) return std::nullopt;
+  if (!found->second->shape && !found->second->now.of_origin) return std::nullopt;
   const MotionState& now = found->second->now;
   const glm::dvec3 arm = Turn::of(now.pose.rotation)(place - found->second->centre());
   return PointMotion{now.pose, now.velocity + carried(now.spin, arm), now.spin};

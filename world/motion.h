@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "world/motion_state.h"
@@ -64,6 +66,10 @@ class IslandMotion {
   void advance_to(double time_s);
   static constexpr std::int64_t kMaxTicks = 30;
 
+  /// From now on every pose that the world is told, with the motion of that tick, is appended to
+  /// `moves`, which outlives this. Whoever tells another world the same, in this order, has the
+  /// same poses there at any time.
+  void report_to(std::vector<MovingIsland>* moves) { moves_ = moves; }
   /// States of all disturbed islands, ascending ids.
   std::vector<MovingIsland> states() const;
   /// How a place of an island's lattice moves at this tick, on its course or not. None: no such
@@ -89,6 +95,8 @@ class IslandMotion {
   std::unique_ptr<Body> body_on_course(const IslandSpec& spec) const;
   void want_shape(Body& body);
   static void drop_shape(Body& body);
+  void to_shelf(Body& body);
+  std::unique_ptr<Shape> from_shelf(std::uint64_t island);
   void drive(Body& body) const;
   void meet_courses(Body& body);
   std::vector<Pair> near_pairs();
@@ -96,13 +104,17 @@ class IslandMotion {
   bool leave_courses(std::vector<Pair>& pairs);
   static void exchange_impulses(std::vector<Pair>& pairs);
   void tell(Body& body);
+  void tell_world(Body& body, std::int64_t tick, const Pose& pose);
 
   World& world_;
   Shapes shapes_;
   std::int64_t tick_ = 0;
   Bodies bodies_;   // off their courses
   Bodies courses_;  // on them, near one that is not
+  static constexpr std::size_t kShelf = 8;
+  std::deque<std::pair<std::uint64_t, std::unique_ptr<Shape>>> shelf_;  // used last in front
   Counts counts_;
+  std::vector<MovingIsland>* moves_ = nullptr;
 };
 
 }  // namespace skerry::world

@@ -16,11 +16,13 @@ struct IslandMotion::Body {
   double ball_radius = 0.0;      // blocks, about the lattice's origin
   glm::dvec3 thrust{};           // island's axes
   double turn = 0.0;
-  bool at_origin = false;  // `now.velocity` is the lattice origin's: the centre is not known
   bool on_course = false;  // follows pose_at: never held, weighs without end
   bool held = false;
-  bool wanted = false;                        // of courses: near a disturbed island in this tick
-  bool told = false;                          // the world knows its pose of the last tick
+  bool wanted = false;         // of courses: near a disturbed island in this tick
+  bool told = false;           // the world knows its pose of the last tick
+  std::int64_t told_tick = 0;  // when it was told last, and what
+  glm::dvec3 told_velocity{};
+  double told_spin = 0.0;
   std::optional<WorldPos> looked_from;        // where islands near by were last looked for
   std::vector<std::uint64_t> course_islands;  // found then
 

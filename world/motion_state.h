@@ -14,9 +14,11 @@ struct MotionState {
   Pose pose;              ///< of the lattice; a rotation about +y
   glm::dvec3 velocity{};  ///< of the centre of mass, world axes [blocks/s]
   double spin = 0.0;      ///< about +y [rad/s]
+  /// The velocity is that of the lattice's origin: where the centre of mass is, is not known yet.
+  bool of_origin = false;
   bool operator==(const MotionState& o) const {
     return tick == o.tick && pose.origin == o.pose.origin && pose.rotation == o.pose.rotation &&
-           velocity == o.velocity && spin == o.spin;
+           velocity == o.velocity && spin == o.spin && of_origin == o.of_origin;
   }
 };
 

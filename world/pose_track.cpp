@@ -9,6 +9,8 @@ namespace skerry::world {
 namespace {
 
 Pose between(const Pose& a, const Pose& b, double alpha) {
+  // Not a bit off at a tick, nor while it stands still: however many of its ticks are known.
+  if (alpha == 0.0 || (a.origin == b.origin && a.rotation == b.rotation)) return a;
   // A tick turns an island by a fraction of a degree: the straight way between two rotations and
   // the arc differ by less than a double shows.
   glm::dquat to = b.rotation;

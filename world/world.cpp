@@ -206,6 +206,24 @@ std::vector<std::uint64_t> World::added_islands() const {
   return ids;
 }
 
+bool World::is_added(std::uint64_t id) const {
+  const std::shared_ptr<Island> island = find(id);
+  return island && island->added;
+}
+
+std::vector<std::uint64_t> World::changed_islands() const {
+  std::vector<std::uint64_t> ids;
+  {
+    const std::lock_guard lock(islands_mutex_);
+    for (const auto& [id, island] : islands_) {
+      const std::lock_guard island_lock(island->mutex);
+      if (island->added || island->track || !island->edits.empty()) ids.push_back(id);
+    }
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
 std::uint64_t World::unused_id() const {
   const std::lock_guard lock(islands_mutex_);
   for (std::uint64_t count = special_.size() + 1;; ++count) {

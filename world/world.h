@@ -62,6 +62,10 @@ class World {
   bool add_island(const IslandSpec& spec, std::shared_ptr<const VoxelSource> source);
   /// Ids of the islands that were added, ascending.
   std::vector<std::uint64_t> added_islands() const;
+  bool is_added(std::uint64_t id) const;
+  /// Ids of the islands that are not as the seed makes them, ascending: added, moved from their
+  /// course, or with edits.
+  std::vector<std::uint64_t> changed_islands() const;
   /// An id that no island of this world has. Depends on the seed and the islands added so far.
   std::uint64_t unused_id() const;
   /// Makes an island of the seed known by its id and mean place. @return false: the seed makes none
@@ -100,7 +104,7 @@ class World {
   Chunk chunk_now(std::uint64_t id, IVec3 chunk);
 
   /// Chunks of an island at a level that can hold blocks, edits included. Order: y, then x, then z.
-  /// Builds the island's plan if need be: seconds of work for a giant, so not for the frame thread.
+  /// Builds the island's plan if need be: some 40 ms for a giant, so not for the frame thread.
   std::vector<IVec3> chunks(std::uint64_t id, int level);
   /// VoxelSource::generate_padded with edits applied: a coarse voxel shows an edit that lies at
   /// its centre, as it shows the generated block there. All air when no such island is known.

@@ -83,6 +83,32 @@ TEST(Motion, WithoutEnginesAnIslandFliesStraightAndSlowsDown) {
   EXPECT_EQ(motion.counts().awake, 0u);
 }
 
+TEST(Motion, TheWorldKnowsEveryTickOfALongFrame) {
+  World world(empty_world()), other(empty_world());
+  const std::uint64_t id = add_island(world, {}, cube(3));
+  ASSERT_EQ(add_island(other, {}, cube(3)), id);
+  std::vector<MovingIsland> moves;
+  IslandMotion motion(world);
+  motion.report_to(&moves);
+  motion.start(1.0);
+  motion.add(id, state_at({}, {6.0, 0.0, 0.0}, 0.5));
+  std::map<std::int64_t, Pose> poses;
+  for (int i = 0; i < 20; ++i) {
+    motion.step();
+    poses[motion.tick()] = motion.states()[0].state.pose;
+  }
+  for (const MovingIsland& move : moves)
+    other.move_island(move.island, move.state.tick, move.state.pose);
+  EXPECT_EQ(moves.size(), 21u);
+  for (const auto& [tick, pose] : poses) {
+    const double time_s = static_cast<double>(tick) * kMotionTickSeconds;
+    EXPECT_NEAR(glm::length(difference_blocks(world.pose(id, time_s)->origin, pose.origin)), 0.0,
+                1e-4)
+        << tick;
+    EXPECT_EQ(other.pose(id, time_s - 0.004)->origin, world.pose(id, time_s - 0.004)->origin);
+  }
+}
+
 TEST(Motion, AnIslandTurnsAboutItsCentreOfMass) {
   World world(empty_world());
   const std::uint64_t id = add_island(world, {}, voxels_in({10, 0, 0}, {20, 1, 10}));
@@ -335,6 +361,71 @@ TEST(Motion, HowAPlaceMovesIsNotToldBeforeTheCentreIsKnown) {
   EXPECT_NEAR(moves->velocity.x, 1.0, 0.01);
   EXPECT_NEAR(moves->velocity.z, 0.0, 0.01);
 }
+
+TEST(Motion, AnIslandSavedBeforeItsCentreIsKnownGoesOnAsItWould) {
+  glm::dvec3 velocity[2];
+  for (const bool saved : {false, true}) {
+    World world(empty_world());
+    bool known = false;
+    const IslandMotion::Shapes shapes = [&](std::uint64_t id) {
+      return known ? shape_of(world, id) : std::unique_ptr<Shape>();
+    };
+    const auto stored = std::make_shared<const StoredVoxels>(
+        chunks_from(voxels_in({10, 0, 0}, {14, 2, 4}), block::kStone));
+    IslandSpec spec;
+    spec.id = world.unused_id();
+    spec.spin_rad_per_s = 0.25;
+    world.add_island(fitted(spec, *stored), stored);
+    IslandMotion first(world, shapes), second(world, shapes);
+    first.start(5.0);
+    ASSERT_TRUE(first.disturb(spec.id));
+    const MotionState then = first.states()[0].state;
+    EXPECT_TRUE(then.of_origin);
+    second.start(5.0);
+    second.add(spec.id, then);
+    known = true;
+    IslandMotion& motion = saved ? second : first;
+    motion.step();
+    EXPECT_FALSE(motion.states()[0].state.of_origin);
+    velocity[saved] = motion.states()[0].state.velocity;
+  }
+  EXPECT_EQ(velocity[0], velocity[1]);
+  EXPECT_GT(glm::length(velocity[1]), 0.25 * 11.0) << "the centre goes round";
+}
+
+TEST(Motion, AnIslandThatComesNearAgainNeedsNoNewShape) {
+  World world(empty_world());
+  const auto stored = std::make_shared<const StoredVoxels>(chunks_from(cube(4), block::kStone));
+  IslandSpec spec;
+  spec.id = world.unused_id();
+  spec.drift_amplitude = {0.0, 0.0, 16.0};
+  spec.drift_period_s = 20.0;
+  world.add_island(spec = fitted(spec, *stored), stored);
+  const std::uint64_t flying = add_island(world, {}, cube(2));
+  int asked = 0;
+  IslandMotion motion(world, [&](std::uint64_t id) {
+    asked += id == spec.id;
+    return shape_of(world, id);
+  });
+  motion.start(0.0);
+  const WorldPos place = blocks(6.0, 0.0, 17.0);
+  motion.add(flying, state_at(place));
+  bool near = false;
+  int came = 0;
+  for (int tick = 0; tick < 60 * kMotionTicksPerSecond; ++tick) {
+    motion.step();
+    const Pose pose = pose_at(spec, static_cast<double>(motion.tick()) * kMotionTickSeconds);
+    const double apart = glm::length(difference_blocks(pose.origin, place));
+    if (apart < spec.bounding_radius + 3.0) {
+      came += !near;
+      near = true;
+    }
+    if (apart > spec.bounding_radius + 12.0) near = false;
+  }
+  EXPECT_GT(came, 1);
+  EXPECT_EQ(asked, 1);
+}
+
 TEST(Shape, FollowsEditsAsIfMadeAnew) {
   World world(empty_world());
   const std::uint64_t id = add_island(world, {}, cube(9));

@@ -116,6 +116,13 @@ std::string quoted(const std::filesystem::path& path) {
   return text + "'";
 }
 
+bool is_damage(int code) {
+  // The last is its answer to numbers in the first page that it does not know, and to tables that
+  // are not there.
+  return (code & 0xff) == SQLITE_CORRUPT || (code & 0xff) == SQLITE_NOTADB ||
+         (code & 0xff) == SQLITE_ERROR;
+}
+
 Error file_error(std::string_view what, const std::filesystem::path& path, int code) {
   const auto say = [&](std::string_view why, std::string_view then) {
     return Error{fmt::format("cannot {} the world {}: {}; {}", what, quoted(path), why, then)};

@@ -80,6 +80,8 @@ class WriterLock {
 
 /// A path within an error: one line, nothing that moves a cursor.
 std::string quoted(const std::filesystem::path& path);
+/// Whether a code says that a file is not as SQLite left it.
+bool is_damage(int code);
 /// "cannot <what> the world 'PATH': <why the code says>; <what to do>".
 Error file_error(std::string_view what, const std::filesystem::path& path, int code);
 

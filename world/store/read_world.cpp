@@ -5,37 +5,26 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "world/generate/generate.h"
 #include "world/store/rows.h"
+#include "world/store/schema.h"
 #include "world/store/world_file_state.h"
 #include "world/stored_voxels.h"
 
 namespace skerry::world {
 namespace {
 
-/// Runs through a table from the front, and where a damaged page ends that, from the back up to
-/// there. @param take given a row, gives its key. @return whether some of it may be missing.
+/// Runs through a table. @return whether some of it may be missing.
 template <class Take>
-bool scan(Database& database, const std::string& select, const std::string& order, Take&& take) {
-  using Key = decltype(take(std::declval<Statement&>()));
-  std::optional<Key> last;
+bool scan(Database& database, std::string_view select, Take&& take) {
   int code = SQLITE_OK;
-  if (std::optional<Statement> rows = database.prepare(select + " ORDER BY " + order, code)) {
-    while ((code = rows->step()) == SQLITE_ROW) last = take(*rows);
-  }
-  if (code == SQLITE_DONE) return false;
-  std::string backwards = order;
-  for (std::size_t at = 0; (at = backwards.find(',', at)) != std::string::npos; at += 6)
-    backwards.insert(at, " DESC");
-  std::optional<Statement> rows =
-      database.prepare(select + " ORDER BY " + backwards + " DESC", code);
-  while (rows && rows->step() == SQLITE_ROW) {
-    const Key key = take(*rows);
-    if (last && key <= *last) break;
-  }
-  return true;
+  std::optional<Statement> rows = database.prepare(select, code);
+  while (rows && (code = rows->step()) == SQLITE_ROW) take(*rows);
+  return code != SQLITE_DONE;
 }
 
 ChunkName name_of(const Statement& row) {
@@ -64,13 +53,6 @@ bool made_by_this_generator(WorldFile& file) {
 
 }  // namespace
 
-void bind_name(Statement& statement, const ChunkName& name) {
-  statement.bind(1, static_cast<std::int64_t>(name.island));
-  statement.bind(2, std::int64_t{name.chunk.x});
-  statement.bind(3, std::int64_t{name.chunk.y});
-  statement.bind(4, std::int64_t{name.chunk.z});
-}
-
 void WorldFile::State::put_blob(std::optional<Error>& error, const ChunkName& name,
                                 std::span<const std::byte> blob) {
   put(error, "INSERT OR REPLACE INTO chunk(island, x, y, z, data) VALUES(?1, ?2, ?3, ?4, ?5)",
@@ -87,70 +69,77 @@ void WorldFile::State::tell(std::string what) {
 
 WorldFile::Contents WorldFile::read() {
   State& s = *state_;
-  const auto lost = [&](std::string_view what) {
-    s.tell(fmt::format("the world {} has lost {}: it is damaged", quoted(s.path), what));
-  };
-  std::map<std::uint64_t, IslandRow> islands;
-  if (scan(*s.database, "SELECT id, added, spec FROM island", "id", [&](Statement& row) {
-        const std::int64_t key = row.integer(0);
-        const auto id = static_cast<std::uint64_t>(key);
-        const bool added = row.integer(1) != 0;
-        const auto bytes = unsealed(added ? "added" : "island", id, row.blob(2));
-        const std::optional<IslandSpec> spec = bytes ? decode_spec(id, *bytes) : std::nullopt;
-        if (spec) {
-          islands.try_emplace(id, IslandRow{*spec, added, std::nullopt});
-        } else {
-          lost(fmt::format("island {:016x}", id));
-        }
-        return key;
-      }))
-    lost("some islands");
-  if (s.version >= 2 &&
-      scan(*s.database, "SELECT island, data FROM motion", "island", [&](Statement& row) {
-        const std::int64_t key = row.integer(0);
-        const auto id = static_cast<std::uint64_t>(key);
-        const auto bytes = unsealed("motion", id, row.blob(1));
-        const std::optional<MotionState> motion = bytes ? decode_motion(*bytes) : std::nullopt;
-        if (!motion) lost(fmt::format("the place of island {:016x}", id));
-        if (const auto island = islands.find(id); island != islands.end())
-          island->second.motion = motion;
-        return key;
-      }))
-    lost("some islands' places");
-
+  if (!s.recovered && !is_whole(*s.database)) s.recover();
+  std::map<std::uint64_t, IslandRow> islands = s.read_islands();
   Contents contents;
   std::map<ChunkName, ChunkEdits> edits;
   std::map<ChunkName, Chunk> chunks;
-  if (scan(*s.database, "SELECT island, x, y, z, data FROM chunk", "island, x, y, z",
-           [&](Statement& row) {
-             const ChunkName name = name_of(row);
-             // In the order of the file, whose islands are signed.
-             const std::pair key{row.integer(0), name.chunk};
-             const auto island = islands.find(name.island);
-             std::string why = sound(name) ? "" : "it lies too far out";
-             if (island == islands.end()) why = "its island is gone";
-             if (why.empty() && island->second.added) {
-               Result<Chunk> chunk = decode_chunk(name, row.blob(4));
-               if (chunk) chunks.try_emplace(name, *std::move(chunk));
-               if (!chunk) why = chunk.error().message;
-             } else if (why.empty()) {
-               Result<ChunkEdits> decoded = decode_edits(name, row.blob(4));
-               if (decoded) edits.try_emplace(name, *std::move(decoded));
-               if (!decoded) why = decoded.error().message;
-             }
-             if (!why.empty())
-               s.tell(fmt::format(
-                   "the world {} has lost what was done in chunk {},{},{} of island {:016x}: {}",
-                   quoted(s.path), name.chunk.x, name.chunk.y, name.chunk.z, name.island, why));
-             return key;
-           }))
-    lost("some chunks");
+  const auto take = [&](const Statement& row) {
+    const ChunkName name = name_of(row);
+    const auto island = islands.find(name.island);
+    std::string why = sound(name) ? "" : "it lies too far out";
+    if (island == islands.end()) why = "its island is gone";
+    if (why.empty() && island->second.added) {
+      Result<Chunk> chunk = decode_chunk(name, row.blob(4));
+      if (chunk) chunks.try_emplace(name, *std::move(chunk));
+      if (!chunk) why = chunk.error().message;
+    } else if (why.empty()) {
+      Result<ChunkEdits> decoded = decode_edits(name, row.blob(4));
+      if (decoded) edits.try_emplace(name, *std::move(decoded));
+      if (!decoded) why = decoded.error().message;
+    }
+    if (!why.empty())
+      s.tell(
+          fmt::format("the world {} has lost what was done in chunk {},{},{} of island {:016x}: {}",
+                      quoted(s.path), name.chunk.x, name.chunk.y, name.chunk.z, name.island, why));
+  };
+  if (scan(*s.database, "SELECT island, x, y, z, data FROM chunk", take)) s.lost("some chunks");
   for (auto& [id, row] : islands) contents.islands.push_back(row);
   for (auto& [name, list] : edits)
     contents.edits.push_back({name.island, name.chunk, std::move(list)});
   for (auto& [name, chunk] : chunks)
     contents.chunks.push_back({name.island, name.chunk, std::move(chunk)});
   return contents;
+}
+
+void WorldFile::State::lost(std::string_view what) {
+  tell(fmt::format("the world {} has lost {}: it is damaged", quoted(path), what));
+}
+
+/// All islands, from their spares where their rows are damaged, and how they move.
+std::map<std::uint64_t, IslandRow> WorldFile::State::read_islands() {
+  std::map<std::uint64_t, IslandRow> islands;
+  std::set<std::uint64_t> damaged;
+  if (scan(*database, "SELECT id, added, spec FROM island", [&](Statement& row) {
+        const auto id = static_cast<std::uint64_t>(row.integer(0));
+        const bool added = row.integer(1) != 0;
+        const auto bytes = unsealed(added ? "added" : "island", id, row.blob(2));
+        const std::optional<IslandSpec> spec = bytes ? decode_spec(id, *bytes) : std::nullopt;
+        if (spec) islands.try_emplace(id, IslandRow{*spec, added, std::nullopt});
+        if (!spec) damaged.insert(id);
+      }))
+    lost("some islands");
+  if (version >= 3)
+    scan(*database, "SELECT id, data FROM spare", [&](Statement& row) {
+      const auto id = static_cast<std::uint64_t>(row.integer(0));
+      const auto bytes = unsealed("spare", id, row.blob(1));
+      const std::optional<IslandRow> spare = bytes ? decode_spare(id, *bytes) : std::nullopt;
+      if (!spare || !islands.try_emplace(id, *spare).second) return;
+      damaged.erase(id);
+      tell(fmt::format("the world {} is damaged: island {:016x} was read from a second copy",
+                       quoted(path), id));
+    });
+  for (const std::uint64_t id : damaged) lost(fmt::format("island {:016x}", id));
+  if (version >= 2 && scan(*database, "SELECT island, data FROM motion", [&](Statement& row) {
+        const auto id = static_cast<std::uint64_t>(row.integer(0));
+        const auto bytes = unsealed("motion", id, row.blob(1));
+        const std::optional<MotionState> motion = bytes ? decode_motion(*bytes) : std::nullopt;
+        if (!motion) lost(fmt::format("the place of island {:016x}", id));
+        if (const auto island = islands.find(id); island != islands.end())
+          island->second.motion = motion;
+      }))
+    lost("some islands' places");
+  return islands;
 }
 
 LoadedWorld load_world(WorldFile& file) {

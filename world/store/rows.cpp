@@ -69,6 +69,10 @@ std::optional<std::span<const std::byte>> unsealed(std::string_view table, std::
   return bytes;
 }
 
+bool is_vital(std::string_view name) {
+  return name == "info" || name == "generator";
+}
+
 bool fits_file(const WorldInfo& info) {
   return info.name.size() <= kMaxNameBytes && info.seed_text.size() <= kMaxSeedBytes;
 }
@@ -141,6 +145,19 @@ std::optional<IslandSpec> decode_spec(std::uint64_t id, std::span<const std::byt
   return sound ? std::optional(spec) : std::nullopt;
 }
 
+std::vector<std::byte> encode_spare(const IslandRow& row) {
+  std::vector<std::byte> bytes = encode_spec(row.spec);
+  bytes.push_back(static_cast<std::byte>(row.added));
+  return bytes;
+}
+
+std::optional<IslandRow> decode_spare(std::uint64_t id, std::span<const std::byte> bytes) {
+  if (bytes.empty()) return std::nullopt;
+  const std::optional<IslandSpec> spec = decode_spec(id, bytes.first(bytes.size() - 1));
+  if (!spec) return std::nullopt;
+  return IslandRow{*spec, bytes.back() != std::byte{0}, {}};
+}
+
 std::vector<std::byte> encode_motion(const MotionState& motion) {
   ByteWriter out;
   out.i64(motion.tick);
@@ -150,6 +167,7 @@ std::vector<std::byte> encode_motion(const MotionState& motion) {
     out.f64(part);
   put(out, motion.velocity);
   out.f64(motion.spin);
+  out.u8(motion.of_origin);
   return out.take();
 }
 
@@ -157,6 +175,7 @@ std::optional<MotionState> decode_motion(std::span<const std::byte> bytes) {
   // As far as a world's time goes, 1e9 s.
   constexpr std::int64_t kMaxTick = std::int64_t{1'000'000'000} * kMotionTicksPerSecond;
   constexpr double kUnitError = 1e-9;
+  constexpr std::size_t kWithoutOrigin = 96;  // as files have it that version 2 wrote
   ByteReader in(bytes);
   MotionState motion;
   motion.tick = in.i64();
@@ -165,6 +184,7 @@ std::optional<MotionState> decode_motion(std::span<const std::byte> bytes) {
   for (double* part : {&q.w, &q.x, &q.y, &q.z}) *part = in.f64();
   motion.velocity = get_vector(in);
   motion.spin = in.f64();
+  if (bytes.size() != kWithoutOrigin) motion.of_origin = in.u8() != 0;
   const bool upright = q.x == 0.0 && q.z == 0.0 && within(q.w * q.w + q.y * q.y - 1.0, kUnitError);
   const bool sound = in.done() && motion.tick >= -kMaxTick && motion.tick <= kMaxTick &&
                      near_enough(motion.pose.origin) && upright &&

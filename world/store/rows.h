@@ -18,6 +18,8 @@ std::vector<std::byte> sealed(std::string_view table, std::uint64_t key,
 std::optional<std::span<const std::byte>> unsealed(std::string_view table, std::uint64_t key,
                                                    std::span<const std::byte> blob);
 
+/// Whether there is no world without a value: it is kept twice.
+bool is_vital(std::string_view name);
 /// Whether its texts are no longer than a file keeps.
 bool fits_file(const WorldInfo& info);
 /// @pre fits_file(info)
@@ -27,6 +29,10 @@ std::optional<WorldInfo> decode_info(std::span<const std::byte> bytes);
 /// Without the id, the box and the radius: the id is the row's key, the others follow from voxels.
 std::vector<std::byte> encode_spec(const IslandSpec& spec);
 std::optional<IslandSpec> decode_spec(std::uint64_t id, std::span<const std::byte> bytes);
+
+/// Of a row's spare: the spec, and whether the island was added.
+std::vector<std::byte> encode_spare(const IslandRow& row);
+std::optional<IslandRow> decode_spare(std::uint64_t id, std::span<const std::byte> bytes);
 
 std::vector<std::byte> encode_motion(const MotionState& motion);
 std::optional<MotionState> decode_motion(std::span<const std::byte> bytes);

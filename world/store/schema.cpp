@@ -8,6 +8,7 @@
 
 #include "world/store/bytes.h"
 #include "world/store/rows.h"
+#include "world/store/salvage.h"
 #include "world/store/world_file.h"
 
 namespace skerry::world {
@@ -18,14 +19,38 @@ struct Table {
   int since;
   std::string_view name, sql;
 };
-constexpr std::array<Table, 4> kTables{
+constexpr std::array<Table, 5> kTables{
     {{1, "value", "CREATE TABLE value(name TEXT PRIMARY KEY, data BLOB NOT NULL)"},
      {1, "island",
       "CREATE TABLE island(id INTEGER PRIMARY KEY, added INTEGER NOT NULL, spec BLOB NOT NULL)"},
      {1, "chunk",
       "CREATE TABLE chunk(island INTEGER NOT NULL, x INTEGER NOT NULL, y INTEGER NOT NULL, "
       "z INTEGER NOT NULL, data BLOB NOT NULL, PRIMARY KEY(island, x, y, z)) WITHOUT ROWID"},
-     {2, "motion", "CREATE TABLE motion(island INTEGER PRIMARY KEY, data BLOB NOT NULL)"}}};
+     {2, "motion", "CREATE TABLE motion(island INTEGER PRIMARY KEY, data BLOB NOT NULL)"},
+     {3, "spare", "CREATE TABLE spare(id INTEGER PRIMARY KEY, data BLOB NOT NULL)"}}};
+
+/// Of a file from before there were spares: what cannot be done without gets one.
+int make_spares(Database& file) {
+  int code = SQLITE_OK;
+  std::optional<Statement> values = file.prepare("SELECT name, data FROM value", code);
+  while (values && (code = values->step()) == SQLITE_ROW) {
+    const std::string name(values->text(0));
+    const auto bytes = unsealed("value", name_key(name), values->blob(1));
+    if (!is_vital(name) || !bytes) continue;
+    if ((code = write_spare(file, name_key(name), *bytes)) != SQLITE_OK) return code;
+  }
+  if (code != SQLITE_DONE) return code;
+  std::optional<Statement> islands = file.prepare("SELECT id, added, spec FROM island", code);
+  while (islands && (code = islands->step()) == SQLITE_ROW) {
+    const auto id = static_cast<std::uint64_t>(islands->integer(0));
+    const bool added = islands->integer(1) != 0;
+    const auto bytes = unsealed(added ? "added" : "island", id, islands->blob(2));
+    const std::optional<IslandSpec> spec = bytes ? decode_spec(id, *bytes) : std::nullopt;
+    if (!spec) continue;
+    if ((code = write_spare(file, id, encode_spare({*spec, added, {}}))) != SQLITE_OK) return code;
+  }
+  return code == SQLITE_DONE ? SQLITE_OK : code;
+}
 
 /// Makes the tables that are newer than a version, and says so in the file.
 int bring_up_to_date(Database& file, int from) {
@@ -33,6 +58,7 @@ int bring_up_to_date(Database& file, int from) {
   for (const Table& table : kTables) {
     if (code == SQLITE_OK && table.since > from) code = file.run(std::string(table.sql).c_str());
   }
+  if (code == SQLITE_OK && from > 0) code = make_spares(file);
   if (code == SQLITE_OK)
     code = file.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT",
                                 kApplicationId, WorldFile::kVersion)
@@ -66,35 +92,40 @@ int compare_schema(Database& file, int version, bool& same) {
 }  // namespace
 
 int make_schema(Database& file) {
-  return bring_up_to_date(file, 0);
+  const int code = file.run(fmt::format("PRAGMA page_size = {}", kPageBytes).c_str());
+  return code == SQLITE_OK ? bring_up_to_date(file, 0) : code;
 }
 
 int set_up(Database& file, bool writes) {
   int code = file.run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
   if (code == SQLITE_OK && writes)
+    // What is taken away is overwritten: nothing that was undone is left for salvage() to find.
     // A log, so that readers never wait for a writer; on the disk, not on its way there, when a
     // transaction is done.
-    code = file.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
+    code =
+        file.run("PRAGMA secure_delete = ON; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
   return code;
 }
 
-Result<int> check_schema(Database& file, const std::filesystem::path& path, bool migrate) {
-  std::int64_t version = 0;
-  int code = file.integer("PRAGMA user_version", version);
-  if (code != SQLITE_OK) return file_error("open", path, code);
-  if (version > WorldFile::kVersion)
-    return Error{fmt::format(
-        "cannot open the world {}: a newer Skerry wrote it (its version is {}, this one knows {}); "
-        "update Skerry",
-        quoted(path), version, WorldFile::kVersion)};
+int check_schema(Database& file, bool migrate, int& version) {
+  std::int64_t found = 0;
+  int code = file.integer("PRAGMA user_version", found);
+  version = static_cast<int>(found);
   bool same = false;
-  if (version > 0) code = compare_schema(file, static_cast<int>(version), same);
-  if (code != SQLITE_OK || !same)
-    return file_error("open", path, code == SQLITE_OK ? SQLITE_CORRUPT : code);
-  if (version == WorldFile::kVersion || !migrate) return static_cast<int>(version);
-  code = bring_up_to_date(file, static_cast<int>(version));
-  if (code != SQLITE_OK) return file_error("update", path, code);
-  return WorldFile::kVersion;
+  if (code == SQLITE_OK && version > 0)
+    code = compare_schema(file, std::min(version, WorldFile::kVersion), same);
+  if (version > WorldFile::kVersion) return code == SQLITE_OK && same ? SQLITE_CORRUPT : code;
+  if (code == SQLITE_OK && !same) code = SQLITE_CORRUPT;
+  if (code != SQLITE_OK || version == WorldFile::kVersion || !migrate) return code;
+  code = bring_up_to_date(file, version);
+  if (code == SQLITE_OK) version = WorldFile::kVersion;
+  return code;
+}
+
+bool is_whole(Database& file) {
+  int code = SQLITE_OK;
+  std::optional<Statement> check = file.prepare("PRAGMA quick_check(1)", code);
+  return check && check->step() == SQLITE_ROW && check->text(0) == "ok";
 }
 
 int write_value(Database& file, std::string_view name, std::span<const std::byte> bytes) {
@@ -103,7 +134,35 @@ int write_value(Database& file, std::string_view name, std::span<const std::byte
       file.prepare("INSERT OR REPLACE INTO value(name, data) VALUES(?1, ?2)", code);
   if (!insert) return code;
   code = insert->bind(1, name).bind(2, sealed("value", name_key(name), bytes)).step();
+  if (code == SQLITE_DONE && is_vital(name)) return write_spare(file, name_key(name), bytes);
   return code == SQLITE_DONE ? SQLITE_OK : code;
+}
+
+void bind_name(Statement& statement, const ChunkName& name) {
+  statement.bind(1, static_cast<std::int64_t>(name.island));
+  statement.bind(2, std::int64_t{name.chunk.x});
+  statement.bind(3, std::int64_t{name.chunk.y});
+  statement.bind(4, std::int64_t{name.chunk.z});
+}
+
+int write_spare(Database& file, std::uint64_t key, std::span<const std::byte> bytes) {
+  int code = SQLITE_OK;
+  std::optional<Statement> insert =
+      file.prepare("INSERT OR REPLACE INTO spare(id, data) VALUES(?1, ?2)", code);
+  if (!insert) return code;
+  code =
+      insert->bind(1, static_cast<std::int64_t>(key)).bind(2, sealed("spare", key, bytes)).step();
+  return code == SQLITE_DONE ? SQLITE_OK : code;
+}
+
+std::optional<std::vector<std::byte>> read_spare(Database& file, std::uint64_t key) {
+  int code = SQLITE_OK;
+  std::optional<Statement> select = file.prepare("SELECT data FROM spare WHERE id = ?1", code);
+  if (!select || select->bind(1, static_cast<std::int64_t>(key)).step() != SQLITE_ROW)
+    return std::nullopt;
+  const auto bytes = unsealed("spare", key, select->blob(0));
+  if (!bytes) return std::nullopt;
+  return std::vector<std::byte>(bytes->begin(), bytes->end());
 }
 
 std::uint64_t name_key(std::string_view name) {

@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "engine/core/result.h"
+#include "world/store/chunk_blob.h"
 #include "world/store/database.h"
 
 namespace skerry::world {
@@ -20,11 +22,23 @@ int make_schema(Database& file);
 /// What a connection needs before its first question. @return SQLITE_OK or an error.
 int set_up(Database& file, bool writes);
 /// Checks that the file has the tables of its version and nothing else; with `migrate`, brings an
-/// older one up to date, all of it or nothing. @return the version it has now.
-Result<int> check_schema(Database& file, const std::filesystem::path& path, bool migrate);
+/// older one up to date, all of it or nothing.
+/// @param version the one it has now. @return SQLITE_OK, SQLITE_CORRUPT for strange tables, or
+/// another error. A version newer than this program's is no error, and its tables are not looked
+/// at.
+int check_schema(Database& file, bool migrate, int& version);
+/// Whether all pages hang together. Reads all of them.
+bool is_whole(Database& file);
 
 /// Replaces a row of `value`. @return SQLITE_OK or an error.
 int write_value(Database& file, std::string_view name, std::span<const std::byte> bytes);
+/// Keeps something a second time, where damage to its first place does not reach it.
+/// @return SQLITE_OK or an error.
+int write_spare(Database& file, std::uint64_t key, std::span<const std::byte> bytes);
+/// What was kept so. None: nothing, or it is damaged, too.
+std::optional<std::vector<std::byte>> read_spare(Database& file, std::uint64_t key);
+/// Names a chunk in a statement's first four places.
+void bind_name(Statement& statement, const ChunkName& name);
 /// Under which a value's checksum knows its name.
 std::uint64_t name_key(std::string_view name);
 /// A name for SQLite to read a file as one that nobody writes.

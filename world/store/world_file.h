@@ -38,12 +38,15 @@ struct IslandRow {
 /// A saved world. One process at a time has it open for writing; any number read.
 ///
 /// What is in the file is not trusted: lengths, indices, block ids, numbers and checksums are
-/// looked at before use, and what is damaged is left out and told while the rest is read.
+/// looked at before use, and what is damaged is left out and told while the rest is read. A damaged
+/// file is never written: the rest moves into a new one, the damaged one stays beside it.
 /// One thread at a time.
 class WorldFile {
  public:
   enum class Mode : std::uint8_t { kRead, kWrite };
-  static constexpr int kVersion = 2;  ///< of the schema; older ones are brought up to it
+  /// Of the schema; older ones are brought up to it. Grows together with the tables only: a file
+  /// with our tables and another number is damaged.
+  static constexpr int kVersion = 3;
 
   /// Makes a file where there is none, complete or not at all, and opens it for writing.
   static Result<std::unique_ptr<WorldFile>> create(const std::filesystem::path& path,

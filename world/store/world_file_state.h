@@ -22,6 +22,12 @@ struct WorldFile::State {
   std::map<std::string_view, Statement> statements;  // by text, which is a literal
   bool in_transaction = false;
   std::vector<std::string> damage;
+  bool recovered = false;  // or tried to
+
+  int open_database(bool& newer);
+  bool find_info();
+  bool recover();
+  std::optional<std::vector<std::byte>> value(std::string_view name);
 
   /// Runs a statement unless something failed before; what fails is kept.
   template <class Bind>
@@ -42,10 +48,10 @@ struct WorldFile::State {
   void put_blob(std::optional<Error>& error, const ChunkName& name,
                 std::span<const std::byte> blob);
 
+  std::map<std::uint64_t, IslandRow> read_islands();
+  void lost(std::string_view what);
   /// Notes damage, once.
   void tell(std::string what);
 };
-
-void bind_name(Statement& statement, const ChunkName& name);
 
 }  // namespace skerry::world

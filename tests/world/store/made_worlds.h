@@ -1,10 +1,15 @@
 // Worlds for the tests of world/store.
 #pragma once
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <set>
+#include <string>
 
 #include "tests/folder.h"
 #include "world/hash.h"
@@ -65,6 +70,79 @@ inline std::vector<BlockId> blocks_of(const Chunk& chunk) {
   std::vector<BlockId> blocks(kChunkVoxels);
   chunk.unpack(blocks);
   return blocks;
+}
+
+inline void run_sql(const std::filesystem::path& path, const std::string& sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+      << sqlite3_errmsg(db);
+  sqlite3_close(db);
+}
+
+inline void expect_refused(const std::filesystem::path& path, WorldFile::Mode mode,
+                           std::string_view why) {
+  const auto file = WorldFile::open(path, mode);
+  ASSERT_FALSE(file) << why;
+  const std::string& text = file.error().message;
+  EXPECT_NE(text.find(why), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  EXPECT_NE(text.find(';'), std::string::npos) << "says not what to do: " << text;
+}
+
+/// What a file was given.
+struct Given {
+  std::map<std::uint64_t, IslandRow> islands;
+  std::map<ChunkName, ChunkEdits> edits;
+  std::map<ChunkName, Chunk> chunks;
+};
+
+/// Puts islands of all kinds into a file, over several transactions that overwrite one another.
+inline Given fill(WorldFile& file, Rng& rng, int islands) {
+  Given given;
+  for (int pass = 0; pass < 3; ++pass) {
+    WorldFile::Transaction transaction = file.begin();
+    for (int i = 0; i < islands; ++i) {
+      IslandRow row;
+      row.spec.id = mix64(static_cast<std::uint64_t>(i));
+      row.spec.origin = {rng.in(-9999, 9999), rng.in(-9999, 9999), rng.in(-9999, 9999)};
+      row.spec.yaw_rad = 1.0 / 3.0;
+      row.added = i % 2 == 0;
+      if (i % 3 == 0) row.motion = random_motion(rng);
+      given.islands[row.spec.id] = row;
+      transaction.put_island(row);
+      for (int c = 0; c < 4; ++c) {
+        const ChunkName name{row.spec.id, {rng.in(-2, 1), rng.in(-2, 1), rng.in(-2, 1)}};
+        if (row.added) {
+          given.chunks.insert_or_assign(name, random_chunk(rng));
+          transaction.put_chunk(name.island, name.chunk, given.chunks.at(name));
+        } else {
+          given.edits[name] = random_edits(rng, 400);
+          transaction.put_edits(name.island, name.chunk, given.edits.at(name));
+        }
+      }
+    }
+    EXPECT_TRUE(transaction.commit());
+  }
+  return given;
+}
+
+inline std::size_t expect_same(const Given& given, const WorldFile::Contents& contents) {
+  for (const IslandRow& row : contents.islands) {
+    const IslandRow& expected = given.islands.at(row.spec.id);
+    EXPECT_EQ(row.added, expected.added);
+    EXPECT_EQ(row.spec.origin, expected.spec.origin);
+    EXPECT_EQ(row.spec.yaw_rad, expected.spec.yaw_rad);
+  }
+  for (const auto& e : contents.edits) EXPECT_EQ(e.edits, given.edits.at({e.island, e.chunk}));
+  for (const auto& c : contents.chunks)
+    EXPECT_EQ(blocks_of(c.voxels), blocks_of(given.chunks.at({c.island, c.chunk})));
+  return contents.edits.size() + contents.chunks.size();
+}
+
+inline std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace skerry::world

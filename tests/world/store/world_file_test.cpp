@@ -1,6 +1,5 @@
 #include "world/store/world_file.h"
 
-#include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,73 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Mode = WorldFile::Mode;
-
-void run_sql(const fs::path& path, const std::string& sql) {
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
-  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
-      << sqlite3_errmsg(db);
-  sqlite3_close(db);
-}
-
-void expect_refused(const fs::path& path, Mode mode, std::string_view why) {
-  const auto file = WorldFile::open(path, mode);
-  ASSERT_FALSE(file) << why;
-  const std::string& text = file.error().message;
-  EXPECT_NE(text.find(why), std::string::npos) << text;
-  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-  EXPECT_NE(text.find(';'), std::string::npos) << "says not what to do: " << text;
-}
-
-/// What a file was given.
-struct Given {
-  std::map<std::uint64_t, IslandRow> islands;
-  std::map<ChunkName, ChunkEdits> edits;
-  std::map<ChunkName, Chunk> chunks;
-};
-
-/// Puts islands of all kinds into a file, over several transactions that overwrite one another.
-Given fill(WorldFile& file, Rng& rng, int islands) {
-  Given given;
-  for (int pass = 0; pass < 3; ++pass) {
-    WorldFile::Transaction transaction = file.begin();
-    for (int i = 0; i < islands; ++i) {
-      IslandRow row;
-      row.spec.id = mix64(static_cast<std::uint64_t>(i));
-      row.spec.origin = {rng.in(-9999, 9999), rng.in(-9999, 9999), rng.in(-9999, 9999)};
-      row.spec.yaw_rad = 1.0 / 3.0;
-      row.added = i % 2 == 0;
-      if (i % 3 == 0) row.motion = random_motion(rng);
-      given.islands[row.spec.id] = row;
-      transaction.put_island(row);
-      for (int c = 0; c < 4; ++c) {
-        const ChunkName name{row.spec.id, {rng.in(-2, 1), rng.in(-2, 1), rng.in(-2, 1)}};
-        if (row.added) {
-          given.chunks.insert_or_assign(name, random_chunk(rng));
-          transaction.put_chunk(name.island, name.chunk, given.chunks.at(name));
-        } else {
-          given.edits[name] = random_edits(rng, 400);
-          transaction.put_edits(name.island, name.chunk, given.edits.at(name));
-        }
-      }
-    }
-    EXPECT_TRUE(transaction.commit());
-  }
-  return given;
-}
-
-std::size_t expect_same(const Given& given, const WorldFile::Contents& contents) {
-  for (const IslandRow& row : contents.islands) {
-    const IslandRow& expected = given.islands.at(row.spec.id);
-    EXPECT_EQ(row.added, expected.added);
-    EXPECT_EQ(row.spec.origin, expected.spec.origin);
-    EXPECT_EQ(row.spec.yaw_rad, expected.spec.yaw_rad);
-  }
-  for (const auto& e : contents.edits) EXPECT_EQ(e.edits, given.edits.at({e.island, e.chunk}));
-  for (const auto& c : contents.chunks)
-    EXPECT_EQ(blocks_of(c.voxels), blocks_of(given.chunks.at({c.island, c.chunk})));
-  return contents.edits.size() + contents.chunks.size();
-}
 
 TEST(WorldFile, WhatWasCommittedIsRead) {
   Rng rng(7);
@@ -214,23 +146,13 @@ TEST(WorldFile, WhatIsNoWorldIsRefusedAndLeftAlone) {
   EXPECT_FALSE(WorldFile::create("/no/such/folder/w", info_of_seed_4()));
 }
 
-TEST(WorldFile, ANewerVersionAndStrangeTablesAreRefused) {
+TEST(WorldFile, ANewerVersionIsRefused) {
   const Folder folder;
-  for (const auto& [sql, why] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"PRAGMA user_version = 3", "newer Skerry"},
-           {"PRAGMA user_version = 0", "damaged"},
-           {"PRAGMA user_version = -1", "damaged"},
-           {"CREATE VIEW v AS SELECT 1", "damaged"},
-           {"CREATE TRIGGER t AFTER INSERT ON chunk BEGIN DELETE FROM value; END", "damaged"},
-           {"DROP TABLE chunk; CREATE VIEW chunk AS SELECT * FROM island", "damaged"},
-           {"DROP TABLE motion", "damaged"},
-           {"DELETE FROM value", "damaged"}}) {
-    const fs::path path = folder / "w";
-    fs::remove(path);
-    ASSERT_TRUE(WorldFile::create(path, info_of_seed_4()));
-    run_sql(path, sql);
-    for (const Mode mode : {Mode::kRead, Mode::kWrite}) expect_refused(path, mode, why);
-  }
+  const fs::path path = folder / "w";
+  ASSERT_TRUE(WorldFile::create(path, info_of_seed_4()));
+  run_sql(path, "PRAGMA user_version = 4; CREATE TABLE news(x)");
+  for (const Mode mode : {Mode::kRead, Mode::kWrite}) expect_refused(path, mode, "newer Skerry");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(WorldFile, AFileOfVersionOneIsReadAndBroughtUpToDate) {
@@ -243,7 +165,7 @@ TEST(WorldFile, AFileOfVersionOneIsReadAndBroughtUpToDate) {
     ASSERT_TRUE(file);
     given = fill(**file, rng, 4);
   }
-  run_sql(path, "DROP TABLE motion; PRAGMA user_version = 1");
+  run_sql(path, "DROP TABLE motion; DROP TABLE spare; PRAGMA user_version = 1");
   for (const Mode mode : {Mode::kRead, Mode::kWrite, Mode::kRead}) {
     auto file = WorldFile::open(path, mode);
     ASSERT_TRUE(file) << file.error().message;
@@ -255,49 +177,6 @@ TEST(WorldFile, AFileOfVersionOneIsReadAndBroughtUpToDate) {
     transaction.put_island(row);
     ASSERT_TRUE(transaction.commit());
   }
-}
-
-TEST(WorldFile, FlippedAndTornBytesAreToldAndTheRestIsRead) {
-  const Folder folder;
-  Rng rng(11);
-  Given given;
-  {
-    auto file = WorldFile::create(folder / "good", info_of_seed_4());
-    ASSERT_TRUE(file);
-    given = fill(**file, rng, 8);
-  }
-  std::ifstream in(folder / "good", std::ios::binary);
-  const std::string good{std::istreambuf_iterator<char>(in), {}};
-  const std::size_t all = given.edits.size() + given.chunks.size();
-  constexpr int kRounds = 90;
-  int unreadable = 0;
-  std::size_t read = 0;
-  for (int round = 0; round < kRounds; ++round) {
-    std::string bad = good;
-    const auto at = static_cast<std::size_t>(rng.in(0, static_cast<int>(bad.size()) - 1));
-    if (round % 3 == 2) {
-      // A page that was never written.
-      const std::size_t page = at / 4096 * 4096;
-      std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(page), 4096, '\0');
-    } else {
-      bad[at] = static_cast<char>(bad[at] ^ 1 << rng.in(0, 7));
-    }
-    const fs::path path = folder / "bad";
-    std::ofstream(path, std::ios::binary) << bad;
-    auto file = WorldFile::open(path, Mode::kRead);
-    if (!file) {
-      ++unreadable;
-      continue;
-    }
-    const std::size_t found = expect_same(given, (*file)->read());
-    read += found;
-    EXPECT_TRUE(found == all || !(*file)->damage().empty()) << "lost in silence at " << at;
-    for (const std::string& line : (*file)->damage()) EXPECT_EQ(line.find('\n'), std::string::npos);
-  }
-  // The first page, the tables' roots and the info take the whole file along.
-  EXPECT_LT(unreadable, kRounds / 10);
-  EXPECT_GT(static_cast<double>(read), 0.95 * static_cast<double>(all) * (kRounds - unreadable));
-  ::testing::Test::RecordProperty("unreadable", unreadable);
 }
 
 TEST(WorldFile, AFullDiskIsToldAndNothingIsLost) {

@@ -1,0 +1,223 @@
+// What becomes of world files whose bytes were flipped, torn or meddled with.
+#include <algorithm>
+#include <fstream>
+
+#include "tests/world/store/made_worlds.h"
+#include "world/store/world_file.h"
+
+namespace skerry::world {
+namespace {
+
+namespace fs = std::filesystem;
+using Mode = WorldFile::Mode;
+
+TEST(DamagedWorldFile, StrangeTablesAreLeftBehindAndTheRestIsRead) {
+  for (const char* sql :
+       {"PRAGMA user_version = 0", "PRAGMA user_version = -1", "PRAGMA user_version = 7",
+        "PRAGMA application_id = 5", "CREATE VIEW v AS SELECT 1",
+        "CREATE TRIGGER t AFTER INSERT ON chunk BEGIN DELETE FROM value; END",
+        "DROP TABLE motion; CREATE VIEW motion AS SELECT * FROM island", "DROP TABLE motion",
+        "DELETE FROM value"}) {
+    const Folder folder;
+    const fs::path path = folder / "w";
+    Rng rng(6);
+    Given given;
+    {
+      auto file = WorldFile::create(path, info_of_seed_4());
+      ASSERT_TRUE(file);
+      given = fill(**file, rng, 3);
+    }
+    run_sql(path, sql);
+    const std::string before = bytes_of(path);
+    for (const Mode mode : {Mode::kRead, Mode::kWrite, Mode::kRead}) {
+      auto file = WorldFile::open(path, mode);
+      ASSERT_TRUE(file) << sql << ": " << file.error().message;
+      EXPECT_EQ((*file)->info(), info_of_seed_4());
+      EXPECT_EQ(expect_same(given, (*file)->read()), given.edits.size() + given.chunks.size());
+      const bool mended = !fs::exists(folder / "w.damaged");
+      if (mode == Mode::kRead && !mended) {
+        EXPECT_TRUE((*file)->damage().empty()) << sql;
+        continue;
+      }
+      EXPECT_FALSE((*file)->damage().empty()) << sql;
+      if (mode == Mode::kRead || std::string_view(sql) == "DELETE FROM value") continue;
+      EXPECT_EQ(bytes_of(folder / "w.damaged"), before) << sql;
+      auto transaction = (*file)->begin();
+      const ChunkName name{given.chunks.begin()->first.island, {9, 9, 9}};
+      given.chunks.insert_or_assign(name, random_chunk(rng));
+      transaction.put_chunk(name.island, name.chunk, given.chunks.at(name));
+      ASSERT_TRUE(transaction.commit()) << sql;
+      EXPECT_TRUE((*file)->value("info")) << "a trigger was at work";
+    }
+  }
+}
+
+/// Opens a damaged file as often as there are ways to, and looks whether anything is amiss that is
+/// not told. @return how much of what it was given came back.
+std::size_t read_damaged(const fs::path& path, const Given& given, std::size_t at) {
+  auto file = WorldFile::open(path, Mode::kRead);
+  EXPECT_TRUE(file) << at << ": " << file.error().message;
+  if (!file) return 0;
+  EXPECT_EQ((*file)->info(), info_of_seed_4());
+  const auto play = (*file)->value("play");
+  EXPECT_EQ(play ? play->size() : 5u, 5u);
+  const WorldFile::Contents contents = (*file)->read();
+  const std::size_t found = expect_same(given, contents);
+  std::size_t motions = 0, expected_motions = 0;
+  for (const IslandRow& row : contents.islands) {
+    motions += row.motion && row.motion == given.islands.at(row.spec.id).motion;
+    EXPECT_TRUE(!row.motion || row.motion == given.islands.at(row.spec.id).motion);
+  }
+  for (const auto& [id, row] : given.islands) expected_motions += row.motion.has_value();
+  const bool all = found == given.edits.size() + given.chunks.size() && play &&
+                   motions == expected_motions && contents.islands.size() == given.islands.size();
+  EXPECT_TRUE(all || !(*file)->damage().empty()) << "lost in silence at " << at;
+  for (const std::string& line : (*file)->damage()) EXPECT_EQ(line.find('\n'), std::string::npos);
+  return found;
+}
+
+struct GoodFile {
+  Folder folder;
+  Given given;
+  std::string bytes;
+
+  explicit GoodFile(std::uint64_t seed, int islands) {
+    Rng rng(seed);
+    {
+      auto file = WorldFile::create(folder / "good", info_of_seed_4());
+      EXPECT_TRUE(file);
+      given = fill(**file, rng, islands);
+      auto transaction = (*file)->begin();
+      transaction.put_value("play", std::as_bytes(std::span("here")));
+      EXPECT_TRUE(transaction.commit());
+    }
+    bytes = bytes_of(folder / "good");
+  }
+  std::size_t all() const { return given.edits.size() + given.chunks.size(); }
+  fs::path with(const std::string& bad) const {
+    std::ofstream(folder / "bad", std::ios::binary) << bad;
+    return folder / "bad";
+  }
+};
+
+TEST(DamagedWorldFile, WithAnyPageTornTheRestIsRead) {
+  const GoodFile good(11, 5);
+  std::size_t read = 0;
+  const std::size_t pages = good.bytes.size() / 4096;
+  ASSERT_GT(pages, 20u);
+  for (std::size_t page = 0; page < pages; ++page) {
+    std::string bad = good.bytes;
+    std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(4096 * page), 4096, '\0');
+    const std::size_t found = read_damaged(good.with(bad), good.given, 4096 * page);
+    read += found;
+    EXPECT_GT(found + 12, good.all()) << "page " << page;  // what a page and its chains can hold
+  }
+  EXPECT_GT(static_cast<double>(read), 0.95 * static_cast<double>(good.all() * pages));
+}
+
+TEST(DamagedWorldFile, AnyFlippedBitIsToldAndTheRestIsRead) {
+  const GoodFile good(12, 3);
+  Rng rng(13);
+  std::size_t read = 0, rounds = 0;
+  const auto flip = [&](std::size_t bit) {
+    std::string bad = good.bytes;
+    bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ 1 << bit % 8);
+    read += read_damaged(good.with(bad), good.given, bit / 8);
+    ++rounds;
+  };
+  for (std::size_t bit = 0; bit < 100 * 8; bit += 5) flip(bit);  // what SQLite reads first
+  // What heads each page and lists its rows, then anything.
+  for (std::size_t page = 0; page < good.bytes.size() / 4096; ++page)
+    for (int i = 0; i < 4; ++i)
+      flip((4096 * page + static_cast<std::size_t>(rng.in(0, 31))) * 8 +
+           static_cast<std::size_t>(rng.in(0, 7)));
+  for (int i = 0; i < 150; ++i)
+    flip(static_cast<std::size_t>(rng.in(0, static_cast<int>(good.bytes.size()) * 8 - 1)));
+  EXPECT_GT(static_cast<double>(read), 0.98 * static_cast<double>(good.all() * rounds));
+}
+
+TEST(DamagedWorldFile, ADamagedFileIsWrittenAnewAndKept) {
+  const GoodFile good(14, 5);
+  for (const std::size_t page : {0, 1, 2, 3, 4, 5, 6, 7}) {
+    std::string bad = good.bytes;
+    std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(4096 * page), 4096, '\0');
+    const fs::path path = good.with(bad);
+    std::size_t found = 0;
+    {
+      auto file = WorldFile::open(path, Mode::kWrite);
+      ASSERT_TRUE(file) << page << ": " << file.error().message;
+      const std::vector<std::string>& told = (*file)->damage();
+      EXPECT_TRUE(std::any_of(told.begin(), told.end(), [](const std::string& line) {
+        return line.find("bad.damaged") != std::string::npos;
+      })) << page;
+      expect_refused(path, Mode::kWrite, "another Skerry has it open");
+      auto transaction = (*file)->begin();
+      transaction.put_value("play", std::as_bytes(std::span("there!")));
+      ASSERT_TRUE(transaction.commit());
+      found = expect_same(good.given, (*file)->read());
+      EXPECT_GT(found, 0u);
+    }
+    auto file = WorldFile::open(path, Mode::kWrite);
+    ASSERT_TRUE(file);
+    EXPECT_EQ((*file)->value("play")->size(), 7u);
+    EXPECT_EQ(expect_same(good.given, (*file)->read()), found);
+    fs::path kept = good.folder / "bad.damaged";
+    if (page > 0) (kept += "_") += std::to_string(page + 1);
+    EXPECT_EQ(bytes_of(kept), bad);
+  }
+}
+
+TEST(DamagedWorldFile, WhatWasCommittedToTheLogIsFoundInADamagedFile) {
+  const GoodFile good(15, 4);
+  const fs::path path = good.folder / "copy";
+  Given given = good.given;
+  {
+    fs::copy_file(good.folder / "good", good.folder / "w");
+    auto file = WorldFile::open(good.folder / "w", Mode::kWrite);
+    ASSERT_TRUE(file);
+    Rng rng(16);
+    for (int i = 0; i < 3; ++i) {
+      auto transaction = (*file)->begin();
+      for (auto& [name, edits] : given.edits) {
+        edits = random_edits(rng, 700);
+        transaction.put_edits(name.island, name.chunk, edits);
+      }
+      ASSERT_TRUE(transaction.commit());
+    }
+    // As if it had been killed now.
+    fs::copy_file(good.folder / "w", path);
+    fs::copy_file(good.folder / "w-wal", good.folder / "copy-wal");
+  }
+  {
+    std::fstream main(path, std::ios::binary | std::ios::in | std::ios::out);
+    main.write(std::string(4096, 'x').data(), 4096);
+  }
+  auto file = WorldFile::open(path, Mode::kRead);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ(expect_same(given, (*file)->read()), good.all());
+}
+
+TEST(DamagedWorldFile, WhatWasTakenBackIsNotFoundInADamagedFile) {
+  const Folder folder;
+  const fs::path path = folder / "w";
+  Rng rng(17);
+  {
+    auto file = WorldFile::create(path, info_of_seed_4());
+    ASSERT_TRUE(file);
+    for (const bool gone : {false, true}) {
+      auto transaction = (*file)->begin();
+      transaction.put_island({spec_of(9)});
+      for (int i = 0; i < 40; ++i)
+        transaction.put_edits(9, {i, 0, 0}, gone ? ChunkEdits{} : random_edits(rng, 900));
+      ASSERT_TRUE(transaction.commit());
+    }
+  }
+  std::fstream(path, std::ios::binary | std::ios::in | std::ios::out)
+      .write(std::string(4096, '\0').data(), 4096);
+  auto file = WorldFile::open(path, Mode::kRead);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_TRUE((*file)->read().edits.empty());
+}
+
+}  // namespace
+}  // namespace skerry::world

@@ -1,0 +1,247 @@
+// Making, opening and mending world files.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "world/generate/generate.h"
+#include "world/store/rows.h"
+#include "world/store/salvage.h"
+#include "world/store/schema.h"
+#include "world/store/world_file_state.h"
+
+namespace skerry::world {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Why a file cannot be used as it is.
+struct Trouble {
+  Error error;
+  bool damage = false;  ///< it may be a world all the same
+};
+
+/// What the first bytes of a file say, before SQLite may touch it: opening a stranger's database
+/// for writing could already change it.
+std::optional<Trouble> check_header(const fs::path& path) {
+  bool damage = false;
+  const auto refuse = [&](std::string_view why, std::string_view then) {
+    return Trouble{{fmt::format("cannot open the world {}: {}; {}", quoted(path), why, then)},
+                   damage};
+  };
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (status.type() == fs::file_type::not_found)
+    return refuse("it does not exist", "use --seed for a new world");
+  if (status.type() == fs::file_type::none) return refuse(code.message(), "check the path");
+  if (status.type() == fs::file_type::directory) return refuse("it is a folder", "name a file");
+  if (status.type() != fs::file_type::regular) return refuse("it is no file", "name a file");
+  std::array<char, 100> header{};  // of SQLite; big-endian numbers at 60 and 68
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return refuse("it may not be read", "check who owns it");
+  file.read(header.data(), header.size());
+  damage = true;
+  if (file.gcount() != static_cast<std::streamsize>(header.size()) ||
+      std::memcmp(header.data(), "SQLite format 3", 16) != 0)
+    return refuse("it is no saved world of Skerry", "name another file");
+  std::uint32_t id = 0;
+  for (std::size_t i = 68; i < 72; ++i) id = id << 8 | static_cast<unsigned char>(header[i]);
+  if (id != kApplicationId)
+    return refuse("it belongs to another program", "name a saved world of Skerry");
+  return std::nullopt;
+}
+
+/// Opens for reading, from read-only media and folders, too.
+std::optional<Database> open_to_read(const fs::path& path, int& code) {
+  std::optional<Database> file = Database::open(path.string(), SQLITE_OPEN_READONLY, code);
+  std::int64_t version = 0;
+  if (file) code = file->integer("PRAGMA schema_version", version);
+  if (code == SQLITE_OK) return file;
+  const int kind = code & 0xff;
+  if (kind != SQLITE_CANTOPEN && kind != SQLITE_READONLY) return std::nullopt;
+  // Without a log there is nothing that a writer could have left there, and none that writes now.
+  std::error_code missing;
+  fs::path log = path;
+  log += "-wal";
+  if (fs::exists(log, missing) && fs::file_size(log, missing) != 0) return std::nullopt;
+  return Database::open(immutable_uri(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, code);
+}
+
+/// The log of a file that is no more would be taken for the one's that gets its name.
+bool remove_companions(const fs::path& path) {
+  for (const char* companion : {"-wal", "-shm", "-journal"}) {
+    std::error_code code;
+    fs::remove(fs::path(path) += companion, code);
+    if (code) return false;
+  }
+  return true;
+}
+
+fs::path temporary_for(const fs::path& path) {
+  fs::path temporary = path;
+  temporary += fmt::format(".{}.tmp", ::getpid());
+  std::error_code code;
+  fs::remove(temporary, code);
+  return temporary;
+}
+
+void sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // may not be listed; the file is there
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+/// Gives a complete file its name, unless there is such a file by now. @return SQLITE_OK or an
+/// error.
+int publish(const fs::path& temporary, const fs::path& path) {
+  if (!remove_companions(path)) return SQLITE_CANTOPEN;
+  int done = ::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE);
+  // Not all file systems know that; those that do not mostly know links, which replace nothing.
+  if (done != 0 && errno == EINVAL && (done = ::link(temporary.c_str(), path.c_str())) == 0)
+    ::unlink(temporary.c_str());
+  if (done != 0) return SQLITE_CANTOPEN;
+  sync_folder_of(path);
+  return SQLITE_OK;
+}
+
+/// Puts a file in a damaged one's place, which stays beside it, with its log, under another name.
+/// @return that name; none: it could not be done.
+std::optional<fs::path> replace_damaged(const fs::path& temporary, const fs::path& path) {
+  fs::path kept = path;
+  kept += ".damaged";
+  for (int count = 2; ::link(path.c_str(), kept.c_str()) != 0; ++count) {
+    if (errno != EEXIST || count > 1000) return std::nullopt;
+    (kept = path) += fmt::format(".damaged_{}", count);
+  }
+  std::error_code code;
+  fs::copy_file(fs::path(path) += "-wal", fs::path(kept) += "-wal", code);
+  if (!remove_companions(path) || ::rename(temporary.c_str(), path.c_str()) != 0)
+    return std::nullopt;
+  sync_folder_of(path);
+  return kept;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<WorldFile>> WorldFile::create(const fs::path& path, const WorldInfo& info) {
+  if (!fits_file(info))
+    return Error{
+        fmt::format("cannot make the world {}: its name or seed is too long; choose a shorter one",
+                    quoted(path))};
+  std::error_code code;
+  if (fs::exists(path, code))
+    return Error{
+        fmt::format("cannot make the world {}: there is one already; name another", quoted(path))};
+  const fs::path temporary = temporary_for(path);
+  int failed = SQLITE_OK;
+  {
+    std::optional<Database> file =
+        Database::open(temporary.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, failed);
+    if (file) failed = make_schema(*file);
+    if (file && failed == SQLITE_OK) failed = write_value(*file, "info", encode_info(info));
+    if (file && failed == SQLITE_OK)
+      failed = write_value(*file, "generator", std::as_bytes(std::span(&kGeneratorVersion, 1)));
+  }
+  if (failed == SQLITE_OK) failed = publish(temporary, path);
+  if (failed != SQLITE_OK) fs::remove(temporary, code);
+  if (failed != SQLITE_OK) return file_error("make", path, failed);
+  return open(path, Mode::kWrite);
+}
+
+Result<std::unique_ptr<WorldFile>> WorldFile::open(const fs::path& path, Mode mode) {
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->mode = mode;
+  std::optional<Trouble> trouble = check_header(path);
+  if (trouble && !trouble->damage) return trouble->error;
+  if (mode == Mode::kWrite) {
+    int reason = 0;
+    state->lock = WriterLock::take(path, reason);
+    if (!state->lock && reason == EWOULDBLOCK)
+      return Error{
+          fmt::format("cannot open the world {}: another Skerry has it open; close that one first",
+                      quoted(path))};
+    if (!state->lock) return file_error("open", path, SQLITE_CANTOPEN);
+  }
+  const auto look = [&]() -> std::optional<Trouble> {
+    bool newer = false;
+    const int code = state->open_database(newer);
+    if (code != SQLITE_OK) return Trouble{file_error("open", path, code), is_damage(code)};
+    if (newer)
+      return Trouble{
+          {fmt::format("cannot open the world {}: a newer Skerry wrote it (its version is "
+                       "{}, this one knows {}); update Skerry",
+                       quoted(path), state->version, kVersion)}};
+    if (!state->find_info()) return Trouble{file_error("open", path, SQLITE_CORRUPT), true};
+    return std::nullopt;
+  };
+  if (!trouble) trouble = look();
+  if (trouble && trouble->damage && state->recover() && state->find_info()) trouble.reset();
+  if (trouble) return trouble->error;
+  return std::unique_ptr<WorldFile>(new WorldFile(std::move(state)));
+}
+
+/// @param newer it is of a version that this program does not know, and not looked at further.
+/// @return SQLITE_OK or an error.
+int WorldFile::State::open_database(bool& newer) {
+  int code = SQLITE_OK;
+  if (mode == Mode::kWrite) {
+    database = Database::open(path.string(), SQLITE_OPEN_READWRITE, code);
+    if (database && database->read_only()) code = SQLITE_READONLY;
+  } else {
+    database = open_to_read(path, code);
+  }
+  if (code == SQLITE_OK) code = set_up(*database, mode == Mode::kWrite);
+  if (code == SQLITE_OK) code = check_schema(*database, mode == Mode::kWrite, version);
+  newer = code == SQLITE_OK && version > kVersion;
+  // Nothing is written into a file that does not hang together.
+  if (code == SQLITE_OK && !newer && mode == Mode::kWrite && !is_whole(*database))
+    code = SQLITE_CORRUPT;
+  return code;
+}
+
+bool WorldFile::State::find_info() {
+  const auto bytes = value("info");
+  const std::optional<WorldInfo> found = bytes ? decode_info(*bytes) : std::nullopt;
+  if (found) info = *found;
+  return found.has_value();
+}
+
+/// Goes on with what can be found in the pages of a damaged file: in memory to read, in a file of
+/// its own in the damaged one's place to write. @return false: there is nothing, or no room for it.
+bool WorldFile::State::recover() {
+  if (recovered) return false;
+  recovered = true;
+  statements.clear();
+  database.reset();
+  const bool writes = mode == Mode::kWrite;
+  const fs::path temporary = writes ? temporary_for(path) : fs::path(":memory:");
+  int code = SQLITE_OK;
+  database = Database::open(temporary.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, code);
+  bool found = database && make_schema(*database) == SQLITE_OK && salvage(path, *database, damage);
+  std::optional<fs::path> kept;
+  if (writes) {
+    database.reset();
+    found = found && (kept = replace_damaged(temporary, path));
+    std::error_code ignored;
+    if (!found) fs::remove(temporary, ignored);
+    int reason = 0;
+    bool newer = false;
+    found = found && (lock = WriterLock::take(path, reason)) && open_database(newer) == SQLITE_OK;
+  }
+  version = kVersion;
+  if (!found) return false;
+  tell(fmt::format("the world {} is damaged: all that could be found of it was read{}",
+                   quoted(path), kept ? "; the damaged file is kept as " + quoted(*kept) : ""));
+  return true;
+}
+
+}  // namespace skerry::world

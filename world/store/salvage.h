@@ -1,0 +1,22 @@
+// Rows of a world file whose pages no longer hang together. Private to world/store.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "world/store/database.h"
+
+namespace skerry::world {
+
+/// Size of all pages of a world file [bytes].
+inline constexpr std::size_t kPageBytes = 4096;
+
+/// Looks through every page of a file, and of its log, for rows whose checksums fit what they hold
+/// and their keys, however little of the rest can be read, and puts them into a database that has
+/// the tables of this version and nothing in them. Source for the layout of pages and logs:
+/// https://www.sqlite.org/fileformat2.html.
+/// @param doubts told: rows of which there are two that differ; neither is taken.
+/// @return whether anything was found. Errors of `into` count as nothing found.
+bool salvage(const std::filesystem::path& path, Database& into, std::vector<std::string>& doubts);
+
+}  // namespace skerry::world
