@@ -53,6 +53,9 @@ set_tests_properties(window.dig PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_S
 add_test(NAME image.scenes COMMAND skerry test ${CMAKE_SOURCE_DIR}/tests/scenes --validate
   --html ${CMAKE_BINARY_DIR}/image/scenes --junit ${CMAKE_BINARY_DIR}/image/scenes.xml)
 set_tests_properties(image.scenes PROPERTIES TIMEOUT 600 PROCESSORS 2)
+# What CMake itself says of a build without OpenVDB; tests/cli runs the program that such a build makes.
+add_test(NAME build.without_openvdb COMMAND ${CMAKE_COMMAND} -S ${CMAKE_SOURCE_DIR} -B ${CMAKE_BINARY_DIR}/without_openvdb
+  -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER} -DSKERRY_OPENVDB=OFF)
 if(SKERRY_OPENVDB)
   add_test(NAME image.scenes_of_files COMMAND ${CMAKE_SOURCE_DIR}/tests/image/scenes_of_files_test.sh
     $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/image/scenes_of_files)

@@ -12,6 +12,9 @@ namespace {
 constexpr int kBrickLog2 = 3;
 constexpr int kTopLevel = 30 - kBrickLog2;  // one cube of it reaches as far as any index does
 constexpr double kSnap = 1e-6;
+// Along the side of a box whose samples are all looked at. Where a voxel is many blocks, bounds of
+// whole bricks would settle next to nothing.
+constexpr int kFewSamples = 4;
 
 constexpr IVec3 shifted(IVec3 at, int bits) {
   return {at.x >> bits, at.y >> bits, at.z >> bits};
@@ -127,10 +130,24 @@ VolumeField::Range VolumeField::node(int level, IVec3 key) const {
   return {value, value};
 }
 
+VolumeField::Range VolumeField::range_of_samples(IVec3 low, IVec3 high) const {
+  Range all{at(low), at(low)};
+  for (std::int32_t x = low.x; x <= high.x; ++x) {
+    for (std::int32_t y = low.y; y <= high.y; ++y) {
+      for (std::int32_t z = low.z; z <= high.z; ++z) {
+        const float one = at({x, y, z});
+        all = {std::min(all.min, one), std::max(all.max, one)};
+      }
+    }
+  }
+  return all;
+}
+
 VolumeField::Range VolumeField::range(IVec3 low, IVec3 high) const {
   const auto side = [](std::int32_t from, std::int32_t to) { return std::int64_t{to} - from; };
   const std::int64_t extent =
       std::max({side(low.x, high.x), side(low.y, high.y), side(low.z, high.z), std::int64_t{1}});
+  if (extent < kFewSamples) return range_of_samples(low, high);
   // The least cubes that are as long as the box: at most two a side then hold it.
   const int log2 = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(extent)));
   const int level = std::clamp(log2 - kBrickLog2, 0, kTopLevel);

@@ -44,6 +44,7 @@ class VolumeField {
   float beside_bricks(IVec3 index) const;
   void widen_above(int level, IVec3 origin, Range range);
   Range node(int level, IVec3 key) const;
+  Range range_of_samples(IVec3 low, IVec3 high) const;
 
   const VolumeGrid& grid_;
   Map<const VolumeBrick*> bricks_;      // by origin / 8
