@@ -40,7 +40,7 @@ std::vector<world::BlockId> find_blocks(std::string_view search) {
 
 void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();
-  begin_panel("pause", Place::kMiddle, 380, state.unsaved ? 660 : 470);
+  begin_panel("pause", Place::kMiddle, 380, state.unsaved ? 620 : 426);
   heading("Paused");
   if (facts.world) text_in(colour::kFaint, *facts.world);
   gap(8);
@@ -70,7 +70,7 @@ void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
   std::string named = found.empty() ? "No block of that name" : "";
   const float foot = ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
   begin_scroll("blocks", -foot);
-  const float edge = 60 * unit(), spacing = 6 * unit();
+  const float edge = 56 * unit(), spacing = 6 * unit();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing, spacing));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6 * unit(), 6 * unit()));
   const int across = std::max(
@@ -98,7 +98,7 @@ void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
 void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   PhotoSettings& photo = *facts.photo;
   if (photo.bare) return;
-  begin_panel("photo", Place::kLeft, 360, 520);
+  begin_panel("photo", Place::kLeft, 360, 496);
   heading("Photo mode");
   text_in(colour::kFaint, "Time of day");
   ImGui::SetNextItemWidth(-1.0f);
