@@ -19,7 +19,7 @@ if(cpu_test_sources)
 endif()
 
 # The parsers of what comes from outside, with what they need and no more: built under sanitizers.
-set(fuzz_sources tests/fuzz/targets.cpp game/expectations.cpp game/cloud_files.cpp game/options.cpp game/parse.cpp game/scene_lights.cpp game/settings.cpp game/vdb_options.cpp engine/render/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp)
+set(fuzz_sources tests/fuzz/targets.cpp game/expectations.cpp game/cloud_files.cpp game/options.cpp game/parse.cpp game/scene_files.cpp game/scene_lights.cpp game/settings.cpp game/vdb_options.cpp engine/render/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp)
 list(TRANSFORM fuzz_sources PREPEND ${CMAKE_SOURCE_DIR}/)
 function(skerry_fuzz_program name main)
   add_executable(${name} EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/${main} ${fuzz_sources})
@@ -53,6 +53,11 @@ set_tests_properties(window.dig PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_S
 add_test(NAME image.scenes COMMAND skerry test ${CMAKE_SOURCE_DIR}/tests/scenes --validate
   --html ${CMAKE_BINARY_DIR}/image/scenes --junit ${CMAKE_BINARY_DIR}/image/scenes.xml)
 set_tests_properties(image.scenes PROPERTIES TIMEOUT 600 PROCESSORS 2)
+if(SKERRY_OPENVDB)
+  add_test(NAME image.scenes_of_files COMMAND ${CMAKE_SOURCE_DIR}/tests/image/scenes_of_files_test.sh
+    $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/image/scenes_of_files)
+  set_tests_properties(image.scenes_of_files PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 PROCESSORS 2)
+endif()
 add_test(NAME image.same_bytes COMMAND ${CMAKE_SOURCE_DIR}/tests/image/same_bytes_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/image/same_bytes)
 set_tests_properties(image.same_bytes PROPERTIES TIMEOUT 300)

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "game/parse.h"
+#include "game/scene_files.h"
 
 namespace skerry::game {
 namespace {
@@ -134,8 +134,7 @@ Result<std::vector<CloudFile>> read_clouds(const json& value) {
 }
 
 void find_beside(const std::string& scene_file, std::vector<CloudFile>& clouds) {
-  const std::filesystem::path folder = std::filesystem::path(scene_file).parent_path();
-  for (CloudFile& cloud : clouds) cloud.path = (folder / cloud.path).string();
+  for (CloudFile& cloud : clouds) cloud.path = file_of_scene(scene_file, cloud.path);
 }
 
 render::CloudRole cloud_role(std::string_view grid_name) {

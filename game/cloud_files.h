@@ -33,7 +33,7 @@ std::string format_cloud(const CloudFile& cloud);
 /// [X, Y, Z] and scale. Errors name the cloud.
 Result<std::vector<CloudFile>> read_clouds(const nlohmann::json& value);
 
-/// Relative paths are meant from the scene file's folder.
+/// Relative paths are meant as file_of_scene (scene_files.h) has it.
 void find_beside(const std::string& scene_file, std::vector<CloudFile>& clouds);
 
 /// Volumes, and the grids that their bricks are in.

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "game/scene_files.h"
 #include "game/vdb_options.h"
 
 namespace skerry::game {
@@ -174,7 +174,7 @@ Result<void> choose_source(const SceneText& under, const SceneText& over, SceneO
 
 void find_world_beside(const std::string& scene_file, SceneText& scene) {
   if (!scene.world || scene.world->empty()) return;
-  scene.world = (std::filesystem::path(scene_file).parent_path() / *scene.world).string();
+  scene.world = file_of_scene(scene_file, *scene.world);
 }
 
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {

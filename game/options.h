@@ -54,7 +54,7 @@ inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 /// checked by make_scene, but for lights; masks by check_masks.
 Result<SceneText> parse_scene(std::string_view json_text);
 
-/// Makes the world's path that a scene file names one from the file's own folder.
+/// Finds the world that a scene file names, as file_of_scene (scene_files.h) has it.
 void find_world_beside(const std::string& scene_file, SceneText& scene);
 
 /// Checks and converts. Fields of `over` win over those of `under`; settings of `under` are applied

@@ -1,11 +1,11 @@
 #include "game/vdb_world.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <system_error>
 #include <utility>
 
+#include "engine/core/draft.h"
 #include "game/parse.h"
 #include "world/store/world_file.h"
 #include "world/stored_voxels.h"
@@ -68,15 +68,11 @@ Result<void> save_imported(const std::vector<world::ImportedIsland>& islands,
     return Error{fmt::format("cannot write {}: it is there already; give another --out",
                              quote_text(path.string()))};
   // A world whose islands did not all come in must not be taken for a whole one.
-  const std::filesystem::path draft = fmt::format("{}.{}.part", path.string(), ::getpid());
-  Result<void> done = write(islands, draft, path.stem().string());
-  if (done) {
-    std::filesystem::rename(draft, path, failed);
-    if (failed)
-      done = Error{fmt::format("cannot write {}: {}", quote_text(path.string()), failed.message())};
-  }
-  if (!done) std::filesystem::remove(draft, failed);
-  return done;
+  Result<Draft> draft = Draft::create(path);
+  Result<void> done = draft ? write(islands, draft->path(), path.stem().string()) : draft.error();
+  if (done) done = draft->publish();
+  if (done) return {};
+  return Error{fmt::format("cannot write {}: {}", quote_text(path.string()), done.error().message)};
 }
 
 }  // namespace skerry::game

@@ -12,8 +12,26 @@
 
 #include "engine/core/check.h"
 
+#if defined(SKERRY_THREAD_SANITIZER)
+extern "C" void __tsan_acquire(void* place);
+extern "C" void __tsan_release(void* place);
+#endif
+
 namespace skerry {
 namespace {
+
+// What TBB orders, told to the thread sanitizer: the library is not built with it. This file is
+// not either (CMakeLists.txt), or it would accuse TBB's headers.
+void hand_over([[maybe_unused]] void* place) {
+#if defined(SKERRY_THREAD_SANITIZER)
+  __tsan_release(place);
+#endif
+}
+void take_over([[maybe_unused]] void* place) {
+#if defined(SKERRY_THREAD_SANITIZER)
+  __tsan_acquire(place);
+#endif
+}
 
 // TBB starts at most (allowed parallelism - 1) workers in all and counts the calling thread as one.
 // submit() must be served without any caller inside the arena, so one thread more than the workers
@@ -56,7 +74,9 @@ void Jobs::submit(std::function<void()> job) {
     std::lock_guard lock(impl_->mutex);
     ++impl_->pending;
   }
+  hand_over(impl_);
   impl_->arena.enqueue([impl = impl_, work = std::move(job)] {
+    take_over(impl);
     work();
     impl->finished();
   });
@@ -71,10 +91,19 @@ void Jobs::parallel_for(int count, const std::function<void(int)>& body) {
   if (count <= 0) return;
   // The simple partitioner with grain 1 lets the slowest single item decide the end, not a block of
   // them: items here are chunks or rows, whose costs differ widely.
+  int begun = 0, ended = 0;  // places for the sanitizer
+  hand_over(&begun);
   impl_->arena.execute([&] {
     tbb::parallel_for(
-        0, count, [&](int i) { body(i); }, tbb::simple_partitioner());
+        0, count,
+        [&](int i) {
+          take_over(&begun);
+          body(i);
+          hand_over(&ended);
+        },
+        tbb::simple_partitioner());
   });
+  take_over(&ended);
 }
 
 }  // namespace skerry

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/core/interruption.h"
+
 namespace skerry::platform {
 namespace {
 
@@ -86,6 +88,7 @@ Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) 
   const fs::path target =
       fs::is_symlink(path, unresolved) ? fs::weakly_canonical(path, unresolved) : path;
   const fs::path temporary = temporary_of(target);
+  const RemovedWhenInterrupted guard(temporary);
   File file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file.get() < 0) return write_error(path, errno);
   int code = write_all(file, bytes);

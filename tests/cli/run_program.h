@@ -29,11 +29,13 @@ inline std::string text_of(const std::filesystem::path& path) {
 }
 
 /// Runs `skerry arguments...`; `environment` holds NAME=VALUE, or NAME to unset.
+/// @param program another one of the build folder.
 inline Outcome run(std::vector<std::string> arguments,
-                   const std::vector<std::string>& environment = {}) {
+                   const std::vector<std::string>& environment = {},
+                   const std::string& program = "skerry") {
   const Folder folder;
   const std::filesystem::path out = folder / "out", err = folder / "err";
-  arguments.insert(arguments.begin(), SKERRY_BINARY_DIR "/skerry");
+  arguments.insert(arguments.begin(), SKERRY_BINARY_DIR "/" + program);
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);

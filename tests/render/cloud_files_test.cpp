@@ -8,7 +8,9 @@
 
 #include "game/cloud_files.h"
 #include "tests/folder.h"
+#include "tests/real_files.h"
 #include "tests/render/renderer_on_gpu.h"
+#include "world/vdb/worker.h"
 
 namespace skerry::render {
 namespace {
@@ -21,7 +23,7 @@ constexpr double kHorizontalFov = 40.0;  // degrees
 constexpr double kVoxel = 3.33333;       // blocks
 
 fs::path wdas() {
-  return fs::path(SKERRY_SOURCE_DIR) / "../shared/vdb/wdas_cloud_sixteenth.vdb";
+  return real_file("wdas_cloud_sixteenth.vdb");
 }
 
 /// Alpha of an uncompressed EXR file with four channels of 32-bit floats, as vdb_render writes it.
@@ -84,7 +86,8 @@ double mean_difference(const std::vector<double>& a, const std::vector<double>& 
 }
 
 TEST_F(RealCloud, LetsThroughWhatVdbRenderSays) {
-  if (!fs::exists(wdas())) GTEST_SKIP() << "../shared/vdb/wdas_cloud_sixteenth.vdb is not there";
+  if (!fs::exists(wdas())) GTEST_SKIP() << wdas() << " is not there";
+  if (!world::has_openvdb()) GTEST_SKIP() << "this build has no OpenVDB";
   if (std::system("command -v vdb_render > /dev/null") != 0)
     GTEST_SKIP() << "vdb_render (libopenvdb-tools) is not installed";
   load();

@@ -12,7 +12,7 @@
 
 #include "tools/skerry/progress.h"
 #include "tools/skerry/scene_device.h"
-#include "world/vdb/import.h"
+#include "world/vdb/grid_choice.h"
 
 namespace skerry::tools {
 namespace {

@@ -17,7 +17,8 @@ namespace skerry::world {
 enum class UpAxis : std::uint8_t { kY, kZ };
 
 struct ImportOptions {
-  std::optional<std::string> grid = {};  ///< only this one; none: importable_grids chooses
+  std::optional<std::string> grid =
+      {};  ///< only this one; none: importable_grids (grid_choice.h) chooses
   /// Blocks along a voxel's edge; of a box-shaped voxel, along the edge of the cube of its volume.
   /// All grids of a file are scaled as the first. None: 1, or what `size_blocks` asks for.
   std::optional<double> scale = {};
@@ -29,10 +30,7 @@ struct ImportOptions {
   UpAxis up = UpAxis::kY;  ///< which axis of the file points up
 };
 
-/// Refused beyond these: chunks of an island, and those of them that are not of one block.
-inline constexpr std::size_t kMaxImportChunks = 1 << 18;
-inline constexpr std::size_t kMaxDetailedChunks = 1 << 13;
-/// And beyond this many blocks from an island's centre.
+/// Refused beyond this many blocks from an island's centre; import_cost.h has the other limits.
 inline constexpr std::int32_t kMaxImportReach = 1 << 20;
 
 struct ImportedIsland {
@@ -47,14 +45,6 @@ struct ImportedIsland {
   double error_blocks = 0.0;
   std::uint64_t unknown_ids = 0;  ///< blocks whose id this program does not know; now stone
 };
-
-/// Which grids an import takes when none is named: block ids if there are any, else level sets,
-/// else masks, else fog (of several, those whose name begins with "density"). Colours never.
-std::vector<std::size_t> importable_grids(const std::vector<VolumeGrid>& grids);
-
-/// Whether a grid holds block ids: an integer grid, or floats under the name block_id, block_ids,
-/// ids or blocks.
-bool holds_block_ids(const VolumeGrid& grid);
 
 /// Makes one island of each chosen grid. Memory follows bricks, tiles and chunks, never a bounding
 /// box. A grid named Cd, color, colour, rgb or albedo decides which block a surface is made of;

@@ -231,17 +231,6 @@ class Painter {
   std::vector<BlockId> voxels_;
 };
 
-/// Whether a chunk and all that touch it by a face are full: then nothing of it is ever seen from
-/// outside, and no cover reaches in.
-bool buried(const SolidMasks& masks, IVec3 chunk) {
-  constexpr std::array<IVec3, 7> kSelfAndFaces = {
-      {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-  return std::all_of(kSelfAndFaces.begin(), kSelfAndFaces.end(), [&](IVec3 side) {
-    const auto found = masks.find({chunk.x + side.x, chunk.y + side.y, chunk.z + side.z});
-    return found != masks.end() && found->second.fill == ChunkMask::Fill::kFull;
-  });
-}
-
 }  // namespace
 
 std::optional<std::int32_t> snow_line(std::int32_t low, std::int32_t high) {
@@ -250,8 +239,17 @@ std::optional<std::int32_t> snow_line(std::int32_t low, std::int32_t high) {
   return high - height / 8;
 }
 
+bool is_buried(const SolidMasks& masks, IVec3 chunk) {
+  constexpr std::array<IVec3, 7> kSelfAndFaces = {
+      {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+  return std::all_of(kSelfAndFaces.begin(), kSelfAndFaces.end(), [&](IVec3 side) {
+    const auto found = masks.find({chunk.x + side.x, chunk.y + side.y, chunk.z + side.z});
+    return found != masks.end() && found->second.fill == ChunkMask::Fill::kFull;
+  });
+}
+
 Chunk land_chunk(const SolidMasks& masks, IVec3 chunk, const Land& land) {
-  if (buried(masks, chunk)) return Chunk(block::kStone);
+  if (is_buried(masks, chunk)) return Chunk(block::kStone);
   return Painter(masks, chunk, land).run();
 }
 

@@ -21,6 +21,10 @@ struct Land {
 /// @param low, high of solid voxels, lattice, both inclusive.
 std::optional<std::int32_t> snow_line(std::int32_t low, std::int32_t high);
 
+/// Whether a chunk and all that touch it by a face are full: then nothing of it is ever seen from
+/// outside, and no cover reaches in.
+bool is_buried(const SolidMasks& masks, IVec3 chunk);
+
 /// Blocks of a chunk: grass where the ground is gentle, bare rock where it is steep, soil beneath
 /// grass, snow high up, banded rock within, and grass and flowers on meadows. Solid voxels become
 /// solid blocks and no others do.

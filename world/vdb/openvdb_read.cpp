@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <string>
 #include <type_traits>
 
+#include "world/vdb/jail.h"
 #include "world/vdb/openvdb_jobs.h"
 
 namespace skerry::world {
@@ -259,6 +261,9 @@ VolumeGrid volume_of(const openvdb::GridBase& grid) {
 Result<void> read_openvdb(int input, const ByteSink& sink) {
   openvdb::initialize();
   if (!UInt8Grid::isRegistered()) UInt8Grid::registerGrid();
+  // TBB looks about in /sys when it is first used.
+  tbb::parallel_for(0, 2, [](int) {});
+  enter_jail();
   ForwardBuffer buffer(input);
   std::istream stream(&buffer);
   openvdb::GridPtrVecPtr grids;

@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <vector>
 
 namespace skerry::world {
 namespace {
 
-// Chunks that all bricks and tiles together may name, one of several counted for each: those of
-// sheared grids overlap, and a set that they name again and again takes time without growing.
-constexpr double kMaxNamedChunks = 1 << 23;
 constexpr int kLeastCube = 4;  // blocks; below, asking each block costs less than asking for bounds
 
 IVec3 clamped(glm::dvec3 v) {
@@ -31,6 +26,9 @@ class Sampler {
     const glm::dvec3 at{chunk.x, chunk.y, chunk.z};
     origin_ = at * static_cast<double>(kChunkEdge);
   }
+
+  /// How often this one has looked into the grid.
+  std::uint64_t looks() const { return looks_; }
 
   ChunkMask run() {
     ChunkMask out;
@@ -71,7 +69,8 @@ class Sampler {
   }
 
   /// Bounds of all values that blocks of the cube can see.
-  VolumeField::Range values_in(IVec3 low, int edge) const {
+  VolumeField::Range values_in(IVec3 low, int edge) {
+    looks_ += kBoundsLooks;
     return values_in_cube(field_, placement_, origin_ + glm::dvec3{low.x, low.y, low.z}, edge);
   }
 
@@ -82,6 +81,7 @@ class Sampler {
   }
 
   void ask(IVec3 low, int edge) {
+    looks_ += static_cast<std::uint64_t>(edge * edge * edge);
     for (int y = low.y; y < low.y + edge; ++y) {
       for (int x = low.x; x < low.x + edge; ++x) {
         std::uint64_t bits = 0;
@@ -107,12 +107,14 @@ class Sampler {
   const Placement& placement_;
   glm::dvec3 origin_;
   std::unique_ptr<ChunkMask::Rows> rows_;
+  std::uint64_t looks_ = 0;
 };
 
 /// Adds the chunks under a cube of indices.
 class ChunkCollector {
  public:
-  explicit ChunkCollector(const Placement& placement) : placement_(placement) {}
+  ChunkCollector(const Placement& placement, ImportCost& cost)
+      : placement_(placement), cost_(cost) {}
 
   Result<void> add(IVec3 origin, std::int32_t edge) {
     const glm::dvec3 low{origin.x, origin.y, origin.z};
@@ -134,11 +136,14 @@ class ChunkCollector {
     const double count =
         (last.x - first.x + 1.0) * (last.y - first.y + 1.0) * (last.z - first.z + 1.0);
     const bool again = first == last_first_ && last == last_last_ && !chunks_.empty();
-    if (count <= kMaxImportChunks && !again) insert(first, last);
-    named_ += again ? 0.0 : count;
-    if (named_ > kMaxNamedChunks)
+    const bool few = count <= static_cast<double>(kMaxImportChunks);
+    if (few && !again) {
+      insert(first, last);
+      cost_.named_chunks += static_cast<std::uint64_t>(count);
+    }
+    if (cost_.named_chunks > kMaxNamedChunks)
       return Error{"its bricks overlap too many chunks; give a smaller --scale or --size"};
-    if (count > kMaxImportChunks || chunks_.size() > kMaxImportChunks) {
+    if (!few || cost_.chunks + chunks_.size() > kMaxImportChunks) {
       return Error{
           fmt::format("it would fill more than {} chunks of 64^3 blocks; give a smaller "
                       "--scale or --size",
@@ -147,7 +152,10 @@ class ChunkCollector {
     return {};
   }
 
-  std::set<IVec3> take() { return std::move(chunks_); }
+  std::set<IVec3> take() {
+    cost_.chunks += chunks_.size();
+    return std::move(chunks_);
+  }
 
  private:
   void insert(IVec3 first, IVec3 last) {
@@ -159,8 +167,8 @@ class ChunkCollector {
   }
 
   const Placement& placement_;
+  ImportCost& cost_;
   std::set<IVec3> chunks_;
-  double named_ = 0.0;
   IVec3 last_first_, last_last_;  // bricks come sorted: neighbours mostly ask for the same
 };
 
@@ -174,8 +182,8 @@ VolumeField::Range values_in_cube(const VolumeField& field, const Placement& pla
 }
 
 Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,
-                                  const Placement& placement) {
-  ChunkCollector collector(placement);
+                                  const Placement& placement, ImportCost& cost) {
+  ChunkCollector collector(placement, cost);
   for (const VolumeTile& tile : grid.tiles) {
     if (!rule(tile.value)) continue;
     if (const Result<void> added = collector.add(tile.origin, tile.edge); !added)
@@ -191,33 +199,48 @@ Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,
 
 Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
                                const Placement& placement, const std::set<IVec3>& chunks,
-                               Jobs& jobs, const ReadProgress& progress) {
+                               ImportCost& cost, Jobs& jobs, const ReadProgress& progress) {
   const std::vector<IVec3> list(chunks.begin(), chunks.end());
-  constexpr std::size_t kBatch = 256;  // between two looks at the limit and two steps of progress
-  std::atomic<std::size_t> mixed = 0;
+  constexpr std::size_t kBatch = 256;  // between two looks at the limits and two steps of progress
+  struct Made {
+    ChunkMask mask;
+    std::uint64_t looks = 0;
+  };
   SolidMasks masks;
-  std::vector<ChunkMask> made;
+  std::vector<Made> made;
   for (std::size_t first = 0; first < list.size(); first += kBatch) {
     const std::size_t count = std::min(kBatch, list.size() - first);
     made.clear();
     made.resize(count);
     jobs.parallel_for(static_cast<int>(count), [&](int i) {
       const auto at = static_cast<std::size_t>(i);
-      made[at] = Sampler(field, rule, placement, list[first + at]).run();
-      if (made[at].fill == ChunkMask::Fill::kMixed) ++mixed;
+      Sampler sampler(field, rule, placement, list[first + at]);
+      made[at].mask = sampler.run();
+      made[at].looks = sampler.looks();
     });
-    for (std::size_t i = 0; i < count; ++i)
-      if (made[i].fill != ChunkMask::Fill::kEmpty)
-        masks.emplace_hint(masks.end(), list[first + i], std::move(made[i]));
-    if (mixed > kMaxDetailedChunks) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const ChunkMask::Fill fill = made[i].mask.fill;
+      cost.looks += made[i].looks;
+      cost.mixed_chunks += fill == ChunkMask::Fill::kMixed ? 1 : 0;
+      if (fill != ChunkMask::Fill::kEmpty)
+        masks.emplace_hint(masks.end(), list[first + i], std::move(made[i].mask));
+    }
+    if (cost.mixed_chunks > kMaxDetailedChunks) {
       return Error{
           fmt::format("its surface would pass through more than {} chunks of 64^3 blocks; "
                       "give a smaller --scale or --size",
                       kMaxDetailedChunks)};
     }
+    if (cost.looks > kMaxImportLooks) return too_many_looks();
     if (progress) progress(static_cast<double>(first + count) / static_cast<double>(list.size()));
   }
   return masks;
+}
+
+Error too_many_looks() {
+  return {
+      "finding what is solid would take too long, most likely because its transform is so "
+      "slanted; give a smaller --scale or --size"};
 }
 
 }  // namespace skerry::world

@@ -8,6 +8,7 @@
 #include "engine/core/jobs.h"
 #include "engine/core/result.h"
 #include "world/chunk.h"
+#include "world/vdb/import_cost.h"
 #include "world/vdb/placement.h"
 #include "world/vdb/solid_rule.h"
 #include "world/vdb/volume_field.h"
@@ -37,15 +38,18 @@ VolumeField::Range values_in_cube(const VolumeField& field, const Placement& pla
                                   glm::dvec3 corner, int edge);
 
 /// Chunks into which a brick or tile with a solid value reaches.
-/// Errors: more than kMaxImportChunks, or further than kMaxImportReach.
+/// Errors: more than kMaxImportChunks or kMaxNamedChunks, or further than kMaxImportReach.
 Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,
-                                  const Placement& placement);
+                                  const Placement& placement, ImportCost& cost);
 
 /// Asks at each block's centre whether it is solid. Whole cubes of blocks are settled at once where
 /// bounds of the values allow it.
-/// Errors: more than kMaxDetailedChunks are mixed.
+/// Errors: more than kMaxDetailedChunks are mixed; more than kMaxImportLooks.
 Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
                                const Placement& placement, const std::set<IVec3>& chunks,
-                               Jobs& jobs, const ReadProgress& progress);
+                               ImportCost& cost, Jobs& jobs, const ReadProgress& progress);
+
+/// That an import looks more often than it may.
+Error too_many_looks();
 
 }  // namespace skerry::world

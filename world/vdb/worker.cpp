@@ -22,12 +22,6 @@
 namespace skerry::world {
 namespace {
 
-#ifdef SKERRY_HAS_OPENVDB
-constexpr bool kHasOpenVdb = true;
-#else
-constexpr bool kHasOpenVdb = false;
-#endif
-
 using std::chrono::microseconds;
 
 // Standard streams of a process that was started without them must not be mistaken for ours.
@@ -99,6 +93,9 @@ Result<void> outcome_of(std::optional<int> status, bool writes, const ReadLimits
   if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL)
     return Error{fmt::format("the system ended {}, most likely for want of memory; {}", job,
                              writes ? advice : "close other programs or make the file smaller")};
+  if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGSYS)
+    return Error{
+        "it made OpenVDB try to reach out of its process, which was ended; do not trust it"};
   if (WIFSIGNALED(*status) && writes)
     return Error{fmt::format("OpenVDB crashed (signal {}); {}", WTERMSIG(*status), advice)};
   if (WIFSIGNALED(*status))
@@ -161,10 +158,6 @@ Result<std::span<const std::byte>> MemoryFile::seal() {
   return std::span(static_cast<const std::byte*>(mapped_), size_);
 }
 
-bool has_openvdb() {
-  return kHasOpenVdb;
-}
-
 std::filesystem::path worker_path() {
   std::error_code ignored;
   return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "skerry_openvdb";
@@ -173,7 +166,7 @@ std::filesystem::path worker_path() {
 Result<void> run_worker(const std::vector<std::string>& arguments, int input, int output,
                         std::uint64_t input_bytes, const ReadLimits& limits,
                         const ReadProgress& progress) {
-  if (!kHasOpenVdb) return Error{"this build has no OpenVDB; configure with -DSKERRY_OPENVDB=ON"};
+  if (!has_openvdb()) return Error{"this build has no OpenVDB; configure with -DSKERRY_OPENVDB=ON"};
   const Result<Descriptor> in = lifted(input), out = lifted(output);
   if (!in) return in.error();
   if (!out) return out.error();

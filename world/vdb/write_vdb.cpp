@@ -1,11 +1,10 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cmath>
 #include <string>
-#include <system_error>
 
+#include "engine/core/draft.h"
 #include "world/hash.h"
 #include "world/vdb/answer.h"
 #include "world/vdb/export.h"
@@ -81,14 +80,11 @@ std::uint64_t content_hash(const VolumeGrid& grid) {
 }
 
 Result<void> write_vdb(const std::vector<VolumeGrid>& grids, const std::filesystem::path& path) {
-  const std::filesystem::path draft = fmt::format("{}.{}.part", path.string(), ::getpid());
-  Result<void> done = write(grids, draft);
-  if (done) done = verify(grids, draft);
-  std::error_code failed;
-  if (done) std::filesystem::rename(draft, path, failed);
-  if (failed) done = Error{failed.message() + "; check the path"};
+  Result<Draft> draft = Draft::create(path);
+  Result<void> done = draft ? write(grids, draft->path()) : draft.error();
+  if (done) done = verify(grids, draft->path());
+  if (done) done = draft->publish();
   if (done) return {};
-  std::filesystem::remove(draft, failed);
   return Error{fmt::format("cannot write '{}': {}", path.string(), done.error().message)};
 }
 

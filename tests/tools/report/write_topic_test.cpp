@@ -37,6 +37,7 @@ TopicResult result_of_noise() {
     made.ms = {1.0, 1.0 + number(), 1e13, 1e13};
     made.errors = {number(), number(), number(), number(), std::numeric_limits<double>::infinity()};
     made.change = number();
+    made.from_reference = number();
     return made;
   };
   TopicResult result{&kTopic, {}, {}};
@@ -97,13 +98,13 @@ TEST(ReportFiles, CsvReadsBackAsTheSameNumbers) {
     EXPECT_EQ(line[1], row.point->label);
     EXPECT_EQ(line[2], row.point->settings);
     const PictureErrors& e = row.errors;
-    const double expected[] = {row.ms.median, row.ms.p10, row.ms.p90,      all ? 18.0 : 9.0,
-                               e.flip_mean,   e.flip_p99, e.hdr_flip_mean, e.rel_mse,
-                               e.psnr_db,     row.change};
+    const double expected[] = {row.ms.median, row.ms.p10, row.ms.p90,         all ? 18.0 : 9.0,
+                               e.flip_mean,   e.flip_p99, e.hdr_flip_mean,    e.rel_mse,
+                               e.psnr_db,     row.change, *row.from_reference};
     for (std::size_t c = 0; c < std::size(expected); ++c)
       EXPECT_EQ(number_of(line[3 + c]), expected[c]) << lines[0][3 + c];
   }
-  EXPECT_EQ(lines[8][14], "low medium");
+  EXPECT_EQ(lines[8][15], "low medium");
 }
 
 TEST(ReportFiles, JsonHoldsEveryRow) {

@@ -7,26 +7,14 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "tests/world/vdb/imported.h"
 #include "tests/world/vdb/volumes.h"
+#include "world/vdb/grid_choice.h"
 #include "world/vdb/volume_field.h"
 #include "world/world.h"
 
 namespace skerry::world {
 namespace {
-
-std::vector<ImportedIsland> imported(const std::vector<VolumeGrid>& grids,
-                                     const ImportOptions& options = {}, int threads = 2) {
-  Jobs jobs(threads);
-  auto islands = import_islands(grids, options, jobs);
-  EXPECT_TRUE(islands) << islands.error().message;
-  return islands ? std::move(*islands) : std::vector<ImportedIsland>();
-}
-
-std::string refusal_of(const std::vector<VolumeGrid>& grids, const ImportOptions& options = {}) {
-  Jobs jobs(2);
-  const auto islands = import_islands(grids, options, jobs);
-  return islands ? "" : islands.error().message;
-}
 
 BlockId block_of(const ImportedIsland& island, IVec3 voxel) {
   const auto found = island.chunks.find(chunk_of(voxel));
@@ -236,34 +224,6 @@ TEST(VdbImport, GivesTheSameVoxelsOnEveryNumberOfThreads) {
   }
 }
 
-VolumeGrid tile_grid(int tiles_a_side) {
-  VolumeGrid grid;
-  grid.kind = VolumeKind::kFog;
-  grid.name = "density";
-  grid.max_value = grid.mean_value = 1.0f;
-  for (int x = 0; x < tiles_a_side; ++x)
-    for (int y = 0; y < tiles_a_side; ++y)
-      for (int z = 0; z < tiles_a_side; ++z)
-        grid.tiles.push_back({{x * 4096, y * 4096, z * 4096}, 4096, 1.0f});
-  return grid;
-}
-
-TEST(VdbImport, RefusesAMillionMillionVoxelsAndTakesThemSmaller) {
-  const VolumeGrid grid = tile_grid(3);  // 1.9e12 active voxels
-  EXPECT_NE(refusal_of({grid}).find("--size"), std::string::npos);
-  const std::vector<ImportedIsland> islands = imported({grid}, {.size_blocks = 512});
-  ASSERT_EQ(islands.size(), 1u);
-  std::uint64_t solid = 0, uniform = 0;
-  for (const auto& [at, chunk] : islands[0].chunks) {
-    uniform += chunk.is_uniform() ? 1 : 0;
-    std::vector<BlockId> voxels(kChunkVoxels);
-    chunk.unpack(voxels);
-    for (const BlockId id : voxels) solid += is_solid(id) ? 1 : 0;
-  }
-  EXPECT_NEAR(static_cast<double>(solid), std::pow(512.0, 3.0), 8e5);
-  EXPECT_GE(uniform, 6u * 6u * 6u);
-}
-
 TEST(VdbImport, MakesUniformChunksOfBlockIdsOfATile) {
   VolumeGrid grid;
   grid.kind = VolumeKind::kIds;
@@ -282,19 +242,6 @@ TEST(VdbImport, MakesUniformChunksOfBlockIdsOfATile) {
     const BlockId expected = id == 1000.0f ? BlockId{block::kStone} : static_cast<BlockId>(id);
     ASSERT_EQ(block_of(islands[0], voxel), expected) << x;
   }
-}
-
-TEST(VdbImport, RefusesSlantedGridsThatNameTheSameChunksAgainAndAgain) {
-  VolumeGrid grid;
-  grid.kind = VolumeKind::kFog;
-  // A slant of 1 in 300: the box around a brick's image is 300 times as long as the brick.
-  grid.world_from_index = {
-      {1.0, 0.0, 0.0, 0.0}, {300.0, 1.0, 0.0, 0.0}, {0.0, 300.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
-  for (int x = 0; x < 72; ++x)
-    for (int y = 0; y < 72; ++y)
-      for (int z = 0; z < 72; ++z) grid.tiles.push_back({{x * 8, y * 8, z * 8}, 8, 1.0f});
-  grid.mean_value = grid.max_value = 1.0f;
-  EXPECT_NE(refusal_of({grid}, {.scale = 0.1}).find("overlap"), std::string::npos);
 }
 
 TEST(VdbImport, MakesAnIslandOfEachGridWhereItsTransformPutsIt) {

@@ -157,20 +157,27 @@ PictureErrors errors_of(const measure::ErrorMap& flip, const measure::Picture& j
   return errors;
 }
 
-/// Compares every shot with its judge: the reference if there is one, else the last shot.
-void compare(const std::vector<Shot>& shots, const Judged* reference, SceneRows& out) {
+/// Compares every shot with its judge, the reference or the last shot.
+/// @param reference nullptr: there is none.
+void compare(const std::vector<Shot>& shots, Judge by, const Judged* reference, SceneRows& out) {
   const Shot& limit = shots.back();
+  const bool by_reference = by == Judge::kReference;
   const measure::Picture limit_shown = measure::picture_from(limit.shown);
-  const measure::Image& judge = reference ? reference->shown : limit.shown;
+  const measure::Image& judge = by_reference ? reference->shown : limit.shown;
   const measure::Picture judge_shown = measure::picture_from(judge);
   for (std::size_t p = 0; p < shots.size(); ++p) {
     const measure::Picture shown = measure::picture_from(shots[p].shown);
     const measure::ErrorMap flip = measure::flip_ldr(judge_shown, shown);
     PointRow& row = out.rows[p];
     row.errors =
-        errors_of(flip, reference ? reference->radiance : limit.radiance, shots[p].radiance);
-    row.change =
-        reference ? measure::mean_of(measure::flip_ldr(limit_shown, shown)) : row.errors.flip_mean;
+        errors_of(flip, by_reference ? reference->radiance : limit.radiance, shots[p].radiance);
+    const auto flip_mean = [&shown](const measure::Picture& from) {
+      return measure::mean_of(measure::flip_ldr(from, shown));
+    };
+    row.change = by_reference ? flip_mean(limit_shown) : row.errors.flip_mean;
+    if (reference)
+      row.from_reference =
+          by_reference ? row.errors.flip_mean : flip_mean(measure::picture_from(reference->shown));
     row.same_bytes = shots[p].shown.rgba == limit.shown.rgba;
     out.pictures.push_back({shots[p].shown, measure::heat_map(flip),
                             measure::amplified_difference(judge, shots[p].shown, kDifferenceGain)});
@@ -185,7 +192,7 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
   const std::string what = fmt::format("{} in {}", topic.name, name);
 
   const Judged* reference = nullptr;
-  if (topic.judge == Judge::kReference) {
+  if (topic.judge == Judge::kReference || topic.judge == Judge::kLimitAndReference) {
     game::SceneOptions exact = *scene;
     // The renderer samples geometry at pixel centres; smoother edges would drown every other error.
     exact.settings.reference_filter = game::ReferenceFilter::kCentre;
@@ -221,7 +228,7 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
     out.rows.push_back(row);
   }
   progress(0.9, what + ": errors");
-  compare(*shots, reference, out);
+  compare(*shots, topic.judge, reference, out);
   judge_standing(out.rows);
   return out;
 }
@@ -241,11 +248,13 @@ PointRow over_scenes(const std::vector<SceneRows>& scenes, std::size_t p) {
     sum.errors.flip_p99 = std::max(sum.errors.flip_p99, row.errors.flip_p99);
     sum.errors.psnr_db = std::min(sum.errors.psnr_db, row.errors.psnr_db);
     sum.change += row.change;
+    if (sum.from_reference) *sum.from_reference += row.from_reference.value_or(0.0);
     sum.same_bytes = sum.same_bytes && row.same_bytes;
   }
   for (double* value : {&sum.ms.p10, &sum.ms.median, &sum.ms.p90, &sum.errors.flip_mean,
                         &sum.errors.hdr_flip_mean, &sum.errors.rel_mse, &sum.change})
     *value *= share;
+  if (sum.from_reference) *sum.from_reference *= share;
   return sum;
 }
 

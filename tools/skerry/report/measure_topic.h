@@ -31,8 +31,9 @@ struct PointRow {
   const TopicPoint* point = nullptr;
   Spread ms;
   PictureErrors errors;
-  double change = 0.0;      ///< FLIP mean against the sweep's last point
-  bool same_bytes = false;  ///< as the last point's picture
+  double change = 0.0;                   ///< FLIP mean against the sweep's last point
+  std::optional<double> from_reference;  ///< FLIP mean against the CPU reference, if there is one
+  bool same_bytes = false;               ///< as the last point's picture
   Standing standing = Standing::kOnFront;
   std::vector<std::string> defaults;  ///< quality levels
 };

@@ -28,7 +28,8 @@ struct Run {
   std::string date, device, driver, command;
   double seconds = 0.0;
   std::vector<Defect> defects;
-  std::string contents, parts;  ///< of the page: its list of topics, and those, as markup
+  std::string contents, parts;        ///< of the page: its list of topics, and those, as markup
+  std::vector<std::string> left_out;  ///< topics that cannot be measured here, and why
   ordered_json topics = ordered_json::array();
 
   void add(std::string_view name, std::string_view meaning, const std::string& part,
@@ -55,6 +56,7 @@ std::string front_page(const Run& run) {
                  "that is off its front should be changed. FLIP is the difference that a person "
                  "sees when two pictures alternate, 0 to 1.");
   if (run.defects.empty()) out += labelled("p", "good", "Every default is on its front.");
+  for (const std::string& topic : run.left_out) out += labelled("p", "warn", topic) + "\n";
   for (const Defect& defect : run.defects)
     out += labelled("p", defect.certain ? "bad" : "warn", defect.text) + "\n";
   return measure::page("Skerry: error against run time",
@@ -70,6 +72,7 @@ Result<void> write_front(const Run& run, const std::filesystem::path& dir) {
   j["defects"] = ordered_json::array();
   for (const Defect& defect : run.defects)
     j["defects"].push_back({{"text", defect.text}, {"certain", defect.certain}});
+  j["left_out"] = run.left_out;
   j["topics"] = run.topics;
   if (Result<void> done = platform::write_text(dir / "index.html", front_page(run)); !done)
     return done;
@@ -97,12 +100,29 @@ Result<void> run_left_out(gpu::Device& device, const std::filesystem::path& dir,
   return {};
 }
 
+/// Those of the topics asked for that can be measured here. Said before any work is done.
+std::vector<const Topic*> measurable(const ReportSession& session, Run& run) {
+  std::vector<const Topic*> topics;
+  for (const Topic* topic : session.request().topics) {
+    const std::optional<std::string> why = session.why_not(*topic);
+    if (!why) {
+      topics.push_back(topic);
+      continue;
+    }
+    run.left_out.push_back(fmt::format("{}: left out: {}", topic->name, *why));
+    fmt::print("{}\n", run.left_out.back());
+  }
+  return topics;
+}
+
 /// All that was asked for, with a bar. Prints a line a topic when it is done.
 Result<void> run_topics(ReportSession& session, const std::filesystem::path& dir, Run& run) {
   const ReportRequest& request = session.request();
-  const std::size_t count = request.topics.size() + (request.left_out ? 1 : 0);
+  const std::vector<const Topic*> topics = measurable(session, run);
+  const std::size_t count = topics.size() + (request.left_out ? 1 : 0);
+  if (count == 0) return Error{"no topic is left that can be measured here"};
   for (std::size_t t = 0; t < count; ++t) {
-    const bool left_out = t == request.topics.size();
+    const bool left_out = t == topics.size();
     const Stopwatch watch;
     Result<void> done;
     {
@@ -111,11 +131,10 @@ Result<void> run_topics(ReportSession& session, const std::filesystem::path& dir
         bar.show((static_cast<double>(t) + share) / static_cast<double>(count), what);
       };
       done = left_out ? run_left_out(session.device(), dir, progress, run)
-                      : run_topic(session, *request.topics[t], dir, progress, run);
+                      : run_topic(session, *topics[t], dir, progress, run);
     }
     if (!done) return done;
-    fmt::print("{} ({:.1f} s)\n", left_out ? kLeftOutTopic : request.topics[t]->name,
-               watch.seconds());
+    fmt::print("{} ({:.1f} s)\n", left_out ? kLeftOutTopic : topics[t]->name, watch.seconds());
   }
   return {};
 }

@@ -17,7 +17,9 @@ std::string topic_list() {
   for (const Topic& topic : topics())
     text += fmt::format("  {:<18} {}\n", topic.name, topic.meaning);
   text += fmt::format("  {:<18} {}\n", kLeftOutTopic, kLeftOutMeaning);
-  return text + "Scenes are the topic's own unless --seed, --scene or --camera names one.";
+  return text +
+         "Scenes are the topic's own unless --seed, --world, --scene, --cloud or --camera names "
+         "one.";
 }
 
 /// Whether a scene file, if there is one, says a size. @pre resolve() could read it.
@@ -76,7 +78,8 @@ std::optional<Refusal> ReportCommand::read(std::span<const std::string> typed,
   request.typed = scene_.text;
   if (scene_.renderer) request.typed.settings.push_back("renderer=" + *scene_.renderer);
   if (scene_.shading) request.typed.settings.push_back("shading=" + *scene_.shading);
-  request.own_scene = scene_.text.seed || scene_.text.camera || scene_.scene_file;
+  request.own_scene = scene_.text.seed || scene_.text.world || scene_.text.camera ||
+                      scene_.scene_file || !scene_.clouds.empty();
   request.own_size = scene_.text.size || file_says_size(scene_.scene_file);
   request.command = "skerry";
   for (const std::string& word : typed) request.command += " " + game::shell_word(word);

@@ -1,11 +1,6 @@
 #include "tools/skerry/report/report_folder.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
-#include <sys/stat.h>
-
-#include <cerrno>
-#include <cstring>
 #include <string>
 #include <system_error>
 
@@ -37,18 +32,8 @@ Result<void> check_place(const fs::path& dir) {
 
 }  // namespace
 
-ReportFolder::ReportFolder(fs::path dir, fs::path filling)
-    : dir_(std::move(dir)), filling_(std::move(filling)) {}
-
-ReportFolder::ReportFolder(ReportFolder&& other) noexcept
-    : dir_(std::move(other.dir_)), filling_(std::move(other.filling_)) {
-  other.filling_.clear();
-}
-
-ReportFolder::~ReportFolder() {
-  std::error_code ignored;
-  if (!filling_.empty()) fs::remove_all(filling_, ignored);
-}
+ReportFolder::ReportFolder(fs::path dir, Draft draft)
+    : dir_(std::move(dir)), draft_(std::move(draft)) {}
 
 Result<ReportFolder> ReportFolder::create(const fs::path& dir) {
   std::error_code code;
@@ -57,28 +42,17 @@ Result<ReportFolder> ReportFolder::create(const fs::path& dir) {
   if (!place.has_filename()) place = place.parent_path();  // a name that ends in /
   if (!place.has_filename()) return cannot_write(dir, "it is no name of a folder");
   if (Result<void> free = check_place(place); !free) return free.error();
-  std::string filling =
-      (place.parent_path() / fmt::format(".{}.XXXXXX", place.filename().string())).string();
-  if (::mkdtemp(filling.data()) == nullptr) return cannot_write(dir, std::strerror(errno));
-  ::chmod(filling.c_str(), 0755);  // mkdtemp's 0700 would hide the report from other users
-  return ReportFolder(std::move(place), std::move(filling));
+  Result<Draft> draft = Draft::create(place);
+  if (!draft) return cannot_write(dir, draft.error().message);
+  fs::create_directory(draft->path(), code);
+  if (code) return cannot_write(dir, code.message());
+  return ReportFolder(std::move(place), *std::move(draft));
 }
 
 Result<void> ReportFolder::publish() {
   if (Result<void> free = check_place(dir_); !free) return free.error();
-  std::error_code code;
-  const fs::path old = filling_.string() + ".old";
-  const bool replaces = fs::exists(dir_, code);
-  if (replaces) fs::rename(dir_, old, code);
-  if (code) return cannot_write(dir_, code.message());
-  fs::rename(filling_, dir_, code);
-  if (code) {
-    const Error error = cannot_write(dir_, code.message());
-    if (replaces) fs::rename(old, dir_, code);
-    return error;
-  }
-  filling_.clear();
-  if (replaces) fs::remove_all(old, code);
+  if (const Result<void> done = draft_.publish(); !done)
+    return cannot_write(dir_, done.error().message);
   return {};
 }
 

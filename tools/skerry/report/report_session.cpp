@@ -1,7 +1,12 @@
 #include "tools/skerry/report/report_session.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
 #include "engine/core/check.h"
 #include "tools/reference/reference.h"
+#include "world/vdb/worker.h"
 
 namespace skerry::tools {
 namespace {
@@ -17,6 +22,19 @@ ReportSession::ReportSession(gpu::Device& device, const ReportRequest& request)
 std::vector<std::string> ReportSession::scenes_of(const Topic& topic) const {
   if (request_.own_scene) return {kOwnScene};
   return {topic.scenes.begin(), topic.scenes.end()};
+}
+
+std::optional<std::string> ReportSession::why_not(const Topic& topic) const {
+  for (const std::string& name : scenes_of(topic)) {
+    const Result<game::SceneOptions> made = scene(name);
+    if (!made) return made.error().message;
+    if (!made->clouds.empty() && !world::has_openvdb()) return "this build has no OpenVDB";
+    for (const game::CloudFile& cloud : made->clouds)
+      if (std::error_code none; !std::filesystem::exists(cloud.path, none))
+        return fmt::format("there is no '{}' here; run it from the folder of the sources",
+                           cloud.path);
+  }
+  return std::nullopt;
 }
 
 Result<game::SceneOptions> ReportSession::scene(const std::string& name) const {

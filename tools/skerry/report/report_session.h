@@ -45,6 +45,9 @@ class ReportSession {
   const ReportRequest& request() const { return request_; }
   /// Names of the scenes a topic is judged in.
   std::vector<std::string> scenes_of(const Topic& topic) const;
+  /// Why a topic cannot be measured here: a file of its scenes is not there, or this build cannot
+  /// read it.
+  std::optional<std::string> why_not(const Topic& topic) const;
   /// A scene by such a name, with the size and the settings of this run.
   Result<game::SceneOptions> scene(const std::string& name) const;
   /// @param progress told 0..1. Errors: those of reference::render_reference.

@@ -21,9 +21,10 @@ struct TopicPoint {
 
 /// What the errors of a topic are measured against.
 enum class Judge : std::uint8_t {
-  kReference,  ///< the CPU reference
-  kLimit,      ///< the last point, the most exact of the sweep
-  kEqual,      ///< the last point, which every other must equal in each byte
+  kReference,          ///< the CPU reference
+  kLimit,              ///< the last point, the most exact of the sweep
+  kLimitAndReference,  ///< the last point; how far each is from the CPU reference is told, too
+  kEqual,              ///< the last point, which every other must equal in each byte
 };
 
 /// What a point costs.

@@ -33,22 +33,32 @@ std::string joined(const std::vector<std::string>& parts) {
 
 std::string csv_line(std::string_view scene, int frames, const PointRow& row) {
   const PictureErrors& e = row.errors;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(scene),
+  const std::string from_reference =
+      row.from_reference ? fmt::format("{}", *row.from_reference) : "";
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(scene),
                      field(row.point->label), field(row.point->settings), row.ms.median, row.ms.p10,
                      row.ms.p90, frames, e.flip_mean, e.flip_p99, e.hdr_flip_mean, e.rel_mse,
-                     e.psnr_db, row.change, row.same_bytes ? 1 : 0, field(joined(row.defaults)),
-                     field(name_of(row.standing)));
+                     e.psnr_db, row.change, from_reference, row.same_bytes ? 1 : 0,
+                     field(joined(row.defaults)), field(name_of(row.standing)));
 }
 
 ordered_json row_json(const PointRow& row) {
   const PictureErrors& e = row.errors;
-  return {{"point", row.point->label},      {"settings", row.point->settings},
-          {"ms_median", row.ms.median},     {"ms_p10", row.ms.p10},
-          {"ms_p90", row.ms.p90},           {"flip_mean", e.flip_mean},
-          {"flip_p99", e.flip_p99},         {"hdr_flip_mean", e.hdr_flip_mean},
-          {"rel_mse", e.rel_mse},           {"psnr_db", e.psnr_db},
-          {"change_flip_mean", row.change}, {"same_bytes_as_last", row.same_bytes},
-          {"default_of", row.defaults},     {"standing", name_of(row.standing)}};
+  return {{"point", row.point->label},
+          {"settings", row.point->settings},
+          {"ms_median", row.ms.median},
+          {"ms_p10", row.ms.p10},
+          {"ms_p90", row.ms.p90},
+          {"flip_mean", e.flip_mean},
+          {"flip_p99", e.flip_p99},
+          {"hdr_flip_mean", e.hdr_flip_mean},
+          {"rel_mse", e.rel_mse},
+          {"psnr_db", e.psnr_db},
+          {"change_flip_mean", row.change},
+          {"reference_flip_mean", row.from_reference ? ordered_json(*row.from_reference) : nullptr},
+          {"same_bytes_as_last", row.same_bytes},
+          {"default_of", row.defaults},
+          {"standing", name_of(row.standing)}};
 }
 
 std::string_view judge_name(Judge judge) {
@@ -56,6 +66,7 @@ std::string_view judge_name(Judge judge) {
     case Judge::kReference:
       return "the CPU reference";
     case Judge::kLimit:
+    case Judge::kLimitAndReference:
       return "the most exact point of the sweep";
     case Judge::kEqual:
       return "the last point, to be equal";
@@ -113,8 +124,8 @@ std::string standing_cell(Standing standing) {
 
 std::string rows_table(const std::vector<PointRow>& rows) {
   constexpr std::string_view kHeadings[] = {
-      "setting", "ms median", "p10",    "p90",   "FLIP mean",  "FLIP p99", "HDR-FLIP",
-      "relMSE",  "PSNR dB",   "change", "bytes", "default of", "front"};
+      "setting", "ms median", "p10",    "p90",       "FLIP mean", "FLIP p99",   "HDR-FLIP",
+      "relMSE",  "PSNR dB",   "change", "reference", "bytes",     "default of", "front"};
   std::vector<measure::TableRow> lines;
   for (const PointRow& row : rows) {
     const PictureErrors& e = row.errors;
@@ -129,6 +140,7 @@ std::string rows_table(const std::vector<PointRow>& rows) {
                   number(e.rel_mse),
                   number(e.psnr_db),
                   number(row.change),
+                  row.from_reference ? number(*row.from_reference) : "",
                   row.same_bytes ? "equal" : "differ",
                   escape(fmt::format("{}", fmt::join(row.defaults, ", "))),
                   standing_cell(row.standing)};
@@ -220,7 +232,8 @@ Result<std::string> write_scene(const Topic& topic, const SceneRows& scene,
 std::string topic_csv(const TopicResult& result) {
   std::string out =
       "scene,point,settings,ms_median,ms_p10,ms_p90,frames,flip_mean,flip_p99,hdr_flip_mean,"
-      "rel_mse,psnr_db,change_flip_mean,same_bytes_as_last,default_of,standing\n";
+      "rel_mse,psnr_db,change_flip_mean,reference_flip_mean,same_bytes_as_last,default_of,"
+      "standing\n";
   int frames = 0;
   for (const SceneRows& scene : result.scenes) {
     for (const PointRow& row : scene.rows) out += csv_line(scene.scene, scene.frames, row);

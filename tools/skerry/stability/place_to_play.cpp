@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "game/collide.h"
 
@@ -20,13 +21,21 @@ void PlaceToPlay::islands_near(world::WorldPos place, double radius_blocks, doub
                                std::vector<std::uint64_t>& out) const {
   out.clear();
   for (std::size_t i = 0; i < islands_.size(); ++i) {
-    const glm::dvec3 to = world::difference_blocks(place, islands_[i].pose(time_s).origin);
+    const glm::dvec3 to = world::difference_blocks(place, pose_of(i, time_s).origin);
     if (glm::length(to) <= islands_[i].radius + radius_blocks) out.push_back(i);
   }
 }
 
 std::optional<world::Pose> PlaceToPlay::pose(std::uint64_t island, double time_s) const {
-  return islands_.at(island).pose(time_s);
+  return pose_of(island, time_s);
+}
+
+const world::Pose& PlaceToPlay::pose_of(std::uint64_t island, double time_s) const {
+  for (const Known& known : known_)
+    if (known.island == island && known.time_s == time_s) return known.pose;
+  std::swap(known_[0], known_[1]);
+  known_[1] = {island, time_s, islands_.at(island).pose(time_s)};
+  return known_[1].pose;
 }
 
 std::optional<world::BlockId> PlaceToPlay::block(std::uint64_t island, world::IVec3 voxel) const {
@@ -34,7 +43,7 @@ std::optional<world::BlockId> PlaceToPlay::block(std::uint64_t island, world::IV
 }
 
 glm::dvec3 PlaceToPlay::lattice(world::WorldPos place, double time_s) const {
-  const world::Pose pose = islands_.front().pose(time_s);
+  const world::Pose& pose = pose_of(0, time_s);
   return glm::conjugate(pose.rotation) * world::difference_blocks(place, pose.origin);
 }
 

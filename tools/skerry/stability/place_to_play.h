@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,7 +12,7 @@
 
 namespace skerry::tools::stability {
 
-/// Surroundings made of functions: islands' poses of time and blocks of voxels.
+/// Surroundings made of functions: islands' poses of time and blocks of voxels. For one thread.
 class PlaceToPlay : public game::Surroundings {
  public:
   struct Island {
@@ -30,7 +31,16 @@ class PlaceToPlay : public game::Surroundings {
   glm::dvec3 lattice(world::WorldPos place, double time_s) const;
 
  private:
+  struct Known {
+    std::uint64_t island = ~std::uint64_t{0};
+    double time_s = 0.0;
+    world::Pose pose;
+  };
+  const world::Pose& pose_of(std::uint64_t island, double time_s) const;
+
   std::vector<Island> islands_;
+  // Of the two ends of a tick, which are asked for several times and cost as much as all the rest.
+  mutable std::array<Known, 2> known_;
 };
 
 /// A pose that stays, turns about +y at `spin` rad/s and drifts along a circle of 10 blocks at

@@ -1,0 +1,105 @@
+#include "engine/core/interruption.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <mutex>
+#include <set>
+#include <system_error>
+#include <thread>
+
+namespace skerry {
+namespace {
+
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+
+// The handler's, and so lock-free: a child process has the handler, too, but not the thread.
+std::atomic<pid_t> owner{0};
+std::atomic<int> told{-1};
+
+struct Registry {
+  std::mutex mutex;
+  std::multiset<std::filesystem::path> paths;
+};
+
+/// Never destroyed: the thread may outlive main().
+Registry& registry() {
+  static Registry* const one = new Registry;
+  return *one;
+}
+
+void end_by(int signal_number) {
+  ::signal(signal_number, SIG_DFL);
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, signal_number);
+  ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+  ::kill(::getpid(), signal_number);
+}
+
+void on_signal(int signal_number) {
+  const int before = errno;
+  const auto byte = static_cast<unsigned char>(signal_number);
+  if (::getpid() != owner || ::write(told, &byte, 1) != 1) ::raise(signal_number);
+  errno = before;
+}
+
+void remove_all_of(const std::filesystem::path& path) {
+  // Others may still put files into a folder that is being emptied.
+  std::error_code code;
+  for (int attempt = 0; attempt < 100 && std::filesystem::exists(path, code); ++attempt)
+    std::filesystem::remove_all(path, code);
+}
+
+void wait_for_signal(int descriptor) {
+  unsigned char byte = 0;
+  while (::read(descriptor, &byte, 1) < 0 && errno == EINTR) {
+  }
+  // Never given back: nobody may go on with what is removed now.
+  registry().mutex.lock();
+  for (const std::filesystem::path& path : registry().paths) remove_all_of(path);
+  end_by(byte);
+}
+
+/// @pre the registry is locked.
+void listen() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return;  // then only an interruption leaves something behind
+  told = ends[1];
+  owner = ::getpid();
+  std::thread(wait_for_signal, ends[0]).detach();
+  for (const int signal_number : kSignals) {
+    struct sigaction before {};
+    ::sigaction(signal_number, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) continue;  // nohup
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+    ::sigaction(signal_number, &action, nullptr);
+  }
+}
+
+}  // namespace
+
+RemovedWhenInterrupted::RemovedWhenInterrupted(std::filesystem::path path) {
+  std::error_code code;
+  path_ = std::filesystem::absolute(path, code);
+  const std::lock_guard lock(registry().mutex);
+  if (owner != ::getpid()) {
+    registry().paths.clear();  // a child process must not remove what its parent makes
+    listen();
+  }
+  registry().paths.insert(path_);
+}
+
+RemovedWhenInterrupted::~RemovedWhenInterrupted() {
+  const std::lock_guard lock(registry().mutex);
+  const auto found = registry().paths.find(path_);
+  if (found != registry().paths.end()) registry().paths.erase(found);
+}
+
+}  // namespace skerry

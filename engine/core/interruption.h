@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+
+namespace skerry {
+
+/// While this lives, being told to end (SIGINT, SIGTERM, SIGHUP) removes a file or folder first;
+/// the process then ends by that signal, as without. A second signal ends it at once. Source: the
+/// self-pipe trick (D. J. Bernstein): the handler writes a byte, a thread does the rest.
+class RemovedWhenInterrupted {
+ public:
+  explicit RemovedWhenInterrupted(std::filesystem::path path);
+  /// Does not return any more once the removal has begun, so that whatever follows does not
+  /// happen: neither a second removal nor a new name.
+  ~RemovedWhenInterrupted();
+  RemovedWhenInterrupted(const RemovedWhenInterrupted&) = delete;
+  RemovedWhenInterrupted& operator=(const RemovedWhenInterrupted&) = delete;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace skerry
