@@ -202,6 +202,23 @@ TEST(Screens, TheFirstWorldChosenIsOneThatCanBePlayed) {
   EXPECT_EQ(sitting.state.chosen_world, "/b.skerry");
 }
 
+TEST(Screens, KnobsTurnByArrowsAndEnterAlone) {
+  Sitting sitting(Screen::kSettings);
+  sitting.settle();
+  const Settings before = sitting.settings;
+  for (int row = 0; row < 13; ++row) {
+    sitting.tap(Key::kUp);
+    sitting.tap(Key::kEnter);
+    EXPECT_FALSE(sitting.gui.typing()) << row;
+    sitting.tap(Key::kRight);
+    sitting.tap(Key::kEnter);
+  }
+  EXPECT_NE(sitting.settings.shadow_size, before.shadow_size);
+  EXPECT_NE(sitting.settings.water_layers, before.water_layers);
+  EXPECT_NE(sitting.settings.clouds.coverage, before.clouds.coverage);
+  EXPECT_TRUE(sitting.wishes.settings_changed);
+}
+
 TEST(Screens, AWorldIsDeletedOnlyAfterASecondQuestion) {
   Sitting sitting(Screen::kWorlds);
   sitting.settle();
