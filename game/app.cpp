@@ -84,6 +84,7 @@ void App::open(Screen screen) {
 Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   const std::optional<Screen> before = screens_.stack.top();
   const bool listened = screens_.listening.has_value();
+  if (world_) world_->note_frame(seconds);
   act(input, std::min(seconds, kLongestFrame));
   const auto layout = [&](VkExtent2D size) { return lay_out(size, input, seconds); };
   if (pictures_shown_ != pictures_.version()) {
@@ -119,7 +120,6 @@ void App::act(const platform::InputFrame& input, double seconds) {
   const bool flies = screens_.stack.top() == Screen::kPhoto && photo_settings_.bare;
   window_.capture_pointer(world_ && (screens_.stack.empty() || flies) && window_.focused());
   if (!world_) return;
-  world_->note_frame(seconds);
   if (screens_.stack.empty())
     world_->act(input, seconds);
   else if (world_goes_on(screens_.stack))
@@ -179,7 +179,7 @@ bool App::world_is_due(double seconds) {
   const VkExtent2D drawn = presenter_->extent();
   const platform::FramebufferSize window = window_.framebuffer_size();
   const bool resized = drawn.width != window.width || drawn.height != window.height;
-  if (!report || resized || fresh_frames_ > 0) return true;
+  if (!report || resized || fresh_frames_ > 0 || costs_.measuring()) return true;
   if (world_ && view.complete()) return false;
   return since_drawn_s_ * 1000.0 > kScreensShare * report->gpu_ms;
 }
@@ -197,7 +197,8 @@ Result<bool> App::draw(double seconds, const PlayLoop::Layout& layout) {
   fresh_frames_ = std::max(0, fresh_frames_ - 1);
   const Result<bool> drawn = world_ ? world_->draw(layout) : draw_backdrop(layout);
   SceneView& view = world_ ? world_->view() : backdrop_->view();
-  if (const auto& report = view.renderer().report()) costs_.note_frame(report->gpu_ms);
+  if (const auto& report = view.renderer().report())
+    costs_.note_frame(report->gpu_ms, view.complete());
   return drawn;
 }
 
@@ -238,8 +239,11 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
   const bool bare = screens_.stack.top() == Screen::kPhoto && photo_settings_.bare;
   const bool fed = !screens_.stack.empty() && !screens_.listening && !bare;
   gui_.begin({size.width, size.height, seconds, fed ? &input : nullptr});
-  if (world_ && !hud_hidden_ && world_goes_on(screens_.stack))
-    ui::show_hud(world_->hud(), pictures_);
+  if (world_ && !hud_hidden_ && world_goes_on(screens_.stack)) {
+    ui::HudFacts facts = world_->hud();
+    facts.choosing = screens_.stack.top() == Screen::kPalette;
+    ui::show_hud(facts, pictures_);
+  }
   if (world_ && screens_.stack.empty()) world_->show_numbers();
   ui::show_screens(screens_, screen_facts(input), wishes_);
   if (!bare) ui::show_messages(messages_);

@@ -12,7 +12,7 @@
 namespace skerry::game {
 namespace {
 
-constexpr float kPanelWidth = 420.0f;  // units of layout, as the next
+constexpr float kPanelWidth = 372.0f;  // units of layout, as the next
 constexpr float kGraphHeight = 60.0f;
 constexpr ImU32 kBar = IM_COL32(122, 204, 190, 70);
 constexpr std::size_t kMemoryRows = 12;  // the rest is summed up

@@ -88,6 +88,7 @@ ui::HudFacts PlayLoop::hud() const {
   facts.selected = hands_.hotbar().selected;
   facts.time_of_day_s = day_.time_of_day_s();
   facts.place = fmt::format("{}  {}  {}", whole(feet.x), whole(feet.y), whole(feet.z));
+  facts.numbers = overlay_shown_;
   if (helm_) facts.steering = ui::HudFacts::Steering{island_name(*helm_), helm_speed_};
   if (!view_->complete()) facts.islands_to_come = view_->streamer().stats().tasks_left;
   return facts;

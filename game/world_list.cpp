@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "world/store/world_file.h"
 
@@ -22,6 +23,15 @@ fs::path beside(const fs::path& path, const char* ending) {
   return fs::path(path) += ending;
 }
 
+/// Why a world cannot be played, without the path, which the list has no room for.
+std::string reason_of(const Error& error) {
+  const std::size_t at = error.message.find("': ");
+  std::string reason = at == std::string::npos ? error.message : error.message.substr(at + 3);
+  if (!reason.empty())
+    reason[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(reason[0])));
+  return reason;
+}
+
 WorldEntry entry_of(const fs::path& path) {
   WorldEntry entry;
   entry.path = path;
@@ -34,7 +44,7 @@ WorldEntry entry_of(const fs::path& path) {
   }
   const auto file = WorldFile::open(path, WorldFile::Mode::kRead);
   if (!file) {
-    entry.problem = file.error().message;
+    entry.problem = reason_of(file.error());
     return entry;
   }
   if (const std::string& name = (*file)->info().name; !name.empty()) entry.name = name;
@@ -61,11 +71,7 @@ std::vector<WorldEntry> list_worlds(const fs::path& folder) {
 
 Result<void> remove_world(const fs::path& path) {
   // One that another process writes is not taken from under it; one that cannot be read may go.
-  // The two are not open together: closing any handle of a file drops the locks of all of them.
-  const bool readable = static_cast<bool>(WorldFile::open(path, WorldFile::Mode::kRead));
-  if (readable)
-    if (const auto mine = WorldFile::open(path, WorldFile::Mode::kWrite); !mine)
-      return mine.error();
+  if (const auto free = WorldFile::check_free(path); !free) return free.error();
   std::error_code code;
   if (!fs::remove(path, code))
     return Error{fmt::format("cannot delete the world '{}': {}; check the folder's permissions",

@@ -63,7 +63,7 @@ void draw_hotbar(ImDrawList& list, const HudFacts& facts, const Pictures& pictur
                   ImVec2(high.x - inset, high.y - inset), part.low, part.high);
   }
   const world::BlockId held = facts.hotbar[static_cast<std::size_t>(facts.selected)];
-  if (held != world::kAir)
+  if (held != world::kAir && !facts.choosing)
     write(list, ImVec2(0.5f * window.x, top - 22 * unit()), 0.5f, colour::kText, block_label(held));
 }
 
@@ -129,9 +129,11 @@ void show_hud(const HudFacts& facts, const Pictures& pictures) {
   draw_hotbar(list, facts, pictures, window);
   draw_compass(list, facts.yaw_deg, 0.5f * window.x);
   const float line = ImGui::GetTextLineHeight() + 3 * unit(), edge = 14 * unit();
-  write(list, ImVec2(window.x - edge, edge), 0.0f, colour::kText,
-        format_time_of_day(facts.time_of_day_s).substr(0, 5));
-  write(list, ImVec2(window.x - edge, edge + line), 0.0f, colour::kText, facts.place);
+  if (!facts.numbers) {
+    write(list, ImVec2(window.x - edge, edge), 0.0f, colour::kText,
+          format_time_of_day(facts.time_of_day_s).substr(0, 5));
+    write(list, ImVec2(window.x - edge, edge + line), 0.0f, colour::kText, facts.place);
+  }
   if (facts.steering)
     write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kAccent,
           fmt::format("At the helm of {}   {:.1f} blocks/s", facts.steering->island,

@@ -11,10 +11,11 @@ double KnobCosts::now_ms() const {
   return sorted[sorted.size() / 2];
 }
 
-void KnobCosts::note_frame(double gpu_ms) {
+void KnobCosts::note_frame(double gpu_ms, bool complete) {
   if (frames_.size() == kFrames) frames_.erase(frames_.begin());
   frames_.push_back(gpu_ms);
-  if (!turned_ || --left_ != 0) return;
+  if (!complete) left_ = kSkipped + kFrames;
+  if (!turned_ || !complete || --left_ != 0) return;
   if (before_ms_) costs_[index(*turned_)] = now_ms() - *before_ms_;
   turned_.reset();
 }

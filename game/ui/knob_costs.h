@@ -30,13 +30,15 @@ class KnobCosts {
   /// way.
   static constexpr std::size_t kFrames = 9, kSkipped = 4;
 
-  void note_frame(double gpu_ms);
+  /// @param complete false: more is on its way into view, and what is being measured begins anew.
+  void note_frame(double gpu_ms, bool complete = true);
   /// A knob has moved. As long as its cost is being measured, further turns of the same knob count
   /// from where it was before the first.
   void turned(Knob knob);
   /// None: never turned, or no frames were seen before.
   std::optional<double> cost_ms(Knob knob) const { return costs_[index(knob)]; }
   bool measuring(Knob knob) const { return turned_ == knob; }
+  bool measuring() const { return turned_.has_value(); }
   /// Median of the last frames; 0 before the first.
   double now_ms() const;
 

@@ -54,6 +54,9 @@ bool button(const char* label, float width = 0.0f);
 bool first_button(const char* label, float width = 0.0f);
 bool danger_button(const char* label, float width = 0.0f);
 
+/// Of all our sliders: no number is typed into one, so that Enter takes hold of it as Space does.
+inline constexpr ImGuiSliderFlags kSlide = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
+
 /// Where a panel stands.
 enum class Place { kLeft, kMiddle };
 /// A panel of at most so many units, never larger than the window. Call end_panel in any case.

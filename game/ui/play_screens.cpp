@@ -40,7 +40,7 @@ std::vector<world::BlockId> find_blocks(std::string_view search) {
 
 void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();
-  begin_panel("pause", Place::kMiddle, 380, state.unsaved ? 660 : 470);
+  begin_panel("pause", Place::kMiddle, 380, state.unsaved ? 620 : 426);
   heading("Paused");
   if (facts.world) text_in(colour::kFaint, *facts.world);
   gap(8);
@@ -70,7 +70,7 @@ void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
   std::string named = found.empty() ? "No block of that name" : "";
   const float foot = ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
   begin_scroll("blocks", -foot);
-  const float edge = 60 * unit(), spacing = 6 * unit();
+  const float edge = 56 * unit(), spacing = 6 * unit();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing, spacing));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6 * unit(), 6 * unit()));
   const int across = std::max(
@@ -98,13 +98,13 @@ void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
 void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   PhotoSettings& photo = *facts.photo;
   if (photo.bare) return;
-  begin_panel("photo", Place::kLeft, 360, 520);
+  begin_panel("photo", Place::kLeft, 360, 496);
   heading("Photo mode");
   text_in(colour::kFaint, "Time of day");
   ImGui::SetNextItemWidth(-1.0f);
   int ten_minutes = photo.time_of_day_s / 600;
   const std::string time = format_time_of_day(photo.time_of_day_s);
-  if (ImGui::SliderInt("##time", &ten_minutes, 0, 143, time.c_str()))
+  if (ImGui::SliderInt("##time", &ten_minutes, 0, 143, time.c_str(), kSlide))
     photo.time_of_day_s = ten_minutes * 600;
   text_in(colour::kFaint, "Exposure");
   bool adapts = !photo.exposure_ev;
@@ -115,14 +115,13 @@ void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   ImGui::BeginDisabled(adapts);
   auto stops = static_cast<float>(photo.exposure_ev.value_or(facts.adapted_ev));
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::SliderFloat("##exposure", &stops, -12.0f, 18.0f, "%.1f stops",
-                         ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::SliderFloat("##exposure", &stops, -12.0f, 18.0f, "%.1f stops", kSlide))
     photo.exposure_ev = std::round(double{stops} * 10.0) / 10.0;
   ImGui::EndDisabled();
   text_in(colour::kFaint, "Field of view");
   ImGui::SetNextItemWidth(-1.0f);
   auto fov = static_cast<float>(photo.fov_deg);
-  if (ImGui::SliderFloat("##fov", &fov, 5.0f, 120.0f, "%.0f degrees", ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::SliderFloat("##fov", &fov, 5.0f, 120.0f, "%.0f degrees", kSlide))
     photo.fov_deg = std::round(double{fov});
   gap(8);
   if (first_button("Take the picture")) wishes.photograph = true;

@@ -49,7 +49,8 @@ class Rows {
       // What is between two of them shows as the lower.
       const auto above = std::upper_bound(std::begin(values), std::end(values), value);
       int at = std::max(0, static_cast<int>(above - std::begin(values)) - 1);
-      if (!ImGui::SliderInt("##", &at, 0, static_cast<int>(kCount) - 1, names[at])) return false;
+      if (!ImGui::SliderInt("##", &at, 0, static_cast<int>(kCount) - 1, names[at], kSlide))
+        return false;
       value = values[at];
       return true;
     });
@@ -75,14 +76,14 @@ class Rows {
 bool slide_blocks(std::uint32_t& blocks, int least, int most) {
   int value = static_cast<int>(blocks);
   if (!ImGui::SliderInt("##", &value, least, most, "%d blocks",
-                        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+                        kSlide | ImGuiSliderFlags_Logarithmic))
     return false;
   blocks = static_cast<std::uint32_t>(value);
   return true;
 }
 
 bool slide(float& value, float least, float most, const char* format) {
-  return ImGui::SliderFloat("##", &value, least, most, format, ImGuiSliderFlags_AlwaysClamp);
+  return ImGui::SliderFloat("##", &value, least, most, format, kSlide);
 }
 
 bool slide(double& value, float least, float most, const char* format) {

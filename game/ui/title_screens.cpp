@@ -48,6 +48,9 @@ bool world_row(ScreenState& state, const ScreenFacts& facts, const WorldCard& wo
                                          ImVec2(width, height));
   ImGui::PopID();
   if (chosen && state.fresh) ImGui::SetItemDefaultFocus();
+  // Whoever goes through the list by keys chooses on the way.
+  const bool gone_to = ImGui::GetIO().NavVisible && ImGui::IsItemFocused() && !pressed;
+  if (gone_to) state.chosen_world = world.path;
   const ImVec2 picture((height - 2 * inset) * 16 / 9, height - 2 * inset);
   draw_thumbnail(facts, world, ImVec2(at.x + inset, at.y + inset), picture);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -138,8 +141,12 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   begin_scroll("list", -foot);
   if (facts.worlds.empty()) text_in(colour::kFaint, "None yet. Make one.");
   const WorldCard* chosen = nullptr;
+  if (!state.chosen_world && !facts.worlds.empty()) {
+    const auto sound = std::find_if(facts.worlds.begin(), facts.worlds.end(),
+                                    [](const WorldCard& world) { return world.problem.empty(); });
+    state.chosen_world = (sound != facts.worlds.end() ? *sound : facts.worlds.front()).path;
+  }
   for (const WorldCard& world : facts.worlds) {
-    if (!state.chosen_world) state.chosen_world = world.path;
     if (world_row(state, facts, world) && world.problem.empty()) wishes.play = world.path;
     if (state.chosen_world == world.path) chosen = &world;
   }
@@ -161,7 +168,7 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
 }
 
 void show_new_world(ScreenState& state, Wishes& wishes) {
-  begin_panel("new_world", Place::kLeft, 440, 500);
+  begin_panel("new_world", Place::kLeft, 440, 464);
   heading("New world");
   text_in(colour::kFaint, "Name");
   ImGui::SetNextItemWidth(-1.0f);

@@ -8,6 +8,7 @@
 #include "game/parse.h"
 #include "tools/skerry/bench_cull.h"
 #include "tools/skerry/bench_edit.h"
+#include "tools/skerry/bench_fly.h"
 #include "tools/skerry/bench_frame.h"
 #include "tools/skerry/bench_generate.h"
 #include "tools/skerry/bench_lights.h"
@@ -49,6 +50,13 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_scene_options(*frame_, scene_);
   edit_ = add("edit", "Time from an edit to the first picture that shows it");
   add_scene_options(*edit_, scene_);
+  fly_ = add("fly", "Time every frame of a flight through islands not seen before");
+  add_scene_options(*fly_, scene_);
+  fly_->add_option("--speed", speed_, "Blocks a second (default 48)")
+      ->check(CLI::Range(1.0, 10000.0));
+  fly_->add_option("--seconds", seconds_, "How long (default 60)")->check(CLI::Range(1.0, 3600.0));
+  start_ = add("start", "Time from the start until a world can be played");
+  add_scene_options(*start_, scene_);
 }
 
 CLI::App* BenchCommands::add(const char* name, const char* description) {
@@ -73,6 +81,7 @@ int BenchCommands::run() {
   if (chosen == lights_) return run_lights();
   if (chosen == frame_) return run_frame();
   if (chosen == edit_) return run_edit();
+  if (chosen == fly_ || chosen == start_) return run_flight(*chosen);
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   if (chosen == mesh_) return run_mesh();
   if (chosen == generate_) return bench_generate({path_of(json_)});
@@ -81,14 +90,14 @@ int BenchCommands::run() {
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh", "generate", "world", "upload",
-                                         "cull", "lights",   "frame", "edit"};
+  constexpr std::string_view kNames[] = {"mesh",   "generate", "world", "upload", "cull",
+                                         "lights", "frame",    "edit",  "fly",    "start"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
     return fail(
         kUsage,
-        {"bench does not say what: give mesh, generate, world, upload, cull, lights, frame or "
-         "edit"});
+        {"bench does not say what: give mesh, generate, world, upload, cull, lights, frame, "
+         "edit, fly or start"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
@@ -137,6 +146,17 @@ int BenchCommands::run_edit() {
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   options.json = path_of(json_);
   return bench_edit(options);
+}
+
+int BenchCommands::run_flight(const CLI::App& chosen) {
+  BenchFlyOptions options;
+  if (const auto refusal = resolve(scene_, true, options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_output(json_)) return refuse(*refusal);
+  options.speed = speed_;
+  options.seconds = seconds_;
+  options.json = path_of(json_);
+  return &chosen == fly_ ? bench_fly(options) : bench_start(options);
 }
 
 }  // namespace skerry::tools

@@ -7,8 +7,8 @@
 
 namespace skerry::tools {
 
-/// `skerry bench mesh|generate|world|upload|cull|lights|frame|edit`: options, and which function
-/// each calls.
+/// `skerry bench mesh|generate|world|upload|cull|lights|frame|edit|fly|start`: options, and which
+/// function each calls.
 class BenchCommands {
  public:
   /// Adds `bench` and its sub-commands.
@@ -28,6 +28,7 @@ class BenchCommands {
   int run_lights();
   int run_frame();
   int run_edit();
+  int run_flight(const CLI::App& chosen);
   int refuse_unknown() const;
 
   CLI::App* bench_;
@@ -39,7 +40,10 @@ class BenchCommands {
   CLI::App* lights_;
   CLI::App* frame_;
   CLI::App* edit_;
+  CLI::App* fly_;
+  CLI::App* start_;
   std::optional<std::string> input_, json_, device_;
+  std::optional<double> speed_, seconds_;
   bool validate_ = false;
   SceneArguments scene_;
 };

@@ -83,6 +83,11 @@ bool remove_companions(const fs::path& path) {
   return true;
 }
 
+Error held_by_another(const fs::path& path) {
+  return {fmt::format("cannot open the world {}: another Skerry has it open; close that one first",
+                      quoted(path))};
+}
+
 fs::path temporary_for(const fs::path& path) {
   fs::path temporary = path;
   temporary += fmt::format(".{}.tmp", ::getpid());
@@ -165,10 +170,7 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const fs::path& path, Mode mo
   if (mode == Mode::kWrite) {
     int reason = 0;
     state->lock = WriterLock::take(path, reason);
-    if (!state->lock && reason == EWOULDBLOCK)
-      return Error{
-          fmt::format("cannot open the world {}: another Skerry has it open; close that one first",
-                      quoted(path))};
+    if (!state->lock && reason == EWOULDBLOCK) return held_by_another(path);
     if (!state->lock) return file_error("open", path, SQLITE_CANTOPEN);
   }
   const auto look = [&]() -> std::optional<Trouble> {
@@ -187,6 +189,12 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const fs::path& path, Mode mo
   if (trouble && trouble->damage && state->recover() && state->find_info()) trouble.reset();
   if (trouble) return trouble->error;
   return std::unique_ptr<WorldFile>(new WorldFile(std::move(state)));
+}
+
+Result<void> WorldFile::check_free(const fs::path& path) {
+  int reason = 0;
+  if (!WriterLock::take(path, reason) && reason == EWOULDBLOCK) return held_by_another(path);
+  return {};
 }
 
 /// @param newer it is of a version that this program does not know, and not looked at further.

@@ -54,6 +54,8 @@ class WorldFile {
   /// Errors, each one line: missing, no Skerry world, of a newer version, damaged beyond reading,
   /// not writable, open for writing in another process.
   static Result<std::unique_ptr<WorldFile>> open(const std::filesystem::path& path, Mode mode);
+  /// Errors: another process has it open for writing. Not for a file that this process has open.
+  static Result<void> check_free(const std::filesystem::path& path);
   ~WorldFile();
   WorldFile(const WorldFile&) = delete;
   WorldFile& operator=(const WorldFile&) = delete;

@@ -185,6 +185,40 @@ TEST(Screens, EnterOnTheWorldListPlaysTheLatest) {
   EXPECT_EQ(sitting.wishes.play, "/a.skerry");
 }
 
+TEST(Screens, KeysChooseWorldsOnTheWay) {
+  Sitting sitting(Screen::kWorlds);
+  sitting.settle();
+  EXPECT_EQ(sitting.state.chosen_world, "/a.skerry");
+  for (int i = 0; i < 4 && sitting.state.chosen_world != "/b.skerry"; ++i) sitting.tap(Key::kUp);
+  EXPECT_EQ(sitting.state.chosen_world, "/b.skerry");
+  sitting.tap(Key::kEnter);
+  EXPECT_EQ(sitting.wishes.play, "/b.skerry");
+}
+
+TEST(Screens, TheFirstWorldChosenIsOneThatCanBePlayed) {
+  Sitting sitting(Screen::kWorlds);
+  std::swap(sitting.worlds[0], sitting.worlds[2]);
+  sitting.settle();
+  EXPECT_EQ(sitting.state.chosen_world, "/b.skerry");
+}
+
+TEST(Screens, KnobsTurnByArrowsAndEnterAlone) {
+  Sitting sitting(Screen::kSettings);
+  sitting.settle();
+  const Settings before = sitting.settings;
+  for (int row = 0; row < 13; ++row) {
+    sitting.tap(Key::kUp);
+    sitting.tap(Key::kEnter);
+    EXPECT_FALSE(sitting.gui.typing()) << row;
+    sitting.tap(Key::kRight);
+    sitting.tap(Key::kEnter);
+  }
+  EXPECT_NE(sitting.settings.shadow_size, before.shadow_size);
+  EXPECT_NE(sitting.settings.water_layers, before.water_layers);
+  EXPECT_NE(sitting.settings.clouds.coverage, before.clouds.coverage);
+  EXPECT_TRUE(sitting.wishes.settings_changed);
+}
+
 TEST(Screens, AWorldIsDeletedOnlyAfterASecondQuestion) {
   Sitting sitting(Screen::kWorlds);
   sitting.settle();
@@ -399,6 +433,17 @@ TEST(KnobCosts, ASliderDraggedThroughManyPlacesCountsFromItsFirst) {
   }
   for (int i = 0; i < 20; ++i) costs.note_frame(20.0);
   EXPECT_EQ(costs.cost_ms(Knob::kViewDistance), 10.0);
+}
+
+TEST(KnobCosts, WaitsUntilAllIsInView) {
+  KnobCosts costs;
+  for (int i = 0; i < 9; ++i) costs.note_frame(10.0);
+  costs.turned(Knob::kViewDistance);
+  for (int i = 0; i < 40; ++i) costs.note_frame(12.0, false);
+  EXPECT_TRUE(costs.measuring());
+  EXPECT_FALSE(costs.cost_ms(Knob::kViewDistance));
+  for (std::size_t i = 0; i < KnobCosts::kSkipped + KnobCosts::kFrames; ++i) costs.note_frame(17.0);
+  EXPECT_EQ(costs.cost_ms(Knob::kViewDistance), 7.0);
 }
 
 TEST(Thumbnails, KeepColoursAndCutToTheMiddle) {
