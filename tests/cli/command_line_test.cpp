@@ -85,7 +85,7 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"test", "x.json", "--repeat", "-1"}, {"--repeat"}},
       {{"test", "x.json", "--approve", "--repeat", "2"}, {"--repeat"}},
       {{"test", "x.json", "--merge", "--validate"}, {"--merge"}},
-      {{"bench"}, {"mesh, generate, world, upload, cull, lights, frame or edit"}},
+      {{"bench"}, {"mesh, generate, world, upload, cull, lights, frame, edit, fly or start"}},
       {{"bench", "mehs"}, {"'mesh'"}},
       {{"bench", "mesh", "--inptu", "x"}, {"'--input'"}},
       {{"bench", "cull", "--device", "-1"}, {"--device"}},
