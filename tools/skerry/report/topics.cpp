@@ -119,9 +119,9 @@ constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
                                        {"staging", "upload.path=staging"},
                                        {"mapped", "upload.path=mapped"}};
 
-constexpr TopicPoint kCloudSteps[] = {{"16", "clouds.steps=16"},   {"32", "clouds.steps=32"},
-                                      {"48", "clouds.steps=48"},   {"96", "clouds.steps=96"},
-                                      {"160", "clouds.steps=160"}, {"1024", "clouds.steps=1024"}};
+constexpr TopicPoint kCloudSteps[] = {{"8", "clouds.steps=8"},   {"16", "clouds.steps=16"},
+                                      {"24", "clouds.steps=24"}, {"48", "clouds.steps=48"},
+                                      {"96", "clouds.steps=96"}, {"1024", "clouds.steps=1024"}};
 constexpr TopicPoint kCloudShadowSteps[] = {{"4", "clouds.shadow_steps=4"},
                                             {"8", "clouds.shadow_steps=8"},
                                             {"16", "clouds.shadow_steps=16"},
@@ -179,12 +179,12 @@ constexpr Topic kTopics[] = {
      true},
     {"bloom_levels", "levels of the pyramid that spreads bright light", kBloomLevels, kGlow,
      Judge::kReference, CostOf::kShading, false, "bloom.intensity=0.1 bloom.levels=8"},
-    {"clouds_steps", "places where a ray looks at clouds", kCloudSteps, kClouds, Judge::kLimit,
+    {"clouds_steps", "steps of a ray through clouds", kCloudSteps, kClouds, Judge::kLimit,
      CostOf::kShading},
     {"clouds_shadow_steps", "places along the light's way through clouds", kCloudShadowSteps,
      kClouds, Judge::kLimit, CostOf::kShading},
     {"clouds_resolution", "whether every pixel has a ray of its own through clouds",
-     kCloudResolutions, kClouds, Judge::kReference, CostOf::kShading},
+     kCloudResolutions, kClouds, Judge::kLimit, CostOf::kShading},
     {"clouds_precision", "bits of a density of a file's cloud", kCloudPrecisions, kPuff,
      Judge::kLimit, CostOf::kShading, true},
     {"light_lists", "lights that a pixel asks: those of its cluster, or all", kLightLists, kTorches,
