@@ -202,7 +202,8 @@ Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end,
     float least = max(t * 1e-6, 1e-4);
     float length_blocks = max(min(whole * jitter, change - t), least);
     float part_blocks = length_blocks / float(kParts);
-    float clear = seen.clear, seen_share = 0.0, seen_at = 0.0, empty = 1e30;
+    float clear = seen.clear, seen_share = 0.0, seen_at = 0.0;
+    float empty_until = 1e30;  // so far along the ray there is nothing for certain; 0: there may be something
     vec3 sent = vec3(0.0);
     float cover = in_here ? layer_cover(origin + dir * (t + 0.5 * length_blocks), clouds.layer) : 0.0;
     for (uint part = 0u; part < kParts; ++part) {
@@ -215,7 +216,8 @@ Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end,
       }
       for (uint v = 0u; v < kCloudVolumes; ++v)
         if (t >= in_volume[v].x && t < in_volume[v].y) add_volume(v, p, dir, m);
-      empty = min(empty, m.empty);
+      empty_until = m.empty > 0.0 && empty_until > 0.0 ? from + 0.5 * part_blocks + m.empty : 0.0;
+      if (kCloudVolumes != 0u && empty_until >= t + length_blocks) break;
       float depth = m.extinction * part_blocks;
       float opacity = opacity_of(depth);
       // In a dense part what is seen is what lies in front.
@@ -241,8 +243,8 @@ Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end,
     seen.clear = clear;
     // Whole steps only, so that where samples lie does not show where bricks do; and none over what begins.
     float passed = t + length_blocks;
-    float skipped = (min(passed - 0.5 * part_blocks + empty, begins) - passed) / max(whole, least);
-    t = passed + (empty > 0.0 ? clamp(floor(skipped), 0.0, 1e6) * whole : 0.0);
+    float skipped = (min(empty_until, begins) - passed) / max(whole, least);
+    t = passed + clamp(floor(skipped), 0.0, 1e6) * whole;
   }
   if (seen.clear <= enough) seen.clear = 0.0;
   return seen;
