@@ -31,10 +31,10 @@ constexpr std::array<std::string_view, 3> kPrecisionNames{"8", "16", "32"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{
-    {{"low", 400, 128, 1024, 0.0f, 1, 32, 2},
-     {"medium", 1000, 192, 2048, 0.0f, 4, 48, 2},
-     {"high", 2000, 320, 4096, 0.1f, 8, 96, 1},
-     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight, 160, 1}}};
+    {{"low", 400, 128, 1024, 0.0f, 1, 16, 2},
+     {"medium", 1000, 192, 2048, 0.0f, 4, 24, 2},
+     {"high", 2000, 320, 4096, 0.1f, 8, 48, 1},
+     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight, 96, 1}}};
 
 std::string listed(std::span<const std::string_view> names) {
   return fmt::format("{}", fmt::join(names, ", "));
@@ -393,7 +393,8 @@ constexpr SettingKey kKeys[] = {
                           s.clouds.file_emission);
      },
      [](const Settings& s) { return fmt::format("{}", s.clouds.file_emission); }},
-    {"clouds.steps", "8 to 1024", "Places where a ray looks at the layer, or at a file's cloud.",
+    {"clouds.steps", "8 to 1024",
+     "Steps of a ray through the layer, or through a file's cloud; each looks at four places.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "clouds.steps", 8, 1024), s.clouds.steps);
      },

@@ -8,8 +8,10 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar, binding = 0) uniform Clouds { CloudConstants clouds; };
-layout(binding = 1) uniform sampler3D cloud_noise;
+layout(binding = 1) uniform sampler2D cloud_weather;
 layout(binding = 2, r16f) writeonly uniform image3D layer_light;
+layout(binding = 3) uniform sampler2DArray cloud_shapes;
+layout(binding = 4) uniform sampler2DArray cloud_billows;
 layout(push_constant) uniform Push { uint body; } push;
 
 #include "include/cloud_layer.glsl"
@@ -34,7 +36,8 @@ void main() {
     for (uint part = parts; part-- > 0u;) {
       float height = rise * (float(k) + (float(part) + 0.5) / float(parts));
       vec2 at = middle + slope * (height - 0.5 * clouds.layer.thickness);
-      depth += layer_extinction(vec3(at.x, height - clouds.layer.place.y, at.y), clouds.layer) * rise * stretch / float(parts);
+      vec3 p = vec3(at.x, height - clouds.layer.place.y, at.y);
+      depth += layer_extinction(p, layer_cover(p, clouds.layer), clouds.layer) * rise * stretch / float(parts);
     }
     imageStore(layer_light, ivec3(column, first + int(k)), vec4(min(depth, 6.0e4)));
   }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/render/light_constants.h"
+#include "engine/render/wall_reads.h"
 
 namespace skerry::render {
 namespace {
@@ -14,8 +15,13 @@ enum class Part : std::uint8_t { kAll, kBefore, kBehind };  // of water or glass
 /// What programs that include cloud_view.glsl read.
 class ViewReads {
  public:
-  ViewReads(const SceneRefs& scene, const CloudPass::View& view, Part part)
-      : scene_(scene), clouds_(*scene.clouds), maps_(view.shadow_maps), part_(part) {
+  ViewReads(const SceneRefs& scene, const CloudPass::View& view, const RenderSettings& settings,
+            Part part)
+      : scene_(scene),
+        clouds_(*scene.clouds),
+        maps_(view.shadow_maps),
+        walls_(scene, settings, false),
+        part_(part) {
     if (view.geometry) {
       surfaces_ = view.geometry->surfaces();
       depth_ = view.geometry->depth();
@@ -34,7 +40,7 @@ class ViewReads {
     if (layer_depth_) own.push_back({22, 1});
     if (part_ == Part::kBehind) own.push_back({23, 1});
     own = clouds_.with_clouds(with_light(std::move(own), scene_, bool{maps_}));
-    return lights_ ? lights_->with_lights(std::move(own)) : own;
+    return lights_ ? walls_.with_walls(lights_->with_lights(std::move(own))) : own;
   }
   void declare(gpu::PassBuilder& b) const {
     b.read(scene_.frame, Use::kComputeRead);
@@ -47,7 +53,10 @@ class ViewReads {
     b.read(scene_.sky_lut, Use::kComputeSampled);
     clouds_.declare_light(b);
     clouds_.declare_media(b);
-    if (lights_) lights_->declare(b);
+    if (!lights_) return;
+    lights_->declare(b);
+    walls_.declare(b);
+    b.read(scene_.islands, Use::kComputeRead);
   }
   void bind(gpu::Commands& c) const {
     c.storage(0, scene_.frame);
@@ -61,7 +70,10 @@ class ViewReads {
     if (maps_) c.sampled(12, maps_, scene_.point_sampler);
     clouds_.bind_light(c);
     clouds_.bind_media(c);
-    if (lights_) lights_->bind(c);
+    if (!lights_) return;
+    lights_->bind(c);
+    walls_.bind(c);
+    c.storage(1, scene_.islands);
   }
 
  private:
@@ -69,6 +81,7 @@ class ViewReads {
   CloudRefs clouds_;
   gpu::ImageRef maps_, surfaces_, depth_, layer_depth_;
   std::optional<ClusteredLights> lights_;
+  WallReads walls_;
   bool depth16_ = false;
   Part part_;
 };
@@ -77,24 +90,34 @@ void dispatch_over(gpu::Commands& c, VkExtent2D size) {
   c.dispatch(gpu::Commands::groups(size.width, 8), gpu::Commands::groups(size.height, 8), 1);
 }
 
+void dispatch_over_fours(gpu::Commands& c, VkExtent2D size) {
+  c.dispatch(gpu::Commands::groups(size.width, 16), gpu::Commands::groups(size.height, 16), 1);
+}
+
+/// A texel for four pixels.
+gpu::ImageRef coarse_image(gpu::FrameGraph& graph, const SceneRefs& scene, const char* name) {
+  return graph.create(
+      gpu::ImageDesc{.name = name,
+                     .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                     .extent = {(scene.size.width + 1) / 2, (scene.size.height + 1) / 2}});
+}
+
 gpu::ImageRef march(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                     const ViewReads& reads) {
-  const VkExtent2D size{(scene.size.width + 1) / 2, (scene.size.height + 1) / 2};
-  gpu::ImageRef coarse = graph.create(gpu::ImageDesc{
-      .name = "coarse clouds", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = size});
+  gpu::ImageRef coarse = coarse_image(graph, scene, "coarse clouds");
   graph.add_pass(
       "march_clouds",
       [&](gpu::PassBuilder& b) {
         reads.declare(b);
         coarse = b.write(coarse, Use::kComputeWrite);
       },
-      [reads, coarse, size,
+      [reads, coarse, size = scene.size,
        &pipeline = pipelines.get(gpu::ComputeDesc{reads.program("march_clouds"),
                                                   reads.constants({})})](gpu::Commands& c) {
         c.bind(pipeline);
         reads.bind(c);
         c.storage(14, coarse);
-        dispatch_over(c, size);
+        dispatch_over_fours(c, size);
       });
   return coarse;
 }
@@ -148,27 +171,68 @@ void CloudRefs::bind_light(gpu::Commands& c) const {
 }
 
 void CloudRefs::declare_media(gpu::PassBuilder& b) const {
-  for (const gpu::ImageRef ref : {noise, cells, bricks}) b.read(ref, Use::kComputeSampled);
+  for (const gpu::ImageRef ref : {weather, shapes, billows, cells, bricks})
+    b.read(ref, Use::kComputeSampled);
 }
 
 void CloudRefs::bind_media(gpu::Commands& c) const {
-  c.sampled(10, noise, repeating);
+  c.sampled(10, weather, repeating);
   c.sampled(11, cells, nearest);
   c.sampled(13, bricks, linear);
+  c.sampled(16, shapes, repeating);
+  c.sampled(17, billows, repeating);
+}
+
+gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                      const SceneRefs& scene, const View& view,
+                                      const TranslucentPass::Layers& layers) {
+  gpu::ImageRef mirrored = coarse_image(graph, scene, "mirrored clouds");
+  const gpu::ImageRef maps = view.shadow_maps;
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      maps ? "march_mirrored_clouds.comp" : "march_mirrored_clouds_unshadowed.comp",
+      scene.clouds->with_clouds(with_light({}, scene, bool{maps}))});
+  graph.add_pass(
+      "march_mirrored_clouds",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        scene.clouds->declare_light(b);
+        scene.clouds->declare_media(b);
+        b.read(scene.sky_lut, Use::kComputeSampled);
+        if (maps) b.read(maps, Use::kComputeSampled);
+        b.read(layers.surfaces[0], Use::kComputeRead);
+        b.read(layers.depth[0], Use::kComputeSampled);
+        mirrored = b.write(mirrored, Use::kComputeWrite);
+      },
+      [scene, layers, maps, mirrored, &pipeline](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.islands);
+        c.storage(2, scene.materials);
+        scene.clouds->bind_light(c);
+        scene.clouds->bind_media(c);
+        c.sampled(8, scene.sky_lut, scene.lut_sampler);
+        if (maps) c.sampled(12, maps, scene.point_sampler);
+        c.storage(14, mirrored);
+        c.sampled(15, layers.depth[0], scene.point_sampler);
+        c.storage(19, layers.surfaces[0]);
+        dispatch_over_fours(c, scene.size);
+      });
+  return mirrored;
 }
 
 Shaded CloudPass::add_behind(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                             const View& view, Shaded shaded) {
-  const ViewReads reads(scene, view, Part::kBehind);
+                             const View& view, Shaded shaded, const RenderSettings& settings) {
+  const ViewReads reads(scene, view, settings, Part::kBehind);
   return Shaded(
       blend(graph, pipelines, scene, "blend_clouds_behind_water", reads, {}, shaded.radiance()));
 }
 
 Shaded CloudPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                      const View& view, Shaded shaded, const CloudSettings& settings) {
-  const ViewReads reads(scene, view, view.layer_depth ? Part::kBefore : Part::kAll);
+                      const View& view, Shaded shaded, const RenderSettings& settings) {
+  const ViewReads reads(scene, view, settings, view.layer_depth ? Part::kBefore : Part::kAll);
   gpu::ImageRef coarse;
-  if (settings.resolution == 2)
+  if (settings.clouds.resolution == 2)
     coarse = march(graph, pipelines, scene, reads);
   else
     graph.leave_out("march_clouds", "clouds.resolution=full");

@@ -10,9 +10,9 @@ namespace skerry::render {
 
 /// A frame's clouds on the GPU: what passes need that include shaders/include/cloud_*.glsl.
 struct CloudRefs {
-  gpu::BufferRef constants;     ///< shared::CloudConstants
-  gpu::ImageRef noise;          ///< of the layer; the bricks where there is none
-  gpu::ImageRef cells, bricks;  ///< of the volumes; the noise where there are none
+  gpu::BufferRef constants;                ///< shared::CloudConstants
+  gpu::ImageRef weather, shapes, billows;  ///< noise of the layer; where there is none, others
+  gpu::ImageRef cells, bricks;  ///< of the volumes; where there are none, the layer's light
   gpu::ImageRef layer_light,
       volume_light;  ///< optical depths; some 3D image if nothing lights them
   VkSampler repeating{}, linear{}, nearest{};

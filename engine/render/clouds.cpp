@@ -19,6 +19,7 @@ using gpu::Use;
 /// The layer drifts [blocks/s].
 constexpr glm::dvec2 kWind{5.0, 2.0};
 constexpr std::uint32_t kLightGroup = 4, kColumnGroup = 8;
+constexpr std::uint32_t kNoiseEdge = shared::kCloudNoiseEdge;
 
 constexpr VkImageUsageFlags kBaked = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
 constexpr VkImageUsageFlags kFilled = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -190,18 +191,26 @@ std::uint64_t Clouds::atlas_bytes() const {
   return (bricks_ ? bricks_.allocated_bytes() : 0) + (cells_ ? cells_.allocated_bytes() : 0);
 }
 
-Result<void> Clouds::make_layer(const CloudSettings& settings) {
-  if (!noise_) {
-    Result<gpu::Image> made =
-        device_.create_image({.name = "cloud noise",
-                              .format = VK_FORMAT_R8G8B8A8_UNORM,
-                              .extent = {shared::kCloudNoiseEdge, shared::kCloudNoiseEdge},
-                              .usage = kBaked,
-                              .depth = shared::kCloudNoiseEdge});
+Result<void> Clouds::make_noise() {
+  if (billows_) return {};
+  noise_baked_ = false;
+  const auto make = [&](gpu::Image& image, const char* name, std::uint32_t layers) -> Result<void> {
+    Result<gpu::Image> made = device_.create_image({.name = name,
+                                                    .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                                    .extent = {kNoiseEdge, kNoiseEdge},
+                                                    .layers = layers,
+                                                    .usage = kBaked});
     if (!made) return made.error();
-    noise_ = *std::move(made);
-    noise_baked_ = false;
-  }
+    image = *std::move(made);
+    return {};
+  };
+  if (Result<void> ok = make(weather_, "cloud weather", 1); !ok) return ok;
+  if (Result<void> ok = make(shapes_, "cloud shapes", shared::kCloudNoiseLayers); !ok) return ok;
+  return make(billows_, "cloud billows", shared::kCloudNoiseLayers);
+}
+
+Result<void> Clouds::make_layer(const CloudSettings& settings) {
+  if (Result<void> ok = make_noise(); !ok) return ok;
   const auto slices = static_cast<std::uint32_t>(settings.shadow_steps + 1) * shared::kBodyCount;
   if (layer_light_ && layer_light_.desc().depth == slices) return {};
   layer_light_ = {};
@@ -261,21 +270,46 @@ Result<void> Clouds::prepare(gpu::Uploader& uploader, const FrameInput& input,
 }
 
 void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, CloudRefs& refs) {
-  refs.noise = graph.import(noise_);
+  refs.weather = graph.import(weather_);
+  refs.shapes = graph.import(shapes_);
+  refs.billows = graph.import(billows_);
   if (noise_baked_) {
-    graph.leave_out("bake_cloud_noise", "it is kept from an earlier frame");
+    for (const char* name : {"bake_cloud_noise", "pack_cloud_noise"})
+      graph.leave_out(name, "it is kept from an earlier frame");
     return;
   }
   noise_baked_ = true;
+  constexpr std::uint32_t kGroups = kNoiseEdge / kColumnGroup;
+  gpu::ImageRef noise = graph.create(gpu::ImageDesc{.name = "cloud noise",
+                                                    .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                                    .extent = {kNoiseEdge, kNoiseEdge},
+                                                    .depth = kNoiseEdge});
   graph.add_pass(
-      "bake_cloud_noise",
-      [&](gpu::PassBuilder& b) { refs.noise = b.write(refs.noise, Use::kComputeWrite); },
-      [noise = refs.noise,
+      "bake_cloud_noise", [&](gpu::PassBuilder& b) { noise = b.write(noise, Use::kComputeWrite); },
+      [noise,
        &pipeline = pipelines.get(gpu::ComputeDesc{"bake_cloud_noise.comp", {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, noise);
-        const std::uint32_t groups = shared::kCloudNoiseEdge / kColumnGroup;
-        c.dispatch(groups, groups, shared::kCloudNoiseEdge);
+        c.dispatch(kGroups, kGroups, kNoiseEdge);
+      });
+  graph.add_pass(
+      "pack_cloud_noise",
+      [&](gpu::PassBuilder& b) {
+        b.read(noise, Use::kComputeSampled);
+        for (gpu::ImageRef* ref : {&refs.weather, &refs.shapes, &refs.billows})
+          *ref = b.write(*ref, Use::kComputeWrite);
+      },
+      [noise, refs,
+       &pipeline = pipelines.get(gpu::ComputeDesc{"pack_cloud_noise.comp", {}})](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.sampled(0, noise, refs.nearest);
+        c.storage(1, refs.weather);
+        for (std::uint32_t layer = 0; layer < shared::kCloudNoiseLayers; ++layer) {
+          c.storage(2, refs.shapes, 0, layer);
+          c.storage(3, refs.billows, 0, layer);
+          c.push(layer);
+          c.dispatch(kGroups, kGroups, 1);
+        }
       });
 }
 
@@ -285,15 +319,18 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
       body == 0 ? "trace_cloud_layer_sun" : "trace_cloud_layer_moon",
       [&](gpu::PassBuilder& b) {
         b.read(refs.constants, Use::kComputeRead);
-        b.read(refs.noise, Use::kComputeSampled);
+        for (const gpu::ImageRef ref : {refs.weather, refs.shapes, refs.billows})
+          b.read(ref, Use::kComputeSampled);
         refs.layer_light = b.write(refs.layer_light, Use::kComputeWrite);
       },
       [refs, body, &pipeline = pipelines.get(gpu::ComputeDesc{"trace_cloud_layer.comp", {}})](
           gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(0, refs.constants);
-        c.sampled(1, refs.noise, refs.repeating);
+        c.sampled(1, refs.weather, refs.repeating);
         c.storage(2, refs.layer_light);
+        c.sampled(3, refs.shapes, refs.repeating);
+        c.sampled(4, refs.billows, refs.repeating);
         c.push(body);
         const std::uint32_t groups = shared::kLayerLightEdge / kColumnGroup;
         c.dispatch(groups, groups, 1);
@@ -339,6 +376,20 @@ void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       });
 }
 
+void Clouds::add_light_of_bodies(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                 std::uint32_t bodies, CloudRefs& refs) {
+  if (bodies == 0) {
+    for (const char* name : {"trace_cloud_layer", "trace_cloud_volumes"})
+      graph.leave_out(name, "neither sun nor moon gives light");
+    return;
+  }
+  for (std::uint32_t body = 0; refs.layer && body < shared::kBodyCount; ++body)
+    if (bodies & 1u << body) add_layer_light(graph, pipelines, body, refs);
+  if (refs.volumes == 0) return;
+  refs.volume_light = graph.import(volume_light_);
+  add_volume_light(graph, pipelines, bodies, refs);
+}
+
 CloudRefs Clouds::add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene) {
   CloudRefs refs;
@@ -349,29 +400,23 @@ CloudRefs Clouds::add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   refs.layer = layer_;
   refs.volumes = static_cast<std::uint32_t>(volumes_.size());
   SKERRY_ASSERT(refs.layer || refs.volumes != 0);
-  if (refs.layer) add_noise(graph, pipelines, refs);
+  if (refs.layer) {
+    add_noise(graph, pipelines, refs);
+    refs.layer_light = graph.import(layer_light_);
+  }
   if (refs.volumes != 0) {
     refs.bricks = graph.import(bricks_);
     refs.cells = graph.import(cells_);
   }
+  add_light_of_bodies(graph, pipelines, scene.bodies, refs);
   // What there is none of is never read; something is bound so that every binding is valid.
-  if (!refs.layer) refs.noise = refs.bricks;
-  if (refs.volumes == 0) refs.bricks = refs.cells = refs.noise;
-  refs.layer_light = refs.volume_light = refs.noise;
-  if (scene.bodies == 0) {
-    for (const char* name : {"trace_cloud_layer", "trace_cloud_volumes"})
-      graph.leave_out(name, "neither sun nor moon gives light");
-    return refs;
+  if (!refs.layer) {
+    refs.weather = scene.sky_lut;
+    refs.shapes = refs.billows = scene.block_textures;
+    refs.layer_light = refs.bricks;
   }
-  if (refs.layer) {
-    refs.layer_light = graph.import(layer_light_);
-    for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
-      if (scene.bodies & 1u << body) add_layer_light(graph, pipelines, body, refs);
-  }
-  if (refs.volumes != 0) {
-    refs.volume_light = graph.import(volume_light_);
-    add_volume_light(graph, pipelines, scene.bodies, refs);
-  }
+  if (refs.volumes == 0) refs.bricks = refs.cells = refs.layer_light;
+  if (!refs.volume_light) refs.volume_light = refs.bricks;
   return refs;
 }
 

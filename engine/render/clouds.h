@@ -45,7 +45,10 @@ class Clouds {
  private:
   Result<void> make_layer(const CloudSettings& settings);
   Result<void> make_volume_light();
+  Result<void> make_noise();
   void add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, CloudRefs& refs);
+  void add_light_of_bodies(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t bodies,
+                           CloudRefs& refs);
   void add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t body,
                        CloudRefs& refs) const;
   void add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t bodies,
@@ -61,7 +64,7 @@ class Clouds {
 
   gpu::Device& device_;
   gpu::Buffer constants_buffer_;
-  gpu::Image noise_, layer_light_, cells_, bricks_, volume_light_;
+  gpu::Image weather_, shapes_, billows_, layer_light_, cells_, bricks_, volume_light_;
   bool noise_baked_ = false;
   VkSampler repeating_{}, linear_{}, nearest_{};
   std::vector<CloudVolumeDesc> volumes_;  // without bricks and tiles

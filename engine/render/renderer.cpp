@@ -231,7 +231,7 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       add_clouds(scene, features);
       Shaded shaded = ShadePass::add_sky_only(graph, pipelines, scene, shade_in);
       if (scene.clouds)
-        shaded = CloudPass::add(graph, pipelines, scene, {}, std::move(shaded), settings.clouds);
+        shaded = CloudPass::add(graph, pipelines, scene, {}, std::move(shaded), settings);
       (void)finish(scene, std::move(shaded), input, settings);
     } else {
       graph.leave_out("develop", "nothing comes between shading and picture");
@@ -282,13 +282,19 @@ void Renderer::State::build(const FrameInput& input, const RenderSettings& setti
       const CloudPass::View view{&surfaces, maps.maps(), layers.depth[0],
                                  lights ? &*lights : nullptr};
       if (scene.clouds && layers.count != 0)
-        shaded = CloudPass::add_behind(graph, pipelines, scene, view, std::move(shaded));
+        shaded = CloudPass::add_behind(graph, pipelines, scene, view, std::move(shaded), settings);
+      if (scene.clouds && layers.count == 0)
+        graph.leave_out("march_mirrored_clouds", no_translucent);
+      else if (scene.clouds && (scene.bodies == 0 || input.camera_medium != 0))
+        graph.leave_out("march_mirrored_clouds", "no sky is mirrored");
+      else if (scene.clouds)
+        layers.mirrored_clouds = CloudPass::add_mirrored(graph, pipelines, scene, view, layers);
       if (!no_translucent)
         shaded = TranslucentPass::add(graph, pipelines, scene, surfaces, maps, layers,
                                       lights ? &*lights : nullptr, std::move(shaded), settings,
                                       input.camera_medium != 0);
       if (scene.clouds && input.camera_medium == 0)
-        shaded = CloudPass::add(graph, pipelines, scene, view, std::move(shaded), settings.clouds);
+        shaded = CloudPass::add(graph, pipelines, scene, view, std::move(shaded), settings);
       if (std::optional<Developed> developed = finish(scene, std::move(shaded), input, settings))
         add_marker(scene, surfaces, *std::move(developed), input);
     }

@@ -74,7 +74,7 @@ struct CloudSettings {
   float density = 0.12f;       ///< extinction in the middle of the layer's clouds [1/block]
   float file_density = 0.1f;   ///< extinction of density 1 in a file [1/block]
   float file_emission = 0.2f;  ///< radiance a block that a file's hottest place sends out
-  int steps = 48;              ///< of the eye's way through the layer or a file's box, 8..1024
+  int steps = 24;              ///< of the eye's way through the layer or a file's box, 8..1024
   int shadow_steps = 32;       ///< of the light's way, 4..128
   int resolution = 2;          ///< 1: a ray for every pixel; 2: for every second one each way
   int precision = 8;           ///< bits of a density in a file's bricks: 8, 16 or 32

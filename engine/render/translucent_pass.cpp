@@ -69,6 +69,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
   const WallReads walls(scene, settings, false);
   const std::optional<CloudRefs> clouds = clouds_before_light(scene);
   constants = with_clouds(std::move(constants), clouds);
+  if (layers.mirrored_clouds) constants.push_back({25, 1});
   if (lights) constants = walls.with_walls(lights->with_lights(std::move(constants)));
   const gpu::Pipeline& pipeline = pipelines.get(
       gpu::ComputeDesc{std::string("shade_translucent") + (maps ? "" : "_unshadowed") +
@@ -81,6 +82,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
         if (clouds) clouds->declare_light(b);
+        if (layers.mirrored_clouds) b.read(layers.mirrored_clouds, Use::kComputeSampled);
         if (lights) {
           lights->declare(b);
           walls.declare(b);
@@ -107,7 +109,12 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         c.storage(9, radiance);
         if (maps) c.sampled(10, maps, scene.point_sampler);
         c.sampled(11, scene.block_textures, scene.block_sampler);
-        if (clouds) clouds->bind_light(c);
+        if (clouds) {
+          clouds->bind_light(c);
+          // Where none are known, something that is never read is bound in their place.
+          c.sampled(5, layers.mirrored_clouds ? layers.mirrored_clouds : scene.sky_lut,
+                    scene.point_sampler);
+        }
         // Layers that are not kept are never read; they are bound to the first so that every
         // binding is valid.
         for (std::uint32_t k = 0; k < 4; ++k) {

@@ -16,6 +16,7 @@ struct TranslucentPass {
   struct Layers {
     std::array<gpu::ImageRef, 4> surfaces, depth;
     std::uint32_t count = 0;
+    gpu::ImageRef mirrored_clouds;  ///< CloudPass::add_mirrored(); empty: none are mirrored
   };
   /// @param layers surfaces kept a pixel, 1..4: what lies behind the last one is seen as if nothing
   /// translucent followed.

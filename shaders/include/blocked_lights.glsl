@@ -3,44 +3,28 @@
 #ifndef SKERRY_BLOCKED_LIGHTS_GLSL
 #define SKERRY_BLOCKED_LIGHTS_GLSL
 
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
-
-// Walls are looked for before the strongest lights alone; of equally strong ones, before the first of the list. What arrives of them stands for
-// the others: those are dimmed by the same share, so that a closed room stays dark.
+// Walls are looked for before the strongest lights alone. What arrives of them stands for the others: those are dimmed by the same share, so
+// that a closed room stays dark.
 vec3 strongest_blocked(Cluster list, Brdf b, WayStart start, vec3 to_eye) {
-  float strengths[kMostTraced];
-  uint strongest[kMostTraced];
-  for (uint k = 0u; k < kMostTraced; ++k) {
-    strengths[k] = 0.0;
-    strongest[k] = 0u;
-  }
+  Strongest strongest = no_lights();
   vec3 others = vec3(0.0);
   for (uint i = 0u; i < list.count; ++i) {
     uint light = light_index(list, i);
     vec3 part = light_reflected(lights[light], b, start.position, start.normal, to_eye);
     others += part;
-    float strength = luminance(part);
-    for (uint k = 0u; k < min(kTracedLights, kMostTraced); ++k) {
-      bool stronger = strength > strengths[k];
-      float weaker = stronger ? strengths[k] : strength;
-      uint weaker_light = stronger ? strongest[k] : light;
-      strengths[k] = stronger ? strength : strengths[k];
-      strongest[k] = stronger ? light : strongest[k];
-      strength = weaker;
-      light = weaker_light;
-    }
+    add_strength(strongest, luminance(part), light);
   }
   vec3 arrived = vec3(0.0);
   float asked = 0.0, through = 0.0;
   for (uint k = 0u; k < min(kTracedLights, kMostTraced); ++k) {
-    if (strengths[k] <= 0.0) continue;
-    Light light = lights[strongest[k]];
+    if (strongest.strengths[k] <= 0.0) continue;
+    Light light = lights[strongest.lights[k]];
     vec3 part = light_reflected(light, b, start.position, start.normal, to_eye);
     float visibility = traced_visibility(start, light);
     others -= part;
     arrived += part * visibility;
-    asked += strengths[k];
-    through += strengths[k] * visibility;
+    asked += strongest.strengths[k];
+    through += strongest.strengths[k] * visibility;
   }
   return arrived + max(others, vec3(0.0)) * (asked > 0.0 ? through / asked : 1.0);
 }

@@ -1,6 +1,7 @@
 // The march of a ray through all clouds, front to back; analytic within a step, so that no step length loses or makes light (Hillaire,
 // Physically Based Sky, Atmosphere and Cloud Rendering in Frostbite, 2016). Needs before the include: `frame`, `sky_lut`, what
-// cloud_light.glsl, cloud_layer.glsl, cloud_volumes.glsl and reflection.glsl have; with SKERRY_SHADOWS what shadow.glsl has.
+// cloud_light.glsl, cloud_layer.glsl, cloud_volumes.glsl and reflection.glsl have; with SKERRY_SHADOWS what shadow.glsl has; with SKERRY_LIGHTS what
+// clustered.glsl and traced.glsl have.
 #ifndef SKERRY_CLOUD_MARCH_GLSL
 #define SKERRY_CLOUD_MARCH_GLSL
 #include "include/cloud_scattering.glsl"
@@ -11,10 +12,13 @@ struct Clouded {
   float clear;  // share of what is behind them that is left
 };
 
-const float kClearEnough = 1e-7;  // what is left of the view when a march ends: so little of the sun's disc is not seen
-const float kLitEnough = 5e-4;    // what is left of the view when clouds' own light adds nothing more
-const float kFinerSteps = 4.0;    // steps within clouds to one in the open
+const float kHidden = 5e-4;       // of a view: what lies behind so much cloud is not seen...
+const float kDiscHidden = 1e-7;   // ...nor so much of the sun's disc
+const float kDiscCosine = 0.999;  // of the angle to a disc's middle within which pixels may blend with it
+const uint kParts = 4u;           // of a step: density is looked at in each, light once
 const float kNearestToFog = 0.3;  // of a light: nearer it makes fog no brighter [blocks]
+// More than any march takes.
+const uint kMostIterations = 16384u;
 const float kLayerStepGrowth = 100.0;  // blocks: the layer's steps are even up to here, then grow with the distance
 
 // Light of a body that islands leave to a place in the open. Past the last map nothing stands in its way.
@@ -29,9 +33,9 @@ float past_islands(const uint first_cascade, vec3 p) {
 }
 
 // Where a ray is inside the layer; x > y: nowhere.
-vec2 layer_range(vec3 dir, float begin, float end) {
-  float rise = abs(dir.y) < 1e-6 ? 1e-6 : dir.y;
-  float a = -clouds.layer.place.y / rise, b = (clouds.layer.thickness - clouds.layer.place.y) / rise;
+vec2 layer_range(vec3 origin, vec3 dir, float begin, float end) {
+  float rise = abs(dir.y) < 1e-6 ? 1e-6 : dir.y, height = clouds.layer.place.y + origin.y;
+  float a = -height / rise, b = (clouds.layer.thickness - height) / rise;
   return vec2(max(min(a, b), begin), min(min(max(a, b), end), kLayerFadeEnd));
 }
 
@@ -77,33 +81,58 @@ vec3 source_at(vec3 p, vec4 sun_phases, vec4 moon_phases, float air, vec3 sky) {
 }
 
 #ifdef SKERRY_LIGHTS
-// Mean radiance that the lights of a pixel's cluster make a stretch of cloud send to the eye, over its extinction; nothing stands in their way but
-// the cloud, taken for as dense as here. Light falls off so fast that it is integrated along the stretch, not looked at in its middle.
+// Mean radiance that a light with nothing in its way but the cloud, taken for as dense as here, makes a stretch of it send to the eye, over its
+// extinction. Light falls off so fast that it is integrated along the stretch, not looked at in its middle.
+vec3 lit_by_light(Light light, vec3 dir, float t, float length_blocks, float extinction) {
+  bool placed = (light.kind & kLightKindMask) != kLightDirectional;
+  float along = placed ? dot(light.position, dir) : t;
+  float nearest = clamp(along, t, t + length_blocks);
+  vec3 way = placed ? light.position - dir * nearest : -light.axis;
+  float aside = max(length(light.position - dir * along), max(light.size, kNearestToFog));
+  // The mean of 1 / d^2 along the stretch: the angle that it spans, seen from the light, over its length.
+  float angle = atan(length_blocks * aside, aside * aside + (t + length_blocks - along) * (t - along));
+  float mean = angle / (aside * length_blocks);
+  float distance = max(length(way), 1e-6);
+  vec3 to_light = way / distance;
+  if (!placed) mean = 1.0;
+  else mean *= light_window(light, min(distance, light.range) * min(distance, light.range));
+  if ((light.kind & kLightKindMask) == kLightSpot) mean *= light_cone(light, to_light);
+  return light.intensity * (kCloudAlbedo * mean * terms_left(term_phases(dot(dir, to_light)), placed ? extinction * distance : 0.0));
+}
+
+// Of all lights of a pixel's cluster, past walls. Those are looked for from the stretch's middle, before as many lights as for a surface.
 vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float extinction) {
   float middle = t + 0.5 * length_blocks;
   float z = middle * dot(dir, frame.ray_forward);
   Cluster list = lights_at(pixel, z);
   // In other slices no light reaches anything, and nobody has written the clusters that show no surface.
   if (!kOracle && ((grid.marked_slices >> slice_at(z)) & 1u) == 0u) list.count = 0u;
+  WayStart start = way_from(dir * middle);
+  bool some = kTracedLights != 0u && kTracedLights != kEveryLight;
+  Strongest strongest = no_lights();
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < list.count; ++i) {
-    Light light = lights[light_index(list, i)];
-    bool placed = (light.kind & kLightKindMask) != kLightDirectional;
-    float along = placed ? dot(light.position, dir) : middle;
-    float nearest = clamp(along, t, t + length_blocks);
-    vec3 way = placed ? light.position - dir * nearest : -light.axis;
-    float aside = max(length(light.position - dir * along), max(light.size, kNearestToFog));
-    // The mean of 1 / d^2 along the stretch: the angle that it spans, seen from the light, over its length.
-    float angle = atan(length_blocks * aside, aside * aside + (t + length_blocks - along) * (t - along));
-    float mean = angle / (aside * length_blocks);
-    float distance = max(length(way), 1e-6);
-    vec3 to_light = way / distance;
-    if (!placed) mean = 1.0;
-    else mean *= light_window(light, min(distance, light.range) * min(distance, light.range));
-    if ((light.kind & kLightKindMask) == kLightSpot) mean *= light_cone(light, to_light);
-    sum += light.intensity * (mean * terms_left(term_phases(dot(dir, to_light)), placed ? extinction * distance : 0.0));
+    uint index = light_index(list, i);
+    vec3 part = lit_by_light(lights[index], dir, t, length_blocks, extinction);
+    if (kTracedLights == kEveryLight && part != vec3(0.0)) part *= traced_visibility(start, lights[index]);
+    if (some) add_strength(strongest, luminance(part), index);
+    sum += part;
   }
-  return sum * kCloudAlbedo;
+  if (!some) return sum;
+  // What arrives of the strongest stands for the others, as on surfaces.
+  vec3 arrived = vec3(0.0);
+  float asked = 0.0, through = 0.0;
+  for (uint k = 0u; k < min(kTracedLights, kMostTraced); ++k) {
+    if (strongest.strengths[k] <= 0.0) continue;
+    Light light = lights[strongest.lights[k]];
+    vec3 part = lit_by_light(light, dir, t, length_blocks, extinction);
+    float visibility = traced_visibility(start, light);
+    sum -= part;
+    arrived += part * visibility;
+    asked += strongest.strengths[k];
+    through += strongest.strengths[k] * visibility;
+  }
+  return arrived + max(sum, vec3(0.0)) * (asked > 0.0 ? through / asked : 1.0);
 }
 #endif
 
@@ -120,29 +149,33 @@ float lights_change_at(vec3 dir, float t) {
 #endif
 }
 
-// @param dir unit; @param begin, end blocks along it; @param jitter over 0, up to 1: how much of the first step is taken.
-Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter) {
-  vec2 in_layer = kCloudLayer ? layer_range(dir, begin, end) : vec2(1.0, 0.0);
+// What is left of the view when a march ends. A disc is so bright that it shines through more than anything else.
+float clear_enough(vec3 dir) {
+  float off_disc = max(dot(dir, clouds.lights[0].to_light), dot(dir, clouds.lights[1].to_light));
+  return off_disc > kDiscCosine ? kDiscHidden : kHidden;
+}
+
+// @param origin of the ray: the eye, 0, or where its view is mirrored; @param dir unit; @param begin, end blocks along it; @param jitter over 0, up to 1: how much of the first step is taken.
+Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end, float jitter) {
+  vec2 in_layer = kCloudLayer ? layer_range(origin, dir, begin, end) : vec2(1.0, 0.0);
   float growth = pow((kLayerStepGrowth + in_layer.y) / (kLayerStepGrowth + in_layer.x), 1.0 / clouds.steps) - 1.0;
   float stop = in_layer.y > in_layer.x ? in_layer.y : 0.0, t = in_layer.y > in_layer.x ? in_layer.x : 1e30;
   vec2 in_volume[kMaxCloudVolumes];
+  bool glows = false;
   for (uint v = 0u; v < kCloudVolumes; ++v) {
-    vec2 range = box_range(v, index_from_world(v, vec3(0.0)), index_from_world_vector(v, dir));
+    vec2 range = box_range(v, index_from_world(v, origin), index_from_world_vector(v, dir));
     in_volume[v] = vec2(max(range.x, begin), min(range.y, end));
     bool met = in_volume[v].y > in_volume[v].x;
     stop = met ? max(stop, in_volume[v].y) : stop;
     t = met ? min(t, in_volume[v].x) : t;
+    glows = glows || (met && clouds.volumes[v].extinction == 0.0);
   }
   t = min(t, stop);
+  float enough = glows ? kDiscHidden : clear_enough(dir);
   Clouded seen = Clouded(vec3(0.0), 1.0);
   vec4 sun_phases = term_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = term_phases(dot(dir, clouds.lights[1].to_light));
   vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir) : vec3(0.0);
-  uint most = uint(kFinerSteps + 1.0) * (uint(clouds.steps) + 2u) * (kCloudVolumes + 1u);
-#ifdef SKERRY_LIGHTS
-  most += 2u * kClusterSlices;
-#endif
-  float fine = 0.0;  // steps that are still taken finely
-  for (uint i = 0u; i < most && t < stop && seen.clear > kClearEnough; ++i) {
+  for (uint i = 0u; i < kMostIterations && t < stop && seen.clear > enough; ++i) {
     float whole = 1e30;  // step: the shortest of what is here
     float change = stop, begins = stop;  // where something here ends or anything begins; where anything begins
     bool in_here = kCloudLayer && t >= in_layer.x && t < in_layer.y;
@@ -167,45 +200,53 @@ Clouded march_clouds(uvec2 pixel, vec3 dir, float begin, float end, float jitter
     change = min(change, lights_change_at(dir, t));
     // The step is not lost in the distance's last digits.
     float least = max(t * 1e-6, 1e-4);
-    float length_blocks = max(min(whole * jitter * (fine > 0.0 ? 1.0 / kFinerSteps : 1.0), change - t), least);
-    vec3 p = dir * (t + 0.5 * length_blocks);
-    Medium m = Medium(0.0, vec3(0.0), 1e30);
-    if (in_here) {
-      m.extinction = layer_extinction(p, clouds.layer);
-      m.empty = 0.0;
-    }
-    for (uint v = 0u; v < kCloudVolumes; ++v)
-      if (t >= in_volume[v].x && t < in_volume[v].y) add_volume(v, p, dir, m);
-    // Something is met: this step again, and finely, until there has been nothing for a whole step.
-    if (fine == 0.0 && m.empty == 0.0 && m.extinction > 0.0) {
-      fine = kFinerSteps;
-      continue;
+    float length_blocks = max(min(whole * jitter, change - t), least);
+    float part_blocks = length_blocks / float(kParts);
+    float clear = seen.clear, seen_share = 0.0, seen_at = 0.0;
+    float empty_until = 1e30;  // so far along the ray there is nothing for certain; 0: there may be something
+    vec3 sent = vec3(0.0);
+    float cover = in_here ? layer_cover(origin + dir * (t + 0.5 * length_blocks), clouds.layer) : 0.0;
+    for (uint part = 0u; part < kParts; ++part) {
+      float from = t + float(part) * part_blocks;
+      vec3 p = origin + dir * (from + 0.5 * part_blocks);
+      Medium m = Medium(0.0, vec3(0.0), 1e30);
+      if (in_here) {
+        m.extinction = layer_extinction(p, cover, clouds.layer);
+        m.empty = 0.0;
+      }
+      for (uint v = 0u; v < kCloudVolumes; ++v)
+        if (t >= in_volume[v].x && t < in_volume[v].y) add_volume(v, p, dir, m);
+      empty_until = m.empty > 0.0 && empty_until > 0.0 ? from + 0.5 * part_blocks + m.empty : 0.0;
+      if (kCloudVolumes != 0u && empty_until >= t + length_blocks) break;
+      float depth = m.extinction * part_blocks;
+      float opacity = opacity_of(depth);
+      // In a dense part what is seen is what lies in front.
+      float free_path = min(part_blocks, 1.0 / max(m.extinction, 1e-6));
+      float middle = from + min(0.5 * part_blocks, free_path);
+      if (kCloudVolumes != 0u)
+        sent += m.emitted * (clear * clear_air(dir * middle) * (depth > 1e-4 ? opacity / m.extinction : part_blocks));
+#ifdef SKERRY_LIGHTS
+      if (opacity > 0.0 && clear > kHidden)
+        sent += lit_by_lights(pixel, dir, from, free_path, m.extinction) * (clear * opacity * clear_air(dir * middle));
+#endif
+      seen_share += clear * opacity;
+      seen_at += clear * opacity * middle;
+      clear *= 1.0 - opacity;
     }
     jitter = 1.0;
-    fine = m.extinction > 0.0 ? kFinerSteps : max(fine - 1.0, 0.0);
-    float depth = m.extinction * length_blocks;
-    if (m.extinction > 0.0 || m.emitted != vec3(0.0)) {
-      float opacity = opacity_of(depth);
-      // In a dense step what is seen is what lies in front.
-      float free_path = 1.0 / max(m.extinction, 1e-6);
-      vec3 place = dir * (t + min(0.5 * length_blocks, free_path));
-      float air = clear_air(place);
-      vec3 source = m.emitted * (air * (depth > 1e-4 ? opacity / m.extinction : length_blocks));
-      if (seen.clear > kLitEnough) {
-        source += source_at(place, sun_phases, moon_phases, air, sky) * opacity;
-#ifdef SKERRY_LIGHTS
-        source += lit_by_lights(pixel, dir, t, min(length_blocks, free_path), m.extinction) * (opacity * air);
-#endif
-      }
-      seen.light += seen.clear * source;
-      seen.clear *= 1.0 - opacity;
+    if (seen_share > 0.0 && seen.clear > kHidden) {
+      // Sun, moon and sky are looked up once, where the step is seen from in the mean.
+      vec3 way = dir * (seen_at / seen_share);
+      sent += source_at(origin + way, sun_phases, moon_phases, clear_air(way), sky) * seen_share;
     }
+    seen.light += sent;
+    seen.clear = clear;
     // Whole steps only, so that where samples lie does not show where bricks do; and none over what begins.
     float passed = t + length_blocks;
-    float skipped = (min(t + 0.5 * length_blocks + m.empty, begins) - passed) / max(whole, least);
-    t = passed + (m.empty > 0.0 ? clamp(floor(skipped), 0.0, 1e6) * whole : 0.0);
+    float skipped = (min(empty_until, begins) - passed) / max(whole, least);
+    t = passed + clamp(floor(skipped), 0.0, 1e6) * whole;
   }
-  if (seen.clear <= kClearEnough) seen.clear = 0.0;
+  if (seen.clear <= enough) seen.clear = 0.0;
   return seen;
 }
 

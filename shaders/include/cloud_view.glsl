@@ -5,6 +5,10 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
+#ifdef SKERRY_LIGHTS
+// No uniform buffer: lavapipe crashes on a fourth one in a program that marches (Mesa 22.3).
+layout(scalar, binding = 1) readonly buffer Islands { IslandTransform islands[]; };
+#endif
 layout(scalar, binding = 4) buffer Stats { PixelStats stats; };
 #ifndef SKERRY_SKY_ONLY
 layout(binding = 5, r32ui) readonly uniform uimage2D surfaces;
@@ -12,12 +16,14 @@ layout(binding = 6) uniform sampler2D depths;
 layout(binding = 15) uniform sampler2D layer_depths;  // of the nearest water or glass
 #endif
 layout(binding = 8) uniform sampler2D sky_lut;
-layout(binding = 10) uniform sampler3D cloud_noise;
+layout(binding = 10) uniform sampler2D cloud_weather;
 layout(binding = 11) uniform sampler3D cloud_cells;
 #ifdef SKERRY_SHADOWS
 layout(binding = 12) uniform sampler2DArray shadow_maps;
 #endif
 layout(binding = 13) uniform sampler3D cloud_bricks;
+layout(binding = 16) uniform sampler2DArray cloud_shapes;
+layout(binding = 17) uniform sampler2DArray cloud_billows;
 
 layout(constant_id = 6) const bool kDepth16 = false;
 layout(constant_id = 22) const bool kTranslucent = false;  // there is water or glass
@@ -33,6 +39,7 @@ layout(constant_id = 23) const bool kBehind = false;       // march behind the n
 #include "include/lighting.glsl"
 #ifdef SKERRY_LIGHTS
 #include "include/clustered.glsl"
+#include "include/traced.glsl"
 #endif
 #include "include/cloud_march.glsl"
 
@@ -57,5 +64,5 @@ vec2 open_way(uvec2 pixel) {
 Clouded clouds_seen(uvec2 pixel, vec2 way, float jitter) {
   vec3 ray = pixel_ray(pixel);
   float stretch = length(ray);
-  return march_clouds(pixel, ray / stretch, way.x * stretch, way.y * stretch, jitter);
+  return march_clouds(pixel, vec3(0.0), ray / stretch, way.x * stretch, way.y * stretch, jitter);
 }

@@ -37,6 +37,11 @@ float layer_depth(uint k, ivec2 pixel) {
                            : k == 2u ? texelFetch(layer_depths_2, pixel, 0).r : texelFetch(layer_depths_3, pixel, 0).r;
 }
 
+#ifdef SKERRY_CLOUDS
+layout(binding = 5) uniform sampler2D mirrored_clouds;
+layout(constant_id = 25) const bool kMirroredClouds = false;  // whether they are known
+#endif
+
 layout(constant_id = 0) const uint kLayers = 3u;
 
 #include "include/tiles.glsl"
@@ -49,6 +54,10 @@ layout(constant_id = 0) const uint kLayers = 3u;
 #ifdef SKERRY_LIGHTS
 #include "include/clustered.glsl"
 #include "include/traced.glsl"
+#endif
+#include "include/ripples.glsl"
+#ifdef SKERRY_CLOUDS
+#include "include/mirrored_clouds.glsl"
 #endif
 #include "include/water.glsl"
 

@@ -13,6 +13,33 @@ const uint kMostTraced = 8u;
 
 layout(constant_id = 41) const uint kLightSamples = 1u;  // ways to a light that has a size
 
+float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+
+// The lights of a list before which walls are looked for, the strongest first; of equally strong ones, the first of the list.
+struct Strongest {
+  float strengths[kMostTraced];  // 0: there is none
+  uint lights[kMostTraced];
+};
+Strongest no_lights() {
+  Strongest s;
+  for (uint k = 0u; k < kMostTraced; ++k) {
+    s.strengths[k] = 0.0;
+    s.lights[k] = 0u;
+  }
+  return s;
+}
+void add_strength(inout Strongest s, float strength, uint light) {
+  for (uint k = 0u; k < min(kTracedLights, kMostTraced); ++k) {
+    bool stronger = strength > s.strengths[k];
+    float weaker = stronger ? s.strengths[k] : strength;
+    uint weaker_light = stronger ? s.lights[k] : light;
+    s.strengths[k] = stronger ? strength : s.strengths[k];
+    s.lights[k] = stronger ? light : s.lights[k];
+    strength = weaker;
+    light = weaker_light;
+  }
+}
+
 // Where ways to lights begin.
 struct WayStart {
   vec3 position;  // world
@@ -61,6 +88,9 @@ WayStart way_start(Surface s, uint word) {
   start.from = clamp(p, vec3(start.voxel), vec3(start.voxel) + 1.0);
   return start;
 }
+
+// In the open, on no island.
+WayStart way_from(vec3 p) { return WayStart(p, vec3(0.0), ~0u, ivec3(0), vec3(0.0)); }
 
 // Whether nothing opaque stands between a surface and a point of a light.
 bool way_is_open(WayStart start, Light light, vec3 to, vec3 light_middle) {

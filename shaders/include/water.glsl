@@ -17,19 +17,6 @@ float fresnel(float cosine, bool leaving, float n) {
   return r0 + (1.0 - r0) * pow(1.0 - cosine, 5.0);
 }
 
-// Small waves on a level water surface: slopes of four sine waves in the lattice; their periods divide an hour, after which time_s repeats.
-vec3 rippled_normal(vec3 lattice, float distance) {
-  const vec4 waves[4] = vec4[](vec4(0.83, 0.31, 80.0, 0.022), vec4(-0.47, 1.13, 120.0, 0.018), vec4(1.91, -1.27, 150.0, 0.011),
-                               vec4(-2.3, -2.9, 200.0, 0.007));
-  vec2 slope = vec2(0.0);
-  for (int i = 0; i < 4; ++i) {
-    float phase = dot(waves[i].xy, lattice.xz) + frame.time_s * 6.28318530718 * floor(30.0 * length(waves[i].xy)) / 100.0;
-    slope += waves[i].xy / length(waves[i].xy) * (waves[i].w * cos(phase));
-  }
-  slope *= exp(-distance * 0.02);  // far waves are smaller than a pixel
-  return normalize(vec3(-slope.x, 1.0, -slope.y));
-}
-
 // Light mirrored by a wavy surface: GGX lobe of the waves too small to draw. @param irradiance of a surface that faces the light.
 vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float roughness) {
   vec3 sum = to_light + to_eye;
@@ -124,19 +111,19 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
       through *= exp(-extinction(m) * (next - at));
     }
     uint block = surface_block(word), face = surface_face(word);
-    IslandTransform island = islands[surface_island(word)];
-    vec3 n = world_from_lattice_vector(island, face_normal(face));
+    vec3 n = world_from_lattice_vector(islands[surface_island(word)], face_normal(face));
     bool entering = medium != block;
     Material m = materials[block];
-    vec3 lattice = lattice_from_world(island, ray * t);
-    vec3 shading = n;
-    bool wavy = (face >> 1) == 1u && m.roughness < 0.2 && m.absorption.r > 0.05;
-    if (wavy) shading = world_from_lattice_vector(island, rippled_normal(lattice, next)) * (face == 2u ? 1.0 : -1.0);
+    bool wavy = has_ripples(word);
+    vec3 shading = shading_normal(word, ray, t);
     float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = reflect(-to_eye, shading);
     Reach reach = light_at(pixel, t, word, ray * t, n, shading, to_eye, max(m.roughness, 0.06));
     vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror) : scattered(m, light_in, 1e3);
+#ifdef SKERRY_CLOUDS
+    if (kMirroredClouds && entering && k == 0u) mirrored_sky = past_mirrored_clouds(mirrored_clouds, mirrored_sky, pixel);
+#endif
     colour += through * (reach.mirrored + reflected * mirrored_sky * (entering ? reach.any : 1.0));
     through *= 1.0 - reflected;
     // What the texture covers (the frame of a pane) is a diffuse surface.

@@ -14,6 +14,10 @@ SHARED_CONST float kCloudShapePeriod = 2048.0f;
 SHARED_CONST float kCloudDetailPeriod = 320.0f;
 SHARED_CONST float kCloudWeatherPeriod = 10240.0f;
 SHARED_CONST uint kLayerPeriod = 10240u;
+// The noise as a march asks for it: layers of four slices of height, the last one being the first
+// of the next layer.
+SHARED_CONST uint kSlicesPerLayer = 3u;
+SHARED_CONST uint kCloudNoiseLayers = 43u;  // the last has only two
 // The layer thins out between these distances from the eye [blocks].
 SHARED_CONST float kLayerFadeBegin = 12000.0f;
 SHARED_CONST float kLayerFadeEnd = 16000.0f;

@@ -6,7 +6,9 @@
 namespace skerry::reference {
 namespace {
 
-constexpr int kEdge = 128;
+constexpr int kEdge = 128;  // texels, a power of two
+constexpr int kCellTexels = 4;
+constexpr int kCells = kEdge / kCellTexels;
 
 /// An integer hash of a cell of a lattice that repeats.
 std::uint32_t cell_hash(glm::ivec3 cell, int cells, std::uint32_t seed) {
@@ -64,7 +66,8 @@ std::uint8_t eighths(double value) {
 
 }  // namespace
 
-CloudNoise::CloudNoise() : texels_(std::size_t{kEdge} * kEdge * kEdge) {
+CloudNoise::CloudNoise()
+    : texels_(std::size_t{kEdge} * kEdge * kEdge), most_(std::size_t{kCells} * kCells * kCells) {
   std::size_t i = 0;
   for (int z = 0; z < kEdge; ++z)
     for (int y = 0; y < kEdge; ++y)
@@ -79,6 +82,30 @@ CloudNoise::CloudNoise() : texels_(std::size_t{kEdge} * kEdge * kEdge) {
         texels_[i++] = {eighths(0.5 * ragged + 0.5 * lumps), eighths(0.625 * b8 + 0.375 * b16),
                         eighths(0.625 * b16 + 0.375 * b32), eighths(field)};
       }
+  for (int c = 0; c < kCells * kCells * kCells; ++c) {
+    const glm::ivec3 low =
+        glm::ivec3(c % kCells, c / kCells % kCells, c / (kCells * kCells)) * kCellTexels;
+    std::array<std::uint8_t, 4> most{};
+    // Blends in a cell take the texels next to it along, too.
+    for (int z = low.z - 1; z <= low.z + kCellTexels; ++z)
+      for (int y = low.y - 1; y <= low.y + kCellTexels; ++y)
+        for (int x = low.x - 1; x <= low.x + kCellTexels; ++x) {
+          const auto at = [](int v) { return static_cast<std::size_t>(v & (kEdge - 1)); };
+          const auto& texel = texels_[(at(z) * kEdge + at(y)) * kEdge + at(x)];
+          for (std::size_t n = 0; n < 4; ++n) most[n] = std::max(most[n], texel[n]);
+        }
+    most_[static_cast<std::size_t>(c)] = most;
+  }
+}
+
+double CloudNoise::most_about(glm::dvec3 place, int channel) const {
+  const auto cell = [](double v) {
+    return static_cast<std::size_t>(static_cast<std::int64_t>(std::floor(v * kCells)) &
+                                    (kCells - 1));
+  };
+  return most_[(cell(place.z) * kCells + cell(place.y)) * kCells + cell(place.x)]
+              [static_cast<std::size_t>(channel)] /
+         255.0;
 }
 
 const CloudNoise& CloudNoise::shared() {
@@ -87,19 +114,41 @@ const CloudNoise& CloudNoise::shared() {
 }
 
 double CloudNoise::at(glm::dvec3 place, int channel) const {
-  const glm::dvec3 p = place * double{kEdge} - 0.5;
-  const glm::dvec3 low(std::floor(p.x), std::floor(p.y), std::floor(p.z)), f = p - low;
-  const auto wrap = [](double v) {
-    return static_cast<std::size_t>(v - std::floor(v / kEdge) * kEdge) % kEdge;
-  };
+  const Corners corners = corners_of(place);
   double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const int x = corner % 2, y = corner / 2 % 2, z = corner / 4;
-    const double weight = (x ? f.x : 1.0 - f.x) * (y ? f.y : 1.0 - f.y) * (z ? f.z : 1.0 - f.z);
-    sum += weight * texels_[(wrap(low.z + z) * kEdge + wrap(low.y + y)) * kEdge + wrap(low.x + x)]
-                           [static_cast<std::size_t>(channel)];
+  for (int i = 0; i < 8; ++i)
+    sum += corners.weight[i] * texels_[corners.index[i]][static_cast<std::size_t>(channel)];
+  return sum / 255.0;
+}
+
+glm::dvec2 CloudNoise::billows_at(glm::dvec3 place) const {
+  const Corners corners = corners_of(place);
+  glm::dvec2 sum(0.0);
+  for (int i = 0; i < 8; ++i) {
+    const std::array<std::uint8_t, 4>& texel = texels_[corners.index[i]];
+    sum += corners.weight[i] * glm::dvec2(texel[1], texel[2]);
   }
   return sum / 255.0;
+}
+
+CloudNoise::Corners CloudNoise::corners_of(glm::dvec3 place) {
+  std::size_t index[3][2];
+  double weight[3][2];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double p = place[axis] * kEdge - 0.5, low = std::floor(p);
+    const auto texel = static_cast<std::int64_t>(low);
+    for (int side = 0; side < 2; ++side)
+      index[axis][side] = static_cast<std::size_t>((texel + side) & (kEdge - 1));
+    weight[axis][1] = p - low;
+    weight[axis][0] = 1.0 - weight[axis][1];
+  }
+  Corners out;
+  for (int i = 0; i < 8; ++i) {
+    const int x = i % 2, y = i / 2 % 2, z = i / 4;
+    out.index[i] = (index[2][z] * kEdge + index[1][y]) * kEdge + index[0][x];
+    out.weight[i] = weight[0][x] * weight[1][y] * weight[2][z];
+  }
+  return out;
 }
 
 }  // namespace skerry::reference

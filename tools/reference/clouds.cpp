@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
 #include <span>
 
@@ -16,6 +17,8 @@ constexpr double kThinning = 12000.0, kEnd = 16000.0;
 /// Of a march through the layer [blocks], and the most steps of one: far ways are marched in longer
 /// ones.
 constexpr double kStep = 2.0, kMostSteps = 1024.0;
+/// Optical depth behind which nothing is seen: a disc's light is 1e5 of the sky's.
+constexpr double kOpaque = 20.0;
 /// Of a march through any stretch.
 constexpr double kEndless = 65536.0;
 
@@ -27,18 +30,31 @@ double lobe(double cosine, double g) {
   return (1.0 - g * g) / (4.0 * kPi * std::pow(1.0 + g * g - 2.0 * g * cosine, 1.5));
 }
 
-/// Calls visit(t, length) for the steps of a way, until it says no.
+/// Calls visit(t, length) for the steps of a way that may hold something, until it says no.
 /// @param offset 0..1: where in a step t is.
 template <class Visit>
-void march(std::span<const Stretch> stretches, double begin, double end, double offset,
-           Visit&& visit) {
-  for (const Stretch& stretch : stretches) {
+void march(const Clouds& clouds, glm::dvec3 origin, glm::dvec3 direction, double begin, double end,
+           double offset, Visit&& visit) {
+  const bool in_cells = clouds.layer && clouds.grids.empty();
+  for (const Stretch& stretch : clouds.stretches(origin, direction)) {
     const double from = std::max(stretch.from, begin), length = std::min(stretch.to, end) - from;
     if (!(length > 0.0)) continue;
     const double steps = std::min(kEndless, std::ceil(length / stretch.step));
     const double step = length / steps;
-    for (double i = 0.0; i < steps; ++i)
-      if (!visit(from + (i + offset) * step, step)) return;
+    double cell_ends = from;
+    bool empty = false;
+    for (double i = 0.0; i < steps; ++i) {
+      const double t = from + (i + offset) * step;
+      if (in_cells && t >= cell_ends) {
+        const CloudLayer::Cell cell = clouds.layer->cell_at(origin + direction * t, direction);
+        cell_ends = t + cell.way;
+        empty = cell.empty;
+      }
+      if (empty)
+        i = std::max(i, std::floor((cell_ends - from) / step - offset));
+      else if (!visit(t, step))
+        return;
+    }
   }
 }
 
@@ -69,12 +85,35 @@ double CloudLayer::extinction_at(glm::dvec3 p) const {
   const double cover = std::clamp(coverage + 0.5 * (weather - 0.5), 0.0, 1.0);
   const double profile =
       ramp(0.0, 0.1, height) * (1.0 - ramp(0.2 + 0.3 * cover, 0.6 + 0.4 * cover, height));
+  if (profile <= 0.0) return 0.0;
   const double least = 0.62 - 0.42 * cover;
   const double body = ramp(least, least + 0.2, noise.at(at / 2048.0, 0)) - (1.0 - profile);
   if (body <= 0.0) return 0.0;
-  const double detail = 1.0 - 0.6 * noise.at(at / 320.0, 1) - 0.4 * noise.at(at / 320.0, 2);
+  const double detail = 1.0 - glm::dot(noise.billows_at(at / 320.0), glm::dvec2(0.6, 0.4));
   return extinction * ramp(0.7 * detail, 1.0, body) *
          (1.0 - ramp(kThinning, kEnd, std::hypot(p.x, p.z)));
+}
+
+CloudLayer::Cell CloudLayer::cell_at(glm::dvec3 p, glm::dvec3 direction) const {
+  constexpr double kEdge = 64.0;  // blocks: a cell of the shapes; a fifth of one of the weather's
+  const glm::dvec3 at(p.x + eye.x, p.y + eye.y, p.z + eye.z), low = glm::floor(at / kEdge) * kEdge;
+  Cell out{1e30, false};
+  for (int axis = 0; axis < 3; ++axis)
+    if (direction[axis] != 0.0)
+      out.way = std::min(out.way, (low[axis] + (direction[axis] > 0.0 ? kEdge : 0.0) - at[axis]) /
+                                      direction[axis]);
+  const CloudNoise& noise = CloudNoise::shared();
+  const glm::dvec3 middle = low + 0.5 * kEdge;
+  // The weather is that at height 0, between the texels on either side.
+  const double weather = noise.most_about(glm::dvec3(middle.x, 0.0, middle.z) / 10240.0, 3);
+  const double cover = std::clamp(coverage + 0.5 * (weather - 0.5), 0.0, 1.0);
+  const double profile = ramp(0.0, 0.1, (low.y + kEdge) / thickness) *
+                         (1.0 - ramp(0.2 + 0.3 * cover, 0.6 + 0.4 * cover, low.y / thickness));
+  const double least = 0.62 - 0.42 * cover;
+  const double body =
+      ramp(least, least + 0.2, noise.most_about(middle / 2048.0, 0)) - (1.0 - profile);
+  out.empty = body <= 0.0;
+  return out;
 }
 
 double CloudGrid::value_at(glm::dvec3 p) const {
@@ -143,41 +182,48 @@ std::vector<Stretch> Clouds::stretches(glm::dvec3 origin, glm::dvec3 direction) 
 double Clouds::depth(glm::dvec3 origin, glm::dvec3 direction, double offset,
                      double distance) const {
   double sum = 0.0;
-  march(stretches(origin, direction), 0.0, distance, offset, [&](double t, double step) {
+  march(*this, origin, direction, 0.0, distance, offset, [&](double t, double step) {
     sum += extinction_at(origin + direction * t) * step;
     return true;
   });
   return sum;
 }
 
-CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 direction, double begin, double end,
-                         double air, glm::dvec2 pair) {
+CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 origin, glm::dvec3 direction,
+                         double begin, double end, double air, double offset) {
   CloudMeeting out;
-  std::vector<glm::dvec3> steps;  // where, length, optical depth up to its end
   double depth = 0.0;
-  const std::vector<Stretch> stretches = clouds.stretches(glm::dvec3(0.0), direction);
-  march(stretches, begin, end, pair.x, [&](double t, double step) {
-    const glm::dvec3 p = direction * t;
+  march(clouds, origin, direction, begin, end, offset, [&](double t, double step) {
+    const glm::dvec3 p = origin + direction * t;
     const double tau = clouds.extinction_at(p) * step;
     out.emitted += clouds.emission_at(p) * (std::exp(-depth - air * t) * step *
                                             (tau > 1e-9 ? -std::expm1(-tau) / tau : 1.0));
+    if (tau > 0.0) out.steps.push_back({t - offset * step, step, depth, tau});
     depth += tau;
-    steps.emplace_back(t - pair.x * step, step, depth);
-    return depth < 40.0;
+    return depth < kOpaque;
   });
   out.clear = std::exp(-depth);
-  if (steps.empty() || depth == 0.0) return out;
-  const double wanted = -std::log1p(pair.y * std::expm1(-depth));
-  double before = 0.0;
-  for (const glm::dvec3& step : steps) {
-    if (step.z >= wanted && step.z > before) {
-      out.at = step.x + step.y * (wanted - before) / (step.z - before);
-      break;
-    }
-    before = step.z;
-    out.at = step.x;
-  }
   return out;
+}
+
+double CloudMeeting::place(double share) const {
+  const double wanted = -std::log1p(share * std::expm1(std::log(clear)));
+  const auto after = std::upper_bound(
+      steps.begin(), steps.end(), wanted,
+      [](double depth, const Step& step) { return depth < step.before + step.through; });
+  const Step& step = after == steps.end() ? steps.back() : *after;
+  return step.from + step.length * std::clamp((wanted - step.before) / step.through, 0.0, 1.0);
+}
+
+double CloudMeeting::weight_at(double t) const {
+  const auto after =
+      std::upper_bound(steps.begin(), steps.end(), t,
+                       [](double place, const Step& step) { return place < step.from; });
+  if (after == steps.begin()) return 0.0;
+  const Step& step = *std::prev(after);
+  const double into = (t - step.from) / step.length;
+  if (into > 1.0) return 0.0;
+  return std::exp(-step.before - step.through * into) * step.through / step.length;
 }
 
 double scattered_share(double cosine, double depth) {

@@ -17,16 +17,32 @@ class CloudNoise {
   static const CloudNoise& shared();
   /// Trilinear between texels' centres; repeats with 1. @param channel 0..3
   double at(glm::dvec3 place, int channel) const;
+  /// Channels 1 and 2.
+  glm::dvec2 billows_at(glm::dvec3 place) const;
+  /// No value in the place's cell is larger. 32 cells to the period, each way.
+  double most_about(glm::dvec3 place, int channel) const;
 
  private:
+  /// Texels about a place, and their shares.
+  struct Corners {
+    std::size_t index[8];
+    double weight[8];
+  };
   CloudNoise();
-  std::vector<std::array<std::uint8_t, 4>> texels_;
+  static Corners corners_of(glm::dvec3 place);
+  std::vector<std::array<std::uint8_t, 4>> texels_, most_;
 };
 
 struct CloudLayer {
   glm::dvec3 eye{0.0};  ///< in the noise (x, z), and over the layer's base (y)
   double thickness = 1.0, extinction = 0.0, coverage = 0.0;
   double extinction_at(glm::dvec3 p) const;
+  /// A cube that holds a place.
+  struct Cell {
+    double way = 0.0;    ///< that a ray stays in it [blocks]
+    bool empty = false;  ///< there is no cloud in it, for certain
+  };
+  Cell cell_at(glm::dvec3 p, glm::dvec3 direction) const;
 };
 
 /// A grid of samples at whole indices; 0 beyond it.
@@ -59,16 +75,29 @@ struct Clouds {
                double distance = 1e30) const;
 };
 
-/// Where an eye's ray is scattered last, and what comes of it.
+/// What a ray through clouds meets.
 struct CloudMeeting {
+  /// A part of the ray in which the cloud counts as even.
+  struct Step {
+    double from = 0.0, length = 0.0;     ///< blocks
+    double before = 0.0, through = 0.0;  ///< optical depth up to it, and of it
+  };
   double clear = 1.0;       ///< what is left of what is behind
   glm::dvec3 emitted{0.0};  ///< radiance of what glows, past the air before it
-  double at = 0.0;          ///< a place of scattering, as likely as light comes from there [blocks]
+  std::vector<Step> steps;  ///< those that hold something, near to far
+
+  /// A place of scattering, as likely as light comes from there. @param share 0..1, even.
+  /// @pre clear < 1
+  double place(double share) const;
+  /// Share of the light that the cloud scatters at a place that reaches the eye, times extinction
+  /// [1/block].
+  double weight_at(double t) const;
 };
-/// @param begin, end of the way [blocks]. @param air extinction of clear air [1/block]. @param pair
-/// uniform.
-CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 direction, double begin, double end,
-                         double air, glm::dvec2 pair);
+/// @param origin of the ray: the eye, or where its view is mirrored. @param begin, end of the way
+/// [blocks]. @param air extinction of clear air [1/block]. @param offset 0..1: where in its steps a
+/// march looks.
+CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 origin, glm::dvec3 direction,
+                         double begin, double end, double air, double offset);
 
 /// Share of irradiance that a cloud sends on in a direction, over extinction [1/sr], with light
 /// scattered more than once. @param cosine of the angle that light is turned by. @param depth

@@ -20,6 +20,8 @@ constexpr double kOffSurface = 1e-7;
 
 constexpr double kInside = 1e-9;  // of a voxel [blocks]
 
+constexpr glm::dvec3 kEye{0.0};
+
 /// The point of a face's plane that a direction from the eye meets, in the lattice. A plant's
 /// texture does not repeat, so that there the nearest point of the plant counts.
 glm::dvec3 on_plane(const Meeting& hit, glm::dvec3 eye, glm::dvec3 direction) {
@@ -151,9 +153,50 @@ double Shader::past_clouds(glm::dvec3 from, glm::dvec3 to_light, Sampler& sample
   return std::exp(-scene_.clouds.depth(from, to_light, sampler.next().x));
 }
 
+namespace {
+
+constexpr double kNearestToFog = 0.3;  // blocks: nearer a lamp makes fog no brighter
+
+/// A lamp beside a ray: where along it the lamp is nearest, and the part that it reaches.
+struct LampBeside {
+  double along = 0.0, aside = 0.0, from = 0.0, to = 0.0;
+
+  double angle(double t) const { return std::atan((t - along) / aside); }
+  /// A place with 1 / d^2 as its density (Kulla and Fajardo, Importance Sampling Techniques for
+  /// Path Tracing in Participating Media, 2012). @param share 0..1, even.
+  double place(double share) const {
+    const double low = angle(from);
+    return std::clamp(along + aside * std::tan(low + share * (angle(to) - low)), from, to);
+  }
+  double density(double t) const {
+    if (t < from || t > to) return 0.0;
+    return aside / ((aside * aside + (t - along) * (t - along)) * (angle(to) - angle(from)));
+  }
+};
+
+std::vector<LampBeside> lamps_beside(const std::vector<Light>& lights, glm::dvec3 origin,
+                                     glm::dvec3 direction, double begin, double end) {
+  std::vector<LampBeside> out;
+  for (const Light& light : lights) {
+    if (light.kind == shared::kLightDirectional) continue;
+    const glm::dvec3 way = light.position - origin;
+    LampBeside lamp;
+    lamp.along = glm::dot(way, direction);
+    const double off = glm::length(way - direction * lamp.along);
+    if (off >= light.range) continue;
+    const double reach = std::sqrt(light.range * light.range - off * off);
+    lamp.aside = std::max(off, kNearestToFog);
+    lamp.from = std::max(begin, lamp.along - reach);
+    lamp.to = std::min(end, lamp.along + reach);
+    if (lamp.to > lamp.from) out.push_back(lamp);
+  }
+  return out;
+}
+
+}  // namespace
+
 /// What lamps that are seen make a cloud send to the eye, over its extinction.
 glm::dvec3 Shader::lamps_in_cloud(glm::dvec3 p, glm::dvec3 direction, Sampler& sampler) const {
-  constexpr double kNearest = 0.3;  // blocks: nearer a lamp makes fog no brighter
   glm::dvec3 sum(0.0);
   lights_.reaching(p, [&](const Light& light) {
     const std::optional<LightRay> ray = sample_light(light, p, sampler);
@@ -162,24 +205,52 @@ glm::dvec3 Shader::lamps_in_cloud(glm::dvec3 p, glm::dvec3 direction, Sampler& s
                                placed ? &light.position : nullptr))
       return;
     const double depth = scene_.clouds.depth(p, ray->to_light, sampler.next().x, ray->distance);
-    const double close = placed ? std::min(1.0, ray->distance / kNearest) : 1.0;
+    const double close = placed ? std::min(1.0, ray->distance / kNearestToFog) : 1.0;
     sum += ray->irradiance *
            (close * close * scattered_share(glm::dot(direction, ray->to_light), depth));
   });
   return sum;
 }
 
+/// Light of lamps that clouds scatter at one place. It is as likely as light of an even lamp comes
+/// from there, or as light of one of the lamps does: where a ray passes a lamp closely almost all
+/// light comes from a few blocks, which the former would hardly ever find.
+glm::dvec3 Shader::lamps_along(const CloudMeeting& met, glm::dvec3 origin, glm::dvec3 direction,
+                               double air, Sampler& sampler) const {
+  if (scene_.lights.empty()) return glm::dvec3(0.0);
+  const CloudMeeting::Step& last = met.steps.back();
+  const std::vector<LampBeside> beside = lamps_beside(
+      scene_.lights, origin, direction, met.steps.front().from, last.from + last.length);
+  const double even = beside.empty() ? 1.0 : 0.5, count = static_cast<double>(beside.size());
+  const glm::dvec2 pair = sampler.next();
+  const double t =
+      pair.x < even
+          ? met.place(pair.y)
+          : beside[std::min(beside.size() - 1,
+                            static_cast<std::size_t>((pair.x - even) / (1.0 - even) * count))]
+                .place(pair.y);
+  const double weight = met.weight_at(t);
+  if (weight == 0.0) return glm::dvec3(0.0);
+  double density = even * weight / (1.0 - met.clear);
+  for (const LampBeside& lamp : beside) density += (1.0 - even) / count * lamp.density(t);
+  return lamps_in_cloud(origin + direction * t, direction, sampler) *
+         (weight / density * std::exp(-air * t));
+}
+
 /// Light that clouds scatter at one place, as likely as what the eye sees was scattered there last;
 /// the air before them; and what is left of what is behind.
-Seen Shader::through_clouds(Seen behind, glm::dvec3 direction, double begin, double end,
-                            Sampler& sampler) const {
+Seen Shader::through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction, double begin,
+                            double end, Sampler& sampler) const {
   if (!scene_.clouds.layer && scene_.clouds.grids.empty()) return behind;
   const double air = scene_.bodies.empty() ? 0.0 : scene_.haze_per_block;
-  const CloudMeeting met = meet_clouds(scene_.clouds, direction, begin, end, air, sampler.next());
+  const CloudMeeting met =
+      meet_clouds(scene_.clouds, origin, direction, begin, end, air, sampler.next().x);
   if (met.clear == 1.0) return {behind.radiance + met.emitted, behind.open};
-  const glm::dvec3 p = direction * met.at;
-  const double clear_air = std::exp(-air * met.at);
-  glm::dvec3 light = lamps_in_cloud(p, direction, sampler) * clear_air;
+  const glm::dvec3 lamps = lamps_along(met, origin, direction, air, sampler);
+  const double at = met.place(sampler.next().x);
+  const glm::dvec3 p = origin + direction * at;
+  const double clear_air = std::exp(-air * at);
+  glm::dvec3 light(0.0);
   for (const Body& body : scene_.bodies) {
     const glm::dvec2 pair = sampler.next(), other = sampler.next();
     const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
@@ -194,7 +265,7 @@ Seen Shader::through_clouds(Seen behind, glm::dvec3 direction, double begin, dou
     light += behind_voxels({r * std::sin(turn), y, r * std::cos(turn)}) *
              (sky_share(depth) * scene_.air_light * clear_air);
   }
-  return {behind.radiance * met.clear + light * (1.0 - met.clear) + met.emitted,
+  return {behind.radiance * met.clear + light * (1.0 - met.clear) + lamps + met.emitted,
           behind.open * met.clear};
 }
 
@@ -214,12 +285,12 @@ Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
   }
   const double end = trace.hit ? trace.hit->t : kFar;
   if (trace.layers.empty() && scene_.view.medium == world::kAir)
-    return through_clouds(seen, direction, 0.0, end, sampler);
+    return through_clouds(seen, kEye, direction, 0.0, end, sampler);
   const double surface = trace.layers.empty() ? end : trace.layers.front().t;
-  seen = through_clouds(seen, direction, surface, end, sampler);
+  seen = through_clouds(seen, kEye, direction, surface, end, sampler);
   seen = through_media(trace, direction, fine, seen, sampler);
   if (scene_.view.medium != world::kAir) return seen;
-  return through_clouds(seen, direction, 0.0, surface, sampler);
+  return through_clouds(seen, kEye, direction, 0.0, surface, sampler);
 }
 
 // --- Water and glass
@@ -331,7 +402,10 @@ void Shader::pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3
     const glm::dvec3 absorption(type.absorption[0], type.absorption[1], type.absorption[2]);
     mirrored = scattered_in(absorption, passage.light_in, 1e3);
   } else if (reached.any || !scene_.sky) {
-    mirrored = behind_voxels(direction - 2.0 * glm::dot(direction, shading) * shading);
+    const glm::dvec3 mirror = direction - 2.0 * glm::dot(direction, shading) * shading;
+    mirrored = through_clouds({behind_voxels(mirror), glm::dvec3(0.0)}, layer.t * direction, mirror,
+                              0.0, kFar, sampler)
+                   .radiance;
   }
   passage.radiance += passage.through * (reached.mirrored + reflected * mirrored);
   passage.through *= 1.0 - reflected;

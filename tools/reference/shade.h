@@ -58,8 +58,10 @@ class Shader {
 
   double past_clouds(glm::dvec3 from, glm::dvec3 to_light, Sampler& sampler) const;
   glm::dvec3 lamps_in_cloud(glm::dvec3 p, glm::dvec3 direction, Sampler& sampler) const;
-  Seen through_clouds(Seen behind, glm::dvec3 direction, double begin, double end,
-                      Sampler& sampler) const;
+  glm::dvec3 lamps_along(const CloudMeeting& met, glm::dvec3 origin, glm::dvec3 direction,
+                         double air, Sampler& sampler) const;
+  Seen through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction, double begin,
+                      double end, Sampler& sampler) const;
   Seen through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,
                      Sampler& sampler) const;
   void pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine, Passage& passage,

@@ -120,11 +120,11 @@ constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
                                        {"mapped", "upload.path=mapped"}};
 
 constexpr TopicPoint kCloudSteps[] = {
+    {"8", "clouds.steps=8"},
     {"16", "clouds.steps=16"},
-    {"32", "clouds.steps=32"},
+    {"24", "clouds.steps=24"},
     {"48", "clouds.steps=48"},
     {"96", "clouds.steps=96"},
-    {"160", "clouds.steps=160"},
     {"1024, full resolution", "clouds.steps=1024 clouds.resolution=full"}};
 constexpr TopicPoint kCloudShadowSteps[] = {{"4", "clouds.shadow_steps=4"},
                                             {"8", "clouds.shadow_steps=8"},
@@ -183,12 +183,12 @@ constexpr Topic kTopics[] = {
      true},
     {"bloom_levels", "levels of the pyramid that spreads bright light", kBloomLevels, kGlow,
      Judge::kReference, CostOf::kShading, false, "bloom.intensity=0.1 bloom.levels=8"},
-    {"clouds_steps", "places where a ray looks at clouds", kCloudSteps, kClouds,
+    {"clouds_steps", "steps of a ray through clouds", kCloudSteps, kClouds,
      Judge::kLimitAndReference, CostOf::kShading},
     {"clouds_shadow_steps", "places along the light's way through clouds", kCloudShadowSteps,
      kClouds, Judge::kLimitAndReference, CostOf::kShading},
     {"clouds_resolution", "whether every pixel has a ray of its own through clouds",
-     kCloudResolutions, kClouds, Judge::kReference, CostOf::kShading},
+     kCloudResolutions, kClouds, Judge::kLimitAndReference, CostOf::kShading},
     {"clouds_precision", "bits of a density of a file's cloud", kCloudPrecisions, kPuff,
      Judge::kLimitAndReference, CostOf::kShading, true},
     {"light_lists", "lights that a pixel asks: those of its cluster, or all", kLightLists, kTorches,

@@ -1,0 +1,32 @@
+// How surfaces of water and glass face the light. Needs before the include: common.glsl, `frame`, `islands`, `materials`.
+#ifndef SKERRY_RIPPLES_GLSL
+#define SKERRY_RIPPLES_GLSL
+
+// Small waves on a level water surface: slopes of four sine waves in the lattice; their periods divide an hour, after which time_s repeats.
+vec3 rippled_normal(vec3 lattice, float distance) {
+  const vec4 waves[4] = vec4[](vec4(0.83, 0.31, 80.0, 0.022), vec4(-0.47, 1.13, 120.0, 0.018), vec4(1.91, -1.27, 150.0, 0.011),
+                               vec4(-2.3, -2.9, 200.0, 0.007));
+  vec2 slope = vec2(0.0);
+  for (int i = 0; i < 4; ++i) {
+    float phase = dot(waves[i].xy, lattice.xz) + frame.time_s * 6.28318530718 * floor(30.0 * length(waves[i].xy)) / 100.0;
+    slope += waves[i].xy / length(waves[i].xy) * (waves[i].w * cos(phase));
+  }
+  slope *= exp(-distance * 0.02);  // far waves are smaller than a pixel
+  return normalize(vec3(-slope.x, 1.0, -slope.y));
+}
+
+// Water that lies level in its lattice.
+bool has_ripples(uint word) {
+  Material m = materials[surface_block(word)];
+  return (surface_face(word) >> 1) == 1u && m.roughness < 0.2 && m.absorption.r > 0.05;
+}
+
+// @param t of the surface along `ray`.
+vec3 shading_normal(uint word, vec3 ray, float t) {
+  uint face = surface_face(word);
+  IslandTransform island = islands[surface_island(word)];
+  if (!has_ripples(word)) return world_from_lattice_vector(island, face_normal(face));
+  vec3 rippled = rippled_normal(lattice_from_world(island, ray * t), t * length(ray));
+  return world_from_lattice_vector(island, rippled) * (face == 2u ? 1.0 : -1.0);
+}
+#endif
