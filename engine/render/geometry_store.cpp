@@ -117,7 +117,7 @@ void GeometryStore::count(const shared::Section& section, std::int64_t sign) {
       sign * range_quads(section, shared::kRangeCutout, shared::kRangeTranslucent));
   translucent_quads_ += static_cast<std::uint64_t>(
       sign * range_quads(section, shared::kRangeTranslucent, shared::kRangeCount));
-  ++version_;
+  changes_.note(section);
 }
 
 }  // namespace skerry::render

@@ -7,6 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/quad_arena.h"
 #include "engine/gpu/resources.h"
+#include "engine/render/geometry_changes.h"
 #include "shaders/shared/geometry.h"
 
 namespace skerry::gpu {
@@ -53,8 +54,8 @@ class GeometryStore {
   std::uint64_t translucent_quads() const { return translucent_quads_; }
   std::uint64_t cutout_quads() const { return cutout_quads_; }
   std::span<const shared::Section> records() const { return records_; }
-  /// Grows with every change, so that kept shadow maps know when they are out of date.
-  std::uint64_t version() const { return version_; }
+  /// For kept shadow maps, which must know when they are out of date.
+  const GeometryChanges& changes() const { return changes_; }
 
  private:
   GeometryStore(gpu::Device& device, std::uint32_t arena_quads)
@@ -70,7 +71,8 @@ class GeometryStore {
   std::vector<std::uint32_t> free_slots_;
   std::vector<shared::Quad> scratch_;
   std::uint32_t section_capacity_ = 0;
-  std::uint64_t translucent_quads_ = 0, cutout_quads_ = 0, version_ = 0;
+  std::uint64_t translucent_quads_ = 0, cutout_quads_ = 0;
+  GeometryChanges changes_;
 };
 
 }  // namespace skerry::render

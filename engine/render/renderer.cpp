@@ -394,7 +394,7 @@ Result<std::uint64_t> Renderer::draw(
   const Result<std::span<const ActiveCascade>> cascades =
       s.geometry->sections_resident() == 0
           ? std::span<const ActiveCascade>{}
-          : s.shadows.update(input, settings, s.geometry->version());
+          : s.shadows.update(input, settings, s.geometry->changes());
   if (!cascades) return cascades.error();
   if (input.capture)
     if (Result<void> ok = s.captures.begin(size, drawn, s.geometry->sections_resident() != 0,

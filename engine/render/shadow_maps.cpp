@@ -1,5 +1,6 @@
 #include "engine/render/shadow_maps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -26,6 +27,28 @@ double movement(const IslandPlacement& a, const FixedPos& anchor_a, const Island
   return glm::length(shift) + 4.0 * quarter * std::max(a.bounding_radius, b.bounding_radius);
 }
 
+/// Whether a section may show in a cascade's map. Errs on the side of yes.
+bool may_touch(const shared::Section& section, const IslandPlacement& island,
+               const FixedPos& camera, const Cascade& cascade) {
+  const auto corner = [&](std::uint32_t packed) {
+    const glm::dvec3 voxels(packed & 127, packed >> 7 & 127, packed >> 14 & 127);
+    return glm::dvec3(section.origin) +
+           std::ldexp(1.0, static_cast<int>(section.voxel_size_log2)) * voxels;
+  };
+  const glm::dvec3 low = corner(section.bounds_min), high = corner(section.bounds_max);
+  glm::dvec3 middle = island.rotation * (0.5 * (low + high));
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    middle[i] += static_cast<double>(island.origin[k] - camera[k]) / 65536.0;
+  }
+  // What rounding and a quarter texel of the island's motion can add.
+  const double slack = static_cast<double>(cascade.texel_blocks) + 1e-5 * glm::length(middle);
+  const double radius = 0.5 * glm::length(high - low) + slack;
+  return std::ranges::all_of(cascade.planes, [&](const glm::vec4& plane) {
+    return glm::dot(glm::dvec3(plane), middle) + static_cast<double>(plane.w) >= -radius;
+  });
+}
+
 /// Casters further than this above a cascade are flattened onto the map's near side by depth
 /// clamping, so nothing is lost.
 double caster_reach(const RenderSettings& settings) {
@@ -36,7 +59,7 @@ double caster_reach(const RenderSettings& settings) {
 
 Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& input,
                                                           const RenderSettings& settings,
-                                                          std::uint64_t geometry_version) {
+                                                          const GeometryChanges& geometry) {
   const std::array<bool, 2> casting{settings.shadows && input.sky.sun_casts,
                                     settings.shadows && input.sky.moon_casts};
   active_.clear();
@@ -85,11 +108,11 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
     for (const Cascade& cascade : make_cascades(in)) {
       ActiveCascade active{body, index++, layer, true, cascade};
       Kept& kept = kept_[layer];
-      active.redraw = !still_right(kept, active.cascade, input, geometry_version);
+      active.redraw = !still_right(kept, active.cascade, input, geometry);
       if (active.redraw)
         kept = {true,
                 active.cascade.key,
-                geometry_version,
+                geometry.version(),
                 {input.islands.begin(), input.islands.end()},
                 input.anchor};
       active_.push_back(active);
@@ -99,15 +122,21 @@ Result<std::span<const ActiveCascade>> ShadowMaps::update(const FrameInput& inpu
   return std::span<const ActiveCascade>(active_);
 }
 
-bool ShadowMaps::still_right(const Kept& kept, const Cascade& cascade, const FrameInput& input,
-                             std::uint64_t geometry_version) const {
-  if (!kept.valid || kept.key != cascade.key || kept.geometry_version != geometry_version ||
-      kept.islands.size() != input.islands.size())
+bool ShadowMaps::still_right(Kept& kept, const Cascade& cascade, const FrameInput& input,
+                             const GeometryChanges& geometry) const {
+  if (!kept.valid || kept.key != cascade.key || kept.islands.size() != input.islands.size())
     return false;
   for (std::size_t i = 0; i < input.islands.size(); ++i)
     if (movement(kept.islands[i], kept.anchor, input.islands[i], input.anchor) >
         0.25 * static_cast<double>(cascade.texel_blocks))
       return false;
+  const auto changed = geometry.since(kept.geometry_version);
+  if (!changed) return false;
+  for (const shared::Section& section : *changed)
+    if (section.island >= input.islands.size() ||
+        may_touch(section, input.islands[section.island], input.camera.position, cascade))
+      return false;
+  kept.geometry_version = geometry.version();
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/gpu/resources.h"
 #include "engine/render/cascades.h"
 #include "engine/render/celestial.h"
+#include "engine/render/geometry_changes.h"
 #include "engine/render/renderer.h"
 #include "engine/render/settings.h"
 
@@ -29,7 +30,7 @@ struct ActiveCascade {
 
 /// The shadow maps and what each of them shows. Bodies below the horizon have no cascades, and
 /// without any the array itself is given back. A map is kept while its window, its light, the
-/// geometry and the islands stay: islands may have moved by a quarter of a texel.
+/// geometry in the window and the islands stay: islands may have moved by a quarter of a texel.
 class ShadowMaps {
  public:
   explicit ShadowMaps(gpu::Device& device) : device_(&device) {}
@@ -37,7 +38,7 @@ class ShadowMaps {
   /// Decides this frame's cascades. @return all that are active, sun first. Errors: out of memory.
   Result<std::span<const ActiveCascade>> update(const FrameInput& input,
                                                 const RenderSettings& settings,
-                                                std::uint64_t geometry_version);
+                                                const GeometryChanges& geometry);
   /// Null when nothing casts.
   gpu::Image* maps() { return maps_ ? &maps_ : nullptr; }
   void forget();
@@ -50,8 +51,9 @@ class ShadowMaps {
     std::vector<IslandPlacement> islands;
     FixedPos anchor{};
   };
-  bool still_right(const Kept& kept, const Cascade& cascade, const FrameInput& input,
-                   std::uint64_t geometry_version) const;
+  /// Takes note, in `kept`, of changes that do not touch it.
+  bool still_right(Kept& kept, const Cascade& cascade, const FrameInput& input,
+                   const GeometryChanges& geometry) const;
 
   gpu::Device* device_;
   gpu::Image maps_;

@@ -19,14 +19,23 @@ class KeptShadowMaps : public PassesOnGpu {
  protected:
   FrameInput input_;
   std::vector<IslandPlacement> islands_;
+  GeometryChanges geometry_;
 
   std::vector<ActiveCascade> update(const RenderSettings& settings = {}) {
     input_.islands = islands_;
-    const auto cascades = shadows().update(input_, settings, 1);
+    const auto cascades = shadows().update(input_, settings, geometry_);
     EXPECT_TRUE(cascades);
     return {cascades->begin(), cascades->end()};
   }
 };
+
+shared::Section whole_chunk(std::uint32_t island, glm::ivec3 origin) {
+  shared::Section section{};
+  section.origin = origin;
+  section.island = island;
+  section.bounds_max = 64u | 64u << 7 | 64u << 14;
+  return section;
+}
 
 /// A turn of `angle` about a random axis, laid over what was there.
 glm::dquat turned(const glm::dquat& from, RandomPlaces& random, double angle) {
@@ -101,11 +110,47 @@ TEST_F(KeptShadowMaps, AreKeptWhenTheWholeWorldMovesAndNotWhenItsGeometryChanges
   input_.camera.position = sum(input_.camera.position, offset);
   input_.anchor = sum(input_.anchor, offset);
   for (const ActiveCascade& c : update()) EXPECT_FALSE(c.redraw);
-  input_.islands = islands_;
-  const auto cascades = shadows().update(input_, {}, 2);
-  for (const ActiveCascade& c : *cascades) EXPECT_TRUE(c.redraw);
+  geometry_.note(whole_chunk(0, {0, 0, 0}));
+  for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
   islands_.push_back(islands_[0]);
   for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw) << "an island appeared";
+}
+
+TEST_F(KeptShadowMaps, AreDrawnAfreshWhenASectionThatTheyCouldShowComesOrGoes) {
+  RandomPlaces random(7);
+  input_.sky = afternoon();
+  int kept = 0, redrawn = 0;
+  for (int round = 0; round < 300; ++round) {
+    islands_ = {{fixed_at(random.in_box(800.0)), random.turn(), 3000.0}};
+    update();
+    const shared::Section section = whole_chunk(0, glm::ivec3(random.in_box(1200.0)));
+    geometry_.note(section);
+    for (const ActiveCascade& c : update()) {
+      // Brute force: does any of many points of the chunk fall into the map?
+      bool inside = false;
+      for (int i = 0; i < 1000 && !inside; ++i) {
+        const glm::dvec3 at = glm::dvec3(section.origin) + 32.0 + random.in_box(32.0);
+        const glm::dvec3 p = blocks_at(islands_[0].origin) + islands_[0].rotation * at -
+                             blocks_at(input_.camera.position);
+        const glm::vec4 clip = c.cascade.clip_from_world * glm::vec4(glm::vec3(p), 1.0f);
+        inside = std::abs(clip.x) < 1.0f && std::abs(clip.y) < 1.0f && clip.z > 0.0f;
+      }
+      if (inside) EXPECT_TRUE(c.redraw) << "round " << round << ", map " << c.layer;
+      (c.redraw ? redrawn : kept) += 1;
+    }
+  }
+  EXPECT_GT(kept, 200);
+  EXPECT_GT(redrawn, 50);
+}
+
+TEST_F(KeptShadowMaps, AreDrawnAfreshWhenMoreChangedThanIsKnown) {
+  input_.sky = afternoon();
+  islands_ = {{{}, {1.0, 0.0, 0.0, 0.0}, 100.0}};
+  update();
+  for (int i = 0; i < 10000; ++i) geometry_.note(whole_chunk(0, {1 << 20, 0, 0}));
+  for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
+  geometry_.note(whole_chunk(0, {1 << 20, 0, 0}));
+  for (const ActiveCascade& c : update()) EXPECT_FALSE(c.redraw) << "it is far from any map";
 }
 
 TEST_F(KeptShadowMaps, AreDrawnAfreshWhenTheSunMoves) {

@@ -73,12 +73,12 @@ class Editing {
   Result<bool> time(const game::EditAct& act, Kind& kind) {
     if (act.empty()) return false;
     const Stopwatch watch;
-    const std::uint64_t shown = view_.renderer().geometry().version();
+    const std::uint64_t shown = view_.renderer().geometry().changes().version();
     if (!history_.perform(act, editor_)) return false;
     for (int frames = 1; frames <= kMostFrames; ++frames) {
       const Result<std::uint64_t> value = frame();
       if (!value) return value.error();
-      if (view_.renderer().geometry().version() == shown ||
+      if (view_.renderer().geometry().changes().version() == shown ||
           view_.renderer().mesh_uploader().pending_bytes() != 0)
         continue;
       device_.wait(*value);
