@@ -160,6 +160,7 @@ constexpr double kNearestToFog = 0.3;  // blocks: nearer a lamp makes fog no bri
 /// A lamp beside a ray: where along it the lamp is nearest, and the part that it reaches.
 struct LampBeside {
   double along = 0.0, aside = 0.0, from = 0.0, to = 0.0;
+  double power = 0.0;  // what it would make even fog send, to a factor
 
   double angle(double t) const { return std::atan((t - along) / aside); }
   /// A place with 1 / d^2 as its density (Kulla and Fajardo, Importance Sampling Techniques for
@@ -188,7 +189,10 @@ std::vector<LampBeside> lamps_beside(const std::vector<Light>& lights, glm::dvec
     lamp.aside = std::max(off, kNearestToFog);
     lamp.from = std::max(begin, lamp.along - reach);
     lamp.to = std::min(end, lamp.along + reach);
-    if (lamp.to > lamp.from) out.push_back(lamp);
+    if (lamp.to <= lamp.from) continue;
+    lamp.power = (light.intensity.x + light.intensity.y + light.intensity.z) / lamp.aside *
+                 (lamp.angle(lamp.to) - lamp.angle(lamp.from));
+    if (lamp.power > 0.0) out.push_back(lamp);
   }
   return out;
 }
@@ -221,18 +225,23 @@ glm::dvec3 Shader::lamps_along(const CloudMeeting& met, glm::dvec3 origin, glm::
   const CloudMeeting::Step& last = met.steps.back();
   const std::vector<LampBeside> beside = lamps_beside(
       scene_.lights, origin, direction, met.steps.front().from, last.from + last.length);
-  const double even = beside.empty() ? 1.0 : 0.5, count = static_cast<double>(beside.size());
+  const double even = beside.empty() ? 1.0 : 0.5;
+  double power = 0.0;
+  for (const LampBeside& lamp : beside) power += lamp.power;
   const glm::dvec2 pair = sampler.next();
-  const double t =
-      pair.x < even
-          ? met.place(pair.y)
-          : beside[std::min(beside.size() - 1,
-                            static_cast<std::size_t>((pair.x - even) / (1.0 - even) * count))]
-                .place(pair.y);
+  const LampBeside* chosen = nullptr;
+  double left = pair.x < even ? -1.0 : (pair.x - even) / (1.0 - even) * power;
+  for (const LampBeside& lamp : beside) {
+    if (left < 0.0) break;
+    chosen = &lamp;
+    left -= lamp.power;
+  }
+  const double t = chosen ? chosen->place(pair.y) : met.place(pair.y);
   const double weight = met.weight_at(t);
   if (weight == 0.0) return glm::dvec3(0.0);
   double density = even * weight / (1.0 - met.clear);
-  for (const LampBeside& lamp : beside) density += (1.0 - even) / count * lamp.density(t);
+  for (const LampBeside& lamp : beside)
+    density += (1.0 - even) * lamp.power / power * lamp.density(t);
   return lamps_in_cloud(origin + direction * t, direction, sampler) *
          (weight / density * std::exp(-air * t));
 }
