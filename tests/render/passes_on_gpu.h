@@ -144,7 +144,7 @@ class PassesOnGpu : public gpu::GpuTest {
   };
   /// Brings the shadow maps up to date and reads all of them.
   DrawnMaps shadow_maps(const FrameInput& input, const RenderSettings& settings) {
-    const auto cascades = shadows_->update(input, settings, store_->version());
+    const auto cascades = shadows_->update(input, settings, store_->changes());
     EXPECT_TRUE(cascades);
     DrawnMaps out;
     std::vector<ShadowDraw> redraw;

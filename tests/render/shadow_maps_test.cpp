@@ -135,7 +135,9 @@ TEST_F(KeptShadowMaps, AreDrawnAfreshWhenASectionThatTheyCouldShowComesOrGoes) {
         const glm::vec4 clip = c.cascade.clip_from_world * glm::vec4(glm::vec3(p), 1.0f);
         inside = std::abs(clip.x) < 1.0f && std::abs(clip.y) < 1.0f && clip.z > 0.0f;
       }
-      if (inside) EXPECT_TRUE(c.redraw) << "round " << round << ", map " << c.layer;
+      if (inside) {
+        EXPECT_TRUE(c.redraw) << "round " << round << ", map " << c.layer;
+      }
       (c.redraw ? redrawn : kept) += 1;
     }
   }
