@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -100,6 +101,14 @@ std::optional<WriterLock> WriterLock::take(const std::filesystem::path& path, in
   WriterLock lock(descriptor);
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     code = errno;
+    return std::nullopt;
+  }
+  // Another may have taken the name meanwhile (a damaged file's place): then this locks nothing.
+  struct stat held {
+  }, named{};
+  if (::fstat(descriptor, &held) != 0 || ::stat(path.c_str(), &named) != 0 ||
+      held.st_dev != named.st_dev || held.st_ino != named.st_ino) {
+    code = EWOULDBLOCK;
     return std::nullopt;
   }
   return lock;

@@ -126,8 +126,11 @@ std::optional<fs::path> replace_damaged(const fs::path& temporary, const fs::pat
     if (errno != EEXIST || count > 1000) return std::nullopt;
     (kept = path) += fmt::format(".damaged_{}", count);
   }
+  // The log is part of the world: it is not given up before there is a second one.
   std::error_code code;
-  fs::copy_file(fs::path(path) += "-wal", fs::path(kept) += "-wal", code);
+  const fs::path log = fs::path(path) += "-wal";
+  if (fs::exists(log, code) && !fs::copy_file(log, fs::path(kept) += "-wal", code))
+    return std::nullopt;
   if (!remove_companions(path) || ::rename(temporary.c_str(), path.c_str()) != 0)
     return std::nullopt;
   sync_folder_of(path);
@@ -161,9 +164,13 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const fs::path& path, const
   return open(path, Mode::kWrite);
 }
 
-Result<std::unique_ptr<WorldFile>> WorldFile::open(const fs::path& path, Mode mode) {
+Result<std::unique_ptr<WorldFile>> WorldFile::open(const fs::path& named, Mode mode) {
   auto state = std::make_unique<State>();
-  state->path = path;
+  // Its log lies beside the file itself, not beside a link to it.
+  std::error_code unreadable;
+  if (fs::is_symlink(named, unreadable)) state->path = fs::canonical(named, unreadable);
+  if (state->path.empty()) state->path = named;
+  const fs::path& path = state->path;
   state->mode = mode;
   std::optional<Trouble> trouble = check_header(path);
   if (trouble && !trouble->damage) return trouble->error;
@@ -211,8 +218,7 @@ int WorldFile::State::open_database(bool& newer) {
   if (code == SQLITE_OK) code = check_schema(*database, mode == Mode::kWrite, version);
   newer = code == SQLITE_OK && version > kVersion;
   // Nothing is written into a file that does not hang together.
-  if (code == SQLITE_OK && !newer && mode == Mode::kWrite && !is_whole(*database))
-    code = SQLITE_CORRUPT;
+  if (code == SQLITE_OK && !newer && mode == Mode::kWrite) code = check_whole(*database);
   return code;
 }
 
@@ -224,28 +230,35 @@ bool WorldFile::State::find_info() {
 }
 
 /// Goes on with what can be found in the pages of a damaged file: in memory to read, in a file of
-/// its own in the damaged one's place to write. @return false: there is nothing, or no room for it.
+/// its own in the damaged one's place to write. @return false: there is no world in it, or no room
+/// for it; the file is as it was.
 bool WorldFile::State::recover() {
   if (recovered) return false;
   recovered = true;
-  statements.clear();
-  database.reset();
   const bool writes = mode == Mode::kWrite;
   const fs::path temporary = writes ? temporary_for(path) : fs::path(":memory:");
   int code = SQLITE_OK;
-  database = Database::open(temporary.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, code);
-  bool found = database && make_schema(*database) == SQLITE_OK && salvage(path, *database, damage);
+  std::optional<Database> rescued =
+      Database::open(temporary.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, code);
+  bool found = rescued && make_schema(*rescued) == SQLITE_OK && salvage(path, *rescued, damage);
   std::optional<fs::path> kept;
+  if (found) {
+    statements.clear();
+    database = std::move(rescued);
+    version = kVersion;
+  }
   if (writes) {
-    database.reset();
+    rescued.reset();
+    if (found) database.reset();
     found = found && (kept = replace_damaged(temporary, path));
     std::error_code ignored;
-    if (!found) fs::remove(temporary, ignored);
+    if (!kept) fs::remove(temporary, ignored);
     int reason = 0;
     bool newer = false;
     found = found && (lock = WriterLock::take(path, reason)) && open_database(newer) == SQLITE_OK;
+    // One that has nothing and takes nothing, so that who asks or saves is told.
+    if (!database) database = Database::open(":memory:", SQLITE_OPEN_READONLY, code);
   }
-  version = kVersion;
   if (!found) return false;
   tell(fmt::format("the world {} is damaged: all that could be found of it was read{}",
                    quoted(path), kept ? "; the damaged file is kept as " + quoted(*kept) : ""));

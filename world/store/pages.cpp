@@ -18,6 +18,8 @@ constexpr std::size_t kMostInIndex = (kPageBytes - 12) * 64 / 255 - 23;
 constexpr std::size_t kLeast = (kPageBytes - 12) * 32 / 255 - 23;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 23;  // of a row: no writer makes more
 constexpr std::size_t kMostFields = 8;
+constexpr std::uint32_t kMostPages = 1u << 31;  // as SQLite has it
+constexpr std::uint64_t kOverflowReads = 4;     // of pages, a page of the file: a whole one has 1
 constexpr std::size_t kLogHeader = 32, kFrameHeader = 24;
 
 std::uint64_t big_endian(std::span<const std::byte> bytes) {
@@ -114,8 +116,10 @@ PageFile::PageFile(const fs::path& path) : file_(path, std::ios::binary) {
   std::error_code code;
   const std::uintmax_t bytes = fs::file_size(path, code);
   if (!code)
-    count_ = static_cast<std::uint32_t>(std::min<std::uintmax_t>(bytes / kPageBytes, UINT32_MAX));
+    count_ = static_cast<std::uint32_t>(std::min<std::uintmax_t>(bytes / kPageBytes, kMostPages));
+  in_file_ = count_;
   read_log(fs::path(path) += "-wal");
+  overflow_left_ = kOverflowReads * count_;
 }
 
 /// Frames count up to the last one that ends a commit and fits the checksum.
@@ -143,9 +147,13 @@ void PageFile::read_log(const fs::path& path) {
     uncommitted[static_cast<std::uint32_t>(big_endian(f.first(4)))] = at + kFrameHeader;
     const auto pages = static_cast<std::uint32_t>(big_endian(f.subspan(4, 4)));
     if (pages == 0) continue;
-    count_ = pages;
-    for (const auto& [number, where] : uncommitted) in_log_[number] = where;
+    for (const auto& [number, where] : uncommitted) {
+      in_log_[number] = where;
+      last_in_log_ = std::max(last_in_log_, number);
+    }
     uncommitted.clear();
+    // No more than there are, whatever the log says.
+    count_ = std::min(pages, std::max(in_file_, last_in_log_));
   }
 }
 
@@ -175,7 +183,9 @@ bool PageFile::payload(const PageBytes& page, std::size_t at, std::uint64_t size
   auto next = static_cast<std::uint32_t>(big_endian(bytes.subspan(at + here, 4)));
   PageBytes more;
   while (out.size() < size) {
-    if (!read(next, more)) return false;
+    // Chains may be crossed and bent into rings.
+    if (overflow_left_ == 0 || !read(next, more)) return false;
+    --overflow_left_;
     const std::size_t count = std::min<std::size_t>(kPageBytes - 4, size - out.size());
     out.insert(out.end(), more.begin() + 4, more.begin() + 4 + static_cast<std::ptrdiff_t>(count));
     next = static_cast<std::uint32_t>(big_endian(std::span(more).first(4)));

@@ -44,7 +44,8 @@ class PageFile {
                std::vector<std::byte>& out);
 
   std::ifstream file_, log_;
-  std::uint32_t count_ = 0;
+  std::uint32_t count_ = 0, in_file_ = 0, last_in_log_ = 0;
+  std::uint64_t overflow_left_ = 0;  // pages that chains may still be followed through
   std::unordered_map<std::uint32_t, std::uint64_t> in_log_;  // where a page's last version begins
 };
 

@@ -69,7 +69,7 @@ void WorldFile::State::tell(std::string what) {
 
 WorldFile::Contents WorldFile::read() {
   State& s = *state_;
-  if (!s.recovered && !is_whole(*s.database)) s.recover();
+  if (!s.recovered && is_damage(check_whole(*s.database))) s.recover();
   std::map<std::uint64_t, IslandRow> islands = s.read_islands();
   Contents contents;
   std::map<ChunkName, ChunkEdits> edits;

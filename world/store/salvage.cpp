@@ -100,16 +100,13 @@ class Filler {
   void put(Bind&& bind) {
     if (!insert_) return;
     bind(*insert_);
-    ++rows_;
     if (insert_->step() != SQLITE_DONE) insert_.reset();
   }
   bool done() const { return insert_.has_value(); }
-  std::size_t rows() const { return rows_; }
 
  private:
   int code_ = SQLITE_OK;
   std::optional<Statement> insert_;
-  std::size_t rows_ = 0;
 };
 
 }  // namespace
@@ -127,12 +124,17 @@ bool salvage(const std::filesystem::path& path, Database& into, std::vector<std:
   Filler spares(into, "INSERT INTO spare(id, data) VALUES(?1, ?2)");
   Filler chunks(into, "INSERT INTO chunk(island, x, y, z, data) VALUES(?1, ?2, ?3, ?4, ?5)");
   std::size_t unclear = 0;
+  bool has_info = false;
+  const auto note_info = [&](std::optional<std::span<const std::byte>> bytes) {
+    has_info = has_info || (bytes && decode_info(*bytes));
+  };
   const auto by_id = [](Filler& filler) {
     return [&filler](std::int64_t id, const Blob& bytes) {
       filler.put([&](Statement& row) { row.bind(1, id).bind(2, std::span(bytes)); });
     };
   };
   unclear += rows.values.each([&](const std::string& name, const Blob& bytes) {
+    if (name == "info") note_info(unsealed("value", name_key(name), bytes));
     values.put([&](Statement& row) { row.bind(1, name).bind(2, std::span(bytes)); });
   });
   unclear += rows.islands.each([&](const std::pair<std::int64_t, bool>& key, const Blob& bytes) {
@@ -141,7 +143,11 @@ bool salvage(const std::filesystem::path& path, Database& into, std::vector<std:
     });
   });
   unclear += rows.motions.each(by_id(motions));
-  unclear += rows.spares.each(by_id(spares));
+  unclear += rows.spares.each([&](std::int64_t id, const Blob& bytes) {
+    const std::uint64_t info = name_key("info");
+    if (static_cast<std::uint64_t>(id) == info) note_info(unsealed("spare", info, bytes));
+    by_id(spares)(id, bytes);
+  });
   unclear += rows.chunks.each([&](const ChunkName& name, const Blob& bytes) {
     chunks.put([&](Statement& row) {
       bind_name(row, name);
@@ -152,12 +158,9 @@ bool salvage(const std::filesystem::path& path, Database& into, std::vector<std:
     doubts.push_back(fmt::format("the world {} holds {} things twice, and not alike: left out",
                                  quoted(path), unclear));
   bool done = true;
-  std::size_t count = 0;
-  for (const Filler* filler : {&values, &islands, &motions, &spares, &chunks}) {
+  for (const Filler* filler : {&values, &islands, &motions, &spares, &chunks})
     done = done && filler->done();
-    count += filler->rows();
-  }
-  return into.run("COMMIT") == SQLITE_OK && done && count != 0;
+  return into.run("COMMIT") == SQLITE_OK && done && has_info;
 }
 
 }  // namespace skerry::world

@@ -16,7 +16,8 @@ inline constexpr std::size_t kPageBytes = 4096;
 /// the tables of this version and nothing in them. Source for the layout of pages and logs:
 /// https://www.sqlite.org/fileformat2.html.
 /// @param doubts told: rows of which there are two that differ; neither is taken.
-/// @return whether anything was found. Errors of `into` count as nothing found.
+/// @return whether that makes a world: what it is called and what seed it has is there. Errors of
+/// `into` count as nothing found.
 bool salvage(const std::filesystem::path& path, Database& into, std::vector<std::string>& doubts);
 
 }  // namespace skerry::world

@@ -122,10 +122,12 @@ int check_schema(Database& file, bool migrate, int& version) {
   return code;
 }
 
-bool is_whole(Database& file) {
+int check_whole(Database& file) {
   int code = SQLITE_OK;
   std::optional<Statement> check = file.prepare("PRAGMA quick_check(1)", code);
-  return check && check->step() == SQLITE_ROW && check->text(0) == "ok";
+  if (check) code = check->step();
+  if (code != SQLITE_ROW) return code == SQLITE_DONE ? SQLITE_OK : code;
+  return check->text(0) == "ok" ? SQLITE_OK : SQLITE_CORRUPT;
 }
 
 int write_value(Database& file, std::string_view name, std::span<const std::byte> bytes) {

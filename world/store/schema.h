@@ -27,8 +27,9 @@ int set_up(Database& file, bool writes);
 /// another error. A version newer than this program's is no error, and its tables are not looked
 /// at.
 int check_schema(Database& file, bool migrate, int& version);
-/// Whether all pages hang together. Reads all of them.
-bool is_whole(Database& file);
+/// Whether all pages hang together. Reads all of them. @return SQLITE_OK, SQLITE_CORRUPT if they do
+/// not, or another error.
+int check_whole(Database& file);
 
 /// Replaces a row of `value`. @return SQLITE_OK or an error.
 int write_value(Database& file, std::string_view name, std::span<const std::byte> bytes);

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "tests/world/store/made_worlds.h"
+#include "world/store/pages.h"
 #include "world/store/world_file.h"
 
 namespace skerry::world {
@@ -217,6 +218,67 @@ TEST(DamagedWorldFile, WhatWasTakenBackIsNotFoundInADamagedFile) {
   auto file = WorldFile::open(path, Mode::kRead);
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_TRUE((*file)->read().edits.empty());
+}
+
+TEST(DamagedWorldFile, OneThatNobodyCanNameStaysAsItIs) {
+  const GoodFile good(15, 2);
+  run_sql(good.folder / "good", "DELETE FROM value; DELETE FROM spare");
+  const std::string before = bytes_of(good.folder / "good");
+  for (const Mode mode : {Mode::kWrite, Mode::kRead, Mode::kWrite})
+    EXPECT_FALSE(WorldFile::open(good.folder / "good", mode));
+  EXPECT_EQ(bytes_of(good.folder / "good"), before);
+  EXPECT_FALSE(fs::exists(good.folder / "good.damaged"));
+}
+
+TEST(DamagedWorldFile, BehindALinkIsMendedWhereItIs) {
+  const GoodFile good(16, 2);
+  std::string bad = good.bytes;
+  std::fill_n(bad.begin(), 4096, '\0');
+  const fs::path path = good.with(bad), link = good.folder / "link";
+  fs::create_symlink(path, link);
+  EXPECT_TRUE(WorldFile::open(link, Mode::kWrite));
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(bytes_of(good.folder / "bad.damaged"), bad);
+  EXPECT_EQ(read_damaged(path, good.given, 0), good.all());
+}
+
+/// A log of one frame that says how many pages there are, with sound checksums
+/// (https://www.sqlite.org/fileformat2.html#wal_file_format).
+std::string log_that_says(std::uint32_t pages) {
+  const auto word = [](std::uint32_t value) {
+    std::string out;
+    for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 255);
+    return out;
+  };
+  std::uint32_t a = 0, b = 0;
+  const auto add = [&](const std::string& bytes) {
+    const auto at = [&](std::size_t i) {  // words in the order of the bytes: magic ...83
+      std::uint32_t value = 0;
+      for (std::size_t k = 0; k < 4; ++k)
+        value = value << 8 | static_cast<unsigned char>(bytes[i + k]);
+      return value;
+    };
+    for (std::size_t i = 0; i < bytes.size(); i += 8) {
+      a += at(i) + b;
+      b += at(i + 4) + a;
+    }
+  };
+  std::string log = word(0x377f0683) + word(3007000) + word(4096) + word(0) + word(1) + word(2);
+  add(log);
+  log += word(a) + word(b);
+  const std::string frame = word(2) + word(pages), page(4096, '\0');
+  add(frame);
+  add(page);
+  return log + frame + word(1) + word(2) + word(a) + word(b) + page;
+}
+
+TEST(DamagedWorldFile, ALogThatBoastsOfPagesIsNotBelieved) {
+  const Folder folder;
+  std::ofstream(folder / "w", std::ios::binary) << std::string(3 * 4096, 'x');
+  for (const auto& [says, expected] : {std::pair{2u, 2u}, {3u, 3u}, {4'000'000'000u, 3u}}) {
+    std::ofstream(folder / "w-wal", std::ios::binary) << log_that_says(says);
+    EXPECT_EQ(PageFile(folder / "w").count(), expected);
+  }
 }
 
 }  // namespace
