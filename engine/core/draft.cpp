@@ -95,9 +95,11 @@ Result<Draft> Draft::create(const fs::path& final_path) {
 Result<void> Draft::publish() {
   // Changed places, where there is something already: the old one then goes with the draft.
   std::error_code code;
-  if (::renameat2(AT_FDCWD, path().c_str(), AT_FDCWD, final_path_.c_str(), RENAME_EXCHANGE) != 0)
-    fs::rename(path(), final_path_, code);
-  if (code == std::errc::directory_not_empty) code = replace_folder();
+  uninterrupted([&] {
+    if (::renameat2(AT_FDCWD, path().c_str(), AT_FDCWD, final_path_.c_str(), RENAME_EXCHANGE) != 0)
+      fs::rename(path(), final_path_, code);
+    if (code == std::errc::directory_not_empty) code = replace_folder();
+  });
   if (code) return Error{code.message()};
   fs::remove_all(folder_, code);
   hold_.reset();

@@ -38,7 +38,8 @@ void end_by(int signal_number) {
   sigemptyset(&one);
   sigaddset(&one, signal_number);
   ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
-  ::kill(::getpid(), signal_number);
+  ::raise(signal_number);
+  ::_exit(128 + signal_number);  // the first process of a container outlives its own signals
 }
 
 void on_signal(int signal_number) {
@@ -84,6 +85,11 @@ void listen() {
 }
 
 }  // namespace
+
+void uninterrupted(const std::function<void()>& work) {
+  const std::lock_guard lock(registry().mutex);
+  work();
+}
 
 RemovedWhenInterrupted::RemovedWhenInterrupted(std::filesystem::path path) {
   std::error_code code;

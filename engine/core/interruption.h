@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 
 namespace skerry {
 
@@ -18,5 +19,9 @@ class RemovedWhenInterrupted {
  private:
   std::filesystem::path path_;
 };
+
+/// Does something that no removal may begin in the midst of; when one has begun, this does not
+/// return. The work makes and drops no RemovedWhenInterrupted.
+void uninterrupted(const std::function<void()>& work);
 
 }  // namespace skerry

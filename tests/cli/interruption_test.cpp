@@ -27,7 +27,7 @@ TEST(Interruption, LeavesNothingOfAReportBehind) {
     int status = 0;
     while (std::filesystem::is_empty(folder.path()) && ::waitpid(child, &status, WNOHANG) == 0)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the folder is there, and known
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the folder is there, and known
     ASSERT_EQ(::kill(child, signal_number), 0);
     ::waitpid(child, &status, 0);
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal_number) << status;
