@@ -445,6 +445,7 @@ Result<std::uint64_t> Renderer::draw(
     s.ring.submit();
     s.shadows.forget();
     s.clouds.forget();
+    s.baked_sky.reset();
     return *failure;
   }
   s.graph.execute(frame.commands, frame.slot);

@@ -24,8 +24,9 @@ namespace {
 constexpr double kSpeed = 48.0, kSeconds = 60.0;  // blocks/s: four times a player's usual flight
 constexpr double kAboveStart = 32.0;              // blocks
 constexpr double kPitchDeg = -12.0;
-constexpr double kDayRate = 24.0;  // seconds of day a second, as in play
-constexpr std::size_t kWorst = 8;  // frames that are told one by one
+constexpr double kLongestStart = 120.0;  // s; what has no geometry in view is never playable
+constexpr double kDayRate = 24.0;        // seconds of day a second, as in play
+constexpr std::size_t kWorst = 8;        // frames that are told one by one
 
 /// What a frame took, and where.
 struct Frame {
@@ -274,6 +275,10 @@ int bench_start(const BenchFlyOptions& options) {
   bool known = false, playable = false;
   int frames = 0;
   while (!playable) {
+    if (watch.seconds() > kLongestStart)
+      return fail(kFailed, {fmt::format("nothing can be seen after {:.0f} s: choose a --camera "
+                                        "with an island in view",
+                                        kLongestStart)});
     around.refresh(eye, 0.0, moment.world_time_s);
     // Once the ground is known its meshes are made, and handed over by the next call but one.
     const bool was_known = std::exchange(known, is_ground_known(around, eye, moment.world_time_s));
