@@ -66,9 +66,9 @@ MUTANTS = (
            "float lit = light_in_air(0u, p) *", "float lit =", "cave cave_mouth sealed_dark"),
     # Clouds
     Mutant("clouds_cast_nothing", "clouds leave all light to the land", "shaders/include/cloud_light.glsl",
-           "return exp(-cloud_depth(body, p));", "return 1.0;", "cloud_of_a_file clouds_among_islands"),
+           "return exp(-cloud_depth(body, p));", "return exp(-1e-6 * cloud_depth(body, p));", "cloud_of_a_file clouds_among_islands"),
     Mutant("clouds_shade_no_cloud", "no cloud is in a cloud's shadow", "shaders/include/cloud_scattering.glsl",
-           "dot(phases, exp(-depth * kTermDepth))", "dot(phases, vec4(1.0))", "clouds_noon clouds_sunset"),
+           "dot(phases, exp(-depth * kTermDepth))", "dot(phases, exp(-1e-6 * depth * kTermDepth))", "clouds_noon clouds_sunset"),
     Mutant("clouds_before_all", "clouds are marched through islands", "shaders/include/cloud_view.glsl",
            "if (!kTranslucent) return vec2(0.0, surface);", "if (!kTranslucent) return vec2(0.0, kSkyDistance);",
            "clouds_noon clouds_among_islands"),
@@ -81,7 +81,7 @@ MUTANTS = (
            "cloud_on_fire cloud_of_a_file"),
     # Corners
     Mutant("corners_lost", "corners are as bright as faces", "shaders/include/corners.glsl",
-           "1.0 - frame.corner_darkening * (1.0 - openness)", "1.0", "mesa tropical"),
+           "1.0 - frame.corner_darkening * (1.0 - openness)", "1.0 - 1e-6 * frame.corner_darkening * (1.0 - openness)", "mesa tropical"),
     Mutant("corners_turned", "a face's corners are taken crosswise", "shaders/include/occupancy.glsl",
            "mix(c01, c11, at.in_face.x), at.in_face.y)", "mix(c01, c11, at.in_face.x), 1.0 - at.in_face.y)",
            "mesa tropical"),
