@@ -1,11 +1,17 @@
 # Every tests/**/*_test.cpp becomes part of one program; ctest sees each gtest case. Slow or device-bound suites add their own entries.
 enable_testing()
 include(GoogleTest)
+# A header rather than definitions on every command line: a compiler cache then serves any checkout.
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/test_paths.h CONTENT
+"// Generated: where the sources and the build are.
+#pragma once
+#define SKERRY_SOURCE_DIR \"${CMAKE_SOURCE_DIR}\"
+#define SKERRY_BINARY_DIR \"${CMAKE_BINARY_DIR}\"
+" @ONLY)
 file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/*_test.cpp)
 if(test_sources)
   add_executable(skerry_tests ${test_sources})
   target_link_libraries(skerry_tests PRIVATE skerry_commands GTest::gtest_main)
-  target_compile_definitions(skerry_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
   gtest_discover_tests(skerry_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1200)
 endif()
 
@@ -15,7 +21,6 @@ file(GLOB_RECURSE cpu_test_sources CONFIGURE_DEPENDS
 if(cpu_test_sources)
   add_executable(skerry_cpu_tests EXCLUDE_FROM_ALL ${cpu_test_sources})
   target_link_libraries(skerry_cpu_tests PRIVATE skerry_world GTest::gtest_main)
-  target_compile_definitions(skerry_cpu_tests PRIVATE SKERRY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKERRY_BINARY_DIR="${CMAKE_BINARY_DIR}")
 endif()
 
 # The parsers of what comes from outside, with what they need and no more: built under sanitizers.

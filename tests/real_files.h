@@ -1,5 +1,6 @@
 // Files of other people that tests look at if they are there; the repository does not hold them.
 #pragma once
+#include <test_paths.h>
 #include <cstdlib>
 #include <filesystem>
 #include <string>

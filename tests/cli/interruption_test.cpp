@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <thread>
 
+#include <test_paths.h>
 #include "tests/folder.h"
 
 namespace skerry {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <test_paths.h>
 #include "engine/platform/files.h"
 #include "engine/platform/image_file.h"
 #include "tests/cli/run_program.h"

@@ -1,6 +1,7 @@
 // What a build without OpenVDB says where a .vdb file is wanted.
 #include <gtest/gtest.h>
 
+#include <test_paths.h>
 #include "tests/cli/run_program.h"
 
 namespace skerry {

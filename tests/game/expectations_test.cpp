@@ -9,6 +9,7 @@
 #include <random>
 #include <regex>
 
+#include <test_paths.h>
 #include "game/options.h"
 
 namespace skerry::game {

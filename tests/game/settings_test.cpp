@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <test_paths.h>
 #include <algorithm>
 #include <fstream>
 #include <regex>

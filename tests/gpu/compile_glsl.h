@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <test_paths.h>
 #include "engine/gpu/shader_table.h"
 
 namespace skerry::gpu {

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include <test_paths.h>
 #include "shaders/shared/bloom.h"
 #include "shaders/shared/clouds.h"
 #include "shaders/shared/clusters.h"

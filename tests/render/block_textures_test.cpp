@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <test_paths.h>
 #include "tools/textures/color.h"
 #include "tools/textures/layers.h"
 #include "tools/textures/noise.h"

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include <test_paths.h>
 #include "engine/platform/files.h"
 #include "tests/folder.h"
 

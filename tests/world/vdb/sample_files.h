@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include <test_paths.h>
 #include "tests/folder.h"
 
 namespace skerry::world {
