@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/render/cloud_volume.h"
+#include "engine/render/sky/cloud_volume.h"
 #include "world/coords.h"
 #include "world/vdb/volume_grid.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/render/block_textures.h"
+#include "engine/render/scene/block_textures.h"
 #include "world/blocks.h"
 
 namespace skerry::game {

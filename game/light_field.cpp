@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "engine/render/lights.h"
+#include "engine/render/light/lights.h"
 
 namespace skerry::game {
 namespace {

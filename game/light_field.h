@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/render/camera.h"
+#include "engine/render/frame/camera.h"
 #include "game/emission.h"
 #include "game/scene_lights.h"
 #include "world/stream.h"

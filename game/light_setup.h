@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "engine/render/camera.h"
+#include "engine/render/frame/camera.h"
 #include "game/light_field.h"
 #include "game/options.h"
 #include "world/world.h"

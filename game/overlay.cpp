@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/render/display.h"
+#include "engine/render/frame/display.h"
 #include "game/ui/look.h"
 
 namespace skerry::game {

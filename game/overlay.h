@@ -8,7 +8,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame_graph.h"
-#include "engine/render/settings.h"
+#include "engine/render/frame/settings.h"
 
 namespace skerry::game {
 

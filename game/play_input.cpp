@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "engine/render/exposure.h"
+#include "engine/render/frame/exposure.h"
 #include "game/play_loop.h"
 
 namespace skerry::game {

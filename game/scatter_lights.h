@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "engine/render/camera.h"
+#include "engine/render/frame/camera.h"
 #include "game/light_field.h"
 #include "world/world.h"
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/render/lights.h"
+#include "engine/render/light/lights.h"
 #include "game/emission.h"
 #include "game/parse.h"
 

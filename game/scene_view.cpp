@@ -8,7 +8,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/clock.h"
-#include "engine/render/celestial.h"
+#include "engine/render/frame/celestial.h"
 #include "game/light_setup.h"
 #include "game/materials.h"
 #include "game/open_world.h"

@@ -10,7 +10,7 @@
 #include "engine/core/jobs.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "engine/render/renderer.h"
+#include "engine/render/renderer/renderer.h"
 #include "game/light_field.h"
 #include "game/options.h"
 #include "world/stream.h"

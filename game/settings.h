@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/render/settings.h"
+#include "engine/render/frame/settings.h"
 
 namespace skerry::game {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/core/check.h"
-#include "engine/render/block_textures.h"
+#include "engine/render/scene/block_textures.h"
 
 namespace skerry::game::ui {
 namespace {

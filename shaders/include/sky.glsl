@@ -1,5 +1,5 @@
 // The daylight model and its table. Units and axes: docs/conventions.md. sky_radiance() is the twin
-// of engine/render/sky_model.cpp, where the sources are named; a test compares them.
+// of engine/render/sky/sky_model.cpp, where the sources are named; a test compares them.
 #ifndef SKERRY_SKY_GLSL
 #define SKERRY_SKY_GLSL
 #include "shared/sky.h"

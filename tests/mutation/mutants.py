@@ -60,7 +60,7 @@ MUTANTS = (
     Mutant("penumbra_narrow", "a shadow's edge is blurred as if the sun were a point", "shaders/include/shadow.glsl",
            "kBodyRadius * distance_blocks / texel", "0.1 * kBodyRadius * distance_blocks / texel", "water"),
     Mutant("shadow_casters_lost", "what the camera does not see casts no shadow of a far sun",
-           "engine/render/frame_setup.cpp", "light.planes[5] = glm::vec4(\n        0, 0, 0, 1);",
+           "engine/render/renderer/frame_tables.cpp", "light.planes[5] = glm::vec4(\n        0, 0, 0, 1);",
            "light.planes[5] = glm::vec4(\n        0, 0, 0, -1);", "day"),
     Mutant("haze_ignores_shadow", "haze glows in caves", "shaders/include/lighting.glsl",
            "float lit = light_in_air(0u, p) *", "float lit =", "cave cave_mouth sealed_dark"),
@@ -86,7 +86,7 @@ MUTANTS = (
            "mix(c01, c11, at.in_face.x), at.in_face.y)", "mix(c01, c11, at.in_face.x), 1.0 - at.in_face.y)",
            "mesa tropical"),
     # Sky and air
-    Mutant("haze_doubled", "twice the haze", "engine/render/frame_setup.cpp", "kClearAir = 0.0005f", "kClearAir = 0.001f",
+    Mutant("haze_doubled", "twice the haze", "engine/render/renderer/frame_tables.cpp", "kClearAir = 0.0005f", "kClearAir = 0.001f",
            "far_view high_altitude"),
     Mutant("sky_table_half_texel", "the sky is looked up half a texel beside", "shaders/include/sky.glsl",
            "(sky_lut_from_dir(dir) * (size - 1.0) + 0.5) / size", "(sky_lut_from_dir(dir) * (size - 1.0) + 1.0) / size",
@@ -131,7 +131,7 @@ MUTANTS = (
     Mutant("detail_ends_early", "coarser levels begin a quarter nearer", "world/stream.cpp",
            "double limit = detail_distance_blocks;", "double limit = detail_distance_blocks * 0.75;",
            "turned_islands overhead narrow_view"),
-    Mutant("view_one_percent_wider", "the field of view is 1% too wide", "engine/render/camera.cpp",
+    Mutant("view_one_percent_wider", "the field of view is 1% too wide", "engine/render/frame/camera.cpp",
            "view.tan_half_x = static_cast<float>(tan_x);", "view.tan_half_x = static_cast<float>(tan_x * 1.01);",
            "overhead day"),
     # Textures

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/render/display.h"
+#include "engine/render/frame/display.h"
 #include "tools/reference/reference.h"
 
 namespace skerry::reference {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "engine/render/block_textures.h"
+#include "engine/render/scene/block_textures.h"
 #include "tests/reference/made_scenes.h"
 #include "tools/reference/textures.h"
 

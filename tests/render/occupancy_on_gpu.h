@@ -10,7 +10,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/readback.h"
 #include "engine/gpu/uploader.h"
-#include "engine/render/occupancy_store.h"
+#include "engine/render/scene/occupancy_store.h"
 #include "tests/gpu/compile_glsl.h"
 #include "tests/gpu/test_device.h"
 #include "world/mesh/mesh.h"

@@ -10,7 +10,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/readback.h"
 #include "engine/gpu/uploader.h"
-#include "engine/render/scene_refs.h"
+#include "engine/render/frame/scene_refs.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
 #include "tests/gpu/test_device.h"

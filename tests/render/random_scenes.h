@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/render/cascades.h"
-#include "engine/render/renderer.h"
+#include "engine/render/light/cascades.h"
+#include "engine/render/renderer/renderer.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/gpu/readback.h"
-#include "engine/render/renderer.h"
+#include "engine/render/renderer/renderer.h"
 #include "game/materials.h"
 #include "tests/gpu/test_device.h"
 #include "tests/render/random_scenes.h"

@@ -13,8 +13,8 @@
 
 #include "engine/gpu/device.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/render/celestial.h"
-#include "engine/render/sky_model.h"
+#include "engine/render/frame/celestial.h"
+#include "engine/render/sky/sky_model.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/sky.h"
 #include "tests/gpu/compile_glsl.h"

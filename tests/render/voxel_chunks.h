@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/gpu/uploader.h"
-#include "engine/render/geometry_store.h"
+#include "engine/render/scene/geometry_store.h"
 #include "tools/skerry/stability/stage.h"
 #include "world/blocks.h"
 #include "world/coords.h"

@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "engine/render/display.h"
+#include "engine/render/frame/display.h"
 #include "tools/reference/reference.h"
 
 namespace skerry::reference {

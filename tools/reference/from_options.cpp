@@ -7,8 +7,8 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
-#include "engine/render/celestial.h"
-#include "engine/render/sky_model.h"
+#include "engine/render/frame/celestial.h"
+#include "engine/render/sky/sky_model.h"
 #include "game/cloud_files.h"
 #include "game/light_setup.h"
 #include "game/open_world.h"

@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
-#include "engine/render/sky_model.h"
+#include "engine/render/sky/sky_model.h"
 
 namespace skerry::reference {
 namespace {

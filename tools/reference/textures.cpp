@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "engine/render/block_textures.h"
+#include "engine/render/scene/block_textures.h"
 
 namespace skerry::reference {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/render/renderer.h"
+#include "engine/render/renderer/renderer.h"
 #include "tools/skerry/bench_report.h"
 #include "tools/skerry/scene_device.h"
 

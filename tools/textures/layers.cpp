@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "engine/core/check.h"
-#include "engine/render/block_textures.h"
+#include "engine/render/scene/block_textures.h"
 #include "tools/textures/painters.h"
 #include "world/blocks.h"
 

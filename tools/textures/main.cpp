@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/render/block_textures.h"
+#include "engine/render/scene/block_textures.h"
 #include "tools/textures/layers.h"
 #include "tools/textures/mips.h"
 

@@ -1,5 +1,5 @@
 // The eye's adaptation at time steps and targets that no frame has.
-#include "engine/render/exposure.h"
+#include "engine/render/frame/exposure.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
-#include "engine/render/lights.h"
+#include "engine/render/light/lights.h"
 #include "game/materials.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"

@@ -5,7 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
-#include "engine/render/lights.h"
+#include "engine/render/light/lights.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 

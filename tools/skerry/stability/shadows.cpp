@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "engine/render/cascades.h"
-#include "engine/render/celestial.h"
+#include "engine/render/frame/celestial.h"
+#include "engine/render/light/cascades.h"
 #include "game/controls.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/render/renderer.h"
+#include "engine/render/renderer/renderer.h"
 #include "shaders/shared/geometry.h"
 #include "world/blocks.h"
 #include "world/coords.h"

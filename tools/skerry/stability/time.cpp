@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
-#include "engine/render/celestial.h"
+#include "engine/render/frame/celestial.h"
 #include "game/controls.h"
 #include "tools/skerry/stability/case.h"
 #include "world/island.h"

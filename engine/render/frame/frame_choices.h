@@ -1,0 +1,18 @@
+#pragma once
+#include "engine/render/frame/features.h"
+#include "engine/render/frame/frame_input.h"
+#include "engine/render/frame/settings.h"
+
+namespace skerry::render {
+
+/// Whether a debug view takes the place of the lit scene.
+bool shows_channel(const RenderSettings& settings);
+/// Samples along a pixel's edge. A debug view shows samples as they are.
+int samples_per_edge(const RenderSettings& settings);
+/// Whether the frame's radiance is metered.
+bool meters(const FrameInput& input, const RenderSettings& settings);
+/// Whether the picture takes the way over a radiance image though no pass comes between.
+bool by_radiance(const FrameInput& input, const RenderSettings& settings,
+                 const FrameFeatures& features);
+
+}  // namespace skerry::render

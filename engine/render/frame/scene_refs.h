@@ -1,0 +1,49 @@
+#pragma once
+#include <volk.h>
+
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <span>
+
+#include "engine/gpu/frame_graph.h"
+#include "engine/render/frame/cloud_refs.h"
+#include "engine/render/frame/settings.h"
+
+namespace skerry::render {
+
+/// What most passes of a frame read. Filled once by the renderer; passes that write replace the
+/// reference by its new version.
+struct SceneRefs {
+  gpu::BufferRef frame;         ///< shared::FrameConstants
+  gpu::BufferRef sky;           ///< shared::SkyConstants
+  gpu::BufferRef islands;       ///< shared::IslandTransform[island], relative to the camera
+  gpu::BufferRef view_islands;  ///< shared::IslandTransform[view][island], each view's relative to
+                                ///< its own centre
+  std::span<const float> edge_growth;  ///< one a view, see FrameTables; lives as long
+  std::span<const glm::mat4>
+      clip_from_source;            ///< one a view; lives until the graph has been executed
+  gpu::BufferRef views;            ///< shared::CullView[view]
+  gpu::BufferRef materials;        ///< shared::Material[block id]
+  gpu::BufferRef quads, sections;  ///< the geometry store
+  /// The occupancy store; empty without one.
+  gpu::BufferRef occupancy_grids, occupancy_tables, occupancy_words;
+  gpu::BufferRef light_islands;  ///< FrameInput::light_islands; empty when no light is traced
+  gpu::BufferRef indices;        ///< 16-bit: 0 1 2 0 2 3, 4 5 6 ...
+  gpu::BufferRef pixel_stats;    ///< shared::PixelStats
+  gpu::BufferRef exposure;       ///< shared::Exposure
+  gpu::ImageRef block_textures, sky_lut;
+  VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
+  std::uint32_t islands_per_view = 0;
+  std::uint32_t bodies = 0;  ///< that give light: bit 0 the sun, bit 1 the moon
+  std::uint32_t shadow_taps = 0, shadow_cascades = 0;  ///< of each body, see RenderSettings
+  std::uint32_t samples_per_edge = 1;                  ///< of a pixel, see RenderSettings
+  bool penumbrae = true;                               ///< whether shadow_penumbra_blocks is not 0
+  bool haze = true;
+  ToneCurve tone = ToneCurve::kAces;
+  bool calibrated = false;          ///< whether the display takes other than 0 to 1
+  bool corners = false;             ///< whether they darken; then there is an occupancy store
+  std::optional<CloudRefs> clouds;  ///< none: the frame has no clouds
+  VkExtent2D size{};
+};
+
+}  // namespace skerry::render

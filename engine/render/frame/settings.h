@@ -1,0 +1,119 @@
+#pragma once
+#include <cstdint>
+
+#include "engine/render/frame/features.h"
+
+namespace skerry::render {
+
+/// What the picture shows instead of the lit scene.
+enum class DebugView : std::uint8_t {
+  kNone,
+  kAlbedo,
+  kNormal,
+  kPosition,
+  kMetadata,
+  kEmissive,
+  kDepth,
+  kCascades,
+  kShadow,
+  kCorners,
+  kClusters,
+  kLightCount,
+  kExposure  ///< the lit scene, and the meter's histogram over it
+};
+
+/// How the G-buffer keeps a surface's normal. Not at all is exact: the normal then comes from the
+/// face and its island. The others are for measuring what storing it would cost and lose.
+enum class NormalStore : std::uint8_t { kExact, kOct8, kOct16, kRgb8, kRgb10a2, kRgba16f };
+/// Where a surface's position comes from: its depth, or an image of positions relative to the
+/// camera.
+enum class PositionStore : std::uint8_t { kDepth, kRgba16f, kRgba32f };
+enum class DepthStore : std::uint8_t { kD32, kD16 };
+
+/// What the G-buffer holds besides the word of each surface.
+struct GBufferStore {
+  NormalStore normal = NormalStore::kExact;
+  PositionStore position = PositionStore::kDepth;
+  DepthStore depth = DepthStore::kD32;
+  bool operator==(const GBufferStore&) const = default;
+};
+
+/// From exposed radiance to what a display can show.
+enum class ToneCurve : std::uint8_t { kAces, kAgx };
+
+/// What the display in use can show. docs/exposure.md.
+struct DisplaySettings {
+  float peak = 1.0f;   ///< brightest value of the picture, of the display's white, linear, 0.1..1
+  float black = 0.0f;  ///< darkest sRGB value that is seen apart from black, 0..0.2
+  bool operator==(const DisplaySettings&) const = default;
+};
+
+/// How the camera meters a frame that is given no exposure. docs/exposure.md.
+struct MeterSettings {
+  float key = 0.35f;     ///< exposed luminance of a landscape under the noon sun, 0.01..1
+  float min_ev = -8.0f;  ///< stops; metered exposures stay within
+  float max_ev = 4.0f;
+  int stride = 4;  ///< one pixel of each stride x stride is looked at, 1..16
+  bool operator==(const MeterSettings&) const = default;
+};
+
+inline constexpr std::uint32_t kEveryLight = ~0u;
+/// Glow of what is too bright. docs/exposure.md.
+struct BloomSettings {
+  float intensity = 0.0f;  ///< of the light over the threshold, what is added; 0: no bloom at all
+  float threshold = 1.5f;  ///< exposed brightness, 0..100
+  int levels = 6;          ///< of the pyramid, 1..8; each doubles the reach
+  bool operator==(const BloomSettings&) const = default;
+};
+
+/// Clouds, of the layer and of files. docs/clouds.md.
+struct CloudSettings {
+  float coverage = 0.0f;       ///< of the layer: share of the sky, 0..1; 0: there is no layer
+  double altitude = 360.0;     ///< of the layer's base [blocks]
+  float thickness = 240.0f;    ///< of the layer [blocks], > 0
+  float density = 0.12f;       ///< extinction in the middle of the layer's clouds [1/block]
+  float file_density = 0.1f;   ///< extinction of density 1 in a file [1/block]
+  float file_emission = 0.2f;  ///< radiance a block that a file's hottest place sends out
+  int steps = 24;              ///< of the eye's way through the layer or a file's box, 8..1024
+  int shadow_steps = 32;       ///< of the light's way, 4..128
+  int resolution = 2;          ///< 1: a ray for every pixel; 2: for every second one each way
+  int precision = 8;           ///< bits of a density in a file's bricks: 8, 16 or 32
+  bool operator==(const CloudSettings&) const = default;
+};
+
+/// Knobs of the picture. Defaults are the medium quality level's.
+struct RenderSettings {
+  double view_distance_blocks =
+      1000.0;                ///< all that is drawn lies within; the last cascade reaches as far
+  int samples_per_edge = 1;  ///< of a pixel: the picture is drawn so many times as wide and high
+                             ///< and averaged; 1, 2 or 4
+  bool shadows = true;
+  int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
+  int shadow_cascades = 4;     ///< maps a light has, 1..4; however few reach as far
+  double shadow_split = 0.98;  ///< 0 evenly spaced cascades .. 1 each a multiple of the last
+  int shadow_taps = 8;         ///< of the shadow filter: 1, 4, 8, 16 or 32
+  /// Largest radius of the shadow filter, which is as wide as the edge that the sun's disc casts,
+  /// and a texel at least. 0: a texel everywhere.
+  float shadow_penumbra_blocks = 0.15f;
+  bool flat_shading = false;  ///< shadow result times light colour, no N.L and no corners
+  float corner_darkening =
+      0.5f;                    ///< share of light that a closed corner takes, 0..1; 0: no corners
+  int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
+  int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
+  GBufferStore gbuffer;
+  MeterSettings meter;
+  BloomSettings bloom;
+  ToneCurve tone = ToneCurve::kAces;
+  DisplaySettings display;
+  CloudSettings clouds;
+  /// For how many lights of a pixel walls are looked for: none, kEveryLight, or those that send the
+  /// most light to the eye, 1..8; the others are dimmed by the same share.
+  std::uint32_t traced_lights = 4;
+  std::uint32_t light_tile = 16;  ///< pixels along a light cluster's tile: 8, 16, 32 or 64
+  int light_samples = 1;          ///< ways to a light that has a size, 1..16
+  bool lights_oracle = false;     ///< every pixel asks every light: slow, to hold clusters against
+  FeatureSet leave_out;           ///< absent even where the scene has them
+  DebugView debug_view = DebugView::kNone;
+};
+
+}  // namespace skerry::render

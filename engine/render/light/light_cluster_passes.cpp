@@ -1,0 +1,256 @@
+#include <algorithm>
+#include <cstddef>
+
+#include "engine/render/light/light_clusters.h"
+
+namespace skerry::render {
+namespace {
+
+using gpu::Use;
+
+/// A dispatch of one invocation an item, in work groups of 64, in rows that any device takes.
+void dispatch_items(gpu::Commands& c, std::uint32_t items) {
+  const std::uint32_t count = gpu::Commands::groups(items, shared::kClusterGroup);
+  c.dispatch(std::min(count, shared::kTileRow), gpu::Commands::groups(count, shared::kTileRow), 1);
+}
+
+static_assert(offsetof(shared::TileDispatch, groups_z) == 8 &&
+              offsetof(shared::ClusterWork, groups_z) == 8);
+
+/// A dispatch without work groups, nothing counted. @param layers of work groups.
+void fill_dispatch(gpu::Commands& c, gpu::BufferRef to, std::uint64_t size_bytes,
+                   std::uint32_t layers) {
+  c.fill(to, 0, 4, 0);
+  c.fill(to, 4, 4, 1);
+  c.fill(to, 8, 4, layers);
+  c.fill(to, 12, size_bytes - 12, 0);
+}
+
+struct Buffers {
+  gpu::BufferRef grid, lights;
+  gpu::BufferRef small_tiles, tiles;  ///< shared::TileDepths
+  gpu::BufferRef bins, occupied, counts, work;
+};
+
+std::uint32_t small_tile_count(const shared::ClusterGrid& grid) {
+  return gpu::Commands::groups(grid.size.x, shared::kTileEdge) *
+         gpu::Commands::groups(grid.size.y, shared::kTileEdge);
+}
+
+void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+              const ClusterDepths& depths, const shared::ClusterGrid& grid, Buffers& b) {
+  std::vector<gpu::SpecConstant> constants{{0, depths.layer_count}};
+  if (depths.depth16) constants.push_back({6, 1});
+  const gpu::Pipeline& pipeline =
+      pipelines.get(gpu::ComputeDesc{"mark_light_tiles.comp", std::move(constants)});
+  graph.add_pass(
+      "mark_light_tiles",
+      [&](gpu::PassBuilder& p) {
+        p.read(b.grid, Use::kComputeRead);
+        p.read(depths.surfaces, Use::kComputeRead);
+        p.read(depths.depth, Use::kComputeSampled);
+        for (std::uint32_t k = 0; k < depths.layer_count; ++k)
+          p.read(depths.layers[k], Use::kComputeSampled);
+        b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
+      },
+      [&pipeline, b, depths, point = scene.point_sampler,
+       count = small_tile_count(grid)](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, b.grid);
+        c.sampled(1, depths.depth, point);
+        c.storage(2, depths.surfaces);
+        // Layers that are not there are never read; depth is bound in their place.
+        for (std::uint32_t k = 0; k < depths.layers.size(); ++k)
+          c.sampled(3 + k, k < depths.layer_count ? depths.layers[k] : depths.depth, point);
+        c.storage(7, b.small_tiles);
+        dispatch_items(c, count);
+      });
+}
+
+void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                       const shared::ClusterGrid& grid, Buffers& b) {
+  graph.add_pass(
+      "list_light_clusters_clear",
+      [&](gpu::PassBuilder& p) { b.work = p.write(b.work, Use::kTransferWrite); },
+      [work = b.work, chunks = grid.chunks](gpu::Commands& c) {
+        fill_dispatch(c, work, sizeof(shared::ClusterWork), chunks);
+      });
+  graph.add_pass(
+      "list_light_clusters",
+      [&](gpu::PassBuilder& p) {
+        p.read(b.grid, Use::kComputeRead);
+        p.read(b.small_tiles, Use::kComputeRead);
+        b.tiles = p.write(b.tiles, Use::kComputeWrite);
+        b.work = p.write(b.work, Use::kComputeWrite);
+        b.occupied = p.write(b.occupied, Use::kComputeWrite);
+      },
+      [b, count = grid.tiles_x * grid.tiles_y,
+       &pipeline =
+           pipelines.get(gpu::ComputeDesc{"list_light_clusters.comp", {}})](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, b.grid);
+        c.storage(1, b.small_tiles);
+        c.storage(2, b.tiles);
+        c.storage(3, b.work);
+        c.storage(4, b.occupied);
+        dispatch_items(c, count);
+      });
+}
+
+void add_bin(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::ClusterGrid& grid,
+             std::uint32_t kinds, Buffers& b) {
+  graph.add_pass(
+      "bin_lights",
+      [&](gpu::PassBuilder& p) {
+        for (const gpu::BufferRef ref : {b.grid, b.lights, b.tiles}) p.read(ref, Use::kComputeRead);
+        b.bins = p.write(b.bins, Use::kComputeWrite);
+      },
+      [b, groups = gpu::Commands::groups(grid.bins_x * grid.bins_y, shared::kClusterGroup),
+       words = grid.light_words,
+       &pipeline =
+           pipelines.get(gpu::ComputeDesc{"bin_lights.comp", {{12, kinds}}})](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, b.grid);
+        c.storage(1, b.lights);
+        c.storage(2, b.tiles);
+        c.storage(3, b.bins);
+        c.dispatch(groups, words, 1);
+      });
+}
+
+void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
+                 ClusteredLights& out) {
+  graph.add_pass(
+      "reserve_light_lists",
+      [&](gpu::PassBuilder& p) {
+        p.read(b.grid, Use::kComputeRead);
+        p.read(b.occupied, Use::kComputeRead);
+        p.read(b.work, Use::kIndirect);
+        b.work = p.write(b.work, Use::kComputeWrite);
+        b.counts = p.write(b.counts, Use::kComputeWrite);
+        out.clusters = p.write(out.clusters, Use::kComputeWrite);
+      },
+      [b, clusters = out.clusters,
+       &pipeline =
+           pipelines.get(gpu::ComputeDesc{"reserve_light_lists.comp", {}})](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, b.grid);
+        c.storage(1, b.work);
+        c.storage(2, b.occupied);
+        c.storage(3, b.counts);
+        c.storage(4, clusters);
+        c.dispatch_indirect(b.work, 0);
+      });
+}
+
+/// One of the two runs over the occupied clusters. In the first, the counts stand for what is not
+/// there yet and not looked at.
+void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Buffers& b,
+                ClusteredLights& out) {
+  graph.add_pass(
+      list ? "assign_lights" : "count_lights",
+      [&](gpu::PassBuilder& p) {
+        for (const gpu::BufferRef ref : {b.grid, b.lights, b.tiles, b.bins, b.occupied, b.work})
+          p.read(ref, Use::kComputeRead);
+        p.read(b.work, Use::kIndirect);
+        if (list) p.read(out.clusters, Use::kComputeRead);
+        b.counts = p.write(b.counts, Use::kComputeWrite);
+        if (list) out.entries = p.write(out.entries, Use::kComputeWrite);
+      },
+      [b, list, clusters = list ? out.clusters : b.counts, entries = list ? out.entries : b.counts,
+       &pipeline = pipelines.get(gpu::ComputeDesc{"assign_lights.comp", {{12, out.kinds}}})](
+          gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, b.grid);
+        c.storage(1, b.lights);
+        c.storage(2, b.tiles);
+        c.storage(3, b.bins);
+        c.storage(4, b.work);
+        c.storage(5, b.occupied);
+        c.storage(6, b.counts);
+        c.storage(7, clusters);
+        c.storage(8, entries);
+        c.push(list ? 1u : 0u);
+        c.dispatch_indirect(b.work, 0);
+      });
+}
+
+void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                    const shared::ClusterGrid& grid, const Buffers& b, ClusteredLights& out) {
+  graph.add_pass(
+      "list_light_tiles_clear",
+      [&](gpu::PassBuilder& p) {
+        out.tiles.dispatches = p.write(out.tiles.dispatches, Use::kTransferWrite);
+      },
+      [dispatches = out.tiles.dispatches](gpu::Commands& c) {
+        fill_dispatch(c, dispatches, 2 * sizeof(shared::TileDispatch), 1);
+      });
+  const gpu::BufferRef clusters = out.oracle ? b.small_tiles : out.clusters;  // bound, not read
+  std::vector<gpu::SpecConstant> constants;
+  if (out.oracle) constants.push_back({16, 1});
+  graph.add_pass(
+      "list_light_tiles",
+      [&](gpu::PassBuilder& p) {
+        p.read(b.grid, Use::kComputeRead);
+        p.read(b.small_tiles, Use::kComputeRead);
+        if (!out.oracle) p.read(clusters, Use::kComputeRead);
+        out.tiles.dispatches = p.write(out.tiles.dispatches, Use::kComputeWrite);
+        out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
+      },
+      [b, clusters, tiles = out.tiles, count = small_tile_count(grid),
+       &pipeline = pipelines.get(gpu::ComputeDesc{"list_light_tiles.comp", std::move(constants)})](
+          gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, b.grid);
+        c.storage(1, b.small_tiles);
+        c.storage(2, clusters);
+        c.storage(3, tiles.dispatches);
+        c.storage(4, tiles.lists);
+        dispatch_items(c, count);
+      });
+}
+
+}  // namespace
+
+ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                   const SceneRefs& scene, const ClusterDepths& depths,
+                                   bool oracle) {
+  const std::uint32_t tiles = grid_.tiles_x * grid_.tiles_y, small = small_tile_count(grid_);
+  const std::uint64_t clusters = std::uint64_t{tiles} * shared::kClusterSlices;
+  const auto create = [&](const char* name, std::uint64_t size_bytes) {
+    return graph.create(gpu::BufferDesc{name, size_bytes, 0, gpu::Memory::kDevice});
+  };
+  ClusteredLights out;
+  out.kinds = kinds_;
+  out.oracle = oracle;
+  out.grid = graph.import(grid_buffer_);
+  out.lights = graph.import(lights_);
+  out.tiles.dispatches = create("light tile dispatches", 2 * sizeof(shared::TileDispatch));
+  out.tiles.lists = create("light tiles", std::uint64_t{small} * sizeof(std::uint32_t));
+  Buffers b;
+  b.grid = out.grid;
+  b.lights = out.lights;
+  b.small_tiles = create("tile depths", std::uint64_t{small} * sizeof(shared::TileDepths));
+  work_ = {};
+  add_mark(graph, pipelines, scene, depths, grid_, b);
+  if (!oracle) {
+    b.tiles = create("cluster depths", std::uint64_t{tiles} * sizeof(shared::TileDepths));
+    b.work = create("cluster work", sizeof(shared::ClusterWork));
+    b.occupied = create("occupied clusters", clusters * sizeof(std::uint32_t));
+    b.counts = create("light counts", clusters * grid_.chunks * sizeof(std::uint32_t));
+    b.bins = create("light bins", std::uint64_t{grid_.bins_x} * grid_.bins_y * grid_.light_words *
+                                      sizeof(std::uint32_t));
+    out.clusters = create("clusters", clusters * sizeof(shared::Cluster));
+    out.entries = graph.import(entries_);
+    add_list_clusters(graph, pipelines, grid_, b);
+    add_bin(graph, pipelines, grid_, kinds_, b);
+    add_assign(graph, pipelines, false, b, out);
+    add_reserve(graph, pipelines, b, out);
+    add_assign(graph, pipelines, true, b, out);
+    work_ = b.work;
+  }
+  add_list_tiles(graph, pipelines, grid_, b, out);
+  return out;
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,192 @@
+#include "engine/render/light/light_clusters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/core/check.h"
+#include "engine/core/log.h"
+#include "engine/render/frame/camera.h"
+
+namespace skerry::render {
+namespace {
+
+using gpu::Use;
+
+constexpr VkBufferUsageFlags kTable =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+/// Room for lists to begin with. What a frame wants beyond is made for later ones.
+constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 14, kFirstEntries = 1u << 22;
+/// 256 lights are looked through at a stretch: more would leave a GPU idle, and lavapipe ends an
+/// invocation after 65,535 rounds of its loops, without a word.
+constexpr std::uint32_t kLeastChunkWords = 8, kMostChunks = 16;
+/// Lists never take more: what does not fit is looked for among all lights.
+constexpr std::uint64_t kMostEntryBytes = 512u << 20;
+
+std::uint32_t groups(std::uint32_t threads, std::uint32_t group) {
+  return gpu::Commands::groups(threads, group);
+}
+
+std::uint32_t bins_of(const ClusterPicture& picture) {
+  const std::uint32_t edge = picture.tile_edge * shared::kBinClusters;
+  return groups(picture.size.width, edge) * groups(picture.size.height, edge);
+}
+
+std::uint64_t most_entries(const gpu::DeviceLimits& limits) {
+  return std::min(kMostEntryBytes, limits.max_storage_range) / sizeof(std::uint32_t);
+}
+
+}  // namespace
+
+std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
+                                          const shared::CullView& view) {
+  std::vector<shared::Light> out;
+  for (const shared::Light& light : lights) {
+    if (light.intensity == glm::vec3(0.0f)) continue;
+    bool inside = true;
+    if ((light.kind & shared::kLightKindMask) != shared::kLightDirectional) {
+      for (const glm::vec4& plane : view.planes) {
+        const float distance = glm::dot(glm::vec3(plane), light.position) + plane.w;
+        const float rounding = 1e-4f * (1.0f + light.range + glm::length(light.position));
+        inside = inside && distance >= -light.range - rounding;
+      }
+    }
+    if (inside) out.push_back(light);
+  }
+  return out;
+}
+
+std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture& picture) {
+  // A dispatch has a row of bins for each word of 32 lights, and a device takes 65,535 rows.
+  const std::uint64_t by_lights = limits.max_storage_range / sizeof(shared::Light);
+  const std::uint64_t words = limits.max_storage_range / sizeof(std::uint32_t) / bins_of(picture);
+  return static_cast<std::uint32_t>(
+      std::min(by_lights, 32 * std::min<std::uint64_t>(words, 65535)));
+}
+
+std::uint32_t slices_lit(std::span<const shared::Light> lights) {
+  constexpr std::uint32_t kAll = (1u << shared::kClusterSlices) - 1u;
+  float reach = 1.0f;
+  for (const shared::Light& light : lights) {
+    if ((light.kind & shared::kLightKindMask) == shared::kLightDirectional) return kAll;
+    reach = std::max(reach, glm::length(light.position) + light.range);
+  }
+  // Two slices an octave from one block on; one more for what rounding does.
+  const auto last = static_cast<std::uint32_t>(2.0f * std::log2(reach)) + 2u;
+  return last >= shared::kClusterSlices ? kAll : (2u << last) - 1u;
+}
+
+shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
+                                 std::uint32_t light_count, std::uint64_t entries) {
+  shared::ClusterGrid g{};
+  g.right = camera.right;
+  g.up = camera.up;
+  g.forward = camera.forward;
+  g.tan_half = {camera.tan_half_x, camera.tan_half_y};
+  g.size = {picture.size.width, picture.size.height};
+  g.near_plane = kNearPlane;
+  SKERRY_ASSERT(std::has_single_bit(picture.tile_edge) && picture.tile_edge >= shared::kTileEdge);
+  g.edge_log2 = static_cast<std::uint32_t>(std::countr_zero(picture.tile_edge));
+  g.tiles_x = groups(g.size.x, picture.tile_edge);
+  g.tiles_y = groups(g.size.y, picture.tile_edge);
+  g.bins_x = groups(g.tiles_x, shared::kBinClusters);
+  g.bins_y = groups(g.tiles_y, shared::kBinClusters);
+  g.light_count = light_count;
+  g.light_words = groups(light_count, 32);
+  g.chunk_words = std::max(kLeastChunkWords, groups(g.light_words, kMostChunks));
+  g.chunks = groups(g.light_words, g.chunk_words);
+  g.marked_slices = picture.marked_slices;
+  // The counter that hands out room has 32 bits: even if every light reached every cluster it must
+  // not wrap.
+  const std::uint64_t clusters = std::uint64_t{g.tiles_x} * g.tiles_y * shared::kClusterSlices;
+  while (clusters * ((light_count >> g.unit_log2) + std::uint64_t{1}) >= (std::uint64_t{1} << 32))
+    ++g.unit_log2;
+  g.capacity = static_cast<std::uint32_t>(entries >> g.unit_log2);
+  return g;
+}
+
+std::vector<gpu::SpecConstant> ClusteredLights::with_lights(
+    std::vector<gpu::SpecConstant> own) const {
+  own.push_back({12, kinds});
+  if (oracle) own.push_back({16, 1});
+  return own;
+}
+
+void ClusteredLights::declare(gpu::PassBuilder& builder) const {
+  builder.read(grid, Use::kComputeRead);
+  builder.read(lights, Use::kComputeRead);
+  if (oracle) return;
+  builder.read(clusters, Use::kComputeRead);
+  builder.read(entries, Use::kComputeRead);
+}
+
+void ClusteredLights::bind(gpu::Commands& commands) const {
+  commands.storage(22, grid);
+  commands.storage(23, lights);
+  // The oracle reads no lists; its lights are bound in their place so that every binding is valid.
+  commands.storage(24, oracle ? lights : clusters);
+  commands.storage(25, oracle ? lights : entries);
+}
+
+Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
+                                    std::uint64_t size_bytes) {
+  if (buffer && buffer.size_bytes() >= size_bytes) return {};
+  Result<gpu::Buffer> made =
+      device_.create_buffer({name, size_bytes, kTable, gpu::Memory::kDevice});
+  if (!made) return made.error();
+  buffer = *std::move(made);
+  return {};
+}
+
+Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
+                                   const CameraView& camera, const ClusterPicture& picture) {
+  SKERRY_ASSERT(!lights.empty());
+  const std::uint32_t most = most_lights(device_.limits(), picture);
+  if (lights.size() > most) {
+    if (!said_too_many_)
+      log_error(
+          fmt::format("cannot light a picture with {} lights: this device can sort {} at "
+                      "{}x{} pixels; the others stay dark, use fewer lights in view",
+                      lights.size(), most, picture.size.width, picture.size.height));
+    said_too_many_ = true;
+    lights = lights.first(most);
+  }
+  kinds_ = 0;
+  for (const shared::Light& light : lights) kinds_ |= 1u << (light.kind & shared::kLightKindMask);
+  const std::uint64_t room = std::clamp(
+      std::max(wanted_entries_, std::min(lights.size() * kEntriesPerLight, kFirstEntries)),
+      kLeastEntries, most_entries(device_.limits()));
+  if (Result<void> ok = reserve(entries_, "light lists", room * sizeof(std::uint32_t)); !ok)
+    return ok;
+  // Lights come and go: a power of two is not outgrown by each that comes.
+  std::uint64_t bytes = 4096;
+  while (bytes < lights.size_bytes()) bytes *= 2;
+  bytes = std::max<std::uint64_t>(std::min(bytes, device_.limits().max_storage_range),
+                                  lights.size_bytes());
+  if (Result<void> ok = reserve(lights_, "lights", bytes); !ok) return ok;
+  if (Result<void> ok = reserve(grid_buffer_, "cluster grid", sizeof(grid_)); !ok) return ok;
+  grid_ = cluster_grid(camera, picture, static_cast<std::uint32_t>(lights.size()),
+                       entries_.size_bytes() / sizeof(std::uint32_t));
+  uploader.write(lights_, 0, lights);
+  uploader.write(grid_buffer_, 0, std::span<const shared::ClusterGrid>(&grid_, 1));
+  return {};
+}
+
+void LightClusters::learn(const shared::ClusterGrid& grid, const shared::ClusterWork& found) {
+  if (found.units <= grid.capacity) return;
+  const std::uint64_t wanted = std::uint64_t{found.units} << grid.unit_log2;
+  wanted_entries_ = std::max(wanted_entries_, wanted + wanted / 4);
+  if (wanted <= most_entries(device_.limits()) || said_no_room_) return;
+  said_no_room_ = true;
+  log_warning(fmt::format(
+      "the lights' lists would take {} MiB of the {} MiB they may: where they do not fit, every "
+      "light is asked, which is slow; use fewer lights or shorter ranges",
+      wanted * sizeof(std::uint32_t) >> 20,
+      most_entries(device_.limits()) * sizeof(std::uint32_t) >> 20));
+}
+
+}  // namespace skerry::render

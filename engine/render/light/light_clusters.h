@@ -1,0 +1,97 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/uploader.h"
+#include "engine/render/frame/phases.h"
+#include "engine/render/frame/scene_refs.h"
+#include "engine/render/scene/tiles.h"
+#include "shaders/shared/clusters.h"
+#include "shaders/shared/frame.h"
+#include "shaders/shared/light.h"
+
+namespace skerry::render {
+
+struct CameraView;
+
+/// The lights whose range touches a view, in their order; directional ones always. Those without
+/// intensity light nothing and are left out.
+std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
+                                          const shared::CullView& view);
+
+/// A picture to be cut into clusters.
+struct ClusterPicture {
+  VkExtent2D size{};  ///< pixels
+  /// Slices of depth that show something in every tile, a bit each: the first about a camera in a
+  /// translucent block.
+  std::uint32_t marked_slices = 0;
+  std::uint32_t tile_edge = 16;  ///< pixels along a cluster's tile: 8, 16, 32 or 64
+};
+
+/// All slices of depth up to where the farthest light ends, a bit each: where a medium that fills
+/// the open may be lit.
+std::uint32_t slices_lit(std::span<const shared::Light> lights);
+
+/// The most lights of a picture that a device can sort.
+std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture& picture);
+
+/// The grid for a picture. @param entries that there is room for.
+shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
+                                 std::uint32_t light_count, std::uint64_t entries);
+
+/// A frame's lights, sorted: what a pass needs that includes shaders/include/clustered.glsl.
+struct ClusteredLights {
+  gpu::BufferRef grid, lights, clusters, entries;
+  Tiles tiles;              ///< those that some light reaches, kCovered alone
+  std::uint32_t kinds = 0;  ///< bit a kind that the frame has
+  bool oracle = false;      ///< nothing is sorted: every pixel asks every light
+
+  std::vector<gpu::SpecConstant> with_lights(std::vector<gpu::SpecConstant> own) const;
+  void declare(gpu::PassBuilder& builder) const;
+  void bind(gpu::Commands& commands) const;
+};
+
+/// Depths of what a frame shows.
+struct ClusterDepths {
+  gpu::ImageRef surfaces, depth;        ///< of the G-buffer
+  bool depth16 = false;                 ///< see DepthStore
+  std::array<gpu::ImageRef, 4> layers;  ///< of translucent surfaces
+  std::uint32_t layer_count = 0;
+};
+
+/// Sorts lights into the clusters of the picture's pyramid that show a surface (docs/lights.md):
+/// counted, then listed, so that no list has a cap. Owns what outlives a frame: the lights and the
+/// room for their lists.
+class LightClusters {
+ public:
+  explicit LightClusters(gpu::Device& device) : device_(device) {}
+
+  /// Takes a frame's lights to the GPU. More than most_lights() are cut off, and said so once.
+  /// @param lights not empty, in view. Errors: out of memory.
+  Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
+                      const CameraView& camera, const ClusterPicture& picture);
+  /// Adds the passes that sort what was uploaded last. @param oracle see ClusteredLights.
+  ClusteredLights add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                      const ClusterDepths& depths, bool oracle);
+  /// What was found, after add(): shared::ClusterWork; empty under the oracle.
+  gpu::BufferRef work() const { return work_; }
+  /// What a frame found that used `grid`: makes room for as many entries from the next upload on.
+  void learn(const shared::ClusterGrid& grid, const shared::ClusterWork& found);
+  /// Of the last upload().
+  const shared::ClusterGrid& grid() const { return grid_; }
+
+ private:
+  Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
+
+  gpu::Device& device_;
+  gpu::Buffer grid_buffer_, lights_, entries_;
+  shared::ClusterGrid grid_{};
+  std::uint32_t kinds_ = 0;
+  std::uint64_t wanted_entries_ = 0;
+  bool said_too_many_ = false, said_no_room_ = false;
+  gpu::BufferRef work_;
+};
+
+}  // namespace skerry::render

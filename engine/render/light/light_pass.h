@@ -1,0 +1,16 @@
+#pragma once
+#include "engine/render/frame/phases.h"
+#include "engine/render/frame/scene_refs.h"
+#include "engine/render/light/light_clusters.h"
+
+namespace skerry::render {
+
+/// Adds the light of the frame's lights to opaque surfaces, in the tiles that some light reaches.
+struct LightPass {
+  /// Corners darken it, and walls block it, as the settings have it.
+  static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const Geometry& geometry, const ClusteredLights& lights, Shaded shaded,
+                    const RenderSettings& settings);
+};
+
+}  // namespace skerry::render

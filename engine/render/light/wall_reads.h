@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/frame/scene_refs.h"
+#include "engine/render/frame/settings.h"
+#include "engine/render/scene/occupancy_reads.h"
+
+namespace skerry::render {
+
+/// What a shader reads that looks for walls before lights (shaders/include/traced.glsl), as the
+/// settings have it.
+class WallReads {
+ public:
+  /// @param corners the shader looks corners up besides (corners.glsl).
+  WallReads(const SceneRefs& scene, const RenderSettings& settings, bool corners);
+  std::vector<gpu::SpecConstant> with_walls(std::vector<gpu::SpecConstant> own) const;
+  void declare(gpu::PassBuilder& builder) const;
+  void bind(gpu::Commands& commands) const;
+
+ private:
+  bool traced_;
+  std::uint32_t lights_, samples_;
+  OccupancyReads occupancy_;
+  gpu::BufferRef islands_;
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,130 @@
+#include "engine/render/post/develop_pass.h"
+
+#include <string>
+
+#include "engine/render/light/light_constants.h"
+#include "engine/render/scene/gbuffer_formats.h"
+#include "engine/render/scene/occupancy_reads.h"
+#include "engine/render/surface/picture_constants.h"
+
+namespace skerry::render {
+
+using gpu::Use;
+
+Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                           Shaded shaded, const Bloom* bloom, gpu::Image& picture) {
+  gpu::ImageRef out = graph.import(picture);
+  const gpu::ImageRef radiance = shaded.radiance(), glow = bloom ? bloom->glow : gpu::ImageRef{};
+  const shared::BloomStep step = bloom ? bloom->step : shared::BloomStep{};
+  graph.add_pass(
+      "develop",
+      [&](gpu::PassBuilder& b) {
+        b.read(scene.frame, Use::kComputeRead);
+        b.read(scene.exposure, Use::kComputeRead);
+        b.read(radiance, Use::kComputeRead);
+        if (glow) b.read(glow, Use::kComputeRead);
+        scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
+        out = b.write(out, Use::kComputeWrite);
+      },
+      [scene, radiance, glow, step, out,
+       &pipeline = pipelines.get(gpu::ComputeDesc{glow ? "develop_bloom.comp" : "develop.comp",
+                                                  with_picture({}, scene)})](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.pixel_stats);
+        c.storage(2, radiance);
+        if (glow) {
+          c.storage(3, glow);
+          c.push(step);
+        }
+        c.storage(9, out);
+        c.storage(22, scene.exposure);
+        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
+                   gpu::Commands::groups(scene.size.height, 8), 1);
+      });
+  return Developed(out);
+}
+
+namespace {
+
+bool shows_lights(DebugView view) {
+  return view == DebugView::kClusters || view == DebugView::kLightCount;
+}
+
+gpu::ImageRef show_lights(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                          const Geometry& geometry, const ClusteredLights& lights, DebugView view,
+                          gpu::ImageRef out) {
+  const SurfaceReads surfaces(geometry);
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      "show_lights.comp", lights.with_lights({{0, view == DebugView::kLightCount ? 1u : 0u}})});
+  graph.add_pass(
+      "show_lights",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands})
+          b.read(ref, Use::kComputeRead);
+        lights.declare(b);
+        surfaces.declare(b);
+        out = b.write(out, Use::kComputeWrite);
+      },
+      [&pipeline, scene, lights, surfaces, out](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.islands);
+        c.storage(3, surfaces.words);
+        c.sampled(4, surfaces.depth, scene.point_sampler);
+        c.storage(6, out);
+        lights.bind(c);
+        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
+                   gpu::Commands::groups(scene.size.height, 8), 1);
+      });
+  return out;
+}
+
+}  // namespace
+
+Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                 SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
+                                 const ClusteredLights* lights, DebugView view,
+                                 gpu::Image& picture) {
+  gpu::ImageRef out = graph.import(picture);
+  if (lights && shows_lights(view))
+    return Developed(show_lights(graph, pipelines, scene, geometry, *lights, view, out));
+  const SurfaceReads surfaces(geometry);
+  const gpu::ImageRef maps = shadows.maps();
+  const OccupancyReads occupancy(scene, scene.corners && view == DebugView::kCorners);
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      std::string("show_channel") + (maps ? "" : "_unshadowed") + surfaces.suffix() + ".comp",
+      with_picture(with_corners(surfaces.with_store(with_light(
+                                    {{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps})),
+                                bool{occupancy}),
+                   scene)});
+  graph.add_pass(
+      "show_channel",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref :
+             {scene.frame, scene.islands, scene.materials, scene.exposure})
+          b.read(ref, Use::kComputeRead);
+        surfaces.declare(b);
+        occupancy.declare(b);
+        b.read(scene.block_textures, Use::kComputeSampled);
+        if (maps) b.read(maps, Use::kComputeSampled);
+        out = b.write(out, Use::kComputeWrite);
+      },
+      [&pipeline, scene, surfaces, occupancy, maps, out](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.islands);
+        c.storage(2, scene.materials);
+        surfaces.bind(c, scene.point_sampler, 3, 4);
+        occupancy.bind(c);
+        c.sampled(5, scene.block_textures, scene.block_sampler);
+        c.storage(6, out);
+        c.storage(22, scene.exposure);
+        if (maps) c.sampled(7, maps, scene.point_sampler);
+        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
+                   gpu::Commands::groups(scene.size.height, 8), 1);
+      });
+  return Developed(out);
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,25 @@
+#pragma once
+#include "engine/render/frame/phases.h"
+#include "engine/render/frame/scene_refs.h"
+#include "engine/render/frame/settings.h"
+#include "engine/render/light/light_clusters.h"
+#include "engine/render/post/bloom_pass.h"
+
+namespace skerry::gpu {
+class Image;
+}
+
+namespace skerry::render {
+
+/// Radiance to picture: exposure, tone curve, sRGB; or a debug view of what the frame holds.
+struct DevelopPass {
+  /// @param bloom null: none. @param picture RGBA8 storage image of the frame's size.
+  static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                       Shaded shaded, const Bloom* bloom, gpu::Image& picture);
+  /// @param lights null: there are none.
+  static Developed add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                             const Geometry& geometry, const Shadows& shadows,
+                             const ClusteredLights* lights, DebugView view, gpu::Image& picture);
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,43 @@
+#include "engine/render/post/resolve_pass.h"
+
+namespace skerry::render {
+
+using gpu::Use;
+
+Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                        Shaded shaded, const In& in) {
+  scene.size = in.picture_size;
+  const bool accumulates = in.parts > 1;
+  const gpu::ImageRef samples = shaded.radiance();
+  gpu::ImageRef total = accumulates ? graph.import(*in.total) : gpu::ImageRef{};
+  gpu::ImageRef radiance = graph.create(gpu::ImageDesc{.name = "radiance of pixels",
+                                                       .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                                       .extent = in.picture_size});
+  std::vector<gpu::SpecConstant> constants{{0, static_cast<std::uint32_t>(in.samples_per_edge)}};
+  if (accumulates) constants.push_back({1, in.part == 0 ? 1u : 0u});
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      accumulates ? "accumulate_part.comp" : "average_samples.comp", std::move(constants)});
+  graph.add_pass(
+      accumulates ? "accumulate_part" : "average_samples",
+      [&](gpu::PassBuilder& b) {
+        b.read(scene.frame, Use::kComputeRead);
+        b.read(samples, Use::kComputeRead);
+        radiance = b.write(radiance, Use::kComputeWrite);
+        if (accumulates) total = b.write(total, Use::kComputeWrite);
+      },
+      [&pipeline, frame = scene.frame, samples, radiance, total, in](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, frame);
+        c.storage(1, samples);
+        c.storage(2, radiance);
+        if (total) {
+          c.storage(3, total);
+          c.push(1.0f / static_cast<float>(in.parts));
+        }
+        c.dispatch(gpu::Commands::groups(in.picture_size.width, 8),
+                   gpu::Commands::groups(in.picture_size.height, 8), 1);
+      });
+  return Shaded(radiance);
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,74 @@
+#include "engine/render/renderer/frame_contents.h"
+
+#include <algorithm>
+
+#include "engine/render/light/light_clusters.h"
+
+namespace skerry::render {
+namespace {
+
+void find_water(FrameFeatures& features, const FrameInput& input, const FrameTables& tables,
+                const GeometryStore& geometry) {
+  if (input.camera_medium != 0 || !features.has(Feature::kWater)) return;
+  if (geometry.translucent_quads() == 0)
+    features.set_absent(Feature::kWater, "no translucent block is resident");
+  else if (!ranges_in_view(geometry.records(), tables.islands, tables.views[0],
+                           shared::kRangeTranslucent, shared::kRangeCount))
+    features.set_absent(Feature::kWater, "no translucent block is in view");
+}
+
+std::vector<bool> find_cutouts(FrameFeatures& features, const FrameTables& tables,
+                               const GeometryStore& geometry) {
+  std::vector<bool> in_view(tables.views.size(), false);
+  if (geometry.cutout_quads() == 0)
+    features.set_absent(Feature::kCutouts, "no cut-out block is resident");
+  if (!features.has(Feature::kCutouts)) return in_view;
+  for (std::size_t view = 0; view < in_view.size(); ++view)
+    in_view[view] = ranges_in_view(geometry.records(), tables.islands, tables.views[view],
+                                   shared::kRangeCutout, shared::kRangeTranslucent);
+  if (std::find(in_view.begin(), in_view.end(), true) == in_view.end())
+    features.set_absent(Feature::kCutouts, "no cut-out block is in view of camera or lights");
+  return in_view;
+}
+
+std::vector<shared::Light> find_lights(FrameFeatures& features, const FrameInput& input,
+                                       const FrameTables& tables, const GeometryStore& geometry) {
+  if (input.lights.empty()) features.set_absent(Feature::kLights, "there are no lights");
+  if (geometry.sections_resident() == 0)
+    features.set_absent(Feature::kLights, "no geometry is resident");
+  if (!features.has(Feature::kLights)) return {};
+  std::vector<shared::Light> in_view = lights_in_view(input.lights, tables.views[0]);
+  if (in_view.empty()) features.set_absent(Feature::kLights, "no light reaches the view");
+  return in_view;
+}
+
+}  // namespace
+
+FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
+                          const FrameTables& tables, const shared::SkyConstants& sky,
+                          const GeometryStore& geometry, bool cloud_volumes) {
+  FrameContents out{FrameFeatures(settings.leave_out), {}, {}};
+  FrameFeatures& features = out.features;
+  if (!input.sky.sun_casts) features.set_absent(Feature::kSun, "the sun is below the horizon");
+  if (!input.sky.moon_casts)
+    features.set_absent(Feature::kMoon, "the moon is below the horizon or gives no light");
+  if (!input.sky.sun_casts && !input.sky.moon_casts)
+    features.set_absent(Feature::kHaze, "there is no light for the air to scatter");
+  if (sky.stars == 0.0f) features.set_absent(Feature::kStars, "it is not dark enough");
+  if (!disc_in_view(input.sky, tables.constants))
+    features.set_absent(Feature::kDiscs, "sun and moon are outside the picture or have set");
+  if (settings.clouds.coverage == 0.0f && !cloud_volumes)
+    features.set_absent(Feature::kClouds, "clouds.coverage=0 and there is no cloud of a file");
+  find_water(features, input, tables, geometry);
+  out.cutouts_in_view = find_cutouts(features, tables, geometry);
+  out.lights = find_lights(features, input, tables, geometry);
+  return out;
+}
+
+std::uint32_t marked_slices(const FrameInput& input, const FrameContents& contents) {
+  const std::uint32_t lit =
+      contents.features.has(Feature::kClouds) ? slices_lit(contents.lights) : 0u;
+  return lit | (input.camera_medium != 0 ? 1u : 0u);
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,27 @@
+#pragma once
+#include <vector>
+
+#include "engine/render/frame/features.h"
+#include "engine/render/renderer/frame_tables.h"
+#include "engine/render/scene/geometry_store.h"
+#include "shaders/shared/sky.h"
+
+namespace skerry::render {
+
+/// What one frame has to show.
+struct FrameContents {
+  FrameFeatures features;
+  std::vector<bool> cutouts_in_view;  ///< one a view of FrameTables
+  std::vector<shared::Light> lights;  ///< those whose range the view touches; empty: no feature
+};
+
+/// Asked of the tables as they are before culling is frozen: a frozen camera changes what is drawn,
+/// never which passes a picture has. @param cloud_volumes whether there are clouds of files.
+FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
+                          const FrameTables& tables, const shared::SkyConstants& sky,
+                          const GeometryStore& geometry, bool cloud_volumes);
+
+/// Slices of depth in which lights show without a surface: about an eye in water, and in clouds.
+std::uint32_t marked_slices(const FrameInput& input, const FrameContents& contents);
+
+}  // namespace skerry::render

@@ -1,0 +1,164 @@
+#include "engine/render/renderer/frame_resources.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "engine/render/frame/frame_choices.h"
+#include "engine/render/scene/block_textures.h"
+#include "shaders/shared/exposure.h"
+
+namespace skerry::render {
+namespace {
+
+constexpr VkBufferUsageFlags kTable =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+
+}  // namespace
+
+Result<void> FrameResources::reserve(gpu::Buffer& buffer, const char* name,
+                                     std::uint64_t size_bytes) {
+  if (buffer && buffer.size_bytes() >= size_bytes) return {};
+  const std::uint64_t size = buffer ? std::max(size_bytes, buffer.size_bytes() * 2) : size_bytes;
+  Result<gpu::Buffer> made = device_->create_buffer({name, size, kTable, gpu::Memory::kDevice});
+  if (!made) return made.error();
+  buffer = *std::move(made);
+  return {};
+}
+
+template <class T>
+Result<void> FrameResources::upload(gpu::Uploader& uploader, gpu::Buffer& to, const char* name,
+                                    std::span<const T> values) {
+  if (Result<void> ok = reserve(to, name, std::max<std::size_t>(values.size_bytes(), sizeof(T)));
+      !ok)
+    return ok;
+  if (!values.empty()) uploader.write(to, 0, values);
+  return {};
+}
+
+Result<void> FrameResources::create_indices(gpu::Uploader& uploader) {
+  std::vector<std::uint16_t> index(shared::kMaxQuadsPerDraw * 6);
+  for (std::uint32_t quad = 0; quad < shared::kMaxQuadsPerDraw; ++quad)
+    for (std::uint32_t i = 0; i < 6; ++i)
+      index[quad * 6 + i] =
+          static_cast<std::uint16_t>(quad * 4 + std::array<std::uint32_t, 6>{0, 1, 2, 0, 2, 3}[i]);
+  Result<gpu::Buffer> made = device_->create_buffer(
+      {"quad indices", index.size() * 2,
+       VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::kDevice});
+  if (!made) return made.error();
+  indices_ = *std::move(made);
+  uploader.write(indices_, 0, std::span<const std::uint16_t>(index));
+  return {};
+}
+
+Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
+  const BlockTextures textures = render::block_textures();
+  Result<gpu::Image> image =
+      device_->create_image({.name = "block textures",
+                             .format = VK_FORMAT_R8G8B8A8_SRGB,
+                             .extent = {textures.edge, textures.edge},
+                             .mips = textures.mips,
+                             .layers = textures.layers,
+                             .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                             .array = true});
+  if (!image) return image.error();
+  block_textures_ = *std::move(image);
+  if (Result<void> ok = uploader.fill_image(block_textures_, textures.texels); !ok) return ok;
+
+  image = device_->create_image({.name = "sky table",
+                                 .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                 .extent = {shared::kSkyLutWidth, shared::kSkyLutHeight},
+                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                                          VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+  if (!image) return image.error();
+  sky_lut_ = *std::move(image);
+  return {};
+}
+
+Result<void> FrameResources::create_samplers() {
+  const std::array<std::pair<VkSampler*, gpu::SamplerDesc>, 3> samplers{{
+      {&block_sampler_,
+       {.mip = VK_SAMPLER_MIPMAP_MODE_LINEAR, .address = VK_SAMPLER_ADDRESS_MODE_REPEAT}},
+      {&lut_sampler_, {}},
+      {&point_sampler_, {.mag = VK_FILTER_NEAREST, .min = VK_FILTER_NEAREST}},
+  }};
+  for (const auto& [sampler, desc] : samplers) {
+    Result<VkSampler> got = device_->sampler(desc);
+    if (!got) return got.error();
+    *sampler = *got;
+  }
+  return {};
+}
+
+Result<void> FrameResources::create(gpu::Uploader& uploader,
+                                    std::span<const shared::Material> materials) {
+  if (Result<void> ok = create_indices(uploader); !ok) return ok;
+  if (Result<void> ok = upload(uploader, materials_, "materials", materials); !ok) return ok;
+  if (Result<void> ok = reserve(pixel_stats_, "pixel stats", sizeof(shared::PixelStats)); !ok)
+    return ok;
+  if (Result<void> ok = create_images(uploader); !ok) return ok;
+  return create_samplers();
+}
+
+Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& tables,
+                                    const FrameInput& input, const shared::SkyConstants& sky) {
+  // Where every pixel is black, any exposure is right.
+  shared::Exposure given{};
+  given.ev = input.exposure_ev.value_or(0.0f);
+  const std::size_t island_count = input.islands.size();
+  const std::array<Result<void>, 6> done{
+      upload(uploader, exposure_, "exposure", std::span<const shared::Exposure>(&given, 1)),
+      upload(uploader, frame_, "frame constants",
+             std::span<const shared::FrameConstants>(&tables.constants, 1)),
+      upload(uploader, sky_, "sky constants", std::span<const shared::SkyConstants>(&sky, 1)),
+      upload(uploader, islands_, "island transforms",
+             std::span<const shared::IslandTransform>(tables.islands).first(island_count)),
+      upload(uploader, view_islands_, "view island transforms",
+             std::span<const shared::IslandTransform>(tables.islands)),
+      upload(uploader, views_, "cull views", std::span<const shared::CullView>(tables.views)),
+  };
+  for (const Result<void>& one : done)
+    if (!one) return one.error();
+  return {};
+}
+
+Result<void> FrameResources::upload_light_islands(gpu::Uploader& uploader,
+                                                  const FrameInput& input) {
+  return upload(uploader, light_islands_, "light islands", input.light_islands);
+}
+
+SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input,
+                                 const RenderSettings& settings, VkExtent2D size,
+                                 const FrameTables& tables) {
+  SceneRefs s;
+  s.frame = graph.import(frame_);
+  s.sky = graph.import(sky_);
+  s.islands = graph.import(islands_);
+  s.view_islands = graph.import(view_islands_);
+  s.clip_from_source = tables.matrices;
+  s.edge_growth = tables.edge_growth;
+  s.views = graph.import(views_);
+  s.materials = graph.import(materials_);
+  s.indices = graph.import(indices_);
+  s.pixel_stats = graph.import(pixel_stats_);
+  s.exposure = graph.import(exposure_);
+  s.block_textures = graph.import(block_textures_);
+  s.sky_lut = graph.import(sky_lut_);
+  s.block_sampler = block_sampler_;
+  s.lut_sampler = lut_sampler_;
+  s.point_sampler = point_sampler_;
+  s.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
+  s.size = size;
+  s.tone = settings.tone;
+  s.calibrated = settings.display != DisplaySettings{};
+  s.shadow_taps = static_cast<std::uint32_t>(settings.shadow_taps);
+  s.shadow_cascades = static_cast<std::uint32_t>(settings.shadow_cascades);
+  s.samples_per_edge = static_cast<std::uint32_t>(samples_per_edge(settings));
+  s.penumbrae = settings.shadow_penumbra_blocks > 0.0f;
+  for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
+    if (tables.constants.bodies[body].irradiance != glm::vec3(0.0f)) s.bodies |= 1u << body;
+  return s;
+}
+
+}  // namespace skerry::render

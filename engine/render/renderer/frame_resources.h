@@ -1,0 +1,53 @@
+#pragma once
+#include <span>
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/uploader.h"
+#include "engine/render/frame/frame_input.h"
+#include "engine/render/frame/scene_refs.h"
+#include "engine/render/frame/settings.h"
+#include "engine/render/renderer/frame_tables.h"
+#include "shaders/shared/sky.h"
+
+namespace skerry::render {
+
+/// What every frame reads: tables that are uploaded for each, and what is made once. Buffers grow
+/// as they must and never shrink.
+class FrameResources {
+ public:
+  explicit FrameResources(gpu::Device& device) : device_(&device) {}
+
+  /// Makes what stays, and queues its contents. Errors: out of memory.
+  Result<void> create(gpu::Uploader& uploader, std::span<const shared::Material> materials);
+  /// Queues a frame's tables. Errors: out of memory.
+  Result<void> upload(gpu::Uploader& uploader, const FrameTables& tables, const FrameInput& input,
+                      const shared::SkyConstants& sky);
+  /// Queues FrameInput::light_islands. Errors: out of memory.
+  Result<void> upload_light_islands(gpu::Uploader& uploader, const FrameInput& input);
+  /// A frame's references to all of it, and what the settings choose. Stores, clouds and corners
+  /// are left to the caller.
+  /// @param size of the G-buffer. @param tables lives until the graph has been executed.
+  SceneRefs import(gpu::FrameGraph& graph, const FrameInput& input, const RenderSettings& settings,
+                   VkExtent2D size, const FrameTables& tables);
+  gpu::BufferRef import_light_islands(gpu::FrameGraph& graph) {
+    return graph.import(light_islands_);
+  }
+
+ private:
+  Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
+  template <class T>
+  Result<void> upload(gpu::Uploader& uploader, gpu::Buffer& to, const char* name,
+                      std::span<const T> values);
+  Result<void> create_indices(gpu::Uploader& uploader);
+  Result<void> create_images(gpu::Uploader& uploader);
+  Result<void> create_samplers();
+
+  gpu::Device* device_;
+  gpu::Buffer frame_, sky_, islands_, view_islands_, views_, light_islands_, materials_, indices_,
+      pixel_stats_, exposure_;
+  gpu::Image block_textures_, sky_lut_;
+  VkSampler block_sampler_{}, lut_sampler_{}, point_sampler_{};
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,181 @@
+#include "engine/render/renderer/frame_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/render/frame/display.h"
+#include "engine/render/sky/sky_model.h"
+#include "shaders/shared/light.h"
+#include "shaders/shared/sky.h"
+
+namespace skerry::render {
+namespace {
+
+glm::dvec3 blocks_between(const FixedPos& to, const FixedPos& from) {
+  return {static_cast<double>(to[0] - from[0]) / 65536.0,
+          static_cast<double>(to[1] - from[1]) / 65536.0,
+          static_cast<double>(to[2] - from[2]) / 65536.0};
+}
+
+shared::Cascade shader_cascade(const ActiveCascade& active, int map_size) {
+  const glm::mat4& m = active.cascade.clip_from_world;
+  const float half = 0.5f * static_cast<float>(map_size);
+  const auto row = [&](int r) { return glm::vec4(m[0][r], m[1][r], m[2][r], m[3][r]); };
+  shared::Cascade out{};
+  out.map_from_world_x = row(0) * half + glm::vec4(0, 0, 0, half);
+  out.map_from_world_y = row(1) * half + glm::vec4(0, 0, 0, half);
+  out.map_from_world_z = row(2);
+  out.radius = active.cascade.radius;
+  out.texel_blocks = active.cascade.texel_blocks;
+  out.depth_per_block = 1.0f / active.cascade.depth_blocks;
+  out.layer = active.layer;
+  return out;
+}
+
+shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body,
+                         std::span<const ActiveCascade> cascades) {
+  shared::Body out{};
+  out.to_light = glm::vec3(to_light);
+  out.irradiance = irradiance;
+  for (const ActiveCascade& c : cascades)
+    if (c.body == body && out.cascade_count++ == 0) out.first_cascade = c.layer;
+  return out;
+}
+
+void append_islands(std::vector<shared::IslandTransform>& out,
+                    std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
+  for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
+}
+
+/// Extinction of clear air [1/block].
+constexpr float kClearAir = 0.0005f;
+
+glm::vec3 unpack_box(std::uint32_t packed) {
+  return {packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u};
+}
+
+}  // namespace
+
+shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to) {
+  const glm::dmat3 axes = glm::mat3_cast(island.rotation);
+  return {glm::vec3(axes[0]), glm::vec3(axes[1]), glm::vec3(axes[2]),
+          glm::vec3(blocks_between(island.origin, relative_to))};
+}
+
+FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+                         std::span<const ActiveCascade> cascades) {
+  FrameTables out;
+  const CameraView camera = view_of(input.camera, size.width, size.height);
+  shared::FrameConstants& f = out.constants;
+  f.clip_from_world = camera.clip_from_world;
+  f.ray_right = camera.right * camera.tan_half_x;
+  f.ray_up = camera.up * camera.tan_half_y;
+  f.ray_forward = camera.forward;
+  f.pixel_to_ndc = {2.0f / static_cast<float>(size.width), 2.0f / static_cast<float>(size.height)};
+  f.size = {size.width, size.height};
+  f.picture_size = f.size;
+  f.near_plane = kNearPlane;
+  f.display_peak = static_cast<float>(srgb_encoded(settings.display.peak));
+  f.display_black = settings.display.black;
+  f.time_s = static_cast<float>(std::fmod(input.time_s, 3600.0));
+  f.shading_flat = settings.flat_shading ? 1u : 0u;
+  f.camera_medium = input.camera_medium;
+  f.penumbra_blocks = settings.shadow_penumbra_blocks;
+  f.bodies[0] = shader_body(input.sky.to_sun, input.sky.sun_irradiance, 0, cascades);
+  f.bodies[1] = shader_body(input.sky.to_moon, input.sky.moon_irradiance, 1, cascades);
+
+  f.corner_darkening = settings.corner_darkening;
+  f.haze_per_block = kClearAir * air_light(input.sky);
+
+  shared::CullView view{};
+  for (std::size_t i = 0; i < camera.planes.size(); ++i) view.planes[i] = camera.planes[i];
+  view.enabled = 1;
+  out.views.push_back(view);
+  out.matrices.push_back(camera.clip_from_world);
+  out.edge_growth.push_back(2.0f * camera.tan_half_x / (128.0f * static_cast<float>(size.width)));
+  append_islands(out.islands, input.islands, input.camera.position);
+
+  for (const ActiveCascade& active : cascades) {
+    f.cascades[active.layer] = shader_cascade(active, settings.shadow_map_size);
+    if (!active.redraw) continue;
+    shared::CullView light{};
+    for (std::size_t i = 0; i < active.cascade.planes.size(); ++i)
+      light.planes[i] = active.cascade.planes[i];
+    light.planes[5] = glm::vec4(
+        0, 0, 0, 1);  // casters beyond the range are flattened onto it, so none may be culled there
+    light.eye = glm::vec3(active.body == 0 ? input.sky.to_sun : input.sky.to_moon);
+    light.orthographic = 1;
+    light.enabled = 1;
+    out.views.push_back(light);
+    // Relative to the map's own centre, a function of its key alone: a map drawn again in the same
+    // window is equal to the last bit.
+    out.matrices.push_back(active.cascade.clip_from_centre);
+    out.edge_growth.push_back(active.cascade.texel_blocks / 128.0f);
+    append_islands(out.islands, input.islands, active.cascade.centre);
+  }
+  return out;
+}
+
+Celestial sky_of_part(Celestial sky, std::uint32_t part, std::uint32_t parts) {
+  if (parts == 1) return sky;
+  constexpr double kGoldenAngle = 2.399963229728653;
+  const double radius = static_cast<double>(shared::kBodyRadius) * std::sqrt((part + 0.5) / parts);
+  for (glm::dvec3* to_light : {&sky.to_sun, &sky.to_moon}) {
+    const std::array<glm::dvec3, 3> axes = light_axes(*to_light);
+    *to_light = glm::normalize(*to_light + radius * std::cos(kGoldenAngle * part) * axes[0] +
+                               radius * std::sin(kGoldenAngle * part) * axes[1]);
+  }
+  return sky;
+}
+
+bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame) {
+  const glm::vec3 corner = frame.ray_forward + frame.ray_right + frame.ray_up;
+  // Discs are drawn a pixel beyond their edge; twice the radius covers that at any usual size.
+  const float pixel = frame.pixel_to_ndc.y * glm::length(frame.ray_up);
+  const float reach = std::acos(std::clamp(1.0f / glm::length(corner), 0.0f, 1.0f)) +
+                      2.0f * shared::kDiscRadius + 2.0f * pixel;
+  constexpr float kMist = 0.015f;  // sine of the depth below the horizon at which discs end
+  const auto seen = [&](glm::dvec3 to_body) {
+    const glm::vec3 body(to_body);
+    if (body.y < -(kMist + 2.0f * shared::kDiscRadius + 2.0f * pixel)) return false;
+    const float cosine = glm::dot(body, frame.ray_forward);
+    return std::acos(std::clamp(cosine, -1.0f, 1.0f)) <= reach;
+  };
+  return (sky.sun_exists && seen(sky.to_sun)) || (sky.moon_exists && seen(sky.to_moon));
+}
+
+void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& now) {
+  const glm::vec3 moved(blocks_between(now, frozen));
+  for (glm::vec4& plane : view.planes) plane.w += glm::dot(glm::vec3(plane), moved);
+  view.eye -= moved;
+}
+
+bool ranges_in_view(std::span<const shared::Section> sections,
+                    std::span<const shared::IslandTransform> islands, const shared::CullView& view,
+                    std::uint32_t first, std::uint32_t end) {
+  for (const shared::Section& s : sections) {
+    if (s.range_end[end - 1] == s.range_end[first - 1]) continue;
+    const shared::IslandTransform& t = islands[s.island];
+    const float voxel = static_cast<float>(1u << s.voxel_size_log2);
+    const glm::vec3 low = glm::vec3(s.origin) + unpack_box(s.bounds_min) * voxel,
+                    high = glm::vec3(s.origin) + unpack_box(s.bounds_max) * voxel;
+    const glm::vec3 centre = 0.5f * (low + high), half = 0.5f * (high - low);
+    const glm::vec3 world =
+        t.axis_x * centre.x + t.axis_y * centre.y + t.axis_z * centre.z + t.translation;
+    bool inside = true;
+    for (const glm::vec4& plane : view.planes) {
+      const glm::vec3 n(plane);
+      const float reach = std::abs(glm::dot(n, t.axis_x)) * half.x +
+                          std::abs(glm::dot(n, t.axis_y)) * half.y +
+                          std::abs(glm::dot(n, t.axis_z)) * half.z;
+      inside = inside && glm::dot(n, world) + plane.w + reach >= -1e-3f * (1.0f + reach);
+    }
+    if (inside) return true;
+  }
+  return false;
+}
+
+}  // namespace skerry::render

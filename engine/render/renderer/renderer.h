@@ -1,0 +1,79 @@
+#pragma once
+#include <volk.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/uploader.h"
+#include "engine/render/frame/frame_input.h"
+#include "engine/render/frame/frame_report.h"
+#include "engine/render/frame/settings.h"
+#include "engine/render/scene/geometry_store.h"
+#include "engine/render/scene/occupancy_store.h"
+#include "engine/render/sky/cloud_atlas.h"
+#include "shaders/shared/geometry.h"
+
+namespace skerry::render {
+
+struct RendererDesc {
+  std::span<const shared::Material> materials;  ///< indexed by block id
+  gpu::UploadPath upload_path = gpu::UploadPath::kUpdateBuffer;
+  std::uint64_t upload_budget_bytes = 4u << 20;  ///< chunk meshes a frame
+  std::uint32_t arena_quads = 1u << 20;          ///< to begin with
+};
+
+/// Draws frames: owns what lives longer than one (geometry, textures, shadow maps, the picture) and
+/// assembles each frame's graph.
+class Renderer {
+ public:
+  static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererDesc& desc);
+  ~Renderer();  ///< waits for the GPU
+
+  GeometryStore& geometry();
+  /// Which voxels are opaque: for corners and traced lights. Made when first asked for; a renderer
+  /// that is never asked has none, and draws neither. Errors: out of memory.
+  Result<OccupancyStore*> occupancy();
+  gpu::Uploader& mesh_uploader();
+  /// Clouds of files, in the place of all before. @param volumes what they point to is not kept.
+  /// Errors: see Clouds::set_volumes.
+  Result<void> set_clouds(std::span<const CloudVolumeDesc> volumes, CloudPrecision precision);
+  /// Bytes of chunk meshes that one frame may upload, from now on.
+  void set_upload_budget(std::uint64_t bytes);
+  const gpu::FrameGraph& graph() const;  ///< of the last frame, for --explain
+  int pipelines_created() const;
+
+  /// Records and submits one frame. Two are in flight; waits for the one before last.
+  /// @param after records into the same command buffer behind the frame, e.g. the copy to a window;
+  /// @param waits, signals for the swapchain.
+  /// @return the timeline value that completes the frame. Errors: size over the device's limit, out
+  /// of memory.
+  Result<std::uint64_t> draw(
+      const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
+      const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},
+      std::span<const VkSemaphoreSubmitInfo> waits = {},
+      std::span<const VkSemaphoreSubmitInfo> signals = {});
+
+  /// RGBA8 picture of the last frame.
+  gpu::Image& picture();
+  /// What the last frame, drawn with FrameInput::capture, has copied out. Waits for it.
+  Captured captured(Capture what);
+  /// The newest frame that has completed; empty before the third draw unless finish() was called.
+  const std::optional<FrameReport>& report() const;
+  /// Waits for all frames and takes in their numbers.
+  void finish();
+  /// Shadow maps are drawn afresh in the next frame, whatever has been kept.
+  void forget_shadows();
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace skerry::render

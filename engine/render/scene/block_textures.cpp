@@ -1,0 +1,60 @@
+#include "engine/render/scene/block_textures.h"
+
+#include <bit>
+
+#include "engine/core/check.h"
+
+// Begin and end of the file, placed in the program by cmake/textures.cmake.
+extern "C" {
+extern const std::byte skerry_block_textures[], skerry_block_textures_end[];
+}
+
+namespace skerry::render {
+namespace {
+
+constexpr std::uint32_t kMaxLayers =
+    2048;  // what every desktop Vulkan device can hold in one image
+constexpr std::uint32_t kMaxEdge = 1024;
+constexpr std::size_t kTexelBytes = 4;
+
+std::uint32_t word_at(std::span<const std::byte> file, std::size_t index) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    word |= std::to_integer<std::uint32_t>(file[index * 4 + i]) << (8 * i);
+  return word;
+}
+
+}  // namespace
+
+Result<BlockTextures> parse_block_textures(std::span<const std::byte> file) {
+  if (file.size() < kBlockTexturesHeaderBytes || word_at(file, 0) != kBlockTexturesMagic) {
+    return Error{
+        "cannot read block textures: not a block texture file; build it with skerry_textures"};
+  }
+  if (word_at(file, 1) != kBlockTexturesVersion) {
+    return Error{
+        "cannot read block textures: another version of the format; build it with this program's "
+        "skerry_textures"};
+  }
+  const std::uint32_t layers = word_at(file, 2), edge = word_at(file, 3);
+  if (layers == 0 || layers > kMaxLayers || edge > kMaxEdge || !std::has_single_bit(edge)) {
+    return Error{
+        "cannot read block textures: impossible layer count or edge in the header; build the file "
+        "again"};
+  }
+  std::size_t size_bytes = 0;
+  for (std::size_t e = edge; e > 0; e /= 2) size_bytes += e * e * layers * kTexelBytes;
+  const auto texels = file.subspan(kBlockTexturesHeaderBytes);
+  if (texels.size() != size_bytes) {
+    return Error{"cannot read block textures: the file is cut short or too long; build it again"};
+  }
+  return BlockTextures{edge, layers, static_cast<std::uint32_t>(std::bit_width(edge)), texels};
+}
+
+BlockTextures block_textures() {
+  const auto parsed = parse_block_textures({skerry_block_textures, skerry_block_textures_end});
+  SKERRY_ASSERT(parsed && parsed->layers == kBlockTextureLayers);
+  return *parsed;
+}
+
+}  // namespace skerry::render

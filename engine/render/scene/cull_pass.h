@@ -1,0 +1,49 @@
+#pragma once
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/frame_graph.h"
+#include "engine/render/frame/scene_refs.h"
+#include "shaders/shared/frame.h"
+
+namespace skerry::render {
+
+enum class DrawList : std::uint32_t { kOpaque = 0, kCutout = 1, kTranslucent = 2 };
+
+struct CullIn {
+  std::uint32_t section_slots = 0;  ///< of the geometry store, > 0
+  std::uint64_t quads = 0;          ///< resident
+  std::uint32_t views = 1;          ///< entries of SceneRefs::views
+};
+
+/// Indirect draws of every view and list, in section order.
+struct CulledDraws {
+  gpu::BufferRef commands;    ///< shared::DrawCommand[view][list][max_draws]
+  gpu::BufferRef counts;      ///< uint[view][list]
+  gpu::BufferRef stats;       ///< shared::CullStats[view]
+  gpu::BufferRef transforms;  ///< shared::SectionTransform[view][section]
+  std::uint32_t section_slots = 0;
+  std::uint32_t max_draws = 0;
+};
+
+/// Indirect commands that one list of one view may need, at most. A list's ranges make at most four
+/// runs a section (six faces and the plants, every second one visible), and splitting a run adds at
+/// most one draw for every kMaxQuadsPerDraw quads.
+std::uint64_t most_draws(std::uint32_t section_slots, std::uint64_t quads);
+
+/// Whether the device draws that many indirectly at once; the error says what to lower.
+Result<void> check_draws(std::uint64_t most, const gpu::DeviceLimits& limits);
+
+/// Frustum and face-direction culling on the GPU for all views at once: three compute passes
+/// (sections, scan, emit). The order of draws does not depend on thread timing. Conservative:
+/// tested against brute force.
+CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                            const SceneRefs& scene, const CullIn& in);
+
+/// Records one list of one view into a pass with the right pipeline and bindings set.
+void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
+               std::uint32_t view, DrawList list);
+
+/// Declares what draw_list() uses.
+void declare_draws(gpu::PassBuilder& builder, const SceneRefs& scene, const CulledDraws& draws);
+
+}  // namespace skerry::render

@@ -1,0 +1,45 @@
+#pragma once
+#include <volk.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/frame/phases.h"
+#include "engine/render/frame/settings.h"
+
+namespace skerry::gpu {
+class Device;
+}
+
+namespace skerry::render {
+
+/// VK_FORMAT_UNDEFINED: not kept.
+VkFormat normal_format(NormalStore store);
+VkFormat position_format(PositionStore store);
+VkFormat depth_format(DepthStore store);
+
+/// What a texel of that image means: a code of shaders/include/stored.glsl.
+std::uint32_t normal_code(NormalStore store);
+
+/// What a compute pass needs that asks shaders/include/surface.glsl for surfaces.
+struct SurfaceReads {
+  explicit SurfaceReads(const Geometry& geometry);
+  /// The shader's variant: a part of its name, and constants added to its own.
+  const char* suffix() const { return stored ? "_stored" : ""; }
+  std::vector<gpu::SpecConstant> with_store(std::vector<gpu::SpecConstant> own) const;
+  void declare(gpu::PassBuilder& builder) const;
+  /// Words and depth at these bindings, what is kept besides at its own.
+  void bind(gpu::Commands& commands, VkSampler point, std::uint32_t words_binding,
+            std::uint32_t depth_binding) const;
+
+  gpu::ImageRef words, depth, normals, positions;
+  GBufferStore store;
+  bool stored;  ///< normals or positions are kept
+};
+
+/// Whether the device can draw to and sample these formats; the error names the one it cannot.
+Result<void> check_store(const gpu::Device& device, const GBufferStore& store);
+
+}  // namespace skerry::render

@@ -1,0 +1,20 @@
+#pragma once
+#include "engine/render/frame/phases.h"
+#include "engine/render/scene/cull_pass.h"
+
+namespace skerry::render {
+
+/// Draws opaque and cut-out quads of the camera's view: 4 bytes of surface word and 4 of depth a
+/// pixel. Position comes back from the depth, the exact normal from word and island, albedo from
+/// position and block textures (docs/decisions/0002).
+struct GeometryPass {
+  /// @param cutouts false leaves the pass's alpha-tested half out.
+  /// @param finest_coverage tests alpha on the finest texels, as suits several samples a pixel;
+  /// mips of thin plants keep nothing of them where a block is smaller than a sample.
+  /// @param store what is written besides the word, see gbuffer_formats.h.
+  static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                      const CulledDraws& draws, bool cutouts, bool finest_coverage,
+                      const GBufferStore& store);
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,123 @@
+#include "engine/render/scene/geometry_store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/check.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/uploader.h"
+#include "engine/render/scene/grow_buffer.h"
+
+namespace skerry::render {
+namespace {
+
+constexpr std::uint32_t kFirstSections = 1024;
+constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
+
+std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
+  return section.range_end[end - 1] - (first == 0 ? 0 : section.range_end[first - 1]);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GeometryStore>> GeometryStore::create(gpu::Device& device,
+                                                             std::uint32_t arena_quads) {
+  std::unique_ptr<GeometryStore> store(new GeometryStore(device, arena_quads));
+  Result<gpu::Buffer> quads =
+      device.create_buffer({"quad arena", std::uint64_t{arena_quads} * sizeof(shared::Quad),
+                            kTableUsage, gpu::Memory::kDevice});
+  if (!quads) return quads.error();
+  Result<gpu::Buffer> sections =
+      device.create_buffer({"section table", kFirstSections * sizeof(shared::Section), kTableUsage,
+                            gpu::Memory::kDevice});
+  if (!sections) return sections.error();
+  store->quads_ = *std::move(quads);
+  store->sections_ = *std::move(sections);
+  store->section_capacity_ = kFirstSections;
+  return store;
+}
+
+Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section section,
+                                     std::span<const shared::Quad> quads) {
+  SKERRY_ASSERT(!quads.empty() && quads.size() == section.range_end[shared::kRangeCount - 1]);
+  const auto wanted = static_cast<std::uint32_t>(quads.size());
+  Result<gpu::ArenaRange> range = arena_.allocate(wanted);
+  if (!range) {
+    if (Result<void> grew = grow_arena(wanted); !grew) return grew.error();
+    range = arena_.allocate(wanted);
+    if (!range) return range.error();
+  }
+  std::uint32_t slot = section_slots();
+  if (!free_slots_.empty()) {
+    slot = free_slots_.back();
+    free_slots_.pop_back();
+  } else {
+    if (slot == section_capacity_)
+      if (Result<void> grew = grow_sections(); !grew) return grew.error();
+    records_.emplace_back();
+  }
+  section.first_quad = range->first;
+  records_[slot] = section;
+  scratch_.assign(quads.begin(), quads.end());
+  for (shared::Quad& quad : scratch_) quad.material |= section.island << kIslandShift;
+  uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad),
+                 std::span<const shared::Quad>(scratch_));
+  uploader.write(sections_, std::uint64_t{slot} * sizeof(shared::Section),
+                 std::span<const shared::Section>(&section, 1));
+  count(section, 1);
+  return SectionId{slot};
+}
+
+void GeometryStore::remove(gpu::Uploader& uploader, SectionId id) {
+  SKERRY_ASSERT(id.slot < records_.size() &&
+                records_[id.slot].range_end[shared::kRangeCount - 1] != 0);
+  const shared::Section old = records_[id.slot];
+  count(old, -1);
+  records_[id.slot] = {};
+  uploader.write(sections_, std::uint64_t{id.slot} * sizeof(shared::Section),
+                 std::span<const shared::Section>(&records_[id.slot], 1));
+  arena_.free({old.first_quad, old.range_end[shared::kRangeCount - 1]}, device_->next_value());
+  free_slots_.push_back(id.slot);
+}
+
+void GeometryStore::collect() {
+  arena_.collect(device_->completed_value());
+}
+
+Result<void> GeometryStore::grow_arena(std::uint32_t at_least) {
+  const std::uint64_t most =
+      std::min<std::uint64_t>(device_->limits().max_storage_range / sizeof(shared::Quad), 1u << 29);
+  const std::uint64_t now = arena_.capacity();
+  const std::uint64_t next = std::min(most, std::max(now * 2, now + at_least));
+  if (next < now + at_least)
+    return Error{
+        fmt::format("quad arena is full: a chunk needs {} more quads, {} of {} are in use and the "
+                    "device allows {}; "
+                    "lower view.distance or view.detail",
+                    at_least, arena_.used(), now, most)};
+  if (Result<void> grew = grow_buffer(*device_, quads_, next * sizeof(shared::Quad)); !grew)
+    return grew;
+  arena_.grow(static_cast<std::uint32_t>(next));
+  return {};
+}
+
+Result<void> GeometryStore::grow_sections() {
+  const std::uint32_t next = section_capacity_ * 2;
+  if (Result<void> grew =
+          grow_buffer(*device_, sections_, std::uint64_t{next} * sizeof(shared::Section));
+      !grew)
+    return grew;
+  section_capacity_ = next;
+  return {};
+}
+
+void GeometryStore::count(const shared::Section& section, std::int64_t sign) {
+  cutout_quads_ += static_cast<std::uint64_t>(
+      sign * range_quads(section, shared::kRangeCutout, shared::kRangeTranslucent));
+  translucent_quads_ += static_cast<std::uint64_t>(
+      sign * range_quads(section, shared::kRangeTranslucent, shared::kRangeCount));
+  changes_.note(section);
+}
+
+}  // namespace skerry::render

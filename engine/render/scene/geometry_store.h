@@ -1,0 +1,78 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/quad_arena.h"
+#include "engine/gpu/resources.h"
+#include "engine/render/scene/geometry_changes.h"
+#include "shaders/shared/geometry.h"
+
+namespace skerry::gpu {
+class Device;
+class Uploader;
+}  // namespace skerry::gpu
+
+namespace skerry::render {
+
+/// A resident chunk mesh; only GeometryStore makes one.
+struct SectionId {
+  std::uint32_t slot = ~0u;
+  bool operator==(const SectionId&) const = default;
+};
+
+/// Everything drawable that stays on the GPU between frames: quads in one arena, one section record
+/// a chunk mesh. Writes go through the uploader's queue, a section's quads before its record, so
+/// the GPU never sees a record whose quads are missing.
+class GeometryStore {
+ public:
+  /// @param arena_quads capacity to begin with; it doubles when full, up to the device's largest
+  /// storage buffer.
+  static Result<std::unique_ptr<GeometryStore>> create(gpu::Device& device,
+                                                       std::uint32_t arena_quads);
+
+  /// Queues a chunk mesh. @param section its record; first_quad is filled in here. @param quads not
+  /// empty. Errors when the arena is full and cannot grow: what is needed, what there is, what to
+  /// lower.
+  Result<SectionId> add(gpu::Uploader& uploader, shared::Section section,
+                        std::span<const shared::Quad> quads);
+  /// Its quads may be overwritten once the GPU has finished everything submitted so far.
+  void remove(gpu::Uploader& uploader, SectionId id);
+  /// Once a frame, before recording: reclaims what the GPU has let go of.
+  void collect();
+
+  gpu::Buffer& quads() { return quads_; }
+  gpu::Buffer& sections() { return sections_; }
+  /// Section slots in use or once used: what culling looks at.
+  std::uint32_t section_slots() const { return static_cast<std::uint32_t>(records_.size()); }
+  std::uint32_t sections_resident() const {
+    return section_slots() - static_cast<std::uint32_t>(free_slots_.size());
+  }
+  std::uint64_t quads_resident() const { return arena_.used(); }
+  std::uint64_t translucent_quads() const { return translucent_quads_; }
+  std::uint64_t cutout_quads() const { return cutout_quads_; }
+  std::span<const shared::Section> records() const { return records_; }
+  /// For kept shadow maps, which must know when they are out of date.
+  const GeometryChanges& changes() const { return changes_; }
+
+ private:
+  GeometryStore(gpu::Device& device, std::uint32_t arena_quads)
+      : device_(&device), arena_(arena_quads) {}
+  Result<void> grow_arena(std::uint32_t at_least);
+  Result<void> grow_sections();
+  void count(const shared::Section& section, std::int64_t sign);
+
+  gpu::Device* device_;
+  gpu::OffsetArena arena_;
+  gpu::Buffer quads_, sections_;
+  std::vector<shared::Section> records_;  // CPU copy, one a slot; free slots have no ranges
+  std::vector<std::uint32_t> free_slots_;
+  std::vector<shared::Quad> scratch_;
+  std::uint32_t section_capacity_ = 0;
+  std::uint64_t translucent_quads_ = 0, cutout_quads_ = 0;
+  GeometryChanges changes_;
+};
+
+}  // namespace skerry::render

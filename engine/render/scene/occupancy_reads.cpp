@@ -1,0 +1,29 @@
+#include "engine/render/scene/occupancy_reads.h"
+
+namespace skerry::render {
+
+OccupancyReads::OccupancyReads(const SceneRefs& scene, bool wanted)
+    : read_(wanted && scene.occupancy_grids),
+      grids_(read_ ? scene.occupancy_grids : scene.materials),
+      tables_(read_ ? scene.occupancy_tables : scene.materials),
+      words_(read_ ? scene.occupancy_words : scene.materials) {}
+
+void OccupancyReads::declare(gpu::PassBuilder& builder) const {
+  builder.read(grids_, gpu::Use::kComputeRead);
+  if (!read_) return;
+  builder.read(tables_, gpu::Use::kComputeRead);
+  builder.read(words_, gpu::Use::kComputeRead);
+}
+
+void OccupancyReads::bind(gpu::Commands& commands) const {
+  commands.storage(26, grids_);
+  commands.storage(27, tables_);
+  commands.storage(28, words_);
+}
+
+std::vector<gpu::SpecConstant> with_corners(std::vector<gpu::SpecConstant> own, bool corners) {
+  if (corners) own.push_back({15, 1});
+  return own;
+}
+
+}  // namespace skerry::render

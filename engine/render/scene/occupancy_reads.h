@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/frame/scene_refs.h"
+
+namespace skerry::render {
+
+/// What a shader that includes occupancy.glsl reads. Without a store, buffers of the scene that are
+/// never read are bound in its place, so that every binding is valid.
+class OccupancyReads {
+ public:
+  /// @param wanted whether the pass looks anything up; without a store it cannot.
+  OccupancyReads(const SceneRefs& scene, bool wanted);
+  /// Whether anything is looked up.
+  explicit operator bool() const { return read_; }
+  void declare(gpu::PassBuilder& builder) const;
+  void bind(gpu::Commands& commands) const;
+
+ private:
+  bool read_;
+  gpu::BufferRef grids_, tables_, words_;
+};
+
+/// A shader's constants with that of corners.glsl.
+std::vector<gpu::SpecConstant> with_corners(std::vector<gpu::SpecConstant> own, bool corners);
+
+}  // namespace skerry::render

@@ -1,0 +1,71 @@
+#include "engine/render/scene/tiles.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "shaders/shared/frame.h"
+
+namespace skerry::render {
+
+using gpu::Use;
+
+Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const char* name,
+                     gpu::ImageRef words, VkExtent2D size) {
+  const std::uint32_t columns = gpu::Commands::groups(size.width, shared::kTileEdge);
+  const std::uint32_t rows = gpu::Commands::groups(size.height, shared::kTileEdge);
+  Tiles out;
+  out.dispatches = graph.create(gpu::BufferDesc{"tile dispatches", 2 * sizeof(shared::TileDispatch),
+                                                0, gpu::Memory::kDevice});
+  out.lists = graph.create(gpu::BufferDesc{"tile lists", std::uint64_t{2} * columns * rows * 4, 0,
+                                           gpu::Memory::kDevice});
+  graph.add_pass(
+      std::string(name) + "_clear",
+      [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
+      [dispatches = out.dispatches](gpu::Commands& c) {
+        for (std::uint64_t kind = 0; kind < 2; ++kind) {
+          const std::uint64_t base = kind * sizeof(shared::TileDispatch);
+          c.fill(dispatches, base + offsetof(shared::TileDispatch, groups_x), 4, 0);
+          c.fill(dispatches, base + offsetof(shared::TileDispatch, groups_y), 8, 1);
+          c.fill(dispatches, base + offsetof(shared::TileDispatch, tiles), 4, 0);
+        }
+      });
+  graph.add_pass(
+      name,
+      [&](gpu::PassBuilder& b) {
+        b.read(words, Use::kComputeRead);
+        out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
+        out.lists = b.write(out.lists, Use::kComputeWrite);
+      },
+      [words, out, columns, rows, size,
+       &pipeline = pipelines.get(gpu::ComputeDesc{"classify_tiles.comp", {}})](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, words);
+        c.storage(1, out.dispatches);
+        c.storage(2, out.lists);
+        const struct {
+          std::uint32_t width, height, columns, rows;
+        } push{size.width, size.height, columns, rows};
+        c.push(push);
+        const std::uint32_t groups = gpu::Commands::groups(columns * rows, 64);
+        c.dispatch(std::min(groups, shared::kTileRow),
+                   gpu::Commands::groups(groups, shared::kTileRow), 1);
+      });
+  return out;
+}
+
+void declare_tiles(gpu::PassBuilder& builder, const Tiles& tiles) {
+  builder.read(tiles.dispatches, Use::kIndirect);
+  builder.read(tiles.dispatches, Use::kComputeRead);
+  builder.read(tiles.lists, Use::kComputeRead);
+}
+
+void dispatch_tiles(gpu::Commands& commands, const Tiles& tiles, TileKind kind) {
+  commands.storage(20, tiles.lists);
+  commands.storage(21, tiles.dispatches);
+  commands.push(static_cast<std::uint32_t>(kind));
+  commands.dispatch_indirect(tiles.dispatches,
+                             static_cast<std::uint64_t>(kind) * sizeof(shared::TileDispatch));
+}
+
+}  // namespace skerry::render

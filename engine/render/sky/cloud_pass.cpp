@@ -1,0 +1,242 @@
+#include "engine/render/sky/cloud_pass.h"
+
+#include <string>
+
+#include "engine/render/light/light_constants.h"
+#include "engine/render/light/wall_reads.h"
+
+namespace skerry::render {
+namespace {
+
+using gpu::Use;
+
+enum class Part : std::uint8_t { kAll, kBefore, kBehind };  // of water or glass
+
+/// What programs that include cloud_view.glsl read.
+class ViewReads {
+ public:
+  ViewReads(const SceneRefs& scene, const CloudPass::View& view, const RenderSettings& settings,
+            Part part)
+      : scene_(scene),
+        clouds_(*scene.clouds),
+        maps_(view.shadow_maps),
+        walls_(scene, settings, false),
+        part_(part) {
+    if (view.geometry) {
+      surfaces_ = view.geometry->surfaces();
+      depth_ = view.geometry->depth();
+      depth16_ = view.geometry->store().depth == DepthStore::kD16;
+    }
+    if (part != Part::kAll) layer_depth_ = view.layer_depth;
+    if (view.lights) lights_ = *view.lights;
+  }
+
+  std::string program(const char* name) const {
+    if (!depth_) return std::string(name) + "_sky.comp";
+    return std::string(name) + (maps_ ? "" : "_unshadowed") + (lights_ ? "_lit.comp" : ".comp");
+  }
+  std::vector<gpu::SpecConstant> constants(std::vector<gpu::SpecConstant> own) const {
+    if (depth16_) own.push_back({6, 1});
+    if (layer_depth_) own.push_back({22, 1});
+    if (part_ == Part::kBehind) own.push_back({23, 1});
+    own = clouds_.with_clouds(with_light(std::move(own), scene_, bool{maps_}));
+    return lights_ ? walls_.with_walls(lights_->with_lights(std::move(own))) : own;
+  }
+  void declare(gpu::PassBuilder& b) const {
+    b.read(scene_.frame, Use::kComputeRead);
+    if (depth_) {
+      b.read(surfaces_, Use::kComputeRead);
+      b.read(depth_, Use::kComputeSampled);
+    }
+    if (layer_depth_) b.read(layer_depth_, Use::kComputeSampled);
+    if (maps_) b.read(maps_, Use::kComputeSampled);
+    b.read(scene_.sky_lut, Use::kComputeSampled);
+    clouds_.declare_light(b);
+    clouds_.declare_media(b);
+    if (!lights_) return;
+    lights_->declare(b);
+    walls_.declare(b);
+    b.read(scene_.islands, Use::kComputeRead);
+  }
+  void bind(gpu::Commands& c) const {
+    c.storage(0, scene_.frame);
+    if (depth_) {
+      c.storage(5, surfaces_);
+      c.sampled(6, depth_, scene_.point_sampler);
+      // Without water no layer is read; the binding is valid even so.
+      c.sampled(15, layer_depth_ ? layer_depth_ : depth_, scene_.point_sampler);
+    }
+    c.sampled(8, scene_.sky_lut, scene_.lut_sampler);
+    if (maps_) c.sampled(12, maps_, scene_.point_sampler);
+    clouds_.bind_light(c);
+    clouds_.bind_media(c);
+    if (!lights_) return;
+    lights_->bind(c);
+    walls_.bind(c);
+    c.storage(1, scene_.islands);
+  }
+
+ private:
+  const SceneRefs scene_;
+  CloudRefs clouds_;
+  gpu::ImageRef maps_, surfaces_, depth_, layer_depth_;
+  std::optional<ClusteredLights> lights_;
+  WallReads walls_;
+  bool depth16_ = false;
+  Part part_;
+};
+
+void dispatch_over(gpu::Commands& c, VkExtent2D size) {
+  c.dispatch(gpu::Commands::groups(size.width, 8), gpu::Commands::groups(size.height, 8), 1);
+}
+
+void dispatch_over_fours(gpu::Commands& c, VkExtent2D size) {
+  c.dispatch(gpu::Commands::groups(size.width, 16), gpu::Commands::groups(size.height, 16), 1);
+}
+
+/// A texel for four pixels.
+gpu::ImageRef coarse_image(gpu::FrameGraph& graph, const SceneRefs& scene, const char* name) {
+  return graph.create(
+      gpu::ImageDesc{.name = name,
+                     .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                     .extent = {(scene.size.width + 1) / 2, (scene.size.height + 1) / 2}});
+}
+
+gpu::ImageRef march(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                    const ViewReads& reads) {
+  gpu::ImageRef coarse = coarse_image(graph, scene, "coarse clouds");
+  graph.add_pass(
+      "march_clouds",
+      [&](gpu::PassBuilder& b) {
+        reads.declare(b);
+        coarse = b.write(coarse, Use::kComputeWrite);
+      },
+      [reads, coarse, size = scene.size,
+       &pipeline = pipelines.get(gpu::ComputeDesc{reads.program("march_clouds"),
+                                                  reads.constants({})})](gpu::Commands& c) {
+        c.bind(pipeline);
+        reads.bind(c);
+        c.storage(14, coarse);
+        dispatch_over_fours(c, size);
+      });
+  return coarse;
+}
+
+gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const char* name, const ViewReads& reads, gpu::ImageRef coarse,
+                    gpu::ImageRef radiance) {
+  std::vector<gpu::SpecConstant> constants;
+  if (coarse) constants.push_back({24, 1});
+  graph.add_pass(
+      name,
+      [&](gpu::PassBuilder& b) {
+        reads.declare(b);
+        if (coarse) b.read(coarse, Use::kComputeSampled);
+        scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
+        radiance = b.write(radiance, Use::kComputeWrite);
+      },
+      [reads, coarse, radiance, stats = scene.pixel_stats, size = scene.size, lut = scene.sky_lut,
+       sampler = scene.point_sampler,
+       &pipeline = pipelines.get(
+           gpu::ComputeDesc{reads.program("blend_clouds"), reads.constants(std::move(constants))})](
+          gpu::Commands& c) {
+        c.bind(pipeline);
+        reads.bind(c);
+        c.storage(4, stats);
+        c.storage(9, radiance);
+        c.sampled(14, coarse ? coarse : lut, sampler);
+        dispatch_over(c, size);
+      });
+  return radiance;
+}
+
+}  // namespace
+
+std::vector<gpu::SpecConstant> CloudRefs::with_clouds(std::vector<gpu::SpecConstant> own) const {
+  if (layer) own.push_back({20, 1});
+  if (volumes != 0) own.push_back({21, volumes});
+  return own;
+}
+
+void CloudRefs::declare_light(gpu::PassBuilder& b) const {
+  b.read(constants, Use::kComputeRead);
+  b.read(layer_light, Use::kComputeSampled);
+  b.read(volume_light, Use::kComputeSampled);
+}
+
+void CloudRefs::bind_light(gpu::Commands& c) const {
+  c.storage(3, constants);
+  c.sampled(30, layer_light, linear);
+  c.sampled(31, volume_light, linear);
+}
+
+void CloudRefs::declare_media(gpu::PassBuilder& b) const {
+  for (const gpu::ImageRef ref : {weather, shapes, billows, cells, bricks})
+    b.read(ref, Use::kComputeSampled);
+}
+
+void CloudRefs::bind_media(gpu::Commands& c) const {
+  c.sampled(10, weather, repeating);
+  c.sampled(11, cells, nearest);
+  c.sampled(13, bricks, linear);
+  c.sampled(16, shapes, repeating);
+  c.sampled(17, billows, repeating);
+}
+
+gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                      const SceneRefs& scene, const View& view,
+                                      const TranslucentPass::Layers& layers) {
+  gpu::ImageRef mirrored = coarse_image(graph, scene, "mirrored clouds");
+  const gpu::ImageRef maps = view.shadow_maps;
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      maps ? "march_mirrored_clouds.comp" : "march_mirrored_clouds_unshadowed.comp",
+      scene.clouds->with_clouds(with_light({}, scene, bool{maps}))});
+  graph.add_pass(
+      "march_mirrored_clouds",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        scene.clouds->declare_light(b);
+        scene.clouds->declare_media(b);
+        b.read(scene.sky_lut, Use::kComputeSampled);
+        if (maps) b.read(maps, Use::kComputeSampled);
+        b.read(layers.surfaces[0], Use::kComputeRead);
+        b.read(layers.depth[0], Use::kComputeSampled);
+        mirrored = b.write(mirrored, Use::kComputeWrite);
+      },
+      [scene, layers, maps, mirrored, &pipeline](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.islands);
+        c.storage(2, scene.materials);
+        scene.clouds->bind_light(c);
+        scene.clouds->bind_media(c);
+        c.sampled(8, scene.sky_lut, scene.lut_sampler);
+        if (maps) c.sampled(12, maps, scene.point_sampler);
+        c.storage(14, mirrored);
+        c.sampled(15, layers.depth[0], scene.point_sampler);
+        c.storage(19, layers.surfaces[0]);
+        dispatch_over_fours(c, scene.size);
+      });
+  return mirrored;
+}
+
+Shaded CloudPass::add_behind(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                             const View& view, Shaded shaded, const RenderSettings& settings) {
+  const ViewReads reads(scene, view, settings, Part::kBehind);
+  return Shaded(
+      blend(graph, pipelines, scene, "blend_clouds_behind_water", reads, {}, shaded.radiance()));
+}
+
+Shaded CloudPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                      const View& view, Shaded shaded, const RenderSettings& settings) {
+  const ViewReads reads(scene, view, settings, view.layer_depth ? Part::kBefore : Part::kAll);
+  gpu::ImageRef coarse;
+  if (settings.clouds.resolution == 2)
+    coarse = march(graph, pipelines, scene, reads);
+  else
+    graph.leave_out("march_clouds", "clouds.resolution=full");
+  return Shaded(blend(graph, pipelines, scene, "blend_clouds", reads, coarse, shaded.radiance()));
+}
+
+}  // namespace skerry::render

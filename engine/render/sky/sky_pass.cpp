@@ -1,0 +1,27 @@
+#include "engine/render/sky/sky_pass.h"
+
+#include "shaders/shared/sky.h"
+
+namespace skerry::render {
+
+gpu::ImageRef add_sky_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                           const SceneRefs& scene) {
+  gpu::ImageRef table = scene.sky_lut;
+  graph.add_pass(
+      "bake_sky",
+      [&](gpu::PassBuilder& b) {
+        b.read(scene.sky, gpu::Use::kComputeRead);
+        table = b.write(table, gpu::Use::kComputeWrite);
+      },
+      [sky = scene.sky, table,
+       &pipeline = pipelines.get(gpu::ComputeDesc{"bake_sky.comp", {}})](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, sky);
+        c.storage(1, table);
+        c.dispatch(gpu::Commands::groups(shared::kSkyLutWidth, shared::kSkyLutGroup),
+                   gpu::Commands::groups(shared::kSkyLutHeight, shared::kSkyLutGroup), 1);
+      });
+  return table;
+}
+
+}  // namespace skerry::render

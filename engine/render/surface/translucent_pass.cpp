@@ -1,0 +1,135 @@
+#include "engine/render/surface/translucent_pass.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "engine/render/light/light_constants.h"
+#include "engine/render/light/wall_reads.h"
+#include "engine/render/scene/tiles.h"
+
+namespace skerry::render {
+
+using gpu::Use;
+
+TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                              const SceneRefs& scene, const CulledDraws& draws,
+                                              const Geometry& geometry, int layers) {
+  static constexpr std::array<const char*, 4> kNames{"draw_translucent_0", "draw_translucent_1",
+                                                     "draw_translucent_2", "draw_translucent_3"};
+  Layers out;
+  out.count = static_cast<std::uint32_t>(layers);
+  const gpu::ImageRef opaque_depth = geometry.depth();
+  for (std::uint32_t k = 0; k < out.count; ++k) {
+    gpu::ImageRef& words = out.surfaces[k];
+    gpu::ImageRef& depth = out.depth[k];
+    words = graph.create(gpu::ImageDesc{
+        .name = "translucent surfaces", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
+    depth = graph.create(gpu::ImageDesc{
+        .name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
+    const gpu::ImageRef previous = k == 0 ? opaque_depth : out.depth[k - 1];
+    const gpu::Pipeline& pipeline =
+        pipelines.get(gpu::GraphicsDesc{.vertex = "draw_quads.vert",
+                                        .fragment = "write_layer.frag",
+                                        .constants = {{1, k == 0 ? 1u : 0u}},
+                                        .color_formats = {VK_FORMAT_R32_UINT},
+                                        .depth_format = VK_FORMAT_D32_SFLOAT,
+                                        .cull = VK_CULL_MODE_NONE});
+    graph.add_pass(
+        kNames[k],
+        [&](gpu::PassBuilder& b) {
+          declare_draws(b, scene, draws);
+          b.read(opaque_depth, Use::kFragmentRead);
+          if (k > 0) b.read(previous, Use::kFragmentRead);
+          words = b.color(words, gpu::Load::cleared({}));
+          depth = b.depth(depth, gpu::Load::cleared({}));
+        },
+        [scene, draws, opaque_depth, previous, &pipeline](gpu::Commands& c) {
+          c.bind(pipeline);
+          c.sampled(4, opaque_depth, scene.point_sampler);
+          c.sampled(5, previous, scene.point_sampler);
+          draw_list(c, scene, draws, 0, DrawList::kTranslucent);
+        });
+  }
+  return out;
+}
+
+Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                            const Geometry& geometry, const Shadows& shadows, const Layers& layers,
+                            const ClusteredLights* lights, Shaded shaded,
+                            const RenderSettings& settings, bool inside_medium) {
+  const gpu::ImageRef opaque_depth = geometry.depth();
+  // Inside a medium every pixel is looked at through it; else only those with a translucent
+  // surface.
+  const Tiles tiles = classify_tiles(graph, pipelines, "classify_translucent_tiles",
+                                     layers.surfaces[0], scene.size);
+  gpu::ImageRef radiance = shaded.radiance();
+  const gpu::ImageRef maps = shadows.maps();
+  std::vector<gpu::SpecConstant> constants = with_light({{0, layers.count}}, scene, bool{maps});
+  const WallReads walls(scene, settings, false);
+  const std::optional<CloudRefs> clouds = clouds_before_light(scene);
+  constants = with_clouds(std::move(constants), clouds);
+  if (layers.mirrored_clouds) constants.push_back({25, 1});
+  if (lights) constants = walls.with_walls(lights->with_lights(std::move(constants)));
+  const gpu::Pipeline& pipeline = pipelines.get(
+      gpu::ComputeDesc{std::string("shade_translucent") + (maps ? "" : "_unshadowed") +
+                           (lights ? "_lit" : "") + (clouds ? "_clouded.comp" : ".comp"),
+                       std::move(constants)});
+  graph.add_pass(
+      "shade_translucent",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        declare_tiles(b, tiles);
+        if (clouds) clouds->declare_light(b);
+        if (layers.mirrored_clouds) b.read(layers.mirrored_clouds, Use::kComputeSampled);
+        if (lights) {
+          lights->declare(b);
+          walls.declare(b);
+        }
+        for (std::uint32_t k = 0; k < layers.count; ++k) {
+          b.read(layers.surfaces[k], Use::kComputeRead);
+          b.read(layers.depth[k], Use::kComputeSampled);
+        }
+        for (const gpu::ImageRef ref : {opaque_depth, scene.sky_lut, scene.block_textures})
+          b.read(ref, Use::kComputeSampled);
+        if (maps) b.read(maps, Use::kComputeSampled);
+        scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
+        radiance = b.write(radiance, Use::kComputeWrite);
+      },
+      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, walls, clouds, &pipeline,
+       lit = lights ? std::optional(*lights) : std::nullopt](gpu::Commands& c) {
+        c.bind(pipeline);
+        c.storage(0, scene.frame);
+        c.storage(1, scene.islands);
+        c.storage(2, scene.materials);
+        c.storage(4, scene.pixel_stats);
+        c.sampled(7, opaque_depth, scene.point_sampler);
+        c.sampled(8, scene.sky_lut, scene.lut_sampler);
+        c.storage(9, radiance);
+        if (maps) c.sampled(10, maps, scene.point_sampler);
+        c.sampled(11, scene.block_textures, scene.block_sampler);
+        if (clouds) {
+          clouds->bind_light(c);
+          // Where none are known, something that is never read is bound in their place.
+          c.sampled(5, layers.mirrored_clouds ? layers.mirrored_clouds : scene.sky_lut,
+                    scene.point_sampler);
+        }
+        // Layers that are not kept are never read; they are bound to the first so that every
+        // binding is valid.
+        for (std::uint32_t k = 0; k < 4; ++k) {
+          const std::uint32_t bound = k < layers.count ? k : 0;
+          c.storage(12 + k, layers.surfaces[bound]);
+          c.sampled(16 + k, layers.depth[bound], scene.point_sampler);
+        }
+        if (lit) {
+          lit->bind(c);
+          walls.bind(c);
+        }
+        dispatch_tiles(c, tiles, TileKind::kCovered);
+        if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
+      });
+  return Shaded(radiance);
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,33 @@
+#pragma once
+#include <array>
+
+#include "engine/render/frame/phases.h"
+#include "engine/render/frame/settings.h"
+#include "engine/render/light/light_clusters.h"
+#include "engine/render/scene/cull_pass.h"
+
+namespace skerry::render {
+
+/// Water and glass: the nearest surfaces of each pixel are peeled into layers (Everitt, Interactive
+/// Order-Independent Transparency, 2001), exact order a pixel whatever the order of draws, then
+/// looked through in compute with the light functions of the opaque pass (docs/decisions/0005).
+struct TranslucentPass {
+  /// The peeled surfaces, nearest first.
+  struct Layers {
+    std::array<gpu::ImageRef, 4> surfaces, depth;
+    std::uint32_t count = 0;
+    gpu::ImageRef mirrored_clouds;  ///< CloudPass::add_mirrored(); empty: none are mirrored
+  };
+  /// @param layers surfaces kept a pixel, 1..4: what lies behind the last one is seen as if nothing
+  /// translucent followed.
+  static Layers draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                     const CulledDraws& draws, const Geometry& geometry, int layers);
+  /// @param inside_medium the camera itself is in a translucent block.
+  /// @param lights null: there are none. Walls block all of them, if any.
+  static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const Geometry& geometry, const Shadows& shadows, const Layers& layers,
+                    const ClusteredLights* lights, Shaded shaded, const RenderSettings& settings,
+                    bool inside_medium);
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,216 @@
+// Which shadow maps are kept, and that a kept one shows what a fresh one would.
+#include "engine/render/light/shadow_maps.h"
+
+#include "tests/render/passes_on_gpu.h"
+
+namespace skerry::render {
+namespace {
+
+Celestial afternoon() {
+  return celestial_at(15.0 * 3600.0, 0.0);
+}
+
+world::BlockId hills(int x, int y, int z) {
+  const int height = (x * x / 31 + z * 3 / 7 + x * z / 53) & 15;
+  return y < height ? world::block::kStone : world::block::kAirBlock;
+}
+
+class KeptShadowMaps : public PassesOnGpu {
+ protected:
+  FrameInput input_;
+  std::vector<IslandPlacement> islands_;
+  GeometryChanges geometry_;
+
+  std::vector<ActiveCascade> update(const RenderSettings& settings = {}) {
+    input_.islands = islands_;
+    const auto cascades = shadows().update(input_, settings, geometry_);
+    EXPECT_TRUE(cascades);
+    return {cascades->begin(), cascades->end()};
+  }
+};
+
+shared::Section whole_chunk(std::uint32_t island, glm::ivec3 origin) {
+  shared::Section section{};
+  section.origin = origin;
+  section.island = island;
+  section.bounds_max = 64u | 64u << 7 | 64u << 14;
+  return section;
+}
+
+/// A turn of `angle` about a random axis, laid over what was there.
+glm::dquat turned(const glm::dquat& from, RandomPlaces& random, double angle) {
+  return glm::normalize(glm::angleAxis(angle, random.direction()) * from);
+}
+
+TEST_F(KeptShadowMaps, AreDrawnAfreshWhenAnyPointOfAnIslandMovedByAQuarterTexel) {
+  RandomPlaces random(1);
+  input_.sky = afternoon();
+  int kept = 0, redrawn = 0;
+  for (int round = 0; round < 300; ++round) {
+    shadows().forget();
+    const double radius = random.uniform(10.0, 3000.0);
+    islands_ = {{fixed_at(random.in_box(500.0)), random.turn(), radius}};
+    const IslandPlacement before = islands_[0];
+    for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
+    const double scale = std::exp(random.uniform(std::log(1e-4), std::log(1.0)));
+    islands_[0].origin = sum(before.origin, fixed_at(random.in_box(scale)));
+    const double angle = random.uniform(0.0, 2.0 * scale / radius);
+    islands_[0].rotation = turned(before.rotation, random, angle);
+    if (round % 2 == 0) islands_[0].rotation = -islands_[0].rotation;  // the same rotation
+    // Brute force: how far did points of the island's ball move?
+    double most = 0.0;
+    for (int i = 0; i < 200; ++i) {
+      const glm::dvec3 p = random.direction() * radius * random.uniform(0.8, 1.0);
+      const glm::dvec3 shift = blocks_at(islands_[0].origin) - blocks_at(before.origin) +
+                               islands_[0].rotation * p - before.rotation * p;
+      most = std::max(most, glm::length(shift));
+    }
+    const double bound =
+        glm::length(blocks_at(islands_[0].origin) - blocks_at(before.origin)) + angle * radius;
+    for (const ActiveCascade& c : update()) {
+      const double quarter = 0.25 * static_cast<double>(c.cascade.texel_blocks);
+      if (most > quarter) {
+        EXPECT_TRUE(c.redraw) << "a point moved " << most << " blocks, texel " << 4.0 * quarter;
+      }
+      if (bound < 0.99 * quarter) {
+        EXPECT_FALSE(c.redraw) << "no point can have moved " << bound << " blocks";
+      }
+      (c.redraw ? redrawn : kept) += 1;
+    }
+  }
+  EXPECT_GT(kept, 200);
+  EXPECT_GT(redrawn, 200);
+}
+
+TEST_F(KeptShadowMaps, SmallMovesAddUpUntilTheMapIsDrawnAfresh) {
+  input_.sky = afternoon();
+  islands_ = {{{}, {1.0, 0.0, 0.0, 0.0}, 100.0}};
+  std::vector<std::int64_t> drawn_at;
+  for (const ActiveCascade& c : update()) {
+    ASSERT_TRUE(c.redraw);
+    drawn_at.push_back(0);
+  }
+  for (std::int64_t units = 100; units < 100000; units += 100) {
+    islands_[0].origin[0] = units;
+    for (const ActiveCascade& c : update()) {
+      const auto layer = static_cast<std::size_t>(c.layer);
+      if (c.redraw) drawn_at[layer] = units;
+      const double moved = static_cast<double>(units - drawn_at[layer]) / 65536.0;
+      ASSERT_LE(moved, 0.25 * static_cast<double>(c.cascade.texel_blocks));
+    }
+  }
+}
+
+TEST_F(KeptShadowMaps, AreKeptWhenTheWholeWorldMovesAndNotWhenItsGeometryChanges) {
+  input_.sky = afternoon();
+  islands_ = {{fixed_at({3, 4, 5}), {1.0, 0.0, 0.0, 0.0}, 100.0}};
+  update();
+  const FixedPos offset{kUnits << 40, -(kUnits << 40), kUnits << 24};
+  islands_[0].origin = sum(islands_[0].origin, offset);
+  input_.camera.position = sum(input_.camera.position, offset);
+  input_.anchor = sum(input_.anchor, offset);
+  for (const ActiveCascade& c : update()) EXPECT_FALSE(c.redraw);
+  geometry_.note(whole_chunk(0, {0, 0, 0}));
+  for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
+  islands_.push_back(islands_[0]);
+  for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw) << "an island appeared";
+}
+
+TEST_F(KeptShadowMaps, AreDrawnAfreshWhenASectionThatTheyCouldShowComesOrGoes) {
+  RandomPlaces random(7);
+  input_.sky = afternoon();
+  int kept = 0, redrawn = 0;
+  for (int round = 0; round < 300; ++round) {
+    islands_ = {{fixed_at(random.in_box(800.0)), random.turn(), 3000.0}};
+    update();
+    const shared::Section section = whole_chunk(0, glm::ivec3(random.in_box(1200.0)));
+    geometry_.note(section);
+    for (const ActiveCascade& c : update()) {
+      // Brute force: does any of many points of the chunk fall into the map?
+      bool inside = false;
+      for (int i = 0; i < 1000 && !inside; ++i) {
+        const glm::dvec3 at = glm::dvec3(section.origin) + 32.0 + random.in_box(32.0);
+        const glm::dvec3 p = blocks_at(islands_[0].origin) + islands_[0].rotation * at -
+                             blocks_at(input_.camera.position);
+        const glm::vec4 clip = c.cascade.clip_from_world * glm::vec4(glm::vec3(p), 1.0f);
+        inside = std::abs(clip.x) < 1.0f && std::abs(clip.y) < 1.0f && clip.z > 0.0f;
+      }
+      if (inside) {
+        EXPECT_TRUE(c.redraw) << "round " << round << ", map " << c.layer;
+      }
+      (c.redraw ? redrawn : kept) += 1;
+    }
+  }
+  EXPECT_GT(kept, 200);
+  EXPECT_GT(redrawn, 50);
+}
+
+TEST_F(KeptShadowMaps, AreDrawnAfreshWhenMoreChangedThanIsKnown) {
+  input_.sky = afternoon();
+  islands_ = {{{}, {1.0, 0.0, 0.0, 0.0}, 100.0}};
+  update();
+  for (int i = 0; i < 10000; ++i) geometry_.note(whole_chunk(0, {1 << 20, 0, 0}));
+  for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
+  geometry_.note(whole_chunk(0, {1 << 20, 0, 0}));
+  for (const ActiveCascade& c : update()) EXPECT_FALSE(c.redraw) << "it is far from any map";
+}
+
+TEST_F(KeptShadowMaps, AreDrawnAfreshWhenTheSunMoves) {
+  islands_ = {{{}, {1.0, 0.0, 0.0, 0.0}, 100.0}};
+  input_.sky = celestial_at(50000.0, 0.0);
+  update();
+  for (const ActiveCascade& c : update()) EXPECT_FALSE(c.redraw);
+  input_.sky = celestial_at(50012.0, 0.0);
+  for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
+}
+
+TEST_F(KeptShadowMaps, ACameraThatMovesLessThanATexelChangesNoTexel) {
+  add_chunk(store(), uploader(), hills, {0, 0, 0}, 0);
+  islands_ = {{fixed_at({-31.7, -20.2, -30.4}), glm::angleAxis(0.4, glm::dvec3(0, 1, 0)), 120.0}};
+  input_.islands = islands_;
+  input_.sky = afternoon();
+  RenderSettings settings;
+  settings.shadow_map_size = 512;
+  const DrawnMaps first = shadow_maps(input_, settings);
+  EXPECT_EQ(first.redrawn, std::vector<bool>(4, true));
+  // The scene is in the maps at all.
+  const auto covered =
+      std::count_if(first.texels.begin(), first.texels.end(), [](float t) { return t > 0.0f; });
+  EXPECT_GT(covered, 1000);
+  RandomPlaces random(2);
+  for (int i = 0; i < 12; ++i) {
+    // Well below the first cascade's texel of a quarter of a block.
+    input_.camera.position = fixed_at(random.in_box(0.05));
+    const DrawnMaps kept = shadow_maps(input_, settings);
+    EXPECT_EQ(kept.texels, first.texels);
+    shadows().forget();
+    const DrawnMaps fresh = shadow_maps(input_, settings);
+    EXPECT_EQ(fresh.redrawn, std::vector<bool>(4, true));
+    EXPECT_EQ(fresh.texels, first.texels) << "drawn again in the same window, step " << i;
+  }
+}
+
+TEST_F(KeptShadowMaps, AreTheSameToTheLastBitAnywhereInTheWorld) {
+  add_chunk(store(), uploader(), hills, {0, 0, 0}, 0);
+  const IslandPlacement island{fixed_at({-31.7, -20.2, -30.4}),
+                               glm::angleAxis(0.4, glm::dvec3(0, 1, 0)), 120.0};
+  input_.sky = afternoon();
+  RenderSettings settings;
+  settings.shadow_map_size = 256;
+  std::vector<float> first;
+  for (const int bits : {0, 24, 40}) {
+    const FixedPos offset{bits ? kUnits << bits : 0, bits ? -(kUnits << bits) + 7 : 0, 0};
+    islands_ = {island};
+    islands_[0].origin = sum(island.origin, offset);
+    input_.islands = islands_;
+    input_.camera.position = offset;
+    input_.anchor = offset;
+    shadows().forget();
+    const DrawnMaps maps = shadow_maps(input_, settings);
+    if (bits == 0) first = maps.texels;
+    EXPECT_EQ(maps.texels, first) << bits;
+  }
+}
+
+}  // namespace
+}  // namespace skerry::render
