@@ -24,7 +24,7 @@ if(cpu_test_sources)
 endif()
 
 # The parsers of what comes from outside, with what they need and no more: built under sanitizers.
-set(fuzz_sources tests/fuzz/targets.cpp game/actions.cpp game/bindings_file.cpp game/expectations.cpp game/cloud_files.cpp game/options.cpp game/parse.cpp game/scene_files.cpp game/scene_lights.cpp game/settings.cpp game/vdb_options.cpp engine/render/light/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp engine/platform/input.cpp)
+set(fuzz_sources tests/fuzz/targets.cpp game/input/actions.cpp game/input/bindings_file.cpp game/scene_file/expectations.cpp game/scene_file/cloud_files.cpp game/scene_file/options.cpp game/scene_file/parse.cpp game/scene_file/scene_files.cpp game/scene_file/scene_lights.cpp game/scene_file/settings.cpp game/scene_file/vdb_options.cpp engine/render/light/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp engine/platform/input.cpp)
 list(TRANSFORM fuzz_sources PREPEND ${CMAKE_SOURCE_DIR}/)
 function(skerry_fuzz_program name main)
   add_executable(${name} EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/${main} ${fuzz_sources})

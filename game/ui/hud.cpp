@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "game/parse.h"
+#include "game/scene_file/parse.h"
 #include "game/ui/look.h"
 #include "game/ui/screens.h"
 

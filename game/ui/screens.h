@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "game/actions.h"
-#include "game/settings.h"
+#include "game/input/actions.h"
+#include "game/scene_file/settings.h"
 #include "game/ui/knob_costs.h"
 #include "game/ui/pictures.h"
 #include "game/ui/screen_stack.h"

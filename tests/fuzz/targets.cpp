@@ -12,8 +12,8 @@
 
 #include "engine/core/check.h"
 #include "engine/platform/image_file.h"
-#include "game/actions.h"
-#include "game/options.h"
+#include "game/input/actions.h"
+#include "game/scene_file/options.h"
 #include "world/store/bytes.h"
 #include "world/store/chunk_blob.h"
 #include "world/store/pages.h"

@@ -8,7 +8,7 @@
 
 #include "engine/gpu/readback.h"
 #include "engine/render/renderer/renderer.h"
-#include "game/materials.h"
+#include "game/view/materials.h"
 #include "tests/gpu/test_device.h"
 #include "tests/render/random_scenes.h"
 #include "tests/render/voxel_chunks.h"

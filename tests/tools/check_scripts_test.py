@@ -19,9 +19,9 @@ GOOD = {
     "world/chunk.h": '#include "engine/core/log.h"\n',
     "world/chunk.cpp": '#include "world/chunk.h"\n\n#include <vector>\n',
     "world/vdb/import.cpp": "#include <openvdb/openvdb.h>\n",
-    "game/session.h": '#include "world/chunk.h"\n#include "engine/render/sky.h"\n',
+    "game/session/session.h": '#include "world/chunk.h"\n#include "engine/render/sky.h"\n',
     "tools/skerry/main.cpp": '#include "tools/skerry/shot.h"\n',
-    "tools/skerry/shot.h": '#include "game/session.h"\n',
+    "tools/skerry/shot.h": '#include "game/session/session.h"\n',
     "tests/world/chunk_test.cpp": '#include "tools/skerry/shot.h"\n#include "world/chunk.h"\n',
 }
 
@@ -89,7 +89,7 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("world/island.h", '#include "chunk.h"\n', "no file")
 
     def test_an_include_in_a_comment_does_not_count(self):
-        text = '// #include "game/session.h"\n/*\n#include <volk.h>\n*/\n'
+        text = '// #include "game/session/session.h"\n/*\n#include <volk.h>\n*/\n'
         status, output = run("check_includes", {**GOOD, "world/a.h": text})
         self.assertEqual(status, 0, output)
 

@@ -8,7 +8,7 @@
 
 #include "engine/core/jobs.h"
 #include "engine/core/result.h"
-#include "game/options.h"
+#include "game/scene_file/options.h"
 #include "tools/measure/picture.h"
 #include "tools/reference/scene.h"
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "engine/platform/files.h"
-#include "game/open_world.h"
-#include "game/parse.h"
+#include "game/scene_file/parse.h"
+#include "game/worlds/open_world.h"
 #include "tools/skerry/scene_device.h"
 
 namespace skerry::tools {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "game/parse.h"
+#include "game/scene_file/parse.h"
 #include "tools/skerry/bench_cull.h"
 #include "tools/skerry/bench_edit.h"
 #include "tools/skerry/bench_fly.h"

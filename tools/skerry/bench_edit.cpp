@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/core/clock.h"
-#include "game/edit_rules.h"
-#include "game/interaction.h"
-#include "game/scene_view.h"
-#include "game/world_surroundings.h"
+#include "game/player/edit_rules.h"
+#include "game/player/interaction.h"
+#include "game/player/world_surroundings.h"
+#include "game/view/scene_view.h"
 #include "tools/skerry/bench_report.h"
 #include "tools/skerry/scene_device.h"
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "game/options.h"
+#include "game/scene_file/options.h"
 
 namespace skerry::tools {
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "engine/core/clock.h"
-#include "game/controls.h"
-#include "game/player.h"
-#include "game/scene_view.h"
-#include "game/session.h"
-#include "game/world_surroundings.h"
+#include "game/input/controls.h"
+#include "game/player/player.h"
+#include "game/player/world_surroundings.h"
+#include "game/session/session.h"
+#include "game/view/scene_view.h"
 #include "tools/skerry/bench_report.h"
 #include "tools/skerry/scene_device.h"
 

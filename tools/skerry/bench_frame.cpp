@@ -6,7 +6,7 @@
 #include <chrono>
 #include <map>
 
-#include "game/scene_view.h"
+#include "game/view/scene_view.h"
 #include "tools/skerry/bench_report.h"
 #include "tools/skerry/scene_device.h"
 

@@ -7,7 +7,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "game/scene_view.h"
+#include "game/view/scene_view.h"
 #include "tools/measure/picture.h"
 
 namespace skerry::tools {

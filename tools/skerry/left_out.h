@@ -4,7 +4,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "game/options.h"
+#include "game/scene_file/options.h"
 #include "tools/skerry/draw_scene.h"
 
 namespace skerry::tools {

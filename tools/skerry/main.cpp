@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/core/log.h"
-#include "game/parse.h"
-#include "game/preferences.h"
+#include "game/client/preferences.h"
+#include "game/scene_file/parse.h"
 #include "tools/skerry/arguments.h"
 #include "tools/skerry/bench_commands.h"
 #include "tools/skerry/devices.h"

@@ -5,7 +5,7 @@
 #include "engine/gpu/device.h"
 #include "engine/platform/files.h"
 #include "engine/platform/window.h"
-#include "game/play.h"
+#include "game/client/play.h"
 #include "tools/skerry/scene_device.h"
 
 namespace skerry::tools {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "game/options.h"
+#include "game/scene_file/options.h"
 
 namespace skerry::tools {
 

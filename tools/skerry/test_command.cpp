@@ -7,8 +7,8 @@
 
 #include "engine/core/clock.h"
 #include "engine/platform/files.h"
-#include "game/parse.h"
-#include "game/vdb_options.h"
+#include "game/scene_file/parse.h"
+#include "game/scene_file/vdb_options.h"
 #include "tools/skerry/progress.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/test/page.h"

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "game/parse.h"
-#include "game/vdb_options.h"
+#include "game/scene_file/parse.h"
+#include "game/scene_file/vdb_options.h"
 #include "tools/skerry/scene_device.h"
 #include "tools/skerry/vdb_info.h"
 #include "tools/skerry/vdb_transfer.h"

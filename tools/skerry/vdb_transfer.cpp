@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/clock.h"
-#include "game/open_world.h"
-#include "game/parse.h"
-#include "game/vdb_world.h"
+#include "game/scene_file/parse.h"
+#include "game/worlds/open_world.h"
+#include "game/worlds/vdb_world.h"
 #include "tools/skerry/progress.h"
 #include "tools/skerry/scene_device.h"
 #include "world/store/world_file.h"

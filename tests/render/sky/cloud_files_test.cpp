@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "game/cloud_files.h"
+#include "game/scene_file/cloud_files.h"
 #include "tests/folder.h"
 #include "tests/real_files.h"
 #include "tests/render/renderer_on_gpu.h"

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "game/options.h"
+#include "game/scene_file/options.h"
 #include "tools/skerry/report/report_session.h"
 
 namespace skerry::tools {

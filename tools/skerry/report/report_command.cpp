@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/platform/files.h"
-#include "game/parse.h"
+#include "game/scene_file/parse.h"
 #include "tools/skerry/report/left_out_topic.h"
 #include "tools/skerry/scene_device.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <system_error>
 
-#include "game/parse.h"
+#include "game/scene_file/parse.h"
 
 namespace skerry::tools {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "game/options.h"
+#include "game/scene_file/options.h"
 #include "tools/measure/image.h"
 #include "tools/measure/picture.h"
 #include "tools/skerry/report/topics.h"

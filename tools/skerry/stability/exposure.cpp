@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "game/materials.h"
+#include "game/view/materials.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 

@@ -6,7 +6,7 @@
 #include <glm/gtc/packing.hpp>
 #include <limits>
 
-#include "game/materials.h"
+#include "game/view/materials.h"
 #include "shaders/shared/sky.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"

@@ -4,7 +4,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/render/light/lights.h"
-#include "game/materials.h"
+#include "game/view/materials.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 

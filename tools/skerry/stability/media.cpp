@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 
-#include "game/materials.h"
+#include "game/view/materials.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 

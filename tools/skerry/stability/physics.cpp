@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/jobs.h"
-#include "game/player.h"
+#include "game/player/player.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/place_to_play.h"
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "game/collide.h"
+#include "game/player/collide.h"
 
 namespace skerry::tools::stability {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "game/player.h"
+#include "game/player/player.h"
 #include "world/blocks.h"
 #include "world/coords.h"
 #include "world/island.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "engine/core/check.h"
-#include "game/parse.h"
+#include "game/scene_file/parse.h"
 #include "tools/skerry/scene_device.h"
 
 namespace skerry::tools::stability {

@@ -7,7 +7,7 @@
 
 #include "engine/render/frame/celestial.h"
 #include "engine/render/light/cascades.h"
-#include "game/controls.h"
+#include "game/input/controls.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 

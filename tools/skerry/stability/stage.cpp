@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "engine/gpu/readback.h"
-#include "game/materials.h"
+#include "game/view/materials.h"
 #include "world/mesh/occupancy.h"
 
 namespace skerry::tools::stability {

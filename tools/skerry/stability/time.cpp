@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/render/frame/celestial.h"
-#include "game/controls.h"
+#include "game/input/controls.h"
 #include "tools/skerry/stability/case.h"
 #include "world/island.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/platform/files.h"
-#include "game/parse.h"
+#include "game/scene_file/parse.h"
 
 namespace skerry::tools {
 namespace {

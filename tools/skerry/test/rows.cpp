@@ -9,7 +9,7 @@
 
 #include "engine/core/check.h"
 #include "engine/platform/files.h"
-#include "game/parse.h"
+#include "game/scene_file/parse.h"
 #include "tools/measure/html.h"
 
 namespace skerry::tools {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "game/options.h"
+#include "game/scene_file/options.h"
 
 namespace skerry::tools {
 

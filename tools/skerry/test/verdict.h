@@ -4,7 +4,7 @@
 
 #include "engine/core/result.h"
 #include "engine/platform/image_file.h"
-#include "game/expectations.h"
+#include "game/scene_file/expectations.h"
 #include "tools/measure/flip.h"
 
 namespace skerry::tools {

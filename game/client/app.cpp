@@ -1,0 +1,273 @@
+#include "game/client/app.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include "engine/core/log.h"
+#include "game/client/preferences.h"
+
+namespace skerry::game {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using ui::Screen;
+
+constexpr double kIdleWait = 0.05;  // seconds between looks at a window that shows nothing
+constexpr double kScreensShare =
+    5.0;  // times what the world behind takes, for the screen before it
+constexpr double kStillWait = 1.0 / 60.0;  // seconds between frames in which only a screen is drawn
+
+ui::Clipboard clipboard_of(platform::Window& window) {
+  return {[&window] { return window.clipboard(); },
+          [&window](const std::string& text) { window.set_clipboard(text); }};
+}
+
+/// Screens under which the world goes on.
+bool world_goes_on(const ui::ScreenStack& stack) {
+  return stack.empty() || stack.top() == Screen::kPalette;
+}
+
+}  // namespace
+
+App::App(platform::Window& window, gpu::Device& device, const SceneOptions& options,
+         const std::vector<std::string>& notes)
+    : window_(window), device_(device), base_(options), gui_(clipboard_of(window)) {
+  for (const std::string& note : notes) messages_.say(note);
+  ReadBindings read = load_bindings(bindings_path());
+  for (std::string& problem : read.problems) say(std::move(problem));
+  bindings_ = std::move(read.bindings);
+}
+
+Result<void> App::start(VkSurfaceKHR surface, bool at_title) {
+  const ui::PictureView pictures{ui::Pictures::kWidth, ui::Pictures::kHeight, pictures_.pixels()};
+  auto presenter = Presenter::create(device_, surface, {gui_.font(), pictures});
+  if (!presenter) return presenter.error();
+  presenter_ = *std::move(presenter);
+  pictures_shown_ = pictures_.version();
+  if (!at_title) return play_as_asked();
+  list_again();
+  open(Screen::kTitle);
+  return set_backdrop(Backdrop::View::kAround, "");
+}
+
+Result<void> App::run() {
+  Clock::time_point before = Clock::now();
+  bool drawn = true;
+  for (;;) {
+    if (window_.should_close()) {
+      keep_settings();
+      if (save_world()) break;
+      window_.stay_open();
+    }
+    const platform::InputFrame input = held_back_.filtered(window_.poll(!drawn   ? kIdleWait
+                                                                        : still_ ? kStillWait
+                                                                                 : 0.0));
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - before).count();
+    before = now;
+    const Result<bool> done = frame(input, seconds);
+    if (!done) return done.error();
+    drawn = *done;
+  }
+  leave_world();
+  return {};
+}
+
+void App::open(Screen screen) {
+  screens_.stack.open(screen);
+  screens_.fresh = true;
+}
+
+Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
+  const std::optional<Screen> before = screens_.stack.top();
+  const bool listened = screens_.listening.has_value();
+  if (world_) world_->note_frame(seconds);
+  act(input, std::min(seconds, kLongestFrame));
+  const auto layout = [&](VkExtent2D size) { return lay_out(size, input, seconds); };
+  if (pictures_shown_ != pictures_.version()) {
+    const ui::PictureView view{ui::Pictures::kWidth, ui::Pictures::kHeight, pictures_.pixels()};
+    if (const auto done = presenter_->set_pictures(view); !done) return done.error();
+    pictures_shown_ = pictures_.version();
+  }
+  wishes_ = {};
+  const Result<bool> drawn = draw(seconds, layout);
+  if (!drawn) return drawn;
+  if (const auto done = fulfil(wishes_); !done) return done.error();
+  // What was held while one thing was shown shall not act on the next, nor what was bound just now.
+  if (listened && !screens_.listening) held_back_.hold(input);
+  if (screens_.stack.top() == before) return drawn;
+  fresh_frames_ = std::max(fresh_frames_, kSettlingFrames);
+  held_back_.hold(input);
+  keep_settings();
+  if (screens_.stack.top() == Screen::kNewWorld) {
+    draw_lots();
+    preview_due_s_ = 0.0;
+  } else if (before == Screen::kNewWorld && backdrop_) {
+    preview_due_s_.reset();
+    if (const auto done = set_backdrop(Backdrop::View::kAround, ""); !done) return done.error();
+  }
+  return drawn;
+}
+
+void App::act(const platform::InputFrame& input, double seconds) {
+  const ActionFrame actions(input, bindings_);
+  if (actions.pressed(Action::kFullscreen) && !gui_.typing()) window_.toggle_fullscreen();
+  act_on_screens(input, actions);
+  messages_.pass(seconds);
+  const bool flies = screens_.stack.top() == Screen::kPhoto && photo_settings_.bare;
+  window_.capture_pointer(world_ && (screens_.stack.empty() || flies) && window_.focused());
+  if (!world_) return;
+  if (screens_.stack.empty())
+    world_->act(input, seconds);
+  else if (world_goes_on(screens_.stack))
+    world_->act({}, seconds);
+  else
+    world_->rest(seconds);
+  const bool was_photo = std::exchange(in_photo_, screens_.stack.top() == Screen::kPhoto);
+  if (in_photo_ && !was_photo) {
+    photo_.start_at(*world_->scene().camera);
+    photo_settings_ = {world_->day().time_of_day_s(), std::nullopt, world_->scene().fov_deg, false};
+  }
+  // The key that opened it means nothing in it.
+  if (in_photo_)
+    fly_photo_camera(input, was_photo ? actions : ActionFrame(), seconds);
+  else
+    world_->set_photo(std::nullopt);
+  for (std::string& line : world_->take_messages()) messages_.say(std::move(line));
+}
+
+void App::act_on_screens(const platform::InputFrame& input, const ActionFrame& actions) {
+  back_ = false;
+  if (screens_.stack.empty()) {
+    screens_.unsaved.reset();
+    if (actions.pressed(Action::kPause)) open(Screen::kPause);
+    if (actions.pressed(Action::kPalette)) open(Screen::kPalette);
+    if (actions.pressed(Action::kPhoto)) open(Screen::kPhoto);
+    if (actions.pressed(Action::kHideHud)) hud_hidden_ = !hud_hidden_;
+    return;
+  }
+  back_ = ui::goes_back(screens_, input);
+  if (!back_) return;
+  if (std::exchange(photo_settings_.bare, false)) return;
+  ui::go_back(screens_, gui_.typing());
+}
+
+void App::fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
+                           double seconds) {
+  if (actions.pressed(Action::kHideHud) || actions.pressed(Action::kPhoto))
+    photo_settings_.bare = !photo_settings_.bare;
+  if (actions.pressed(Action::kScreenshot)) world_->want_screenshot();
+  if (photo_settings_.bare) {
+    const glm::dvec2 moved = window_.pointer_captured() ? input.mouse_delta : glm::dvec2(0.0);
+    photo_.advance({&actions, &bindings_, moved, seconds}, photo_settings_.fov_deg);
+  }
+  world_->set_photo(PhotoView{photo_.place(), photo_settings_.fov_deg,
+                              photo_settings_.time_of_day_s, photo_settings_.exposure_ev});
+}
+
+/// Whether the world is drawn anew. Behind a screen it stands still, or turns at leisure; then most
+/// of the time goes to the screen, which answers at once on the slowest of devices.
+bool App::world_is_due(double seconds) {
+  since_drawn_s_ += seconds;
+  if (world_ && (world_goes_on(screens_.stack) || screens_.stack.top() == Screen::kPhoto))
+    return true;
+  SceneView& view = world_ ? world_->view() : backdrop_->view();
+  const auto& report = view.renderer().report();
+  const VkExtent2D drawn = presenter_->extent();
+  const platform::FramebufferSize window = window_.framebuffer_size();
+  const bool resized = drawn.width != window.width || drawn.height != window.height;
+  if (!report || resized || fresh_frames_ > 0 || costs_.measuring()) return true;
+  if (world_ && view.complete()) return false;
+  return since_drawn_s_ * 1000.0 > kScreensShare * report->gpu_ms;
+}
+
+Result<bool> App::draw(double seconds, const PlayLoop::Layout& layout) {
+  if (backdrop_) backdrop_->advance(std::min(seconds, kLongestFrame));
+  if (preview_due_s_ && (*preview_due_s_ -= seconds) <= 0.0) {
+    preview_due_s_.reset();
+    if (const auto done = set_backdrop(Backdrop::View::kSpawn, screens_.new_seed.data()); !done)
+      return done.error();
+  }
+  still_ = !world_is_due(seconds);
+  if (still_) return show_again(layout);
+  since_drawn_s_ = 0.0;
+  fresh_frames_ = std::max(0, fresh_frames_ - 1);
+  const Result<bool> drawn = world_ ? world_->draw(layout) : draw_backdrop(layout);
+  SceneView& view = world_ ? world_->view() : backdrop_->view();
+  if (const auto& report = view.renderer().report())
+    costs_.note_frame(report->gpu_ms, view.complete());
+  return drawn;
+}
+
+Result<bool> App::show_again(const PlayLoop::Layout& layout) {
+  const platform::FramebufferSize window_px = window_.framebuffer_size();
+  const std::optional<gpu::SwapchainFrame> frame =
+      presenter_->acquire({window_px.width, window_px.height});
+  if (!frame) return false;
+  gpu::Image& picture = (world_ ? world_->view() : backdrop_->view()).renderer().picture();
+  const Result<void> shown = presenter_->show_again(picture, *frame, layout(picture.desc().extent));
+  if (!shown) return shown.error();
+  return true;
+}
+
+Result<bool> App::draw_backdrop(const PlayLoop::Layout& layout) {
+  SceneView& view = backdrop_->view();
+  const SceneView::Moment now = backdrop_->moment();
+  if (const auto done = view.stream(now.camera, now.world_time_s); !done) return done.error();
+  const platform::FramebufferSize window_px = window_.framebuffer_size();
+  const std::optional<gpu::SwapchainFrame> frame =
+      presenter_->acquire({window_px.width, window_px.height});
+  if (!frame) return false;
+  const ui::OverlayTriangles triangles = layout(presenter_->extent());
+  Result<void> recorded;
+  const auto bring_to_window = [&](VkCommandBuffer commands, gpu::Image& picture) {
+    recorded = presenter_->record(commands, picture, *frame, &triangles);
+  };
+  const Result<std::uint64_t> value =
+      view.draw(now, presenter_->extent(), bring_to_window, {&frame->wait, 1}, {&frame->signal, 1});
+  if (!value) return value.error();
+  presenter_->present(*frame, *value);
+  if (!recorded) return recorded.error();
+  return true;
+}
+
+ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& input,
+                                  double seconds) {
+  const bool bare = screens_.stack.top() == Screen::kPhoto && photo_settings_.bare;
+  const bool fed = !screens_.stack.empty() && !screens_.listening && !bare;
+  gui_.begin({size.width, size.height, seconds, fed ? &input : nullptr});
+  if (world_ && !hud_hidden_ && world_goes_on(screens_.stack)) {
+    ui::HudFacts facts = world_->hud();
+    facts.choosing = screens_.stack.top() == Screen::kPalette;
+    ui::show_hud(facts, pictures_);
+  }
+  if (world_ && screens_.stack.empty()) world_->show_numbers();
+  ui::show_screens(screens_, screen_facts(input), wishes_);
+  if (!bare) ui::show_messages(messages_);
+  return gui_.end();
+}
+
+ui::ScreenFacts App::screen_facts(const platform::InputFrame& input) {
+  ui::ScreenFacts facts;
+  facts.pictures = &pictures_;
+  facts.worlds = cards_;
+  facts.now_s = std::time(nullptr);
+  if (world_) facts.world = world_name_;
+  SceneOptions& scene = world_ ? world_->scene() : base_;
+  facts.quality = &scene.quality;
+  facts.fov_deg = &scene.fov_deg;
+  facts.settings = world_ ? &world_->settings() : &base_.settings;
+  facts.bindings = &bindings_;
+  facts.costs = &costs_;
+  facts.photo = &photo_settings_;
+  if (world_) facts.adapted_ev = world_->exposure_ev().value_or(0.0);
+  ui::take_keys(screens_, input, facts);
+  facts.back = back_;
+  facts.version = SKERRY_VERSION;
+  return facts;
+}
+
+}  // namespace skerry::game

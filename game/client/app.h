@@ -1,0 +1,105 @@
+// The program in its window: the world that is played, the screens, and how one leads to the other.
+#pragma once
+#include <volk.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/platform/window.h"
+#include "game/client/backdrop.h"
+#include "game/client/play_loop.h"
+#include "game/client/presenter.h"
+#include "game/input/actions.h"
+#include "game/input/photo_camera.h"
+#include "game/scene_file/options.h"
+#include "game/ui/gui.h"
+#include "game/ui/hud.h"
+#include "game/ui/screens.h"
+#include "game/worlds/world_list.h"
+
+namespace skerry::game {
+
+class App {
+ public:
+  /// The window and the device outlive this. @param options of every world that is played.
+  /// @param notes for the player, each a line.
+  App(platform::Window& window, gpu::Device& device, const SceneOptions& options,
+      const std::vector<std::string>& notes);
+
+  /// Into the options' world, or to the title. Errors: the device cannot present to the surface, no
+  /// memory, no such world.
+  Result<void> start(VkSurfaceKHR surface, bool at_title);
+  /// Until the window is closed. Errors: no memory.
+  Result<void> run();
+
+ private:
+  // app.cpp: a frame.
+  Result<bool> frame(const platform::InputFrame& input, double seconds);
+  void act(const platform::InputFrame& input, double seconds);
+  void act_on_screens(const platform::InputFrame& input, const ActionFrame& actions);
+  void fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
+                        double seconds);
+  Result<bool> draw(double seconds, const PlayLoop::Layout& layout);
+  Result<bool> draw_backdrop(const PlayLoop::Layout& layout);
+  Result<bool> show_again(const PlayLoop::Layout& layout);
+  bool world_is_due(double seconds);
+  ui::OverlayTriangles lay_out(VkExtent2D size, const platform::InputFrame& input, double seconds);
+  ui::ScreenFacts screen_facts(const platform::InputFrame& input);
+  void open(ui::Screen screen);
+
+  // app_wishes.cpp: what was asked for on a screen.
+  Result<void> fulfil(const ui::Wishes& wishes);
+  Result<void> play_as_asked();
+  Result<void> play_as_left(const std::string& path, Result<std::unique_ptr<Session>> session);
+  Result<void> play(const SceneOptions& options, std::unique_ptr<SessionClient> session);
+  Result<void> create_world(const ui::Wishes::NewWorld& wanted);
+  bool save_world();
+  void leave_world();
+  void keep_picture();
+  void follow_settings();
+  void keep_settings();
+  void list_again();
+  Result<void> set_backdrop(Backdrop::View view, const std::string& seed_text);
+  void draw_lots();
+  void draw_name();
+  void say(std::string line);
+
+  platform::Window& window_;
+  gpu::Device& device_;
+  SceneOptions base_;  // of what is played next; settings follow the player's choice
+  Bindings bindings_;
+  ui::Gui gui_;
+  ui::Pictures pictures_;
+  std::uint64_t pictures_shown_ = 0;  // their version on the device
+  std::unique_ptr<Presenter> presenter_;
+  std::unique_ptr<Backdrop> backdrop_;  // either this
+  std::unique_ptr<PlayLoop> world_;     // or this
+  std::string world_name_;
+  std::optional<std::string> world_path_;
+  ui::ScreenState screens_;
+  ui::Wishes wishes_;
+  ui::KnobCosts costs_;
+  ui::Messages messages_;
+  std::vector<ui::WorldCard> cards_;
+  std::optional<double> preview_due_s_;  // until the new world's seed is shown
+  PhotoCamera photo_;
+  ui::PhotoSettings photo_settings_;
+  bool in_photo_ = false;
+  platform::HeldBack held_back_;
+  // Frames left in which the world behind a screen is drawn in any case: after the screen has come
+  // up, and after a knob was turned, until its cost is known.
+  static constexpr int kSettlingFrames = 3;
+  static constexpr int kMeasuringFrames = ui::KnobCosts::kSkipped + ui::KnobCosts::kFrames;
+  int fresh_frames_ = 0;
+  double since_drawn_s_ = 0.0;                                // since it was drawn
+  bool still_ = false;                                        // the last frame drew a screen alone
+  bool settings_changed_ = false, bindings_changed_ = false;  // since they were saved
+  bool hud_hidden_ = false;
+  bool back_ = false;  // this frame's input closes what is topmost
+};
+
+}  // namespace skerry::game

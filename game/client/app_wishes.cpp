@@ -1,0 +1,235 @@
+// What screens ask for: worlds begin and end, settings are kept.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <ctime>
+#include <random>
+
+#include "engine/core/log.h"
+#include "engine/gpu/readback.h"
+#include "engine/platform/files.h"
+#include "engine/platform/image_file.h"
+#include "game/client/app.h"
+#include "game/client/island_name.h"
+#include "game/client/preferences.h"
+#include "game/worlds/open_world.h"
+#include "world/store/world_file.h"
+
+namespace skerry::game {
+namespace {
+
+using ui::Screen;
+
+constexpr double kPreviewDelay = 0.5;  // seconds after the last letter of a seed
+constexpr const char* kTitleSeed = "skerry";
+constexpr std::uint32_t kBackdropView = 300;  // blocks
+constexpr const char* kPlayer = "player";
+
+std::uint64_t entropy() {
+  std::random_device source;
+  return (std::uint64_t{source()} << 32) | source();
+}
+
+Result<std::unique_ptr<Session>> open_file(const std::string& path) {
+  SceneOptions options;
+  options.world = path;
+  return Session::open(options);
+}
+
+}  // namespace
+
+void App::say(std::string line) {
+  log_warning(line);
+  messages_.say(std::move(line));
+}
+
+Result<void> App::fulfil(const ui::Wishes& wishes) {
+  if (wishes.settings_changed) {
+    settings_changed_ = true;
+    fresh_frames_ = kMeasuringFrames;
+    follow_settings();
+  }
+  bindings_changed_ |= wishes.bindings_changed;
+  if (wishes.photograph) world_->want_screenshot();
+  if (wishes.take) world_->hotbar().take(*wishes.take);
+  if (wishes.draw_name) draw_name();
+  if (wishes.draw_lots) draw_lots();
+  if (wishes.preview || wishes.draw_lots) preview_due_s_ = kPreviewDelay;
+  if (wishes.remove) {
+    if (const auto removed = remove_world(*wishes.remove); !removed) say(removed.error().message);
+    screens_.chosen_world.reset();
+    list_again();
+  }
+  if (wishes.create) return create_world(*wishes.create);
+  if (wishes.play) return play_as_left(*wishes.play, open_file(*wishes.play));
+  if (wishes.quit) window_.close();  // run() saves, and opens it again if that fails
+  if (!wishes.leave_world && !wishes.leave_unsaved) return {};
+  if (!wishes.leave_unsaved && !save_world()) return {};
+  leave_world();
+  list_again();
+  screens_.stack.clear();
+  open(Screen::kTitle);
+  return set_backdrop(Backdrop::View::kAround, "");
+}
+
+Result<void> App::set_backdrop(Backdrop::View view, const std::string& seed_text) {
+  SceneOptions options = base_;
+  // Of a world that was named on the command line nothing belongs behind the screens.
+  options.world.reset();
+  options.camera.reset();
+  options.settings.world_time_s = 0.0;
+  options.seed_text = seed_text.empty() ? kTitleSeed : seed_text;
+  options.settings.view_distance = std::min(options.settings.view_distance, kBackdropView);
+  backdrop_.reset();  // two at a time would need twice the memory
+  auto made = Backdrop::create(device_, options, view);
+  if (!made && !seed_text.empty()) {
+    say(made.error().message);
+    return set_backdrop(Backdrop::View::kAround, "");
+  }
+  if (!made) return made.error();
+  backdrop_ = *std::move(made);
+  return {};
+}
+
+void App::draw_lots() {
+  ui::set_field(screens_.new_seed, ui::seed_from(entropy()));
+}
+
+void App::draw_name() {
+  std::string name = island_name(entropy());
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  ui::set_field(screens_.new_name, name);
+}
+
+/// What the command line names, from where and when it says.
+Result<void> App::play_as_asked() {
+  auto session = Session::open(base_);
+  if (!session) return session.error();
+  auto client = std::make_unique<SessionClient>(*std::move(session), kPlayer);
+  if (client->time_s() != base_.settings.world_time_s)
+    client->advance(base_.settings.world_time_s - client->time_s());
+  return play(base_, std::move(client));
+}
+
+/// A world of the list, from where and when it was left.
+Result<void> App::play_as_left(const std::string& path, Result<std::unique_ptr<Session>> session) {
+  if (!session) {
+    say(session.error().message);
+    list_again();
+    return {};
+  }
+  auto client = std::make_unique<SessionClient>(*std::move(session), kPlayer);
+  const SavedPlay left = client->joined().play.value_or(SavedPlay{});
+  SceneOptions options = base_;
+  options.world = path;
+  options.seed_text = client->joined().world.seed_text;
+  options.camera.reset();
+  if (client->joined().play) options.camera = left.eye;
+  options.time_of_day_s = static_cast<int>(left.time_of_day_s);
+  options.settings.world_time_s = client->time_s();
+  return play(options, std::move(client));
+}
+
+Result<void> App::play(const SceneOptions& options, std::unique_ptr<SessionClient> session) {
+  backdrop_.reset();
+  auto view = SceneView::create(device_, options, session->world());
+  if (!view) return view.error();
+  world_path_ = options.world;
+  world_name_ = session->joined().world.name;
+  world_ = std::make_unique<PlayLoop>(window_, device_, *presenter_, bindings_, options,
+                                      std::move(session), *std::move(view));
+  costs_ = {};
+  screens_.stack.clear();
+  return {};
+}
+
+/// @return whether there is nothing left to save; else the player is asked what to do.
+bool App::save_world() {
+  if (!world_) return true;
+  const Result<void> saved = world_->save();
+  if (saved) return true;
+  log_warning(saved.error().message);
+  if (screens_.stack.top() != Screen::kPause) {
+    screens_.stack.clear();
+    open(Screen::kPause);
+  }
+  screens_.unsaved = saved.error().message;
+  return false;
+}
+
+void App::leave_world() {
+  if (!world_) return;
+  keep_picture();
+  world_.reset();
+  world_path_.reset();
+  costs_ = {};
+  window_.set_title("Skerry");
+}
+
+/// The last picture, small, beside the world's file: for the list.
+void App::keep_picture() {
+  if (!world_path_) return;
+  gpu::Image& picture = world_->view().renderer().picture();
+  const auto pixels = gpu::read_back(device_, picture, 4);
+  if (!pixels) return say(pixels.error().message);
+  const VkExtent2D size = picture.desc().extent;
+  const ui::Rgba small =
+      ui::thumbnail_of(static_cast<int>(size.width), static_cast<int>(size.height),
+                       {reinterpret_cast<const std::uint8_t*>(pixels->data()), pixels->size()});
+  const auto written = platform::write_png(
+      picture_of_world(*world_path_), {static_cast<std::uint32_t>(small.width),
+                                       static_cast<std::uint32_t>(small.height), 4, small.pixels});
+  if (!written) say(written.error().message);
+}
+
+/// What the player has set is of every world from now on.
+void App::follow_settings() {
+  if (!world_) {
+    backdrop_->view().settings() = base_.settings;
+    return;
+  }
+  base_.quality = world_->scene().quality;
+  base_.fov_deg = world_->scene().fov_deg;
+  take_preferences(world_->settings(), base_.settings);
+}
+
+void App::keep_settings() {
+  if (std::exchange(settings_changed_, false))
+    if (const auto saved = save_preferences(preferences_path(), base_); !saved)
+      say(saved.error().message);
+  if (std::exchange(bindings_changed_, false))
+    if (const auto saved = save_bindings(bindings_path(), bindings_); !saved)
+      say(saved.error().message);
+}
+
+Result<void> App::create_world(const ui::Wishes::NewWorld& wanted) {
+  world::WorldInfo info;
+  info.name = wanted.name.empty() ? ui::pasted_text("World " + wanted.seed_text, ui::kMaxNameBytes)
+                                  : wanted.name;
+  info.seed_text = wanted.seed_text;
+  info.desc.seed = world::seed_from_text(wanted.seed_text);
+  const std::filesystem::path path = new_world_path(info.name);
+  return play_as_left(path.string(), Session::create(path, info));
+}
+
+void App::list_again() {
+  cards_.clear();
+  int slot = 0;
+  for (const WorldEntry& entry : list_worlds(worlds_dir())) {
+    ui::WorldCard card{entry.path.string(), entry.name, entry.seed_text, entry.played_s,
+                       entry.bytes,         -1,         entry.problem};
+    if (slot < ui::Pictures::kThumbnails) {
+      const auto image = platform::read_png(picture_of_world(entry.path));
+      if (image) {
+        pictures_.set_thumbnail(
+            slot, ui::thumbnail_of(static_cast<int>(image->width), static_cast<int>(image->height),
+                                   image->pixels));
+        card.thumbnail = slot++;
+      }
+    }
+    cards_.push_back(std::move(card));
+  }
+}
+
+}  // namespace skerry::game

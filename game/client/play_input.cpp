@@ -1,0 +1,174 @@
+// What input does to a run of the game.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "engine/render/frame/exposure.h"
+#include "game/client/play_loop.h"
+
+namespace skerry::game {
+namespace {
+
+constexpr double kDayTurn = 1800.0;  // seconds of day a second that T or Y is held
+constexpr double kDayRate =
+    24.0;  // seconds of day a second when it is left alone: a day is an hour
+constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
+
+}  // namespace
+
+void PlayLoop::act(const platform::InputFrame& input, double seconds) {
+  const ActionFrame actions(input, *bindings_);
+  rests_ = false;
+  act_on_picture(input, actions, seconds);
+  if (actions.pressed(Action::kFly)) {
+    player_.set_mode(player_.mode() == MoveMode::kWalk ? MoveMode::kFly : MoveMode::kWalk);
+  }
+  if (actions.pressed(Action::kNoclip)) {
+    player_.set_mode(player_.mode() == MoveMode::kNoclip ? MoveMode::kFly : MoveMode::kNoclip);
+  }
+  move(input, actions, seconds);
+  use_hands(actions, seconds);
+  adapt_eye(seconds);
+}
+
+void PlayLoop::rest(double seconds) {
+  scene_.camera = player_.eye(around_);
+  if (!std::exchange(rests_, true)) {
+    // Who pauses may be about to leave the machine alone.
+    tell_session();
+    session_->save_next();
+  }
+  session_->rest();
+  hear_session();
+  adapt_eye(seconds);
+}
+
+/// Follows what the newest finished frame was metered at; that frame's own exposure plays no part
+/// in it, so nothing feeds back.
+void PlayLoop::adapt_eye(double seconds) {
+  const std::optional<render::FrameReport>& seen = view_->renderer().report();
+  if (!seen || !seen->metered_ev) return;
+  exposure_ev_ = exposure_ev_ ? render::adapted_ev(*exposure_ev_, *seen->metered_ev, seconds)
+                              : double{*seen->metered_ev};
+}
+
+void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
+                              double seconds) {
+  if (actions.pressed(Action::kScreenshot)) want_screenshot();
+  Settings& settings = view_->settings();
+  if (actions.pressed(Action::kOverlay)) overlay_shown_ = !overlay_shown_;
+  if (actions.pressed(Action::kTorch)) settings.lights_held = !settings.lights_held;
+  if (actions.pressed(Action::kCalibrate)) calibrating_ = !calibrating_;
+  if (actions.pressed(Action::kFreezeCulling)) culling_frozen_ = !culling_frozen_;
+  using platform::Key;
+  if (calibrating_)
+    settings.display =
+        stepped_display(settings.display, input.pressed(Key::kRight) - input.pressed(Key::kLeft),
+                        input.pressed(Key::kUp) - input.pressed(Key::kDown));
+  const auto steps = [&](Action more, Action less) {
+    return actions.presses(more) - actions.presses(less);
+  };
+  const int farther = steps(Action::kFartherView, Action::kNearerView);
+  if (farther != 0) settings.view_distance = stepped_view_distance(settings.view_distance, farther);
+  const int better = steps(Action::kBetterQuality, Action::kWorseQuality);
+  if (better != 0) {
+    scene_.quality = stepped_quality(scene_.quality, better);
+    set_quality(scene_.quality, settings);
+  }
+  const double later = actions.value(Action::kLater) - actions.value(Action::kEarlier);
+  if (actions.pressed(Action::kStopDay)) day_stands_ = !day_stands_;
+  if (later != 0.0) day_.turn(later * kDayTurn * seconds);
+  if (later == 0.0 && !day_stands_) day_.turn(kDayRate * seconds);
+}
+
+void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& actions, double seconds) {
+  const bool captured = window_.pointer_captured();
+  look(player_, {&actions, bindings_, captured ? input.mouse_delta : glm::dvec2(0.0), seconds},
+       scene_.fov_deg);
+  const int faster =
+      actions.presses(Action::kFasterFlight) - actions.presses(Action::kSlowerFlight);
+  if (faster != 0)
+    player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, double(faster)));
+  const double reach = glm::length(player_.velocity()) * kLongestFrame;
+  around_.refresh(player_.feet(), reach, player_.world_time_s());
+  go_on(seconds, steer(actions, intent_of(actions)));
+}
+
+/// At the helm, what would move the player moves the island. @return what is left to the player.
+Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
+  if (actions.pressed(Action::kHelm)) {
+    if (helm_) {
+      session_->send(Steer{*helm_, {}, 0.0});
+      helm_.reset();
+    } else if (player_.frame_island()) {
+      helm_ = player_.frame_island();
+      helm_speed_ = 0.0;
+      said_.emplace_back("At the helm: forward and back drive, left and right turn");
+    } else {
+      said_.emplace_back("Stand on an island to take its helm");
+    }
+  }
+  if (!helm_) return intent;
+  const double yaw = glm::radians(player_.state().yaw_deg);  // in the island's axes
+  const glm::dvec3 ahead{std::sin(yaw), 0.0, std::cos(yaw)};
+  session_->send(
+      Steer{*helm_, ahead * intent.move.y + glm::dvec3{0.0, intent.rise, 0.0}, -intent.move.x});
+  if (player_.frame_island() != helm_) {  // fell off, or was taken off
+    session_->send(Steer{*helm_, {}, 0.0});
+    helm_.reset();
+  }
+  return {};
+}
+
+/// The world goes on by so much, and the player in it.
+void PlayLoop::go_on(double seconds, const Intent& intent) {
+  // First the islands, then the player by the time that has passed for them: their ticks ask where
+  // islands are at their ends.
+  const double before_s = session_->time_s();
+  session_->advance(seconds);
+  hear_session();
+  const int returns = player_.returns();
+  player_.advance(session_->time_s() - before_s, intent, around_);
+  if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
+  scene_.camera = player_.eye(around_);
+  tell_session();  // before the hands want anything: what they reach is told by where they are now
+}
+
+/// Where the player is, and all else that a saved play keeps.
+void PlayLoop::tell_session() {
+  SavedPlay now;
+  now.player = player_.state();
+  now.eye = player_.eye(around_);
+  now.time_of_day_s = day_.time_of_day_s();
+  now.world_time_s = player_.tick_time_s();
+  now.hotbar = hands_.hotbar();
+  now.day_stands = day_stands_;
+  session_->send(PlayerMoved{now});
+}
+
+void PlayLoop::hear_session() {
+  for (const Answer& answer : session_->hear()) {
+    if (const auto* notice = std::get_if<Notice>(&answer)) said_.push_back(notice->text);
+    if (const auto* moved = std::get_if<IslandsMoved>(&answer)) {
+      for (const world::MovingIsland& move : moved->moves)
+        if (move.island == helm_) helm_speed_ = glm::length(move.state.velocity);
+    }
+    if (const auto* island = std::get_if<IslandIs>(&answer); island && island->blocks > 1)
+      said_.push_back(fmt::format("{} blocks broke off", island->blocks));
+  }
+}
+
+void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
+  HandIntent intent = hand_intent_of(actions);
+  // The click that captured the pointer, or closed a screen, means nothing to the hands.
+  hands_free_ = window_.pointer_captured() && (hands_free_ || (!intent.dig && !intent.place));
+  if (!hands_free_) intent.dig = intent.place = false;
+  hands_.advance(seconds, intent, player_, *scene_.camera, around_, *session_);
+  if (hands_.replay_refused())
+    said_.push_back("Not from here, or not now: go closer, and stand beside it");
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,121 @@
+#pragma once
+#include <volk.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/platform/window.h"
+#include "game/client/presenter.h"
+#include "game/client/session_client.h"
+#include "game/input/actions.h"
+#include "game/input/controls.h"
+#include "game/player/player.h"
+#include "game/player/world_surroundings.h"
+#include "game/scene_file/options.h"
+#include "game/ui/hud.h"
+#include "game/ui/overlay.h"
+#include "game/view/scene_view.h"
+
+namespace skerry::game {
+
+/// Seconds of play in one frame, however long it took.
+inline constexpr double kLongestFrame = 0.25;
+
+/// Where photo mode looks from, and how.
+struct PhotoView {
+  CameraPlace eye;
+  double fov_deg = 70.0;
+  int time_of_day_s = 0;
+  std::optional<double> exposure_ev;  ///< none: what the eye has adapted to
+};
+
+/// A world while it is played. Private to game/app* and game/play*: input is in play_input.cpp,
+/// what the overlay, the title and the display say in play_overlay.cpp.
+class PlayLoop {
+ public:
+  /// All but the options, the session and its view outlive this.
+  PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
+           const Bindings& bindings, const SceneOptions& options,
+           std::unique_ptr<SessionClient> session, std::unique_ptr<SceneView> view);
+
+  /// A frame's input, and what it does to the world.
+  void act(const platform::InputFrame& input, double seconds);
+  /// A frame in which the world stands still.
+  void rest(double seconds);
+  /// Takes in what streams and draws. @param layout what lies over the picture of that size.
+  /// @return whether there was a window to draw to. Errors: no memory.
+  using Layout = std::function<ui::OverlayTriangles(VkExtent2D)>;
+  Result<bool> draw(const Layout& layout);
+
+  /// Blocks until the world is saved as it is. Errors: those of its file; the play may go on.
+  Result<void> save();
+  /// The next picture drawn is saved, with the command that draws it again.
+  void want_screenshot();
+  /// Looks from elsewhere; none: from the player's eye.
+  void set_photo(const std::optional<PhotoView>& photo) { photo_ = photo; }
+
+  /// What settings change: scene().quality, fov_deg, and settings().
+  SceneOptions& scene() { return scene_; }
+  Settings& settings() { return view_->settings(); }
+  SceneView& view() { return *view_; }
+  Hotbar& hotbar() { return hands_.hotbar(); }
+  const DayClock& day() const { return day_; }
+  std::optional<double> exposure_ev() const { return exposure_ev_; }
+
+  /// Lines for the player since the last call.
+  std::vector<std::string> take_messages() { return std::exchange(said_, {}); }
+
+  void note_frame(double seconds);
+  /// F3 and F9, if they are on; between ui::Gui::begin and end.
+  void show_numbers() const;
+  /// Good until the next frame.
+  ui::HudFacts hud() const;
+
+ private:
+  void adapt_eye(double seconds);
+  void act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
+                      double seconds);
+  void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
+  Intent steer(const ActionFrame& actions, const Intent& intent);
+  void go_on(double seconds, const Intent& intent);
+  void hear_session();
+  void use_hands(const ActionFrame& actions, double seconds);
+  void tell_session();
+  void take_screenshot();
+  std::vector<std::string> overlay_lines() const;
+  SceneView::Moment moment() const;
+
+  platform::Window& window_;
+  gpu::Device& device_;
+  Presenter& presenter_;
+  const Bindings* bindings_;
+  SceneOptions scene_;  // what F2 writes down; quality, time, camera and size follow the play
+  std::unique_ptr<SessionClient> session_;
+  std::unique_ptr<SceneView> view_;
+  Player player_;
+  WorldSurroundings around_;
+  std::optional<std::uint64_t> helm_;  // the island that is steered
+  double helm_speed_ = 0.0;            // of it [blocks/s]
+  Interaction hands_;
+  bool hands_free_ = false;  // captured, and no button held from before that
+  DayClock day_;
+  std::optional<double> exposure_ev_;  // what the eye has adapted to by now; none before it saw
+  std::optional<PhotoView> photo_;
+  bool overlay_shown_ = false;
+  bool calibrating_ = false;
+  bool culling_frozen_ = false;
+  bool day_stands_ = false;
+  bool rests_ = false;  // the last frame did
+  bool screenshot_wanted_ = false;
+  std::vector<std::string> said_;
+  std::vector<float> frame_ms_;
+  double since_title_s_ = 0.0;
+};
+
+}  // namespace skerry::game

@@ -1,0 +1,96 @@
+#include "game/client/presenter.h"
+
+#include <utility>
+
+namespace skerry::game {
+
+Result<std::unique_ptr<Presenter>> Presenter::create(gpu::Device& device, VkSurfaceKHR surface,
+                                                     const ui::OverlayImages& images) {
+  constexpr bool kMailbox = true;  // newest frame first: shortest way from the mouse to the eye
+  auto swapchain = gpu::Swapchain::create(device, surface, kMailbox);
+  if (!swapchain) return swapchain.error();
+  auto overlay_pass = OverlayPass::create(device, images);
+  if (!overlay_pass) return overlay_pass.error();
+  return std::unique_ptr<Presenter>(
+      new Presenter(device, *std::move(swapchain), *std::move(overlay_pass)));
+}
+
+Presenter::Presenter(gpu::Device& device, std::unique_ptr<gpu::Swapchain> swapchain,
+                     std::unique_ptr<OverlayPass> overlay_pass)
+    : device_(device),
+      pipelines_(device),
+      graph_(&device),
+      ring_(device, OverlayPass::kSlots),
+      swapchain_(std::move(swapchain)),
+      overlay_pass_(std::move(overlay_pass)) {}
+
+Result<void> Presenter::fit_canvas(VkExtent2D size) {
+  if (canvas_ && canvas_.desc().extent.width == size.width &&
+      canvas_.desc().extent.height == size.height)
+    return {};
+  Result<gpu::Image> canvas = device_.create_image({.name = "window_canvas",
+                                                    .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                                    .extent = size,
+                                                    .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                                             VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
+  if (!canvas) return canvas.error();
+  canvas_ = *std::move(canvas);
+  return {};
+}
+
+Result<void> Presenter::draw_overlay(VkCommandBuffer commands, gpu::Image& picture,
+                                     const ui::OverlayTriangles& triangles) {
+  const VkExtent2D size = picture.desc().extent;
+  if (auto done = fit_canvas(size); !done) return done;
+  slot_ = (slot_ + 1) % OverlayPass::kSlots;
+  device_.wait(slot_values_[slot_]);  // two frames ago: done long since
+  graph_.begin();
+  const gpu::ImageRef from = graph_.import(picture);
+  gpu::ImageRef to = graph_.import(canvas_);
+  graph_.add_pass(
+      "copy_picture",
+      [&](gpu::PassBuilder& b) {
+        b.read(from, gpu::Use::kTransferRead);
+        to = b.write(to, gpu::Use::kTransferWrite);
+      },
+      [from, &to, size](gpu::Commands& c) {
+        VkImageCopy region{};
+        region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.extent = {size.width, size.height, 1};
+        vkCmdCopyImage(c.raw(), c.image(from).handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                       c.image(to).handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+      });
+  const gpu::ImageRef copied = to;
+  if (auto drawn = overlay_pass_->add(graph_, pipelines_, copied, size, triangles, slot_); !drawn)
+    return drawn.error();
+  graph_.compile();
+  graph_.execute(commands, slot_);
+  return {};
+}
+
+Result<void> Presenter::record(VkCommandBuffer commands, gpu::Image& picture,
+                               const gpu::SwapchainFrame& frame,
+                               const ui::OverlayTriangles* overlay) {
+  Result<void> done;
+  if (overlay) done = draw_overlay(commands, picture, *overlay);
+  swapchain_->show(commands, overlay && done ? canvas_ : picture, frame);
+  swapchain_->finish(commands, frame);
+  return done;
+}
+
+Result<void> Presenter::show_again(gpu::Image& picture, const gpu::SwapchainFrame& frame,
+                                   const ui::OverlayTriangles& overlay) {
+  const gpu::FrameRing::Frame commands = ring_.begin();
+  const Result<void> recorded =
+      record(commands.commands, picture, frame, overlay.vertices.empty() ? nullptr : &overlay);
+  present(frame, ring_.submit({&frame.wait, 1}, {&frame.signal, 1}));
+  return recorded;
+}
+
+void Presenter::present(const gpu::SwapchainFrame& frame, std::uint64_t value) {
+  slot_values_[slot_] = value;
+  swapchain_->present(frame);
+}
+
+}  // namespace skerry::game

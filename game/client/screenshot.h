@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/resources.h"
+#include "game/scene_file/options.h"
+
+namespace skerry::game {
+
+/// Writes an RGBA8 picture as PNG into the user's screenshot folder, under a name of date and time
+/// that no file has yet. The command that draws the scene again is in its text chunk "Command".
+/// @return the path. Errors: no folder to write to, no memory.
+Result<std::filesystem::path> save_screenshot(gpu::Device& device, gpu::Image& picture,
+                                              const SceneOptions& scene);
+
+/// "skerry-20250131-235959.png" in `folder`, with "-2", "-3" ... before the ending while such a
+/// file exists. @param time_s Unix time, UTC.
+std::filesystem::path free_screenshot_path(const std::filesystem::path& folder,
+                                           std::int64_t time_s);
+
+}  // namespace skerry::game

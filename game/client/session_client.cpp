@@ -1,0 +1,44 @@
+#include "game/client/session_client.h"
+
+#include <utility>
+
+namespace skerry::game {
+
+SessionClient::SessionClient(std::unique_ptr<Session> session, std::string player)
+    : session_(std::move(session)) {
+  session_->send(Join{std::move(player), true});
+  session_->attend();
+  take_in();
+}
+
+bool SessionClient::set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) {
+  session_->send(Edit{island, voxel, block});
+  session_->attend();
+  take_in();
+  return verdict_ == EditVerdict::kDone;
+}
+
+void SessionClient::advance(double seconds) {
+  session_->advance(seconds);
+  take_in();
+}
+
+std::vector<Answer> SessionClient::hear() {
+  return std::exchange(heard_, {});
+}
+
+void SessionClient::take_in() {
+  for (Answer& answer : session_->receive()) {
+    if (auto* joined = std::get_if<Joined>(&answer)) {
+      joined_ = std::move(*joined);
+    } else if (const auto* time = std::get_if<TimeIs>(&answer)) {
+      time_s_ = time->world_time_s;
+    } else if (const auto* edited = std::get_if<EditAnswer>(&answer)) {
+      verdict_ = edited->verdict;
+    } else {
+      heard_.push_back(std::move(answer));
+    }
+  }
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,46 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/player/edit_history.h"
+#include "game/session/session.h"
+
+namespace skerry::game {
+
+/// The client's end of a session that runs in this process: asks by messages, keeps what it is
+/// told, and lets the session's time go on. One thread.
+class SessionClient : public BlockEditor {
+ public:
+  /// Joins.
+  SessionClient(std::unique_ptr<Session> session, std::string player);
+
+  const Joined& joined() const { return joined_; }
+  /// As the session said last.
+  double time_s() const { return time_s_; }
+  /// Session::world(): what messages tell of islands has come true there already.
+  std::shared_ptr<world::World> world() const { return session_->world(); }
+
+  void send(Request request) { session_->send(std::move(request)); }
+  /// Asks for an edit and hears the answer at once, so that this frame's picture can show it.
+  bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) override;
+  /// See Session.
+  void advance(double seconds);
+  void rest() { advance(0.0); }
+  void save_next() { session_->save_next(); }
+  Result<void> save() { return session_->save(); }
+
+  /// What was told since the last call, besides what the members above say.
+  std::vector<Answer> hear();
+
+ private:
+  void take_in();
+
+  std::unique_ptr<Session> session_;
+  Joined joined_;
+  double time_s_ = 0.0;
+  EditVerdict verdict_ = EditVerdict::kDone;  // of the last edit
+  std::vector<Answer> heard_;
+};
+
+}  // namespace skerry::game

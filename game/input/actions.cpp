@@ -1,0 +1,161 @@
+#include "game/input/actions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace skerry::game {
+namespace {
+
+using platform::InputFrame;
+using platform::Key;
+
+constexpr ActionType kTypes[] = {
+    {"forward", "Forward", "w", "pad_left_stick_up"},
+    {"back", "Back", "s", "pad_left_stick_down"},
+    {"left", "Left", "a", "pad_left_stick_left"},
+    {"right", "Right", "d", "pad_left_stick_right"},
+    {"jump", "Jump, rise", "space", "pad_a"},
+    {"crouch", "Crouch, sink", "shift", "pad_b"},
+    {"fast", "Sprint", "ctrl", "pad_left_thumb"},
+    {"fly", "Fly or walk", "f", "pad_y"},
+    {"noclip", "Fly through walls", "n", "pad_back+pad_y"},
+    {"faster_flight", "Faster flight", "ctrl+wheel_up", "pad_back+pad_right_bumper"},
+    {"slower_flight", "Slower flight", "ctrl+wheel_down", "pad_back+pad_left_bumper"},
+    {"look_up", "Look up", "none", "pad_right_stick_up"},
+    {"look_down", "Look down", "none", "pad_right_stick_down"},
+    {"look_left", "Look left", "none", "pad_right_stick_left"},
+    {"look_right", "Look right", "none", "pad_right_stick_right"},
+    {"dig", "Dig", "mouse_left", "pad_right_trigger"},
+    {"place", "Place", "mouse_right", "pad_left_trigger"},
+    {"pick", "Pick block", "mouse_middle", "pad_right_thumb"},
+    {"undo", "Undo", "ctrl+z", "pad_left"},
+    {"redo", "Redo", "ctrl+y", "pad_right"},
+    {"slot_1", "Slot 1", "1", "none"},
+    {"slot_2", "Slot 2", "2", "none"},
+    {"slot_3", "Slot 3", "3", "none"},
+    {"slot_4", "Slot 4", "4", "none"},
+    {"slot_5", "Slot 5", "5", "none"},
+    {"slot_6", "Slot 6", "6", "none"},
+    {"slot_7", "Slot 7", "7", "none"},
+    {"slot_8", "Slot 8", "8", "none"},
+    {"slot_9", "Slot 9", "9", "none"},
+    {"next_slot", "Next slot", "wheel_down", "pad_right_bumper"},
+    {"previous_slot", "Previous slot", "wheel_up", "pad_left_bumper"},
+    {"palette", "All blocks", "e", "pad_x"},
+    {"torch", "Torch in the hand", "l", "pad_up"},
+    {"helm", "Take the helm", "h", "pad_down"},
+    {"later", "Later in the day", "t", "pad_back+pad_right"},
+    {"earlier", "Earlier in the day", "y", "pad_back+pad_left"},
+    {"stop_day", "Stop the day", "p", "pad_back+pad_down"},
+    {"pause", "Pause", "escape", "pad_start"},
+    {"screenshot", "Screenshot", "f2", "pad_back+pad_x"},
+    {"photo", "Photo mode", "f10", "pad_back+pad_a"},
+    {"hide_hud", "Hide all displays", "f1", "pad_back+pad_up"},
+    {"overlay", "Numbers", "f3", "pad_back+pad_start"},
+    {"fullscreen", "Fullscreen", "f11", "none"},
+    {"farther_view", "See farther", "right_bracket", "none"},
+    {"nearer_view", "See less far", "left_bracket", "none"},
+    {"better_quality", "Better quality", "plus", "none"},
+    {"worse_quality", "Lower quality", "minus", "none"},
+    {"calibrate", "Calibrate the display", "f9", "none"},
+    {"freeze_culling", "Freeze culling", "f8", "none"},
+};
+static_assert(std::size(kTypes) == kActions);
+
+constexpr std::string_view kControlPrefix = "ctrl+", kPadPrefix = "pad_back+";
+
+bool is_bound(const Bindings& bindings, Chord chord) {
+  return std::any_of(bindings.of_action.begin(), bindings.of_action.end(),
+                     [&](const Binding& b) { return b.key == chord || b.pad == chord; });
+}
+
+}  // namespace
+
+const ActionType& action_type(Action action) {
+  return kTypes[static_cast<std::size_t>(action)];
+}
+
+std::optional<Action> action_named(std::string_view name) {
+  const auto found = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                  [&](const ActionType& type) { return type.name == name; });
+  if (found == std::end(kTypes)) return std::nullopt;
+  return static_cast<Action>(found - std::begin(kTypes));
+}
+
+Key control_of(Key key) {
+  return platform::is_pad(key) ? Key::kPadBack : Key::kControl;
+}
+
+std::string print_chord(Chord chord) {
+  const std::string_view prefix = platform::is_pad(chord.key) ? kPadPrefix : kControlPrefix;
+  return std::string(chord.control ? prefix : "") + std::string(platform::key_name(chord.key));
+}
+
+std::optional<Chord> parse_chord(std::string_view text) {
+  Chord chord;
+  const bool on_pad = text.starts_with(kPadPrefix);
+  chord.control = on_pad || text.starts_with(kControlPrefix);
+  if (chord.control) text.remove_prefix((on_pad ? kPadPrefix : kControlPrefix).size());
+  const std::optional<Key> key = platform::key_named(text);
+  const bool fits = key && !(chord.control && (*key == Key::kNone || *key == control_of(*key) ||
+                                               platform::is_pad(*key) != on_pad));
+  if (!fits) return std::nullopt;
+  chord.key = *key;
+  return chord;
+}
+
+Bindings default_bindings() {
+  Bindings bindings;
+  for (std::size_t i = 0; i < kActions; ++i)
+    bindings.of_action[i] = {*parse_chord(kTypes[i].key), *parse_chord(kTypes[i].pad)};
+  return bindings;
+}
+
+std::vector<Action> conflicts_of(const Bindings& bindings, Action action) {
+  std::vector<Action> out;
+  const Binding& mine = bindings[action];
+  const auto same = [](Chord a, Chord b) { return a == b && a.key != Key::kNone; };
+  for (std::size_t i = 0; i < kActions; ++i) {
+    const Binding& other = bindings.of_action[i];
+    if (static_cast<Action>(i) != action &&
+        (same(mine.key, other.key) || same(mine.pad, other.pad)))
+      out.push_back(static_cast<Action>(i));
+  }
+  return out;
+}
+
+ActionFrame::State ActionFrame::state_of(Chord chord, const InputFrame& input,
+                                         const Bindings& bindings) {
+  State state;
+  if (chord.key == Key::kNone) return state;
+  // A key that went up does so for every chord it is in: nothing is left held.
+  state.released = input.released(chord.key);
+  // Held at some moment of the frame: a quick chord may end within the frame in which it is seen.
+  const Key with = control_of(chord.key);
+  const bool control = input.down(with) || input.pressed(with) || input.released(with);
+  // A key alone means nothing while it may be one of a chord.
+  if (chord.control ? !control : control && is_bound(bindings, {chord.key, true})) return state;
+  state.down = input.down(chord.key);
+  const double value = input.value(chord.key);
+  if (input.pressed(chord.key)) state.presses = std::max(1, static_cast<int>(std::lround(value)));
+  state.value = std::min(value, 1.0);
+  return state;
+}
+
+ActionFrame::ActionFrame(const InputFrame& input, const Bindings& bindings) {
+  for (std::size_t i = 0; i < kActions; ++i) {
+    const State key = state_of(bindings.of_action[i].key, input, bindings);
+    const State pad = state_of(bindings.of_action[i].pad, input, bindings);
+    State& state = states_[i];
+    state.down = key.down || pad.down;
+    state.presses = key.presses + pad.presses;
+    state.released = (key.released || pad.released) && !state.down;
+    state.value = std::max(key.value, pad.value);
+  }
+  State& pause = states_[index(Action::kPause)];
+  for (const Key key : {Key::kEscape, Key::kPadStart})
+    if (!is_bound(bindings, {key})) pause.presses += state_of({key}, input, bindings).presses;
+}
+
+}  // namespace skerry::game

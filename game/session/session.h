@@ -1,0 +1,177 @@
+// What a client and a session say to one another, and the session that runs in this process.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "game/scene_file/options.h"
+#include "game/session/saved_play.h"
+#include "world/edits.h"
+#include "world/motion_state.h"
+#include "world/store/chunk_blob.h"
+#include "world/world.h"
+
+namespace skerry::game {
+
+// From client to session. ------------------------------------------------------------------------
+
+/// The first thing a client says. Before it nothing is told but notices.
+struct Join {
+  std::string player;
+  /// It reads Session::world(): voxels that change are not sent unless it asks for them.
+  bool shares_world = false;
+};
+/// Asks what was changed in a chunk of level 0: a client generates the rest itself.
+struct ChunkWanted {
+  std::uint64_t island = 0;
+  world::IVec3 chunk;
+};
+/// Puts a block, or with air takes one away.
+struct Edit {
+  std::uint64_t island = 0;
+  world::IVec3 voxel;
+  world::BlockId block = world::kAir;
+};
+/// Where the player is and looks; decides what is within reach.
+struct PlayerMoved {
+  SavedPlay play;
+};
+/// Hands on a helm: engines of the island that the player stands on. Lasts until said otherwise;
+/// zeros let go, from anywhere.
+struct Steer {
+  std::uint64_t island = 0;
+  glm::dvec3 thrust{};  ///< in the island's axes; length at most 1 counts
+  double turn = 0.0;    ///< -1 .. 1, about +y
+};
+using Request = std::variant<Join, ChunkWanted, Edit, PlayerMoved, Steer>;
+
+// From session to client. ------------------------------------------------------------------------
+
+/// What follows at once: the time, every island that is not as the seed makes it, all that move.
+struct Joined {
+  world::WorldInfo world;
+  std::optional<SavedPlay> play;          ///< none: begin at the spawn
+  bool read_only = false;                 ///< nothing of this play will be saved
+  std::vector<world::ChunkName> changed;  ///< what ChunkWanted may be asked for
+};
+/// What was changed in a chunk: the answer to ChunkWanted, or what broke off, whenever it does. An
+/// island that no seed made is air but for what is told.
+struct ChunkChanges {
+  std::uint64_t island = 0;
+  world::IVec3 chunk;
+  world::ChunkEdits edits;
+};
+enum class EditVerdict : std::uint8_t {
+  kDone,
+  kNoSuchIsland,
+  kNoSuchBlock,
+  kTooFar,    ///< beyond kSessionReach
+  kTooFast,   ///< more than kEditsPerSecond for long
+  kOccupied,  ///< a block is put where one is
+  kEmpty,     ///< a block is taken where none is
+  kUnknown,   ///< the voxel is not loaded yet
+};
+/// When done, the voxel is what the edit says; no ChunkChanges tells it again.
+struct EditAnswer {
+  Edit edit;
+  EditVerdict verdict = EditVerdict::kDone;
+  world::BlockId was = world::kAir;  ///< what stood there
+};
+/// An island that is not as the seed makes it. Told before anything else of it that a client could
+/// not know.
+struct IslandIs {
+  world::IslandSpec spec;
+  bool added = false;            ///< no seed made it
+  std::uint64_t broken_off = 0;  ///< the island that it came off just now; 0: it was there before
+  std::uint64_t blocks = 0;      ///< that came off
+};
+/// Poses that islands off their course took, in the order of their ticks: between two that follow
+/// one another an island moves straight, else it stood still (World::move_island).
+struct IslandsMoved {
+  std::vector<world::MovingIsland> moves;
+};
+struct TimeIs {
+  double world_time_s = 0.0;
+};
+/// One line for the player: a full disk, a damaged chunk.
+struct Notice {
+  std::string text;
+};
+using Answer =
+    std::variant<Joined, ChunkChanges, EditAnswer, IslandIs, IslandsMoved, TimeIs, Notice>;
+
+/// Messages one way, from any thread to any other.
+template <class Message>
+class Mailbox {
+ public:
+  void put(Message message) {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(std::move(message));
+  }
+  std::vector<Message> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Message> messages_;
+};
+
+// ------------------------------------------------------------------------------------------------
+
+/// How far from the eye edits may be, to the nearest point of the voxel [blocks]. A little more
+/// than hands reach: the island moves while a message is on its way.
+inline constexpr double kSessionReach = 8.0;
+/// Edits a second in the long run, and how many may come at once.
+inline constexpr double kEditsPerSecond = 32.0, kEditBurst = 64.0;
+
+/// A world that is played: owns it and its file, keeps its time, checks what clients want, moves
+/// the islands that left their course, saves. One client, in this process.
+class Session {
+ public:
+  /// A new session on options.world, where it was left, or on a world of the options' seed and time
+  /// that is saved nowhere. A file that may not be written is played, too. Errors: those of
+  /// open_world; the file is open in another process.
+  static Result<std::unique_ptr<Session>> open(const SceneOptions& options);
+  /// Makes a world's file, its folder if need be, then opens it.
+  static Result<std::unique_ptr<Session>> create(const std::filesystem::path& path,
+                                                 const world::WorldInfo& info);
+  /// Saves what is not saved yet and waits for that.
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// For a client in this process, so that nothing is generated or kept twice: to be read only, and
+  /// always as the messages tell it.
+  std::shared_ptr<world::World> world() const;
+
+  /// Messages, from any thread. Requests are handled in order, by the calls below.
+  void send(Request request);
+  std::vector<Answer> receive();
+
+  // By who runs the session, always on one thread. None waits for the disk but save().
+  /// Handles what was sent, now.
+  void attend();
+  /// The same; then time goes on, the islands move, and now and then the world is saved.
+  void advance(double seconds);
+  /// As advance(), while the world's time stands still.
+  void rest() { advance(0.0); }
+  /// The next advance() or rest() saves, however short ago that was done.
+  void save_next();
+  /// Blocks until all is saved. Errors: those of the file; the play may go on.
+  Result<void> save();
+
+ private:
+  struct State;
+  explicit Session(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace skerry::game

@@ -1,0 +1,118 @@
+// Loading and saving a session.
+#include <algorithm>
+#include <utility>
+
+#include "game/session/session_state.h"
+
+namespace skerry::game {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kAutosavePeriod{5};
+// A state is written between two frames; no frame takes longer.
+constexpr double kMostAhead_s = 1.0;
+
+}  // namespace
+
+void Session::State::load(world::LoadedWorld& loaded) {
+  saved = game::saved_play(*file);
+  play = saved;
+  for (const std::string& line : file->damage()) tell(line);
+  if (read_only) tell("this world may not be written: nothing of this play will be saved");
+  double islands_s = saved ? saved->world_time_s : 0.0;
+  for (const world::MovingIsland& m : loaded.moving)
+    islands_s = std::max(islands_s, static_cast<double>(m.state.tick) * world::kMotionTickSeconds);
+  time_s = saved ? saved->world_time_s : islands_s;
+  // Islands go on at the tick they were saved at, a little ahead of the player's. One that is far
+  // ahead is wrong about it: all would stand still till then.
+  motion.start(islands_s - time_s < kMostAhead_s ? islands_s : time_s);
+  for (const world::MovingIsland& m : loaded.moving) motion.add(m.island, m.state);
+}
+
+/// Hands what changed to the saver, unless that is busy or it is too soon.
+void Session::State::save_soon() {
+  if (!file || read_only || Clock::now() - saved_at < kAutosavePeriod) return;
+  {
+    const std::lock_guard lock(problem_mutex);
+    if (!problem.empty()) tell(std::exchange(problem, {}));
+  }
+  if (save_under_way.exchange(true)) return;
+  saved_at = Clock::now();
+  saver.add([this, moving = motion.states(), play_now = play] {
+    if (const Result<void> done = write(moving, play_now); !done) {
+      const std::lock_guard lock(problem_mutex);
+      problem = done.error().message;
+    }
+    save_under_way = false;
+  });
+}
+
+void Session::save_next() {
+  state_->saved_at = Clock::now() - kAutosavePeriod;
+}
+
+/// What cannot be written counts as unsaved again.
+Result<void> Session::State::write(const std::vector<world::MovingIsland>& moving,
+                                   const std::optional<SavedPlay>& play_now) {
+  Unsaved what;
+  std::map<std::uint64_t, world::IslandRow> rows;
+  std::vector<std::pair<world::ChunkName, world::ChunkEdits>> edits;
+  std::vector<std::pair<world::ChunkName, world::Chunk>> chunks;
+  {
+    // No island breaks meanwhile: its voxels are saved where they came from or where they went.
+    const std::lock_guard lock(saving);
+    {
+      const std::lock_guard unsaved_lock(unsaved_mutex);
+      what = std::exchange(unsaved, {});
+    }
+    const std::vector<std::uint64_t> list = world->added_islands();
+    const std::set<std::uint64_t> added(list.begin(), list.end());
+    const auto want_row = [&](std::uint64_t id) {
+      if (const std::optional<world::IslandSpec> spec = world->island(id))
+        rows.try_emplace(id, world::IslandRow{*spec, added.contains(id), {}});
+    };
+    for (const world::MovingIsland& m : moving) {
+      want_row(m.island);
+      if (const auto row = rows.find(m.island); row != rows.end()) row->second.motion = m.state;
+    }
+    for (const std::uint64_t id : what.islands) want_row(id);
+    for (const world::ChunkName& name : what.chunks) {
+      want_row(name.island);
+      if (added.contains(name.island)) {
+        chunks.emplace_back(name, world->chunk_now(name.island, name.chunk));
+      } else {
+        edits.emplace_back(name, world->edits(name.island, name.chunk));
+      }
+    }
+  }
+  world::WorldFile::Transaction transaction = file->begin();
+  for (const auto& [id, row] : rows) {
+    if (what.islands.contains(id)) {
+      transaction.put_new_island(row);
+    } else {
+      transaction.put_island(row);
+    }
+  }
+  for (const auto& [name, list] : edits) transaction.put_edits(name.island, name.chunk, list);
+  for (const auto& [name, chunk] : chunks) transaction.put_chunk(name.island, name.chunk, chunk);
+  if (play_now) put_play(transaction, *play_now);
+  Result<void> done = transaction.commit();
+  if (!done) {
+    const std::lock_guard lock(unsaved_mutex);
+    unsaved.merge(what);
+  }
+  return done;
+}
+
+Result<void> Session::save() {
+  State& s = *state_;
+  s.handle_sent();
+  s.worker.wait();
+  s.take_in_pieces();
+  s.tell_moves();
+  if (!s.file || s.read_only) return {};
+  s.saver.wait();
+  return s.write(s.motion.states(), s.play);
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,165 @@
+#include "game/view/light_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "engine/render/light/lights.h"
+
+namespace skerry::game {
+namespace {
+
+/// Writes lights together with the lists of islands about them. Neighbours share a list.
+class Writer {
+ public:
+  Writer(std::span<const PlacedIsland> islands, FrameLights& out) : islands_(islands), out_(out) {}
+
+  /// Of the lights that follow, none reaches beyond this sphere.
+  void within(glm::dvec3 centre, double radius) {
+    out_.near.clear();
+    for (const PlacedIsland& island : islands_)
+      if (touches(island, centre, radius)) out_.near.push_back(&island);
+  }
+
+  void write(const shared::Light& light, glm::dvec3 position) {
+    list_islands(light, position);
+    shared::Light& out = out_.lights.emplace_back(light);
+    out.position = position;
+    out.first_island = static_cast<std::uint32_t>(out_.islands.size()) - count_;
+    out.island_count = count_;
+  }
+
+ private:
+  void list_islands(const shared::Light& light, glm::dvec3 position) {
+    const bool everywhere = light.kind == shared::kLightDirectional;
+    out_.found.clear();
+    for (const PlacedIsland* island : out_.near)
+      if (everywhere || touches(*island, position, light.range))
+        out_.found.push_back(island->index);
+    const auto last = out_.islands.end() - count_;
+    if (out_.found.size() == count_ && std::equal(out_.found.begin(), out_.found.end(), last))
+      return;
+    out_.islands.insert(out_.islands.end(), out_.found.begin(), out_.found.end());
+    count_ = static_cast<std::uint32_t>(out_.found.size());
+  }
+  static bool touches(const PlacedIsland& island, glm::dvec3 centre, double radius) {
+    const glm::dvec3 away = island.origin - centre;
+    const double reach = island.radius + radius;
+    return glm::dot(away, away) <= reach * reach;
+  }
+
+  std::span<const PlacedIsland> islands_;
+  FrameLights& out_;
+  std::uint32_t count_ = 0;  // of the list written last
+};
+
+bool in_view(const render::CameraView& view, glm::dvec3 centre, double radius) {
+  return std::all_of(view.planes.begin(), view.planes.end(), [&](const glm::vec4& plane) {
+    return glm::dot(glm::dvec3(plane), centre) + plane.w >= -radius;
+  });
+}
+
+shared::Light point_light(glm::vec3 intensity, float range) {
+  shared::Light light{};
+  light.kind = shared::kLightPoint;
+  light.intensity = intensity;
+  light.range = range;
+  return light;
+}
+
+}  // namespace
+
+LightField::Group LightField::group_of(const world::SectionKey& key,
+                                       std::vector<LatticeLight> lights) {
+  Group group;
+  const double edge = world::kChunkEdge << key.level;
+  group.corner = glm::dvec3(key.chunk.x, key.chunk.y, key.chunk.z) * edge;
+  glm::vec3 low = lights.front().place, high = low;
+  for (const LatticeLight& light : lights) {
+    low = glm::min(low, light.place);
+    high = glm::max(high, light.place);
+  }
+  group.centre = 0.5f * (low + high);
+  for (const LatticeLight& light : lights)
+    group.reach = std::max(group.reach, glm::length(light.place - group.centre) + light.range);
+  group.lights = std::move(lights);
+  return group;
+}
+
+void LightField::add(const world::SectionKey& key, std::span<const world::Emitter> emitters) {
+  if (emitters.empty()) return;
+  const float voxel = static_cast<float>(1 << key.level);  // blocks
+  std::vector<LatticeLight> lights;
+  for (const world::Emitter& emitter : emitters) {
+    const BlockEmission& block = emission_[emitter.block];
+    // What is behind faces that all look one way takes half the sphere: the rest gets all of it.
+    const float faces = static_cast<float>(emitter.faces) * (emitter.one_way ? 2.0f : 1.0f);
+    const glm::vec3 intensity = block.face_intensity * (faces * voxel * voxel);
+    lights.push_back({(emitter.place + block.offset) * voxel, intensity, light_range(intensity)});
+  }
+  emitted_.emplace(key, group_of(key, std::move(lights)));
+}
+
+void LightField::scatter(std::map<world::SectionKey, std::vector<LatticeLight>> lights) {
+  scattered_.clear();
+  for (auto& [key, group] : lights) scattered_.emplace(key, group_of(key, std::move(group)));
+}
+
+void LightField::gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
+                               std::span<const PlacedIsland> islands, FrameLights& out) {
+  Writer writer(islands, out);
+  auto island = islands.begin();
+  for (const auto& [key, group] : groups) {
+    // Both are in order of islands' ids.
+    island = std::find_if(island, islands.end(),
+                          [&key = key](const PlacedIsland& one) { return one.id >= key.island; });
+    if (island == islands.end()) return;
+    if (island->id != key.island) continue;
+    const glm::dvec3 corner = island->rotation * group.corner + island->origin;
+    const glm::dvec3 centre = corner + island->rotation * glm::dvec3(group.centre);
+    if (view && !in_view(*view, centre, group.reach)) continue;
+    writer.within(centre, group.reach);
+    // Within a chunk, float is exact to a few millionths of a block.
+    const glm::mat3 rotation(island->rotation);
+    for (const LatticeLight& light : group.lights)
+      writer.write(point_light(light.intensity, light.range),
+                   corner + glm::dvec3(rotation * light.place));
+  }
+}
+
+void LightField::gather_world(const world::WorldPos& camera, std::span<const PlacedIsland> islands,
+                              FrameLights& out) const {
+  Writer writer(islands, out);
+  for (const WorldLight& one : world_) {
+    const bool placed = one.light.kind != shared::kLightDirectional;
+    const glm::dvec3 position =
+        placed ? world::difference_blocks(one.position, camera) : glm::dvec3(0.0);
+    // Nothing that can be drawn is so far away.
+    if (glm::length(position) > render::kMaxLightDistance) continue;
+    writer.within(position, placed ? one.light.range : std::numeric_limits<double>::infinity());
+    writer.write(one.light, position);
+  }
+}
+
+void LightField::gather(const world::WorldPos& camera,
+                        const std::optional<render::CameraView>& view,
+                        std::span<const PlacedIsland> islands,
+                        const std::optional<shared::Light>& held, FrameLights& out) const {
+  out.lights.clear();
+  out.islands.clear();
+  std::size_t most = world_.size() + 1;
+  for (const Groups* groups : {&emitted_, &scattered_})
+    for (const auto& [key, group] : *groups) most += group.lights.size();
+  out.lights.reserve(most);
+  gather_groups(emitted_, view, islands, out);
+  gather_groups(scattered_, view, islands, out);
+  gather_world(camera, islands, out);
+  if (!held) return;
+  Writer writer(islands, out);
+  writer.within(held->position, held->range);
+  writer.write(*held, held->position);
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,85 @@
+#pragma once
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/render/frame/camera.h"
+#include "game/scene_file/scene_lights.h"
+#include "game/view/emission.h"
+#include "world/stream.h"
+
+namespace skerry::game {
+
+/// A light that shines evenly to all sides and moves with an island.
+struct LatticeLight {
+  glm::vec3 place{};      ///< from the lowest corner of its section's chunk, lattice axes [blocks]
+  glm::vec3 intensity{};  ///< see shared::Light
+  float range = 0.0f;     ///< blocks
+};
+
+/// An island as it is in a frame.
+struct PlacedIsland {
+  std::uint64_t id = 0;
+  std::uint32_t index = 0;  ///< in FrameInput::islands
+  glm::dmat3 rotation{1.0};
+  glm::dvec3 origin{};  ///< of its lattice, relative to the camera [blocks]
+  double radius = 0.0;  ///< of its voxels about the origin [blocks]
+};
+
+/// The lights of one frame, as FrameInput takes them.
+struct FrameLights {
+  std::vector<shared::Light> lights;
+  std::vector<std::uint32_t> islands;
+  /// Working memory of LightField::gather, kept between frames.
+  std::vector<const PlacedIsland*> near;
+  std::vector<std::uint32_t> found;
+};
+
+/// All lights of a world but sun and moon, and those of them that a frame needs. Their order is
+/// that of section keys, then voxels, then places of the world: it does not depend on when a
+/// section came or went.
+class LightField {
+ public:
+  LightField() : emission_(emission_table()) {}
+
+  /// Takes in a section's lights. @pre it has none yet.
+  void add(const world::SectionKey& key, std::span<const world::Emitter> emitters);
+  /// Forgets them. A section without lights is no concern.
+  void remove(const world::SectionKey& key) { emitted_.erase(key); }
+  /// Lights that no section brings, kept for good. Keys are of level 0.
+  void scatter(std::map<world::SectionKey, std::vector<LatticeLight>> lights);
+  void set_world_lights(std::vector<WorldLight> lights) { world_ = std::move(lights); }
+
+  const BlockEmission& emission(world::BlockId block) const { return emission_[block]; }
+
+  /// @param camera what world lights are seen from. @param view none: everything is gathered, as if
+  /// the camera looked to all sides. @param islands in order of their ids; lights on others are
+  /// left out. @param held a light relative to the camera. @param out replaced; keeps its memory.
+  void gather(const world::WorldPos& camera, const std::optional<render::CameraView>& view,
+              std::span<const PlacedIsland> islands, const std::optional<shared::Light>& held,
+              FrameLights& out) const;
+
+ private:
+  /// The lights of one section.
+  struct Group {
+    glm::dvec3 corner{};  // of its chunk, in the lattice
+    glm::vec3 centre{};   // of the sphere about all they light, from the corner
+    float reach = 0.0f;   // its radius
+    std::vector<LatticeLight> lights;
+  };
+  using Groups = std::map<world::SectionKey, Group>;
+  static Group group_of(const world::SectionKey& key, std::vector<LatticeLight> lights);
+  static void gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
+                            std::span<const PlacedIsland> islands, FrameLights& out);
+  void gather_world(const world::WorldPos& camera, std::span<const PlacedIsland> islands,
+                    FrameLights& out) const;
+
+  std::vector<BlockEmission> emission_;  // by block id
+  Groups emitted_, scattered_;
+  std::vector<WorldLight> world_;
+};
+
+}  // namespace skerry::game

@@ -1,0 +1,378 @@
+#include "game/view/scene_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/core/check.h"
+#include "engine/core/clock.h"
+#include "engine/render/frame/celestial.h"
+#include "game/player/player.h"
+#include "game/view/light_setup.h"
+#include "game/view/materials.h"
+#include "game/worlds/open_world.h"
+#include "world/blocks.h"
+
+namespace skerry::game {
+namespace {
+
+constexpr std::size_t kMaxPolledQuads = 200'000;  // taken from the workers in one frame
+constexpr double kReachStep = 128.0;              // blocks
+constexpr std::uint32_t kFirstArenaQuads = 1u << 19;
+
+gpu::UploadPath upload_path(UploadMode mode) {
+  switch (mode) {
+    case UploadMode::kUpdate:
+      return gpu::UploadPath::kUpdateBuffer;
+    case UploadMode::kStaging:
+      return gpu::UploadPath::kStaging;
+    case UploadMode::kMapped:
+      return gpu::UploadPath::kMapped;
+  }
+  return gpu::UploadPath::kUpdateBuffer;
+}
+
+std::uint32_t packed_box(const std::array<std::uint8_t, 3>& corner) {
+  return std::uint32_t{corner[0]} | std::uint32_t{corner[1]} << 7 | std::uint32_t{corner[2]} << 14;
+}
+
+render::FixedPos fixed(const world::WorldPos& p) {
+  return {p.x, p.y, p.z};
+}
+world::WorldPos place(const render::FixedPos& p) {
+  return {p[0], p[1], p[2]};
+}
+
+glm::dvec3 forward_of(const render::Camera& camera) {
+  const double yaw = glm::radians(camera.yaw_deg), pitch = glm::radians(camera.pitch_deg);
+  return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)};
+}
+
+glm::ivec3 chunk_place(const world::SectionKey& key) {
+  return {key.chunk.x, key.chunk.y, key.chunk.z};
+}
+
+/// Chunks of a level that hold an island's box.
+render::IslandChunks expected_chunks(const world::IslandSpec& spec, std::int32_t level) {
+  const std::int64_t edge = std::int64_t{world::kChunkEdge} << level;
+  const auto chunk = [&](std::int32_t block) {
+    return static_cast<int>(world::floor_div(block, edge));
+  };
+  const glm::ivec3 low{chunk(spec.box_min.x), chunk(spec.box_min.y), chunk(spec.box_min.z)};
+  const glm::ivec3 last{chunk(spec.box_max.x - 1), chunk(spec.box_max.y - 1),
+                        chunk(spec.box_max.z - 1)};
+  return {low, last - low + 1, static_cast<std::uint32_t>(level)};
+}
+
+shared::Section section_record(const world::SectionKey& key, const world::ChunkMesh& mesh,
+                               std::uint32_t island) {
+  shared::Section section{};
+  const std::int32_t edge = world::kChunkEdge << key.level;
+  section.origin = {key.chunk.x * edge, key.chunk.y * edge, key.chunk.z * edge};
+  section.island = island;
+  section.voxel_size_log2 = static_cast<std::uint32_t>(key.level);
+  section.bounds_min = packed_box(mesh.bounds_min);
+  section.bounds_max = packed_box(mesh.bounds_max);
+  std::copy(mesh.range_end.begin(), mesh.range_end.end(), section.range_end);
+  return section;
+}
+
+}  // namespace
+
+SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> world)
+    : settings_(options.settings), world_(std::move(world)) {
+  jobs_ = std::make_unique<Jobs>(static_cast<int>(settings_.jobs_threads));
+  streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
+  if (options.camera) {
+    start_camera_.position = fixed(options.camera->position);
+    start_camera_.yaw_deg = options.camera->yaw_deg;
+    start_camera_.pitch_deg = options.camera->pitch_deg;
+  } else {
+    const world::Spawn spawn = world_->spawn();
+    start_camera_.position = fixed(world::moved(spawn.feet, {0.0, kEyeHeight, 0.0}));
+    start_camera_.yaw_deg = spawn.yaw_deg;
+    start_camera_.pitch_deg = spawn.pitch_deg;
+  }
+  start_camera_.fov_deg = options.fov_deg;
+  light_field_ = light_field_of(options, *world_, start_camera_);
+}
+
+SceneView::~SceneView() = default;
+
+Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
+                                                     const SceneOptions& options) {
+  Result<std::unique_ptr<world::World>> world = open_world(options);
+  if (!world) return world.error();
+  return create(device, options, *std::move(world));
+}
+
+Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
+                                                     const SceneOptions& options,
+                                                     std::shared_ptr<world::World> world) {
+  std::unique_ptr<SceneView> view(new SceneView(options, std::move(world)));
+  const std::vector<shared::Material> materials = material_table();
+  render::RendererDesc desc;
+  desc.materials = materials;
+  desc.upload_path = upload_path(options.settings.upload_path);
+  desc.upload_budget_bytes = options.settings.upload_budget_bytes;
+  desc.arena_quads = kFirstArenaQuads;
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(device, desc);
+  if (!renderer) return renderer.error();
+  view->renderer_ = *std::move(renderer);
+  if (Result<void> ok = view->follow_settings(); !ok) return ok.error();
+  if (!options.clouds.empty()) {
+    const Result<LoadedClouds> clouds = load_clouds(options.clouds);
+    if (!clouds) return clouds.error();
+    for (const std::string& line : clouds->remarks) fmt::print(stderr, "skerry: {}\n", line);
+    if (Result<void> ok = view->renderer_->set_clouds(
+            clouds->volumes,
+            static_cast<render::CloudPrecision>(options.settings.clouds.precision));
+        !ok)
+      return ok.error();
+  }
+  return view;
+}
+
+Result<void> SceneView::load_completely(const render::Camera& camera, double world_time_s) {
+  if (Result<void> ok = follow_settings(); !ok) return ok;
+  streamer_->update(
+      {place(camera.position), forward_of(camera), world_time_s},
+      {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)});
+  streamer_->wait_until_complete();
+  while (!streamer_->complete())
+    if (Result<void> taken = take_in(streamer_->poll(kMaxPolledQuads)); !taken) return taken;
+  renderer_->set_upload_budget(UINT64_MAX);
+  return {};
+}
+
+Result<void> SceneView::stream(const render::Camera& camera, double world_time_s) {
+  if (Result<void> ok = follow_settings(); !ok) return ok;
+  renderer_->set_upload_budget(settings_.upload_budget_bytes);
+  streamer_->update(
+      {place(camera.position), forward_of(camera), world_time_s},
+      {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)});
+  // What was taken in must be on the GPU before more is: memory stays bounded, and an island's slot
+  // is not handed on while sections that name it can still be drawn.
+  if (renderer_->mesh_uploader().pending_bytes() != 0) return {};
+  return take_in(streamer_->poll(kMaxPolledQuads));
+}
+
+bool SceneView::occupancy_wanted() const {
+  return (settings_.ao_strength > 0.0 && settings_.shading != Shading::kFlat) ||
+         settings_.lights_shadows != 0;
+}
+
+// Occupancy is made along with the meshes, so that all of them are made again when it is wanted for
+// the first time.
+Result<void> SceneView::follow_settings() {
+  if (occupancy_ || !occupancy_wanted()) return {};
+  Result<render::OccupancyStore*> store = renderer_->occupancy();
+  if (!store) return store.error();
+  while (!sections_.empty()) remove_section(sections_.begin()->first);
+  occupancy_ = *store;
+  streamer_ =
+      std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);
+  return {};
+}
+
+Result<void> SceneView::take_in(world::StreamUpdate update) {
+  for (const world::SectionKey& key : update.removed) remove_section(key);
+  for (const world::ReadySection& ready : update.ready)
+    if (Result<void> added = add_section(ready); !added) return added;
+  return {};
+}
+
+void SceneView::remove_section(const world::SectionKey& key) {
+  const auto found = sections_.find(key);
+  SKERRY_ASSERT(found != sections_.end());
+  gpu::Uploader& uploader = renderer_->mesh_uploader();
+  light_field_.remove(key);
+  const auto slot = island_slots_.find(key.island);
+  if (found->second) renderer_->geometry().remove(uploader, *found->second);
+  if (occupancy_) occupancy_->remove(uploader, slot->second, chunk_place(key));
+  sections_.erase(found);
+  if (--islands_[slot->second].sections != 0) return;
+  if (occupancy_) occupancy_->end_island(uploader, slot->second);
+  island_slots_.erase(slot);
+}
+
+Result<void> SceneView::add_section(const world::ReadySection& ready) {
+  gpu::Uploader& uploader = renderer_->mesh_uploader();
+  const Result<std::uint32_t> slot = island_slot(ready.key);
+  if (!slot) return slot.error();
+  ++islands_[*slot].sections;
+  // Building beyond the island's box widens it.
+  if (const auto spec = world_->island(ready.key.island)) islands_[*slot].spec = *spec;
+  std::optional<render::SectionId>& section = sections_[ready.key];
+  if (ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
+    const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
+                                     ready.occupancy.table, ready.occupancy.words};
+    if (Result<void> added = occupancy_->add(uploader, *slot, chunk_place(ready.key), bits); !added)
+      return added;
+  }
+  light_field_.add(ready.key, ready.emitters);
+  if (ready.mesh.quads.empty()) return {};
+  Result<render::SectionId> added = renderer_->geometry().add(
+      uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
+  if (!added) return added.error();
+  section = *added;
+  return {};
+}
+
+// The slot of a section's island; a new one if this is the first of its sections.
+Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
+  if (const auto found = island_slots_.find(key.island); found != island_slots_.end())
+    return found->second;
+  const auto free = std::find_if(islands_.begin(), islands_.end(),
+                                 [](const IslandEntry& entry) { return entry.sections == 0; });
+  const auto slot = static_cast<std::uint32_t>(free - islands_.begin());
+  if (free == islands_.end()) islands_.emplace_back();
+  const std::optional<world::IslandSpec> spec = world_->island(key.island);
+  SKERRY_ASSERT(spec.has_value());
+  islands_[slot] = {*spec, 0};
+  island_slots_.emplace(key.island, slot);
+  if (occupancy_) {
+    if (Result<void> begun = occupancy_->begin_island(renderer_->mesh_uploader(), slot,
+                                                      expected_chunks(*spec, key.level));
+        !begun)
+      return begun.error();
+  }
+  return slot;
+}
+
+// A slot without sections may name an island that the world has forgotten.
+world::Pose SceneView::pose_of(const IslandEntry& entry, double world_time_s) const {
+  const std::optional<world::Pose> pose =
+      entry.sections == 0 ? std::nullopt : world_->pose(entry.spec.id, world_time_s);
+  return pose ? *pose : world::pose_at(entry.spec, world_time_s);
+}
+
+std::vector<render::IslandPlacement> SceneView::placements(double world_time_s) const {
+  std::vector<render::IslandPlacement> out;
+  out.reserve(islands_.size());
+  for (const IslandEntry& entry : islands_) {
+    const world::Pose pose = pose_of(entry, world_time_s);
+    out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius});
+  }
+  return out;
+}
+
+std::vector<PlacedIsland> SceneView::placed_islands(
+    const render::FixedPos& camera, std::span<const render::IslandPlacement> islands) const {
+  std::vector<PlacedIsland> out;
+  for (const auto& [id, slot] : island_slots_)
+    out.push_back({id, slot, glm::mat3_cast(islands[slot].rotation),
+                   world::difference_blocks(place(islands[slot].origin), place(camera)),
+                   islands[slot].bounding_radius});
+  return out;
+}
+
+void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
+                              std::span<const render::IslandPlacement> islands) {
+  const Stopwatch watch;
+  light_field_.gather(
+      place(moment.camera.position), render::view_of(moment.camera, size.width, size.height),
+      placed_islands(moment.camera.position, islands),
+      held_light(settings_, light_field_, moment.camera.yaw_deg, moment.world_time_s), lights_);
+  gather_ms_ = watch.milliseconds();
+}
+
+world::BlockId SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
+  for (const IslandEntry& entry : islands_) {
+    if (entry.sections == 0) continue;
+    const world::Pose pose = pose_of(entry, world_time_s);
+    const glm::dvec3 offset = world::difference_blocks(place(camera.position), pose.origin);
+    if (glm::dot(offset, offset) > entry.spec.bounding_radius * entry.spec.bounding_radius)
+      continue;
+    const glm::dvec3 lattice = glm::inverse(pose.rotation) * offset;
+    const world::IVec3 voxel{static_cast<std::int32_t>(std::floor(lattice.x)),
+                             static_cast<std::int32_t>(std::floor(lattice.y)),
+                             static_cast<std::int32_t>(std::floor(lattice.z))};
+    const std::optional<world::BlockId> block = world_->block_at(entry.spec.id, voxel);
+    if (block && world::block_kind(*block) == world::BlockKind::kTranslucent) return *block;
+  }
+  return world::kAir;
+}
+
+render::RenderSettings SceneView::render_settings(
+    const render::FixedPos& camera, std::span<const render::IslandPlacement> islands) const {
+  // An island is in as a whole once any of it is within view distance; shadows must reach its far
+  // side. In steps, because every step draws all shadow maps anew.
+  double reach = settings_.view_distance;
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    if (islands_[i].sections == 0) continue;
+    const glm::dvec3 offset = world::difference_blocks(place(islands[i].origin), place(camera));
+    reach = std::max(reach, glm::length(offset) + islands[i].bounding_radius);
+  }
+  render::RenderSettings out;
+  out.view_distance_blocks = std::ceil(reach / kReachStep) * kReachStep;
+  out.samples_per_edge = settings_.aa_samples == 16 ? 4 : settings_.aa_samples == 4 ? 2 : 1;
+  out.shadows = settings_.shadow_enabled;
+  out.shadow_map_size = static_cast<int>(settings_.shadow_size);
+  out.shadow_cascades = static_cast<int>(settings_.shadow_cascades);
+  out.shadow_taps = static_cast<int>(settings_.shadow_taps);
+  out.shadow_split = settings_.shadow_split;
+  // Many samples blur edges exactly.
+  out.shadow_penumbra_blocks =
+      settings_.shadow_samples == 1 ? static_cast<float>(settings_.shadow_blur) : 0.0f;
+  out.corner_darkening = static_cast<float>(settings_.ao_strength);
+  out.texture_taps = static_cast<int>(settings_.texture_taps);
+  out.flat_shading = settings_.shading == Shading::kFlat;
+  out.translucent_layers = static_cast<int>(settings_.water_layers);
+  out.gbuffer = settings_.gbuffer;
+  out.meter = settings_.meter;
+  out.tone = settings_.tone;
+  out.display = settings_.display;
+  out.bloom = settings_.bloom;
+  out.clouds = settings_.clouds;
+  out.leave_out = settings_.leave_out;
+  out.debug_view = settings_.debug_view;
+  out.traced_lights = settings_.lights_shadows;
+  out.light_tile = settings_.lights_tile;
+  out.light_samples = static_cast<int>(settings_.lights_softness);
+  out.lights_oracle = settings_.lights_oracle;
+  return out;
+}
+
+/// None if nothing of the island is drawn.
+std::optional<render::BlockMarker> SceneView::marker_of(const Moment& moment) const {
+  if (!moment.marked) return std::nullopt;
+  const auto slot = island_slots_.find(moment.marked->island);
+  if (slot == island_slots_.end()) return std::nullopt;
+  return render::BlockMarker{slot->second, moment.marked->min, moment.marked->max,
+                             static_cast<float>(moment.marked->dug)};
+}
+
+Result<std::uint64_t> SceneView::draw(
+    const Moment& moment, VkExtent2D size,
+    const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
+    std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
+  const std::vector<render::IslandPlacement> islands = placements(moment.world_time_s);
+  render::FrameInput input;
+  input.camera = moment.camera;
+  input.anchor = fixed(world_->origin());
+  input.islands = islands;
+  input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
+  gather_lights(moment, size, islands);
+  input.lights = lights_.lights;
+  input.light_islands = lights_.islands;
+  const std::optional<double> ev =
+      settings_.exposure_ev ? settings_.exposure_ev : moment.exposure_ev;
+  input.exposure_ev.reset();
+  if (ev) input.exposure_ev = static_cast<float>(*ev);
+  input.meter = !settings_.exposure_ev;
+  input.time_s = moment.world_time_s;
+  input.camera_medium = medium_at(moment.camera, moment.world_time_s);
+  input.freeze_culling = moment.freeze_culling;
+  input.capture = moment.capture;
+  input.marker = marker_of(moment);
+  const render::RenderSettings settings = render_settings(moment.camera.position, islands);
+  input.parts = settings_.shadow_samples;
+  for (; input.part + 1 < input.parts; ++input.part)
+    if (Result<std::uint64_t> part = renderer_->draw(input, settings, size); !part) return part;
+  return renderer_->draw(input, settings, size, after, waits, signals);
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,117 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/core/jobs.h"
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/render/renderer/renderer.h"
+#include "game/scene_file/options.h"
+#include "game/view/light_field.h"
+#include "world/stream.h"
+#include "world/world.h"
+
+namespace skerry::game {
+
+/// A world and the renderer that shows it: streams islands in around the camera, hands chunk
+/// meshes to the GPU and draws. Shared by shot, bench and play. The frame thread calls everything
+/// here; generation and meshing run on jobs.
+class SceneView {
+ public:
+  /// Errors: no memory on the device; those of open_world.
+  static Result<std::unique_ptr<SceneView>> create(gpu::Device& device,
+                                                   const SceneOptions& options);
+  /// Shows a world that is open already.
+  static Result<std::unique_ptr<SceneView>> create(gpu::Device& device, const SceneOptions& options,
+                                                   std::shared_ptr<world::World> world);
+  ~SceneView();
+
+  /// The camera the options ask for: given, or the seed's spawn view at eye height.
+  const render::Camera& start_camera() const { return start_camera_; }
+  world::World& world() { return *world_; }
+  const world::Streamer& streamer() const { return *streamer_; }
+  render::Renderer& renderer() { return *renderer_; }
+  Settings& settings() { return settings_; }  ///< may be changed between frames
+
+  /// Waits until all that belongs to this camera is generated and meshed, then queues it in an
+  /// order that does not depend on threads. The next draw() uploads everything at once.
+  /// Errors: the quad arena is full.
+  Result<void> load_completely(const render::Camera& camera, double world_time_s);
+  /// Takes in what the workers have ready, within the frame's budget; never waits.
+  /// Errors: the quad arena is full.
+  Result<void> stream(const render::Camera& camera, double world_time_s);
+  /// Whether everything within view distance has been handed to the renderer.
+  bool complete() const { return streamer_->complete(); }
+  /// Of the last draw: lights handed to the renderer, and what it took to gather them.
+  std::size_t lights() const { return lights_.lights.size(); }
+  double gather_ms() const { return gather_ms_; }
+
+  /// A block to outline, and how far it is dug.
+  struct MarkedBlock {
+    std::uint64_t island = 0;
+    glm::dvec3 min{}, max{};  ///< box in the island's lattice [blocks]
+    double dug = 0.0;         ///< 0 .. 1
+  };
+  struct Moment {
+    render::Camera camera;
+    double time_of_day_s = 43200.0;
+    double world_time_s = 0.0;
+    bool freeze_culling = false;
+    bool capture = false;  ///< see render::FrameInput
+    /// What the eye has adapted to; the frame is metered for it nonetheless. None: as metered.
+    std::optional<double> exposure_ev = {};
+    std::optional<MarkedBlock> marked = {};
+  };
+  /// See render::Renderer::draw. A fixed exposure in the settings goes over the moment's.
+  Result<std::uint64_t> draw(
+      const Moment& moment, VkExtent2D size,
+      const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},
+      std::span<const VkSemaphoreSubmitInfo> waits = {},
+      std::span<const VkSemaphoreSubmitInfo> signals = {});
+
+ private:
+  SceneView(const SceneOptions& options, std::shared_ptr<world::World> world);
+  struct IslandEntry {
+    world::IslandSpec spec;
+    std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
+  };
+  bool occupancy_wanted() const;
+  Result<void> follow_settings();
+  Result<void> take_in(world::StreamUpdate update);
+  Result<void> add_section(const world::ReadySection& ready);
+  void remove_section(const world::SectionKey& key);
+  Result<std::uint32_t> island_slot(const world::SectionKey& key);
+  world::Pose pose_of(const IslandEntry& entry, double world_time_s) const;
+  std::vector<render::IslandPlacement> placements(double world_time_s) const;
+  std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera,
+                                           std::span<const render::IslandPlacement> islands) const;
+  void gather_lights(const Moment& moment, VkExtent2D size,
+                     std::span<const render::IslandPlacement> islands);
+  /// Id of the translucent block the camera is in, or air.
+  world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
+  std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
+  render::RenderSettings render_settings(const render::FixedPos& camera,
+                                         std::span<const render::IslandPlacement> islands) const;
+
+  Settings settings_;
+  std::unique_ptr<Jobs> jobs_;
+  std::shared_ptr<world::World> world_;
+  std::unique_ptr<world::Streamer> streamer_;
+  std::unique_ptr<render::Renderer> renderer_;
+  render::Camera start_camera_;
+  std::vector<IslandEntry> islands_;                     // by GPU slot
+  std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
+  /// Resident chunks; without a section, what is known of them is which voxels are opaque.
+  std::map<world::SectionKey, std::optional<render::SectionId>> sections_;
+  render::OccupancyStore* occupancy_ = nullptr;  // the renderer's; null: not wanted so far
+  LightField light_field_;
+  FrameLights lights_;  // of the last frame
+  double gather_ms_ = 0.0;
+};
+
+}  // namespace skerry::game

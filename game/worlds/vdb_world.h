@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "game/scene_file/vdb_options.h"
+#include "world/vdb/import.h"
+#include "world/world.h"
+
+namespace skerry::game {
+
+/// The islands of a .vdb file. Errors: those of world::read_vdb and world::import_islands, with the
+/// file's name.
+/// @param progress called with the share that is done.
+Result<std::vector<world::ImportedIsland>> islands_of_vdb(const std::filesystem::path& path,
+                                                          const world::ImportOptions& options,
+                                                          const world::ReadProgress& progress = {});
+
+/// A world of the islands of a .vdb file and nothing else. Errors: as above.
+Result<std::unique_ptr<world::World>> world_of_vdb(const std::filesystem::path& path,
+                                                   const world::ImportOptions& options);
+
+/// Writes a world file of imported islands: complete or not at all. Errors: the file is there
+/// already, or cannot be written.
+Result<void> save_imported(const std::vector<world::ImportedIsland>& islands,
+                           const std::filesystem::path& path);
+
+}  // namespace skerry::game

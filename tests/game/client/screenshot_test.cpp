@@ -1,0 +1,24 @@
+#include "game/client/screenshot.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/platform/files.h"
+
+namespace skerry::game {
+namespace {
+
+TEST(Screenshot, NamesAreDatesAndNeverTaken) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "skerry_shots";
+  ASSERT_TRUE(platform::make_dirs(folder));
+  constexpr std::int64_t kMoment = 1738367999;  // 2025-01-31 23:59:59 UTC
+  for (const char* name : {"skerry-20250131-235959.png", "skerry-20250131-235959-2.png",
+                           "skerry-20250131-235959-3.png"}) {
+    const auto path = free_screenshot_path(folder, kMoment);
+    EXPECT_EQ(path, folder / name);
+    ASSERT_TRUE(platform::write_text(path, "taken"));
+  }
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace skerry::game

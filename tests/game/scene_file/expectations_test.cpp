@@ -1,0 +1,147 @@
+#include "game/scene_file/expectations.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <regex>
+
+#include <test_paths.h>
+#include "game/scene_file/options.h"
+
+namespace skerry::game {
+namespace {
+
+Result<Expectations> expectations_of(const std::string& fields) {
+  const auto scene = parse_scene("{" + fields + "}");
+  if (!scene) return scene.error();
+  return scene->expectations;
+}
+
+std::string error_of(const std::string& fields) {
+  const auto found = expectations_of(fields);
+  EXPECT_FALSE(found) << fields;
+  return found ? "" : found.error().message;
+}
+
+TEST(Expectations, EveryFieldOfAFileArrives) {
+  const auto found = expectations_of(
+      R"("tolerance": {"flip_mean": 0.25, "flip_p99": 0.5, "flip_max": 1, "pixels_over": 0,
+          "channel_threshold": 3}, "expects_dark": true, "masks": [[1, 2, 3, 4], [0, 0, 65535, 1]],
+         "description": "A cave")");
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->tolerance, (Tolerance{0.25, 0.5, 1.0, 0.0, 3}));
+  EXPECT_TRUE(found->expects_dark);
+  EXPECT_EQ(found->masks, (std::vector<Mask>{{1, 2, 3, 4}, {0, 0, 65535, 1}}));
+  EXPECT_EQ(found->description, "A cave");
+}
+
+TEST(Expectations, AFieldThatIsLeftOutKeepsItsDefault) {
+  const auto found = expectations_of(R"("tolerance": {"flip_p99": 0.5})");
+  ASSERT_TRUE(found);
+  Tolerance expected;
+  expected.flip_p99 = 0.5;
+  EXPECT_EQ(found->tolerance, expected);
+  EXPECT_FALSE(found->expects_dark);
+}
+
+TEST(Expectations, MistakesAreNamedInOneLine) {
+  EXPECT_NE(error_of(R"("tolerence": {})").find("'tolerance'"), std::string::npos);
+  EXPECT_NE(error_of(R"("expect_dark": true)").find("'expects_dark'"), std::string::npos);
+  EXPECT_NE(error_of(R"("tolerance": {"flip_maen": 0})").find("'flip_mean'"), std::string::npos);
+  for (const char* fields : {R"("tolerance": 1)",
+                             R"("tolerance": {"flip_mean": -0.1})",
+                             R"("tolerance": {"flip_mean": 1.1})",
+                             R"("tolerance": {"flip_mean": "0.1"})",
+                             R"("tolerance": {"flip_mean": null})",
+                             R"("tolerance": {"flip_mean": NaN})",
+                             R"("tolerance": {"flip_mean": 1e999})",
+                             R"("tolerance": {"channel_threshold": 256})",
+                             R"("tolerance": {"channel_threshold": 1.5})",
+                             R"("tolerance": {"channel_threshold": -1})",
+                             R"("expects_dark": 1)",
+                             R"("expects_dark": "yes")",
+                             R"("masks": {})",
+                             R"("masks": [1])",
+                             R"("masks": [[1, 2, 3]])",
+                             R"("masks": [[1, 2, 3, 4, 5]])",
+                             R"("masks": [[-1, 0, 3, 4]])",
+                             R"("masks": [[0, 0, 0, 4]])",
+                             R"("masks": [[0, 0, 4, 0]])",
+                             R"("masks": [[0, 0, 1e9, 4]])",
+                             R"("masks": [[0.5, 0, 1, 4]])",
+                             R"("masks": [["0", 0, 1, 4]])",
+                             R"("description": 5)",
+                             R"("description": "")",
+                             R"("description": "two\nlines")"}) {
+    EXPECT_EQ(error_of(fields).find('\n'), std::string::npos) << fields;
+  }
+}
+
+TEST(Expectations, TheDocumentTellsTheDefaults) {
+  std::ifstream file(SKERRY_SOURCE_DIR "/docs/settings.md");
+  ASSERT_TRUE(file);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::regex entry("\\n- `([a-z_.0-9]+)` \\([^\\n]*?(?:, default ([a-z0-9.]+))?\\)");
+  std::map<std::string, std::string> documented;
+  for (std::sregex_iterator it(text.begin(), text.end(), entry), end; it != end; ++it)
+    documented[(*it)[1]] = (*it)[2];
+  const Tolerance t;
+  const std::map<std::string, std::string> expected{
+      {"description", ""},
+      {"expects_dark", "false"},
+      {"masks", ""},
+      {"tolerance.flip_mean", fmt::format("{}", t.flip_mean)},
+      {"tolerance.flip_p99", fmt::format("{}", t.flip_p99)},
+      {"tolerance.flip_max", fmt::format("{}", t.flip_max)},
+      {"tolerance.pixels_over", fmt::format("{}", t.pixels_over)},
+      {"tolerance.channel_threshold", fmt::format("{}", t.channel_threshold)}};
+  EXPECT_EQ(documented, expected);
+}
+
+TEST(Expectations, HugeListsAreRefused) {
+  std::string masks = "[0,0,1,1]";
+  for (std::size_t i = 0; i < kMaxMasks; ++i) masks += ",[0,0,1,1]";
+  EXPECT_NE(error_of("\"masks\": [" + masks + "]").find("at most 64"), std::string::npos);
+  EXPECT_FALSE(expectations_of("\"description\": \"" + std::string(100000, 'x') + "\""));
+  std::string nested = "\"masks\": ";
+  for (int i = 0; i < 50000; ++i) nested += '[';
+  EXPECT_FALSE(expectations_of(nested + std::string(50000, ']')));
+}
+
+TEST(Expectations, MasksStayInsideThePicture) {
+  const PictureSize size{320, 180};
+  EXPECT_TRUE(check_masks({}, size));
+  EXPECT_TRUE(check_masks(std::vector<Mask>{{319, 179, 1, 1}}, size));
+  EXPECT_FALSE(check_masks(std::vector<Mask>{{319, 179, 2, 1}}, size));
+  EXPECT_FALSE(check_masks(std::vector<Mask>{{319, 179, 1, 2}}, size));
+  EXPECT_FALSE(check_masks(std::vector<Mask>{{65535, 65535, 65535, 65535}}, size));
+}
+
+TEST(Expectations, MasksLeaveSomethingToCompare) {
+  std::mt19937 random(3);
+  int covered = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const PictureSize size{1 + static_cast<std::uint32_t>(random() % 5),
+                           1 + static_cast<std::uint32_t>(random() % 5)};
+    std::vector<Mask> masks;
+    for (std::size_t i = random() % 6; i > 0; --i) {
+      const auto x = static_cast<std::uint32_t>(random() % size.width);
+      const auto y = static_cast<std::uint32_t>(random() % size.height);
+      masks.push_back({x, y, 1 + static_cast<std::uint32_t>(random() % (size.width - x)),
+                       1 + static_cast<std::uint32_t>(random() % (size.height - y))});
+    }
+    bool something = false;  // pixel by pixel
+    for (std::uint32_t pixel = 0; pixel < size.width * size.height; ++pixel)
+      something = something || !is_masked(masks, pixel % size.width, pixel / size.width);
+    EXPECT_EQ(static_cast<bool>(check_masks(masks, size)), something);
+    covered += something ? 0 : 1;
+  }
+  EXPECT_GT(covered, 50);
+}
+
+}  // namespace
+}  // namespace skerry::game

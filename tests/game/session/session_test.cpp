@@ -1,0 +1,486 @@
+#include "game/session/session.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include "tests/folder.h"
+#include "tests/world/made_islands.h"
+#include "world/store/world_file.h"
+
+namespace skerry::game {
+namespace {
+
+namespace fs = std::filesystem;
+using world::IVec3;
+
+/// A file with one island of our own: a plate, a neck, a smaller plate above.
+struct Saved {
+  Folder folder;
+  fs::path path = folder / "w.skerry";
+  std::uint64_t island = 77;
+  IVec3 neck{0, 5, 0};
+
+  Saved() {
+    std::vector<IVec3> voxels = world::voxels_in({-8, 0, -8}, {9, 3, 9});
+    for (const IVec3& v : world::voxels_in({0, 3, 0}, {1, 8, 1})) voxels.push_back(v);
+    for (const IVec3& v : world::voxels_in({-3, 8, -3}, {4, 10, 4})) voxels.push_back(v);
+    world::WorldInfo info{"Plates", "9", {}};
+    info.desc.seed = 9;
+    info.desc.generated = false;
+    auto file = world::WorldFile::create(path, info);
+    EXPECT_TRUE(file);
+    auto transaction = (*file)->begin();
+    world::IslandSpec spec;
+    spec.id = island;
+    spec.origin = world::blocks(100.0, 0.0, 0.0);
+    transaction.put_island({spec, true, {}});
+    for (const auto& [at, chunk] : world::chunks_from(voxels, world::block::kStone))
+      transaction.put_chunk(island, at, chunk);
+    EXPECT_TRUE(transaction.commit());
+  }
+
+  std::unique_ptr<Session> open() const {
+    SceneOptions options;
+    options.world = path.string();
+    auto session = Session::open(options);
+    EXPECT_TRUE(session) << session.error().message;
+    if (!session) return nullptr;
+    for (const IVec3& chunk : (*session)->world()->chunks(island, 0))
+      (*session)->world()->ensure_chunk(island, chunk);
+    return *std::move(session);
+  }
+};
+
+SavedPlay at(const glm::dvec3& blocks) {
+  SavedPlay play;
+  play.eye.position = world::blocks(blocks.x, blocks.y, blocks.z);
+  play.player.feet = world::blocks(blocks.x, blocks.y - 1.62, blocks.z);
+  play.player.velocity = {0.1, -0.25, 1.0 / 3.0};
+  play.player.yaw_deg = 12.34;
+  play.player.island = 77;
+  play.player.lattice = {1, 2, 3};
+  play.time_of_day_s = 4321.0;
+  play.world_time_s = 17.0 + 1.0 / 3.0;
+  play.player.safe = Footing{77, {-4, 5, 1LL << 40}};
+  play.hotbar.blocks[3] = world::block::kObsidian;
+  play.hotbar.blocks[8] = world::kAir;
+  play.hotbar.selected = 8;
+  play.day_stands = true;
+  return play;
+}
+
+/// Of all kinds of answers that are waiting, those of one.
+template <class Kind>
+std::vector<Kind> heard(Session& session) {
+  std::vector<Kind> found;
+  for (const Answer& answer : session.receive())
+    if (const auto* one = std::get_if<Kind>(&answer)) found.push_back(*one);
+  return found;
+}
+
+EditVerdict verdict_of(Session& session, std::uint64_t island, IVec3 voxel, world::BlockId block) {
+  session.send(Edit{island, voxel, block});
+  session.attend();
+  return heard<EditAnswer>(session).back().verdict;
+}
+
+std::optional<SavedPlay> left_in(Session& session) {
+  session.send(Join{});
+  session.attend();
+  return heard<Joined>(session).back().play;
+}
+
+TEST(Session, ChecksReachKindAndRate) {
+  const Saved saved;
+  const auto session = saved.open();
+  ASSERT_TRUE(session);
+  const std::uint64_t id = saved.island;
+  using V = EditVerdict;
+  const world::BlockId lamp = world::block::kLamp;
+  EXPECT_EQ(verdict_of(*session, id, {1, 3, 1}, lamp), V::kTooFar) << "nobody is there yet";
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  session->advance(0.2);
+  EXPECT_EQ(verdict_of(*session, id, {1, 3, 1}, lamp), V::kDone);
+  EXPECT_EQ(verdict_of(*session, id, {1, 3, 1}, world::block::kStone), V::kOccupied);
+  EXPECT_EQ(verdict_of(*session, id, {2, 3, 1}, world::kAir), V::kEmpty);
+  EXPECT_EQ(verdict_of(*session, id, {2, 3, 1}, world::block::kBuiltInCount), V::kNoSuchBlock);
+  EXPECT_EQ(verdict_of(*session, 5, {2, 3, 1}, lamp), V::kNoSuchIsland);
+  EXPECT_EQ(verdict_of(*session, id, {1, 14, 1}, lamp), V::kTooFar);
+  EXPECT_EQ(verdict_of(*session, id, {1, INT32_MIN, 1}, lamp), V::kTooFar);
+  // 8 blocks and not more, to the voxel's nearest point: from x = 1.5 to x = 9.
+  EXPECT_EQ(verdict_of(*session, id, {9, 5, 1}, lamp), V::kDone);
+  EXPECT_EQ(verdict_of(*session, id, {10, 5, 1}, lamp), V::kTooFar);
+  int done = 0;
+  for (int i = 0; i < 200; ++i)
+    done += verdict_of(*session, id, {2, 4, 1}, i % 2 == 0 ? lamp : world::kAir) == V::kDone;
+  EXPECT_EQ(done, static_cast<int>(kEditBurst) - 2);
+  EXPECT_EQ(verdict_of(*session, id, {3, 4, 1}, lamp), V::kTooFast);
+  session->advance(1.0);
+  EXPECT_EQ(verdict_of(*session, id, {3, 4, 1}, lamp), V::kDone);
+}
+
+TEST(Session, AnswersMessagesInOrder) {
+  const Saved saved;
+  const auto session = saved.open();
+  session->send(Join{"me"});
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  session->send(Edit{saved.island, {1, 3, 1}, world::block::kLamp});
+  session->send(ChunkWanted{saved.island, {0, 0, 0}});
+  session->advance(1.0);
+  const std::vector<Answer> answers = session->receive();
+  ASSERT_EQ(answers.size(), 7u);
+  const Joined& joined = std::get<Joined>(answers[0]);
+  EXPECT_EQ(joined.world.name, "Plates");
+  EXPECT_FALSE(joined.play);
+  EXPECT_FALSE(joined.read_only);
+  EXPECT_EQ(joined.changed.size(), 4u);  // the plate lies about the middle
+  EXPECT_EQ(std::get<TimeIs>(answers[1]).world_time_s, 0.0);
+  EXPECT_EQ(std::get<IslandIs>(answers[2]).spec.id, saved.island);
+  EXPECT_TRUE(std::get<IslandIs>(answers[2]).added);
+  EXPECT_TRUE(std::get<IslandsMoved>(answers[3]).moves.empty());
+  EXPECT_EQ(std::get<EditAnswer>(answers[4]).verdict, EditVerdict::kDone);
+  const ChunkChanges& changes = std::get<ChunkChanges>(answers[5]);
+  // A ninth of each chunk's share of plate, neck and upper plate, and the lamp.
+  EXPECT_EQ(changes.edits.size(), 9u * 9 * 3 + 5 + 4 * 4 * 2 + 1);
+  EXPECT_EQ(std::get<TimeIs>(answers[6]).world_time_s, 1.0);
+  EXPECT_TRUE(session->receive().empty());
+}
+
+TEST(Session, TellsNothingBeforeSomeoneJoins) {
+  const Saved saved;
+  const auto session = saved.open();
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  session->advance(1.0);
+  EXPECT_TRUE(session->receive().empty());
+}
+
+std::optional<world::MotionState> motion_of(Session& session, std::uint64_t island) {
+  session.receive();
+  session.send(Join{});
+  session.attend();
+  std::optional<world::MotionState> found;
+  for (const IslandsMoved& moved : heard<IslandsMoved>(session))
+    for (const world::MovingIsland& move : moved.moves)
+      if (move.island == island) found = move.state;
+  return found;
+}
+
+TEST(Session, EverythingComesBackExactly) {
+  const Saved saved;
+  SavedPlay play = at({101.5, 5.0, 1.5});
+  std::optional<world::MotionState> moving;
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{play});
+    session->send(Steer{saved.island, {0.3, 0.1, 0.9}, 0.5});
+    session->advance(0.1);
+    EXPECT_EQ(verdict_of(*session, saved.island, {1, 3, 1}, world::block::kTorch),
+              EditVerdict::kDone);
+    // The shape comes from the worker; then it flies.
+    for (int i = 0; i < 400; ++i) {
+      session->advance(0.01);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    play.world_time_s = 4.1;
+    session->send(PlayerMoved{play});
+    moving = motion_of(*session, saved.island);
+    ASSERT_TRUE(moving);
+    EXPECT_GT(moving->velocity.z, 0.5);
+    ASSERT_TRUE(session->save());
+    auto other = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
+    ASSERT_FALSE(other) << "two sessions write one world";
+  }
+  const auto session = saved.open();
+  EXPECT_EQ(left_in(*session), play);
+  EXPECT_EQ(session->world()->block_at(saved.island, {1, 3, 1}), world::block::kTorch);
+  const auto found = motion_of(*session, saved.island);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(*found, *moving);
+}
+
+TEST(Session, WhatWasSaidLastIsSavedAndDecidesWhatIsInReach) {
+  const Saved saved;
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{at({150.0, 5.0, 1.5})});
+    session->advance(0.2);
+    const auto verdict = [&] {
+      return verdict_of(*session, saved.island, {1, 3, 1}, world::block::kLamp);
+    };
+    EXPECT_EQ(verdict(), EditVerdict::kTooFar);
+    session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+    EXPECT_EQ(verdict(), EditVerdict::kDone);
+    session->send(PlayerMoved{at({102.5, 5.0, 1.5})});
+    ASSERT_TRUE(session->save());
+    auto read = world::WorldFile::open(saved.path, world::WorldFile::Mode::kRead);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(saved_play(**read), at({102.5, 5.0, 1.5}));
+  }
+}
+
+TEST(Session, SavesWhileTheWorldStandsStill) {
+  const Saved saved;
+  const auto session = saved.open();
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  session->save_next();
+  session->rest();
+  const auto written = [&] {
+    const auto read = world::WorldFile::open(saved.path, world::WorldFile::Mode::kRead);
+    return read && saved_play(**read) == at({101.5, 5.0, 1.5});
+  };
+  for (int i = 0; i < 500 && !written(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(written());
+}
+
+TEST(Session, NonsenseInTheHandsLeavesThePlaceAlone) {
+  const Saved saved;
+  const SavedPlay play = at({101.5, 5.0, 1.5});
+  {
+    auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
+    ASSERT_TRUE(file);
+    auto transaction = (*file)->begin();
+    put_play(transaction, play);
+    transaction.put_value("habits", std::vector<std::byte>(11, std::byte{255}));
+    ASSERT_TRUE(transaction.commit());
+  }
+  auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kRead);
+  ASSERT_TRUE(file);
+  SavedPlay expected = play;
+  expected.hotbar = {};
+  expected.day_stands = false;
+  expected.player.safe.reset();
+  EXPECT_EQ(saved_play(**file), expected);
+  EXPECT_EQ((*file)->damage().size(), 1u);
+}
+
+/// Solid blocks of all islands together.
+std::size_t all_blocks(world::World& world) {
+  std::size_t count = 0;
+  for (const std::uint64_t id : world.added_islands())
+    for (const IVec3& at : world.chunks(id, 0)) {
+      const world::Chunk chunk = world.chunk_now(id, at);
+      for (std::size_t i = 0; i < world::kChunkVoxels; ++i) count += chunk.at(i) != world::kAir;
+    }
+  return count;
+}
+
+TEST(Session, CuttingANeckMakesAnIslandThatIsSaved) {
+  const Saved saved;
+  std::size_t blocks = 0;
+  std::uint64_t piece = 0;
+  {
+    const auto session = saved.open();
+    session->send(Join{"me", true});
+    session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+    session->advance(1.0);
+    blocks = all_blocks(*session->world());
+    ASSERT_EQ(verdict_of(*session, saved.island, saved.neck, world::kAir), EditVerdict::kDone);
+    ASSERT_TRUE(session->save());
+    bool sent = false;
+    for (const Answer& answer : session->receive()) {
+      sent |= std::holds_alternative<ChunkChanges>(answer);
+      if (const auto* added = std::get_if<IslandIs>(&answer)) {
+        piece = added->spec.id;
+        EXPECT_TRUE(added->added);
+        EXPECT_EQ(added->broken_off, saved.island);
+        EXPECT_EQ(added->blocks, 2u + 7 * 7 * 2);
+      }
+    }
+    EXPECT_FALSE(sent) << "the client reads the session's voxels";
+    ASSERT_NE(piece, 0u);
+    EXPECT_EQ(session->world()->added_islands().size(), 2u);
+    EXPECT_EQ(all_blocks(*session->world()), blocks - 1);
+  }
+  const auto session = saved.open();
+  EXPECT_EQ(session->world()->added_islands().size(), 2u);
+  EXPECT_EQ(all_blocks(*session->world()), blocks - 1);
+  EXPECT_TRUE(session->world()->island(piece));
+  EXPECT_TRUE(session->receive().empty()) << "nothing is damaged";
+}
+
+TEST(Session, AFullDiskIsToldAndLosesNothing) {
+  const Saved saved;
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+    session->advance(1.0);
+    ASSERT_EQ(verdict_of(*session, saved.island, {1, 3, 1}, world::block::kLamp),
+              EditVerdict::kDone);
+    const auto before = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{};
+    ::getrlimit(RLIMIT_FSIZE, &limit);
+    const rlimit none{100, limit.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+    const Result<void> failed = session->save();
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, before);
+    ASSERT_FALSE(failed);
+    EXPECT_NE(failed.error().message.find("cannot save"), std::string::npos);
+    EXPECT_EQ(session->world()->block_at(saved.island, {1, 3, 1}), world::block::kLamp);
+  }
+  EXPECT_EQ(saved.open()->world()->block_at(saved.island, {1, 3, 1}), world::block::kLamp);
+}
+
+TEST(Session, AWorldOfASeedIsSavedNowhere) {
+  SceneOptions options;
+  options.seed_text = "4";
+  const auto session = Session::open(options);
+  ASSERT_TRUE(session);
+  EXPECT_TRUE((*session)->save());
+  EXPECT_EQ((*session)->world()->seed(), 4u);
+}
+
+TEST(Session, APlaceFarFromTheMiddleOfAnIslandIsKept) {
+  const Saved saved;
+  SavedPlay play = at({101.5, 5.0, 1.5});
+  play.player.lattice = LatticePos{std::int64_t{300} << 32, 0, -(std::int64_t{900'000} << 32)};
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{play});
+    session->advance(1.0);
+  }
+  EXPECT_EQ(left_in(*saved.open()), play);
+}
+
+TEST(Session, AnIslandAheadOfTheWorldsTimeMovesAllTheSame) {
+  const Saved saved;
+  {
+    auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
+    auto transaction = (*file)->begin();
+    world::IslandSpec spec;
+    spec.id = saved.island;
+    world::MotionState motion;
+    motion.tick = 5'000'000;
+    motion.velocity = {3.0, 0.0, 0.0};
+    transaction.put_island({spec, true, motion});
+    put_play(transaction, at({101.5, 5.0, 1.5}));
+    ASSERT_TRUE(transaction.commit());
+  }
+  const auto session = saved.open();
+  for (int i = 0; i < 200; ++i) {
+    session->advance(0.01);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const auto now = motion_of(*session, saved.island);
+  ASSERT_TRUE(now);
+  EXPECT_GT(world::difference_blocks(now->pose.origin, {}).x, 1.0);
+}
+
+TEST(Session, OnlyWhoStandsOnAnIslandSteersIt) {
+  const Saved saved;
+  const auto session = saved.open();
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  session->advance(1.0);
+  EXPECT_FALSE(motion_of(*session, saved.island)) << "nobody is there yet";
+  SavedPlay play = at({101.5, 5.0, 1.5});
+  play.player.island = saved.island + 1;
+  session->send(PlayerMoved{play});
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  session->advance(0.2);
+  EXPECT_FALSE(motion_of(*session, saved.island)) << "the player is elsewhere";
+  play.player.island = saved.island;
+  session->send(PlayerMoved{play});
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  session->advance(0.2);
+  EXPECT_TRUE(motion_of(*session, saved.island));
+}
+
+TEST(Session, AnIslandThatIsDugAllTheTimeFliesAllTheSame) {
+  const Saved saved;
+  const auto session = saved.open();
+  SavedPlay play = at({101.5, 5.0, 1.5});
+  session->send(PlayerMoved{play});
+  session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  double now_s = 1.0;
+  session->advance(now_s);
+  for (int i = 0; i < 150; ++i) {
+    const world::Pose pose = *session->world()->pose(saved.island, now_s);
+    play.eye.position = world::moved(pose.origin, {1.5, 5.0, 1.5});
+    session->send(PlayerMoved{play});
+    ASSERT_EQ(verdict_of(*session, saved.island, {2, 3, 1},
+                         i % 2 == 0 ? world::BlockId{world::block::kStone} : world::kAir),
+              EditVerdict::kDone);
+    session->advance(0.04);
+    now_s += 0.04;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  const auto now = motion_of(*session, saved.island);
+  ASSERT_TRUE(now);
+  EXPECT_GT(now->velocity.z, 0.5);
+}
+
+/// What edit number n does: lamps come, then go again.
+constexpr std::uint64_t kSpots = 20;
+IVec3 spot_of(std::uint64_t n) {
+  const auto i = static_cast<std::int32_t>(n % kSpots);
+  return {1 + i % 5, 3, 1 + i / 5};
+}
+world::BlockId block_of(std::uint64_t n) {
+  return n / kSpots % 2 == 0 ? world::BlockId{world::block::kLamp} : world::kAir;
+}
+
+/// Plays and saves for ever, and says how far it got.
+[[noreturn]] void play_for_ever(const Saved& saved, std::uint64_t first, int told) {
+  const auto session = saved.open();
+  if (!session) ::_exit(1);
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  for (std::uint64_t n = first;; ++n) {
+    session->advance(1.0);
+    if (verdict_of(*session, saved.island, spot_of(n), block_of(n)) != EditVerdict::kDone ||
+        !session->save() || ::write(told, &n, sizeof n) != sizeof n)
+      ::_exit(1);
+  }
+}
+
+/// Whether a saved world is as it was after so many edits.
+bool is_after(const Saved& saved, std::uint64_t edits) {
+  auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kRead);
+  if (!file) return false;
+  const world::LoadedWorld loaded = world::load_world(**file);
+  if (!(*file)->damage().empty()) return false;
+  for (std::uint64_t spot = 0; spot < kSpots; ++spot) {
+    world::BlockId expected = world::kAir;
+    for (std::uint64_t n = spot; n < edits; n += kSpots) expected = block_of(n);
+    const IVec3 v = spot_of(spot);
+    if (loaded.world->chunk_now(saved.island, world::chunk_of(v)).at(v.x, v.y, v.z) != expected)
+      return false;
+  }
+  return true;
+}
+
+/// SKERRY_KILL_ROUNDS as in tests/world/store/kill_test.cpp.
+TEST(SessionKillTest, WhatWasSavedOutlivesThePlay) {
+  const char* asked = std::getenv("SKERRY_KILL_ROUNDS");
+  const int rounds = asked ? std::atoi(asked) : 8;
+  const Saved saved;
+  std::uint64_t done = 0;
+  for (int round = 0; round < rounds; ++round) {
+    int told[2];
+    ASSERT_EQ(::pipe(told), 0);
+    const pid_t child = ::fork();
+    if (child == 0) play_for_ever(saved, done, told[1]);
+    ::close(told[1]);
+    std::this_thread::sleep_for(std::chrono::microseconds(7919 * round % 150'000));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    std::uint64_t n = 0;
+    while (::read(told[0], &n, sizeof n) == sizeof n) done = n + 1;
+    ::close(told[0]);
+    if (is_after(saved, done)) continue;
+    ++done;  // saved, but killed before it could say so
+    ASSERT_TRUE(is_after(saved, done)) << "round " << round;
+  }
+  EXPECT_GT(done, 0u) << "killed before anything was done";
+}
+
+}  // namespace
+}  // namespace skerry::game
