@@ -83,6 +83,11 @@ class Device {
   /// Memory in use now, by resource name, largest first; and its sum.
   std::vector<MemoryUse> memory_use() const;
   std::uint64_t memory_total() const;
+  /// Allocations made since the device was opened.
+  std::uint64_t allocations() const;
+  /// From now on memory_total() does not grow beyond `bytes`: what would is refused as memory that
+  /// has run out is. What is in use stays.
+  void set_memory_budget(std::uint64_t bytes);
 
   /// Frame timeline: the value the next submit signals; whether a value has been reached; wait for
   /// it; destroy what is retired by then.
@@ -112,6 +117,7 @@ class Device {
   Device();
   void open();
   Result<void> check_image(const VkImageCreateInfo& info, const std::string& name) const;
+  std::uint64_t memory_left() const;
   void account(const std::string& name, std::uint64_t bytes);
   void destroy_retired(std::uint64_t completed);
   void destroy(std::uint64_t object, VkObjectType type);

@@ -64,9 +64,11 @@ struct Allocation {
   VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
 };
 
+/// @param left of the budget.
 Allocation allocate(VkDevice device, const std::vector<std::uint32_t>& types, std::uint64_t size,
-                    const VkMemoryDedicatedAllocateInfo& dedicated) {
+                    std::uint64_t left, const VkMemoryDedicatedAllocateInfo& dedicated) {
   Allocation out;
+  if (size > left) return out;
   for (const std::uint32_t type : types) {
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &dedicated, size, type};
     out.result = vkAllocateMemory(device, &info, nullptr, &out.memory);
@@ -112,7 +114,7 @@ Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
   dedicated.buffer = buffer.handle_;
   const Allocation got =
       allocate(device_, rank_types(state_->memory_types, needs.memoryTypeBits, desc.memory),
-               needs.size, dedicated);
+               needs.size, memory_left(), dedicated);
   if (got.result != VK_SUCCESS) {
     vkDestroyBuffer(device_, buffer.handle_, nullptr);
     return out_of_memory(desc.name, needs.size, state_->memory_total, got.result);
@@ -181,7 +183,7 @@ Result<Image> Device::create_image(const ImageDesc& desc) {
   dedicated.image = image.handle_;
   const Allocation got =
       allocate(device_, rank_types(state_->memory_types, needs.memoryTypeBits, Memory::kDevice),
-               needs.size, dedicated);
+               needs.size, memory_left(), dedicated);
   if (got.result != VK_SUCCESS) {
     vkDestroyImage(device_, image.handle_, nullptr);
     return out_of_memory(desc.name, needs.size, state_->memory_total, got.result);
@@ -229,9 +231,22 @@ std::uint64_t Device::memory_total() const {
   return state_->memory_total;
 }
 
+std::uint64_t Device::memory_left() const {
+  return state_->memory_budget - std::min(state_->memory_total, state_->memory_budget);
+}
+
+std::uint64_t Device::allocations() const {
+  return state_->allocations;
+}
+
+void Device::set_memory_budget(std::uint64_t bytes) {
+  state_->memory_budget = bytes;
+}
+
 void Device::account(const std::string& name, std::uint64_t bytes) {
   state_->memory_by_name[name] += bytes;
   state_->memory_total += bytes;
+  ++state_->allocations;
 }
 
 void Device::retire(std::uint64_t object, VkObjectType type, VkDeviceMemory memory,

@@ -59,7 +59,18 @@ class PassesOnGpu : public gpu::GpuTest {
 
   GeometryStore& store() { return *store_; }
   gpu::Uploader& uploader() { return *uploader_; }
-  ShadowMaps& shadows() { return *shadows_; }
+  /// Decides on cascades as a frame does that is then submitted.
+  std::vector<ActiveCascade> update_shadows(const FrameInput& input, const RenderSettings& settings,
+                                            const GeometryChanges& changes) {
+    ShadowPlan plan =
+        plan_shadows(input, settings, changes, shadow_history_, shadows_->generation());
+    const Result<void> made = shadows_->ensure(plan.layout);
+    EXPECT_TRUE(made);
+    shadow_history_ = std::move(plan.next);
+    shadow_history_.generation = shadows_->generation();
+    return std::move(plan.cascades);
+  }
+  void forget_shadows() { shadow_history_ = {}; }
 
   struct Drawn {
     std::vector<std::uint32_t> words;  ///< G-buffer words, rows from the top
@@ -144,17 +155,16 @@ class PassesOnGpu : public gpu::GpuTest {
   };
   /// Brings the shadow maps up to date and reads all of them.
   DrawnMaps shadow_maps(const FrameInput& input, const RenderSettings& settings) {
-    const auto cascades = shadows_->update(input, settings, store_->changes());
-    EXPECT_TRUE(cascades);
+    const std::vector<ActiveCascade> cascades = update_shadows(input, settings, store_->changes());
     DrawnMaps out;
     std::vector<ShadowDraw> redraw;
-    for (const ActiveCascade& c : *cascades) {
+    for (const ActiveCascade& c : cascades) {
       out.redrawn.push_back(c.redraw);
       if (c.redraw)
         redraw.push_back({static_cast<std::uint32_t>(redraw.size()) + 1, c.layer, "draw_shadow"});
     }
     constexpr VkExtent2D kSize{8, 8};
-    const FrameTables tables = build_tables(input, settings, kSize, *cascades);
+    const FrameTables tables = build_tables(input, settings, kSize, cascades);
     const SceneRefs scene = begin(input, kSize, tables);
     const CulledDraws draws = cull(scene, static_cast<std::uint32_t>(tables.views.size()));
     const Shadows maps =
@@ -251,6 +261,7 @@ class PassesOnGpu : public gpu::GpuTest {
   std::unique_ptr<gpu::FrameGraph> graph_;
   std::unique_ptr<gpu::Uploader> uploader_;
   std::unique_ptr<ShadowMaps> shadows_;
+  ShadowHistory shadow_history_;
   std::unique_ptr<GeometryStore> store_;
   gpu::Buffer indices_;
   std::vector<std::unique_ptr<gpu::Buffer>> tables_;

@@ -25,6 +25,8 @@ struct SceneRefs {
   gpu::BufferRef views;            ///< shared::CullView[view]
   gpu::BufferRef materials;        ///< shared::Material[block id]
   gpu::BufferRef quads, sections;  ///< the geometry store
+  std::uint32_t section_slots = 0;
+  std::uint64_t quads_resident = 0;
   /// The occupancy store; empty without one.
   gpu::BufferRef occupancy_grids, occupancy_tables, occupancy_words;
   gpu::BufferRef light_islands;  ///< FrameInput::light_islands; empty when no light is traced

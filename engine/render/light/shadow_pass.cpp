@@ -1,8 +1,19 @@
 #include "engine/render/light/shadow_pass.h"
 
+#include <array>
+
+#include "engine/render/light/cascades.h"
+
 namespace skerry::render {
 
 using gpu::Use;
+
+const char* shadow_pass_name(int body, int index) {
+  static constexpr std::array<const char*, 8> kNames{
+      "draw_shadow_sun_0",  "draw_shadow_sun_1",  "draw_shadow_sun_2",  "draw_shadow_sun_3",
+      "draw_shadow_moon_0", "draw_shadow_moon_1", "draw_shadow_moon_2", "draw_shadow_moon_3"};
+  return kNames[static_cast<std::size_t>(body * kCascadeCount + index)];
+}
 
 Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                         const CulledDraws& draws, gpu::Image* maps,

@@ -10,6 +10,9 @@ class Image;
 
 namespace skerry::render {
 
+/// Of a body's cascade. @param body 0 the sun, 1 the moon. @param index 0..kCascadeCount - 1.
+const char* shadow_pass_name(int body, int index);
+
 /// One cascade to draw this frame. Cascades whose kept map is still right are not in the list.
 struct ShadowDraw {
   std::uint32_t view = 0;   ///< index of its matrix, island table and draw lists

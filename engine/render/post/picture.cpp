@@ -2,12 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/render/frame/frame_choices.h"
-#include "engine/render/post/bloom_pass.h"
-#include "engine/render/post/develop_pass.h"
-#include "engine/render/post/meter_pass.h"
-#include "engine/render/post/resolve_pass.h"
-
 namespace skerry::render {
 
 /// Makes an image anew unless it has its size already.
@@ -50,35 +44,6 @@ Result<void> Picture::resize(VkExtent2D size, int samples, std::uint32_t parts) 
                          .format = VK_FORMAT_R32G32B32A32_SFLOAT,
                          .extent = size,
                          .usage = VK_IMAGE_USAGE_STORAGE_BIT});
-}
-
-std::optional<Developed> Picture::finish(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                         Captures& captures, SceneRefs& scene, Shaded shaded,
-                                         const FrameInput& input, const RenderSettings& settings) {
-  if (input.fault && input.fault->in == Fault::In::kLookedThrough)
-    shaded = FaultPass::add(graph, std::move(shaded), *input.fault);
-  const int samples = samples_per_edge(settings);
-  if (samples > 1 || input.parts > 1)
-    shaded = ResolvePass::add(graph, pipelines, scene, std::move(shaded),
-                              {samples, image_.desc().extent, input.part, input.parts,
-                               input.parts > 1 ? &total_ : nullptr});
-  if (samples == 1) graph.leave_out("average_samples", "aa.samples=1");
-  if (input.parts == 1) graph.leave_out("accumulate_part", "shadow.samples=1");
-  if (input.part + 1 != input.parts) return std::nullopt;
-  if (input.capture) captures.add(graph, Capture::kRadiance, shaded.radiance());
-  gpu::BufferRef histogram;
-  if (meters(input, settings))
-    histogram = MeterPass::add(graph, pipelines, scene, shaded.radiance(), settings.meter,
-                               !input.exposure_ev);
-  std::optional<Bloom> bloom;
-  if (settings.bloom.intensity > 0.0f)
-    bloom = BloomPass::add(graph, pipelines, scene, shaded.radiance(), settings.bloom);
-  Developed developed = DevelopPass::add(graph, pipelines, scene, std::move(shaded),
-                                         bloom ? &*bloom : nullptr, image_);
-  if (settings.debug_view == DebugView::kExposure)
-    developed =
-        MeterPass::show(graph, pipelines, scene, std::move(developed), histogram, settings.meter);
-  return developed;
 }
 
 }  // namespace skerry::render

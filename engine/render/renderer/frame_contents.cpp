@@ -8,23 +8,23 @@ namespace skerry::render {
 namespace {
 
 void find_water(FrameFeatures& features, const FrameInput& input, const FrameTables& tables,
-                const GeometryStore& geometry) {
+                const SceneFacts& facts) {
   if (input.camera_medium != 0 || !features.has(Feature::kWater)) return;
-  if (geometry.translucent_quads() == 0)
+  if (facts.translucent_quads == 0)
     features.set_absent(Feature::kWater, "no translucent block is resident");
-  else if (!ranges_in_view(geometry.records(), tables.islands, tables.views[0],
+  else if (!ranges_in_view(facts.sections, tables.islands, tables.views[0],
                            shared::kRangeTranslucent, shared::kRangeCount))
     features.set_absent(Feature::kWater, "no translucent block is in view");
 }
 
 std::vector<bool> find_cutouts(FrameFeatures& features, const FrameTables& tables,
-                               const GeometryStore& geometry) {
+                               const SceneFacts& facts) {
   std::vector<bool> in_view(tables.views.size(), false);
-  if (geometry.cutout_quads() == 0)
+  if (facts.cutout_quads == 0)
     features.set_absent(Feature::kCutouts, "no cut-out block is resident");
   if (!features.has(Feature::kCutouts)) return in_view;
   for (std::size_t view = 0; view < in_view.size(); ++view)
-    in_view[view] = ranges_in_view(geometry.records(), tables.islands, tables.views[view],
+    in_view[view] = ranges_in_view(facts.sections, tables.islands, tables.views[view],
                                    shared::kRangeCutout, shared::kRangeTranslucent);
   if (std::find(in_view.begin(), in_view.end(), true) == in_view.end())
     features.set_absent(Feature::kCutouts, "no cut-out block is in view of camera or lights");
@@ -32,10 +32,9 @@ std::vector<bool> find_cutouts(FrameFeatures& features, const FrameTables& table
 }
 
 std::vector<shared::Light> find_lights(FrameFeatures& features, const FrameInput& input,
-                                       const FrameTables& tables, const GeometryStore& geometry) {
+                                       const FrameTables& tables, const SceneFacts& facts) {
   if (input.lights.empty()) features.set_absent(Feature::kLights, "there are no lights");
-  if (geometry.sections_resident() == 0)
-    features.set_absent(Feature::kLights, "no geometry is resident");
+  if (!facts.has_geometry()) features.set_absent(Feature::kLights, "no geometry is resident");
   if (!features.has(Feature::kLights)) return {};
   std::vector<shared::Light> in_view = lights_in_view(input.lights, tables.views[0]);
   if (in_view.empty()) features.set_absent(Feature::kLights, "no light reaches the view");
@@ -46,7 +45,7 @@ std::vector<shared::Light> find_lights(FrameFeatures& features, const FrameInput
 
 FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
                           const FrameTables& tables, const shared::SkyConstants& sky,
-                          const GeometryStore& geometry, bool cloud_volumes) {
+                          const SceneFacts& facts) {
   FrameContents out{FrameFeatures(settings.leave_out), {}, {}};
   FrameFeatures& features = out.features;
   if (!input.sky.sun_casts) features.set_absent(Feature::kSun, "the sun is below the horizon");
@@ -57,11 +56,11 @@ FrameContents contents_of(const FrameInput& input, const RenderSettings& setting
   if (sky.stars == 0.0f) features.set_absent(Feature::kStars, "it is not dark enough");
   if (!disc_in_view(input.sky, tables.constants))
     features.set_absent(Feature::kDiscs, "sun and moon are outside the picture or have set");
-  if (settings.clouds.coverage == 0.0f && !cloud_volumes)
+  if (settings.clouds.coverage == 0.0f && facts.clouds.volumes.empty())
     features.set_absent(Feature::kClouds, "clouds.coverage=0 and there is no cloud of a file");
-  find_water(features, input, tables, geometry);
-  out.cutouts_in_view = find_cutouts(features, tables, geometry);
-  out.lights = find_lights(features, input, tables, geometry);
+  find_water(features, input, tables, facts);
+  out.cutouts_in_view = find_cutouts(features, tables, facts);
+  out.lights = find_lights(features, input, tables, facts);
   return out;
 }
 

@@ -3,7 +3,7 @@
 
 #include "engine/render/frame/features.h"
 #include "engine/render/renderer/frame_tables.h"
-#include "engine/render/scene/geometry_store.h"
+#include "engine/render/renderer/scene_facts.h"
 #include "shaders/shared/sky.h"
 
 namespace skerry::render {
@@ -16,10 +16,10 @@ struct FrameContents {
 };
 
 /// Asked of the tables as they are before culling is frozen: a frozen camera changes what is drawn,
-/// never which passes a picture has. @param cloud_volumes whether there are clouds of files.
+/// never which passes a picture has.
 FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
                           const FrameTables& tables, const shared::SkyConstants& sky,
-                          const GeometryStore& geometry, bool cloud_volumes);
+                          const SceneFacts& facts);
 
 /// Slices of depth in which lights show without a surface: about an eye in water, and in clouds.
 std::uint32_t marked_slices(const FrameInput& input, const FrameContents& contents);

@@ -2,103 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <array>
+#include <utility>
 
 #include "engine/core/check.h"
-#include "engine/render/sky/sky_model.h"
 
 namespace skerry::render {
 namespace {
 
 using gpu::Use;
 
-/// The layer drifts [blocks/s].
-constexpr glm::dvec2 kWind{5.0, 2.0};
 constexpr std::uint32_t kLightGroup = 4, kColumnGroup = 8;
 constexpr std::uint32_t kNoiseEdge = shared::kCloudNoiseEdge;
 
 constexpr VkImageUsageFlags kBaked = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
 constexpr VkImageUsageFlags kFilled = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-
-/// Radiance of the sky, mean of all directions: a spiral over the sphere.
-glm::dvec3 mean_sky(const shared::SkyConstants& sky) {
-  constexpr int kDirections = 96;
-  constexpr double kGoldenAngle = 2.399963229728653;
-  glm::dvec3 sum(0.0);
-  for (int i = 0; i < kDirections; ++i) {
-    const double y = 1.0 - (2.0 * i + 1.0) / kDirections, r = std::sqrt(1.0 - y * y);
-    sum += sky_radiance({r * std::sin(kGoldenAngle * i), y, r * std::cos(kGoldenAngle * i)}, sky);
-  }
-  return sum / double{kDirections};
-}
-
-/// A fixed-point place in a period of `period` blocks, exactly; 0..period.
-double in_period(std::int64_t units, double drift_blocks, std::int64_t period) {
-  const std::int64_t whole = period * 65536;
-  const std::int64_t rest = ((units % whole) + whole) % whole;
-  const double place =
-      static_cast<double>(rest) / 65536.0 - std::fmod(drift_blocks, static_cast<double>(period));
-  const double wrapped = std::fmod(place, static_cast<double>(period));
-  return wrapped < 0.0 ? wrapped + static_cast<double>(period) : wrapped;
-}
-
-shared::CloudLayer layer_of(const FrameInput& input, const CloudSettings& settings) {
-  const FixedPos& camera = input.camera.position;
-  const auto at = [&](int axis, double wind) {
-    return static_cast<float>(in_period(
-        camera[static_cast<std::size_t>(axis)] - input.anchor[static_cast<std::size_t>(axis)],
-        wind * input.time_s, shared::kLayerPeriod));
-  };
-  const double height =
-      static_cast<double>(camera[1] - input.anchor[1]) / 65536.0 - settings.altitude;
-  return {{at(0, kWind.x), static_cast<float>(height), at(2, kWind.y)},
-          settings.thickness,
-          settings.density,
-          settings.coverage};
-}
-
-/// Of the hottest place: a fire's orange.
-constexpr glm::vec3 kFlame{1.0f, 0.42f, 0.10f};
-
-shared::CloudVolume volume_of(const CloudVolumeDesc& desc, const PackedVolume& packed,
-                              const FixedPos& camera, const CloudSettings& settings,
-                              std::uint32_t slot) {
-  const glm::dvec3 offset{static_cast<double>(camera[0] - desc.origin[0]) / 65536.0,
-                          static_cast<double>(camera[1] - desc.origin[1]) / 65536.0,
-                          static_cast<double>(camera[2] - desc.origin[2]) / 65536.0};
-  const glm::dmat4 inverse = glm::inverse(desc.blocks_from_index);
-  const glm::dvec3 middle(inverse * glm::dvec4(offset, 1.0));
-  const auto row = [&](int r) {
-    return glm::vec4(inverse[0][r], inverse[1][r], inverse[2][r], middle[r]);
-  };
-  shared::CloudVolume out{};
-  out.index_x = row(0);
-  out.index_y = row(1);
-  out.index_z = row(2);
-  out.low = packed.low;
-  out.high = packed.high;
-  if (desc.role == CloudRole::kDensity)
-    out.extinction = packed.value_range * settings.file_density;
-  else
-    out.emission = kFlame * settings.file_emission;
-  const glm::dvec3 extent(packed.high - packed.low);
-  const glm::dmat3 axes(desc.blocks_from_index);
-  double diagonal = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-    diagonal += glm::dot(axes[axis], axes[axis]) * extent[axis] * extent[axis];
-  out.step_blocks = static_cast<float>(std::sqrt(diagonal) / settings.steps);
-  out.first_cell = packed.first_cell;
-  out.cell_count = packed.cell_count;
-  out.cell_low = packed.cell_low;
-  out.light_texels = packed.light_texels;
-  for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
-    out.light_first[body] =
-        static_cast<float>((slot * shared::kBodyCount + body) * shared::kVolumeLightEdge);
-  return out;
-}
 
 /// Of the bricks' image. Errors: the device cannot filter it.
 Result<VkFormat> brick_format(gpu::Device& device, CloudPrecision precision) {
@@ -116,24 +34,6 @@ Result<VkFormat> brick_format(gpu::Device& device, CloudPrecision precision) {
 }
 
 }  // namespace
-
-shared::CloudConstants cloud_constants(const FrameInput& input, const CloudSettings& settings,
-                                       const shared::SkyConstants& sky,
-                                       std::span<const CloudVolumeDesc> volumes,
-                                       std::span<const PackedVolume> packed) {
-  shared::CloudConstants out{};
-  out.lights[0] = {glm::vec3(input.sky.to_sun), input.sky.sun_irradiance};
-  out.lights[1] = {glm::vec3(input.sky.to_moon), input.sky.moon_irradiance};
-  if (input.sky.sun_casts || input.sky.moon_casts)
-    out.sky_above = glm::vec3(mean_sky(sky)) * air_light(input.sky);
-  out.shadow_steps = static_cast<float>(settings.shadow_steps);
-  out.steps = static_cast<float>(settings.steps);
-  out.layer = layer_of(input, settings);
-  for (std::size_t v = 0; v < volumes.size(); ++v)
-    out.volumes[v] = volume_of(volumes[v], packed[v], input.camera.position, settings,
-                               static_cast<std::uint32_t>(v));
-  return out;
-}
 
 Result<void> Clouds::set_volumes(gpu::Uploader& uploader, std::span<const CloudVolumeDesc> volumes,
                                  CloudPrecision precision) {
@@ -177,13 +77,12 @@ Result<void> Clouds::set_volumes(gpu::Uploader& uploader, std::span<const CloudV
   cells_ = std::move(cells);
   brick_count_ = atlas->brick_count;
   volume_light_ = {};
-  lit_ = {};
+  ++light_generation_;
   return {};
 }
 
-void Clouds::forget() {
-  noise_baked_ = false;
-  lit_ = {};
+CloudFacts Clouds::facts() const {
+  return {volumes_, packed_, noise_generation_, light_generation_};
 }
 
 std::uint64_t Clouds::atlas_bytes() const {
@@ -192,7 +91,7 @@ std::uint64_t Clouds::atlas_bytes() const {
 
 Result<void> Clouds::make_noise() {
   if (billows_) return {};
-  noise_baked_ = false;
+  ++noise_generation_;
   const auto make = [&](gpu::Image& image, const char* name, std::uint32_t layers) -> Result<void> {
     Result<gpu::Image> made = device_.create_image({.name = name,
                                                     .format = VK_FORMAT_R8G8B8A8_UNORM,
@@ -208,9 +107,9 @@ Result<void> Clouds::make_noise() {
   return make(billows_, "cloud billows", shared::kCloudNoiseLayers);
 }
 
-Result<void> Clouds::make_layer(const CloudSettings& settings) {
+Result<void> Clouds::make_layer(std::uint32_t shadow_steps) {
   if (Result<void> ok = make_noise(); !ok) return ok;
-  const auto slices = static_cast<std::uint32_t>(settings.shadow_steps + 1) * shared::kBodyCount;
+  const auto slices = (shadow_steps + 1) * shared::kBodyCount;
   if (layer_light_ && layer_light_.desc().depth == slices) return {};
   layer_light_ = {};
   Result<gpu::Image> made =
@@ -226,6 +125,7 @@ Result<void> Clouds::make_layer(const CloudSettings& settings) {
 
 Result<void> Clouds::make_volume_light() {
   if (volume_light_) return {};
+  ++light_generation_;
   Result<gpu::Image> made =
       device_.create_image({.name = "cloud volume light",
                             .format = VK_FORMAT_R16_SFLOAT,
@@ -238,12 +138,11 @@ Result<void> Clouds::make_volume_light() {
   return {};
 }
 
-Result<void> Clouds::prepare(gpu::Uploader& uploader, const FrameInput& input,
-                             const RenderSettings& settings, const shared::SkyConstants& sky) {
-  layer_ = settings.clouds.coverage > 0.0f;
-  if (layer_)
-    if (Result<void> ok = make_layer(settings.clouds); !ok) return ok;
-  if (has_volumes() && (input.sky.sun_casts || input.sky.moon_casts))
+Result<void> Clouds::prepare(gpu::Uploader& uploader, const CloudPlan& plan) {
+  if (plan.layer)
+    if (Result<void> ok = make_layer(static_cast<std::uint32_t>(plan.constants.shadow_steps)); !ok)
+      return ok;
+  if (plan.volume_light)
     if (Result<void> ok = make_volume_light(); !ok) return ok;
   const std::array<std::pair<VkSampler*, gpu::SamplerDesc>, 3> samplers{{
       {&repeating_, {.address = VK_SAMPLER_ADDRESS_MODE_REPEAT}},
@@ -257,27 +156,26 @@ Result<void> Clouds::prepare(gpu::Uploader& uploader, const FrameInput& input,
   }
   if (!constants_buffer_) {
     Result<gpu::Buffer> made = device_.create_buffer(
-        {"cloud constants", sizeof(constants_),
+        {"cloud constants", sizeof(shared::CloudConstants),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
          gpu::Memory::kDevice});
     if (!made) return made.error();
     constants_buffer_ = *std::move(made);
   }
-  constants_ = cloud_constants(input, settings.clouds, sky, volumes_, packed_);
-  uploader.write(constants_buffer_, 0, std::span<const shared::CloudConstants>(&constants_, 1));
+  uploader.write(constants_buffer_, 0, std::span<const shared::CloudConstants>(&plan.constants, 1));
   return {};
 }
 
-void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, CloudRefs& refs) {
+void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool bake,
+                       CloudRefs& refs) {
   refs.weather = graph.import(weather_);
   refs.shapes = graph.import(shapes_);
   refs.billows = graph.import(billows_);
-  if (noise_baked_) {
+  if (!bake) {
     for (const char* name : {"bake_cloud_noise", "pack_cloud_noise"})
       graph.leave_out(name, "it is kept from an earlier frame");
     return;
   }
-  noise_baked_ = true;
   constexpr std::uint32_t kGroups = kNoiseEdge / kColumnGroup;
   gpu::ImageRef noise = graph.create(gpu::ImageDesc{.name = "cloud noise",
                                                     .format = VK_FORMAT_R8G8B8A8_UNORM,
@@ -337,17 +235,10 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
 }
 
 void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                              std::uint32_t bodies, CloudRefs& refs) {
+                              std::span<const shared::CloudLightJob> light_jobs, CloudRefs& refs) {
   std::vector<std::pair<shared::CloudLightJob, glm::ivec3>> jobs;
-  for (std::uint32_t v = 0; v < refs.volumes; ++v)
-    for (std::uint32_t body = 0; body < shared::kBodyCount; ++body) {
-      if (!(bodies & 1u << body)) continue;
-      const LitAs now{true, constants_.lights[body].to_light, constants_.shadow_steps,
-                      constants_.volumes[v].extinction};
-      if (lit_[v][body] == now) continue;
-      lit_[v][body] = now;
-      jobs.push_back({{v, body}, packed_[v].light_texels});
-    }
+  for (const shared::CloudLightJob& job : light_jobs)
+    jobs.emplace_back(job, packed_[job.volume].light_texels);
   if (jobs.empty()) {
     graph.leave_out("trace_cloud_volumes", "kept from an earlier frame: the light has not moved");
     return;
@@ -376,7 +267,7 @@ void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
 }
 
 void Clouds::add_light_of_bodies(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                 std::uint32_t bodies, CloudRefs& refs) {
+                                 std::uint32_t bodies, const CloudPlan& plan, CloudRefs& refs) {
   if (bodies == 0) {
     for (const char* name : {"trace_cloud_layer", "trace_cloud_volumes"})
       graph.leave_out(name, "neither sun nor moon gives light");
@@ -384,30 +275,30 @@ void Clouds::add_light_of_bodies(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   }
   for (std::uint32_t body = 0; refs.layer && body < shared::kBodyCount; ++body)
     if (bodies & 1u << body) add_layer_light(graph, pipelines, body, refs);
-  if (refs.volumes == 0) return;
+  if (!plan.volume_light) return;
   refs.volume_light = graph.import(volume_light_);
-  add_volume_light(graph, pipelines, bodies, refs);
+  add_volume_light(graph, pipelines, plan.light_jobs, refs);
 }
 
 CloudRefs Clouds::add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                            const SceneRefs& scene) {
+                            const SceneRefs& scene, const CloudPlan& plan) {
   CloudRefs refs;
   refs.constants = graph.import(constants_buffer_);
   refs.repeating = repeating_;
   refs.linear = linear_;
   refs.nearest = nearest_;
-  refs.layer = layer_;
+  refs.layer = plan.layer;
   refs.volumes = static_cast<std::uint32_t>(volumes_.size());
   SKERRY_ASSERT(refs.layer || refs.volumes != 0);
   if (refs.layer) {
-    add_noise(graph, pipelines, refs);
+    add_noise(graph, pipelines, plan.bake_noise, refs);
     refs.layer_light = graph.import(layer_light_);
   }
   if (refs.volumes != 0) {
     refs.bricks = graph.import(bricks_);
     refs.cells = graph.import(cells_);
   }
-  add_light_of_bodies(graph, pipelines, scene.bodies, refs);
+  add_light_of_bodies(graph, pipelines, scene.bodies, plan, refs);
   // What there is none of is never read; something is bound so that every binding is valid.
   if (!refs.layer) {
     refs.weather = scene.sky_lut;

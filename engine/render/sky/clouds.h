@@ -4,20 +4,11 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/uploader.h"
 #include "engine/render/frame/cloud_refs.h"
-#include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/scene_refs.h"
-#include "engine/render/frame/settings.h"
 #include "engine/render/sky/cloud_atlas.h"
-#include "shaders/shared/clouds.h"
-#include "shaders/shared/sky.h"
+#include "engine/render/sky/cloud_plan.h"
 
 namespace skerry::render {
-
-/// What of a frame's clouds changes from frame to frame. @param volumes as they were packed.
-shared::CloudConstants cloud_constants(const FrameInput& input, const CloudSettings& settings,
-                                       const shared::SkyConstants& sky,
-                                       std::span<const CloudVolumeDesc> volumes,
-                                       std::span<const PackedVolume> packed);
 
 /// Clouds on the GPU: the layer's noise, volumes' bricks, and how much light comes through either.
 /// Nothing is made before a frame has clouds.
@@ -35,47 +26,37 @@ class Clouds {
   std::uint32_t brick_count() const { return brick_count_; }
   std::uint64_t atlas_bytes() const;
 
-  /// Makes what a frame with clouds needs, and takes its constants to the GPU.
-  /// @pre the frame has clouds. Errors: out of memory.
-  Result<void> prepare(gpu::Uploader& uploader, const FrameInput& input,
-                       const RenderSettings& settings, const shared::SkyConstants& sky);
+  /// What there is now, for plan_clouds().
+  CloudFacts facts() const;
+
+  /// Makes what a frame with clouds needs, and takes its constants to the GPU. Errors: out of
+  /// memory.
+  Result<void> prepare(gpu::Uploader& uploader, const CloudPlan& plan);
   /// Adds the passes that find out how much light of the frame's bodies comes through.
   /// @pre prepare()
-  CloudRefs add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene);
-  /// What add_light() has added was not executed: images that are kept are to be filled again.
-  void forget();
+  CloudRefs add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                      const CloudPlan& plan);
 
  private:
-  Result<void> make_layer(const CloudSettings& settings);
+  Result<void> make_layer(std::uint32_t shadow_steps);
   Result<void> make_volume_light();
   Result<void> make_noise();
-  void add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, CloudRefs& refs);
+  void add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool bake, CloudRefs& refs);
   void add_light_of_bodies(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t bodies,
-                           CloudRefs& refs);
+                           const CloudPlan& plan, CloudRefs& refs);
   void add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t body,
                        CloudRefs& refs) const;
-  void add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t bodies,
-                        CloudRefs& refs);
-
-  /// What a volume's light depends on besides the volume.
-  struct LitAs {
-    bool valid = false;
-    glm::vec3 to_light{0.0f};
-    float steps = 0.0f, extinction = 0.0f;
-    bool operator==(const LitAs&) const = default;
-  };
+  void add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                        std::span<const shared::CloudLightJob> light_jobs, CloudRefs& refs);
 
   gpu::Device& device_;
   gpu::Buffer constants_buffer_;
   gpu::Image weather_, shapes_, billows_, layer_light_, cells_, bricks_, volume_light_;
-  bool noise_baked_ = false;
   VkSampler repeating_{}, linear_{}, nearest_{};
   std::vector<CloudVolumeDesc> volumes_;  // without bricks and tiles
   std::vector<PackedVolume> packed_;
   std::uint32_t brick_count_ = 0;
-  shared::CloudConstants constants_{};
-  bool layer_ = false;
-  std::array<std::array<LitAs, shared::kBodyCount>, shared::kMaxCloudVolumes> lit_;
+  std::uint64_t noise_generation_ = 0, light_generation_ = 0;  // see CloudFacts
 };
 
 }  // namespace skerry::render

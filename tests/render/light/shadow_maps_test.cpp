@@ -23,9 +23,7 @@ class KeptShadowMaps : public PassesOnGpu {
 
   std::vector<ActiveCascade> update(const RenderSettings& settings = {}) {
     input_.islands = islands_;
-    const auto cascades = shadows().update(input_, settings, geometry_);
-    EXPECT_TRUE(cascades);
-    return {cascades->begin(), cascades->end()};
+    return update_shadows(input_, settings, geometry_);
   }
 };
 
@@ -47,7 +45,7 @@ TEST_F(KeptShadowMaps, AreDrawnAfreshWhenAnyPointOfAnIslandMovedByAQuarterTexel)
   input_.sky = afternoon();
   int kept = 0, redrawn = 0;
   for (int round = 0; round < 300; ++round) {
-    shadows().forget();
+    forget_shadows();
     const double radius = random.uniform(10.0, 3000.0);
     islands_ = {{fixed_at(random.in_box(500.0)), random.turn(), radius}};
     const IslandPlacement before = islands_[0];
@@ -183,7 +181,7 @@ TEST_F(KeptShadowMaps, ACameraThatMovesLessThanATexelChangesNoTexel) {
     input_.camera.position = fixed_at(random.in_box(0.05));
     const DrawnMaps kept = shadow_maps(input_, settings);
     EXPECT_EQ(kept.texels, first.texels);
-    shadows().forget();
+    forget_shadows();
     const DrawnMaps fresh = shadow_maps(input_, settings);
     EXPECT_EQ(fresh.redrawn, std::vector<bool>(4, true));
     EXPECT_EQ(fresh.texels, first.texels) << "drawn again in the same window, step " << i;
@@ -205,7 +203,7 @@ TEST_F(KeptShadowMaps, AreTheSameToTheLastBitAnywhereInTheWorld) {
     input_.islands = islands_;
     input_.camera.position = offset;
     input_.anchor = offset;
-    shadows().forget();
+    forget_shadows();
     const DrawnMaps maps = shadow_maps(input_, settings);
     if (bits == 0) first = maps.texels;
     EXPECT_EQ(maps.texels, first) << bits;

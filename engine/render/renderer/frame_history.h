@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "engine/render/frame/frame_input.h"
+#include "engine/render/light/shadow_plan.h"
+#include "engine/render/sky/cloud_plan.h"
+#include "shaders/shared/geometry.h"
+#include "shaders/shared/sky.h"
+
+namespace skerry::render {
+
+/// Where the camera and the islands were, for what is compared between frames.
+struct PreviousFrame {
+  Camera camera;
+  FixedPos anchor{};
+  std::vector<IslandPlacement> islands;
+};
+
+/// The camera that culling has been frozen with.
+struct FrozenView {
+  shared::CullView view{};
+  FixedPos position{};
+};
+
+/// What earlier frames have left behind. plan_frame() reads one and makes the next; it takes effect
+/// when the frame has been submitted, so that a frame that fails half-way changes nothing.
+struct FrameHistory {
+  ShadowHistory shadows;
+  std::optional<shared::SkyConstants> baked_sky;  ///< that the sky table shows; none: nothing yet
+  CloudHistory clouds;
+  std::optional<FrozenView> frozen;
+  std::optional<PreviousFrame> previous;  ///< none before the first frame
+};
+
+}  // namespace skerry::render

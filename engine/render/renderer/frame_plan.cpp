@@ -1,0 +1,17 @@
+#include "engine/render/renderer/frame_plan.h"
+
+#include "engine/render/frame/frame_choices.h"
+
+namespace skerry::render {
+
+bool FramePlan::shows_channel() const {
+  return geometry && render::shows_channel(settings);
+}
+
+bool FramePlan::lights() const {
+  const bool wanted = !shows_channel() || settings.debug_view == DebugView::kClusters ||
+                      settings.debug_view == DebugView::kLightCount;
+  return geometry && wanted && contents.features.has(Feature::kLights);
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "engine/gpu/frame_graph.h"
+#include "engine/render/frame/frame_input.h"
+#include "engine/render/frame/settings.h"
+#include "engine/render/light/shadow_plan.h"
+#include "engine/render/renderer/frame_contents.h"
+#include "engine/render/renderer/frame_history.h"
+#include "engine/render/renderer/frame_tables.h"
+#include "engine/render/renderer/scene_facts.h"
+#include "engine/render/sky/cloud_plan.h"
+#include "shaders/shared/marker.h"
+
+namespace skerry::render {
+
+/// One frame, decided: what is drawn, in which steps, and what it will leave behind. Plain values;
+/// nothing has been made or recorded. Spans of `input` and of the facts must outlive it.
+struct FramePlan {
+  FrameInput input;               ///< as drawn: without what is left out, with the sky of its part
+  RenderSettings settings;        ///< as asked
+  VkExtent2D picture{}, drawn{};  ///< `drawn` has aa.samples times as many pixels
+  bool geometry = false;          ///< sections are resident
+  shared::SkyConstants sky{};     ///< of the whole picture, not of its part
+  bool bake_sky = false;          ///< else the sky table of an earlier frame is kept
+  bool corners = false;           ///< they darken
+  bool direct = false;            ///< shading writes the picture itself
+  ShadowPlan shadows{};
+  FrameTables tables{};
+  FrameContents contents;
+  std::optional<CloudPlan> clouds{};                ///< none: the frame has none
+  std::optional<shared::MarkerConstants> marker{};  ///< none: none is in view
+  std::uint32_t marked_slices = 0;                  ///< see ClusterPicture
+
+  std::vector<std::size_t> steps{};      ///< indices of frame_steps(), in order
+  std::vector<gpu::LeftOut> left_out{};  ///< passes and features it lacks, with reasons
+  FrameHistory next{};                   ///< without generations of images, which are not made yet
+
+  bool shows_channel() const;  ///< a debug view takes the place of the lit scene
+  bool last_part() const { return input.part + 1 == input.parts; }
+  bool lights() const;  ///< the frame's lights are sorted
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,130 @@
+#include "engine/render/renderer/plan_frame.h"
+
+#include <array>
+#include <cstring>
+#include <string>
+
+#include "engine/core/check.h"
+#include "engine/render/frame/frame_choices.h"
+#include "engine/render/light/shadow_pass.h"
+#include "engine/render/renderer/frame_steps.h"
+#include "engine/render/sky/sky_model.h"
+#include "engine/render/surface/marker_pass.h"
+
+namespace skerry::render {
+namespace {
+
+/// The input as it is drawn: contradictions are settled, and what is left out is gone.
+FrameInput drawn_input(const FrameInput& asked, const RenderSettings& settings) {
+  FrameInput input = asked;
+  input.sky = sky_without(asked.sky, settings.leave_out);
+  if (shows_channel(settings)) input.part = 0, input.parts = 1;
+  if (input.part + 1 != input.parts) input.capture = false;
+  if (settings.leave_out.has(Feature::kWater)) input.camera_medium = 0;
+  SKERRY_ASSERT(input.islands.size() <= shared::kMaxIslands);
+  return input;
+}
+
+void plan_culling(FramePlan& plan, const FrameHistory& history) {
+  if (!plan.input.freeze_culling) return;
+  shared::CullView& camera = plan.tables.views[0];
+  plan.next.frozen =
+      history.frozen ? history.frozen : FrozenView{camera, plan.input.camera.position};
+  camera = plan.next.frozen->view;
+  shift_view(camera, plan.next.frozen->position, plan.input.camera.position);
+}
+
+void plan_sky(FramePlan& plan, const FrameHistory& history) {
+  plan.bake_sky =
+      !history.baked_sky || std::memcmp(&*history.baked_sky, &plan.sky, sizeof(plan.sky)) != 0;
+  plan.next.baked_sky = plan.sky;
+  // A table that is broken on purpose is made again by the next frame.
+  if (plan.input.fault && plan.input.fault->in == Fault::In::kSkyTable) plan.next.baked_sky.reset();
+}
+
+void plan_marker(FramePlan& plan) {
+  if (!plan.input.marker || !plan.geometry || plan.shows_channel()) return;
+  const BlockMarker& marker = *plan.input.marker;
+  plan.marker =
+      marker_constants(marker, plan.input.islands[marker.island], plan.input.camera, plan.picture);
+}
+
+/// Why passes are absent that no step stands for alone: features, and cascades that are kept.
+void explain_contents(FramePlan& plan) {
+  const FrameFeatures& features = plan.contents.features;
+  for (std::size_t i = 0; i < kFeatureNames.size(); ++i)
+    if (const char* why = features.why_not(static_cast<Feature>(i)))
+      plan.left_out.push_back({std::string(kFeatureNames[i]), why});
+  if (!plan.corners)
+    plan.left_out.push_back(
+        {"corners", plan.settings.flat_shading ? "shading=flat" : "ao.strength=0"});
+  for (const ActiveCascade& cascade : plan.shadows.cascades)
+    if (!cascade.redraw)
+      plan.left_out.push_back(
+          {shadow_pass_name(cascade.body, cascade.index),
+           "kept from an earlier frame: light, window, geometry and islands have not moved"});
+  if (!plan.geometry) return;
+  for (const Feature body : {Feature::kSun, Feature::kMoon}) {
+    const char* why = features.why_not(body);
+    if (!why && !plan.settings.shadows) why = "shadow.enabled=0";
+    if (why)
+      plan.left_out.push_back(
+          {body == Feature::kSun ? "draw_shadow_sun" : "draw_shadow_moon", why});
+  }
+}
+
+void plan_steps(FramePlan& plan) {
+  const std::span<const FrameStep> all = frame_steps();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const char* why = all[i].why_not(plan);
+    if (!why) {
+      plan.steps.push_back(i);
+      continue;
+    }
+    for (const std::string_view pass : all[i].passes)
+      plan.left_out.push_back({std::string(pass), why});
+  }
+}
+
+}  // namespace
+
+FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
+                     const FrameHistory& history) {
+  const RenderSettings& settings = request.settings;
+  FramePlan plan{.input = drawn_input(request.input, settings),
+                 .settings = settings,
+                 .picture = request.size,
+                 .contents = {FrameFeatures(settings.leave_out), {}, {}}};
+  const auto samples = static_cast<std::uint32_t>(samples_per_edge(settings));
+  plan.drawn = {request.size.width * samples, request.size.height * samples};
+  plan.geometry = facts.has_geometry();
+  plan.sky = sky_constants(plan.input.sky);
+  plan.input.sky = sky_of_part(plan.input.sky, plan.input.part, plan.input.parts);
+  if (plan.geometry)
+    plan.shadows = plan_shadows(plan.input, settings, *facts.changes, history.shadows,
+                                facts.shadow_generation);
+  plan.tables = build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades);
+  plan.tables.constants.picture_size = {request.size.width, request.size.height};
+  plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky, facts);
+  plan.corners = facts.occupancy && settings.corner_darkening > 0.0f && !settings.flat_shading;
+  plan.direct = !plan.shows_channel() &&
+                !(plan.geometry && plan.contents.features.has(Feature::kWater)) &&
+                !by_radiance(plan.input, settings, plan.contents.features);
+  plan.marked_slices = marked_slices(plan.input, plan.contents);
+  plan.next.shadows = plan.geometry ? plan.shadows.next : history.shadows;
+  plan.next.clouds = history.clouds;
+  if (plan.contents.features.has(Feature::kClouds)) {
+    plan.clouds = plan_clouds(plan.input, settings.clouds, plan.sky, facts.clouds, history.clouds);
+    plan.next.clouds = plan.clouds->next;
+  }
+  plan_culling(plan, history);
+  plan_sky(plan, history);
+  plan_marker(plan);
+  plan.next.previous = PreviousFrame{
+      plan.input.camera, plan.input.anchor, {plan.input.islands.begin(), plan.input.islands.end()}};
+  explain_contents(plan);
+  plan_steps(plan);
+  return plan;
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,18 @@
+#pragma once
+#include "engine/render/renderer/frame_plan.h"
+
+namespace skerry::render {
+
+/// A picture as it is asked for.
+struct PictureRequest {
+  const FrameInput& input;
+  const RenderSettings& settings;
+  VkExtent2D size{};  ///< of the picture [pixels]
+};
+
+/// Decides a frame. A function of its arguments alone: the same request, facts and history give the
+/// same plan.
+FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
+                     const FrameHistory& history);
+
+}  // namespace skerry::render

@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "engine/render/scene/geometry_changes.h"
+#include "engine/render/sky/cloud_plan.h"
+#include "shaders/shared/geometry.h"
+
+namespace skerry::render {
+
+/// What is resident before a frame is planned, as values. The spans and `changes` live as long as
+/// the stores do not change.
+struct SceneFacts {
+  std::span<const shared::Section> sections;  ///< one a slot; free slots have no ranges
+  std::uint32_t sections_resident = 0;
+  std::uint64_t quads_resident = 0, translucent_quads = 0, cutout_quads = 0;
+  const GeometryChanges* changes = nullptr;  ///< never null in a plan
+  bool occupancy = false;                    ///< there is an occupancy store
+  CloudFacts clouds;
+  std::uint64_t shadow_generation = 0;  ///< ShadowMaps::generation()
+
+  bool has_geometry() const { return sections_resident != 0; }
+};
+
+}  // namespace skerry::render

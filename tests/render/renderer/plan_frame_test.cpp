@@ -1,0 +1,145 @@
+// What a frame decides before anything is made: a function of values.
+#include "engine/render/renderer/plan_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "engine/render/renderer/frame_steps.h"
+
+namespace skerry::render {
+namespace {
+
+/// A scene of one stone section before the camera.
+struct Planned {
+  std::vector<IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 120.0}};
+  std::vector<shared::Section> sections;
+  GeometryChanges changes;
+  FrameInput input;
+  RenderSettings settings;
+  FrameHistory history;
+
+  Planned() {
+    shared::Section section{};
+    section.bounds_max = 64u | 64u << 7 | 64u << 14;
+    for (std::uint32_t range = 0; range < shared::kRangeCount; ++range)
+      section.range_end[range] = range < shared::kRangeCutout ? range + 1 : shared::kRangeCutout;
+    sections = {section};
+    input.islands = islands;
+    input.sky = celestial_at(12.0 * 3600.0, 0.0);
+    input.camera.position = {32 * 65536, 80 * 65536, -40 * 65536};
+  }
+  FramePlan plan() const {
+    SceneFacts facts;
+    facts.sections = sections;
+    facts.sections_resident = static_cast<std::uint32_t>(sections.size());
+    facts.quads_resident = 6;
+    facts.changes = &changes;
+    facts.shadow_generation = history.shadows.generation;
+    return plan_frame({input, settings, {64, 48}}, facts, history);
+  }
+};
+
+const char* why_not(const FramePlan& plan, const std::string& pass) {
+  const auto found = std::find_if(plan.left_out.begin(), plan.left_out.end(),
+                                  [&](const gpu::LeftOut& l) { return l.name == pass; });
+  return found == plan.left_out.end() ? nullptr : found->why.c_str();
+}
+
+std::size_t redrawn(const FramePlan& plan) {
+  return static_cast<std::size_t>(std::count_if(plan.shadows.cascades.begin(),
+                                                plan.shadows.cascades.end(),
+                                                [](const ActiveCascade& c) { return c.redraw; }));
+}
+
+TEST(PlanFrame, IsAFunctionOfItsArgumentsAlone) {
+  const Planned scene;
+  const FramePlan a = scene.plan(), b = scene.plan();
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.left_out.size(), b.left_out.size());
+  EXPECT_EQ(std::memcmp(&a.tables.constants, &b.tables.constants, sizeof(a.tables.constants)), 0);
+  EXPECT_EQ(redrawn(a), redrawn(b));
+}
+
+TEST(PlanFrame, DrawsEveryMapOfAFirstFrameAndNoneOfTheNext) {
+  Planned scene;
+  const FramePlan first = scene.plan();
+  EXPECT_EQ(redrawn(first), 4u);
+  EXPECT_TRUE(first.bake_sky);
+  scene.history = first.next;
+  const FramePlan second = scene.plan();
+  EXPECT_EQ(redrawn(second), 0u);
+  EXPECT_FALSE(second.bake_sky);
+  EXPECT_NE(why_not(second, "bake_sky"), nullptr);
+  EXPECT_NE(why_not(second, "draw_shadow_sun_0"), nullptr);
+}
+
+TEST(PlanFrame, OfAFrameThatFailedIsMadeAgainAsIfItHadNotBeen) {
+  Planned scene;
+  (void)scene.plan();  // and never submitted: its history is dropped
+  EXPECT_EQ(redrawn(scene.plan()), 4u);
+}
+
+TEST(PlanFrame, KeepsNoMapOfAnArrayThatWasMadeAnew) {
+  Planned scene;
+  scene.history = scene.plan().next;
+  SceneFacts facts;
+  facts.sections = scene.sections;
+  facts.sections_resident = 1;
+  facts.changes = &scene.changes;
+  facts.shadow_generation = scene.history.shadows.generation + 1;
+  const FramePlan plan = plan_frame({scene.input, scene.settings, {64, 48}}, facts, scene.history);
+  EXPECT_EQ(redrawn(plan), 4u);
+}
+
+TEST(PlanFrame, RemembersWhereCameraAndIslandsWere) {
+  Planned scene;
+  const FrameHistory next = scene.plan().next;
+  ASSERT_TRUE(next.previous);
+  EXPECT_EQ(next.previous->camera.position, scene.input.camera.position);
+  ASSERT_EQ(next.previous->islands.size(), 1u);
+}
+
+TEST(PlanFrame, EachStepIsTakenOrSaysWhyNot) {
+  for (const bool debug : {false, true})
+    for (const bool geometry : {false, true}) {
+      Planned scene;
+      if (!geometry) scene.sections.clear();
+      if (debug) scene.settings.debug_view = DebugView::kNormal;
+      const FramePlan plan = scene.plan();
+      for (std::size_t i = 0; i < frame_steps().size(); ++i) {
+        const bool taken = std::find(plan.steps.begin(), plan.steps.end(), i) != plan.steps.end();
+        for (const std::string_view pass : frame_steps()[i].passes) {
+          const char* why = why_not(plan, std::string(pass));
+          EXPECT_TRUE(taken || (why && *why != 0)) << pass;
+        }
+      }
+      EXPECT_EQ(why_not(plan, "draw_geometry") == nullptr, geometry);
+      EXPECT_TRUE(std::is_sorted(plan.steps.begin(), plan.steps.end()));
+    }
+}
+
+TEST(PlanFrame, LeavesShadowsOutWithTheirSetting) {
+  Planned scene;
+  scene.settings.shadows = false;
+  const FramePlan plan = scene.plan();
+  EXPECT_TRUE(plan.shadows.cascades.empty());
+  EXPECT_EQ(plan.shadows.layout.layers, 0u);
+  EXPECT_STREQ(why_not(plan, "draw_shadow_sun"), "shadow.enabled=0");
+}
+
+TEST(PlanFrame, FreezesTheViewOfTheFrameInWhichCullingIsFrozen) {
+  Planned scene;
+  scene.input.freeze_culling = true;
+  scene.history = scene.plan().next;
+  ASSERT_TRUE(scene.history.frozen);
+  scene.input.camera.yaw_deg = 90.0;
+  EXPECT_EQ(scene.plan().next.frozen->view.planes[0], scene.history.frozen->view.planes[0]);
+  scene.input.freeze_culling = false;
+  EXPECT_FALSE(scene.plan().next.frozen);
+}
+
+}  // namespace
+}  // namespace skerry::render
