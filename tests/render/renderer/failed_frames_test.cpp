@@ -69,7 +69,7 @@ TEST_F(FailedFrames, TriedAgainGiveTheBytesOfAnUndisturbedFrame) {
   start();
   std::set<std::string> failed;
   int failures = 0;
-  const auto disturbed = [&](double hour, const char* what) {
+  const auto disturbed = [&](double hour) {
     std::uint64_t room = 0;
     for (int i = 0; i < 200; ++i) {
       device().set_memory_budget(device().memory_total() + room);
@@ -83,11 +83,11 @@ TEST_F(FailedFrames, TriedAgainGiveTheBytesOfAnUndisturbedFrame) {
     device().set_memory_budget(UINT64_MAX);
     return picture();
   };
-  EXPECT_EQ(disturbed(9.0, "first"), morning);
-  EXPECT_EQ(disturbed(9.0, "second"), later);
+  EXPECT_EQ(disturbed(9.0), morning);
+  EXPECT_EQ(disturbed(9.0), later);
   // Another count of cascades and no clouds' sun: other maps, other images.
-  EXPECT_EQ(disturbed(17.5, "evening"), evening);
-  EXPECT_EQ(disturbed(23.0, "night"), night);
+  EXPECT_EQ(disturbed(17.5), evening);
+  EXPECT_EQ(disturbed(23.0), night);
   EXPECT_GT(failures, 20);
   for (const char* name : {"shadow maps", "picture", "radiance"})
     EXPECT_TRUE(failed.contains(name)) << name << " never failed";
