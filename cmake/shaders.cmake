@@ -27,7 +27,7 @@ if(spirv_files)
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/shader_blob.S CONTENT ".section .rodata\n${assembly}.section .note.GNU-stack,\"\",%progbits\n" @ONLY)
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/shader_table.cpp CONTENT
 "// Generated: every compiled shader, embedded.
-#include \"engine/gpu/shader_table.h\"
+#include \"engine/gpu/program/shader_table.h\"
 extern \"C\" {
 ${externs}}
 namespace skerry::gpu {

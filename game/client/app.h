@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
 #include "engine/platform/window.h"
 #include "game/client/backdrop.h"
 #include "game/client/play_loop.h"

@@ -7,12 +7,13 @@
 #include <random>
 
 #include "engine/core/log.h"
-#include "engine/gpu/readback.h"
+#include "engine/gpu/transfer/readback.h"
 #include "engine/platform/files.h"
 #include "engine/platform/image_file.h"
 #include "game/client/app.h"
 #include "game/client/island_name.h"
 #include "game/client/preferences.h"
+#include "game/worlds/open_session.h"
 #include "game/worlds/open_world.h"
 #include "world/store/world_file.h"
 
@@ -24,7 +25,6 @@ using ui::Screen;
 constexpr double kPreviewDelay = 0.5;  // seconds after the last letter of a seed
 constexpr const char* kTitleSeed = "skerry";
 constexpr std::uint32_t kBackdropView = 300;  // blocks
-constexpr const char* kPlayer = "player";
 
 std::uint64_t entropy() {
   std::random_device source;
@@ -34,7 +34,7 @@ std::uint64_t entropy() {
 Result<std::unique_ptr<Session>> open_file(const std::string& path) {
   SceneOptions options;
   options.world = path;
-  return Session::open(options);
+  return open_session(options);
 }
 
 }  // namespace
@@ -104,9 +104,9 @@ void App::draw_name() {
 
 /// What the command line names, from where and when it says.
 Result<void> App::play_as_asked() {
-  auto session = Session::open(base_);
+  auto session = open_session(base_);
   if (!session) return session.error();
-  auto client = std::make_unique<SessionClient>(*std::move(session), kPlayer);
+  auto client = std::make_unique<SessionClient>(*std::move(session));
   if (client->time_s() != base_.settings.world_time_s)
     client->advance(base_.settings.world_time_s - client->time_s());
   return play(base_, std::move(client));
@@ -119,7 +119,7 @@ Result<void> App::play_as_left(const std::string& path, Result<std::unique_ptr<S
     list_again();
     return {};
   }
-  auto client = std::make_unique<SessionClient>(*std::move(session), kPlayer);
+  auto client = std::make_unique<SessionClient>(*std::move(session));
   const SavedPlay left = client->joined().play.value_or(SavedPlay{});
   SceneOptions options = base_;
   options.world = path;
@@ -210,7 +210,7 @@ Result<void> App::create_world(const ui::Wishes::NewWorld& wanted) {
   info.seed_text = wanted.seed_text;
   info.desc.seed = world::seed_from_text(wanted.seed_text);
   const std::filesystem::path path = new_world_path(info.name);
-  return play_as_left(path.string(), Session::create(path, info));
+  return play_as_left(path.string(), create_session(path, info));
 }
 
 void App::list_again() {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
 #include "game/client/presenter.h"
 #include "game/view/scene_view.h"
 

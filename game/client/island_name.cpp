@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::game {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/transfer/uploader.h"
 
 namespace skerry::game {
 namespace {

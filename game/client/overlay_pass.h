@@ -4,9 +4,10 @@
 #include <memory>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
 #include "game/ui/triangles.h"
 
 namespace skerry::game {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
 #include "engine/platform/window.h"
 #include "game/scene_file/options.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
 #include "engine/platform/window.h"
 #include "game/client/presenter.h"
 #include "game/client/session_client.h"

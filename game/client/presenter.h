@@ -5,11 +5,12 @@
 #include <optional>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/frame_ring.h"
-#include "engine/gpu/pipeline.h"
-#include "engine/gpu/swapchain.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/graph/frame_ring.h"
+#include "engine/gpu/program/pipeline.h"
+#include "engine/gpu/transfer/swapchain.h"
 #include "game/client/overlay_pass.h"
 
 namespace skerry::game {

@@ -6,7 +6,7 @@
 #include <array>
 #include <ctime>
 
-#include "engine/gpu/readback.h"
+#include "engine/gpu/transfer/readback.h"
 #include "engine/platform/files.h"
 #include "engine/platform/image_file.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
-#include "engine/gpu/resources.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
 #include "game/scene_file/options.h"
 
 namespace skerry::game {

@@ -4,15 +4,15 @@
 
 namespace skerry::game {
 
-SessionClient::SessionClient(std::unique_ptr<Session> session, std::string player)
-    : session_(std::move(session)) {
-  session_->send(Join{std::move(player), true});
+SessionClient::SessionClient(std::unique_ptr<Session> session)
+    : session_(std::move(session)), id_(session_->connect()) {
+  session_->send(id_, Join{"", true});
   session_->attend();
   take_in();
 }
 
 bool SessionClient::set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) {
-  session_->send(Edit{island, voxel, block});
+  session_->send(id_, Edit{island, voxel, block});
   session_->attend();
   take_in();
   return verdict_ == EditVerdict::kDone;
@@ -28,7 +28,7 @@ std::vector<Answer> SessionClient::hear() {
 }
 
 void SessionClient::take_in() {
-  for (Answer& answer : session_->receive()) {
+  for (Answer& answer : session_->receive(id_)) {
     if (auto* joined = std::get_if<Joined>(&answer)) {
       joined_ = std::move(*joined);
     } else if (const auto* time = std::get_if<TimeIs>(&answer)) {

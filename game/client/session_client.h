@@ -1,6 +1,5 @@
 #pragma once
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "game/player/edit_history.h"
@@ -12,8 +11,8 @@ namespace skerry::game {
 /// told, and lets the session's time go on. One thread.
 class SessionClient : public BlockEditor {
  public:
-  /// Joins.
-  SessionClient(std::unique_ptr<Session> session, std::string player);
+  /// Joins as the one player of the world.
+  explicit SessionClient(std::unique_ptr<Session> session);
 
   const Joined& joined() const { return joined_; }
   /// As the session said last.
@@ -21,7 +20,7 @@ class SessionClient : public BlockEditor {
   /// Session::world(): what messages tell of islands has come true there already.
   std::shared_ptr<world::World> world() const { return session_->world(); }
 
-  void send(Request request) { session_->send(std::move(request)); }
+  void send(Request request) { session_->send(id_, std::move(request)); }
   /// Asks for an edit and hears the answer at once, so that this frame's picture can show it.
   bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) override;
   /// See Session.
@@ -37,6 +36,7 @@ class SessionClient : public BlockEditor {
   void take_in();
 
   std::unique_ptr<Session> session_;
+  ClientId id_;
   Joined joined_;
   double time_s_ = 0.0;
   EditVerdict verdict_ = EditVerdict::kDone;  // of the last edit

@@ -4,7 +4,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 
-#include "world/coords.h"
+#include "world/voxel/coords.h"
 
 namespace skerry::game {
 

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <vector>
 
-#include "world/dig.h"
+#include "world/islands/dig.h"
 
 namespace skerry::game {
 namespace {

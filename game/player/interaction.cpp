@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "game/player/edit_rules.h"
-#include "world/dig.h"
+#include "world/islands/dig.h"
 
 namespace skerry::game {
 

@@ -5,10 +5,10 @@
 #include <span>
 
 #include "game/player/edit_history.h"
+#include "game/player/hotbar.h"
 #include "game/player/pick.h"
 #include "game/player/player.h"
-#include "game/session/hotbar.h"
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::game {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "world/march.h"
+#include "world/islands/march.h"
 
 namespace skerry::game {
 namespace {

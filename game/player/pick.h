@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "game/player/player.h"
-#include "world/blocks.h"
-#include "world/coords.h"
+#include "world/voxel/blocks.h"
+#include "world/voxel/coords.h"
 
 namespace skerry::game {
 

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "game/player/camera_place.h"
 #include "game/player/collide.h"
-#include "game/scene_file/parse.h"
-#include "game/session/player_state.h"
-#include "world/blocks.h"
-#include "world/coords.h"
-#include "world/island.h"
+#include "game/player/player_state.h"
+#include "world/voxel/blocks.h"
+#include "world/voxel/coords.h"
+#include "world/voxel/island.h"
 
 namespace skerry::game {
 

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "world/chunk.h"
+#include "world/voxel/chunk.h"
 
 namespace skerry::game {
 namespace {

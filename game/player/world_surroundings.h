@@ -10,7 +10,7 @@
 
 #include "game/player/edit_history.h"
 #include "game/player/player.h"
-#include "world/world.h"
+#include "world/islands/world.h"
 
 namespace skerry::game {
 

@@ -9,8 +9,8 @@
 
 #include "engine/core/result.h"
 #include "engine/render/sky/cloud_volume.h"
-#include "world/coords.h"
 #include "world/vdb/volume_grid.h"
+#include "world/voxel/coords.h"
 
 namespace skerry::game {
 

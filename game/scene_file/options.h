@@ -12,7 +12,7 @@
 #include "game/scene_file/parse.h"
 #include "game/scene_file/scene_lights.h"
 #include "game/scene_file/settings.h"
-#include "world/vdb/import.h"
+#include "world/vdb_import/import.h"
 
 namespace skerry::game {
 

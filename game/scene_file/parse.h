@@ -8,17 +8,9 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "world/coords.h"
+#include "game/player/camera_place.h"
 
 namespace skerry::game {
-
-/// Where a camera is and looks; conventions of yaw and pitch: docs/conventions.md.
-struct CameraPlace {
-  world::WorldPos position;
-  double yaw_deg = 0.0;    ///< -3600 .. 3600
-  double pitch_deg = 0.0;  ///< -90 .. 90
-  bool operator==(const CameraPlace&) const = default;
-};
 
 struct PictureSize {
   std::uint32_t width = 1280, height = 720;

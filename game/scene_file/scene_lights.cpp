@@ -12,8 +12,8 @@
 #include <string_view>
 
 #include "engine/render/light/lights.h"
+#include "game/scene_file/emission.h"
 #include "game/scene_file/parse.h"
-#include "game/view/emission.h"
 
 namespace skerry::game {
 namespace {

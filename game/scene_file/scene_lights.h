@@ -4,7 +4,7 @@
 
 #include "engine/core/result.h"
 #include "shaders/shared/light.h"
-#include "world/coords.h"
+#include "world/voxel/coords.h"
 
 namespace skerry::game {
 

@@ -5,7 +5,7 @@
 
 #include "engine/core/check.h"
 #include "game/scene_file/parse.h"
-#include "world/coords.h"
+#include "world/voxel/coords.h"
 
 namespace skerry::game {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "world/vdb/import.h"
+#include "world/vdb_import/import.h"
 
 namespace skerry::game {
 

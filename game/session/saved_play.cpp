@@ -9,6 +9,7 @@ namespace skerry::game {
 namespace {
 
 constexpr std::string_view kName = "play";
+constexpr std::string_view kPlayers = "players";  // all who have a name
 constexpr std::string_view kHabits = "habits";  // what whoever only wants a place may leave unread
 constexpr double kMaxTime = 1e9;                // as the setting world.time has it
 constexpr std::int64_t kMaxLattice = std::int64_t{1} << 52;  // 2^20 blocks of 2^32 units
@@ -54,7 +55,7 @@ bool sound(const SavedPlay& play) {
          play.time_of_day_s < 86400.0 && within(play.world_time_s, kMaxTime);
 }
 
-void put_habits(world::WorldFile::Transaction& transaction, const SavedPlay& play) {
+std::vector<std::byte> encode_habits(const SavedPlay& play) {
   world::ByteWriter out;
   for (const world::BlockId block : play.hotbar.blocks) out.u32(block);
   out.u8(static_cast<std::uint8_t>(play.hotbar.selected));
@@ -63,14 +64,11 @@ void put_habits(world::WorldFile::Transaction& transaction, const SavedPlay& pla
   out.u8(play.player.safe.has_value());
   out.u64(safe.island);
   for (int axis = 0; axis < 3; ++axis) out.i64(safe.lattice[axis]);
-  transaction.put_value(kHabits, out.bytes());
+  return out.take();
 }
 
-/// Leaves the usual ones where a file has none, or nonsense.
-void get_habits(world::WorldFile& file, SavedPlay& play) {
-  const auto bytes = file.value(kHabits);
-  if (!bytes) return;
-  world::ByteReader in(*bytes);
+/// False, and nothing changed: damaged.
+bool decode_habits(world::ByteReader& in, SavedPlay& play) {
   bool good = true;
   Hotbar hotbar;
   for (world::BlockId& block : hotbar.blocks) {
@@ -85,18 +83,14 @@ void get_habits(world::WorldFile& file, SavedPlay& play) {
   Footing safe;
   safe.island = in.u64();
   for (int axis = 0; axis < 3; ++axis) safe.lattice[axis] = in.i64();
-  if (!in.done() || !good || !in_lattice(safe.lattice)) {
-    file.note_damage("the saved world says nonsense about the player's hands: they hold the usual");
-    return;
-  }
+  if (in.cut_short() || !good || !in_lattice(safe.lattice)) return false;
   play.hotbar = hotbar;
   play.day_stands = day_stands;
   if (stood) play.player.safe = safe;
+  return true;
 }
 
-}  // namespace
-
-void put_play(world::WorldFile::Transaction& transaction, const SavedPlay& play) {
+std::vector<std::byte> encode_place(const SavedPlay& play) {
   world::ByteWriter out;
   put(out, play.player.feet);
   out.u8(play.player.island.has_value());
@@ -112,14 +106,11 @@ void put_play(world::WorldFile::Transaction& transaction, const SavedPlay& play)
   out.f64(play.eye.pitch_deg);
   out.f64(play.time_of_day_s);
   out.f64(play.world_time_s);
-  transaction.put_value(kName, out.bytes());
-  put_habits(transaction, play);
+  return out.take();
 }
 
-std::optional<SavedPlay> saved_play(world::WorldFile& file) {
-  const auto bytes = file.value(kName);
-  if (!bytes) return std::nullopt;
-  world::ByteReader in(*bytes);
+/// None: damaged.
+std::optional<SavedPlay> decode_place(world::ByteReader& in) {
   SavedPlay play;
   get(in, play.player.feet);
   const bool on_island = in.u8() != 0;
@@ -136,12 +127,76 @@ std::optional<SavedPlay> saved_play(world::WorldFile& file) {
   play.eye.pitch_deg = in.f64();
   play.time_of_day_s = in.f64();
   play.world_time_s = in.f64();
-  if (in.done() && sound(play)) {
-    get_habits(file, play);
+  if (in.cut_short() || !sound(play)) return std::nullopt;
+  return play;
+}
+
+/// Leaves the defaults where a file has none, or damaged ones.
+void read_habits(world::WorldFile& file, SavedPlay& play) {
+  const auto bytes = file.value(kHabits);
+  if (!bytes) return;
+  world::ByteReader in(*bytes);
+  SavedPlay read = play;
+  if (decode_habits(in, read) && in.done()) {
+    play = read;
+  } else {
+    file.note_damage("the saved world says nonsense about the player's hands: they hold the usual");
+  }
+}
+
+/// Those before the first that is damaged; false: one was.
+bool decode_players(std::span<const std::byte> bytes, std::map<std::string, SavedPlay>& plays) {
+  world::ByteReader in(bytes);
+  const std::uint32_t count = in.u32();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::string name = in.text(kMaxPlayerBytes);
+    std::optional<SavedPlay> play = decode_place(in);
+    if (!play || !decode_habits(in, *play) || name.empty()) return false;
+    plays.insert_or_assign(name, *play);
+  }
+  return in.done();
+}
+
+}  // namespace
+
+void put_plays(world::WorldFile::Transaction& transaction,
+               const std::map<std::string, SavedPlay>& plays) {
+  world::ByteWriter named;
+  named.u32(static_cast<std::uint32_t>(plays.size() - plays.count("")));
+  for (const auto& [player, play] : plays) {
+    if (player.empty()) {
+      transaction.put_value(kName, encode_place(play));
+      transaction.put_value(kHabits, encode_habits(play));
+      continue;
+    }
+    named.text(player);
+    named.raw(encode_place(play));
+    named.raw(encode_habits(play));
+  }
+  if (plays.size() > plays.count("")) transaction.put_value(kPlayers, named.bytes());
+}
+
+std::optional<SavedPlay> saved_play(world::WorldFile& file) {
+  const auto bytes = file.value(kName);
+  if (!bytes) return std::nullopt;
+  world::ByteReader in(*bytes);
+  std::optional<SavedPlay> play = decode_place(in);
+  if (play && in.done()) {
+    read_habits(file, *play);
     return play;
   }
   file.note_damage("the saved world says nonsense about the player: back to its spawn");
   return std::nullopt;
+}
+
+std::map<std::string, SavedPlay> saved_plays(world::WorldFile& file) {
+  std::map<std::string, SavedPlay> plays;
+  if (const std::optional<SavedPlay> alone = saved_play(file)) plays.emplace("", *alone);
+  const auto bytes = file.value(kPlayers);
+  if (bytes && !decode_players(*bytes, plays))
+    file.note_damage(
+        "the saved world says nonsense about some players: they are back at its spawn");
+  return plays;
 }
 
 }  // namespace skerry::game

@@ -1,13 +1,18 @@
 // What of a play a world's file keeps besides the world.
 #pragma once
+#include <map>
 #include <optional>
+#include <string>
 
-#include "game/scene_file/parse.h"
-#include "game/session/hotbar.h"
-#include "game/session/player_state.h"
+#include "game/player/camera_place.h"
+#include "game/player/hotbar.h"
+#include "game/player/player_state.h"
 #include "world/store/world_file.h"
 
 namespace skerry::game {
+
+inline constexpr std::size_t kMaxPlayerBytes = 64;
+inline constexpr std::size_t kMaxPlayers = 4096;  ///< whose places one world keeps
 
 struct SavedPlay {
   PlayerState player;
@@ -19,8 +24,13 @@ struct SavedPlay {
   bool operator==(const SavedPlay&) const = default;
 };
 
-void put_play(world::WorldFile::Transaction& transaction, const SavedPlay& play);
-/// None: the world was never played, or what it says of it is damaged (and told).
+/// Of each player by name; the empty name is the player of a world that is played alone.
+/// @pre at most kMaxPlayers names of at most kMaxPlayerBytes.
+void put_plays(world::WorldFile::Transaction& transaction,
+               const std::map<std::string, SavedPlay>& plays);
+/// Damaged ones are left out, with a line in WorldFile::damage().
+std::map<std::string, SavedPlay> saved_plays(world::WorldFile& file);
+/// The one of the empty name.
 std::optional<SavedPlay> saved_play(world::WorldFile& file);
 
 }  // namespace skerry::game

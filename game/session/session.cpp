@@ -1,5 +1,6 @@
 #include "game/session/session.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,10 +9,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "engine/platform/files.h"
 #include "game/session/session_state.h"
-#include "game/worlds/open_world.h"
-#include "game/worlds/vdb_world.h"
 
 namespace skerry::game {
 namespace {
@@ -53,16 +51,7 @@ Session::~Session() {
   static_cast<void>(save());
 }
 
-Result<std::unique_ptr<Session>> Session::open(const SceneOptions& options) {
-  if (!options.world || is_vdb(*options.world)) {
-    Result<std::unique_ptr<world::World>> made = open_world(options);
-    if (!made) return made.error();
-    auto state = std::make_unique<State>(*std::move(made));
-    state->time_s = options.settings.world_time_s;
-    state->motion.start(state->time_s);
-    return std::unique_ptr<Session>(new Session(std::move(state)));
-  }
-  const std::filesystem::path path = *options.world;
+Result<std::unique_ptr<Session>> Session::open(const std::filesystem::path& path) {
   const bool writable = may_write(path);
   auto file = WorldFile::open(path, writable ? WorldFile::Mode::kWrite : WorldFile::Mode::kRead);
   if (!file) return file.error();
@@ -74,24 +63,37 @@ Result<std::unique_ptr<Session>> Session::open(const SceneOptions& options) {
   return std::unique_ptr<Session>(new Session(std::move(state)));
 }
 
-Result<std::unique_ptr<Session>> Session::create(const std::filesystem::path& path,
-                                                 const world::WorldInfo& info) {
-  if (const auto made = platform::make_dirs(path.parent_path()); !made) return made.error();
-  if (const auto made = WorldFile::create(path, info); !made) return made.error();
-  SceneOptions options;
-  options.world = path.string();
-  return open(options);
+std::unique_ptr<Session> Session::play(std::shared_ptr<world::World> world, double time_s) {
+  auto state = std::make_unique<State>(std::move(world));
+  state->time_s = time_s;
+  state->motion.start(time_s);
+  return std::unique_ptr<Session>(new Session(std::move(state)));
 }
 
 std::shared_ptr<world::World> Session::world() const {
   return state_->world;
 }
-void Session::send(Request request) {
-  state_->requests.put(std::move(request));
+ClientId Session::connect() {
+  auto client = std::make_shared<Client>();
+  for (const std::string& notice : state_->notices) client->answers.put(Notice{notice});
+  const std::lock_guard lock(state_->clients_mutex);
+  const ClientId id = ++state_->last_client;
+  state_->clients.emplace(id, std::move(client));
+  return id;
 }
 
-std::vector<Answer> Session::receive() {
-  return state_->answers.take();
+void Session::disconnect(ClientId client) {
+  const std::lock_guard lock(state_->clients_mutex);
+  state_->clients.erase(client);
+}
+
+void Session::send(ClientId client, Request request) {
+  state_->requests.put({client, std::move(request)});
+}
+
+std::vector<Answer> Session::receive(ClientId client) {
+  const std::shared_ptr<Client> found = state_->find(client);
+  return found ? found->answers.take() : std::vector<Answer>();
 }
 
 void Session::attend() {
@@ -102,47 +104,105 @@ void Session::advance(double seconds) {
   State& s = *state_;
   s.handle_sent();
   s.time_s += seconds;
-  s.edits_left = std::min(kEditBurst, s.edits_left + std::max(0.0, seconds) * kEditsPerSecond);
+  const double more_edits = std::max(0.0, seconds) * kEditsPerSecond;
+  for (const std::shared_ptr<Client>& client : s.everyone())
+    client->edits_left = std::min(kEditBurst, client->edits_left + more_edits);
   s.take_in_pieces();
   s.motion.advance_to(s.time_s);
   s.tell_moves();
-  if (s.joined && seconds != 0.0) s.answers.put(TimeIs{s.time_s});
+  if (seconds != 0.0)
+    for (const std::shared_ptr<Client>& client : s.joined()) client->answers.put(TimeIs{s.time_s});
   s.save_soon();
 }
 
-void Session::State::handle_sent() {
-  for (const Request& request : requests.take()) handle(request);
+std::shared_ptr<Session::Client> Session::State::find(ClientId client) const {
+  const std::lock_guard lock(clients_mutex);
+  const auto found = clients.find(client);
+  return found == clients.end() ? nullptr : found->second;
 }
 
-void Session::State::handle(const Request& request) {
+std::vector<std::shared_ptr<Session::Client>> Session::State::everyone() const {
+  const std::lock_guard lock(clients_mutex);
+  std::vector<std::shared_ptr<Client>> all;
+  for (const auto& [id, client] : clients) all.push_back(client);
+  return all;
+}
+
+/// Session thread, or with `breaking` held.
+std::vector<std::shared_ptr<Session::Client>> Session::State::joined() const {
+  std::vector<std::shared_ptr<Client>> found = everyone();
+  std::erase_if(found, [](const std::shared_ptr<Client>& client) { return !client->joined; });
+  return found;
+}
+
+void Session::State::tell_all(const std::string& text) {
+  for (const std::shared_ptr<Client>& client : everyone()) client->answers.put(Notice{text});
+}
+
+void Session::State::handle_sent() {
+  for (const auto& [id, request] : requests.take())
+    if (const std::shared_ptr<Client> client = find(id)) handle(*client, request);
+}
+
+void Session::State::handle(Client& client, const Request& request) {
   struct Handler {
     State& s;
-    void operator()(const Join& join) { s.join(join); }
-    void operator()(const ChunkWanted& wanted) { s.tell_chunk({wanted.island, wanted.chunk}); }
-    void operator()(const Edit& edit) { s.edit(edit); }
-    void operator()(const PlayerMoved& moved) { s.play = moved.play; }
-    void operator()(const Steer& steer) {
-      const auto finite = [](double v) { return std::isfinite(v); };
-      if (!finite(steer.thrust.x) || !finite(steer.thrust.y) || !finite(steer.thrust.z) ||
-          !finite(steer.turn))
-        return;
-      // Only who stands on an island steers it; who fell off may let go.
-      const bool lets_go = steer.thrust == glm::dvec3{} && steer.turn == 0.0;
-      if (lets_go || (s.play && s.play->player.island == steer.island))
-        s.motion.steer(steer.island, steer.thrust, steer.turn);
+    Client& client;
+    void operator()(const Join& join) { s.join(client, join); }
+    void operator()(const ChunkWanted& wanted) {
+      s.tell_chunk(client, {wanted.island, wanted.chunk});
     }
+    void operator()(const Edit& edit) { s.edit(client, edit); }
+    void operator()(const PlayerMoved& moved) { s.moved(client, moved.play); }
+    void operator()(const Steer& steer) { s.steer(client, steer); }
   };
-  std::visit(Handler{*this}, request);
+  if (client.joined || std::holds_alternative<Join>(request))
+    std::visit(Handler{*this, client}, request);
 }
 
-void Session::State::join(const Join& join) {
+void Session::State::moved(Client& client, const SavedPlay& play) {
+  client.play = play;
+  plays.insert_or_assign(client.player, play);
+}
+
+void Session::State::steer(const Client& client, const Steer& steer) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  if (!finite(steer.thrust.x) || !finite(steer.thrust.y) || !finite(steer.thrust.z) ||
+      !finite(steer.turn))
+    return;
+  // Engines are set by who stands on the island; who fell off may switch them off.
+  const bool off = steer.thrust == glm::dvec3{} && steer.turn == 0.0;
+  if (off || (client.play && client.play->player.island == steer.island))
+    motion.steer(steer.island, steer.thrust, steer.turn);
+}
+
+/// Why a Join cannot be accepted; empty: it can.
+std::string Session::State::refusal_of(const Join& join) const {
+  if (join.player.size() > kMaxPlayerBytes)
+    return fmt::format("a player's name has at most {} bytes, this one has {}", kMaxPlayerBytes,
+                       join.player.size());
+  for (const std::shared_ptr<Client>& other : joined())
+    if (other->player == join.player)
+      return fmt::format("the player '{}' is in this world already", join.player);
+  if (!plays.contains(join.player) && plays.size() >= kMaxPlayers)
+    return fmt::format("this world keeps the places of {} players and takes no more", kMaxPlayers);
+  return {};
+}
+
+void Session::State::join(Client& client, const Join& join) {
+  if (client.joined) return;
+  if (std::string why = refusal_of(join); !why.empty()) {
+    client.answers.put(Notice{std::move(why)});
+    return;
+  }
+  client.player = join.player;
+  if (const auto saved = plays.find(join.player); saved != plays.end()) client.play = saved->second;
   // Nothing breaks between what is listed here and what is told from now on.
   const std::lock_guard lock(breaking);
-  joined = true;
-  voxels_told = !join.shares_world;
-  introduced.clear();
+  client.joined = true;
+  client.voxels_told = !join.shares_world;
   Joined told;
-  told.play = saved;
+  told.play = client.play;
   told.read_only = read_only;
   if (file) told.world = file->info();
   if (!file) told.world.desc = world->desc();
@@ -151,30 +211,32 @@ void Session::State::join(const Join& join) {
     for (const world::IVec3& chunk :
          world->is_added(id) ? world->chunks(id, 0) : world->edited_chunks(id))
       told.changed.push_back({id, chunk});
-  answers.put(std::move(told));
-  answers.put(TimeIs{time_s});
-  for (const std::uint64_t id : islands) introduce(id);
-  answers.put(IslandsMoved{motion.states()});
+  client.answers.put(std::move(told));
+  client.answers.put(TimeIs{time_s});
+  for (const std::uint64_t id : islands) introduce(client, id);
+  client.answers.put(IslandsMoved{motion.states()});
 }
 
-/// Names an island that is not as the seed makes it, once. With `breaking` held.
-void Session::State::introduce(std::uint64_t island) {
-  if (!introduced.insert(island).second) return;
+/// Names an island that differs from what the seed makes, once. With `breaking` held.
+void Session::State::introduce(Client& client, std::uint64_t island) {
+  if (!client.introduced.insert(island).second) return;
   if (const std::optional<world::IslandSpec> spec = world->island(island))
-    answers.put(IslandIs{*spec, world->is_added(island)});
+    client.answers.put(IslandIs{*spec, world->is_added(island)});
 }
 
 void Session::State::tell_moves() {
-  IslandsMoved told{std::exchange(moves, {})};
-  if (!joined || told.moves.empty()) return;
+  const IslandsMoved told{std::exchange(moves, {})};
+  if (told.moves.empty()) return;
   const std::lock_guard lock(breaking);
-  for (const world::MovingIsland& move : told.moves) introduce(move.island);
-  answers.put(std::move(told));
+  for (const std::shared_ptr<Client>& client : joined()) {
+    for (const world::MovingIsland& move : told.moves) introduce(*client, move.island);
+    client->answers.put(told);
+  }
 }
 
-void Session::State::tell_chunk(const world::ChunkName& name) {
+void Session::State::tell_chunk(Client& client, const world::ChunkName& name) {
   const std::lock_guard lock(breaking);
-  answers.put(ChunkChanges{name.island, name.chunk, changes_of(name)});
+  client.answers.put(ChunkChanges{name.island, name.chunk, changes_of(name)});
 }
 
 /// Of an island that no seed made, all its blocks.
@@ -188,7 +250,7 @@ world::ChunkEdits Session::State::changes_of(const world::ChunkName& name) {
   return all;
 }
 
-EditVerdict Session::State::verdict(const Edit& edit, BlockId& was) {
+EditVerdict Session::State::verdict(const Client& client, const Edit& edit, BlockId& was) {
   const world::IVec3& v = edit.voxel;
   if (edit.block >= world::block::kBuiltInCount) return EditVerdict::kNoSuchBlock;
   if (std::max({std::abs(std::int64_t{v.x}), std::abs(std::int64_t{v.y}),
@@ -196,35 +258,47 @@ EditVerdict Session::State::verdict(const Edit& edit, BlockId& was) {
     return EditVerdict::kTooFar;
   const std::optional<world::Pose> pose = world->pose(edit.island, time_s);
   if (!pose) return EditVerdict::kNoSuchIsland;
-  if (!play) return EditVerdict::kTooFar;
-  const glm::dvec3 eye =
-      glm::conjugate(pose->rotation) * world::difference_blocks(play->eye.position, pose->origin);
+  if (!client.play) return EditVerdict::kTooFar;
+  const glm::dvec3 eye = glm::conjugate(pose->rotation) *
+                         world::difference_blocks(client.play->eye.position, pose->origin);
   if (!(distance_to(v, eye) <= kSessionReach)) return EditVerdict::kTooFar;
   const std::optional<BlockId> there = world->block_at(edit.island, v);
   if (!there) return EditVerdict::kUnknown;
   was = *there;
   if (edit.block == world::kAir && was == world::kAir) return EditVerdict::kEmpty;
   if (world::is_solid(was) && world::is_solid(edit.block)) return EditVerdict::kOccupied;
-  if (edits_left < 1.0) return EditVerdict::kTooFast;
+  if (client.edits_left < 1.0) return EditVerdict::kTooFast;
   return EditVerdict::kDone;
 }
 
-void Session::State::edit(const Edit& edit) {
+void Session::State::edit(Client& client, const Edit& edit) {
   EditAnswer answer{edit, EditVerdict::kDone, world::kAir};
-  // While voxels go from one island to another, nobody can tell which of them this one is on.
+  // While voxels go from one island to another, it is undecided which of them holds this one.
   const std::lock_guard lock(breaking);
-  answer.verdict = verdict(edit, answer.was);
+  answer.verdict = verdict(client, edit, answer.was);
   if (answer.verdict == EditVerdict::kDone) {
-    edits_left -= 1.0;
+    client.edits_left -= 1.0;
     world->set_block(edit.island, edit.voxel, edit.block);
     ++edits_made;
     {
       const std::lock_guard unsaved_lock(unsaved_mutex);
       unsaved.chunks.insert({edit.island, world::chunk_of(edit.voxel)});
     }
+    forward(client, edit);
     follow_edit(edit, answer.was);
   }
-  answers.put(answer);
+  client.answers.put(answer);
+}
+
+/// Sends an edit to the other clients. With `breaking` held.
+void Session::State::forward(const Client& from, const Edit& edit) {
+  const auto index = static_cast<std::uint32_t>(world::index_in_chunk(edit.voxel));
+  for (const std::shared_ptr<Client>& client : joined()) {
+    if (client.get() == &from || !client->voxels_told) continue;
+    introduce(*client, edit.island);
+    client->answers.put(
+        ChunkChanges{edit.island, world::chunk_of(edit.voxel), {{index, edit.block}}});
+  }
 }
 
 }  // namespace skerry::game

@@ -1,6 +1,7 @@
-// What a client and a session say to one another, and the session that runs in this process.
+// The messages between clients and a session, and the session itself.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,20 +11,21 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "game/scene_file/options.h"
 #include "game/session/saved_play.h"
-#include "world/edits.h"
-#include "world/motion_state.h"
+#include "world/islands/world.h"
 #include "world/store/chunk_blob.h"
-#include "world/world.h"
+#include "world/voxel/edits.h"
+#include "world/voxel/motion_state.h"
 
 namespace skerry::game {
 
 // From client to session. ------------------------------------------------------------------------
 
-/// The first thing a client says. Before it nothing is told but notices.
+/// The first request of a client. Until it is accepted, no other request has an effect and no
+/// answer but notices is sent. Refused with a notice: a name over kMaxPlayerBytes, one that is
+/// taken by another client, more than kMaxPlayers names in one world.
 struct Join {
-  std::string player;
+  std::string player;  ///< UTF-8; empty: the one player of a world that is played alone
   /// It reads Session::world(): voxels that change are not sent unless it asks for them.
   bool shares_world = false;
 };
@@ -42,8 +44,8 @@ struct Edit {
 struct PlayerMoved {
   SavedPlay play;
 };
-/// Hands on a helm: engines of the island that the player stands on. Lasts until said otherwise;
-/// zeros let go, from anywhere.
+/// Sets the engines of the island that the player stands on, until the next Steer. Zeros switch
+/// them off, wherever the player is.
 struct Steer {
   std::uint64_t island = 0;
   glm::dvec3 thrust{};  ///< in the island's axes; length at most 1 counts
@@ -53,15 +55,16 @@ using Request = std::variant<Join, ChunkWanted, Edit, PlayerMoved, Steer>;
 
 // From session to client. ------------------------------------------------------------------------
 
-/// What follows at once: the time, every island that is not as the seed makes it, all that move.
+/// Accepts a Join. Sent right after it: the time, every island that differs from what the seed
+/// makes, the poses of all that move.
 struct Joined {
   world::WorldInfo world;
   std::optional<SavedPlay> play;          ///< none: begin at the spawn
   bool read_only = false;                 ///< nothing of this play will be saved
   std::vector<world::ChunkName> changed;  ///< what ChunkWanted may be asked for
 };
-/// What was changed in a chunk: the answer to ChunkWanted, or what broke off, whenever it does. An
-/// island that no seed made is air but for what is told.
+/// Changed voxels of a chunk: the answer to ChunkWanted, edits of other clients, and voxels that
+/// broke off. Voxels of an island that no seed made are air until a message sets them.
 struct ChunkChanges {
   std::uint64_t island = 0;
   world::IVec3 chunk;
@@ -77,7 +80,8 @@ enum class EditVerdict : std::uint8_t {
   kEmpty,     ///< a block is taken where none is
   kUnknown,   ///< the voxel is not loaded yet
 };
-/// When done, the voxel is what the edit says; no ChunkChanges tells it again.
+/// Sent to the client that asked. When done, the voxel is as the edit says; the other clients get
+/// ChunkChanges.
 struct EditAnswer {
   Edit edit;
   EditVerdict verdict = EditVerdict::kDone;
@@ -132,34 +136,40 @@ inline constexpr double kSessionReach = 8.0;
 /// Edits a second in the long run, and how many may come at once.
 inline constexpr double kEditsPerSecond = 32.0, kEditBurst = 64.0;
 
-/// A world that is played: owns it and its file, keeps its time, checks what clients want, moves
-/// the islands that left their course, saves. One client, in this process.
+/// Names a client of a session; never used twice.
+using ClientId = std::uint32_t;
+
+/// A world that is played: owns it and its file, keeps its time, checks the edits of its clients
+/// and forwards them, moves islands off their course, saves.
 class Session {
  public:
-  /// A new session on options.world, where it was left, or on a world of the options' seed and time
-  /// that is saved nowhere. A file that may not be written is played, too. Errors: those of
-  /// open_world; the file is open in another process.
-  static Result<std::unique_ptr<Session>> open(const SceneOptions& options);
-  /// Makes a world's file, its folder if need be, then opens it.
-  static Result<std::unique_ptr<Session>> create(const std::filesystem::path& path,
-                                                 const world::WorldInfo& info);
+  /// A saved world, where it was left. A file that may not be written is played, too. Errors: those
+  /// of WorldFile::open; the file is open in another process.
+  static Result<std::unique_ptr<Session>> open(const std::filesystem::path& path);
+  /// A world that is saved nowhere, from `time_s` on.
+  static std::unique_ptr<Session> play(std::shared_ptr<world::World> world, double time_s);
   /// Saves what is not saved yet and waits for that.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// For a client in this process, so that nothing is generated or kept twice: to be read only, and
-  /// always as the messages tell it.
+  /// For clients in this process, so that nothing is generated or kept twice. Read-only: it changes
+  /// as the messages say.
   std::shared_ptr<world::World> world() const;
 
-  /// Messages, from any thread. Requests are handled in order, by the calls below.
-  void send(Request request);
-  std::vector<Answer> receive();
+  // Clients and their messages, from any thread. ------------------------------------------------
+  ClientId connect();
+  /// The client's place is kept; its answers are dropped.
+  void disconnect(ClientId client);
+  /// Requests of all clients are handled in the order of these calls, by the calls below. Those of
+  /// a client that is not connected have no effect.
+  void send(ClientId client, Request request);
+  std::vector<Answer> receive(ClientId client);
 
-  // By who runs the session, always on one thread. None waits for the disk but save().
-  /// Handles what was sent, now.
+  // By who runs the session, always on one thread. None waits for the disk but save(). -----------
+  /// Handles the requests that were sent.
   void attend();
-  /// The same; then time goes on, the islands move, and now and then the world is saved.
+  /// The same; then time goes on, the islands move, and every few seconds the world is saved.
   void advance(double seconds);
   /// As advance(), while the world's time stands still.
   void rest() { advance(0.0); }
@@ -169,6 +179,7 @@ class Session {
   Result<void> save();
 
  private:
+  struct Client;
   struct State;
   explicit Session(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

@@ -1,5 +1,6 @@
 // Loading and saving a session.
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "game/session/session_state.h"
@@ -15,14 +16,17 @@ constexpr double kMostAhead_s = 1.0;
 }  // namespace
 
 void Session::State::load(world::LoadedWorld& loaded) {
-  saved = game::saved_play(*file);
-  play = saved;
-  for (const std::string& line : file->damage()) tell(line);
-  if (read_only) tell("this world may not be written: nothing of this play will be saved");
-  double islands_s = saved ? saved->world_time_s : 0.0;
+  plays = saved_plays(*file);
+  notices = file->damage();
+  if (read_only)
+    notices.push_back("this world may not be written: nothing of this play will be saved");
+  constexpr double kNever = -std::numeric_limits<double>::infinity();
+  double played_s = kNever, islands_s = 0.0;
+  for (const auto& [player, play] : plays) played_s = std::max(played_s, play.world_time_s);
   for (const world::MovingIsland& m : loaded.moving)
     islands_s = std::max(islands_s, static_cast<double>(m.state.tick) * world::kMotionTickSeconds);
-  time_s = saved ? saved->world_time_s : islands_s;
+  time_s = plays.empty() ? islands_s : played_s;
+  islands_s = std::max(islands_s, time_s);
   // Islands go on at the tick they were saved at, a little ahead of the player's. One that is far
   // ahead is wrong about it: all would stand still till then.
   motion.start(islands_s - time_s < kMostAhead_s ? islands_s : time_s);
@@ -34,12 +38,12 @@ void Session::State::save_soon() {
   if (!file || read_only || Clock::now() - saved_at < kAutosavePeriod) return;
   {
     const std::lock_guard lock(problem_mutex);
-    if (!problem.empty()) tell(std::exchange(problem, {}));
+    if (!problem.empty()) tell_all(std::exchange(problem, {}));
   }
   if (save_under_way.exchange(true)) return;
   saved_at = Clock::now();
-  saver.add([this, moving = motion.states(), play_now = play] {
-    if (const Result<void> done = write(moving, play_now); !done) {
+  saver.add([this, moving = motion.states(), plays_now = plays] {
+    if (const Result<void> done = write(moving, plays_now); !done) {
       const std::lock_guard lock(problem_mutex);
       problem = done.error().message;
     }
@@ -53,7 +57,7 @@ void Session::save_next() {
 
 /// What cannot be written counts as unsaved again.
 Result<void> Session::State::write(const std::vector<world::MovingIsland>& moving,
-                                   const std::optional<SavedPlay>& play_now) {
+                                   const std::map<std::string, SavedPlay>& plays_now) {
   Unsaved what;
   std::map<std::uint64_t, world::IslandRow> rows;
   std::vector<std::pair<world::ChunkName, world::ChunkEdits>> edits;
@@ -95,7 +99,7 @@ Result<void> Session::State::write(const std::vector<world::MovingIsland>& movin
   }
   for (const auto& [name, list] : edits) transaction.put_edits(name.island, name.chunk, list);
   for (const auto& [name, chunk] : chunks) transaction.put_chunk(name.island, name.chunk, chunk);
-  if (play_now) put_play(transaction, *play_now);
+  put_plays(transaction, plays_now);
   Result<void> done = transaction.commit();
   if (!done) {
     const std::lock_guard lock(unsaved_mutex);
@@ -112,7 +116,7 @@ Result<void> Session::save() {
   s.tell_moves();
   if (!s.file || s.read_only) return {};
   s.saver.wait();
-  return s.write(s.motion.states(), s.play);
+  return s.write(s.motion.states(), s.plays);
 }
 
 }  // namespace skerry::game

@@ -87,21 +87,27 @@ std::optional<world::BrokenOff> Session::State::break_off(std::uint64_t island,
   for (const world::IVec3& chunk : off.changed) unsaved.chunks.insert({island, chunk});
   for (const world::IVec3& chunk : world->chunks(off.island, 0))
     unsaved.chunks.insert({off.island, chunk});
-  if (joined) tell_break(island, *loose, off);
+  tell_break(island, *loose, off);
   return off;
 }
 
+/// With `breaking` held.
 void Session::State::tell_break(std::uint64_t island, const world::LoosePiece& loose,
                                 const world::BrokenOff& off) {
-  introduced.insert(off.island);
-  answers.put(IslandIs{*world->island(off.island), true, island, off.mass.blocks});
-  if (!voxels_told) return;
-  for (const auto& [chunk, edits] : loose.taken) answers.put(ChunkChanges{island, chunk, edits});
+  std::vector<ChunkChanges> changes;
+  for (const auto& [chunk, edits] : loose.taken) changes.push_back({island, chunk, edits});
   for (const world::IVec3& chunk : world->chunks(off.island, 0))
-    answers.put(ChunkChanges{off.island, chunk, changes_of({off.island, chunk})});
+    changes.push_back({off.island, chunk, changes_of({off.island, chunk})});
+  for (const std::shared_ptr<Client>& client : joined()) {
+    client->introduced.insert(off.island);
+    client->answers.put(IslandIs{*world->island(off.island), true, island, off.mass.blocks});
+    if (!client->voxels_told) continue;
+    introduce(*client, island);
+    for (const ChunkChanges& change : changes) client->answers.put(change);
+  }
 }
 
-/// Frame thread: pieces fly on as their voxels did.
+/// Session thread: pieces fly on as their voxels did.
 void Session::State::take_in_pieces() {
   for (BrokenPiece& piece : pieces.take()) waiting_pieces.push_back(std::move(piece));
   for (BrokenPiece& piece : std::exchange(waiting_pieces, {})) {

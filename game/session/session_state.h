@@ -1,4 +1,4 @@
-// What Session keeps. Private to game/session*.cpp.
+// What Session keeps.
 #pragma once
 #include <array>
 #include <atomic>
@@ -9,8 +9,8 @@
 
 #include "game/session/session.h"
 #include "game/session/task_thread.h"
-#include "world/motion.h"
-#include "world/split.h"
+#include "world/motion/motion.h"
+#include "world/motion/split.h"
 #include "world/store/chunk_blob.h"
 #include "world/store/world_file.h"
 
@@ -27,7 +27,7 @@ struct Unsaved {
   }
 };
 
-/// A fragment that has become an island, on its way to the frame thread.
+/// A fragment that has become an island, on its way to the session thread.
 struct BrokenPiece {
   std::uint64_t island = 0, broken_off = 0;
   world::Mass mass;                  ///< in the old lattice
@@ -36,21 +36,42 @@ struct BrokenPiece {
   std::unique_ptr<world::Shape> shape;
 };
 
+struct Session::Client {
+  Mailbox<Answer> answers;
+
+  // Session thread.
+  std::string player;
+  std::optional<SavedPlay> play;  // as the client said last, else as it was saved
+  double edits_left = kEditBurst;
+
+  // The session thread writes these with `breaking` held, and reads the first without.
+  bool joined = false;
+  bool voxels_told = false;
+  std::set<std::uint64_t> introduced;  // islands that an IslandIs has named
+};
+
 struct Session::State {
   explicit State(std::shared_ptr<world::World> opened);
   ~State();
 
   // session.cpp: messages.
+  std::shared_ptr<Client> find(ClientId client) const;
+  std::vector<std::shared_ptr<Client>> everyone() const;
+  std::vector<std::shared_ptr<Client>> joined() const;
   void handle_sent();
-  void handle(const Request& request);
-  void join(const Join& join);
-  void introduce(std::uint64_t island);
+  void handle(Client& client, const Request& request);
+  std::string refusal_of(const Join& join) const;
+  void join(Client& client, const Join& join);
+  void introduce(Client& client, std::uint64_t island);
+  void moved(Client& client, const SavedPlay& play);
+  void steer(const Client& client, const Steer& steer);
   void tell_moves();
-  void tell_chunk(const world::ChunkName& name);
+  void tell_chunk(Client& client, const world::ChunkName& name);
   world::ChunkEdits changes_of(const world::ChunkName& name);
-  void edit(const Edit& edit);
-  EditVerdict verdict(const Edit& edit, world::BlockId& was);
-  void tell(std::string text) { answers.put(Notice{std::move(text)}); }
+  void edit(Client& client, const Edit& edit);
+  void forward(const Client& from, const Edit& edit);
+  EditVerdict verdict(const Client& client, const Edit& edit, world::BlockId& was);
+  void tell_all(const std::string& text);
 
   // session_split.cpp: on the worker, and what comes back.
   void follow_edit(const Edit& edit, world::BlockId was);
@@ -66,20 +87,22 @@ struct Session::State {
   void load(world::LoadedWorld& loaded);
   void save_soon();
   Result<void> write(const std::vector<world::MovingIsland>& moving,
-                     const std::optional<SavedPlay>& play_now);
+                     const std::map<std::string, SavedPlay>& plays_now);
 
   const std::shared_ptr<world::World> world;
   std::unique_ptr<world::WorldFile> file;  // none: this world is saved nowhere
   bool read_only = false;
-  std::optional<SavedPlay> saved;  // as the file had it
-  Mailbox<Request> requests;
-  Mailbox<Answer> answers;
+  Mailbox<std::pair<ClientId, Request>> requests;
+  mutable std::mutex
+      clients_mutex;  // held for the map alone, never while another one is waited for
+  std::map<ClientId, std::shared_ptr<Client>> clients;
+  ClientId last_client = 0;
+  std::vector<std::string> notices;  // of opening the file: for every client
 
-  // Frame thread.
+  // Session thread.
   world::IslandMotion motion;
   std::vector<world::MovingIsland> moves;  // since they were told
-  std::optional<SavedPlay> play;           // as the client said last
-  double edits_left = kEditBurst;
+  std::map<std::string, SavedPlay> plays;  // by player: as said last, else as it was saved
   double time_s = 0.0;
   struct ShapeOnItsWay {
     std::map<world::IVec3, bool> edits;  // since it was asked for: what is solid now, what is not
@@ -91,13 +114,9 @@ struct Session::State {
   Mailbox<BrokenPiece> pieces;
   std::vector<BrokenPiece> waiting_pieces;  // for the shape of what they broke off
 
-  // All threads. What is told of voxels is put into `answers` with `breaking` held, so that it
-  // comes in the order in which it was done.
+  // All threads. Answers about voxels are sent with `breaking` held, so that each client gets them
+  // in the order in which the voxels changed.
   std::mutex breaking;  // held while voxels go from one island to another, for a moment
-  // The frame thread writes these two with `breaking` held, and reads them without.
-  bool joined = false;
-  bool voxels_told = false;
-  std::set<std::uint64_t> introduced;  // with `breaking` held: islands that an IslandIs has named
   std::atomic<std::uint64_t> edits_made = 0;  // grows with `breaking` held
   std::atomic<bool> leaving = false;          // nobody waits for shapes any more
   std::mutex saving;                          // held while a state of the world is taken down

@@ -62,7 +62,4 @@ class Gui {
   bool fed_ = true;  // in the last frame; before the first, so that keys are mapped whatever comes
 };
 
-/// Whether Enter, or its like on a gamepad, went down in this frame; between Gui::begin and end.
-bool confirmed();
-
 }  // namespace skerry::game::ui

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "game/ui/gui.h"
+#include "game/ui/look.h"
 
 namespace skerry::game::ui {
 namespace {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "game/ui/gui.h"
-
 namespace skerry::game::ui {
 namespace {
 

@@ -57,6 +57,9 @@ bool danger_button(const char* label, float width = 0.0f);
 /// Of all our sliders: no number is typed into one, so that Enter takes hold of it as Space does.
 inline constexpr ImGuiSliderFlags kSlide = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
 
+/// Whether Enter, or its like on a gamepad, went down in this frame; between Gui::begin and end.
+bool confirmed();
+
 /// Where a panel stands.
 enum class Place { kLeft, kMiddle };
 /// A panel of at most so many units, never larger than the window. Call end_panel in any case.

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/settings.h"
 
 namespace skerry::game {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::game::ui {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::game {
 namespace {

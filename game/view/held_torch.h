@@ -1,5 +1,5 @@
 #pragma once
-#include "game/view/emission.h"
+#include "game/scene_file/emission.h"
 #include "shaders/shared/light.h"
 
 namespace skerry::game {

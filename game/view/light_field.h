@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/render/frame/camera.h"
+#include "game/scene_file/emission.h"
 #include "game/scene_file/scene_lights.h"
-#include "game/view/emission.h"
-#include "world/stream.h"
+#include "world/stream/stream.h"
 
 namespace skerry::game {
 

@@ -5,7 +5,7 @@
 #include "engine/render/frame/camera.h"
 #include "game/scene_file/options.h"
 #include "game/view/light_field.h"
-#include "world/world.h"
+#include "world/islands/world.h"
 
 namespace skerry::game {
 

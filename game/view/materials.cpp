@@ -3,7 +3,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.h"
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::game {
 

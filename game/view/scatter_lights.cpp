@@ -8,8 +8,8 @@
 #include <numbers>
 #include <optional>
 
-#include "world/hash.h"
-#include "world/march.h"
+#include "world/islands/march.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::game {
 namespace {

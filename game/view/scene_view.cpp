@@ -13,7 +13,7 @@
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::game {
 namespace {

@@ -9,12 +9,13 @@
 
 #include "engine/core/jobs.h"
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
 #include "engine/render/renderer/renderer.h"
 #include "game/scene_file/options.h"
 #include "game/view/light_field.h"
-#include "world/stream.h"
-#include "world/world.h"
+#include "world/islands/world.h"
+#include "world/stream/stream.h"
 
 namespace skerry::game {
 

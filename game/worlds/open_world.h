@@ -6,7 +6,7 @@
 
 #include "engine/core/result.h"
 #include "game/scene_file/options.h"
-#include "world/world.h"
+#include "world/islands/world.h"
 
 namespace skerry::game {
 

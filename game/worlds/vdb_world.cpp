@@ -7,8 +7,8 @@
 
 #include "engine/core/draft.h"
 #include "game/scene_file/parse.h"
+#include "world/islands/stored_voxels.h"
 #include "world/store/world_file.h"
-#include "world/stored_voxels.h"
 
 namespace skerry::game {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "engine/core/result.h"
 #include "game/scene_file/vdb_options.h"
-#include "world/vdb/import.h"
-#include "world/world.h"
+#include "world/islands/world.h"
+#include "world/vdb_import/import.h"
 
 namespace skerry::game {
 

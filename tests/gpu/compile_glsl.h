@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <test_paths.h>
-#include "engine/gpu/shader_table.h"
+#include "engine/gpu/program/shader_table.h"
 
 namespace skerry::gpu {
 

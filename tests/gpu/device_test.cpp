@@ -1,9 +1,10 @@
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
 
 #include <optional>
 
-#include "engine/gpu/features.h"
-#include "engine/gpu/readback.h"
+#include "engine/gpu/device/features.h"
+#include "engine/gpu/transfer/readback.h"
 #include "tests/gpu/test_device.h"
 
 namespace skerry::gpu {

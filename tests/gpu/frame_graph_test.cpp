@@ -1,9 +1,10 @@
 // The frame graph without a device: what runs, in which order, with which barriers.
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/graph/frame_graph.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
 
 namespace skerry::gpu {
 namespace {

@@ -2,9 +2,9 @@
 #include <array>
 #include <cstring>
 
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/pipeline.h"
-#include "engine/gpu/readback.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
+#include "engine/gpu/transfer/readback.h"
 #include "tests/gpu/compile_glsl.h"
 #include "tests/gpu/test_device.h"
 

@@ -1,11 +1,11 @@
-#include "engine/gpu/pipeline_cache.h"
+#include "engine/gpu/device/pipeline_cache.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/program/pipeline.h"
 #include "tests/gpu/compile_glsl.h"
 #include "tests/gpu/test_device.h"
 

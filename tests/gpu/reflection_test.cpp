@@ -1,5 +1,5 @@
 // Reflection of optimised, stripped SPIR-V, which is what ships.
-#include "engine/gpu/reflection.h"
+#include "engine/gpu/program/reflection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,14 @@
 // The swapchain of a real window; needs a display (xvfb-run will do) and is skipped without.
-#include "engine/gpu/swapchain.h"
+#include "engine/gpu/transfer/swapchain.h"
 
 #include <gtest/gtest.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/vk_struct.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/device/vk_struct.h"
 
 namespace skerry::gpu {
 namespace {

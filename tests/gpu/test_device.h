@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/readback.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/readback.h"
 
 namespace skerry::gpu {
 

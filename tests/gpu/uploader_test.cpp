@@ -1,11 +1,11 @@
 // Every way of uploading, read back from the device.
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/transfer/uploader.h"
 
 #include <algorithm>
 #include <random>
 
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/readback.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/transfer/readback.h"
 #include "tests/gpu/test_device.h"
 
 namespace skerry::gpu {

@@ -1,5 +1,7 @@
 #include "tools/measure/chart.h"
 
+#include "tools/measure/chart_axis.h"
+
 #include <gtest/gtest.h>
 
 #include "tests/measure/xml.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::render {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/pipeline.h"
-#include "engine/gpu/readback.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
+#include "engine/gpu/transfer/readback.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/scene/occupancy_store.h"
 #include "tests/gpu/compile_glsl.h"
 #include "tests/gpu/test_device.h"

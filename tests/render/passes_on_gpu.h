@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/pipeline.h"
-#include "engine/gpu/readback.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
+#include "engine/gpu/transfer/readback.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/light/shadow_maps.h"
 #include "engine/render/light/shadow_pass.h"
 #include "engine/render/renderer/frame_tables.h"

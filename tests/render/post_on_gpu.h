@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/pipeline.h"
-#include "engine/gpu/readback.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/program/pipeline.h"
+#include "engine/gpu/transfer/readback.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/frame/scene_refs.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/gpu/readback.h"
+#include "engine/gpu/transfer/readback.h"
 #include "engine/render/renderer/renderer.h"
 #include "game/view/materials.h"
 #include "tests/gpu/test_device.h"

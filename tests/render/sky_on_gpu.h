@@ -11,8 +11,9 @@
 #include <memory>
 #include <vector>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/celestial.h"
 #include "engine/render/sky/sky_model.h"
 #include "shaders/shared/frame.h"

@@ -1,11 +1,11 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/scene/geometry_store.h"
 #include "tools/skerry/stability/stage.h"
-#include "world/blocks.h"
-#include "world/coords.h"
+#include "world/voxel/blocks.h"
+#include "world/voxel/coords.h"
 
 namespace skerry::render {
 

@@ -1,4 +1,4 @@
-#include "world/vdb/block_colors.h"
+#include "world/vdb_import/block_colors.h"
 
 #include <gtest/gtest.h>
 

@@ -11,18 +11,21 @@ TOOLS = Path(__file__).resolve().parent.parent.parent / "tools"
 # A tree that keeps every rule; each test changes one file of it.
 GOOD = {
     "engine/core/log.h": "#include <string>\n",
-    "engine/gpu/device.h": '#include <volk.h>\n#include "engine/core/log.h"\n',
-    "engine/render/sky.h": '#include "engine/gpu/device.h"\n#include "shaders/shared/types.h"\n',
+    "engine/gpu/device/device.h": '#include <volk.h>\n#include "engine/core/log.h"\n',
+    "engine/render/sky.h": '#include "engine/gpu/device/device.h"\n#include "shaders/shared/types.h"\n',
     "shaders/shared/types.h": "// docs/conventions.md\n#include <glm/vec3.hpp>\n",
     "shaders/include/light.glsl": '#include "types.h"\n',
     "shaders/shade.comp": '#include "include/light.glsl"\n',
-    "world/chunk.h": '#include "engine/core/log.h"\n',
-    "world/chunk.cpp": '#include "world/chunk.h"\n\n#include <vector>\n',
-    "world/vdb/import.cpp": "#include <openvdb/openvdb.h>\n",
-    "game/session/session.h": '#include "world/chunk.h"\n#include "engine/render/sky.h"\n',
-    "tools/skerry/main.cpp": '#include "tools/skerry/shot.h"\n',
-    "tools/skerry/shot.h": '#include "game/session/session.h"\n',
-    "tests/world/chunk_test.cpp": '#include "tools/skerry/shot.h"\n#include "world/chunk.h"\n',
+    "world/voxel/chunk.h": '#include "engine/core/log.h"\n',
+    "world/voxel/chunk.cpp": '#include "world/voxel/chunk.h"\n\n#include <vector>\n',
+    "world/vdb/read_vdb.cpp": "#include <openvdb/openvdb.h>\n",
+    "game/session/session.h": '#include "world/voxel/chunk.h"\n',
+    "game/session/session_state.h": '#include "game/session/session.h"\n',
+    "game/session/session.cpp": '#include "game/session/session.h"\n\n#include "game/session/session_state.h"\n',
+    "game/client/app.h": '#include "game/session/session.h"\n#include "engine/render/sky.h"\n',
+    "tools/skerry/main.cpp": '#include "tools/skerry/shot/shot.h"\n',
+    "tools/skerry/shot/shot.h": '#include "game/client/app.h"\n',
+    "tests/world/chunk_test.cpp": '#include "tools/skerry/shot/shot.h"\n#include "world/voxel/chunk.h"\n',
 }
 
 
@@ -55,12 +58,13 @@ class CheckIncludes(unittest.TestCase):
     def test_each_room_is_kept_from_each_room_above_it(self):
         above = {
             "shaders/shared": "engine/core/log.h",
-            "engine/core": "world/chunk.h",
+            "engine/core": "world/voxel/chunk.h",
             "engine/gpu": "shaders/shared/types.h",
-            "engine/platform": "engine/gpu/device.h",
-            "engine/render": "world/chunk.h",
-            "world": "engine/gpu/device.h",
-            "game": "tools/skerry/shot.h",
+            "engine/platform": "engine/gpu/device/device.h",
+            "engine/render": "world/voxel/chunk.h",
+            "world": "engine/gpu/device/device.h",
+            "game": "tools/skerry/shot/shot.h",
+            "game/session": "engine/render/sky.h",
             "tools/skerry": "tests/world/fixture.h",
         }
         for room, header in above.items():
@@ -83,10 +87,33 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("shaders/shared/quad.h", "#include <fmt/format.h>\n", "standard library")
 
     def test_a_source_includes_its_own_header_first(self):
-        self.assert_breach("world/chunk.cpp", '#include <vector>\n\n#include "world/chunk.h"\n', "own header")
+        self.assert_breach("world/voxel/chunk.cpp", '#include <vector>\n\n#include "world/voxel/chunk.h"\n', "own header")
 
     def test_includes_are_written_from_the_root(self):
-        self.assert_breach("world/island.h", '#include "chunk.h"\n', "no file")
+        self.assert_breach("world/voxel/island.h", '#include "chunk.h"\n', "no file")
+
+    def test_units_do_not_include_each_other(self):
+        files = {**GOOD, "world/voxel/a.h": '#include "world/voxel/b.h"\n', "world/voxel/b.h": "",
+                 "world/voxel/b.cpp": '#include "world/voxel/b.h"\n#include "world/voxel/a.h"\n'}
+        status, output = run("check_includes", files)
+        self.assertEqual(status, 1)
+        self.assertEqual(output, "units that include each other: world/voxel/a, world/voxel/b\n")
+
+    def test_folders_do_not_include_each_other(self):
+        files = {**GOOD, "world/mesh/a.h": '#include "world/voxel/b.h"\n', "world/voxel/b.h": "",
+                 "world/voxel/c.h": '#include "world/mesh/d.h"\n', "world/mesh/d.h": ""}
+        status, output = run("check_includes", files)
+        self.assertEqual(status, 1)
+        self.assertEqual(output, "folders that include each other: world/mesh, world/voxel\n")
+
+    def test_the_state_of_a_unit_is_its_own(self):
+        self.assert_breach("game/session/other.cpp", '#include "game/session/session_state.h"\n', "private")
+
+    def test_a_folder_holds_so_many_files(self):
+        most = {f"world/many/a{i}.h": "" for i in range(30)}
+        self.assertEqual(run("check_includes", {**GOOD, **most})[0], 0)
+        status, output = run("check_includes", {**GOOD, **most, "world/many/b.h": ""})
+        self.assertEqual((status, output), (1, "world/many: 31 files; split what holds more than 30\n"))
 
     def test_an_include_in_a_comment_does_not_count(self):
         text = '// #include "game/session/session.h"\n/*\n#include <volk.h>\n*/\n'

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "tools/skerry/scene_device.h"
+#include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools::stability {
 namespace {

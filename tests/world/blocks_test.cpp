@@ -1,4 +1,4 @@
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 #include <gtest/gtest.h>
 

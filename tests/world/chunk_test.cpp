@@ -1,4 +1,4 @@
-#include "world/chunk.h"
+#include "world/voxel/chunk.h"
 
 #include <gtest/gtest.h>
 

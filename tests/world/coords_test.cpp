@@ -1,4 +1,4 @@
-#include "world/coords.h"
+#include "world/voxel/coords.h"
 
 #include <gtest/gtest.h>
 

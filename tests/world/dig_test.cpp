@@ -1,4 +1,4 @@
-#include "world/dig.h"
+#include "world/islands/dig.h"
 
 #include <gtest/gtest.h>
 

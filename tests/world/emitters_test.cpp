@@ -1,4 +1,4 @@
-#include "world/emitters.h"
+#include "world/mesh/emitters.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <set>
 #include <tuple>
 
-#include "world/chunk.h"
+#include "world/voxel/chunk.h"
 
 namespace skerry::world {
 namespace {

@@ -1,4 +1,4 @@
-#include "world/island.h"
+#include "world/voxel/island.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "world/edits.h"
-#include "world/stored_voxels.h"
-#include "world/world.h"
+#include "world/islands/stored_voxels.h"
+#include "world/islands/world.h"
+#include "world/voxel/edits.h"
 
 namespace skerry::world {
 

@@ -7,8 +7,8 @@
 #include <functional>
 #include <string>
 
-#include "world/chunk.h"
 #include "world/mesh/kernel.h"
+#include "world/voxel/chunk.h"
 
 namespace skerry::world {
 namespace {

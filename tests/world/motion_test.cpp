@@ -1,11 +1,11 @@
-#include "world/motion.h"
+#include "world/motion/motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tests/world/made_islands.h"
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

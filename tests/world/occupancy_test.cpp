@@ -8,9 +8,9 @@
 
 #include "engine/core/jobs.h"
 #include "shaders/shared/occupancy.h"
-#include "world/chunk.h"
 #include "world/mesh/mesh.h"
-#include "world/stream.h"
+#include "world/stream/stream.h"
+#include "world/voxel/chunk.h"
 
 namespace skerry::world {
 namespace {

@@ -1,4 +1,4 @@
-#include "world/split.h"
+#include "world/motion/split.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <set>
 
 #include "tests/world/made_islands.h"
-#include "world/hash.h"
-#include "world/motion.h"
+#include "world/motion/motion.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

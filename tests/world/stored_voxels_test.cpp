@@ -1,13 +1,13 @@
-#include "world/stored_voxels.h"
+#include "world/islands/stored_voxels.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "world/edits.h"
-#include "world/hash.h"
+#include "world/islands/world.h"
 #include "world/mesh/mesh.h"
-#include "world/world.h"
+#include "world/voxel/edits.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

@@ -1,4 +1,4 @@
-#include "world/stream.h"
+#include "world/stream/stream.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "world/generate/generate.h"
+#include "world/islands/world.h"
 #include "world/mesh/mesh.h"
-#include "world/world.h"
 
 namespace skerry::world {
 namespace {

@@ -28,8 +28,6 @@ struct Chart {
 /// where its values span a decade or more; an error of 0 then has a line of its own at the bottom.
 std::string svg_chart(const Chart& chart);
 
-/// Evenly spaced round numbers within [low, high], about `wanted` of them. @pre low < high.
-std::vector<double> linear_ticks(double low, double high, int wanted);
 /// 1, 2 and 5 times powers of ten within [low, high]; powers of ten alone when those are many.
 std::vector<double> log_ticks(double low, double high);
 

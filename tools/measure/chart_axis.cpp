@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/measure/chart.h"
-
 namespace skerry::measure {
 namespace {
 

@@ -4,6 +4,9 @@
 
 namespace skerry::measure {
 
+/// Evenly spaced round numbers within [low, high], about `wanted` of them. @pre low < high.
+std::vector<double> linear_ticks(double low, double high, int wanted);
+
 /// Values to places along one side of a chart.
 class ChartAxis {
  public:

@@ -15,9 +15,9 @@
 #include "game/worlds/open_world.h"
 #include "tools/reference/reference.h"
 #include "tools/reference/tracer.h"
-#include "world/march.h"
-#include "world/stream.h"
-#include "world/world.h"
+#include "world/islands/march.h"
+#include "world/islands/world.h"
+#include "world/stream/stream.h"
 
 namespace skerry::reference {
 namespace {

@@ -11,8 +11,8 @@
 #include "shaders/shared/sky.h"
 #include "tools/reference/clouds.h"
 #include "tools/reference/lights.h"
-#include "world/blocks.h"
-#include "world/volume.h"
+#include "world/islands/volume.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::reference {
 

@@ -4,7 +4,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::reference {
 

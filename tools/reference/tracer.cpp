@@ -6,7 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "tools/reference/textures.h"
-#include "world/march.h"
+#include "world/islands/march.h"
 
 namespace skerry::reference {
 namespace {

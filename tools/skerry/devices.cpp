@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/gpu/device.h"
-#include "tools/skerry/scene_device.h"
+#include "engine/gpu/device/device.h"
+#include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
 namespace {

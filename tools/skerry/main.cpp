@@ -10,16 +10,16 @@
 #include "engine/core/log.h"
 #include "game/client/preferences.h"
 #include "game/scene_file/parse.h"
-#include "tools/skerry/arguments.h"
-#include "tools/skerry/bench_commands.h"
+#include "tools/skerry/bench/bench_commands.h"
 #include "tools/skerry/devices.h"
 #include "tools/skerry/play_command.h"
 #include "tools/skerry/report/report_command.h"
-#include "tools/skerry/scene_device.h"
-#include "tools/skerry/shot.h"
+#include "tools/skerry/scene/arguments.h"
+#include "tools/skerry/scene/scene_device.h"
+#include "tools/skerry/shot/shot.h"
 #include "tools/skerry/stability/command.h"
-#include "tools/skerry/test_command.h"
-#include "tools/skerry/vdb_command.h"
+#include "tools/skerry/test/test_command.h"
+#include "tools/skerry/vdb/vdb_command.h"
 
 namespace skerry::tools {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
 #include "engine/platform/files.h"
 #include "engine/platform/window.h"
 #include "game/client/play.h"
-#include "tools/skerry/scene_device.h"
+#include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/render/scene/block_textures.h"
 #include "tools/textures/painters.h"
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::textures {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "world/generate/noise.h"
 #include "world/generate/shape.h"
-#include "world/hash.h"
-#include "world/island.h"
+#include "world/voxel/hash.h"
+#include "world/voxel/island.h"
 
 namespace skerry::world {
 namespace {

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::world {
 

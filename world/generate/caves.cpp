@@ -4,7 +4,7 @@
 
 #include "world/generate/noise.h"
 #include "world/generate/plan.h"
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

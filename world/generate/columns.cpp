@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "world/generate/noise.h"
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "world/chunk.h"
-#include "world/island.h"
-#include "world/voxel_source.h"
+#include "world/voxel/chunk.h"
+#include "world/voxel/island.h"
+#include "world/voxel/voxel_source.h"
 
 namespace skerry::world {
 

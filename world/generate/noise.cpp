@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdlib>
 
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world::noise {
 namespace {

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "world/generate/columns.h"
-#include "world/generate/generate.h"
 #include "world/generate/trees.h"
+#include "world/voxel/chunk.h"
+#include "world/voxel/island.h"
 
 namespace skerry::world {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "world/generate/biome.h"
-#include "world/island.h"
+#include "world/voxel/island.h"
 
 namespace skerry::world {
 

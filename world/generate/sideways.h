@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "world/generate/noise.h"
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 

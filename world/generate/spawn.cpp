@@ -6,7 +6,7 @@
 #include "engine/core/check.h"
 #include "world/generate/noise.h"
 #include "world/generate/plan.h"
-#include "world/island.h"
+#include "world/voxel/island.h"
 
 namespace skerry::world {
 namespace {

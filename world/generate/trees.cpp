@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "world/generate/noise.h"
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

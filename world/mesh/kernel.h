@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "shaders/shared/geometry.h"
-#include "world/blocks.h"
-#include "world/mesh/mesh.h"
+#include "world/mesh/chunk_mesh.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::world::mesh_detail {
 

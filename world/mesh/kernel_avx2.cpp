@@ -2,11 +2,11 @@
 #if defined(__x86_64__)
 #include <immintrin.h>
 
-#include "world/mesh/emission.h"
 #include "world/mesh/kernel.h"
+#include "world/mesh/kernel_emission.h"
 
 #define SKERRY_MESH_TARGET __attribute__((target("avx2,bmi,bmi2")))
-#include "world/mesh/scalar_primitives.h"
+#include "world/mesh/kernel_scalar.h"
 
 namespace skerry::world::mesh_detail {
 namespace {

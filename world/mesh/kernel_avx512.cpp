@@ -7,8 +7,8 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
-#include "world/mesh/emission.h"
 #include "world/mesh/kernel.h"
+#include "world/mesh/kernel_emission.h"
 
 #define SKERRY_MESH_TARGET \
   __attribute__((          \

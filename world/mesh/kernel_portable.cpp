@@ -1,11 +1,11 @@
 // The mesher for any CPU: 64-bit integers only.
 #include <cstring>
 
-#include "world/mesh/emission.h"
 #include "world/mesh/kernel.h"
+#include "world/mesh/kernel_emission.h"
 
 #define SKERRY_MESH_TARGET
-#include "world/mesh/scalar_primitives.h"
+#include "world/mesh/kernel_scalar.h"
 
 namespace skerry::world::mesh_detail {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "engine/core/check.h"
 #include "shaders/shared/occupancy.h"
-#include "world/chunk.h"
 #include "world/mesh/mesh.h"
+#include "world/voxel/chunk.h"
 
 namespace skerry::world {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::world {
 

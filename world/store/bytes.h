@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 
@@ -26,6 +26,8 @@ class ByteWriter {
     const auto raw = std::as_bytes(std::span(v));
     bytes_.insert(bytes_.end(), raw.begin(), raw.end());
   }
+  /// Bytes as they are, without their count.
+  void raw(std::span<const std::byte> v) { bytes_.insert(bytes_.end(), v.begin(), v.end()); }
   std::span<const std::byte> bytes() const { return bytes_; }
   std::vector<std::byte> take() { return std::move(bytes_); }
 
@@ -59,6 +61,8 @@ class ByteReader {
   }
   /// Whether there was enough, and all of it has been read.
   bool done() const { return !short_ && bytes_.empty(); }
+  /// Whether more was read than there is; what was read beyond the end is 0.
+  bool cut_short() const { return short_; }
 
  private:
   std::uint64_t number(std::size_t count) {

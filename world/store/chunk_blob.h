@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "world/chunk.h"
-#include "world/edits.h"
+#include "world/voxel/chunk.h"
+#include "world/voxel/edits.h"
 
 namespace skerry::world {
 

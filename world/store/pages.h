@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "world/store/salvage.h"
+#include "world/store/database.h"
 
 namespace skerry::world {
 

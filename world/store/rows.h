@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "world/store/world_file.h"
+#include "world/store/world_contents.h"
 
 namespace skerry::world {
 

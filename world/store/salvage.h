@@ -8,9 +8,6 @@
 
 namespace skerry::world {
 
-/// Size of all pages of a world file [bytes].
-inline constexpr std::size_t kPageBytes = 4096;
-
 /// Looks through every page of a file, and of its log, for rows whose checksums fit what they hold
 /// and their keys, however little of the rest can be read, and puts them into a database that has
 /// the tables of this version and nothing in them. Source for the layout of pages and logs:

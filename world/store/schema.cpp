@@ -8,8 +8,7 @@
 
 #include "world/store/bytes.h"
 #include "world/store/rows.h"
-#include "world/store/salvage.h"
-#include "world/store/world_file.h"
+#include "world/store/world_contents.h"
 
 namespace skerry::world {
 namespace {
@@ -61,7 +60,7 @@ int bring_up_to_date(Database& file, int from) {
   if (code == SQLITE_OK && from > 0) code = make_spares(file);
   if (code == SQLITE_OK)
     code = file.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT",
-                                kApplicationId, WorldFile::kVersion)
+                                kApplicationId, kWorldFileVersion)
                         .c_str());
   if (code != SQLITE_OK) file.run("ROLLBACK");
   return code;
@@ -113,12 +112,12 @@ int check_schema(Database& file, bool migrate, int& version) {
   version = static_cast<int>(found);
   bool same = false;
   if (code == SQLITE_OK && version > 0)
-    code = compare_schema(file, std::min(version, WorldFile::kVersion), same);
-  if (version > WorldFile::kVersion) return code == SQLITE_OK && same ? SQLITE_CORRUPT : code;
+    code = compare_schema(file, std::min(version, kWorldFileVersion), same);
+  if (version > kWorldFileVersion) return code == SQLITE_OK && same ? SQLITE_CORRUPT : code;
   if (code == SQLITE_OK && !same) code = SQLITE_CORRUPT;
-  if (code != SQLITE_OK || version == WorldFile::kVersion || !migrate) return code;
+  if (code != SQLITE_OK || version == kWorldFileVersion || !migrate) return code;
   code = bring_up_to_date(file, version);
-  if (code == SQLITE_OK) version = WorldFile::kVersion;
+  if (code == SQLITE_OK) version = kWorldFileVersion;
   return code;
 }
 

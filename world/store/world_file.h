@@ -12,28 +12,13 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "world/chunk.h"
-#include "world/edits.h"
-#include "world/island.h"
-#include "world/motion_state.h"
-#include "world/world.h"
+#include "world/islands/world.h"
+#include "world/store/world_contents.h"
+#include "world/voxel/chunk.h"
+#include "world/voxel/edits.h"
+#include "world/voxel/island.h"
 
 namespace skerry::world {
-
-/// What a world is made of. Fixed when its file is made.
-struct WorldInfo {
-  std::string name;       ///< for people; at most 200 bytes
-  std::string seed_text;  ///< as typed; at most 4096 bytes
-  WorldDesc desc;
-  bool operator==(const WorldInfo&) const;
-};
-
-/// An island as its file has it. Generated islands that nobody touched have no row.
-struct IslandRow {
-  IslandSpec spec;
-  bool added = false;                      ///< no seed made it: all its chunks are in the file
-  std::optional<MotionState> motion = {};  ///< of an island that left its course
-};
 
 /// A saved world. One process at a time has it open for writing; any number read.
 ///
@@ -46,7 +31,7 @@ class WorldFile {
   enum class Mode : std::uint8_t { kRead, kWrite };
   /// Of the schema; older ones are brought up to it. Grows together with the tables only: a file
   /// with our tables and another number is damaged.
-  static constexpr int kVersion = 3;
+  static constexpr int kVersion = kWorldFileVersion;
 
   /// Makes a file where there is none, complete or not at all, and opens it for writing.
   static Result<std::unique_ptr<WorldFile>> create(const std::filesystem::path& path,

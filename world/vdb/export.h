@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "world/islands/world.h"
 #include "world/vdb/volume_grid.h"
-#include "world/world.h"
 
 namespace skerry::world {
 

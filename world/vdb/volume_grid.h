@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "world/coords.h"
+#include "world/voxel/coords.h"
 
 namespace skerry::world {
 

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "engine/core/draft.h"
-#include "world/hash.h"
 #include "world/vdb/answer.h"
 #include "world/vdb/export.h"
 #include "world/vdb/worker.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

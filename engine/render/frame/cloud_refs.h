@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/graph/frame_graph.h"
 
 namespace skerry::render {
 

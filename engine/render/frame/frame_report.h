@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/graph/frame_graph.h"
 #include "shaders/shared/clusters.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <utility>
 
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/settings.h"
 
 namespace skerry::render {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/cloud_refs.h"
 #include "engine/render/frame/settings.h"
 

@@ -3,8 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/scene/tiles.h"

@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/scene_refs.h"
 
 namespace skerry::render {

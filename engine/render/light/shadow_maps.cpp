@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
 
 namespace skerry::render {
 

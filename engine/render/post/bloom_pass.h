@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/frame/settings.h"
 #include "shaders/shared/bloom.h"

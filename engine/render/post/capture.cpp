@@ -3,7 +3,8 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
 
 namespace skerry::render {
 

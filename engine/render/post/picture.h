@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/resources.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
 
 namespace skerry::render {
 

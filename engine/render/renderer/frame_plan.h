@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/settings.h"
 #include "engine/render/light/shadow_plan.h"

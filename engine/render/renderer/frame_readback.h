@@ -1,6 +1,7 @@
 #pragma once
-#include "engine/gpu/device.h"
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/frame_report.h"
 #include "engine/render/frame/scene_refs.h"
 

@@ -1,9 +1,10 @@
 #pragma once
 #include <span>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/frame/settings.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "engine/gpu/frame_ring.h"
+#include "engine/gpu/graph/frame_ring.h"
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/renderer/frame_readback.h"
 #include "engine/render/renderer/frame_resources.h"

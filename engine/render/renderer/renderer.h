@@ -8,9 +8,10 @@
 #include <span>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/frame_report.h"
 #include "engine/render/frame/settings.h"

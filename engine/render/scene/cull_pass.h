@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/scene_refs.h"
 #include "shaders/shared/frame.h"
 

@@ -1,6 +1,6 @@
 #include "engine/render/scene/gbuffer_formats.h"
 
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
 
 namespace skerry::render {
 

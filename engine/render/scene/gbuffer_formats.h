@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/settings.h"
 

@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "engine/core/check.h"
-#include "engine/gpu/device.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/scene/grow_buffer.h"
 
 namespace skerry::render {

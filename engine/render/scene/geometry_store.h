@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/quad_arena.h"
-#include "engine/gpu/resources.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/quad_arena.h"
 #include "engine/render/scene/geometry_changes.h"
 #include "shaders/shared/geometry.h"
 

@@ -2,8 +2,9 @@
 
 #include <utility>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/vk_struct.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/device/vk_struct.h"
 
 namespace skerry::render {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "engine/core/result.h"
-#include "engine/gpu/resources.h"
+#include "engine/gpu/device/resources.h"
 
 namespace skerry::gpu {
 class Device;

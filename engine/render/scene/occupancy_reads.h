@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/scene_refs.h"
 
 namespace skerry::render {

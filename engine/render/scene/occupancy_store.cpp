@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "engine/core/check.h"
-#include "engine/gpu/device.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/scene/grow_buffer.h"
 #include "shaders/shared/frame.h"
 

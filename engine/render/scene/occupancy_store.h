@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/quad_arena.h"
-#include "engine/gpu/resources.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/quad_arena.h"
 #include "shaders/shared/occupancy.h"
 
 namespace skerry::gpu {

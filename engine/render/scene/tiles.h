@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/gpu/frame_graph.h"
+#include "engine/gpu/graph/frame_graph.h"
 
 namespace skerry::render {
 

@@ -1,8 +1,9 @@
 #pragma once
 #include <span>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/frame/cloud_refs.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/sky/cloud_atlas.h"

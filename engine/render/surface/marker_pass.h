@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/camera.h"
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/phases.h"

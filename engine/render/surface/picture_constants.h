@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/scene_refs.h"
 
 namespace skerry::render {

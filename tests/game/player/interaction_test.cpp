@@ -6,7 +6,7 @@
 
 #include "game/player/edit_rules.h"
 #include "tests/game/player/test_world.h"
-#include "world/dig.h"
+#include "world/islands/dig.h"
 
 namespace skerry::game {
 namespace {

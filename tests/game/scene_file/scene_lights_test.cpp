@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "game/scene_file/emission.h"
 #include "game/scene_file/options.h"
-#include "game/view/emission.h"
 
 namespace skerry::game {
 namespace {

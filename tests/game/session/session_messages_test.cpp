@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
-#include "game/session/session.h"
+#include "game/worlds/open_session.h"
 #include "tests/folder.h"
+#include "tests/game/session/seat.h"
 #include "tests/world/made_islands.h"
-#include "world/hash.h"
+#include "world/islands/stored_voxels.h"
 #include "world/store/world_file.h"
-#include "world/stored_voxels.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::game {
 namespace {
@@ -19,9 +20,10 @@ using world::World;
 /// Makes a world of its own from what it is told.
 class RemoteClient {
  public:
-  explicit RemoteClient(Session& session) : session_(session) {
-    session.send(Join{"far away"});
-    session.attend();
+  RemoteClient(const std::shared_ptr<Session>& session, const std::string& name)
+      : session_(session, std::nullopt) {
+    session_.send(Join{name});
+    session_.attend();
     hear();
   }
 
@@ -61,7 +63,7 @@ class RemoteClient {
   void operator()(const Notice& notice) { ADD_FAILURE() << notice.text; }
 
  private:
-  Session& session_;
+  Seat session_;
   std::unique_ptr<World> world_;
   double time_s_ = -1.0;
   std::size_t pieces_ = 0;
@@ -94,7 +96,8 @@ void expect_same(World& told, World& real, double time_s) {
 /// Plays at random on the islands that there are: digs, builds, steers.
 class Vandal {
  public:
-  Vandal(Session& session, std::uint64_t seed) : session_(session), rng_(seed) {}
+  Vandal(const std::shared_ptr<Session>& session, std::uint64_t seed)
+      : session_(session, Join{"vandal " + std::to_string(seed), true}), rng_(seed) {}
 
   void act(std::uint64_t island, IVec3 low, IVec3 high) {
     IVec3 voxel;
@@ -121,10 +124,11 @@ class Vandal {
     time_s_ += passed_s;
   }
   void begin_at(double time_s) { time_s_ = time_s; }
+  Seat& seat() { return session_; }
   double time_s() const { return time_s_; }
 
  private:
-  Session& session_;
+  Seat session_;
   world::Rng rng_;
   double time_s_ = 0.0;
 };
@@ -156,10 +160,8 @@ struct Tower {
       transaction.put_chunk(kIsland, at, chunk);
     EXPECT_TRUE(transaction.commit());
   }
-  std::unique_ptr<Session> open() const {
-    SceneOptions options;
-    options.world = path.string();
-    auto session = Session::open(options);
+  std::shared_ptr<Session> open() const {
+    auto session = Session::open(path);
     EXPECT_TRUE(session);
     return session ? *std::move(session) : nullptr;
   }
@@ -172,8 +174,10 @@ TEST(SessionMessages, AloneMakeTheSameIslandsHoweverTheyBreakAndFly) {
   for (std::uint64_t play = 0; play < 3; ++play) {
     const auto session = tower.open();
     ASSERT_TRUE(session);
-    RemoteClient client(*session);  // the second and the third join a world with a history
-    Vandal vandal(*session, 100 + play);
+    // The second and the third join a world with a history, and one joins when much has happened.
+    RemoteClient client(session, "far away");
+    std::optional<RemoteClient> late;
+    Vandal vandal(session, 100 + play);
     vandal.begin_at(client.time_s());
     EXPECT_EQ(client.time_s(), time_s);
     for (int i = 0; i < 200; ++i) {
@@ -182,16 +186,22 @@ TEST(SessionMessages, AloneMakeTheSameIslandsHoweverTheyBreakAndFly) {
       const world::IslandSpec spec = *session->world()->island(island);
       vandal.act(island, spec.box_min, {spec.box_max.x, spec.box_max.y, spec.box_max.z});
       if (i % 7 == 0) client.hear();
+      if (i == 120) late.emplace(session, "late");
       // Waits for what breaks.
       ASSERT_TRUE(i % 50 != 49 || session->save());
     }
     SavedPlay left;
     left.world_time_s = vandal.time_s();
-    session->send(PlayerMoved{left});
+    vandal.seat().send(PlayerMoved{left});
     session->attend();
-    client.hear();
-    EXPECT_EQ(client.time_s(), vandal.time_s());
-    expect_same(client.world(), *session->world(), vandal.time_s());
+    for (RemoteClient* remote : {&client, &*late}) {
+      remote->hear();
+      // What it asked for when it joined.
+      session->attend();
+      remote->hear();
+      EXPECT_EQ(remote->time_s(), vandal.time_s());
+      expect_same(remote->world(), *session->world(), vandal.time_s());
+    }
     pieces += client.pieces();
     time_s = vandal.time_s();
   }
@@ -204,10 +214,11 @@ TEST(SessionMessages, AloneMakeTheSameIslandOfASeed) {
   options.settings.world_islands = 3;
   options.settings.world_offset = {1'000'000, 0, -5};
   options.settings.world_time_s = 12.5;
-  auto opened = Session::open(options);
+  auto opened = open_session(options);
   ASSERT_TRUE(opened);
-  Session& session = **opened;
-  RemoteClient client(session);
+  const std::shared_ptr<Session> shared = *std::move(opened);
+  Session& session = *shared;
+  RemoteClient client(shared, "far away");
   EXPECT_EQ(client.time_s(), 12.5);
   EXPECT_TRUE(client.world().changed_islands().empty());
   const world::Spawn spawn = session.world()->spawn();
@@ -218,7 +229,7 @@ TEST(SessionMessages, AloneMakeTheSameIslandOfASeed) {
   const glm::dvec3 feet =
       glm::conjugate(pose.rotation) * world::difference_blocks(spawn.feet, pose.origin);
   const IVec3 ground{static_cast<int>(feet.x), static_cast<int>(feet.y), static_cast<int>(feet.z)};
-  Vandal vandal(session, 1);
+  Vandal vandal(shared, 1);
   vandal.begin_at(12.5);
   for (int i = 0; i < 60; ++i)
     vandal.act(spawn.island, {ground.x - 3, ground.y - 4, ground.z - 3},

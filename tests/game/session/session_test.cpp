@@ -8,9 +8,12 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <map>
 #include <thread>
 
+#include "game/worlds/open_session.h"
 #include "tests/folder.h"
+#include "tests/game/session/seat.h"
 #include "tests/world/made_islands.h"
 #include "world/store/world_file.h"
 
@@ -46,15 +49,13 @@ struct Saved {
     EXPECT_TRUE(transaction.commit());
   }
 
-  std::unique_ptr<Session> open() const {
-    SceneOptions options;
-    options.world = path.string();
-    auto session = Session::open(options);
+  std::unique_ptr<Seat> open(const std::optional<Join>& join = Join{}) const {
+    auto session = Session::open(path);
     EXPECT_TRUE(session) << session.error().message;
     if (!session) return nullptr;
     for (const IVec3& chunk : (*session)->world()->chunks(island, 0))
       (*session)->world()->ensure_chunk(island, chunk);
-    return *std::move(session);
+    return std::make_unique<Seat>(*std::move(session), join);
   }
 };
 
@@ -78,23 +79,33 @@ SavedPlay at(const glm::dvec3& blocks) {
 
 /// Of all kinds of answers that are waiting, those of one.
 template <class Kind>
-std::vector<Kind> heard(Session& session) {
+std::vector<Kind> heard(Seat& session) {
   std::vector<Kind> found;
   for (const Answer& answer : session.receive())
     if (const auto* one = std::get_if<Kind>(&answer)) found.push_back(*one);
   return found;
 }
 
-EditVerdict verdict_of(Session& session, std::uint64_t island, IVec3 voxel, world::BlockId block) {
+EditVerdict verdict_of(Seat& session, std::uint64_t island, IVec3 voxel, world::BlockId block) {
   session.send(Edit{island, voxel, block});
   session.attend();
   return heard<EditAnswer>(session).back().verdict;
 }
 
-std::optional<SavedPlay> left_in(Session& session) {
-  session.send(Join{});
-  session.attend();
-  return heard<Joined>(session).back().play;
+std::optional<SavedPlay> left_in(const Seat& session) {
+  return session.joined()->play;
+}
+
+/// As whoever joins now is told.
+std::optional<world::MotionState> motion_of(Seat& session, std::uint64_t island) {
+  Seat observer(session.session(), std::nullopt);
+  observer.send(Join{"observer"});
+  observer.attend();
+  std::optional<world::MotionState> found;
+  for (const IslandsMoved& moved : heard<IslandsMoved>(observer))
+    for (const world::MovingIsland& move : moved.moves)
+      if (move.island == island) found = move.state;
+  return found;
 }
 
 TEST(Session, ChecksReachKindAndRate) {
@@ -128,7 +139,7 @@ TEST(Session, ChecksReachKindAndRate) {
 
 TEST(Session, AnswersMessagesInOrder) {
   const Saved saved;
-  const auto session = saved.open();
+  const auto session = saved.open(std::nullopt);
   session->send(Join{"me"});
   session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
   session->send(Edit{saved.island, {1, 3, 1}, world::block::kLamp});
@@ -155,22 +166,14 @@ TEST(Session, AnswersMessagesInOrder) {
 
 TEST(Session, TellsNothingBeforeSomeoneJoins) {
   const Saved saved;
-  const auto session = saved.open();
+  const auto session = saved.open(std::nullopt);
   session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  session->send(Edit{saved.island, {1, 3, 1}, world::block::kLamp});
   session->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
   session->advance(1.0);
   EXPECT_TRUE(session->receive().empty());
-}
-
-std::optional<world::MotionState> motion_of(Session& session, std::uint64_t island) {
-  session.receive();
-  session.send(Join{});
-  session.attend();
-  std::optional<world::MotionState> found;
-  for (const IslandsMoved& moved : heard<IslandsMoved>(session))
-    for (const world::MovingIsland& move : moved.moves)
-      if (move.island == island) found = move.state;
-  return found;
+  EXPECT_EQ(session->world()->block_at(saved.island, {1, 3, 1}), world::kAir);
+  EXPECT_FALSE(motion_of(*session, saved.island));
 }
 
 TEST(Session, EverythingComesBackExactly) {
@@ -248,7 +251,7 @@ TEST(Session, NonsenseInTheHandsLeavesThePlaceAlone) {
     auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
     ASSERT_TRUE(file);
     auto transaction = (*file)->begin();
-    put_play(transaction, play);
+    put_plays(transaction, {{"", play}});
     transaction.put_value("habits", std::vector<std::byte>(11, std::byte{255}));
     ASSERT_TRUE(transaction.commit());
   }
@@ -278,8 +281,7 @@ TEST(Session, CuttingANeckMakesAnIslandThatIsSaved) {
   std::size_t blocks = 0;
   std::uint64_t piece = 0;
   {
-    const auto session = saved.open();
-    session->send(Join{"me", true});
+    const auto session = saved.open(Join{"me", true});
     session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
     session->advance(1.0);
     blocks = all_blocks(*session->world());
@@ -333,10 +335,138 @@ TEST(Session, AFullDiskIsToldAndLosesNothing) {
 TEST(Session, AWorldOfASeedIsSavedNowhere) {
   SceneOptions options;
   options.seed_text = "4";
-  const auto session = Session::open(options);
+  const auto session = open_session(options);
   ASSERT_TRUE(session);
   EXPECT_TRUE((*session)->save());
   EXPECT_EQ((*session)->world()->seed(), 4u);
+}
+
+/// Chunk changes that were told, as blocks by voxel of the chunk.
+std::map<std::uint32_t, world::BlockId> told_of(Seat& session, std::uint64_t island, IVec3 chunk) {
+  std::map<std::uint32_t, world::BlockId> blocks;
+  for (const ChunkChanges& changes : heard<ChunkChanges>(session))
+    if (changes.island == island && changes.chunk == chunk)
+      for (const world::VoxelEdit& edit : changes.edits)
+        blocks.insert_or_assign(edit.index, edit.block);
+  return blocks;
+}
+
+TEST(Session, AnEditReachesEveryClientOnce) {
+  const Saved saved;
+  const auto anna = saved.open(Join{"Anna"});
+  Seat boris(anna->session(), Join{"Boris"}), here(anna->session(), Join{"here", true});
+  Seat stranger(anna->session(), std::nullopt);
+  anna->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  anna->attend();
+  ASSERT_EQ(verdict_of(*anna, saved.island, {1, 3, 1}, world::block::kLamp), EditVerdict::kDone);
+  const auto index = static_cast<std::uint32_t>(world::index_in_chunk({1, 3, 1}));
+  const std::map<std::uint32_t, world::BlockId> lamp{{index, world::block::kLamp}};
+  EXPECT_EQ(told_of(boris, saved.island, {0, 0, 0}), lamp);
+  EXPECT_TRUE(told_of(*anna, saved.island, {0, 0, 0}).empty()) << "she made it";
+  EXPECT_TRUE(told_of(here, saved.island, {0, 0, 0}).empty()) << "it reads the session's voxels";
+  EXPECT_TRUE(stranger.receive().empty());
+  // What is refused reaches nobody.
+  ASSERT_NE(verdict_of(*anna, saved.island, {1, 3, 1}, world::block::kStone), EditVerdict::kDone);
+  EXPECT_TRUE(boris.receive().empty());
+}
+
+TEST(Session, ClientsHaveReachesAndRatesOfTheirOwn) {
+  const Saved saved;
+  const auto anna = saved.open(Join{"Anna"});
+  Seat boris(anna->session(), Join{"Boris"});
+  anna->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  boris.send(PlayerMoved{at({150.0, 5.0, 1.5})});
+  const auto lamp_by = [&](Seat& who, std::int32_t x) {
+    return verdict_of(who, saved.island, {x, 3, 1}, world::block::kLamp);
+  };
+  EXPECT_EQ(lamp_by(boris, 1), EditVerdict::kTooFar);
+  EXPECT_EQ(lamp_by(*anna, 1), EditVerdict::kDone);
+  boris.send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  for (int i = 0; i < static_cast<int>(kEditBurst); ++i)
+    verdict_of(*anna, saved.island, {2, 4, 1},
+               i % 2 == 0 ? world::BlockId{world::block::kLamp} : world::kAir);
+  EXPECT_EQ(lamp_by(*anna, 3), EditVerdict::kTooFast);
+  EXPECT_EQ(lamp_by(boris, 3), EditVerdict::kDone);
+  // Engines are set by who stands there.
+  SavedPlay elsewhere = at({101.5, 5.0, 1.5});
+  elsewhere.player.island = saved.island + 1;
+  boris.send(PlayerMoved{elsewhere});
+  boris.send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  boris.advance(0.2);
+  EXPECT_FALSE(motion_of(boris, saved.island));
+  anna->send(Steer{saved.island, {0.0, 0.0, 1.0}, 0.0});
+  anna->advance(0.2);
+  EXPECT_TRUE(motion_of(boris, saved.island));
+}
+
+TEST(Session, EveryPlayerComesBackToTheirPlace) {
+  const Saved saved;
+  const SavedPlay alone = at({101.5, 5.0, 1.5}), anna = at({-7.0, 3.5, 1e6}), boris = at({0, 1, 2});
+  {
+    const auto session = saved.open();
+    session->send(PlayerMoved{alone});
+    Seat seat(session->session(), Join{"Anna"});
+    seat.send(PlayerMoved{anna});
+    Seat other(session->session(), Join{"Борис"});
+    other.send(PlayerMoved{boris});
+    session->attend();
+  }
+  for (int open = 0; open < 2; ++open) {  // the second time without having moved
+    const auto session = saved.open();
+    EXPECT_EQ(session->joined()->play, alone);
+    EXPECT_EQ(Seat(session->session(), Join{"Anna"}).joined()->play, anna);
+    EXPECT_EQ(Seat(session->session(), Join{"Борис"}).joined()->play, boris);
+    EXPECT_FALSE(Seat(session->session(), Join{"Carl"}).joined()->play);
+    EXPECT_TRUE(session->receive().empty()) << "nothing is damaged";
+  }
+}
+
+TEST(Session, RefusesANameThatIsTakenOrTooLong) {
+  const Saved saved;
+  const auto anna = saved.open(Join{"Anna"});
+  const auto refusal = [&](const std::string& name) {
+    Seat seat(anna->session(), Join{name});
+    const std::vector<Notice> notices = heard<Notice>(seat);
+    return seat.joined() || notices.size() != 1 ? std::string() : notices[0].text;
+  };
+  EXPECT_EQ(refusal("Anna"), "the player 'Anna' is in this world already");
+  EXPECT_NE(refusal(std::string(kMaxPlayerBytes + 1, 'x')).find("64 bytes"), std::string::npos);
+  EXPECT_TRUE(refusal(std::string(kMaxPlayerBytes, 'x')).empty());
+  {
+    Seat boris(anna->session(), Join{"Boris"});
+    EXPECT_TRUE(boris.joined());
+  }
+  EXPECT_TRUE(refusal("Boris").empty()) << "he has left";
+}
+
+TEST(Session, DamagedPlacesOfPlayersAreTold) {
+  const Saved saved;
+  const SavedPlay play = at({101.5, 5.0, 1.5});
+  std::map<std::string, SavedPlay> plays{{"", play}};
+  for (int i = 0; i < 9; ++i) plays[std::string(1, static_cast<char>('a' + i))] = play;
+  std::vector<std::byte> whole;
+  {
+    auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
+    auto transaction = (*file)->begin();
+    put_plays(transaction, plays);
+    ASSERT_TRUE(transaction.commit());
+    whole = (*file)->value("players").value();
+    EXPECT_EQ(saved_plays(**file), plays);
+    EXPECT_TRUE((*file)->damage().empty());
+  }
+  // Any length that is too short, and one that is too long.
+  for (std::size_t size = 0; size <= whole.size() + 1; size += size < 40 ? 1 : 37) {
+    if (size == whole.size()) continue;
+    std::vector<std::byte> bytes = whole;
+    bytes.resize(size);
+    auto file = world::WorldFile::open(saved.path, world::WorldFile::Mode::kWrite);
+    auto transaction = (*file)->begin();
+    transaction.put_value("players", bytes);
+    ASSERT_TRUE(transaction.commit());
+    const std::map<std::string, SavedPlay> read = saved_plays(**file);
+    EXPECT_EQ((*file)->damage().size(), 1u) << size;
+    for (const auto& [player, found] : read) EXPECT_EQ(found, plays.at(player));
+  }
 }
 
 TEST(Session, APlaceFarFromTheMiddleOfAnIslandIsKept) {
@@ -362,7 +492,7 @@ TEST(Session, AnIslandAheadOfTheWorldsTimeMovesAllTheSame) {
     motion.tick = 5'000'000;
     motion.velocity = {3.0, 0.0, 0.0};
     transaction.put_island({spec, true, motion});
-    put_play(transaction, at({101.5, 5.0, 1.5}));
+    put_plays(transaction, {{"", at({101.5, 5.0, 1.5})}});
     ASSERT_TRUE(transaction.commit());
   }
   const auto session = saved.open();

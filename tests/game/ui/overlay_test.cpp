@@ -7,8 +7,9 @@
 #include <cmath>
 #include <set>
 
-#include "engine/gpu/device.h"
-#include "engine/gpu/readback.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/readback.h"
 #include "game/client/overlay_pass.h"
 #include "game/ui/gui.h"
 

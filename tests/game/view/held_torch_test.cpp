@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::game {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "engine/gpu/readback.h"
+#include "engine/gpu/transfer/readback.h"
 #include "engine/render/frame/camera.h"
 #include "engine/render/light/lights.h"
 #include "tests/gpu/test_device.h"

@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "engine/gpu/frame_graph.h"
-#include "engine/gpu/readback.h"
-#include "engine/gpu/uploader.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/transfer/readback.h"
+#include "engine/gpu/transfer/uploader.h"
 #include "engine/render/light/lights.h"
 #include "tests/gpu/compile_glsl.h"
 #include "tests/gpu/test_device.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/render/renderer_on_gpu.h"
-#include "world/blocks.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::render {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "engine/platform/files.h"
 #include "tests/folder.h"
-#include "tools/skerry/draw_scene.h"
+#include "tools/skerry/scene/draw_scene.h"
 
 namespace skerry::tools {
 namespace {

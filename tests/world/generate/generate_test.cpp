@@ -11,7 +11,7 @@
 
 #include "world/generate/biome.h"
 #include "world/generate/shape.h"
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

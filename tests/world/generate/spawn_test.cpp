@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "world/generate/generate.h"
-#include "world/hash.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

@@ -12,10 +12,10 @@
 #include <string>
 
 #include "tests/folder.h"
-#include "world/hash.h"
+#include "world/islands/stored_voxels.h"
 #include "world/store/chunk_blob.h"
 #include "world/store/world_file.h"
-#include "world/stored_voxels.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 

@@ -11,8 +11,8 @@
 
 #include "engine/core/clock.h"
 #include "tests/world/vdb/sample_files.h"
-#include "world/hash.h"
-#include "world/vdb/import.h"
+#include "world/vdb_import/import.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

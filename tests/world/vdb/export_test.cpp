@@ -8,10 +8,10 @@
 
 #include "tests/world/vdb/sample_files.h"
 #include "tests/world/vdb/volumes.h"
-#include "world/hash.h"
+#include "world/islands/stored_voxels.h"
 #include "world/mesh/mesh.h"
-#include "world/stored_voxels.h"
-#include "world/vdb/import.h"
+#include "world/vdb_import/import.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {

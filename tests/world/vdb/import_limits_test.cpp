@@ -5,8 +5,8 @@
 #include <ctime>
 
 #include "tests/world/vdb/imported.h"
-#include "world/vdb/grid_choice.h"
-#include "world/vdb/island_builder.h"
+#include "world/vdb_import/grid_choice.h"
+#include "world/vdb_import/island_builder.h"
 
 namespace skerry::world {
 namespace {

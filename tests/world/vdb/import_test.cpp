@@ -1,4 +1,4 @@
-#include "world/vdb/import.h"
+#include "world/vdb_import/import.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 #include "tests/world/vdb/imported.h"
 #include "tests/world/vdb/volumes.h"
-#include "world/vdb/grid_choice.h"
-#include "world/vdb/volume_field.h"
-#include "world/world.h"
+#include "world/islands/world.h"
+#include "world/vdb_import/grid_choice.h"
+#include "world/vdb_import/volume_field.h"
 
 namespace skerry::world {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "world/vdb/import.h"
+#include "world/vdb_import/import.h"
 
 namespace skerry::world {
 

@@ -7,9 +7,9 @@
 
 #include "engine/core/clock.h"
 #include "tests/world/vdb/sample_files.h"
-#include "world/vdb/import.h"
-#include "world/vdb/volume_field.h"
 #include "world/vdb/worker.h"
+#include "world/vdb_import/import.h"
+#include "world/vdb_import/volume_field.h"
 
 namespace skerry::world {
 namespace {

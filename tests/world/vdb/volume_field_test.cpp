@@ -1,4 +1,4 @@
-#include "world/vdb/volume_field.h"
+#include "world/vdb_import/volume_field.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "world/hash.h"
 #include "world/vdb/volume_grid.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 

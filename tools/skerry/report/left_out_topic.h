@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
-#include "tools/skerry/left_out.h"
+#include "engine/gpu/device/device.h"
+#include "tools/skerry/bench/left_out.h"
 #include "tools/skerry/report/write_topic.h"
 
 namespace skerry::tools {

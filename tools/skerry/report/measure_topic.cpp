@@ -7,8 +7,8 @@
 #include "tools/measure/flip.h"
 #include "tools/measure/metrics.h"
 #include "tools/measure/pareto.h"
-#include "tools/skerry/bench_upload.h"
-#include "tools/skerry/draw_scene.h"
+#include "tools/skerry/bench/bench_upload.h"
+#include "tools/skerry/scene/draw_scene.h"
 
 namespace skerry::tools {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/core/result.h"
 #include "tools/measure/image.h"
-#include "tools/skerry/bench_report.h"
+#include "tools/skerry/bench/bench_report.h"
 #include "tools/skerry/report/report_session.h"
 #include "tools/skerry/report/topics.h"
 

@@ -7,13 +7,13 @@
 #include "engine/core/clock.h"
 #include "engine/platform/files.h"
 #include "tools/measure/html.h"
-#include "tools/skerry/progress.h"
 #include "tools/skerry/report/left_out_topic.h"
 #include "tools/skerry/report/measure_topic.h"
 #include "tools/skerry/report/report_command.h"
 #include "tools/skerry/report/report_folder.h"
 #include "tools/skerry/report/write_topic.h"
-#include "tools/skerry/scene_device.h"
+#include "tools/skerry/scene/progress.h"
+#include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/platform/files.h"
 #include "game/scene_file/parse.h"
 #include "tools/skerry/report/left_out_topic.h"
-#include "tools/skerry/scene_device.h"
+#include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
 namespace {

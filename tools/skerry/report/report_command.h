@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/skerry/arguments.h"
 #include "tools/skerry/report/report_session.h"
+#include "tools/skerry/scene/arguments.h"
 
 namespace skerry::tools {
 

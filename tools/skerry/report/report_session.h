@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
 #include "game/scene_file/options.h"
 #include "tools/measure/image.h"
 #include "tools/measure/picture.h"

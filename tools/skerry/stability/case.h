@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
 
 namespace skerry::tools::stability {
 

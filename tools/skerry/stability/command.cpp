@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "tools/skerry/arguments.h"
-#include "tools/skerry/bench_report.h"
-#include "tools/skerry/progress.h"
-#include "tools/skerry/scene_device.h"
+#include "tools/skerry/bench/bench_report.h"
+#include "tools/skerry/scene/arguments.h"
+#include "tools/skerry/scene/progress.h"
+#include "tools/skerry/scene/scene_device.h"
 #include "tools/skerry/stability/run.h"
 
 namespace skerry::tools {

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "engine/gpu/readback.h"
-#include "tools/skerry/draw_scene.h"
+#include "engine/gpu/transfer/readback.h"
+#include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "game/player/player.h"
-#include "world/blocks.h"
-#include "world/coords.h"
-#include "world/island.h"
+#include "world/voxel/blocks.h"
+#include "world/voxel/coords.h"
+#include "world/voxel/island.h"
 
 namespace skerry::tools::stability {
 

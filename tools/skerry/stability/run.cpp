@@ -8,7 +8,7 @@
 
 #include "engine/core/check.h"
 #include "game/scene_file/parse.h"
-#include "tools/skerry/scene_device.h"
+#include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools::stability {
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
-#include "engine/gpu/readback.h"
+#include "engine/gpu/transfer/readback.h"
 #include "game/view/materials.h"
 #include "world/mesh/occupancy.h"
 

@@ -10,9 +10,9 @@
 #include "engine/core/result.h"
 #include "engine/render/renderer/renderer.h"
 #include "shaders/shared/geometry.h"
-#include "world/blocks.h"
-#include "world/coords.h"
 #include "world/mesh/mesh.h"
+#include "world/voxel/blocks.h"
+#include "world/voxel/coords.h"
 
 namespace skerry::tools::stability {
 

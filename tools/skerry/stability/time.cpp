@@ -7,7 +7,7 @@
 #include "engine/render/frame/celestial.h"
 #include "game/input/controls.h"
 #include "tools/skerry/stability/case.h"
-#include "world/island.h"
+#include "world/voxel/island.h"
 
 namespace skerry::tools::stability {
 namespace {

@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "tools/skerry/draw_scene.h"
+#include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
-#include "world/island.h"
+#include "world/voxel/island.h"
 
 namespace skerry::tools::stability {
 namespace {

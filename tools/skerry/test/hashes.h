@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "engine/core/result.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/device/device.h"
 
 namespace skerry::tools {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "tools/measure/image.h"
-#include "tools/skerry/draw_scene.h"
+#include "tools/skerry/scene/draw_scene.h"
 
 namespace skerry::tools {
 namespace {

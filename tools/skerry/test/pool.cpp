@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/skerry/scene_device.h"
+#include "tools/skerry/scene/scene_device.h"
 #include "tools/skerry/test/worker.h"
 
 namespace skerry::tools {

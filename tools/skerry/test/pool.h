@@ -5,18 +5,11 @@
 #include <optional>
 #include <span>
 
-#include "tools/skerry/arguments.h"
+#include "tools/skerry/scene/arguments.h"
 #include "tools/skerry/test/judge.h"
+#include "tools/skerry/test/pool_options.h"
 
 namespace skerry::tools {
-
-struct PoolOptions {
-  std::optional<std::uint32_t> device;
-  bool validate = false;
-  std::optional<int> processes;  ///< none: one a core on a CPU device, else one
-  int runs = 1;                  ///< every scene is drawn afresh so many times
-  JudgeOptions judge;
-};
 
 struct PoolResult {
   std::optional<Refusal> refusal;  ///< there is no device, or no process to use it

@@ -10,8 +10,8 @@
 
 #include "engine/core/check.h"
 #include "engine/core/clock.h"
-#include "tools/skerry/draw_scene.h"
-#include "tools/skerry/scene_device.h"
+#include "tools/skerry/scene/draw_scene.h"
+#include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
 namespace {

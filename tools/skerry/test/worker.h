@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "tools/skerry/test/pool.h"
+#include "tools/skerry/test/pool_options.h"
 
 namespace skerry::tools {
 

@@ -1,0 +1,99 @@
+#include "engine/gpu/graph/transient_pool.h"
+
+#include "engine/gpu/device/gpu_check.h"
+
+namespace skerry::gpu {
+namespace {
+
+/// Frames an unused entry survives: a pass that comes and goes (a menu, dusk) should not allocate
+/// each time.
+constexpr int kIdleFrames = 8;
+
+Result<Image> create(Device& device, const ImageDesc& desc) {
+  return device.create_image(desc);
+}
+Result<Buffer> create(Device& device, const BufferDesc& desc) {
+  return device.create_buffer(desc);
+}
+
+/// Sizes of buffers grow in steps of a quarter to a half, so that a count that goes up and down
+/// between frames makes nothing anew.
+std::uint64_t roomy(std::uint64_t bytes, std::uint64_t most) {
+  std::uint64_t step = std::uint64_t{1} << 12;
+  while (step * 4 < bytes) step *= 2;
+  const std::uint64_t rounded = (bytes + step - 1) / step * step;
+  return rounded <= most ? rounded : bytes;
+}
+
+bool serves(const ImageDesc& kept, const ImageDesc& wanted) {
+  return kept == wanted;
+}
+bool serves(const BufferDesc& kept, const BufferDesc& wanted) {
+  return kept.name == wanted.name && kept.usage == wanted.usage && kept.memory == wanted.memory &&
+         kept.size_bytes >= wanted.size_bytes;
+}
+
+template <class Entries>
+void release(Entries& entries) {
+  std::erase_if(entries, [](const auto& entry) {
+    return !entry->taken && entry->idle_frames >= kIdleFrames;
+  });
+  for (auto& entry : entries) {
+    entry->idle_frames = entry->taken ? 0 : entry->idle_frames + 1;
+    entry->taken = false;
+  }
+}
+
+}  // namespace
+
+void TransientPool::begin_frame() {
+  failure_.reset();
+  release(images_);
+  release(buffers_);
+}
+
+template <class Entries, class Desc>
+auto& TransientPool::take_from(Entries& entries, const Desc& desc) {
+  for (auto& entry : entries) {
+    if (!entry->taken && serves(entry->desc, desc) && (entry->object || !device_)) {
+      entry->taken = true;
+      return entry->object;
+    }
+  }
+  using EntryType = typename Entries::value_type::element_type;
+  auto entry = std::make_unique<EntryType>();
+  entry->desc = desc;
+  entry->taken = true;
+  if (device_) {
+    auto made = create(*device_, desc);
+    if (made)
+      entry->object = *std::move(made);
+    else
+      failure_ = made.error();
+  }
+  entries.push_back(std::move(entry));
+  return entries.back()->object;
+}
+
+Image& TransientPool::take(const ImageDesc& desc) {
+  return take_from(images_, desc);
+}
+Buffer& TransientPool::take(const BufferDesc& desc) {
+  if (!device_) return take_from(buffers_, desc);
+  BufferDesc wanted = desc;
+  wanted.size_bytes = roomy(desc.size_bytes, device_->limits().max_storage_range);
+  return take_from(buffers_, wanted);
+}
+
+std::vector<MemoryUse> TransientPool::memory() const {
+  std::vector<MemoryUse> list;
+  for (const auto& entry : images_) {
+    if (entry->taken) list.push_back({entry->desc.name, entry->object.allocated_bytes()});
+  }
+  for (const auto& entry : buffers_) {
+    if (entry->taken) list.push_back({entry->desc.name, entry->object.allocated_bytes()});
+  }
+  return list;
+}
+
+}  // namespace skerry::gpu

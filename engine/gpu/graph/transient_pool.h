@@ -1,0 +1,46 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device/device.h"
+#include "engine/gpu/device/resources.h"
+
+namespace skerry::gpu {
+
+/// Images and buffers of single frames, kept for the frames after. Without a device it hands out
+/// empty ones.
+class TransientPool {
+ public:
+  explicit TransientPool(Device* device) : device_(device) {}
+  /// Everything is free again; what no frame took for a while is destroyed.
+  void begin_frame();
+  /// One with exactly this description, until the next begin_frame(). failure() says if it could
+  /// not be made.
+  Image& take(const ImageDesc& desc);
+  /// One of this name, usage and memory that is at least as large.
+  Buffer& take(const BufferDesc& desc);
+  std::vector<MemoryUse> memory() const;  ///< of those taken this frame
+  /// Why something taken this frame could not be made: what take() returned for it owns nothing.
+  const std::optional<Error>& failure() const { return failure_; }
+
+ private:
+  template <class Desc, class Object>
+  struct Entry {
+    Desc desc;
+    Object object;
+    bool taken = false;
+    int idle_frames = 0;
+  };
+  template <class Entries, class Desc>
+  auto& take_from(Entries& entries, const Desc& desc);
+  Device* device_;
+  std::optional<Error> failure_;
+  // Entries stay at their addresses while the vectors grow: passes hold references to the objects.
+  std::vector<std::unique_ptr<Entry<ImageDesc, Image>>> images_;
+  std::vector<std::unique_ptr<Entry<BufferDesc, Buffer>>> buffers_;
+};
+
+}  // namespace skerry::gpu

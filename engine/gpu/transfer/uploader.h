@@ -1,0 +1,59 @@
+#pragma once
+#include <volk.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device/resources.h"
+
+namespace skerry::gpu {
+
+class Device;
+
+enum class UploadPath : std::uint8_t {
+  kUpdateBuffer,  ///< vkCmdUpdateBuffer, split at 65,536 bytes (the default)
+  kStaging,       ///< copy from a mapped ring
+  /// Written straight into a mapped buffer when the batch is recorded, if the GPU is done with
+  /// everything submitted that touches the buffer (AccessState::last_value). Else, or if it is not
+  /// mapped, vkCmdUpdateBuffer: never a stall or a race.
+  kMapped,
+};
+
+/// Bytes sent by each way since the uploader was made.
+struct UploadBytes {
+  std::uint64_t by_update = 0, by_staging = 0, by_mapping = 0;
+};
+
+/// Collects writes to buffers and records them as one batch a frame with one barrier before and one
+/// after, outside rendering.
+class Uploader {
+ public:
+  Uploader(Device& device, UploadPath path);
+  ~Uploader();
+  /// Queues a copy of `bytes`. Offsets and sizes must be multiples of 4 and inside the buffer,
+  /// which must stay where it is until recorded and have the usage TRANSFER_DST. Keeps order: a
+  /// later write to the same place wins.
+  void write(Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes);
+  template <class T>
+  void write(Buffer& to, std::uint64_t offset_bytes, std::span<const T> values) {
+    write(to, offset_bytes, std::as_bytes(values));
+  }
+  std::uint64_t pending_bytes() const;
+  /// Records queued writes, oldest first, until about `budget_bytes` (at least one whole write).
+  /// @return bytes recorded.
+  std::uint64_t record(VkCommandBuffer commands, std::uint64_t budget_bytes);
+  const UploadBytes& sent() const;
+  /// Fills an image's mips and layers once, at start-up: tightly packed, mip by mip, layers in
+  /// order within a mip. Leaves it ready to be sampled.
+  Result<void> fill_image(Image& image, std::span<const std::byte> bytes);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace skerry::gpu

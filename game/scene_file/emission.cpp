@@ -1,0 +1,80 @@
+#include "game/scene_file/emission.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/render/scene/block_textures.h"
+#include "world/voxel/blocks.h"
+
+namespace skerry::game {
+namespace {
+
+/// IEC 61966-2-1.
+double linear_from_srgb(int byte) {
+  const double encoded = byte / 255.0;
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+double luminance(glm::dvec3 c) {
+  return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+
+/// A texture's light: mean over the whole square, and the height of its middle, 0 below .. 1.
+struct Glow {
+  glm::dvec3 mean{0.0};
+  double height = 0.5;
+};
+
+Glow glow_of(const render::BlockTextures& file, world::Texture texture) {
+  constexpr int kCovered = 128;  // of 255: the coverage of which a texel is drawn
+  const std::size_t edge = file.edge;
+  const std::byte* texels =
+      file.texels.data() + 4 * edge * edge * static_cast<std::size_t>(texture);
+  Glow glow;
+  double raised = 0.0, light = 0.0;
+  for (std::size_t row = 0; row < edge; ++row) {
+    for (std::size_t column = 0; column < edge; ++column, texels += 4) {
+      if (std::to_integer<int>(texels[3]) < kCovered) continue;
+      const glm::dvec3 albedo{linear_from_srgb(std::to_integer<int>(texels[0])),
+                              linear_from_srgb(std::to_integer<int>(texels[1])),
+                              linear_from_srgb(std::to_integer<int>(texels[2]))};
+      glow.mean += albedo;
+      light += luminance(albedo);
+      raised += luminance(albedo) * (1.0 - (static_cast<double>(row) + 0.5) / file.edge);
+    }
+  }
+  glow.mean /= static_cast<double>(edge * edge);
+  if (light > 0.0) glow.height = raised / light;
+  return glow;
+}
+
+BlockEmission emission_of(const render::BlockTextures& file, const world::BlockType& type) {
+  BlockEmission out;
+  constexpr double kFluxOverSphere = 0.25;  // pi L A over 4 pi
+  if (type.kind == world::BlockKind::kPlant) {
+    constexpr double kArea = 4.0 * std::numbers::sqrt2;  // two diagonals, both sides
+    const Glow glow = glow_of(file, type.side);
+    out.face_intensity = glow.mean * (type.emission * kArea * kFluxOverSphere);
+    out.offset.y = static_cast<float>(glow.height - 0.5);
+    return out;
+  }
+  const std::array<world::Texture, 6> sides{type.side,   type.side, type.top,
+                                            type.bottom, type.side, type.side};
+  glm::dvec3 mean(0.0);
+  for (const world::Texture side : sides) mean += glow_of(file, side).mean / 6.0;
+  out.face_intensity = mean * (type.emission * kFluxOverSphere);
+  return out;
+}
+
+}  // namespace
+
+std::vector<BlockEmission> emission_table() {
+  const render::BlockTextures file = render::block_textures();
+  std::vector<BlockEmission> table;
+  for (const world::BlockType& type : world::block_types())
+    table.push_back(type.emission > 0.0f ? emission_of(file, type) : BlockEmission{});
+  return table;
+}
+
+}  // namespace skerry::game

@@ -1,0 +1,58 @@
+#include "game/scene_file/emission.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tools/reference/textures.h"
+#include "world/voxel/blocks.h"
+
+namespace skerry::game {
+namespace {
+
+/// A face's mean albedo, by the reference's own reading of the textures.
+glm::dvec3 mean_albedo(world::BlockId block, int face) {
+  constexpr int kEdge = 256;  // at least as many samples as texels
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < kEdge; ++i) {
+    for (int j = 0; j < kEdge; ++j) {
+      const double a = (i + 0.5) / kEdge, b = (j + 0.5) / kEdge;
+      const glm::dvec4 texel = reference::BlockTexels::shared().texel(
+          block, face, face >= 6 ? glm::dvec3(a, b, a) : glm::dvec3(a, 0.0, b));
+      if (texel.w >= 0.5) sum += glm::dvec3(texel);
+    }
+  }
+  return sum / static_cast<double>(kEdge * kEdge);
+}
+
+TEST(Emission, ABlocksFaceSendsOutItsLambertianFlux) {
+  const std::vector<BlockEmission> table = emission_table();
+  ASSERT_EQ(table.size(), world::block_types().size());
+  for (world::BlockId id = 0; id < table.size(); ++id) {
+    const world::BlockType& type = world::block_types()[id];
+    if (type.emission == 0.0f) {
+      EXPECT_EQ(table[id].face_intensity, glm::vec3(0.0f)) << type.name;
+      continue;
+    }
+    const bool plant = type.kind == world::BlockKind::kPlant;
+    const glm::dvec3 radiance = mean_albedo(id, plant ? 6 : 2) * static_cast<double>(type.emission);
+    // Flux pi L A over the sphere's 4 pi; a plant's quads are sqrt 2 wide and have two sides each.
+    const double area = plant ? 4.0 * std::numbers::sqrt2 : 1.0;
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(table[id].face_intensity[c], radiance[c] * area / 4.0, 1e-4 * radiance[c])
+          << type.name;
+    EXPECT_LT(std::abs(table[id].offset.y), 0.5f);
+  }
+  EXPECT_GT(table[world::block::kTorch].offset.y, 0.0f) << "a flame is at the top of its torch";
+}
+
+TEST(Emission, ALightReachesToWhereItIsTheLeastThatCounts) {
+  for (const float intensity : {0.01f, 1.0f, 300.0f}) {
+    const float range = light_range({0.2f * intensity, intensity, 0.0f});
+    EXPECT_NEAR(intensity / (range * range), kLeastIrradiance, 1e-6f);
+  }
+}
+
+}  // namespace
+}  // namespace skerry::game

@@ -1,0 +1,175 @@
+#include "tools/skerry/bench/bench_edit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/clock.h"
+#include "game/player/edit_rules.h"
+#include "game/player/interaction.h"
+#include "game/player/world_surroundings.h"
+#include "game/view/scene_view.h"
+#include "tools/skerry/bench/bench_report.h"
+#include "tools/skerry/scene/scene_device.h"
+
+namespace skerry::tools {
+namespace {
+
+constexpr int kWarmUpFrames = 6, kRounds = 24, kMostFrames = 600;
+constexpr double kTurnDeg = 15.0, kPitchDeg = -50.0;
+
+/// Times of one kind of edit.
+struct Kind {
+  std::string_view name;
+  std::vector<double> frames, ms;
+};
+
+/// A loaded scene and someone who edits what lies before them.
+class Editing {
+ public:
+  Editing(gpu::Device& device, game::SceneView& view, const game::SceneOptions& scene)
+      : device_(device),
+        view_(view),
+        editor_(view.world()),
+        around_(view.world()),
+        size_{scene.size.width, scene.size.height},
+        moment_{view.start_camera(), static_cast<double>(scene.time_of_day_s),
+                scene.settings.world_time_s} {
+    moment_.camera.pitch_deg = kPitchDeg;
+    const render::FixedPos& at = moment_.camera.position;
+    eye_ = {at[0], at[1], at[2]};
+    around_.refresh(eye_, 0.0, moment_.world_time_s);
+  }
+
+  /// Looks at the next place, draws it, and times frames on the way.
+  Result<void> turn() {
+    moment_.camera.yaw_deg += kTurnDeg;
+    for (int i = 0; i < kWarmUpFrames; ++i) {
+      const Stopwatch watch;
+      const Result<std::uint64_t> value = frame();
+      if (!value) return value.error();
+      device_.wait(*value);
+      if (i > 0) frame_ms_.push_back(watch.milliseconds());
+    }
+    return {};
+  }
+  std::optional<game::Pick> pick() const {
+    return game::pick_block(around_, eye_,
+                            game::view_direction(moment_.camera.yaw_deg, moment_.camera.pitch_deg),
+                            game::kHandReach, moment_.world_time_s);
+  }
+  game::EditAct dig() const {
+    const auto at = pick();
+    return at ? game::dig_act(around_, at->island, at->voxel) : game::EditAct{};
+  }
+  game::EditAct place(world::BlockId block) const {
+    const auto at = pick();
+    return at ? game::place_act(around_, *at, block, moment_.world_time_s) : game::EditAct{};
+  }
+
+  /// Does an act and draws until a picture shows it. @return whether it was done.
+  Result<bool> time(const game::EditAct& act, Kind& kind) {
+    if (act.empty()) return false;
+    const Stopwatch watch;
+    const std::uint64_t shown = view_.renderer().geometry().changes().version();
+    if (!history_.perform(act, editor_)) return false;
+    for (int frames = 1; frames <= kMostFrames; ++frames) {
+      const Result<std::uint64_t> value = frame();
+      if (!value) return value.error();
+      if (view_.renderer().geometry().changes().version() == shown ||
+          view_.renderer().mesh_uploader().pending_bytes() != 0)
+        continue;
+      device_.wait(*value);
+      kind.ms.push_back(watch.milliseconds());
+      kind.frames.push_back(frames);
+      return true;
+    }
+    return Error{
+        fmt::format("an edit was not drawn within {} frames; this is a fault of the "
+                    "program, please report it",
+                    kMostFrames)};
+  }
+  const std::vector<double>& frame_ms() const { return frame_ms_; }
+
+ private:
+  Result<std::uint64_t> frame() {
+    if (const auto done = view_.stream(moment_.camera, moment_.world_time_s); !done)
+      return done.error();
+    return view_.draw(moment_, size_);
+  }
+
+  gpu::Device& device_;
+  game::SceneView& view_;
+  game::WorldEditor editor_;
+  game::WorldSurroundings around_;
+  game::EditHistory history_;
+  VkExtent2D size_;
+  game::SceneView::Moment moment_;
+  world::WorldPos eye_;
+  std::vector<double> frame_ms_;
+};
+
+nlohmann::ordered_json report(const Kind& kind, const gpu::Device& device, VkExtent2D size,
+                              double frame_ms) {
+  const Spread frames = spread_of(kind.frames), ms = spread_of(kind.ms);
+  const double most_frames = *std::max_element(kind.frames.begin(), kind.frames.end());
+  const double most_ms = *std::max_element(kind.ms.begin(), kind.ms.end());
+  fmt::print("{:<16} {:>5} {:>7.0f} {:>6.0f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n", kind.name,
+             kind.ms.size(), frames.median, most_frames, ms.median, ms.p90, most_ms, frame_ms);
+  return {{"name", kind.name},
+          {"device", device.info().name},
+          {"size", {size.width, size.height}},
+          {"edits", kind.ms.size()},
+          {"frames_median", frames.median},
+          {"frames_most", most_frames},
+          {"ms_median", ms.median},
+          {"ms_p90", ms.p90},
+          {"ms_most", most_ms},
+          {"frame_ms_median", frame_ms}};
+}
+
+}  // namespace
+
+int bench_edit(const BenchEditOptions& options) {
+  Result<std::unique_ptr<gpu::Device>> device = open_device(options.scene);
+  if (!device) return fail(kNoDevice, device.error());
+  if (Result<void> fits = check_size(**device, options.scene.size); !fits)
+    return fail(kUsage, fits.error());
+  Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(**device, options.scene);
+  if (!view) return fail(kFailed, view.error());
+  if (Result<void> loaded =
+          (*view)->load_completely((*view)->start_camera(), options.scene.settings.world_time_s);
+      !loaded)
+    return fail(kFailed, loaded.error());
+
+  Editing editing(**device, **view, options.scene);
+  Kind dug{"dig", {}, {}}, torch{"place a torch", {}, {}}, taken{"take it back", {}, {}};
+  for (int round = 0; round < kRounds; ++round) {
+    if (Result<void> turned = editing.turn(); !turned) return fail(kFailed, turned.error());
+    const auto timed = [&](const game::EditAct& act, Kind& kind) -> Result<bool> {
+      return editing.time(act, kind);
+    };
+    Result<bool> done = timed(editing.dig(), dug);
+    if (done && *done) done = timed(editing.place(world::block::kTorch), torch);
+    if (done && *done) done = timed(editing.dig(), taken);
+    if (!done) return fail(kFailed, done.error());
+  }
+  (*view)->renderer().finish();
+  if (taken.ms.empty())
+    return fail(kFailed, {"nothing lies within reach of this view; give --camera near ground"});
+
+  const VkExtent2D size{options.scene.size.width, options.scene.size.height};
+  const double frame_ms = spread_of(editing.frame_ms()).median;
+  fmt::print("{:<16} {:>5} {:>7} {:>6} {:>9} {:>9} {:>9} {:>9}\n", "edit", "count", "frames",
+             "most", "median", "p90", "most", "frame");
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Kind* kind : {&dug, &torch, &taken})
+    rows.push_back(report(*kind, **device, size, frame_ms));
+  if (Result<void> written = write_rows(options.json, rows); !written)
+    return fail(kFailed, written.error());
+  return status_after(**device);
+}
+
+}  // namespace skerry::tools

@@ -1,0 +1,316 @@
+#include "tools/skerry/bench/bench_fly.h"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <map>
+#include <vector>
+
+#include "engine/core/clock.h"
+#include "game/input/controls.h"
+#include "game/player/player.h"
+#include "game/player/world_surroundings.h"
+#include "game/view/scene_view.h"
+#include "game/worlds/open_session.h"
+#include "tools/skerry/bench/bench_report.h"
+#include "tools/skerry/scene/scene_device.h"
+
+namespace skerry::tools {
+namespace {
+
+constexpr double kSpeed = 48.0, kSeconds = 60.0;  // blocks/s: four times a player's usual flight
+constexpr double kAboveStart = 32.0;              // blocks
+constexpr double kPitchDeg = -12.0;
+constexpr double kLongestStart = 120.0;  // s; what has no geometry in view is never playable
+constexpr double kDayRate = 24.0;        // seconds of day a second, as in play
+constexpr std::size_t kWorst = 8;        // frames that are told one by one
+
+/// What a frame took, and where.
+struct Frame {
+  double at_s = 0.0, ms = 0.0, stream_ms = 0.0, draw_ms = 0.0, gpu_ms = 0.0;
+  double cpu_ms = 0.0;  // that this thread worked, rather than waited
+  std::uint64_t pending_bytes = 0;
+  int pipelines = 0;  // made since the first frame
+  std::vector<gpu::PassTime> passes;
+};
+
+double thread_cpu_ms() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+world::WorldPos place_of(const render::FixedPos& p) {
+  return {p[0], p[1], p[2]};
+}
+
+/// Someone who flies straight ahead, always at the same places at the same times.
+class Flight {
+ public:
+  Flight(game::SceneView& view, const BenchFlyOptions& options)
+      : view_(view),
+        size_{options.scene.size.width, options.scene.size.height},
+        speed_(options.speed.value_or(kSpeed)),
+        start_s_(options.scene.settings.world_time_s),
+        day_(options.scene.time_of_day_s) {
+    moment_.camera = view.start_camera();
+    moment_.camera.pitch_deg = kPitchDeg;
+    start_ = world::moved(place_of(moment_.camera.position), {0.0, kAboveStart, 0.0});
+    go_to(0.0);
+  }
+
+  /// As who stood there for a while: all is in view.
+  Result<void> begin(gpu::Device& device) {
+    if (Result<void> loaded = view_.load_completely(moment_.camera, moment_.world_time_s); !loaded)
+      return loaded;
+    for (int i = 0; i < 8; ++i) {
+      const Result<std::uint64_t> value = view_.draw(moment_, size_);
+      if (!value) return value.error();
+      device.wait(*value);
+    }
+    return {};
+  }
+
+  Result<void> fly(double seconds) {
+    const Stopwatch flight;
+    const int pipelines = view_.renderer().pipelines_created();
+    for (double at_s = 0.0; at_s < seconds;) {
+      go_to(at_s);
+      Frame frame;
+      frame.at_s = at_s;
+      const double cpu_ms = thread_cpu_ms();
+      Stopwatch watch;
+      if (Result<void> done = view_.stream(moment_.camera, moment_.world_time_s); !done)
+        return done;
+      frame.stream_ms = watch.milliseconds();
+      watch.restart();
+      const Result<std::uint64_t> value = view_.draw(moment_, size_);
+      if (!value) return value.error();
+      frame.draw_ms = watch.milliseconds();
+      frame.cpu_ms = thread_cpu_ms() - cpu_ms;
+      frame.pending_bytes = view_.renderer().mesh_uploader().pending_bytes();
+      frame.pipelines = view_.renderer().pipelines_created() - pipelines;
+      // The newest report is of the frame that the one before had to wait for.
+      if (const auto& report = view_.renderer().report(); report && !frames_.empty()) {
+        frames_.back().passes = report->passes;
+        frames_.back().gpu_ms = report->gpu_ms;
+      }
+      const double now_s = flight.seconds();
+      frame.ms = (now_s - at_s) * 1e3;
+      day_.turn(kDayRate * (now_s - at_s));
+      at_s = now_s;
+      frames_.push_back(std::move(frame));
+    }
+    view_.renderer().finish();
+    return {};
+  }
+  const std::vector<Frame>& frames() const { return frames_; }
+
+ private:
+  void go_to(double at_s) {
+    const double yaw = glm::radians(moment_.camera.yaw_deg);
+    const glm::dvec3 ahead{std::sin(yaw), 0.0, std::cos(yaw)};
+    const world::WorldPos at = world::moved(start_, ahead * (speed_ * at_s));
+    moment_.camera.position = {at.x, at.y, at.z};
+    moment_.time_of_day_s = day_.time_of_day_s();
+    moment_.world_time_s = start_s_ + at_s;
+  }
+
+  game::SceneView& view_;
+  VkExtent2D size_;
+  double speed_, start_s_;
+  game::DayClock day_;
+  game::SceneView::Moment moment_;
+  world::WorldPos start_;
+  std::vector<Frame> frames_;
+};
+
+/// Median of each pass over the frames that ran it.
+std::map<std::string, double> usual_passes(const std::vector<Frame>& frames) {
+  std::map<std::string, std::vector<double>> all;
+  for (const Frame& frame : frames)
+    for (const gpu::PassTime& pass : frame.passes) all[pass.name].push_back(pass.ms);
+  std::map<std::string, double> usual;
+  for (auto& [name, ms] : all) usual[name] = spread_of(ms).median;
+  return usual;
+}
+
+/// The pass that took most beyond what it usually takes.
+std::pair<std::string, double> slow_pass(const Frame& frame,
+                                         const std::map<std::string, double>& usual) {
+  std::pair<std::string, double> slowest{"-", 0.0};
+  for (const gpu::PassTime& pass : frame.passes)
+    if (const double beyond = pass.ms - usual.at(pass.name); beyond > slowest.second)
+      slowest = {pass.name, beyond};
+  return slowest;
+}
+
+nlohmann::ordered_json hitches_of(const std::vector<Frame>& frames, double limit_ms) {
+  std::vector<const Frame*> slow;
+  for (const Frame& frame : frames)
+    if (frame.ms > limit_ms) slow.push_back(&frame);
+  const std::map<std::string, double> usual = usual_passes(frames);
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Frame* frame : slow) {
+    const auto [pass, beyond_ms] = slow_pass(*frame, usual);
+    rows.push_back({{"at_s", frame->at_s},
+                    {"ms", frame->ms},
+                    {"stream_ms", frame->stream_ms},
+                    {"draw_ms", frame->draw_ms},
+                    {"cpu_ms", frame->cpu_ms},
+                    {"gpu_ms", frame->gpu_ms},
+                    {"pending_bytes", frame->pending_bytes},
+                    {"pipelines", frame->pipelines},
+                    {"slow_pass", pass},
+                    {"slow_pass_beyond_ms", beyond_ms}});
+  }
+  std::sort(slow.begin(), slow.end(), [](const Frame* a, const Frame* b) { return a->ms > b->ms; });
+  slow.resize(std::min(slow.size(), kWorst));
+  for (const Frame* frame : slow) {
+    const auto [pass, beyond_ms] = slow_pass(*frame, usual);
+    fmt::print(
+        "  at {:5.2f} s {:8.1f} ms: streaming {:.1f}, drawing {:.1f}, of both on the CPU "
+        "{:.1f}; GPU {:.1f}, most beyond the usual {} by {:.1f}; {} KiB to upload; {} "
+        "pipelines so far\n",
+        frame->at_s, frame->ms, frame->stream_ms, frame->draw_ms, frame->cpu_ms, frame->gpu_ms,
+        pass, beyond_ms, frame->pending_bytes / 1024, frame->pipelines);
+  }
+  return rows;
+}
+
+std::string name_of(const game::SceneOptions& scene) {
+  return scene.world ? "world " + *scene.world : "seed " + scene.seed_text.substr(0, 20);
+}
+
+/// Whether the voxels that surround a place are loaded: someone may stand and walk there.
+bool is_ground_known(game::WorldSurroundings& around, world::WorldPos place, double time_s) {
+  constexpr double kStep = 8.0;
+  std::vector<std::uint64_t> islands;
+  around.islands_near(place, kStep, time_s, islands);
+  for (const std::uint64_t island : islands) {
+    const std::optional<world::Pose> pose = around.pose(island, time_s);
+    if (!pose) continue;
+    const glm::dvec3 lattice =
+        glm::conjugate(pose->rotation) * world::difference_blocks(place, pose->origin);
+    for (int i = 0; i < 27; ++i) {
+      const glm::dvec3 at = lattice + kStep * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      const world::IVec3 voxel{static_cast<std::int32_t>(std::floor(at.x)),
+                               static_cast<std::int32_t>(std::floor(at.y)),
+                               static_cast<std::int32_t>(std::floor(at.z))};
+      if (!around.block(island, voxel)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+int bench_fly(const BenchFlyOptions& options) {
+  Result<std::unique_ptr<gpu::Device>> device = open_device(options.scene);
+  if (!device) return fail(kNoDevice, device.error());
+  if (Result<void> fits = check_size(**device, options.scene.size); !fits)
+    return fail(kUsage, fits.error());
+  Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(**device, options.scene);
+  if (!view) return fail(kFailed, view.error());
+  Flight flight(**view, options);
+  if (Result<void> begun = flight.begin(**device); !begun) return fail(kFailed, begun.error());
+  const double seconds = options.seconds.value_or(kSeconds);
+  if (Result<void> flown = flight.fly(seconds); !flown) return fail(kFailed, flown.error());
+
+  std::vector<double> ms;
+  for (const Frame& frame : flight.frames()) ms.push_back(frame.ms);
+  const Spread spread = spread_of(ms);
+  const auto over =
+      std::count_if(ms.begin(), ms.end(), [&](double v) { return v > 2.0 * spread.median; });
+  const auto& size = options.scene.size;
+  const double speed = options.speed.value_or(kSpeed);
+  fmt::print(
+      "{} | {}x{} | {:.0f} blocks/s for {:.0f} s | {} frames | median {:.2f} ms, p99 {:.2f}, "
+      "most {:.1f} | {} over twice the median | {} | {} chunks made\n",
+      name_of(options.scene), size.width, size.height, speed, seconds, ms.size(), spread.median,
+      spread.p99, *std::max_element(ms.begin(), ms.end()), over, (*device)->info().name,
+      (*view)->streamer().stats().chunks_made);
+  nlohmann::ordered_json row{{"name", name_of(options.scene)},
+                             {"device", (*device)->info().name},
+                             {"size", {size.width, size.height}},
+                             {"speed", speed},
+                             {"seconds", seconds},
+                             {"frames", ms.size()},
+                             {"ms_median", spread.median},
+                             {"ms_p99", spread.p99},
+                             {"ms_most", *std::max_element(ms.begin(), ms.end())},
+                             {"over_twice", over}};
+  row["hitches"] = hitches_of(flight.frames(), 2.0 * spread.median);
+  if (Result<void> written = write_rows(options.json, nlohmann::ordered_json::array({row}));
+      !written)
+    return fail(kFailed, written.error());
+  return status_after(**device);
+}
+
+int bench_start(const BenchFlyOptions& options) {
+  const Stopwatch watch;
+  Result<std::unique_ptr<gpu::Device>> device = open_device(options.scene);
+  if (!device) return fail(kNoDevice, device.error());
+  if (Result<void> fits = check_size(**device, options.scene.size); !fits)
+    return fail(kUsage, fits.error());
+  const double device_ms = watch.milliseconds();
+  Result<std::unique_ptr<game::Session>> session = game::open_session(options.scene);
+  if (!session) return fail(kFailed, session.error());
+  const double open_ms = watch.milliseconds();
+  Result<std::unique_ptr<game::SceneView>> view =
+      game::SceneView::create(**device, options.scene, (*session)->world());
+  if (!view) return fail(kFailed, view.error());
+  const double view_ms = watch.milliseconds();
+
+  game::WorldSurroundings around((*view)->world());
+  const game::SceneView::Moment moment{(*view)->start_camera(),
+                                       static_cast<double>(options.scene.time_of_day_s),
+                                       options.scene.settings.world_time_s};
+  const world::WorldPos eye = place_of(moment.camera.position);
+  const VkExtent2D size{options.scene.size.width, options.scene.size.height};
+  double first_ms = 0.0;
+  bool known = false, playable = false;
+  int frames = 0;
+  while (!playable) {
+    if (watch.seconds() > kLongestStart)
+      return fail(kFailed, {fmt::format("nothing can be seen after {:.0f} s: choose a --camera "
+                                        "with an island in view",
+                                        kLongestStart)});
+    around.refresh(eye, 0.0, moment.world_time_s);
+    // Once the ground is known its meshes are made, and handed over by the next call but one.
+    const bool was_known = std::exchange(known, is_ground_known(around, eye, moment.world_time_s));
+    if (Result<void> done = (*view)->stream(moment.camera, moment.world_time_s); !done)
+      return fail(kFailed, done.error());
+    const Result<std::uint64_t> value = (*view)->draw(moment, size);
+    if (!value) return fail(kFailed, value.error());
+    playable = was_known && (*view)->renderer().geometry().sections_resident() != 0 &&
+               (*view)->renderer().mesh_uploader().pending_bytes() == 0;
+    if (playable || frames == 0) (*device)->wait(*value);
+    if (frames++ == 0) first_ms = watch.milliseconds();
+  }
+  const double playable_ms = watch.milliseconds();
+  (*view)->renderer().finish();
+  fmt::print(
+      "{} | {}x{} | playable after {:.0f} ms, {} frames | device {:.0f} ms, world {:.0f}, "
+      "renderer {:.0f}, first picture {:.0f} | {}\n",
+      name_of(options.scene), size.width, size.height, playable_ms, frames, device_ms,
+      open_ms - device_ms, view_ms - open_ms, first_ms - view_ms, (*device)->info().name);
+  const nlohmann::ordered_json row{{"name", name_of(options.scene)},
+                                   {"device", (*device)->info().name},
+                                   {"size", {size.width, size.height}},
+                                   {"device_ms", device_ms},
+                                   {"open_ms", open_ms},
+                                   {"view_ms", view_ms},
+                                   {"first_picture_ms", first_ms},
+                                   {"playable_ms", playable_ms},
+                                   {"frames", frames}};
+  if (Result<void> written = write_rows(options.json, nlohmann::ordered_json::array({row}));
+      !written)
+    return fail(kFailed, written.error());
+  return status_after(**device);
+}
+
+}  // namespace skerry::tools

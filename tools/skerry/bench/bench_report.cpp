@@ -1,0 +1,30 @@
+#include "tools/skerry/bench/bench_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "engine/platform/files.h"
+
+namespace skerry::tools {
+
+Spread spread_of(std::vector<double> samples) {
+  SKERRY_ASSERT(!samples.empty());
+  std::sort(samples.begin(), samples.end());
+  const auto rank = [&](double q) {
+    const double place = std::ceil(q * static_cast<double>(samples.size())) - 1.0;
+    return samples[static_cast<std::size_t>(std::max(place, 0.0))];
+  };
+  return {rank(0.10), rank(0.50), rank(0.90), rank(0.99)};
+}
+
+Result<void> write_rows(const std::optional<std::filesystem::path>& file,
+                        const nlohmann::ordered_json& rows) {
+  if (!file) return {};
+  return platform::write_text(*file,
+                              nlohmann::ordered_json{{"rows", rows}}.dump(
+                                  2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+                                  "\n");
+}
+
+}  // namespace skerry::tools

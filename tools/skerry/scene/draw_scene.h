@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/device/device.h"
+#include "game/view/scene_view.h"
+#include "tools/measure/picture.h"
+
+namespace skerry::tools {
+
+/// One drawn picture and its numbers.
+struct Drawn {
+  VkExtent2D size{};
+  std::vector<std::uint8_t> rgba;  ///< sRGB-encoded, rows from the top
+  render::FrameReport report;
+  std::optional<measure::Picture> radiance;  ///< before exposure, if asked for
+};
+
+/// Lower-case hexadecimal SHA-256.
+std::string sha256_hex(std::span<const std::uint8_t> bytes);
+
+/// A scene with its world loaded completely, to be drawn as often as wanted.
+class SceneDrawer {
+ public:
+  /// Loads the world. Errors: no memory on the device; the picture is too large for it.
+  static Result<std::unique_ptr<SceneDrawer>> create(gpu::Device& device,
+                                                     const game::SceneOptions& scene);
+
+  /// Draws and waits. @param with_radiance also copies out the scene's radiance (RGBA16F rounded),
+  /// which makes the frame take the way over a radiance image.
+  Result<Drawn> draw(bool with_radiance = false);
+  /// Draws `count` frames and waits for each; every shadow map and table is drawn afresh in each,
+  /// as in a screenshot. @param keep_shadows as in play: maps that still hold are kept.
+  Result<std::vector<render::FrameReport>> time(int count, bool keep_shadows = false);
+  game::SceneView& view() { return *view_; }
+
+ private:
+  SceneDrawer(gpu::Device& device, const game::SceneOptions& scene);
+  Result<std::uint64_t> draw_frame(bool with_radiance);
+
+  gpu::Device& device_;
+  game::SceneOptions scene_;
+  std::unique_ptr<game::SceneView> view_;
+};
+
+}  // namespace skerry::tools

@@ -1,0 +1,298 @@
+#include "tools/skerry/test/test_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/core/clock.h"
+#include "engine/platform/files.h"
+#include "game/scene_file/parse.h"
+#include "game/scene_file/vdb_options.h"
+#include "tools/skerry/scene/progress.h"
+#include "tools/skerry/scene/scene_device.h"
+#include "tools/skerry/test/page.h"
+#include "world/vdb/worker.h"
+
+namespace skerry::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+Refusal usage(Error error) {
+  return {kUsage, std::move(error)};
+}
+
+bool needs_openvdb(const game::SceneOptions& scene) {
+  return !scene.clouds.empty() || (scene.world && game::is_vdb(*scene.world));
+}
+
+/// Reads a whole number, if one was given, into `field`.
+template <class T>
+std::optional<Refusal> read_count(const std::optional<std::string>& text, const char* option,
+                                  int most, T& field) {
+  if (!text) return std::nullopt;
+  const Result<std::int64_t> count = game::parse_integer(*text, option, 1, most);
+  if (!count) return usage(count.error());
+  field = static_cast<int>(*count);
+  return std::nullopt;
+}
+
+/// Takes another run of a scene into its row: the first failure stays.
+void add_run(Outcome& sum, const Outcome& run) {
+  Row row = sum.row.failed() || !run.row.failed() ? sum.row : run.row;
+  row.runs = sum.row.runs + run.row.runs;
+  row.failed_runs = sum.row.failed_runs + run.row.failed_runs;
+  row.seconds = sum.row.seconds + run.row.seconds;
+  sum.row = std::move(row);
+}
+
+void print_row(const Row& row) {
+  if (row.failed() || row.verdict == Verdict::kApproved)
+    fmt::print("{}: {}: {}\n", verdict_name(row.verdict), row.scene, row.message);
+}
+
+/// @return how many scenes failed.
+std::ptrdiff_t print_summary(const std::vector<Row>& rows, int runs, double seconds) {
+  std::ptrdiff_t failed = 0, failed_runs = 0, differing = 0;
+  for (const Row& row : rows) {
+    failed += row.failed() ? 1 : 0;
+    failed_runs += row.failed_runs;
+    differing += row.pictures > 1 ? 1 : 0;
+    print_row(row);
+  }
+  fmt::print("{} of {} scenes passed in {:.1f} s\n",
+             static_cast<std::ptrdiff_t>(rows.size()) - failed, rows.size(), seconds);
+  if (runs > 1) {
+    fmt::print("{} runs of each: {} failed; {} scenes gave more than one picture\n", runs,
+               failed_runs, differing);
+  }
+  return failed;
+}
+
+}  // namespace
+
+TestCommand::TestCommand(CLI::App& app)
+    : test_(app.add_subcommand("test", "Draw scenes and compare them with their references")) {
+  test_->allow_extras();
+  test_->footer("");
+  test_->add_option("SCENES", paths_, "Scene files, or folders of them (docs/testing.md)");
+  test_->add_flag("--approve", approve_, "Make the pictures the references");
+  test_->add_option("--shard", shard_text_, "Only each N-th scene, from the I-th on")
+      ->type_name("I/N");
+  test_->add_flag("--merge", merge_, "SCENES are the --json files of all shards: join them");
+  test_->add_option("--html", html_, "Write a report with pictures")->type_name("DIR");
+  test_->add_option("--json", json_, "Write the rows as JSON")->type_name("FILE");
+  test_->add_option("--junit", junit_, "Write the rows as JUnit XML")->type_name("FILE");
+  test_->add_option("--repeat", repeat_text_, "Draw every scene so many times (default 1)")
+      ->type_name("N");
+  test_
+      ->add_option("--jobs", jobs_text_,
+                   "Processes that draw (default: one a core on a CPU device, else one)")
+      ->type_name("N");
+  test_->add_option("--device", device_text_, "Vulkan device, as 'skerry devices' counts")
+      ->type_name("N");
+  test_->add_flag("--validate", validate_, "Turn the Vulkan validation layer on");
+}
+
+int TestCommand::run() {
+  if (const auto refusal = check_leftovers(*test_)) return fail(refusal->status, refusal->error);
+  if (const auto refusal = check_typed()) return fail(refusal->status, refusal->error);
+  return merge_ ? merge_shards() : draw_and_judge();
+}
+
+std::optional<Refusal> TestCommand::check_typed() {
+  if (paths_.empty()) {
+    return Refusal{merge_ ? kUsage : kFailed,
+                   {"there is nothing to test: give scene files or folders of them"}};
+  }
+  if (merge_ &&
+      (approve_ || shard_text_ || device_text_ || jobs_text_ || repeat_text_ || validate_))
+    return usage({"--merge draws nothing: leave out the options that say how to draw"});
+  if (shard_text_) {
+    const Result<Shard> shard = parse_shard(*shard_text_);
+    if (!shard) return usage(shard.error());
+    shard_ = *shard;
+  }
+  if (const auto refusal = read_count(jobs_text_, "--jobs", 1024, pool_.processes)) return refusal;
+  if (const auto refusal = read_count(repeat_text_, "--repeat", 100000, pool_.runs)) return refusal;
+  if (const auto refusal = parse_device(device_text_, pool_.device)) return refusal;
+  if (approve_ && pool_.runs > 1) return usage({"--approve needs one run: leave out --repeat"});
+  pool_.validate = validate_;
+  pool_.judge.approve = approve_;
+  if (html_) pool_.judge.html = *html_;
+  return std::nullopt;
+}
+
+/// Before any work is done.
+std::optional<Refusal> TestCommand::check_outputs() const {
+  if (html_) {
+    if (const auto made = platform::make_dirs(*html_); !made) return usage(made.error());
+    const auto writable = platform::check_writable(fs::path(*html_) / "index.html");
+    if (!writable) return usage(writable.error());
+  }
+  if (auto refusal = check_output(json_)) return refusal;
+  return check_output(junit_);
+}
+
+std::optional<Refusal> TestCommand::read_set(std::vector<TestScene>& scenes,
+                                             std::size_t& in_set) const {
+  const Result<std::vector<fs::path>> files = find_scenes(paths_);
+  if (!files) return Refusal{kFailed, files.error()};
+  for (const fs::path& file : *files) {
+    Result<TestScene> scene = read_scene(file);
+    if (!scene) return usage(scene.error());
+    if (needs_openvdb(scene->scene) && !world::has_openvdb()) {
+      fmt::print("skipped: {}: this build has no OpenVDB\n", scene->name);
+      continue;
+    }
+    scenes.push_back(*std::move(scene));
+  }
+  in_set = scenes.size();
+  if (in_set == 0) return Refusal{kFailed, {"no scene is left that this build can draw"}};
+  scenes = shard_of(std::move(scenes), shard_);
+  if (!scenes.empty()) return std::nullopt;
+  return Refusal{kFailed,
+                 {fmt::format("shard {}/{} holds none of {} scenes: use fewer shards", shard_.index,
+                              shard_.count, in_set)}};
+}
+
+int TestCommand::draw_and_judge() {
+  Results results;
+  results.shard = shard_;
+  std::vector<TestScene> scenes;
+  if (const auto refusal = read_set(scenes, results.scenes_in_set))
+    return fail(refusal->status, refusal->error);
+  if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
+
+  const Stopwatch watch;
+  std::vector<std::optional<Outcome>> seen(scenes.size());
+  std::vector<std::set<std::string>> pictures(scenes.size());
+  std::size_t done = 0;
+  PoolResult end;
+  {
+    ProgressBar bar;
+    end = run_pool(scenes, pool_, [&](std::size_t index, const Outcome& outcome) {
+      if (!outcome.hash.empty()) pictures[index].insert(outcome.hash);
+      if (seen[index]) {
+        add_run(*seen[index], outcome);
+      } else {
+        seen[index] = outcome;
+      }
+      const double all = static_cast<double>(scenes.size()) * pool_.runs;
+      bar.show(static_cast<double>(++done) / all, scenes[index].name);
+    });
+  }
+  if (end.refusal) return fail(end.refusal->status, end.refusal->error);
+  std::vector<Outcome> outcomes;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    outcomes.push_back(seen[i].value());
+    outcomes.back().row.pictures = static_cast<int>(pictures[i].size());
+    results.rows.push_back(outcomes.back().row);
+  }
+  if (const Result<void> stored = approve(scenes, outcomes); !stored)
+    return fail(kFailed, stored.error());
+  const std::ptrdiff_t failed = print_summary(results.rows, pool_.runs, watch.seconds());
+  if (const Result<void> written = write_outputs(std::move(results)); !written)
+    return fail(kFailed, written.error());
+  if (end.validation_messages > 0) {
+    fail(kValidationMessage,
+         {fmt::format("{} validation messages were printed above; this is a bug in Skerry or the "
+                      "driver",
+                      end.validation_messages)});
+  }
+  if (failed > 0) return kFailed;
+  return end.validation_messages > 0 ? kValidationMessage : kDone;
+}
+
+/// Stores the hashes of pictures that were approved.
+Result<void> TestCommand::approve(const std::vector<TestScene>& scenes,
+                                  const std::vector<Outcome>& outcomes) const {
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Outcome& outcome = outcomes[i];
+    if (outcome.row.verdict != Verdict::kApproved) continue;
+    const fs::path folder = scenes[i].file.parent_path();
+    const fs::path file = hash_file(folder, outcome.row.driver);
+    Result<Hashes> hashes = read_hashes(file);
+    if (!hashes) return hashes.error();
+    (*hashes)[scenes[i].name] = outcome.hash;
+    if (const auto written = write_hashes(file, *hashes); !written) return written;
+    if (!outcome.replaced) continue;
+    if (const auto done = forget_others(folder, outcome.row.driver, scenes[i].name); !done)
+      return done;
+  }
+  return {};
+}
+
+Result<void> TestCommand::write_outputs(Results results) const {
+  if (html_) {
+    const std::string page = test_page(results, *html_);
+    if (const auto done = platform::write_text(fs::path(*html_) / "index.html", page); !done)
+      return done;
+  }
+  if (json_) {
+    std::error_code code;
+    const fs::path base = fs::absolute(*json_, code).parent_path();
+    if (html_) results.html = fs::relative(fs::absolute(*html_, code), base, code).string();
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    const std::string text = results_json(results).dump(2, ' ', false, replace) + "\n";
+    if (const auto done = platform::write_text(*json_, text); !done) return done;
+  }
+  return junit_ ? platform::write_text(*junit_, junit_xml(results)) : Result<void>{};
+}
+
+/// Brings the pictures of the shards' reports together. @param shards in the order of the files.
+Result<void> TestCommand::copy_pictures(const std::vector<Results>& shards) const {
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    const fs::path from = fs::path(paths_[i]).parent_path() / shards[i].html;
+    std::error_code code;
+    if (shards[i].html.empty() || !fs::is_directory(from, code)) {
+      return Error{
+          fmt::format("cannot find the pictures of {}: give its shard --html, and keep the "
+                      "folder where it was beside the file",
+                      game::quote_text(paths_[i]))};
+    }
+    for (const Row& row : shards[i].rows) {
+      // Names come from a file, and must not lead out of the folders.
+      if (fs::path(row.scene).filename() != row.scene) continue;
+      for (const ReportPicture kind : kReportPictures) {
+        const std::string name = report_picture_name(row.scene, kind);
+        if (!fs::exists(from / name, code)) continue;
+        fs::copy_file(from / name, fs::path(*html_) / name, fs::copy_options::overwrite_existing,
+                      code);
+        if (code) {
+          return Error{fmt::format("cannot copy {}: {}; look at both folders",
+                                   game::quote_text((from / name).string()), code.message())};
+        }
+      }
+    }
+  }
+  return {};
+}
+
+int TestCommand::merge_shards() {
+  std::vector<Results> shards;
+  for (const std::string& path : paths_) {
+    Result<Results> part = read_results(path);
+    if (!part) return fail(kFailed, part.error());
+    shards.push_back(*std::move(part));
+  }
+  Result<Results> merged = merge(shards);
+  if (!merged) return fail(kFailed, merged.error());
+  if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
+  if (html_) {
+    if (const auto copied = copy_pictures(shards); !copied) return fail(kFailed, copied.error());
+  }
+  double seconds = 0.0;
+  int runs = 1;
+  for (const Row& row : merged->rows) {
+    seconds += row.seconds;
+    runs = std::max(runs, row.runs);
+  }
+  const std::ptrdiff_t failed = print_summary(merged->rows, runs, seconds);
+  if (const auto written = write_outputs(*std::move(merged)); !written)
+    return fail(kFailed, written.error());
+  return failed > 0 ? kFailed : kDone;
+}
+
+}  // namespace skerry::tools

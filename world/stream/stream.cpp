@@ -1,0 +1,286 @@
+#include "world/stream/stream.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "engine/core/check.h"
+#include "world/stream/stream_state.h"
+
+namespace skerry::world {
+namespace {
+
+using Phase = StreamSlot::Phase;
+
+// How far past a limit an island must be before it changes, as a share of the distance.
+constexpr double kHysteresis = 1.05;
+
+// The level an island keeps or takes, given the one it has.
+int level_with_hysteresis(int level, double distance, double detail) {
+  const int nearer = level_at(distance / kHysteresis, detail);
+  const int further = level_at(distance * kHysteresis, detail);
+  return nearer <= level && level <= further ? level : level_at(distance, detail);
+}
+
+// The chunks at a level whose meshes changed voxels show in: their own, and where they touch the
+// border, the neighbours', but not those across an edge.
+std::vector<IVec3> chunks_showing(const EditedBox& box, int level) {
+  const auto coarse = [level](std::int32_t v) {
+    return static_cast<std::int32_t>(floor_div(v, std::int64_t{1} << level));
+  };
+  const IVec3 low{coarse(box.min.x), coarse(box.min.y), coarse(box.min.z)};
+  const IVec3 high{coarse(box.max.x), coarse(box.max.y), coarse(box.max.z)};
+  const IVec3 first = chunk_of(low), last = chunk_of(high);
+  const IVec3 before = chunk_of({low.x - 1, low.y - 1, low.z - 1});
+  const IVec3 after = chunk_of({high.x + 1, high.y + 1, high.z + 1});
+  std::vector<IVec3> chunks;
+  for (std::int32_t y = before.y; y <= after.y; ++y) {
+    for (std::int32_t x = before.x; x <= after.x; ++x) {
+      for (std::int32_t z = before.z; z <= after.z; ++z) {
+        const int outside =
+            (x < first.x || x > last.x) + (y < first.y || y > last.y) + (z < first.z || z > last.z);
+        if (outside <= 1) chunks.push_back({x, y, z});
+      }
+    }
+  }
+  return chunks;
+}
+
+}  // namespace
+
+int level_at(double distance_blocks, double detail_distance_blocks) {
+  int level = 0;
+  double limit = detail_distance_blocks;
+  for (; level < kLevelCount - 1 && distance_blocks >= limit; limit *= 2.0) ++level;
+  return level;
+}
+
+Streamer::Streamer(World& world, Jobs& jobs, StreamOf made)
+    : state_(std::make_shared<State>(world, jobs, made)) {}
+
+Streamer::~Streamer() {
+  std::unique_lock lock(state_->mutex);
+  state_->stopping = true;
+  state_->tasks.clear();
+  state_->idle.wait(lock, [this] { return state_->running == 0; });
+}
+
+void Streamer::update(const StreamView& view, const StreamSettings& settings) {
+  State& s = *state_;
+  std::vector<std::uint64_t> voxels_unused, gone;
+  const std::vector<IslandSpec>& near = s.islands_around(view, settings);
+  const std::vector<EditedBox> edits = s.world.take_edits();
+  {
+    const std::lock_guard lock(s.mutex);
+    s.drop_far_islands(near, view, settings, gone);
+    for (const IslandSpec& spec : near) s.place_island(spec, view, settings, voxels_unused);
+    for (const EditedBox& edit : edits) s.apply_edit(edit);
+    s.score_tasks();
+  }
+  for (const std::uint64_t id : voxels_unused) s.world.release_voxels(id);
+  for (const std::uint64_t id : gone) {
+    s.world.release_voxels(id);
+    s.world.release_plan(id);
+  }
+  s.submit_jobs();
+}
+
+// All islands that can matter; asked for again only when the camera has left the middle of the
+// last answer, because the plan of a large view takes milliseconds.
+const std::vector<IslandSpec>& Streamer::State::islands_around(const StreamView& view,
+                                                               const StreamSettings& settings) {
+  constexpr double kSlackBlocks = 64.0;
+  // From one end of its drift to the other.
+  const double reach = settings.view_distance_blocks * kHysteresis + 2.0 * kMaxIslandDriftBlocks;
+  const glm::dvec3 moved_by = difference_blocks(view.camera, around.centre);
+  const std::uint64_t revision = world.revision();
+  if (around.reach != reach || around.revision != revision ||
+      glm::dot(moved_by, moved_by) > kSlackBlocks * kSlackBlocks) {
+    around.reach = reach;
+    around.revision = revision;
+    around.centre = view.camera;
+    around.islands = world.islands_near(view.camera, reach + kSlackBlocks, view.time_s);
+    if (around.islands.size() > kMaxStreamedIslands) around.islands.resize(kMaxStreamedIslands);
+  }
+  return around.islands;
+}
+
+// Of an island that may have been moved from its course.
+Pose Streamer::State::pose_of(const IslandSpec& spec, double time_s) const {
+  const std::optional<Pose> pose = world.pose(spec.id, time_s);
+  return pose ? *pose : pose_at(spec, time_s);
+}
+
+double Streamer::State::distance_to(const IslandSpec& spec, const StreamView& view) const {
+  const glm::dvec3 away = difference_blocks(pose_of(spec, view.time_s).origin, view.camera);
+  return std::sqrt(glm::dot(away, away)) - spec.bounding_radius;
+}
+
+void Streamer::State::drop_far_islands(const std::vector<IslandSpec>& near, const StreamView& view,
+                                       const StreamSettings& settings,
+                                       std::vector<std::uint64_t>& gone) {
+  std::map<std::uint64_t, double> distances;
+  for (const IslandSpec& spec : near) distances[spec.id] = distance_to(spec, view);
+  std::erase_if(islands, [&](const auto& entry) {
+    const auto& [id, island] = entry;
+    const auto distance = distances.find(id);
+    const double limit = settings.view_distance_blocks * kHysteresis;
+    if (distance != distances.end() && distance->second <= limit) return false;
+    for (const auto& [chunk, slot] : island.shown.slots) {
+      if (slot.resident) removed.push_back({id, chunk, island.shown.level});
+    }
+    gone.push_back(id);
+    return true;
+  });
+}
+
+void Streamer::State::place_island(const IslandSpec& spec, const StreamView& view,
+                                   const StreamSettings& settings,
+                                   std::vector<std::uint64_t>& voxels_unused) {
+  const double distance = distance_to(spec, view);
+  auto found = islands.find(spec.id);
+  const bool is_new = found == islands.end();
+  if (is_new) {
+    if (!(distance <= settings.view_distance_blocks)) return;
+    found = islands.try_emplace(spec.id).first;
+    found->second.spec = spec;
+  }
+  StreamIsland& island = found->second;
+  const Pose pose = pose_of(spec, view.time_s);
+  const glm::dquat lattice_from_world = glm::conjugate(pose.rotation);
+  island.distance = distance;
+  island.camera = lattice_from_world * difference_blocks(view.camera, pose.origin);
+  island.forward = lattice_from_world * view.forward;
+  if (is_new) {
+    island.shown = start_level(spec.id, level_at(distance, settings.detail_distance_blocks));
+    return;
+  }
+  const int had = island.target().level;
+  const int level = level_with_hysteresis(had, distance, settings.detail_distance_blocks);
+  if (level == had) return;
+  change_level(island, level);
+  if (had == 0 && island.shown.level != 0) voxels_unused.push_back(spec.id);
+}
+
+void Streamer::State::change_level(StreamIsland& island, int level) {
+  const std::uint64_t id = island.spec.id;
+  island.coming.reset();
+  if (level == island.shown.level) {
+    for (auto& [chunk, slot] : island.shown.slots) {
+      if (slot.phase != Phase::kIdle) continue;
+      slot.phase = Phase::kQueued;
+      ++island.shown.unmade;
+      queue_chunk(id, island.shown, chunk);
+    }
+    return;
+  }
+  const bool any_resident = std::any_of(island.shown.slots.begin(), island.shown.slots.end(),
+                                        [](const auto& entry) { return entry.second.resident; });
+  StreamLevel started = start_level(id, level);
+  if (any_resident) {
+    island.coming = std::move(started);
+  } else {
+    island.shown = std::move(started);
+  }
+}
+
+void Streamer::State::apply_edit(const EditedBox& edit) {
+  const auto found = islands.find(edit.island);
+  if (found == islands.end()) return;
+  StreamIsland& island = found->second;
+  for (const IVec3& chunk : chunks_showing(edit, island.shown.level)) {
+    remake(edit.island, island.shown, chunk);
+  }
+  if (!island.coming) return;
+  for (const IVec3& chunk : chunks_showing(edit, island.coming->level)) {
+    remake(edit.island, *island.coming, chunk);
+  }
+}
+
+namespace {
+
+// Moves one made chunk into an update. @return its quads.
+std::size_t hand_out(std::uint64_t island, int level, const IVec3& chunk, StreamSlot& slot,
+                     StreamUpdate& update) {
+  const SectionKey key{island, chunk, level};
+  const std::size_t quads = slot.mesh.quads.size();
+  if (slot.resident) update.removed.push_back(key);
+  slot.resident = slot.has_something();
+  slot.phase = Phase::kDone;
+  if (slot.resident)
+    update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.occupancy, {}),
+                            std::exchange(slot.emitters, {})});
+  return quads;
+}
+
+}  // namespace
+
+StreamUpdate Streamer::poll(std::size_t max_quads) {
+  State& s = *state_;
+  StreamUpdate update;
+  std::vector<std::uint64_t> voxels_unused;
+  {
+    const std::lock_guard lock(s.mutex);
+    update.removed = std::exchange(s.removed, {});
+    std::vector<StreamIsland*> waiting;
+    for (auto& [id, island] : s.islands) {
+      if (island.swappable() || (!island.coming && island.shown.made > 0))
+        waiting.push_back(&island);
+    }
+    std::sort(waiting.begin(), waiting.end(), [](const StreamIsland* a, const StreamIsland* b) {
+      return std::tie(a->distance, a->spec.id) < std::tie(b->distance, b->spec.id);
+    });
+    std::size_t quads = 0;
+    for (StreamIsland* island : waiting) {
+      if (quads >= max_quads) break;
+      const std::uint64_t id = island->spec.id;
+      const bool swap = island->swappable();
+      if (swap) {
+        for (const auto& [chunk, slot] : island->shown.slots) {
+          if (slot.resident) update.removed.push_back({id, chunk, island->shown.level});
+        }
+        if (island->shown.level == 0) voxels_unused.push_back(id);
+        island->shown = std::move(*island->coming);
+        island->coming.reset();
+      }
+      for (auto& [chunk, slot] : island->shown.slots) {
+        if (slot.phase != Phase::kMade) continue;
+        if (quads >= max_quads && !swap) break;
+        quads += hand_out(id, island->shown.level, chunk, slot, update);
+        --island->shown.made;
+      }
+    }
+  }
+  for (const std::uint64_t id : voxels_unused) s.world.release_voxels(id);
+  return update;
+}
+
+bool Streamer::complete() const {
+  const State& s = *state_;
+  const std::lock_guard lock(s.mutex);
+  if (!s.all_made() || !s.removed.empty()) return false;
+  return std::all_of(s.islands.begin(), s.islands.end(), [](const auto& entry) {
+    return !entry.second.coming && entry.second.shown.made == 0;
+  });
+}
+
+void Streamer::wait_until_complete() {
+  std::unique_lock lock(state_->mutex);
+  state_->idle.wait(lock, [this] { return state_->all_made(); });
+}
+
+Streamer::Stats Streamer::stats() const {
+  const State& s = *state_;
+  const std::lock_guard lock(s.mutex);
+  Stats stats;
+  stats.islands = s.islands.size();
+  stats.tasks_left = s.tasks.size() + static_cast<std::size_t>(s.running);
+  stats.chunks_made = s.chunks_made;
+  for (const auto& [id, island] : s.islands) {
+    for (const auto& [chunk, slot] : island.shown.slots) stats.sections += slot.resident;
+  }
+  return stats;
+}
+
+}  // namespace skerry::world

@@ -1,0 +1,99 @@
+#pragma once
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/core/jobs.h"
+#include "world/islands/world.h"
+#include "world/mesh/emitters.h"
+#include "world/mesh/mesh.h"
+#include "world/mesh/occupancy.h"
+
+namespace skerry::world {
+
+/// Islands kept at once, the nearest: what their renderer has room for, less those on the way out.
+inline constexpr std::size_t kMaxStreamedIslands = 960;
+
+/// Names a resident chunk mesh.
+struct SectionKey {
+  std::uint64_t island = 0;
+  IVec3 chunk;             ///< chunk coordinate at its level
+  std::int32_t level = 0;  ///< a voxel's edge is 2^level blocks
+  auto operator<=>(const SectionKey&) const = default;
+};
+
+struct ReadySection {
+  SectionKey key;
+  ChunkMesh mesh;                 ///< without a quad if there is nothing to be seen of the chunk
+  ChunkOccupancy occupancy;       ///< empty unless asked for; of the two, one at least is not empty
+  std::vector<Emitter> emitters;  ///< of the mesh
+};
+
+/// What to change: first remove, then add. A key that is replaced stands in both lists.
+struct StreamUpdate {
+  std::vector<SectionKey> removed;
+  std::vector<ReadySection> ready;
+};
+
+struct StreamView {
+  WorldPos camera;
+  glm::dvec3 forward{0.0, 0.0, 1.0};  ///< unit length
+  double time_s = 0.0;                ///< decides where drifting islands are
+};
+
+struct StreamSettings {
+  double view_distance_blocks = 1000.0;
+  double detail_distance_blocks = 192.0;
+};
+
+/// An island's level of detail by the distance [blocks] from the camera to its bounding sphere
+/// (negative inside): 0 within the detail distance, one more each time the distance doubles.
+int level_at(double distance_blocks, double detail_distance_blocks);
+
+/// What a streamer makes of chunks.
+enum class StreamOf : std::uint8_t { kMeshes, kMeshesAndOccupancy };
+
+/// Keeps the islands around a camera meshed. An island is in while its bounding sphere comes within
+/// view distance, as a whole at one level of detail, so that it has no cracks.
+///
+/// The frame thread calls everything here; generation and meshing run on jobs, what is near and in
+/// view first, and no call but wait_until_complete waits for them. An island that changes its level
+/// keeps the old one until all of the new one can replace it in one update. While the camera moves,
+/// islands near a limit keep their state (5% of the distance). A streamer that has not yet seen
+/// another view has no state to keep: what it delivers depends on the view and the settings alone.
+class Streamer {
+ public:
+  /// Both must outlive the streamer.
+  Streamer(World& world, Jobs& jobs, StreamOf made = StreamOf::kMeshes);
+  /// Cancels what is queued and waits for what is running.
+  ~Streamer();
+  Streamer(const Streamer&) = delete;
+  Streamer& operator=(const Streamer&) = delete;
+
+  /// Decides what should be resident and queues the work. Call once a frame.
+  void update(const StreamView& view, const StreamSettings& settings);
+  /// Hands out changes, nearest island first, until `max_quads` quads are reached. The last section
+  /// may pass the limit, and an island that swaps levels is never cut.
+  StreamUpdate poll(std::size_t max_quads);
+  /// Whether all that the last update asked for has been made and handed out.
+  bool complete() const;
+  /// Blocks until all that the last update asked for has been made; poll then hands it out, in an
+  /// order that does not depend on threads.
+  void wait_until_complete();
+
+  struct Stats {
+    std::size_t islands = 0;      ///< resident or coming
+    std::size_t sections = 0;     ///< handed out and not removed
+    std::size_t tasks_left = 0;   ///< queued or running
+    std::size_t chunks_made = 0;  ///< generated and meshed so far, empty ones included
+  };
+  Stats stats() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;  // jobs hold it too: one may start after the streamer has gone
+};
+
+}  // namespace skerry::world

@@ -1,0 +1,136 @@
+// What Streamer keeps. Private to world/stream*.cpp.
+#pragma once
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "world/stream/stream.h"
+
+namespace skerry::world {
+
+/// One chunk of an island at one level.
+struct StreamSlot {
+  enum class Phase : std::uint8_t {
+    kIdle,     // not asked for: its level is about to be replaced
+    kQueued,   // a task waits for a worker
+    kRunning,  // a worker makes it
+    kMade,     // what was made of it waits to be handed out
+    kDone,     // handed out, or made and empty
+  };
+  Phase phase = Phase::kQueued;
+  bool stale = false;     // edited while a worker makes it: make it again
+  bool resident = false;  // handed out and not removed
+  ChunkMesh mesh;
+  std::vector<Emitter> emitters;
+  ChunkOccupancy occupancy;
+  bool has_something() const {
+    return !mesh.quads.empty() || occupancy.fill != ChunkOccupancy::Fill::kEmpty;
+  }
+};
+
+/// An island at one level.
+struct StreamLevel {
+  int level = 0;
+  std::uint64_t serial = 0;  // tells results of cancelled work from those wanted
+  bool planned = false;      // `slots` holds every chunk
+  std::size_t unmade = 0;    // slots queued or running
+  std::size_t made = 0;      // slots in phase kMade
+  std::map<IVec3, StreamSlot> slots;
+  std::vector<IVec3> edited_early;  // chunks edited before the plan was there
+};
+
+struct StreamIsland {
+  IslandSpec spec;
+  double distance = 0.0;              // blocks from the camera to the bounding sphere
+  glm::dvec3 camera{}, forward{};     // in lattice axes, blocks
+  StreamLevel shown;                  // what is, or becomes, visible chunk by chunk
+  std::optional<StreamLevel> coming;  // replaces `shown` when all of it is made
+  const StreamLevel& target() const { return coming ? *coming : shown; }
+  bool swappable() const { return coming && coming->planned && coming->unmade == 0; }
+};
+
+struct StreamTask {
+  std::uint64_t island = 0, serial = 0;
+  std::optional<IVec3> chunk;  // none: list the island's chunks
+  int level = 0;
+  double cost = 0.0;  // least first: distance, longer for what is out of view
+};
+
+/// Working memory of one job.
+struct StreamScratch {
+  std::vector<BlockId> voxels = std::vector<BlockId>(kPaddedVoxels);
+  MeshScratch mesh;
+};
+
+/// What a job brings back.
+struct MadeChunk {
+  ChunkMesh mesh;
+  std::vector<Emitter> emitters;
+  ChunkOccupancy occupancy;
+  std::optional<Chunk> voxels;  // of level 0
+};
+
+struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
+  State(World& world_, Jobs& jobs_, StreamOf makes_) : world(world_), jobs(jobs_), makes(makes_) {}
+
+  /// Frame thread only, without the mutex.
+  const std::vector<IslandSpec>& islands_around(const StreamView& view,
+                                                const StreamSettings& settings);
+  Pose pose_of(const IslandSpec& spec, double time_s) const;
+  double distance_to(const IslandSpec& spec, const StreamView& view) const;
+
+  // What is wanted (stream.cpp). Called with the mutex held.
+  void drop_far_islands(const std::vector<IslandSpec>& near, const StreamView& view,
+                        const StreamSettings& settings, std::vector<std::uint64_t>& gone);
+  void place_island(const IslandSpec& spec, const StreamView& view, const StreamSettings& settings,
+                    std::vector<std::uint64_t>& voxels_unused);
+  void change_level(StreamIsland& island, int level);
+  void apply_edit(const EditedBox& edit);
+
+  // Tasks and their results (stream_state.cpp). Called with the mutex held.
+  StreamLevel start_level(std::uint64_t island, int level);
+  StreamLevel* find_level(std::uint64_t island, std::uint64_t serial);
+  void push_task(const StreamTask& task);
+  void queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk);
+  void remake(std::uint64_t island, StreamLevel& level, IVec3 chunk);
+  void score_tasks();
+  double cost_of(const StreamTask& task) const;
+  bool plan_unused(std::uint64_t id) const;
+  bool take_task(StreamTask& task);
+  bool all_made() const { return tasks.empty() && running == 0; }
+  void note_planned(const StreamTask& task, const std::vector<IVec3>& chunks);
+  void note_made(const StreamTask& task, MadeChunk&& chunk);
+
+  /// Starts one job for each task pushed since the last call. Without the mutex.
+  void submit_jobs();
+  void run_task();
+  void run(const StreamTask& task, std::unique_lock<std::mutex>& lock);
+
+  World& world;
+  Jobs& jobs;
+  const StreamOf makes;
+  struct Around {
+    WorldPos centre;
+    double reach = -1.0;
+    std::uint64_t revision = 0;
+    std::vector<IslandSpec> islands;
+  };
+  Around around;             // frame thread only
+  mutable std::mutex mutex;  // guards everything below; held for bookkeeping only
+  std::condition_variable idle;
+  bool stopping = false;
+  int running = 0;
+  std::size_t to_submit = 0;
+  std::uint64_t last_serial = 0;
+  std::size_t chunks_made = 0;
+  std::vector<StreamTask> tasks;  // heap, cheapest on top
+  std::map<std::uint64_t, StreamIsland> islands;
+  std::vector<SectionKey> removed;  // of islands that left
+  std::vector<std::unique_ptr<StreamScratch>> spare;
+};
+
+}  // namespace skerry::world

@@ -1,0 +1,115 @@
+#include "world/voxel/blocks.h"
+
+namespace skerry::world {
+namespace {
+
+using enum BlockKind;
+using T = Texture;
+
+constexpr BlockType opaque(std::string_view name, Texture all, float roughness = 0.9f,
+                           float emission = 0.0f) {
+  return {name, kOpaque, all, all, all, emission, roughness, {}};
+}
+constexpr BlockType sided(std::string_view name, Texture side, Texture top, Texture bottom,
+                          float roughness = 0.9f) {
+  return {name, kOpaque, side, top, bottom, 0.0f, roughness, {}};
+}
+constexpr BlockType log(std::string_view name, Texture side, Texture end) {
+  return sided(name, side, end, end, 0.85f);
+}
+constexpr BlockType ore(std::string_view name, Texture all, float roughness, float metalness) {
+  return {name, kOpaque, all, all, all, 0.0f, roughness, {}, metalness};
+}
+constexpr BlockType leaves(std::string_view name, Texture all) {
+  return {name, kCutout, all, all, all, 0.0f, 0.8f, {}};
+}
+constexpr BlockType plant(std::string_view name, Texture all, float emission = 0.0f) {
+  return {name, kPlant, all, all, all, emission, 0.85f, {}};
+}
+
+// One row an id, in the order of block::. Emission is in units of the sun's radiance on white: a
+// glow plant lights its corner, lava and lamps light a room, and a torch, being small, burns the
+// brighter. Water takes red first, so that deep lakes turn blue-green.
+constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
+    {"air", kAir, T::kStone, T::kStone, T::kStone, 0.0f, 1.0f, {}},
+    opaque("stone", T::kStone),
+    opaque("stone_mossy", T::kStoneMossy),
+    opaque("cobble", T::kCobble),
+    opaque("gravel", T::kGravel, 0.95f),
+    opaque("dirt", T::kDirt, 0.95f),
+    sided("grass", T::kGrassSide, T::kGrassTop, T::kDirt),
+    sided("dry_grass", T::kDryGrassSide, T::kDryGrassTop, T::kDirt),
+    opaque("snow", T::kSnow, 0.7f),
+    sided("snowy_grass", T::kSnowSide, T::kSnow, T::kDirt, 0.75f),
+    opaque("ice", T::kIce, 0.15f),
+    opaque("sand", T::kSand, 0.95f),
+    sided("sandstone", T::kSandstoneSide, T::kSandstoneTop, T::kSandstoneTop),
+    opaque("red_sand", T::kRedSand, 0.95f),
+    opaque("red_rock", T::kRedRock),
+    opaque("red_rock_banded", T::kRedRockBanded),
+    opaque("clay", T::kClay, 0.8f),
+    opaque("mud", T::kMud, 0.6f),
+    sided("basalt", T::kBasalt, T::kBasaltTop, T::kBasaltTop, 0.8f),
+    opaque("lava", T::kLava, 0.6f, 6.0f),
+    opaque("obsidian", T::kObsidian, 0.12f),
+    opaque("marble", T::kMarble, 0.35f),
+    opaque("slate", T::kSlate, 0.75f),
+    opaque("limestone", T::kLimestone),
+    opaque("coal_ore", T::kCoalOre),
+    ore("iron_ore", T::kIronOre, 0.75f, 0.3f),
+    ore("copper_ore", T::kCopperOre, 0.75f, 0.4f),
+    ore("gold_ore", T::kGoldOre, 0.6f, 0.6f),
+    opaque("crystal_ore", T::kCrystalOre, 0.6f, 0.4f),
+    opaque("crystal_blue", T::kCrystalBlue, 0.15f, 2.5f),
+    opaque("crystal_violet", T::kCrystalViolet, 0.15f, 2.5f),
+    opaque("glowstone", T::kGlowstone, 0.6f, 4.0f),
+    log("oak_log", T::kOakLogSide, T::kOakLogTop),
+    log("birch_log", T::kBirchLogSide, T::kBirchLogTop),
+    log("pine_log", T::kPineLogSide, T::kPineLogTop),
+    log("palm_log", T::kPalmLogSide, T::kPalmLogTop),
+    log("willow_log", T::kWillowLogSide, T::kWillowLogTop),
+    leaves("oak_leaves", T::kOakLeaves),
+    leaves("birch_leaves", T::kBirchLeaves),
+    leaves("pine_leaves", T::kPineLeaves),
+    leaves("palm_leaves", T::kPalmLeaves),
+    leaves("willow_leaves", T::kWillowLeaves),
+    leaves("autumn_leaves", T::kAutumnLeaves),
+    leaves("blossom_leaves", T::kBlossomLeaves),
+    plant("tall_grass", T::kTallGrass),
+    plant("fern", T::kFern),
+    plant("flower_red", T::kFlowerRed),
+    plant("flower_yellow", T::kFlowerYellow),
+    plant("flower_blue", T::kFlowerBlue),
+    plant("reed", T::kReed),
+    plant("dead_bush", T::kDeadBush),
+    plant("glow_shroom", T::kGlowShroom, 2.0f),
+    plant("glow_fern", T::kGlowFern, 1.2f),
+    plant("heather", T::kHeather),
+    opaque("mushroom_cap_red", T::kMushroomCapRed, 0.6f),
+    opaque("mushroom_cap_glow", T::kMushroomCapGlow, 0.6f, 1.8f),
+    opaque("mushroom_stem", T::kMushroomStem, 0.8f),
+    sided("mycelium", T::kMyceliumSide, T::kMyceliumTop, T::kDirt),
+    {"water", kTranslucent, T::kWater, T::kWater, T::kWater, 0.0f, 0.05f, {0.25f, 0.08f, 0.05f}},
+    {"glass", kTranslucent, T::kGlass, T::kGlass, T::kGlass, 0.0f, 0.05f, {0.05f, 0.02f, 0.03f}},
+    sided("planks", T::kPlanks, T::kPlanks, T::kPlanks, 0.8f),
+    opaque("bricks", T::kBricks, 0.85f),
+    plant("torch", T::kTorch, 20.0f),
+    opaque("lamp", T::kLamp, 0.5f, 8.0f),
+}};
+
+}  // namespace
+
+std::span<const BlockType> block_types() {
+  return kTable;
+}
+
+BlockKind block_kind(BlockId id) {
+  return id < kTable.size() ? kTable[id].kind : kOpaque;
+}
+
+bool is_solid(BlockId id) {
+  const BlockKind kind = block_kind(id);
+  return kind == kOpaque || kind == kCutout || id == block::kGlass;
+}
+
+}  // namespace skerry::world
