@@ -106,6 +106,7 @@ SceneView::Moment PlayLoop::moment() const {
 Result<bool> PlayLoop::draw(const Layout& layout) {
   const SceneView::Moment now = moment();
   if (const auto done = view_->stream(now.camera, now.world_time_s); !done) return done.error();
+  for (std::string& notice : view_->notices()) said_.push_back(std::move(notice));
   const platform::FramebufferSize window_px = window_.framebuffer_size();
   const std::optional<gpu::SwapchainFrame> frame =
       presenter_.acquire({window_px.width, window_px.height});

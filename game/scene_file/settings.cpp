@@ -100,6 +100,18 @@ Result<void> parse_islands(std::string_view text, Settings& s) {
   return done;
 }
 
+Result<void> parse_memory_budget(std::string_view text, Settings& s) {
+  if (text == "auto") {
+    s.memory_budget_mib.reset();
+    return {};
+  }
+  std::uint32_t mib = 0;
+  const Result<void> done =
+      into(parse_integer(text, "memory.budget ('auto' or MiB)", 8, 1 << 20), mib);
+  if (done) s.memory_budget_mib = mib;
+  return done;
+}
+
 Result<void> parse_exposure(std::string_view text, Settings& s) {
   if (text == "auto") {
     s.exposure_ev.reset();
@@ -494,6 +506,13 @@ constexpr SettingKey kKeys[] = {
        return into(parse_integer(t, "upload.budget", 65536, 1 << 30), s.upload_budget_bytes);
      },
      [](const Settings& s) { return std::to_string(s.upload_budget_bytes); }},
+    {"memory.budget", "auto, or MiB from 8 to 1048576",
+     "Most device memory that the world takes; auto: five eighths of what the device has. When it "
+     "is full, the farthest detail goes first.",
+     parse_memory_budget,
+     [](const Settings& s) {
+       return s.memory_budget_mib ? std::to_string(*s.memory_budget_mib) : std::string("auto");
+     }},
     {"jobs.threads", "0 to 256",
      "Worker threads; 0 takes one a core. The picture does not depend on it.",
      [](std::string_view t, Settings& s) {

@@ -59,8 +59,9 @@ struct Settings {
   Shading shading = Shading::kPbr;
   DebugView debug_view = DebugView::kNone;
   UploadMode upload_path = UploadMode::kUpdate;
-  std::uint64_t upload_budget_bytes = 8u << 20;  ///< a frame, 65536 .. 2^30
-  std::uint32_t jobs_threads = 0;                ///< 0: one a core; .. 256
+  std::uint64_t upload_budget_bytes = 8u << 20;    ///< a frame, 65536 .. 2^30
+  std::optional<std::uint32_t> memory_budget_mib;  ///< for the world, 8 .. 2^20; none: by device
+  std::uint32_t jobs_threads = 0;                  ///< 0: one a core; .. 256
   /// Lights of a pixel that walls are looked for before: 0 none, 1 .. 8, or render::kEveryLight.
   std::uint32_t lights_shadows = 4;
   std::uint32_t lights_tile = 16;        ///< pixels along a light cluster's tile: 8, 16, 32, 64

@@ -49,6 +49,8 @@ class LightField {
   void add(const world::SectionKey& key, std::span<const world::Emitter> emitters);
   /// Forgets them. A section without lights is no concern.
   void remove(const world::SectionKey& key) { emitted_.erase(key); }
+  /// Forgets all that add() took in.
+  void remove_sections() { emitted_.clear(); }
   /// Lights that no section brings, kept for good. Keys are of level 0.
   void scatter(std::map<world::SectionKey, std::vector<LatticeLight>> lights);
   void set_world_lights(std::vector<WorldLight> lights) { world_ = std::move(lights); }

@@ -8,6 +8,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/clock.h"
+#include "engine/core/log.h"
 #include "engine/render/frame/celestial.h"
 #include "game/player/player.h"
 #include "game/view/light_setup.h"
@@ -21,6 +22,12 @@ namespace {
 constexpr std::size_t kMaxPolledQuads = 200'000;  // taken from the workers in one frame
 constexpr double kReachStep = 128.0;              // blocks
 constexpr std::uint32_t kFirstArenaQuads = 1u << 19;
+constexpr std::uint64_t kBytesPerMiB = std::uint64_t{1} << 20;
+// What is new leaves this share of the memory to what is built anew after an edit.
+constexpr double kForEdits = 1.0 / 16.0;
+// Removed sections are the GPU's for two frames, and the streamer's answer takes one or two.
+constexpr int kFramesToLetGo = 8;
+constexpr double kLessOnRestart = 0.7;
 
 gpu::UploadPath upload_path(UploadMode mode) {
   switch (mode) {
@@ -118,6 +125,7 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
   desc.upload_path = upload_path(options.settings.upload_path);
   desc.upload_budget_bytes = options.settings.upload_budget_bytes;
   desc.arena_quads = kFirstArenaQuads;
+  desc.world_budget_bytes = options.settings.memory_budget_mib.value_or(0) * kBytesPerMiB;
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(device, desc);
   if (!renderer) return renderer.error();
   view->renderer_ = *std::move(renderer);
@@ -135,14 +143,29 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
   return view;
 }
 
+ViewFit::Distances SceneView::asked() const {
+  return {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)};
+}
+
+void SceneView::update_streamer(const render::Camera& camera, double world_time_s) {
+  const ViewFit::Distances wanted = asked();
+  if (wanted != std::exchange(asked_before_, wanted)) fit_ = {};
+  const ViewFit::Distances shown = fit_.of(wanted);
+  streamer_->update({place(camera.position), forward_of(camera), world_time_s},
+                    {shown.view_blocks, shown.detail_blocks});
+}
+
 Result<void> SceneView::load_completely(const render::Camera& camera, double world_time_s) {
   if (Result<void> ok = follow_settings(); !ok) return ok;
-  streamer_->update(
-      {place(camera.position), forward_of(camera), world_time_s},
-      {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)});
-  streamer_->wait_until_complete();
-  while (!streamer_->complete())
-    if (Result<void> taken = take_in(streamer_->poll(kMaxPolledQuads)); !taken) return taken;
+  do {
+    update_streamer(camera, world_time_s);
+    streamer_->wait_until_complete();
+    while (!streamer_->complete()) take_in(streamer_->poll(kMaxPolledQuads));
+    add_waiting();
+    if (waiting_.empty()) break;
+    renderer_->reclaim();
+    add_waiting();
+  } while (!waiting_.empty() && show_less(camera));
   renderer_->set_upload_budget(UINT64_MAX);
   return {};
 }
@@ -150,13 +173,51 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
 Result<void> SceneView::stream(const render::Camera& camera, double world_time_s) {
   if (Result<void> ok = follow_settings(); !ok) return ok;
   renderer_->set_upload_budget(settings_.upload_budget_bytes);
-  streamer_->update(
-      {place(camera.position), forward_of(camera), world_time_s},
-      {static_cast<double>(settings_.view_distance), static_cast<double>(settings_.view_detail)});
+  update_streamer(camera, world_time_s);
+  ++frames_since_lowered_;
   // What was taken in must be on the GPU before more is: memory stays bounded, and an island's slot
   // is not handed on while sections that name it can still be drawn.
   if (renderer_->mesh_uploader().pending_bytes() != 0) return {};
-  return take_in(streamer_->poll(kMaxPolledQuads));
+  take_in(streamer_->poll(kMaxPolledQuads));
+  add_waiting();
+  if (waiting_.empty() && streamer_->complete()) {
+    const render::Renderer::WorldMemory memory = renderer_->world_memory();
+    fit_.settled(static_cast<double>(memory.used) / static_cast<double>(memory.limit), asked(),
+                 place(camera.position));
+  } else if (!waiting_.empty() && frames_since_lowered_ > kFramesToLetGo) {
+    show_less(camera);
+  }
+  return {};
+}
+
+/// @return false: no less can be shown; what waits is not drawn.
+bool SceneView::show_less(const render::Camera& camera) {
+  frames_since_lowered_ = 0;
+  if (!fit_.lower(asked(), place(camera.position))) return false;
+  const ViewFit::Distances wanted = asked(), shown = fit_.of(wanted);
+  notices_.push_back(fmt::format(
+      "the memory for the world is full: it is shown {:.0f} blocks far, {:.0f} of them "
+      "in full detail, instead of {:.0f} and {:.0f}",
+      shown.view_blocks, shown.detail_blocks, wanted.view_blocks, wanted.detail_blocks));
+  log_warning(notices_.back());
+  return true;
+}
+
+/// The device has no memory left for a frame: the world's tables give some of theirs back.
+Result<void> SceneView::restart_with_less(const render::Camera& camera, const std::string& why) {
+  log_warning(why);
+  const std::uint64_t less = static_cast<std::uint64_t>(
+      static_cast<double>(renderer_->world_memory().used) * kLessOnRestart);
+  sections_.clear();
+  islands_.clear();
+  island_slots_.clear();
+  waiting_.clear();
+  light_field_.remove_sections();
+  if (Result<void> ok = renderer_->restart_world(less); !ok) return ok;
+  occupancy_ = nullptr;
+  streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
+  show_less(camera);
+  return follow_settings();
 }
 
 bool SceneView::occupancy_wanted() const {
@@ -171,17 +232,38 @@ Result<void> SceneView::follow_settings() {
   Result<render::OccupancyStore*> store = renderer_->occupancy();
   if (!store) return store.error();
   while (!sections_.empty()) remove_section(sections_.begin()->first);
+  waiting_.clear();
   occupancy_ = *store;
   streamer_ =
       std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);
   return {};
 }
 
-Result<void> SceneView::take_in(world::StreamUpdate update) {
-  for (const world::SectionKey& key : update.removed) remove_section(key);
-  for (const world::ReadySection& ready : update.ready)
-    if (Result<void> added = add_section(ready); !added) return added;
-  return {};
+void SceneView::take_in(world::StreamUpdate update) {
+  for (const world::SectionKey& key : update.removed) {
+    if (sections_.contains(key)) {
+      remove_section(key);
+    } else {
+      std::erase_if(waiting_, [&](const world::ReadySection& ready) { return ready.key == key; });
+    }
+  }
+  // A section that stands in both lists is built anew, and goes before what is new.
+  for (world::ReadySection& ready : update.ready) {
+    const bool anew =
+        std::find(update.removed.begin(), update.removed.end(), ready.key) != update.removed.end();
+    if (anew && add_section(ready)) continue;
+    waiting_.push_back(std::move(ready));
+  }
+}
+
+void SceneView::add_waiting() {
+  while (!waiting_.empty() && !is_full() && add_section(waiting_.front())) waiting_.pop_front();
+}
+
+/// Whether what is left is for edits.
+bool SceneView::is_full() const {
+  const render::Renderer::WorldMemory memory = renderer_->world_memory();
+  return static_cast<double>(memory.used) >= (1.0 - kForEdits) * static_cast<double>(memory.limit);
 }
 
 void SceneView::remove_section(const world::SectionKey& key) {
@@ -209,15 +291,22 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   if (ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
     const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
                                      ready.occupancy.table, ready.occupancy.words};
-    if (Result<void> added = occupancy_->add(uploader, *slot, chunk_place(ready.key), bits); !added)
+    if (Result<void> added = occupancy_->add(uploader, *slot, chunk_place(ready.key), bits);
+        !added) {
+      remove_section(ready.key);
       return added;
+    }
+  }
+  if (!ready.mesh.quads.empty()) {
+    Result<render::SectionId> added = renderer_->geometry().add(
+        uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
+    if (!added) {
+      remove_section(ready.key);
+      return added.error();
+    }
+    section = *added;
   }
   light_field_.add(ready.key, ready.emitters);
-  if (ready.mesh.quads.empty()) return {};
-  Result<render::SectionId> added = renderer_->geometry().add(
-      uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
-  if (!added) return added.error();
-  section = *added;
   return {};
 }
 
@@ -232,13 +321,13 @@ Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
   const std::optional<world::IslandSpec> spec = world_->island(key.island);
   SKERRY_ASSERT(spec.has_value());
   islands_[slot] = {*spec, 0};
-  island_slots_.emplace(key.island, slot);
   if (occupancy_) {
     if (Result<void> begun = occupancy_->begin_island(renderer_->mesh_uploader(), slot,
                                                       expected_chunks(*spec, key.level));
         !begun)
       return begun.error();
   }
+  island_slots_.emplace(key.island, slot);
   return slot;
 }
 
@@ -372,6 +461,15 @@ Result<std::uint64_t> SceneView::draw(
   input.parts = settings_.shadow_samples;
   for (; input.part + 1 < input.parts; ++input.part)
     if (Result<std::uint64_t> part = renderer_->draw(input, settings, size); !part) return part;
+  const Result<std::uint64_t> drawn = renderer_->draw(input, settings, size, after, waits, signals);
+  if (drawn || sections_.empty() || input.parts != 1) return drawn;
+  // Once more, with what the world gives back; it is streamed in again from the next frame on.
+  if (Result<void> ok = restart_with_less(moment.camera, drawn.error().message); !ok)
+    return ok.error();
+  input.islands = {};
+  input.lights = {};
+  input.light_islands = {};
+  input.marker.reset();
   return renderer_->draw(input, settings, size, after, waits, signals);
 }
 

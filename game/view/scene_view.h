@@ -1,10 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/jobs.h"
@@ -14,6 +17,7 @@
 #include "engine/render/renderer/renderer.h"
 #include "game/scene_file/options.h"
 #include "game/view/light_field.h"
+#include "game/view/view_fit.h"
 #include "world/islands/world.h"
 #include "world/stream/stream.h"
 
@@ -41,13 +45,17 @@ class SceneView {
 
   /// Waits until all that belongs to this camera is generated and meshed, then queues it in an
   /// order that does not depend on threads. The next draw() uploads everything at once.
-  /// Errors: the quad arena is full.
+  /// What memory does not hold is left out, the farthest detail first (notices() says so).
+  /// Errors: out of memory for a frame's own tables.
   Result<void> load_completely(const render::Camera& camera, double world_time_s);
   /// Takes in what the workers have ready, within the frame's budget; never waits.
-  /// Errors: the quad arena is full.
+  /// What memory does not hold is left out, the farthest detail first (notices() says so).
+  /// Errors: out of memory for a frame's own tables.
   Result<void> stream(const render::Camera& camera, double world_time_s);
   /// Whether everything within view distance has been handed to the renderer.
-  bool complete() const { return streamer_->complete(); }
+  bool complete() const { return streamer_->complete() && waiting_.empty(); }
+  /// Lines for the player since the last call: that memory is full, and what is shown instead.
+  std::vector<std::string> notices() { return std::exchange(notices_, {}); }
   /// Of the last draw: lights handed to the renderer, and what it took to gather them.
   std::size_t lights() const { return lights_.lights.size(); }
   double gather_ms() const { return gather_ms_; }
@@ -83,7 +91,13 @@ class SceneView {
   };
   bool occupancy_wanted() const;
   Result<void> follow_settings();
-  Result<void> take_in(world::StreamUpdate update);
+  ViewFit::Distances asked() const;
+  void update_streamer(const render::Camera& camera, double world_time_s);
+  void take_in(world::StreamUpdate update);
+  void add_waiting();
+  bool is_full() const;
+  bool show_less(const render::Camera& camera);
+  Result<void> restart_with_less(const render::Camera& camera, const std::string& why);
   Result<void> add_section(const world::ReadySection& ready);
   void remove_section(const world::SectionKey& key);
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
@@ -109,6 +123,11 @@ class SceneView {
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
   std::map<world::SectionKey, std::optional<render::SectionId>> sections_;
+  std::deque<world::ReadySection> waiting_;  // for memory; nearest islands first
+  ViewFit fit_;
+  ViewFit::Distances asked_before_;
+  int frames_since_lowered_ = 0;
+  std::vector<std::string> notices_;
   render::OccupancyStore* occupancy_ = nullptr;  // the renderer's; null: not wanted so far
   LightField light_field_;
   FrameLights lights_;  // of the last frame

@@ -28,7 +28,7 @@ class OccupancyOnGpu : public gpu::GpuTest {
     GpuTest::SetUp();
     if (HasFatalFailure()) return;
     uploader_ = std::make_unique<gpu::Uploader>(device(), gpu::UploadPath::kUpdateBuffer);
-    Result<std::unique_ptr<OccupancyStore>> made = OccupancyStore::create(device());
+    Result<std::unique_ptr<OccupancyStore>> made = OccupancyStore::create(device(), budget_);
     ASSERT_TRUE(made) << made.error().message;
     store_ = *std::move(made);
   }
@@ -151,6 +151,7 @@ class OccupancyOnGpu : public gpu::GpuTest {
 
  private:
   std::unique_ptr<gpu::Uploader> uploader_;
+  MemoryBudget budget_{UINT64_MAX};
   std::unique_ptr<OccupancyStore> store_;
 };
 

@@ -35,7 +35,8 @@ class PassesOnGpu : public gpu::GpuTest {
     graph_ = std::make_unique<gpu::FrameGraph>(&device());
     uploader_ = std::make_unique<gpu::Uploader>(device(), gpu::UploadPath::kUpdateBuffer);
     shadows_ = std::make_unique<ShadowMaps>(device());
-    Result<std::unique_ptr<GeometryStore>> store = GeometryStore::create(device(), 1u << 12);
+    Result<std::unique_ptr<GeometryStore>> store =
+        GeometryStore::create(device(), budget_, 1u << 12);
     ASSERT_TRUE(store) << store.error().message;
     store_ = *std::move(store);
     std::vector<std::uint16_t> index(shared::kMaxQuadsPerDraw * 6);
@@ -262,6 +263,7 @@ class PassesOnGpu : public gpu::GpuTest {
   std::unique_ptr<gpu::Uploader> uploader_;
   std::unique_ptr<ShadowMaps> shadows_;
   ShadowHistory shadow_history_;
+  MemoryBudget budget_{UINT64_MAX};
   std::unique_ptr<GeometryStore> store_;
   gpu::Buffer indices_;
   std::vector<std::unique_ptr<gpu::Buffer>> tables_;

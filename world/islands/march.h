@@ -22,6 +22,38 @@ inline int floor_to_int(double x) {
   return truncated - (x < truncated ? 1 : 0);
 }
 
+/// A ray's way through a box, from where it comes in to where it leaves.
+struct RayInBox {
+  std::array<double, 3> inverse{};  ///< of the direction
+  std::array<bool, 3> positive{};
+  double t = 0.0, t_max = 0.0;  ///< it is outside if t >= t_max
+  int entered = -1;             ///< axis of the plane it comes in by; -1: it begins inside
+};
+
+inline RayInBox ray_in_box(glm::dvec3 origin, glm::dvec3 direction, double t_min, double t_max,
+                           const std::array<int, 3>& low, const std::array<int, 3>& high) {
+  RayInBox ray;
+  ray.t = t_min;
+  ray.t_max = t_max;
+  for (int a = 0; a < 3; ++a) {
+    ray.positive[a] = direction[a] >= 0.0;
+    if (direction[a] == 0.0) {
+      ray.inverse[a] = std::numeric_limits<double>::infinity();
+      if (origin[a] < low[a] || origin[a] >= high[a]) ray.t_max = ray.t;
+      continue;
+    }
+    ray.inverse[a] = 1.0 / direction[a];
+    const double first = ((ray.positive[a] ? low[a] : high[a]) - origin[a]) * ray.inverse[a];
+    if (first > ray.t) {
+      ray.t = first;
+      ray.entered = a;
+    }
+    const double last = ((ray.positive[a] ? high[a] : low[a]) - origin[a]) * ray.inverse[a];
+    ray.t_max = std::min(ray.t_max, last);
+  }
+  return ray;
+}
+
 /// Walks a ray through a lattice voxel by voxel (J. Amanatides and A. Woo, A Fast Voxel Traversal
 /// Algorithm for Ray Tracing, Eurographics 1987), over empty bricks and chunks at one step. A step
 /// goes to a plane of the lattice, so coordinates on the axis it crosses are integers and exact.
@@ -32,30 +64,16 @@ inline int floor_to_int(double x) {
 template <class Voxels, class Visitor>
 void march(const Voxels& voxels, glm::dvec3 origin, glm::dvec3 direction, double t_min,
            double t_max, Visitor&& visit) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
   // One voxel of air about the box, so that what lies at its walls is entered and left.
   const std::array<int, 3> low{voxels.box_min().x - 1, voxels.box_min().y - 1,
                                voxels.box_min().z - 1};
   const std::array<int, 3> high{voxels.box_max().x + 1, voxels.box_max().y + 1,
                                 voxels.box_max().z + 1};
-  std::array<double, 3> inverse;
-  std::array<bool, 3> positive;
-  double t = t_min;
-  int entered = -1;  // axis of the plane crossed last
-  for (int a = 0; a < 3; ++a) {
-    positive[a] = direction[a] >= 0.0;
-    inverse[a] = direction[a] == 0.0 ? kNever : 1.0 / direction[a];
-    if (direction[a] == 0.0) {
-      if (origin[a] < low[a] || origin[a] >= high[a]) return;
-      continue;
-    }
-    const double first = ((positive[a] ? low[a] : high[a]) - origin[a]) * inverse[a];
-    if (first > t) {
-      t = first;
-      entered = a;
-    }
-    t_max = std::min(t_max, ((positive[a] ? high[a] : low[a]) - origin[a]) * inverse[a]);
-  }
+  const RayInBox ray = ray_in_box(origin, direction, t_min, t_max, low, high);
+  const auto& [inverse, positive, t_in, t_out, entered_box] = ray;
+  double t = t_in;
+  int entered = entered_box;  // axis of the plane crossed last
+  t_max = t_out;
   if (!(t < t_max)) return;
   std::array<int, 3> v;
   for (int a = 0; a < 3; ++a)
@@ -70,7 +88,7 @@ void march(const Voxels& voxels, glm::dvec3 origin, glm::dvec3 direction, double
       return;
     previous = id;
 
-    double next = kNever;
+    double next = std::numeric_limits<double>::infinity();
     int axis = 0;
     for (int a = 0; a < 3; ++a) {
       const int cell = v[a] & ~(size - 1);

@@ -23,7 +23,6 @@ class PoseTrack {
   /// ends. @pre something was pushed.
   Pose at(double time_s) const;
   const Pose& newest() const { return poses_[index(newest_)]; }
-  std::int64_t newest_tick() const { return newest_; }
   bool empty() const { return count_ == 0; }
 
  private:

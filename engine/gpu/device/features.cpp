@@ -176,6 +176,11 @@ DeviceLimits read_limits(VkPhysicalDevice device) {
   out.max_image_edge = limits.maxImageDimension2D;
   out.max_volume_edge = limits.maxImageDimension3D;
   out.max_draw_count = limits.maxDrawIndirectCount;
+  VkPhysicalDeviceMemoryProperties memory{};
+  vkGetPhysicalDeviceMemoryProperties(device, &memory);
+  for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+    if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
+      out.heap_bytes = std::max<std::uint64_t>(out.heap_bytes, memory.memoryHeaps[i].size);
   out.timestamp_period_ns = has_timestamps(device) ? limits.timestampPeriod : 0.0f;
   return out;
 }

@@ -16,7 +16,7 @@ class Device;
 
 /// One image of the window, from acquire() to present().
 struct SwapchainFrame {
-  std::uint32_t index = 0;         ///< of the image, 0 .. image_count() - 1
+  std::uint32_t index = 0;         ///< of the image
   VkSemaphoreSubmitInfo wait{};    ///< what the submit that draws it must wait for
   VkSemaphoreSubmitInfo signal{};  ///< and signal
 };
@@ -52,7 +52,6 @@ class Swapchain {
     return format_.format;
   }  ///< UNORM: sRGB-coded values are stored as they are
   VkExtent2D extent() const { return extent_; }
-  std::uint32_t image_count() const { return static_cast<std::uint32_t>(images_.size()); }
   VkImageView view(std::uint32_t index) const { return images_[index].view; }
   /// Changes whenever views and extent do: framebuffers made from them are then void.
   std::uint32_t generation() const { return generation_; }

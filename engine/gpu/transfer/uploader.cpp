@@ -105,6 +105,11 @@ void Uploader::write(Buffer& to, std::uint64_t offset_bytes, std::span<const std
   state_->pending += bytes.size();
 }
 
+void Uploader::discard() {
+  state_->queue.clear();
+  state_->pending = 0;
+}
+
 std::uint64_t Uploader::pending_bytes() const {
   return state_->pending;
 }

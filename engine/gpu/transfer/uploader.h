@@ -46,6 +46,8 @@ class Uploader {
   /// Records queued writes, oldest first, until about `budget_bytes` (at least one whole write).
   /// @return bytes recorded.
   std::uint64_t record(VkCommandBuffer commands, std::uint64_t budget_bytes);
+  /// Drops queued writes.
+  void discard();
   const UploadBytes& sent() const;
   /// Fills an image's mips and layers once, at start-up: tightly packed, mip by mip, layers in
   /// order within a mip. Leaves it ready to be sampled.

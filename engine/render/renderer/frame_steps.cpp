@@ -65,7 +65,8 @@ const char* needs_lights(const FramePlan& plan) {
 
 /// Clouds that water mirrors need an eye in the open, and a sky to be mirrored.
 const char* needs_mirrored_clouds(const FramePlan& plan) {
-  if (!plan.geometry || needs_clouds(plan)) return kAbsent;
+  if (const char* why = needs_lit_surfaces(plan)) return why;
+  if (const char* why = plan.contents.features.why_not(Feature::kClouds)) return why;
   if (const char* why = plan.contents.features.why_not(Feature::kWater)) return why;
   const bool lit = plan.input.sky.sun_casts || plan.input.sky.moon_casts;
   return !lit || plan.input.camera_medium != 0 ? "no sky is mirrored" : nullptr;

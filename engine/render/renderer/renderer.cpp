@@ -51,13 +51,16 @@ struct Renderer::State {
         frame_uploader(d, desc.upload_path),
         mesh_uploader(d, desc.upload_path),
         resources(d),
+        upload_budget(desc.upload_budget_bytes),
+        arena_quads(desc.arena_quads),
+        world_budget(desc.world_budget_bytes != 0 ? desc.world_budget_bytes
+                                                  : d.limits().heap_bytes / 8 * 5),
         shadows(d),
         light_clusters(d),
         clouds(d),
         captures(d),
         picture(d),
-        ring(d, kFramesInFlight),
-        upload_budget(desc.upload_budget_bytes) {}
+        ring(d, kFramesInFlight) {}
 
   Result<void> create(const RendererDesc& desc);
   SceneFacts facts() const;
@@ -74,6 +77,9 @@ struct Renderer::State {
   gpu::FrameGraph graph;
   gpu::Uploader frame_uploader, mesh_uploader;
   FrameResources resources;
+  std::uint64_t upload_budget;
+  std::uint32_t arena_quads;
+  MemoryBudget world_budget;  // outlives the stores
   std::unique_ptr<GeometryStore> geometry;
   std::unique_ptr<OccupancyStore> occupancy;  // null: never asked for
   ShadowMaps shadows;
@@ -82,7 +88,6 @@ struct Renderer::State {
   Captures captures;
   Picture picture;
   gpu::FrameRing ring;
-  std::uint64_t upload_budget;
   FrameHistory history;
   std::array<Slot, kFramesInFlight> slots;
   std::uint32_t last_slot = 0;
@@ -90,7 +95,8 @@ struct Renderer::State {
 };
 
 Result<void> Renderer::State::create(const RendererDesc& desc) {
-  Result<std::unique_ptr<GeometryStore>> store = GeometryStore::create(device, desc.arena_quads);
+  Result<std::unique_ptr<GeometryStore>> store =
+      GeometryStore::create(device, world_budget, arena_quads);
   if (!store) return store.error();
   geometry = *std::move(store);
   if (Result<void> ok = resources.create(frame_uploader, desc.materials); !ok) return ok;
@@ -288,7 +294,8 @@ void Renderer::set_upload_budget(std::uint64_t bytes) {
 }
 Result<OccupancyStore*> Renderer::occupancy() {
   if (!state_->occupancy) {
-    Result<std::unique_ptr<OccupancyStore>> made = OccupancyStore::create(state_->device);
+    Result<std::unique_ptr<OccupancyStore>> made =
+        OccupancyStore::create(state_->device, state_->world_budget);
     if (!made) return made.error();
     state_->occupancy = *std::move(made);
   }
@@ -296,6 +303,36 @@ Result<OccupancyStore*> Renderer::occupancy() {
 }
 gpu::Uploader& Renderer::mesh_uploader() {
   return state_->mesh_uploader;
+}
+Renderer::WorldMemory Renderer::world_memory() const {
+  return {state_->geometry->bytes_in_use() +
+              (state_->occupancy ? state_->occupancy->bytes_in_use() : 0),
+          state_->world_budget.limit()};
+}
+void Renderer::reclaim() {
+  // An empty submit: removed ranges wait for the one that follows them.
+  state_->device.run_now([](VkCommandBuffer) {});
+  state_->geometry->collect();
+  if (state_->occupancy) state_->occupancy->collect();
+}
+Result<void> Renderer::restart_world(std::uint64_t bytes) {
+  State& s = *state_;
+  finish();
+  s.mesh_uploader.discard();
+  const bool had_occupancy = s.occupancy != nullptr;
+  s.geometry.reset();
+  s.occupancy.reset();
+  s.history = {};
+  s.device.run_now([](VkCommandBuffer) {});  // the old tables are retired until then
+  s.device.collect();
+  s.world_budget = MemoryBudget(bytes);
+  Result<std::unique_ptr<GeometryStore>> geometry =
+      GeometryStore::create(s.device, s.world_budget, s.arena_quads);
+  if (!geometry) return geometry.error();
+  s.geometry = *std::move(geometry);
+  if (had_occupancy)
+    if (Result<OccupancyStore*> made = occupancy(); !made) return made.error();
+  return {};
 }
 const gpu::FrameGraph& Renderer::graph() const {
   return state_->graph;

@@ -27,6 +27,9 @@ struct RendererDesc {
   gpu::UploadPath upload_path = gpu::UploadPath::kUpdateBuffer;
   std::uint64_t upload_budget_bytes = 4u << 20;  ///< chunk meshes a frame
   std::uint32_t arena_quads = 1u << 20;          ///< to begin with
+  /// Most bytes of the world's tables on the device; 0: five eighths of its memory, so that a
+  /// frame's images and tables have the rest.
+  std::uint64_t world_budget_bytes = 0;
 };
 
 /// Draws frames: owns what lives longer than one (geometry, textures, shadow maps, the picture) and
@@ -41,6 +44,17 @@ class Renderer {
   /// that is never asked has none, and draws neither. Errors: out of memory.
   Result<OccupancyStore*> occupancy();
   gpu::Uploader& mesh_uploader();
+  /// Bytes of the world's tables: what is resident in them, and the most that may be.
+  struct WorldMemory {
+    std::uint64_t used = 0, limit = 0;
+  };
+  WorldMemory world_memory() const;
+  /// Waits for the GPU; then what has been removed may be overwritten.
+  void reclaim();
+  /// Begins with an empty world that may take `bytes`: all sections and islands are gone, and their
+  /// memory is the device's again. Waits for the GPU. geometry() and occupancy() are other objects
+  /// from now on. Errors: out of memory.
+  Result<void> restart_world(std::uint64_t bytes);
   /// Clouds of files, in the place of all before. @param volumes what they point to is not kept.
   /// Errors: see Clouds::set_volumes.
   Result<void> set_clouds(std::span<const CloudVolumeDesc> volumes, CloudPrecision precision);

@@ -1,9 +1,5 @@
 #include "engine/render/scene/geometry_store.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "engine/core/check.h"
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/device/resources.h"
@@ -14,6 +10,7 @@ namespace skerry::render {
 namespace {
 
 constexpr std::uint32_t kFirstSections = 1024;
+constexpr std::uint64_t kMostQuads = std::uint64_t{1} << 29;
 constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
 
 std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
@@ -23,39 +20,39 @@ std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, s
 }  // namespace
 
 Result<std::unique_ptr<GeometryStore>> GeometryStore::create(gpu::Device& device,
+                                                             MemoryBudget& budget,
                                                              std::uint32_t arena_quads) {
-  std::unique_ptr<GeometryStore> store(new GeometryStore(device, arena_quads));
+  std::unique_ptr<GeometryStore> store(new GeometryStore(device, budget, arena_quads));
   Result<gpu::Buffer> quads =
-      device.create_buffer({"quad arena", std::uint64_t{arena_quads} * sizeof(shared::Quad),
-                            kTableUsage, gpu::Memory::kDevice});
+      make_table(device, budget, "quad arena", std::uint64_t{arena_quads} * sizeof(shared::Quad));
   if (!quads) return quads.error();
-  Result<gpu::Buffer> sections =
-      device.create_buffer({"section table", kFirstSections * sizeof(shared::Section), kTableUsage,
-                            gpu::Memory::kDevice});
-  if (!sections) return sections.error();
   store->quads_ = *std::move(quads);
+  Result<gpu::Buffer> sections =
+      make_table(device, budget, "section table", kFirstSections * sizeof(shared::Section));
+  if (!sections) return sections.error();
   store->sections_ = *std::move(sections);
   store->section_capacity_ = kFirstSections;
   return store;
+}
+
+GeometryStore::~GeometryStore() {
+  budget_->give_back(quads_.size_bytes() + sections_.size_bytes());
 }
 
 Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section section,
                                      std::span<const shared::Quad> quads) {
   SKERRY_ASSERT(!quads.empty() && quads.size() == section.range_end[shared::kRangeCount - 1]);
   const auto wanted = static_cast<std::uint32_t>(quads.size());
-  Result<gpu::ArenaRange> range = arena_.allocate(wanted);
-  if (!range) {
-    if (Result<void> grew = grow_arena(wanted); !grew) return grew.error();
-    range = arena_.allocate(wanted);
-    if (!range) return range.error();
-  }
+  if (free_slots_.empty() && section_slots() == section_capacity_)
+    if (Result<void> grew = grow_sections(); !grew) return grew.error();
+  const Result<gpu::ArenaRange> range =
+      allocate(*device_, *budget_, {arena_, quads_, sizeof(shared::Quad), kMostQuads}, wanted);
+  if (!range) return range.error();
   std::uint32_t slot = section_slots();
   if (!free_slots_.empty()) {
     slot = free_slots_.back();
     free_slots_.pop_back();
   } else {
-    if (slot == section_capacity_)
-      if (Result<void> grew = grow_sections(); !grew) return grew.error();
     records_.emplace_back();
   }
   section.first_quad = range->first;
@@ -86,27 +83,10 @@ void GeometryStore::collect() {
   arena_.collect(device_->completed_value());
 }
 
-Result<void> GeometryStore::grow_arena(std::uint32_t at_least) {
-  const std::uint64_t most =
-      std::min<std::uint64_t>(device_->limits().max_storage_range / sizeof(shared::Quad), 1u << 29);
-  const std::uint64_t now = arena_.capacity();
-  const std::uint64_t next = std::min(most, std::max(now * 2, now + at_least));
-  if (next < now + at_least)
-    return Error{
-        fmt::format("quad arena is full: a chunk needs {} more quads, {} of {} are in use and the "
-                    "device allows {}; "
-                    "lower view.distance or view.detail",
-                    at_least, arena_.used(), now, most)};
-  if (Result<void> grew = grow_buffer(*device_, quads_, next * sizeof(shared::Quad)); !grew)
-    return grew;
-  arena_.grow(static_cast<std::uint32_t>(next));
-  return {};
-}
-
 Result<void> GeometryStore::grow_sections() {
   const std::uint32_t next = section_capacity_ * 2;
   if (Result<void> grew =
-          grow_buffer(*device_, sections_, std::uint64_t{next} * sizeof(shared::Section));
+          grow_buffer(*device_, *budget_, sections_, std::uint64_t{next} * sizeof(shared::Section));
       !grew)
     return grew;
   section_capacity_ = next;

@@ -8,6 +8,7 @@
 #include "engine/gpu/device/resources.h"
 #include "engine/gpu/transfer/quad_arena.h"
 #include "engine/render/scene/geometry_changes.h"
+#include "engine/render/scene/memory_budget.h"
 #include "shaders/shared/geometry.h"
 
 namespace skerry::gpu {
@@ -28,14 +29,16 @@ struct SectionId {
 /// the GPU never sees a record whose quads are missing.
 class GeometryStore {
  public:
+  /// @param budget must outlive the store.
   /// @param arena_quads capacity to begin with; it doubles when full, up to the device's largest
-  /// storage buffer.
-  static Result<std::unique_ptr<GeometryStore>> create(gpu::Device& device,
+  /// storage buffer and what the budget has left.
+  static Result<std::unique_ptr<GeometryStore>> create(gpu::Device& device, MemoryBudget& budget,
                                                        std::uint32_t arena_quads);
+  ~GeometryStore();
 
   /// Queues a chunk mesh. @param section its record; first_quad is filled in here. @param quads not
-  /// empty. Errors when the arena is full and cannot grow: what is needed, what there is, what to
-  /// lower.
+  /// empty. Errors, with nothing changed, when the arena is full and cannot grow: what is needed,
+  /// what there is, what to lower.
   Result<SectionId> add(gpu::Uploader& uploader, shared::Section section,
                         std::span<const shared::Quad> quads);
   /// Its quads may be overwritten once the GPU has finished everything submitted so far.
@@ -51,6 +54,10 @@ class GeometryStore {
     return section_slots() - static_cast<std::uint32_t>(free_slots_.size());
   }
   std::uint64_t quads_resident() const { return arena_.used(); }
+  /// Of quads that are resident or that the GPU may still read.
+  std::uint64_t bytes_in_use() const {
+    return (std::uint64_t{arena_.used()} + arena_.waiting()) * sizeof(shared::Quad);
+  }
   std::uint64_t translucent_quads() const { return translucent_quads_; }
   std::uint64_t cutout_quads() const { return cutout_quads_; }
   std::span<const shared::Section> records() const { return records_; }
@@ -58,13 +65,13 @@ class GeometryStore {
   const GeometryChanges& changes() const { return changes_; }
 
  private:
-  GeometryStore(gpu::Device& device, std::uint32_t arena_quads)
-      : device_(&device), arena_(arena_quads) {}
-  Result<void> grow_arena(std::uint32_t at_least);
+  GeometryStore(gpu::Device& device, MemoryBudget& budget, std::uint32_t arena_quads)
+      : device_(&device), budget_(&budget), arena_(arena_quads) {}
   Result<void> grow_sections();
   void count(const shared::Section& section, std::int64_t sign);
 
   gpu::Device* device_;
+  MemoryBudget* budget_;
   gpu::OffsetArena arena_;
   gpu::Buffer quads_, sections_;
   std::vector<shared::Section> records_;  // CPU copy, one a slot; free slots have no ranges

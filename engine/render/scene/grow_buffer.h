@@ -3,6 +3,8 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device/resources.h"
+#include "engine/gpu/transfer/quad_arena.h"
+#include "engine/render/scene/memory_budget.h"
 
 namespace skerry::gpu {
 class Device;
@@ -15,8 +17,26 @@ inline constexpr VkBufferUsageFlags kTableUsage = VK_BUFFER_USAGE_STORAGE_BUFFER
                                                   VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                                   VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
+/// A table, taken from the budget. Errors: more than is left; out of memory.
+Result<gpu::Buffer> make_table(gpu::Device& device, MemoryBudget& budget, const char* name,
+                               std::uint64_t size_bytes);
+
 /// Puts a bigger buffer with the old one's bytes in its place. Waits for the GPU: growth is rare,
-/// and doubles.
-Result<void> grow_buffer(gpu::Device& device, gpu::Buffer& buffer, std::uint64_t size_bytes);
+/// and doubles. Errors, with nothing changed: as make_table.
+Result<void> grow_buffer(gpu::Device& device, MemoryBudget& budget, gpu::Buffer& buffer,
+                         std::uint64_t size_bytes);
+
+/// A table whose elements an arena hands out.
+struct ArenaTable {
+  gpu::OffsetArena& arena;
+  gpu::Buffer& buffer;
+  std::uint64_t element_bytes;
+  std::uint64_t format_limit;  ///< elements that indices can name
+};
+
+/// Makes room for `count` more elements; the buffer doubles if need be, or takes what the budget
+/// has left. Errors: what is needed, what is in use, what to lower.
+Result<gpu::ArenaRange> allocate(gpu::Device& device, MemoryBudget& budget, const ArenaTable& table,
+                                 std::uint32_t count);
 
 }  // namespace skerry::render

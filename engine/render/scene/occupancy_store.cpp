@@ -1,7 +1,5 @@
 #include "engine/render/scene/occupancy_store.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <glm/common.hpp>
 #include <optional>
@@ -18,6 +16,7 @@ namespace skerry::render {
 namespace {
 
 constexpr std::uint32_t kFirstTables = 256, kFirstBricks = 8192;
+constexpr std::uint64_t kMostTables = 1u << 21;
 constexpr std::uint64_t kTableBytes = shared::kBricksPerChunk * sizeof(std::uint32_t);
 constexpr std::uint64_t kBrickBytes = shared::kBrickWords * sizeof(std::uint32_t);
 constexpr std::uint32_t kBrickMask = shared::kMaxBricks;  // of a table's entry
@@ -57,26 +56,6 @@ shared::OccupancyGrid record(const IslandChunks& box, std::uint32_t first) {
           first};
 }
 
-/// Makes room for `count` more elements; the buffer doubles if need be.
-Result<gpu::ArenaRange> allocate(gpu::Device& device, gpu::OffsetArena& arena, gpu::Buffer& buffer,
-                                 std::uint32_t count, std::uint64_t element_bytes,
-                                 std::uint64_t format_limit) {
-  if (Result<gpu::ArenaRange> range = arena.allocate(count); range) return range;
-  const std::uint64_t most =
-      std::min(device.limits().max_storage_range / element_bytes, format_limit);
-  const std::uint64_t now = arena.capacity();
-  const std::uint64_t next = std::min(most, std::max(now * 2, now + count));
-  if (next < now + count)
-    return Error{
-        fmt::format("'{}' is full: {} more of {} bytes each are needed, {} are in use and "
-                    "the device allows {}; lower view.distance or view.detail",
-                    buffer.name(), count, element_bytes, arena.used(), most)};
-  if (Result<void> grew = grow_buffer(device, buffer, next * element_bytes); !grew)
-    return grew.error();
-  arena.grow(static_cast<std::uint32_t>(next));
-  return arena.allocate(count);
-}
-
 }  // namespace
 
 std::uint32_t OccupancyStore::Grid::table_of(glm::ivec3 chunk) const {
@@ -84,19 +63,19 @@ std::uint32_t OccupancyStore::Grid::table_of(glm::ivec3 chunk) const {
   return tables.first + static_cast<std::uint32_t>((at.y * box.size.x + at.x) * box.size.z + at.z);
 }
 
-OccupancyStore::OccupancyStore(gpu::Device& device)
-    : device_(&device), table_arena_(kFirstTables), brick_arena_(kFirstBricks) {}
+OccupancyStore::OccupancyStore(gpu::Device& device, MemoryBudget& budget)
+    : device_(&device), budget_(&budget), table_arena_(kFirstTables), brick_arena_(kFirstBricks) {}
 
-Result<std::unique_ptr<OccupancyStore>> OccupancyStore::create(gpu::Device& device) {
-  std::unique_ptr<OccupancyStore> store(new OccupancyStore(device));
+Result<std::unique_ptr<OccupancyStore>> OccupancyStore::create(gpu::Device& device,
+                                                               MemoryBudget& budget) {
+  std::unique_ptr<OccupancyStore> store(new OccupancyStore(device, budget));
   const std::array<std::tuple<gpu::Buffer*, const char*, std::uint64_t>, 3> wanted{{
       {&store->grids_, "occupancy grids", shared::kMaxIslands * sizeof(shared::OccupancyGrid)},
       {&store->tables_, "occupancy tables", kFirstTables * kTableBytes},
       {&store->words_, "occupancy bricks", kFirstBricks * kBrickBytes},
   }};
   for (const auto& [buffer, name, bytes] : wanted) {
-    Result<gpu::Buffer> made =
-        device.create_buffer({name, bytes, kTableUsage, gpu::Memory::kDevice});
+    Result<gpu::Buffer> made = make_table(device, budget, name, bytes);
     if (!made) return made.error();
     *buffer = *std::move(made);
   }
@@ -106,18 +85,31 @@ Result<std::unique_ptr<OccupancyStore>> OccupancyStore::create(gpu::Device& devi
   return store;
 }
 
+OccupancyStore::~OccupancyStore() {
+  for (const gpu::Buffer* buffer : {&grids_, &tables_, &words_})
+    budget_->give_back(buffer->size_bytes());
+}
+
+std::uint64_t OccupancyStore::bytes_in_use() const {
+  return (std::uint64_t{table_arena_.used()} + table_arena_.waiting()) * kTableBytes +
+         (std::uint64_t{brick_arena_.used()} + brick_arena_.waiting()) * kBrickBytes;
+}
+
 Result<void> OccupancyStore::begin_island(gpu::Uploader& uploader, std::uint32_t island,
                                           const IslandChunks& expected) {
   SKERRY_ASSERT(island < shared::kMaxIslands && !islands_.contains(island));
   SKERRY_ASSERT(with_chunk(expected, expected.low).has_value());
-  return place(uploader, island, islands_[island], expected);
+  Grid grid;
+  if (Result<void> placed = place(uploader, island, grid, expected); !placed) return placed;
+  islands_.emplace(island, std::move(grid));
+  return {};
 }
 
 /// Gives a grid a new box of tables, with what its chunks have.
 Result<void> OccupancyStore::place(gpu::Uploader& uploader, std::uint32_t island, Grid& grid,
                                    const IslandChunks& box) {
-  Result<gpu::ArenaRange> tables =
-      allocate(*device_, table_arena_, tables_, volume(box.size), kTableBytes, 1u << 21);
+  Result<gpu::ArenaRange> tables = allocate(
+      *device_, *budget_, {table_arena_, tables_, kTableBytes, kMostTables}, volume(box.size));
   if (!tables) return tables.error();
   table_arena_.free(grid.tables, device_->next_value());
   grid.box = box;
@@ -144,8 +136,10 @@ Result<void> OccupancyStore::add(gpu::Uploader& uploader, std::uint32_t island, 
   const std::optional<IslandChunks> box = with_chunk(grid.box, chunk);
   if (!box) return {};
   const auto count = static_cast<std::uint32_t>(bits.words.size() / shared::kBrickWords);
-  Result<gpu::ArenaRange> bricks =
-      allocate(*device_, brick_arena_, words_, count, kBrickBytes, shared::kMaxBricks);
+  if (box->size != grid.box.size)
+    if (Result<void> placed = place(uploader, island, grid, *box); !placed) return placed;
+  const Result<gpu::ArenaRange> bricks =
+      allocate(*device_, *budget_, {brick_arena_, words_, kBrickBytes, shared::kMaxBricks}, count);
   if (!bricks) return bricks.error();
   Chunk made{*bricks, {bits.table.begin(), bits.table.end()}};
   if (bits.full) made.table.assign(shared::kBricksPerChunk, shared::kBrickFull);
@@ -156,7 +150,6 @@ Result<void> OccupancyStore::add(gpu::Uploader& uploader, std::uint32_t island, 
   }
   uploader.write(words_, bricks->first * kBrickBytes, bits.words);
   const Chunk& kept = grid.chunks.insert_or_assign(key(chunk), std::move(made)).first->second;
-  if (box->size != grid.box.size) return place(uploader, island, grid, *box);
   write_table(uploader, grid.table_of(chunk), kept.table);
   return {};
 }

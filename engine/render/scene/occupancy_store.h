@@ -10,6 +10,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device/resources.h"
 #include "engine/gpu/transfer/quad_arena.h"
+#include "engine/render/scene/memory_budget.h"
 #include "shaders/shared/occupancy.h"
 
 namespace skerry::gpu {
@@ -38,15 +39,19 @@ struct OccupancyBits {
 /// the table that names them, so the GPU never sees a table whose bits are missing.
 class OccupancyStore {
  public:
-  static Result<std::unique_ptr<OccupancyStore>> create(gpu::Device& device);
+  /// @param budget must outlive the store.
+  static Result<std::unique_ptr<OccupancyStore>> create(gpu::Device& device, MemoryBudget& budget);
+  ~OccupancyStore();
 
   /// An island whose chunks come next; all of them are empty. @param island index into the island
-  /// table, not in the store. Errors: the device allows no more tables, and what to lower.
+  /// table, not in the store. Errors, with nothing changed: the device or the budget allows no more
+  /// tables, and what to lower.
   Result<void> begin_island(gpu::Uploader& uploader, std::uint32_t island,
                             const IslandChunks& expected);
   /// Queues a chunk of an island that has begun, in place of what was there. Chunks outside those
   /// expected are taken, too; but one too far from the others for a grid to hold both
-  /// (kMaxGridEdge, kLowestGridChunk) is left out and counts as empty. Errors: as above.
+  /// (kMaxGridEdge, kLowestGridChunk) is left out and counts as empty. Errors: as above; then the
+  /// chunk is empty.
   Result<void> add(gpu::Uploader& uploader, std::uint32_t island, glm::ivec3 chunk,
                    const OccupancyBits& bits);
   /// Empties a chunk. What it took may be overwritten once the GPU has finished everything
@@ -61,6 +66,8 @@ class OccupancyStore {
   gpu::Buffer& tables() { return tables_; }                     ///< uint[table][kBricksPerChunk]
   gpu::Buffer& words() { return words_; }                       ///< uint[brick][kBrickWords]
   std::uint32_t bricks() const { return brick_arena_.used(); }  ///< stored
+  /// Of tables and bricks that are in use or that the GPU may still read.
+  std::uint64_t bytes_in_use() const;
 
  private:
   struct Chunk {
@@ -73,13 +80,14 @@ class OccupancyStore {
     std::map<std::array<int, 3>, Chunk> chunks;  // that are not empty
     std::uint32_t table_of(glm::ivec3 chunk) const;
   };
-  explicit OccupancyStore(gpu::Device& device);
+  OccupancyStore(gpu::Device& device, MemoryBudget& budget);
   Result<void> place(gpu::Uploader& uploader, std::uint32_t island, Grid& grid,
                      const IslandChunks& box);
   void write_table(gpu::Uploader& uploader, std::uint32_t table,
                    std::span<const std::uint32_t> entries);
 
   gpu::Device* device_;
+  MemoryBudget* budget_;
   gpu::OffsetArena table_arena_, brick_arena_;
   gpu::Buffer grids_, tables_, words_;
   std::map<std::uint32_t, Grid> islands_;

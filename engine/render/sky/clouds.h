@@ -22,7 +22,6 @@ class Clouds {
   /// the device cannot filter this precision.
   Result<void> set_volumes(gpu::Uploader& uploader, std::span<const CloudVolumeDesc> volumes,
                            CloudPrecision precision);
-  bool has_volumes() const { return bricks_.operator bool(); }
   /// Of the volumes: bricks in the atlas, and bytes of atlas and cells.
   std::uint32_t brick_count() const { return brick_count_; }
   std::uint64_t atlas_bytes() const;

@@ -59,6 +59,8 @@ TEST(Settings, ValuesOutOfRangeAreRefused) {
                                  "world.time=1e300",
                                  "upload.budget=1",
                                  "jobs.threads=257",
+                                 "memory.budget=7",
+                                 "memory.budget=1048577",
                                  "shadow.cascades=0",
                                  "shadow.cascades=5",
                                  "shadow.taps=2",
@@ -120,6 +122,7 @@ TEST(Settings, EveryKeyReadsBackWhatItPrints) {
                                  "reference.filter=centre",
                                  "upload.budget=65536",
                                  "jobs.threads=8",
+                                 "memory.budget=32",
                                  "water.layers=4"}) {
     const auto done = apply_setting(assignment, odd);
     ASSERT_TRUE(done) << done.error().message;

@@ -90,7 +90,8 @@ TEST_F(FailedFrames, TriedAgainGiveTheBytesOfAnUndisturbedFrame) {
   EXPECT_EQ(disturbed(23.0), night);
   EXPECT_GT(failures, 20);
   for (const char* name : {"shadow maps", "picture", "radiance"})
-    EXPECT_TRUE(failed.contains(name)) << name << " never failed";
+    EXPECT_TRUE(failed.contains(name))
+        << name << " never failed, but " << testing::PrintToString(failed);
 }
 
 }  // namespace

@@ -30,6 +30,88 @@ double peak_rss_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+/// What was measured of frames, in order.
+struct Timings {
+  std::vector<double> frames;                         ///< [ms]
+  std::map<std::string, std::vector<double>> passes;  ///< on the GPU, of the frames that had them
+};
+
+Result<Timings> time_frames(game::SceneView& view, game::SceneView::Moment moment,
+                            VkExtent2D size) {
+  Timings out;
+  double last = now_ms();
+  const double start = last;
+  for (int i = 0; i < kWarmUpFrames + kMaxFrames; ++i) {
+    moment.camera.yaw_deg += kTurnDegPerFrame;
+    if (Result<std::uint64_t> drawn = view.draw(moment, size); !drawn) return drawn.error();
+    const double now = now_ms();
+    if (i >= kWarmUpFrames) {
+      out.frames.push_back(now - last);
+      for (const gpu::PassTime& pass : view.renderer().report()->passes)
+        out.passes[pass.name].push_back(pass.ms);
+    }
+    last = now;
+    if (i >= kWarmUpFrames + kMinFrames && now - start > kMaxSeconds * 1000.0) break;
+  }
+  view.renderer().finish();
+  return out;
+}
+
+/// Medians by pass, and their total. A pass that ran in some frames only (a shadow map drawn once)
+/// counts by its mean over all frames.
+nlohmann::ordered_json pass_times(const Timings& timings) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+  double total = 0.0;
+  for (const auto& [name, samples] : timings.passes) {
+    double sum = 0.0;
+    for (const double sample : samples) sum += sample;
+    out[name] = samples.size() == timings.frames.size()
+                    ? spread_of(samples).median
+                    : sum / static_cast<double>(timings.frames.size());
+    total += out[name].get<double>();
+  }
+  out["total"] = total;
+  return out;
+}
+
+nlohmann::ordered_json row_of(const game::SceneOptions& scene, const gpu::Device& device,
+                              render::Renderer& renderer, const Timings& timings) {
+  const Spread ms = spread_of(timings.frames);
+  const game::Settings& settings = scene.settings;
+  return {{"name", fmt::format("seed {} {:02}:{:02}", scene.seed_text.substr(0, 20),
+                               scene.time_of_day_s / 3600, scene.time_of_day_s / 60 % 60)},
+          {"device", device.info().name},
+          {"size", {scene.size.width, scene.size.height}},
+          {"distance", settings.view_distance},
+          {"shadows", settings.shadow_enabled ? settings.shadow_size : 0},
+          {"frames", timings.frames.size()},
+          {"ms_median", ms.median},
+          {"ms_p10", ms.p10},
+          {"ms_p99", ms.p99},
+          {"fps_median", 1000.0 / ms.median},
+          {"quads_resident", renderer.geometry().quads_resident()},
+          {"quads_drawn", renderer.report()->camera.quads},
+          {"gpu_memory_bytes", device.memory_total()},
+          {"peak_rss_mib", peak_rss_mib()},
+          {"gpu_ms", pass_times(timings)}};
+}
+
+void print(const nlohmann::ordered_json& row) {
+  const auto number = [&](const char* key) { return row.at(key).get<double>(); };
+  const int shadows = row.at("shadows").get<int>();
+  const nlohmann::ordered_json& passes = row.at("gpu_ms");
+  fmt::print(
+      "{} | {}x{} | distance {} | shadows {} | median {:.2f} ms (p10 {:.2f}, p99 {:.2f}) | {:.1f} "
+      "fps | GPU {:.2f} ms | {} quads of {} | {:.0f} MiB\n",
+      row.at("name").get<std::string>(), row.at("size")[0].get<int>(), row.at("size")[1].get<int>(),
+      row.at("distance").get<int>(), shadows != 0 ? fmt::format("{}", shadows) : "off",
+      number("ms_median"), number("ms_p10"), number("ms_p99"), number("fps_median"),
+      passes.at("total").get<double>(), row.at("quads_drawn").get<std::uint64_t>(),
+      row.at("quads_resident").get<std::uint64_t>(), number("peak_rss_mib"));
+  for (const auto& [pass, value] : passes.items())
+    fmt::print("  {:<24} {:8.3f} ms\n", pass, value.get<double>());
+}
+
 }  // namespace
 
 int bench_frame(const BenchFrameOptions& options) {
@@ -40,74 +122,16 @@ int bench_frame(const BenchFrameOptions& options) {
   Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(**device, options.scene);
   if (!view) return fail(kFailed, view.error());
   const double world_time_s = options.scene.settings.world_time_s;
-  game::SceneView::Moment moment{(*view)->start_camera(),
-                                 static_cast<double>(options.scene.time_of_day_s), world_time_s,
-                                 false};
+  const game::SceneView::Moment moment{(*view)->start_camera(),
+                                       static_cast<double>(options.scene.time_of_day_s),
+                                       world_time_s, false};
   if (Result<void> loaded = (*view)->load_completely(moment.camera, world_time_s); !loaded)
     return fail(kFailed, loaded.error());
-
   const VkExtent2D size{options.scene.size.width, options.scene.size.height};
-  std::vector<double> frames;
-  std::map<std::string, std::vector<double>> passes;
-  render::Renderer& renderer = (*view)->renderer();
-  double last = now_ms();
-  const double start = last;
-  for (int i = 0; i < kWarmUpFrames + kMaxFrames; ++i) {
-    moment.camera.yaw_deg += kTurnDegPerFrame;
-    if (Result<std::uint64_t> drawn = (*view)->draw(moment, size); !drawn)
-      return fail(kFailed, drawn.error());
-    const double now = now_ms();
-    if (i >= kWarmUpFrames) {
-      frames.push_back(now - last);
-      for (const gpu::PassTime& pass : renderer.report()->passes)
-        passes[pass.name].push_back(pass.ms);
-    }
-    last = now;
-    if (i >= kWarmUpFrames + kMinFrames && now - start > kMaxSeconds * 1000.0) break;
-  }
-  renderer.finish();
-
-  const Spread ms = spread_of(frames);
-  const game::Settings& settings = options.scene.settings;
-  nlohmann::ordered_json gpu_ms = nlohmann::ordered_json::object();
-  double gpu_total = 0.0;
-  for (const auto& [name, samples] : passes) {
-    // A pass that ran in some frames only (a shadow map drawn once) counts by its mean over all
-    // frames.
-    double sum = 0.0;
-    for (const double sample : samples) sum += sample;
-    gpu_ms[name] = samples.size() == frames.size() ? spread_of(samples).median
-                                                   : sum / static_cast<double>(frames.size());
-    gpu_total += gpu_ms[name].get<double>();
-  }
-  gpu_ms["total"] = gpu_total;
-  const std::string name =
-      fmt::format("seed {} {:02}:{:02}", options.scene.seed_text.substr(0, 20),
-                  options.scene.time_of_day_s / 3600, options.scene.time_of_day_s / 60 % 60);
-  nlohmann::ordered_json row{{"name", name},
-                             {"device", (*device)->info().name},
-                             {"size", {size.width, size.height}},
-                             {"distance", settings.view_distance},
-                             {"shadows", settings.shadow_enabled ? settings.shadow_size : 0},
-                             {"frames", frames.size()},
-                             {"ms_median", ms.median},
-                             {"ms_p10", ms.p10},
-                             {"ms_p99", ms.p99},
-                             {"fps_median", 1000.0 / ms.median},
-                             {"quads_resident", renderer.geometry().quads_resident()},
-                             {"quads_drawn", renderer.report()->camera.quads},
-                             {"gpu_memory_bytes", (*device)->memory_total()},
-                             {"peak_rss_mib", peak_rss_mib()},
-                             {"gpu_ms", gpu_ms}};
-  fmt::print(
-      "{} | {}x{} | distance {} | shadows {} | median {:.2f} ms (p10 {:.2f}, p99 {:.2f}) | {:.1f} "
-      "fps | GPU {:.2f} ms | {} quads of {} | {:.0f} MiB\n",
-      name, size.width, size.height, settings.view_distance,
-      settings.shadow_enabled ? fmt::format("{}", settings.shadow_size) : "off", ms.median, ms.p10,
-      ms.p99, 1000.0 / ms.median, gpu_total, renderer.report()->camera.quads,
-      renderer.geometry().quads_resident(), peak_rss_mib());
-  for (const auto& [pass, value] : gpu_ms.items())
-    fmt::print("  {:<24} {:8.3f} ms\n", pass, value.get<double>());
+  const Result<Timings> timings = time_frames(**view, moment, size);
+  if (!timings) return fail(kFailed, timings.error());
+  const nlohmann::ordered_json row = row_of(options.scene, **device, (*view)->renderer(), *timings);
+  print(row);
   if (Result<void> written = write_rows(options.json, nlohmann::ordered_json::array({row}));
       !written)
     return fail(kFailed, written.error());
