@@ -24,7 +24,7 @@ if(cpu_test_sources)
 endif()
 
 # The parsers of what comes from outside, with what they need and no more: built under sanitizers.
-set(fuzz_sources tests/fuzz/targets.cpp game/input/actions.cpp game/input/bindings_file.cpp game/scene_file/expectations.cpp game/scene_file/cloud_files.cpp game/scene_file/options.cpp game/scene_file/parse.cpp game/scene_file/scene_files.cpp game/scene_file/scene_lights.cpp game/scene_file/settings.cpp game/scene_file/vdb_options.cpp engine/render/light/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp engine/platform/input.cpp)
+set(fuzz_sources tests/fuzz/targets.cpp game/input/actions.cpp game/input/bindings_file.cpp game/scene_file/expectations.cpp game/scene_file/cloud_files.cpp game/scene_file/json_text.cpp game/scene_file/options.cpp game/scene_file/parse.cpp game/scene_file/scene_files.cpp game/scene_file/scene_lights.cpp game/scene_file/settings.cpp game/scene_file/vdb_options.cpp engine/render/light/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp engine/platform/input.cpp)
 list(TRANSFORM fuzz_sources PREPEND ${CMAKE_SOURCE_DIR}/)
 function(skerry_fuzz_program name main)
   add_executable(${name} EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/${main} ${fuzz_sources})
@@ -53,10 +53,12 @@ add_test(NAME window.screens COMMAND ${CMAKE_SOURCE_DIR}/tests/window/screens_te
 set_tests_properties(window.screens PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_test(NAME window.dig COMMAND ${CMAKE_SOURCE_DIR}/tests/window/dig_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.dig PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
+add_test(NAME window.end COMMAND ${CMAKE_SOURCE_DIR}/tests/window/end_test.sh $<TARGET_FILE:skerry>)
+set_tests_properties(window.end PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 
 # Pictures: tests/scenes against their references, in processes of its own; and what must not change a byte. build/image keeps what was drawn.
 add_test(NAME image.scenes COMMAND skerry test ${CMAKE_SOURCE_DIR}/tests/scenes --validate
-  --html ${CMAKE_BINARY_DIR}/image/scenes --junit ${CMAKE_BINARY_DIR}/image/scenes.xml)
+  --html ${CMAKE_BINARY_DIR}/image/scenes_report --junit ${CMAKE_BINARY_DIR}/image/scenes.xml)
 set_tests_properties(image.scenes PROPERTIES TIMEOUT 600 PROCESSORS 2)
 # What CMake itself says of a build without OpenVDB; tests/cli runs the program that such a build makes.
 add_test(NAME build.without_openvdb COMMAND ${CMAKE_COMMAND} -S ${CMAKE_SOURCE_DIR} -B ${CMAKE_BINARY_DIR}/without_openvdb
@@ -74,6 +76,10 @@ set_tests_properties(image.same_bytes PROPERTIES TIMEOUT 300)
 add_test(NAME stability.all COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/stability_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/stability)
 set_tests_properties(stability.all PROPERTIES TIMEOUT 900)
+
+# A few of the hostile command lines; tests/hostile/run without --count runs 2,000.
+add_test(NAME cli.hostile COMMAND ${CMAKE_SOURCE_DIR}/tests/hostile/run $<TARGET_FILE:skerry> --count 60)
+set_tests_properties(cli.hostile PROPERTIES TIMEOUT 900 PROCESSORS 2)
 
 # Each deliberate breakage of tests/mutation still fits the code; the run of all of them builds for a quarter of an hour and is no part of this.
 add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --check)

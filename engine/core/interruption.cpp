@@ -1,16 +1,23 @@
 #include "engine/core/interruption.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <future>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <system_error>
 #include <thread>
+#include <utility>
+
+#include "engine/core/log.h"
 
 namespace skerry {
 namespace {
@@ -21,9 +28,13 @@ constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 std::atomic<pid_t> owner{0};
 std::atomic<int> told{-1};
 
+constexpr std::chrono::seconds kMostWork{2};
+
 struct Registry {
   std::mutex mutex;
   std::multiset<std::filesystem::path> paths;
+  std::mutex works_mutex;  // never taken while the other is held
+  std::list<std::function<bool()>> works;
 };
 
 /// Never destroyed: the thread may outlive main().
@@ -56,18 +67,42 @@ void remove_all_of(const std::filesystem::path& path) {
     std::filesystem::remove_all(path, code);
 }
 
+/// @return whether all that was to be done before the end is done.
+bool do_works() {
+  const auto done = std::make_shared<std::promise<bool>>();
+  std::future<bool> result = done->get_future();
+  std::thread([done] {
+    // Never given back: nobody may drop what is at work.
+    registry().works_mutex.lock();
+    bool all = true;
+    for (const std::function<bool()>& work : registry().works) all = work() && all;
+    done->set_value(all);
+  }).detach();
+  if (result.wait_for(kMostWork) == std::future_status::ready) return result.get();
+  log_error(fmt::format("ended without saving: it took more than {} s; look at the disk",
+                        kMostWork.count()));
+  return false;
+}
+
 void wait_for_signal(int descriptor) {
   unsigned char byte = 0;
   while (::read(descriptor, &byte, 1) < 0 && errno == EINTR) {
   }
+  const bool done = do_works();
   // Never given back: nobody may go on with what is removed now.
   registry().mutex.lock();
   for (const std::filesystem::path& path : registry().paths) remove_all_of(path);
+  if (!done) ::_exit(1);
   end_by(byte);
 }
 
-/// @pre the registry is locked.
+/// Once in each process. @pre the registry is locked.
 void listen() {
+  if (owner == ::getpid()) return;
+  // A child process must not remove what its parent makes.
+  registry().paths.clear();
+  registry().works.clear();
+
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return;  // then only an interruption leaves something behind
   told = ends[1];
@@ -95,11 +130,22 @@ RemovedWhenInterrupted::RemovedWhenInterrupted(std::filesystem::path path) {
   std::error_code code;
   path_ = std::filesystem::absolute(path, code);
   const std::lock_guard lock(registry().mutex);
-  if (owner != ::getpid()) {
-    registry().paths.clear();  // a child process must not remove what its parent makes
+  listen();
+  registry().paths.insert(path_);
+}
+
+DoneWhenInterrupted::DoneWhenInterrupted(std::function<bool()> work) {
+  {
+    const std::lock_guard lock(registry().mutex);
     listen();
   }
-  registry().paths.insert(path_);
+  const std::lock_guard lock(registry().works_mutex);
+  work_ = registry().works.insert(registry().works.end(), std::move(work));
+}
+
+DoneWhenInterrupted::~DoneWhenInterrupted() {
+  const std::lock_guard lock(registry().works_mutex);
+  registry().works.erase(work_);
 }
 
 RemovedWhenInterrupted::~RemovedWhenInterrupted() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <list>
 
 namespace skerry {
 
@@ -18,6 +19,22 @@ class RemovedWhenInterrupted {
 
  private:
   std::filesystem::path path_;
+};
+
+/// While this lives, being told to end first does `work` on a thread of its own, whatever the other
+/// threads are at. The process then ends by the signal, or, when `work` says that it failed or
+/// takes more than two seconds, with status 1. What is put down in the midst of that is never
+/// removed: the work must not make or drop one of these or a RemovedWhenInterrupted.
+class DoneWhenInterrupted {
+ public:
+  explicit DoneWhenInterrupted(std::function<bool()> work);
+  /// Does not return any more once the work has begun.
+  ~DoneWhenInterrupted();
+  DoneWhenInterrupted(const DoneWhenInterrupted&) = delete;
+  DoneWhenInterrupted& operator=(const DoneWhenInterrupted&) = delete;
+
+ private:
+  std::list<std::function<bool()>>::iterator work_;
 };
 
 /// Does something that no removal may begin in the midst of; when one has begun, this does not

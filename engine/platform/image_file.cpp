@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 
 namespace skerry::platform {
@@ -156,32 +157,35 @@ struct Reader {
 
 }  // namespace
 
-Result<void> write_png(const std::filesystem::path& path, const PixelView& image,
-                       std::span<const PngText> text) {
+Result<std::vector<std::byte>> encode_png(const PixelView& image, std::span<const PngText> text) {
   SKERRY_ASSERT(image.channels == 3 || image.channels == 4);
   SKERRY_ASSERT(image.pixels.size() == std::size_t{image.width} * image.height * image.channels);
-  if (image.width == 0 || image.height == 0) {
-    return Error{fmt::format("cannot write '{}': the picture has no pixels; ask for at least 1x1",
-                             path.string())};
-  }
+  if (image.width == 0 || image.height == 0)
+    return Error{"cannot make a PNG: the picture has no pixels; ask for at least 1x1"};
   Stream stream;
   const std::vector<png_text> texts = png_texts(text);
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &stream, on_error, on_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   const bool done = info && encode(png, info, image, texts, stream);
   png_destroy_write_struct(&png, &info);
-  if (!done) {
-    return Error{fmt::format("cannot write '{}': {}; free some memory or ask for a smaller picture",
-                             path.string(), stream.message)};
-  }
-  return write_file(path, stream.out);
+  if (!done)
+    return Error{fmt::format("cannot make a PNG: {}; free some memory or ask for a smaller picture",
+                             stream.message)};
+  return std::move(stream.out);
+}
+
+Result<void> write_png(const std::filesystem::path& path, const PixelView& image,
+                       std::span<const PngText> text) {
+  const Result<std::vector<std::byte>> bytes = encode_png(image, text);
+  if (!bytes) return bytes.error();
+  return write_file(path, *bytes);
 }
 
 Result<PngImage> read_png(const std::filesystem::path& path) {
   const Result<std::string> file = read_text(path, kMaxPngFileBytes);
   if (!file) return file.error();
   const auto failed = [&](const char* why) {
-    return Error{fmt::format("cannot read '{}': {}; give an undamaged PNG", path.string(), why)};
+    return Error{fmt::format("cannot read {}: {}; give an undamaged PNG", quoted_path(path), why)};
   };
   if (file->size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(file->data()), 0, 8) != 0) {
     return failed("it is not a PNG");

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -21,9 +22,12 @@ struct PixelView {
   std::span<const std::uint8_t> pixels;  ///< width * height * channels
 };
 
-/// Writes a PNG marked as sRGB, whole or not at all. The bytes depend on the arguments alone.
-/// Text is stored as tEXt when it is ASCII, else as iTXt (UTF-8).
-/// Errors: unwritable path; no pixels.
+/// A PNG marked as sRGB. The bytes depend on the arguments alone. Text is stored as tEXt when it is
+/// ASCII, else as iTXt (UTF-8). Errors: no pixels; no memory.
+Result<std::vector<std::byte>> encode_png(const PixelView& image,
+                                          std::span<const PngText> text = {});
+
+/// Writes it by write_file. Errors: those of encode_png and write_file.
 Result<void> write_png(const std::filesystem::path& path, const PixelView& image,
                        std::span<const PngText> text = {});
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "engine/core/log.h"
 #include "engine/render/frame/exposure.h"
 #include "game/client/play_loop.h"
 
@@ -151,7 +152,10 @@ void PlayLoop::tell_session() {
 
 void PlayLoop::hear_session() {
   for (const Answer& answer : session_->hear()) {
-    if (const auto* notice = std::get_if<Notice>(&answer)) said_.push_back(notice->text);
+    if (const auto* notice = std::get_if<Notice>(&answer)) {
+      log_warning(notice->text);
+      said_.push_back(notice->text);
+    }
     if (const auto* moved = std::get_if<IslandsMoved>(&answer)) {
       for (const world::MovingIsland& move : moved->moves)
         if (move.island == helm_) helm_speed_ = glm::length(move.state.velocity);

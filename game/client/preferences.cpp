@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 
 namespace skerry::game {
@@ -88,11 +89,9 @@ Result<void> save_preferences(const std::filesystem::path& path, const SceneOpti
     return Error{
         "cannot save the settings: there is no folder for them; set HOME or XDG_CONFIG_HOME"};
   if (const Result<void> made = platform::make_dirs(path.parent_path()); !made) return made;
-  if (!load_preferences(path).problems.empty()) {
-    std::error_code code;  // if it cannot be kept, the write below says why
-    std::filesystem::rename(path, std::filesystem::path(path) += ".old", code);
-  }
-  return platform::write_text(path, print_preferences(scene));
+  if (!load_preferences(path).problems.empty())
+    if (Result<void> kept = keep_as_old(path); !kept) return kept;
+  return write_text(path, print_preferences(scene));
 }
 
 }  // namespace skerry::game

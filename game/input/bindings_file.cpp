@@ -3,8 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "game/input/actions.h"
+#include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 
 namespace skerry::game {
@@ -78,11 +80,13 @@ void read_actions(const json& root, ReadBindings& read) {
 
 ReadBindings read_bindings(std::string_view json_text) {
   ReadBindings read;
-  const json root = json::parse(json_text, nullptr, false);
-  if (root.is_discarded() || !root.is_object()) {
-    complain(read, "controls.json is no JSON object: the usual keys hold");
+  const Result<json> parsed = parse_json(json_text);
+  if (!parsed || !parsed->is_object()) {
+    complain(read, parsed ? "controls.json is no JSON object: the usual keys hold"
+                          : "controls.json " + parsed.error().message + "; the usual keys hold");
     return read;
   }
+  const json& root = *parsed;
   read_actions(root, read);
   read_speed(root, "mouse_speed", read.bindings.mouse_speed, read);
   read_speed(root, "pad_speed", read.bindings.pad_speed, read);
@@ -128,11 +132,9 @@ Result<void> save_bindings(const std::filesystem::path& path, const Bindings& bi
     return Error{
         "cannot save the controls: there is no folder for them; set HOME or XDG_CONFIG_HOME"};
   if (const Result<void> made = platform::make_dirs(path.parent_path()); !made) return made;
-  if (!load_bindings(path).problems.empty()) {
-    std::error_code code;  // if it cannot be kept, the write below says why
-    std::filesystem::rename(path, std::filesystem::path(path) += ".old", code);
-  }
-  return platform::write_text(path, print_bindings(bindings));
+  if (!load_bindings(path).problems.empty())
+    if (Result<void> kept = keep_as_old(path); !kept) return kept;
+  return write_text(path, print_bindings(bindings));
 }
 
 }  // namespace skerry::game

@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "game/scene_file/json_text.h"
 #include "game/scene_file/scene_files.h"
 #include "game/scene_file/vdb_options.h"
 
@@ -95,6 +96,7 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
                                                &scene.time, &scene.size,  &scene.quality};
   const auto field = std::find(kFields.begin(), kFields.end(), key);
   if (field == kFields.end()) return unknown_field(key);
+  if (key == "world" && !value.is_string()) return field_error(key, "a path in quotation marks");
   const auto text = scalar_text(value);
   if (!text || value.is_boolean()) return field_error(key, "a string or a number");
   *texts[field - kFields.begin()] = *text;
@@ -132,13 +134,12 @@ std::string shell_word(std::string_view text) {
 }
 
 Result<SceneText> parse_scene(std::string_view json_text) {
-  const json root = json::parse(json_text, nullptr, false);
-  if (root.is_discarded())
-    return Error{"the scene is not JSON: check its brackets, quotes and commas"};
-  if (!root.is_object())
+  const Result<json> root = parse_json(json_text);
+  if (!root) return Error{"the scene " + root.error().message};
+  if (!root->is_object())
     return Error{"the scene is not a JSON object: put the fields between { and }"};
   SceneText scene;
-  for (const auto& [key, value] : root.items()) {
+  for (const auto& [key, value] : root->items()) {
     if (const auto done = read_field(key, value, scene); !done) return done.error();
   }
   return scene;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "engine/core/log.h"
 #include "game/session/session_state.h"
 
 namespace skerry::game {
@@ -49,6 +50,7 @@ Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Session::~Session() {
   // What cannot be saved now has been told before, or there is nobody left to tell.
   static_cast<void>(save());
+  saved_when_interrupted_.reset();
 }
 
 Result<std::unique_ptr<Session>> Session::open(const std::filesystem::path& path) {
@@ -60,7 +62,14 @@ Result<std::unique_ptr<Session>> Session::open(const std::filesystem::path& path
   state->file = *std::move(file);
   state->read_only = !writable;
   state->load(loaded);
-  return std::unique_ptr<Session>(new Session(std::move(state)));
+  std::unique_ptr<Session> session(new Session(std::move(state)));
+  if (writable)
+    session->saved_when_interrupted_ = std::make_unique<DoneWhenInterrupted>([&one = *session] {
+      const Result<void> saved = one.save();
+      if (!saved) log_error(saved.error().message);
+      return static_cast<bool>(saved);
+    });
+  return session;
 }
 
 std::unique_ptr<Session> Session::play(std::shared_ptr<world::World> world, double time_s) {
@@ -97,11 +106,13 @@ std::vector<Answer> Session::receive(ClientId client) {
 }
 
 void Session::attend() {
+  const std::lock_guard lock(state_->running);
   state_->handle_sent();
 }
 
 void Session::advance(double seconds) {
   State& s = *state_;
+  const std::lock_guard lock(s.running);
   s.handle_sent();
   s.time_s += seconds;
   const double more_edits = std::max(0.0, seconds) * kEditsPerSecond;

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/interruption.h"
 #include "engine/core/result.h"
 #include "game/session/saved_play.h"
 #include "world/islands/world.h"
@@ -143,8 +144,9 @@ using ClientId = std::uint32_t;
 /// and forwards them, moves islands off their course, saves.
 class Session {
  public:
-  /// A saved world, where it was left. A file that may not be written is played, too. Errors: those
-  /// of WorldFile::open; the file is open in another process.
+  /// A saved world, where it was left. A file that may not be written is played, too. While the
+  /// session lives, a signal to end the process saves first (engine/core/interruption.h). Errors:
+  /// those of WorldFile::open; the file is open in another process.
   static Result<std::unique_ptr<Session>> open(const std::filesystem::path& path);
   /// A world that is saved nowhere, from `time_s` on.
   static std::unique_ptr<Session> play(std::shared_ptr<world::World> world, double time_s);
@@ -183,6 +185,7 @@ class Session {
   struct State;
   explicit Session(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
+  std::unique_ptr<DoneWhenInterrupted> saved_when_interrupted_;
 };
 
 }  // namespace skerry::game

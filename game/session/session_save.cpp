@@ -110,6 +110,7 @@ Result<void> Session::State::write(const std::vector<world::MovingIsland>& movin
 
 Result<void> Session::save() {
   State& s = *state_;
+  const std::lock_guard lock(s.running);
   s.handle_sent();
   s.worker.wait();
   s.take_in_pieces();

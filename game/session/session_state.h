@@ -99,7 +99,8 @@ struct Session::State {
   ClientId last_client = 0;
   std::vector<std::string> notices;  // of opening the file: for every client
 
-  // Session thread.
+  // Session thread, with `running` held: a signal to end saves from a thread of its own.
+  std::mutex running;
   world::IslandMotion motion;
   std::vector<world::MovingIsland> moves;  // since they were told
   std::map<std::string, SavedPlay> plays;  // by player: as said last, else as it was saved

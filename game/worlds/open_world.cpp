@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
+#include "engine/core/log.h"
 #include "engine/platform/files.h"
 #include "game/scene_file/parse.h"
 #include "game/session/saved_play.h"
@@ -13,6 +12,14 @@
 namespace skerry::game {
 
 Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options) {
+  std::vector<std::string> damage;
+  auto world = open_world(options, damage);
+  for (const std::string& line : damage) log_warning(line);
+  return world;
+}
+
+Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options,
+                                                 std::vector<std::string>& damage) {
   if (!options.world) {
     return std::make_unique<world::World>(world::WorldDesc{world::seed_from_text(options.seed_text),
                                                            options.settings.world_offset,
@@ -22,7 +29,7 @@ Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options) {
   auto file = world::WorldFile::open(*options.world, world::WorldFile::Mode::kRead);
   if (!file) return file.error();
   world::LoadedWorld loaded = world::load_world(**file);
-  for (const std::string& line : (*file)->damage()) fmt::print(stderr, "skerry: {}\n", line);
+  damage = (*file)->damage();
   return std::move(loaded.world);
 }
 

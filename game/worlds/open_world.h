@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "game/scene_file/options.h"
@@ -13,6 +14,9 @@ namespace skerry::game {
 /// The world that a scene shows: of its file, if it names one, else of its seed. Nothing is
 /// written. Errors: a file that cannot be read, and why. What is damaged in it is told on stderr.
 Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options);
+/// The same. @param damage gets a line for each thing that is damaged; nothing is told.
+Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options,
+                                                 std::vector<std::string>& damage);
 
 /// A scene as the player left a saved world: camera, time, world time. What else one asks for goes
 /// over it. Errors: as above.

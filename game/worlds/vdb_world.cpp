@@ -70,7 +70,7 @@ Result<void> save_imported(const std::vector<world::ImportedIsland>& islands,
   // A world whose islands did not all come in must not be taken for a whole one.
   Result<Draft> draft = Draft::create(path);
   Result<void> done = draft ? write(islands, draft->path(), path.stem().string()) : draft.error();
-  if (done) done = draft->publish();
+  if (done) done = draft->publish_new();
   if (done) return {};
   return Error{fmt::format("cannot write {}: {}", quote_text(path.string()), done.error().message)};
 }

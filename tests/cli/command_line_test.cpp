@@ -1,9 +1,11 @@
 // Runs the program itself, as scripts do: exit statuses and the one line on stderr are its
 // contract.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -115,6 +117,73 @@ TEST(CommandLine, FilesThatCannotBeUsedExitWithOne) {
   expect_refusal(run({"--world", "/"}), 1, {"is a folder"}, "play world");
 }
 
+/// Everything in a folder: names, types, contents and what links lead to.
+std::map<std::string, std::string> snapshot(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::file_status status = entry.symlink_status();
+    std::string& what = all[entry.path().filename().string()];
+    what = std::to_string(static_cast<int>(status.type()));
+    if (entry.is_symlink()) what += fs::read_symlink(entry.path()).string();
+    if (entry.is_regular_file() && !entry.is_symlink()) what += text_of(entry.path());
+  }
+  return all;
+}
+
+/// A reference picture: small, and drawn without a device.
+std::vector<std::string> small_shot(const fs::path& out, const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"shot",
+                                     "--seed",
+                                     "1",
+                                     "--renderer",
+                                     "reference",
+                                     "--set",
+                                     "reference.samples=1",
+                                     "--set",
+                                     "view.distance=64",
+                                     "--size",
+                                     "8x4",
+                                     "--out",
+                                     out.string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(CommandLine, StatsThatCannotBeWrittenLeaveNoPictureBehind) {
+  const Folder folder;
+  std::ofstream(folder / "a.png") << "old";
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const auto before = snapshot(folder.path());
+  const fs::path pipe = folder / "pipe";
+  expect_refusal(run(small_shot(folder / "a.png", {"--stats", pipe.string()})), 1,
+                 {pipe.string(), "nobody reads the pipe"}, "stats");
+  EXPECT_EQ(snapshot(folder.path()), before);
+  expect_refusal(run(small_shot(pipe, {"--stats", (folder / "new.json").string()})), 1,
+                 {pipe.string(), "nobody reads the pipe"}, "out");
+  EXPECT_EQ(snapshot(folder.path()), before);
+}
+
+TEST(CommandLine, APipeThatNobodyWritesIsNoScene) {
+  const Folder folder;
+  const std::string pipe = (folder / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_refusal(run({"shot", "--scene", pipe}), 1, {pipe, "within 10 s"}, "scene");
+  expect_refusal(run({"shot", "--world", pipe}), 1, {pipe, "no file"}, "world");
+  expect_refusal(run({"test", pipe}), 1, {}, "test");
+}
+
+TEST(CommandLine, ACacheFolderThatIsAFileIsToldInOneWarning) {
+  const Folder folder;
+  std::ofstream(folder / "skerry") << "in the way";
+  const Outcome outcome = run({"shot", "--seed", "1", "--set", "view.distance=64", "--size", "8x4",
+                               "--out", (folder / "a.png").string()},
+                              {"XDG_CACHE_HOME=" + folder.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("skerry: warning: compiled shaders are not kept"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(text_of(folder / "skerry"), "in the way");
+}
+
 TEST(CommandLine, MistakesInASceneFileAreUsageErrors) {
   const Folder folder;
   const auto scene = [&](const std::string& json) {
@@ -125,6 +194,8 @@ TEST(CommandLine, MistakesInASceneFileAreUsageErrors) {
   expect_refusal(scene(R"({"sead": 1})"), 2, {"'seed'"}, "field");
   expect_refusal(scene(R"({"settings": {"shadow.siz": 1}})"), 2, {"'shadow.size'"}, "setting");
   expect_refusal(scene(R"({"camera": [0, 1e300, 0, 0, 0]})"), 2, {"camera Y"}, "camera");
+  expect_refusal(scene(R"({"seed": 1, "seed": 2})"), 2, {"'seed' twice"}, "twice");
+  expect_refusal(scene(R"({"world": 3})"), 2, {"'world'", "quotation marks"}, "world");
 }
 
 TEST(CommandLine, WithoutADriverTheStatusIsFour) {
@@ -160,6 +231,8 @@ TEST(CommandLine, ADeviceThatDoesNotExistIsStatusFour) {
   expect_refusal(
       run({"shot", "--seed", "1", "--device", "999", "--out", (folder / "a.png").string()}), 4,
       {"999"}, "device");
+  // Though these rows are worked out on the CPU.
+  expect_refusal(run({"stability", "--device", "99", "time.clock"}), 4, {"99"}, "stability");
 }
 
 TEST(CommandLine, DevicesListsWhatCanBeUsed) {

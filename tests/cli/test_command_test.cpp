@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <test_paths.h>
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "engine/platform/image_file.h"
 #include "tests/cli/run_program.h"
 
@@ -23,7 +23,7 @@ class TestCommandLine : public testing::Test {
   void write_scene(const std::string& name, const std::string& more = "") {
     const std::string text =
         R"({"size": "48x27", "time": "16:00", "settings": {"world.islands": 0})" + more + "}";
-    ASSERT_TRUE(platform::write_text(scenes() / (name + ".json"), text));
+    ASSERT_TRUE(write_text(scenes() / (name + ".json"), text));
   }
   fs::path scenes() const { return folder_.path(); }
   fs::path out(const std::string& name) const { return out_ / name; }
@@ -126,14 +126,14 @@ TEST_F(TestCommandLine, NothingToTestIsAFailure) {
 
 TEST_F(TestCommandLine, AMistakeInASceneIsAUsageErrorBeforeAnythingIsDrawn) {
   write_scene("sky");
-  ASSERT_TRUE(platform::write_text(scenes() / "wrong.json", R"({"tolerence": {}})"));
+  ASSERT_TRUE(write_text(scenes() / "wrong.json", R"({"tolerence": {}})"));
   expect_refusal(test({scenes().string(), "--approve"}), 2, {"wrong.json", "'tolerance'"}, "scene");
   EXPECT_FALSE(fs::exists(scenes() / "sky.png"));
 }
 
 TEST_F(TestCommandLine, AFolderForReportsThatCannotBeWrittenIsAUsageError) {
   write_scene("sky");
-  ASSERT_TRUE(platform::write_text(out("file"), "in the way"));
+  ASSERT_TRUE(write_text(out("file"), "in the way"));
   for (const std::string& html :
        {out("file").string(), out("file/below").string(), std::string("/proc/skerry")}) {
     expect_refusal(test({scenes().string(), "--approve", "--html", html}), 2, {}, html);
@@ -143,10 +143,43 @@ TEST_F(TestCommandLine, AFolderForReportsThatCannotBeWrittenIsAUsageError) {
     expect_refusal(test({scenes().string(), option, "/no/such/folder/x"}), 1, {"x"}, option);
 }
 
+TEST_F(TestCommandLine, AReportTakesThePlaceOfAReportAndOfNothingElse) {
+  write_scene("sky");
+  ASSERT_EQ(approve().status, 0);
+  fs::create_directory(out("mine"));
+  ASSERT_TRUE(write_text(out("mine") / "index.html", "my page"));
+  expect_refusal(test({scenes().string(), "--html", out("mine").string()}), 2,
+                 {"no report", "--html"}, "foreign page");
+  EXPECT_EQ(text_of(out("mine") / "index.html"), "my page");
+  EXPECT_EQ(std::distance(fs::directory_iterator(out("mine")), {}), 1);
+  fs::create_directory(out("far"));
+  fs::create_directory_symlink("far", out("link"));
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_EQ(test({scenes().string(), "--html", out("link").string()}).status, 0) << round;
+    EXPECT_TRUE(fs::is_symlink(out("link")));
+    EXPECT_TRUE(fs::exists(out("far") / "index.html"));
+    EXPECT_TRUE(fs::exists(out("far") / "sky.actual.png"));
+    EXPECT_EQ(json::parse(text_of(out("far") / "report.json"))["rows"][0]["scene"], "sky");
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(out("")), {}), 3);  // no draft
+}
+
+TEST_F(TestCommandLine, ASceneWhoseNameHasANewlineStaysOnItsLine) {
+  write_scene("a\nb");
+  const Outcome outcome = test({scenes().string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.out.find("a\\x0ab: "), std::string::npos) << outcome.out;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2) << outcome.out;
+  ASSERT_TRUE(write_text(scenes() / "a\nb.json", "{"));
+  expect_refusal(test({scenes().string()}), 2, {"a\\x0ab.json"}, "newline");
+  expect_refusal(run({"shot", "--scene", (scenes() / "no\nfile").string()}), 1, {"no\\x0afile"},
+                 "shot");
+}
+
 TEST_F(TestCommandLine, APictureTooLargeForTheDeviceFailsItsScene) {
   write_scene("sky");
   ASSERT_EQ(approve().status, 0);
-  ASSERT_TRUE(platform::write_text(scenes() / "huge.json", R"({"size": "65535x65535"})"));
+  ASSERT_TRUE(write_text(scenes() / "huge.json", R"({"size": "65535x65535"})"));
   const Outcome outcome = test({scenes().string()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.out.find("fail: huge: "), std::string::npos) << outcome.out;
@@ -164,7 +197,7 @@ TEST_F(TestCommandLine, WithoutADeviceTheStatusIsFour) {
 TEST_F(TestCommandLine, MergingWhatIsNoShardFails) {
   expect_refusal(test({"--merge"}), 2, {"nothing to test"}, "nothing");
   expect_refusal(test({"--merge", "no/such.json"}), 1, {"no/such.json"}, "no file");
-  ASSERT_TRUE(platform::write_text(out("x.json"), "{}"));
+  ASSERT_TRUE(write_text(out("x.json"), "{}"));
   expect_refusal(test({"--merge", out("x.json").string()}), 1, {"x.json"}, "no rows");
 }
 

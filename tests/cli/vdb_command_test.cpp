@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/cli/run_program.h"
 #include "tests/world/vdb/sample_files.h"
@@ -66,6 +69,62 @@ TEST(VdbCommand, RefusesInOneLineAndLeavesNothingBehind) {
   expect_refusal(import({sample("ball.vdb"), "--up", "x"}), 2, {"y or z"}, "up");
   std::filesystem::remove(folder / "text.vdb");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+/// A world of the ball in a folder. @return its path.
+std::string make_ball(const Folder& folder) {
+  const std::string world = (folder / "ball.skerry").string();
+  EXPECT_EQ(run({"vdb", "import", sample("ball.vdb"), "--out", world}).status, 0);
+  return world;
+}
+
+TEST(VdbCommand, ExportsIntoWhatIsNoFileWithoutReplacingIt) {
+  SKIP_WITHOUT_OPENVDB();
+  const Folder folder;
+  const std::string world = make_ball(folder), pipe = (folder / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::string seen;
+  std::thread reader([&] { seen = text_of(pipe); });
+  const Outcome exported = run({"vdb", "export", "--world", world, "--out", pipe});
+  reader.join();
+  EXPECT_EQ(exported.status, 0) << exported.err;
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  std::ofstream(folder / "seen.vdb", std::ios::binary) << seen;
+  EXPECT_EQ(run({"vdb", "info", (folder / "seen.vdb").string()}).status, 0);
+  std::ofstream(folder / "target.vdb") << "old";
+  std::filesystem::create_symlink("target.vdb", folder / "link.vdb");
+  const std::string link = (folder / "link.vdb").string();
+  EXPECT_EQ(run({"vdb", "export", "--world", world, "--out", link}).status, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(run({"vdb", "info", (folder / "target.vdb").string()}).status, 0);
+  // A node of our own that is full, where root may make one.
+  const std::string full = (folder / "full").string();
+  if (::mknod(full.c_str(), S_IFCHR | 0600, makedev(1, 7)) != 0) return;
+  expect_refusal(run({"vdb", "export", "--world", world, "--out", full}), 1, {full, "No space"},
+                 "full device");
+  EXPECT_TRUE(std::filesystem::is_character_file(full));
+}
+
+TEST(VdbCommand, ExportsOfADamagedWorldAreAskedFor) {
+  SKIP_WITHOUT_OPENVDB();
+  const Folder folder;
+  const std::string world = make_ball(folder), out = (folder / "out.vdb").string();
+  // Chunks are compressed by zstd: the middle of each is spoiled.
+  std::string bytes = text_of(world);
+  const std::string frame = "\x28\xb5\x2f\xfd";
+  std::size_t spoiled = 0;
+  for (std::size_t at = bytes.find(frame); at != std::string::npos && at + 40 < bytes.size();
+       at = bytes.find(frame, at + 1), ++spoiled)
+    bytes[at + 30] = static_cast<char>(bytes[at + 30] ^ 1);
+  ASSERT_GT(spoiled, 0u);
+  std::ofstream(world, std::ios::binary) << bytes;
+  expect_refusal(run({"vdb", "export", "--world", world, "--out", out}), 1, {"--partial"},
+                 "damage");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  const Outcome partial = run({"vdb", "export", "--world", world, "--out", out, "--partial"});
+  EXPECT_NE(partial.err.find("skerry: warning: "), std::string::npos) << partial.err;
+  EXPECT_NE(partial.err.find("has lost"), std::string::npos) << partial.err;
+  EXPECT_EQ(partial.status, 0) << partial.err;
 }
 
 TEST(VdbCommand, ExportNeedsASourceAndAnEnd) {

@@ -5,8 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
+#include <vector>
 
 #include "tests/folder.h"
 
@@ -22,10 +22,6 @@ void write(const fs::path& file, const std::string& text) {
 std::size_t entries(const fs::path& folder) {
   return static_cast<std::size_t>(
       std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
-void age(const fs::path& folder) {
-  fs::last_write_time(folder, fs::file_time_type::clock::now() - std::chrono::hours(1));
 }
 
 TEST(Draft, TakesItsNameWhenPublishedAndGoesWhenNot) {
@@ -60,20 +56,37 @@ TEST(Draft, RemovesWhatKilledProcessesLeftButNothingThatIsAtWork) {
   Result<Draft> at_work = Draft::create(folder / "world");
   ASSERT_TRUE(at_work);
   write(at_work->path(), "slow");
-  age(at_work->folder());
-  const fs::path left = folder / ".world.draft.AbCdEf", fresh = folder / ".world.draft.GhIjKl";
-  for (const fs::path& one : {left, fresh, folder / ".other.draft.AbCdEf"}) {
+  const fs::path left = folder / ".world.draft.AbCdEf", other = folder / ".other.draft.AbCdEf";
+  for (const fs::path& one : {left, other}) {
     fs::create_directory(one);
     write(one / "world", "left");
   }
-  age(left);
-  age(folder / ".other.draft.AbCdEf");
   const Result<Draft> second = Draft::create(folder / "world");
   ASSERT_TRUE(second);
-  EXPECT_FALSE(fs::exists(left));
+  EXPECT_FALSE(fs::exists(left));  // however young
   EXPECT_TRUE(fs::exists(at_work->path()));
-  EXPECT_TRUE(fs::exists(fresh));  // may be about to be locked
-  EXPECT_TRUE(fs::exists(folder / ".other.draft.AbCdEf"));
+  EXPECT_TRUE(fs::exists(other));
+}
+
+TEST(Draft, ManyProcessesAtTheSameNameTakeNoneOfEachOthersForAbandoned) {
+  const Folder folder;
+  std::vector<pid_t> children;
+  for (int i = 0; i < 8; ++i) {
+    children.push_back(::fork());
+    if (children.back() != 0) continue;
+    for (int round = 0; round < 200; ++round) {
+      Result<Draft> draft = Draft::create(folder / "world");
+      if (draft) write(draft->path(), "whole");
+      if (!draft || !draft->publish()) ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(entries(folder.path()), 1u);
 }
 
 /// Makes a draft in a child process and sends it a signal meanwhile. @return its end.

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "engine/gpu/program/pipeline.h"
 #include "tests/gpu/compile_glsl.h"
@@ -56,8 +57,8 @@ class PipelineCacheTest : public testing::Test {
   }
   void expect_replaced() {
     start();
-    EXPECT_TRUE(pipeline_cache_fits(file(), properties_));
-    EXPECT_FALSE(fs::exists(path_ + ".tmp"));
+    EXPECT_TRUE(pipeline_cache_fits(load_pipeline_cache(path_, properties_), properties_));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
   }
   const fs::path folder_ = fs::path(testing::TempDir()) /
                            (std::string("skerry_cache_") +
@@ -68,9 +69,9 @@ class PipelineCacheTest : public testing::Test {
 
 TEST_F(PipelineCacheTest, IsWrittenAtTheEndAndTakenAtTheStart) {
   start();
-  const std::vector<std::byte> bytes = file();
-  EXPECT_TRUE(pipeline_cache_fits(bytes, properties_));
-  EXPECT_EQ(load_pipeline_cache(path_, properties_), bytes);
+  const std::vector<std::byte> bytes = file(), body(bytes.begin() + 16, bytes.end());
+  EXPECT_TRUE(pipeline_cache_fits(body, properties_));
+  EXPECT_EQ(load_pipeline_cache(path_, properties_), body);
   expect_replaced();
 }
 
@@ -83,14 +84,41 @@ TEST_F(PipelineCacheTest, ATruncatedFileIsReplaced) {
   expect_replaced();
 }
 
-TEST_F(PipelineCacheTest, DamageBehindTheHeaderIsSurvivedAndReplaced) {
+TEST_F(PipelineCacheTest, ACutFileIsReplaced) {
   start();
   const std::vector<std::byte> bytes = file();
   std::vector<std::byte> cut = bytes;
   cut.resize(bytes.size() / 2);
   damage(cut);
+  EXPECT_TRUE(load_pipeline_cache(path_, properties_).empty());
   expect_replaced();
   EXPECT_EQ(file().size(), bytes.size());
+}
+
+TEST_F(PipelineCacheTest, AnyFlippedBitOfTheFileIsNoticedBeforeTheDriverSeesIt) {
+  start();
+  const std::vector<std::byte> bytes = file();
+  std::mt19937 random(1);
+  const auto bits = static_cast<std::uint32_t>(8 * bytes.size());
+  for (std::uint32_t i = 0; i < 500; ++i) {
+    const std::uint32_t bit = i < 8 * 64 / 4 ? 4 * i + random() % 4 : random() % bits;
+    std::vector<std::byte> flipped = bytes;
+    flipped[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
+    damage(flipped);
+    EXPECT_TRUE(load_pipeline_cache(path_, properties_).empty()) << "bit " << bit;
+  }
+  expect_replaced();
+}
+
+TEST_F(PipelineCacheTest, TheChecksumIsFnv1a) {
+  // The 64-bit value of "foobar" that its authors publish.
+  save_pipeline_cache(path_, std::as_bytes(std::span("foobar", 6)));
+  const std::vector<std::byte> bytes = file();
+  ASSERT_EQ(bytes.size(), 22u);
+  std::uint64_t sum = 0;
+  for (int i = 15; i >= 8; --i)
+    sum = sum << 8 | std::to_integer<std::uint64_t>(bytes[static_cast<std::size_t>(i)]);
+  EXPECT_EQ(sum, 0x85944171f73967e8u);
 }
 
 TEST_F(PipelineCacheTest, AnEmptyFileIsReplaced) {
@@ -100,15 +128,16 @@ TEST_F(PipelineCacheTest, AnEmptyFileIsReplaced) {
 
 TEST_F(PipelineCacheTest, AnyFlippedBitOfTheHeaderIsNoticed) {
   start();
-  const std::vector<std::byte> bytes = file();
+  const std::vector<std::byte> bytes = load_pipeline_cache(path_, properties_);
   for (std::size_t bit = 0; bit < 32 * 8; ++bit) {
     std::vector<std::byte> flipped = bytes;
     flipped[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
     EXPECT_FALSE(pipeline_cache_fits(flipped, properties_)) << "bit " << bit;
   }
-  std::vector<std::byte> flipped = bytes;
-  flipped[20] ^= std::byte{1};
-  damage(flipped);
+  std::vector<std::byte> other = bytes;  // of another driver, and whole
+  other[20] ^= std::byte{1};
+  save_pipeline_cache(path_, other);
+  EXPECT_TRUE(load_pipeline_cache(path_, properties_).empty());
   expect_replaced();
 }
 
@@ -117,8 +146,8 @@ TEST_F(PipelineCacheTest, AFileThatCannotBeWrittenIsOnlyALogLine) {
   testing::internal::CaptureStderr();
   start();
   const std::string log = testing::internal::GetCapturedStderr();
-  EXPECT_NE(log.find("cannot write the pipeline cache"), std::string::npos) << log;
-  EXPECT_FALSE(fs::exists(path_ + ".tmp"));
+  EXPECT_NE(log.find("compile shaders again: cannot write"), std::string::npos) << log;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
 }  // namespace

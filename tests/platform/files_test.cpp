@@ -1,37 +1,20 @@
 #include "engine/platform/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
+
+#include "tests/folder.h"
 
 namespace skerry::platform {
 namespace {
 
 namespace fs = std::filesystem;
-
-TEST(Files, WritingReplacesTheOldFileAndLeavesNoOther) {
-  const fs::path dir = fs::path(testing::TempDir()) / "skerry_files";
-  ASSERT_TRUE(make_dirs(dir));
-  ASSERT_TRUE(write_text(dir / "a", "old and long"));
-  ASSERT_TRUE(write_text(dir / "a", "new"));
-  EXPECT_EQ(*read_text(dir / "a", 100), "new");
-  EXPECT_EQ(std::distance(fs::directory_iterator(dir), fs::directory_iterator()), 1);
-  fs::remove_all(dir);
-}
-
-TEST(Files, CheckingAPathTouchesNothing) {
-  const fs::path dir = fs::path(testing::TempDir()) / "skerry_check";
-  ASSERT_TRUE(make_dirs(dir));
-  EXPECT_TRUE(check_writable(dir / "a"));
-  EXPECT_TRUE(fs::is_empty(dir));
-  ASSERT_TRUE(write_text(dir / "a", "kept"));
-  EXPECT_TRUE(check_writable(dir / "a"));
-  EXPECT_EQ(*read_text(dir / "a", 100), "kept");
-  EXPECT_FALSE(check_writable(dir));
-  EXPECT_FALSE(check_writable(dir / "none" / "a"));
-  EXPECT_FALSE(check_writable(""));
-  fs::remove_all(dir);
-}
 
 TEST(Files, ReadingStopsAtTheLimitEvenForEndlessFiles) {
   const auto endless = read_text("/dev/zero", 1000);
@@ -39,6 +22,25 @@ TEST(Files, ReadingStopsAtTheLimitEvenForEndlessFiles) {
   EXPECT_NE(endless.error().message.find("larger than 1000"), std::string::npos);
   EXPECT_FALSE(read_text("/", 1000));
   EXPECT_FALSE(read_text("/no/such/file", 1000));
+}
+
+TEST(Files, APipeIsReadToItsEndAndNotWaitedForWithoutEnd) {
+  const Folder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const std::string text(200'000, 'x');  // more than a pipe holds
+  std::thread writer([&] {
+    const int descriptor = ::open((folder / "pipe").c_str(), O_WRONLY | O_CLOEXEC);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(::write(descriptor, text.data(), text.size()), std::ssize(text));
+    ::close(descriptor);
+  });
+  const auto whole = read_text(folder / "pipe", 1 << 20);
+  writer.join();
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(*whole, text);
+  const auto nothing = read_text(folder / "pipe", 1 << 20);
+  ASSERT_FALSE(nothing);
+  EXPECT_NE(nothing.error().message.find("within 10 s"), std::string::npos);
 }
 
 TEST(Files, TheProgramsOwnFolderHoldsTheProgram) {

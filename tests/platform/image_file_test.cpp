@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 
 namespace skerry::platform {

@@ -1,10 +1,14 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "engine/core/log.h"
@@ -159,5 +163,19 @@ int run(std::vector<std::string> typed) {
 }  // namespace skerry::tools
 
 int main(int count, char** arguments) {
-  return skerry::tools::run({arguments + 1, arguments + count});
+  using namespace skerry::tools;
+  // A standard stream that is closed would be the next file that is opened.
+  while (true) {
+    const int descriptor = ::open("/dev/null", O_RDWR);
+    if (descriptor > STDERR_FILENO) ::close(descriptor);
+    if (descriptor < 0 || descriptor > STDERR_FILENO) break;
+  }
+  int status = kFailed;
+  try {
+    status = run({arguments + 1, arguments + count});
+  } catch (const std::system_error& error) {
+    return fail(kFailed, {std::string(error.what()) + "; check the disk and the standard output"});
+  }
+  if (std::fflush(stdout) == 0 || status != kDone) return status;
+  return fail(kFailed, {"cannot write to the standard output; check where it leads"});
 }

@@ -1,13 +1,11 @@
 // skerry_textures: paints the block textures and writes them as one file, at build time.
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <system_error>
+#include <span>
 #include <vector>
 
-#include "engine/core/result.h"
+#include "engine/core/output.h"
 #include "engine/render/scene/block_textures.h"
 #include "tools/textures/layers.h"
 #include "tools/textures/mips.h"
@@ -32,24 +30,6 @@ std::vector<std::uint8_t> encode(const std::vector<Layer>& layers) {
   return bytes;
 }
 
-Result<void> write_file(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
-  std::filesystem::path unfinished = path;
-  unfinished += ".part";
-  std::ofstream file(unfinished, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file)
-    return Error{"cannot write " + unfinished.string() +
-                 ": check that the folder exists and the disk has room"};
-  std::error_code error;
-  std::filesystem::rename(unfinished, path, error);
-  if (error)
-    return Error{"cannot rename " + unfinished.string() + ": " + error.message() +
-                 "; check that the folder is writable"};
-  return {};
-}
-
 }  // namespace
 }  // namespace skerry::textures
 
@@ -59,7 +39,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   using namespace skerry::textures;
-  if (const auto written = write_file(argv[1], encode(paint_layers())); !written) {
+  const std::vector<std::uint8_t> bytes = encode(paint_layers());
+  if (const auto written = skerry::write_file(argv[1], std::as_bytes(std::span(bytes))); !written) {
     std::fprintf(stderr, "skerry_textures: %s\n", written.error().message.c_str());
     return 1;
   }

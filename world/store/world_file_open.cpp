@@ -10,6 +10,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "engine/core/draft.h"
 #include "world/generate/generate.h"
 #include "world/store/rows.h"
 #include "world/store/salvage.h"
@@ -57,19 +58,27 @@ std::optional<Trouble> check_header(const fs::path& path) {
   return std::nullopt;
 }
 
+/// Whether a log holds what its file does not yet.
+bool has_log(const fs::path& path) {
+  std::error_code missing;
+  const fs::path log = fs::path(path) += "-wal";
+  return fs::exists(log, missing) && fs::file_size(log, missing) != 0;
+}
+
 /// Opens for reading, from read-only media and folders, too.
 std::optional<Database> open_to_read(const fs::path& path, int& code) {
-  std::optional<Database> file = Database::open(path.string(), SQLITE_OPEN_READONLY, code);
+  // Who may write takes log and index away again at the end, and has nothing to write here without
+  // a log. With one, reading must not bring it into the file.
+  const int how = has_log(path) ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+  std::optional<Database> file = Database::open(path.string(), how, code);
   std::int64_t version = 0;
-  if (file) code = file->integer("PRAGMA schema_version", version);
+  if (file) code = file->run("PRAGMA query_only = ON");
+  if (file && code == SQLITE_OK) code = file->integer("PRAGMA schema_version", version);
   if (code == SQLITE_OK) return file;
   const int kind = code & 0xff;
   if (kind != SQLITE_CANTOPEN && kind != SQLITE_READONLY) return std::nullopt;
   // Without a log there is nothing that a writer could have left there, and none that writes now.
-  std::error_code missing;
-  fs::path log = path;
-  log += "-wal";
-  if (fs::exists(log, missing) && fs::file_size(log, missing) != 0) return std::nullopt;
+  if (has_log(path)) return std::nullopt;
   return Database::open(immutable_uri(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, code);
 }
 
@@ -88,6 +97,10 @@ Error held_by_another(const fs::path& path) {
                       quoted(path))};
 }
 
+Error not_made(const fs::path& path, const Error& why) {
+  return {fmt::format("cannot make the world {}: {}", quoted(path), why.message)};
+}
+
 fs::path temporary_for(const fs::path& path) {
   fs::path temporary = path;
   temporary += fmt::format(".{}.tmp", ::getpid());
@@ -102,19 +115,6 @@ void sync_folder_of(const fs::path& path) {
   if (descriptor < 0) return;  // may not be listed; the file is there
   ::fsync(descriptor);
   ::close(descriptor);
-}
-
-/// Gives a complete file its name, unless there is such a file by now. @return SQLITE_OK or an
-/// error.
-int publish(const fs::path& temporary, const fs::path& path) {
-  if (!remove_companions(path)) return SQLITE_CANTOPEN;
-  int done = ::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE);
-  // Not all file systems know that; those that do not mostly know links, which replace nothing.
-  if (done != 0 && errno == EINVAL && (done = ::link(temporary.c_str(), path.c_str())) == 0)
-    ::unlink(temporary.c_str());
-  if (done != 0) return SQLITE_CANTOPEN;
-  sync_folder_of(path);
-  return SQLITE_OK;
 }
 
 /// Puts a file in a damaged one's place, which stays beside it, with its log, under another name.
@@ -148,19 +148,22 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const fs::path& path, const
   if (fs::exists(path, code))
     return Error{
         fmt::format("cannot make the world {}: there is one already; name another", quoted(path))};
-  const fs::path temporary = temporary_for(path);
+  Result<Draft> draft = Draft::create(path);
+  if (!draft) return not_made(path, draft.error());
   int failed = SQLITE_OK;
   {
     std::optional<Database> file =
-        Database::open(temporary.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, failed);
+        Database::open(draft->path().string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, failed);
     if (file) failed = make_schema(*file);
     if (file && failed == SQLITE_OK) failed = write_value(*file, "info", encode_info(info));
     if (file && failed == SQLITE_OK)
       failed = write_value(*file, "generator", std::as_bytes(std::span(&kGeneratorVersion, 1)));
   }
-  if (failed == SQLITE_OK) failed = publish(temporary, path);
-  if (failed != SQLITE_OK) fs::remove(temporary, code);
+  const Result<OutputPlace> place = find_output(path);
+  if (failed == SQLITE_OK && (!place || !remove_companions(place->path))) failed = SQLITE_CANTOPEN;
   if (failed != SQLITE_OK) return file_error("make", path, failed);
+  if (const Result<void> done = draft->publish_new(); !done) return not_made(path, done.error());
+  sync_folder_of(place->path);
   return open(path, Mode::kWrite);
 }
 

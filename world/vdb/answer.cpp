@@ -184,11 +184,9 @@ std::optional<Problem> check_description(const VolumeGrid& grid) {
     return Problem{"it holds values that it should not hold"};
   if (grid.active_voxels == 0) return std::nullopt;
   const VolumeBox& box = grid.active_box;
-  const auto axis = [](std::int32_t low, std::int32_t high) {
-    return low >= -kMaxVolumeIndex && high < kMaxVolumeIndex && low <= high;
-  };
-  if (!axis(box.min.x, box.max.x) || !axis(box.min.y, box.max.y) || !axis(box.min.z, box.max.z))
-    return Problem{"its box of active voxels is empty or beyond 2^30"};
+  if (box.min.x > box.max.x || box.min.y > box.max.y || box.min.z > box.max.z)
+    return Problem{"its box of active voxels is empty"};
+  if (!other && !within_reach(box)) return Problem{"its box of active voxels is beyond 2^30"};
   return std::nullopt;
 }
 
@@ -233,6 +231,13 @@ void make_names_unique(std::vector<VolumeGrid>& grids) {
 }
 
 }  // namespace
+
+bool within_reach(const VolumeBox& box) {
+  const auto axis = [](std::int32_t low, std::int32_t high) {
+    return low >= -kMaxVolumeIndex && high < kMaxVolumeIndex;
+  };
+  return axis(box.min.x, box.max.x) && axis(box.min.y, box.max.y) && axis(box.min.z, box.max.z);
+}
 
 bool begin_answer(std::uint32_t grids, const ByteSink& sink) {
   return put(sink, kMagic) && put(sink, kGrids) && put(sink, grids);

@@ -33,6 +33,9 @@ bool encode_error(std::string_view message, const ByteSink& sink);
 /// printable line, without the file's name.
 Result<std::vector<VolumeGrid>> decode_answer(std::span<const std::byte> bytes);
 
+/// Whether all of a box lies where voxels of a grid may: kMaxVolumeIndex.
+bool within_reach(const VolumeBox& box);
+
 /// At most kMaxVolumeText bytes of printable ASCII: anything else becomes '?'.
 std::string printable(std::string_view text);
 

@@ -228,6 +228,10 @@ bool extract_as(const openvdb::GridBase& grid, VolumeKind kind, VolumeGrid& out)
 VolumeGrid volume_of(const openvdb::GridBase& grid) {
   VolumeGrid out;
   describe(grid, out);
+  if (out.active_voxels > 0 && !within_reach(out.active_box)) {
+    refuse(out, "its voxels lie beyond index 2^30; move it nearer to its origin");
+    return out;
+  }
   if (!take_transform(grid, out)) {
     refuse(out, "its transform is no affine one");
     return out;

@@ -85,7 +85,7 @@ Result<void> write_vdb(const std::vector<VolumeGrid>& grids, const std::filesyst
   if (done) done = verify(grids, draft->path());
   if (done) done = draft->publish();
   if (done) return {};
-  return Error{fmt::format("cannot write '{}': {}", path.string(), done.error().message)};
+  return Error{fmt::format("cannot write {}: {}", quoted_path(path), done.error().message)};
 }
 
 }  // namespace skerry::world

@@ -13,12 +13,13 @@ namespace skerry::gpu {
 bool pipeline_cache_fits(std::span<const std::byte> bytes,
                          const VkPhysicalDeviceProperties& device);
 
-/// The file's bytes if they fit, else none. A missing file is normal; a damaged or foreign one is
-/// worth a log line.
+/// What a file of save_pipeline_cache() holds, if it is whole and fits the device, else none. A
+/// missing file is normal; a damaged or foreign one is worth a log line.
 std::vector<std::byte> load_pipeline_cache(const std::string& path,
                                            const VkPhysicalDeviceProperties& device);
 
-/// Writes to a temporary name, then renames. Failure is only logged: the next start compiles again.
+/// Writes 8 bytes of magic, a checksum of what follows (64 bits, little-endian) and the bytes.
+/// Failure is only logged: the next start compiles again.
 void save_pipeline_cache(const std::string& path, std::span<const std::byte> bytes);
 
 }  // namespace skerry::gpu

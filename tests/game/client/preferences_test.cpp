@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "tests/folder.h"
 
@@ -51,7 +52,7 @@ TEST(Preferences, WhatBelongsToNoPlayerIsNotTaken) {
 
 TEST(Preferences, SavingOverAFileThatWasNotUnderstoodKeepsIt) {
   const Folder folder;
-  ASSERT_TRUE(platform::write_text(folder / "settings.json", "{mine"));
+  ASSERT_TRUE(write_text(folder / "settings.json", "{mine"));
   ASSERT_TRUE(save_preferences(folder / "settings.json", {}));
   EXPECT_EQ(*platform::read_text(folder / "settings.json.old", 100), "{mine");
 }

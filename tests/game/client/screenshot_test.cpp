@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 
 namespace skerry::game {
@@ -15,7 +16,7 @@ TEST(Screenshot, NamesAreDatesAndNeverTaken) {
                            "skerry-20250131-235959-3.png"}) {
     const auto path = free_screenshot_path(folder, kMoment);
     EXPECT_EQ(path, folder / name);
-    ASSERT_TRUE(platform::write_text(path, "taken"));
+    ASSERT_TRUE(write_text(path, "taken"));
   }
   std::filesystem::remove_all(folder);
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "game/input/controls.h"
 #include "tests/folder.h"
@@ -273,7 +274,7 @@ TEST(Bindings, AHostileFileDoesNotFillTheScreen) {
 TEST(Bindings, SavingOverAFileThatWasNotUnderstoodKeepsIt) {
   const Folder folder;
   const auto path = folder / "controls.json";
-  ASSERT_TRUE(platform::write_text(path, "{my bindings"));
+  ASSERT_TRUE(write_text(path, "{my bindings"));
   ASSERT_TRUE(save_bindings(path, default_bindings()));
   EXPECT_EQ(*platform::read_text(folder / "controls.json.old", 100), "{my bindings");
   EXPECT_TRUE(load_bindings(path).problems.empty());
@@ -281,7 +282,7 @@ TEST(Bindings, SavingOverAFileThatWasNotUnderstoodKeepsIt) {
 
 TEST(Bindings, AFolderThatCannotBeWrittenIsToldInOneLine) {
   const Folder folder;
-  ASSERT_TRUE(platform::write_text(folder / "file", ""));
+  ASSERT_TRUE(write_text(folder / "file", ""));
   for (const auto& path : {std::filesystem::path{}, folder / "file" / "controls.json"}) {
     const auto saved = save_bindings(path, default_bindings());
     ASSERT_FALSE(saved);

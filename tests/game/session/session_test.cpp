@@ -15,6 +15,7 @@
 #include "tests/folder.h"
 #include "tests/game/session/seat.h"
 #include "tests/world/made_islands.h"
+#include "world/store/database.h"
 #include "world/store/world_file.h"
 
 namespace skerry::game {
@@ -611,6 +612,59 @@ TEST(SessionKillTest, WhatWasSavedOutlivesThePlay) {
     ASSERT_TRUE(is_after(saved, done)) << "round " << round;
   }
   EXPECT_GT(done, 0u) << "killed before anything was done";
+}
+
+/// Plays without saving, says so, and is busy with something else.
+[[noreturn]] void play_and_stall(const Saved& saved, std::uint64_t edits, int told) {
+  const auto session = saved.open();
+  if (!session) ::_exit(7);
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  for (std::uint64_t n = 0; n < edits; ++n) {
+    session->advance(1.0);
+    if (verdict_of(*session, saved.island, spot_of(n), block_of(n)) != EditVerdict::kDone)
+      ::_exit(8);
+  }
+  if (::write(told, &edits, sizeof edits) != sizeof edits) ::_exit(9);
+  while (true) ::pause();
+}
+
+/// @return the end of a play of so many edits that got a signal.
+int end_after_signal(const Saved& saved, std::uint64_t edits, int signal_number) {
+  int told[2];
+  EXPECT_EQ(::pipe(told), 0);
+  const pid_t child = ::fork();
+  if (child == 0) play_and_stall(saved, edits, told[1]);
+  ::close(told[1]);
+  std::uint64_t n = 0;
+  EXPECT_EQ(::read(told[0], &n, sizeof n), std::ssize(std::as_bytes(std::span(&n, 1))));
+  ::close(told[0]);
+  ::kill(child, signal_number);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(SessionKillTest, ASignalToEndSavesFirstWhateverTheFrameIsAt) {
+  for (const int signal_number : {SIGTERM, SIGINT, SIGHUP}) {
+    const Saved saved;
+    const int status = end_after_signal(saved, 17, signal_number);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal_number) << status;
+    EXPECT_TRUE(is_after(saved, 17)) << signal_number;
+  }
+}
+
+TEST(SessionKillTest, AnEndThatCannotSaveIsStatusOne) {
+  const Saved saved;
+  // Another writer, which does not finish.
+  int code = 0;
+  auto other = world::Database::open(saved.path.string(), SQLITE_OPEN_READWRITE, code);
+  ASSERT_TRUE(other);
+  ASSERT_EQ(other->run("BEGIN IMMEDIATE"), SQLITE_OK);
+  const int status = end_after_signal(saved, 3, SIGTERM);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
+  ASSERT_EQ(other->run("ROLLBACK"), SQLITE_OK);
+  other.reset();
+  EXPECT_TRUE(is_after(saved, 0));
 }
 
 }  // namespace

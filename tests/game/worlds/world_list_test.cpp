@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "tests/folder.h"
 #include "world/store/world_file.h"
 
@@ -19,8 +19,8 @@ world::WorldInfo named(const std::string& name) {
 TEST(WorldList, NamesWhatIsThereAndSaysWhatCannotBePlayed) {
   const Folder folder;
   ASSERT_TRUE(world::WorldFile::create(folder / "one.skerry", named("One")));
-  ASSERT_TRUE(platform::write_text(folder / "junk.skerry", "no world at all"));
-  ASSERT_TRUE(platform::write_text(folder / "notes.txt", "nor this"));
+  ASSERT_TRUE(write_text(folder / "junk.skerry", "no world at all"));
+  ASSERT_TRUE(write_text(folder / "notes.txt", "nor this"));
   const std::vector<WorldEntry> worlds = list_worlds(folder.path());
   ASSERT_EQ(worlds.size(), 2u);
   for (const WorldEntry& world : worlds) {
@@ -41,7 +41,7 @@ TEST(WorldList, DeletesAWorldWithItsPicture) {
   const Folder folder;
   const auto path = folder / "one.skerry";
   ASSERT_TRUE(world::WorldFile::create(path, named("One")));
-  ASSERT_TRUE(platform::write_text(picture_of_world(path), "png"));
+  ASSERT_TRUE(write_text(picture_of_world(path), "png"));
   ASSERT_TRUE(remove_world(path));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   EXPECT_FALSE(remove_world(path));

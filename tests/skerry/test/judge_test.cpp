@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "tests/folder.h"
 #include "tools/skerry/scene/draw_scene.h"
@@ -96,7 +97,7 @@ TEST_F(Judge, AReferenceThatIsMissingOrWrongIsAFailure) {
   write_reference(shown_.picture);
   const auto text = platform::read_text(scene_.reference(), 1 << 20);
   for (const std::size_t bytes : {std::size_t{0}, std::size_t{7}, text->size() / 2}) {
-    ASSERT_TRUE(platform::write_text(scene_.reference(), text->substr(0, bytes)));
+    ASSERT_TRUE(write_text(scene_.reference(), text->substr(0, bytes)));
     expect_failure(row(), "day.png");
   }
   const std::string hash = sha256_hex(shown_.picture.pixels);
@@ -135,7 +136,7 @@ TEST_F(Judge, WhatIsApprovedPassesAfterwards) {
 }
 
 TEST_F(Judge, ApprovingReplacesADamagedReference) {
-  ASSERT_TRUE(platform::write_text(scene_.reference(), "no picture"));
+  ASSERT_TRUE(write_text(scene_.reference(), "no picture"));
   EXPECT_TRUE(approve().replaced);
   EXPECT_EQ(row().verdict, Verdict::kPass);
 }
@@ -194,7 +195,7 @@ TEST(Hashes, AFileOfAnythingElseIsRefused) {
   const Folder folder;
   for (const char* text :
        {"", "[]", "{\"a\": 1}", "{\"a\": \"123\"}", "{\"a\"", "null", "[\"a\", \"b\"]"}) {
-    ASSERT_TRUE(platform::write_text(folder / "h.json", text));
+    ASSERT_TRUE(write_text(folder / "h.json", text));
     EXPECT_FALSE(read_hashes(folder / "h.json")) << text;
   }
 }

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "tests/folder.h"
 #include "tools/skerry/test/page.h"
 
@@ -115,13 +115,13 @@ TEST(Rows, FilesThatHoldNoResultsAreRefused) {
   const Folder folder;
   const Results results = shard(1, 1, 1, {"a"});
   const std::string good = results_json(results).dump();
-  ASSERT_TRUE(platform::write_text(folder / "good.json", good));
+  ASSERT_TRUE(write_text(folder / "good.json", good));
   EXPECT_TRUE(read_results(folder / "good.json"));
   for (const std::string& text :
        {std::string(), std::string("{}"), std::string("[]"), std::string("{\"rows\": 1}"),
         good.substr(0, good.size() / 2), std::string(100000, '['),
         R"({"shard": "2/1", "scenes_in_set": 1, "html": "", "rows": []})" + std::string()}) {
-    ASSERT_TRUE(platform::write_text(folder / "bad.json", text));
+    ASSERT_TRUE(write_text(folder / "bad.json", text));
     const auto read = read_results(folder / "bad.json");
     ASSERT_FALSE(read) << text.substr(0, 50);
     EXPECT_EQ(read.error().message.find('\n'), std::string::npos);
@@ -132,7 +132,7 @@ TEST(Rows, FilesThatHoldNoResultsAreRefused) {
 /// Whether Python's parsers take the text; they are other people's code.
 bool parses(const char* script, const std::string& text) {
   const Folder folder;
-  EXPECT_TRUE(platform::write_text(folder / "text", text));
+  EXPECT_TRUE(write_text(folder / "text", text));
   const std::string command =
       std::string("python3 -c '") + script + "' " + (folder / "text").string();
   return std::system(command.c_str()) == 0;

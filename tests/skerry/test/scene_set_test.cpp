@@ -5,7 +5,7 @@
 #include <set>
 
 #include <test_paths.h>
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "tests/folder.h"
 
 namespace skerry::tools {
@@ -48,9 +48,9 @@ TEST(SceneSet, AShardIsReadOrRefused) {
 TEST(SceneSet, FilesAndFoldersAreFoundOnceAndSorted) {
   const Folder folder;
   for (const char* name : {"b.json", "a.json", "c.txt", "a.png"})
-    ASSERT_TRUE(platform::write_text(folder / name, "{}"));
+    ASSERT_TRUE(write_text(folder / name, "{}"));
   fs::create_directories(folder / "hashes");
-  ASSERT_TRUE(platform::write_text(folder / "hashes/d.json", "{}"));
+  ASSERT_TRUE(write_text(folder / "hashes/d.json", "{}"));
   fs::create_directories(folder / "e.json");
   const std::vector<std::string> paths{(folder / "b.json").string(), folder.path().string(),
                                        folder.path().string() + "/./a.json"};
@@ -67,8 +67,8 @@ TEST(SceneSet, WhatCannotBeASetIsAnError) {
   EXPECT_FALSE(find_scenes(std::vector<std::string>{(folder / "no.json").string()}));
   fs::create_directories(folder / "one");
   fs::create_directories(folder / "two");
-  ASSERT_TRUE(platform::write_text(folder / "one/a.json", "{}"));
-  ASSERT_TRUE(platform::write_text(folder / "two/a.json", "{}"));
+  ASSERT_TRUE(write_text(folder / "one/a.json", "{}"));
+  ASSERT_TRUE(write_text(folder / "two/a.json", "{}"));
   const auto twins =
       find_scenes(std::vector<std::string>{(folder / "one").string(), (folder / "two").string()});
   ASSERT_FALSE(twins);
@@ -80,14 +80,13 @@ TEST(SceneSet, ASceneNamesItsFileWhenItIsWrong) {
   for (const char* text : {"", "[]", R"({"sede": 1})", R"({"size": "0x1"})",
                            R"({"size": "10x10", "masks": [[5, 5, 6, 5]]})",
                            R"({"size": "10x10", "masks": [[0, 0, 10, 10]]})"}) {
-    ASSERT_TRUE(platform::write_text(folder / "wrong.json", text));
+    ASSERT_TRUE(write_text(folder / "wrong.json", text));
     const auto scene = read_scene(folder / "wrong.json");
     ASSERT_FALSE(scene) << text;
     EXPECT_NE(scene.error().message.find("wrong.json"), std::string::npos);
     EXPECT_EQ(scene.error().message.find('\n'), std::string::npos);
   }
-  ASSERT_TRUE(
-      platform::write_text(folder / "right.json", R"({"size": "10x10", "masks": [[5, 5, 5, 5]]})"));
+  ASSERT_TRUE(write_text(folder / "right.json", R"({"size": "10x10", "masks": [[5, 5, 5, 5]]})"));
   const auto scene = read_scene(folder / "right.json");
   ASSERT_TRUE(scene) << scene.error().message;
   EXPECT_EQ(scene->name, "right");

@@ -27,7 +27,7 @@ class ReportFolderTest : public testing::Test {
 };
 
 TEST_F(ReportFolderTest, AppearsWhenPublishedAndNotBefore) {
-  Result<ReportFolder> folder = ReportFolder::create(parent_ / "report/");
+  Result<ReportFolder> folder = ReportFolder::create(parent_ / "report/", "--out");
   ASSERT_TRUE(folder) << folder.error().message;
   write(folder->path() / kReportFile);
   EXPECT_FALSE(fs::exists(parent_ / "report"));
@@ -38,7 +38,7 @@ TEST_F(ReportFolderTest, AppearsWhenPublishedAndNotBefore) {
 
 TEST_F(ReportFolderTest, LeavesNothingWhenNotPublished) {
   {
-    Result<ReportFolder> folder = ReportFolder::create(parent_ / "report");
+    Result<ReportFolder> folder = ReportFolder::create(parent_ / "report", "--out");
     ASSERT_TRUE(folder);
     write(folder->path() / "picture.png");
   }
@@ -49,7 +49,7 @@ TEST_F(ReportFolderTest, TakesThePlaceOfAReport) {
   fs::create_directories(parent_ / "report");
   write(parent_ / "report" / kReportFile);
   write(parent_ / "report" / "old.png");
-  Result<ReportFolder> folder = ReportFolder::create(parent_ / "report");
+  Result<ReportFolder> folder = ReportFolder::create(parent_ / "report", "--out");
   ASSERT_TRUE(folder) << folder.error().message;
   write(folder->path() / kReportFile);
   EXPECT_TRUE(fs::exists(parent_ / "report" / "old.png"));
@@ -65,17 +65,17 @@ TEST_F(ReportFolderTest, TakesTheirPlaceFromNoOtherFiles) {
   write(parent_ / "file");
   fs::create_directory_symlink(parent_ / "mine", parent_ / "link");
   for (const char* name : {"mine", "file", "link"}) {
-    const Result<ReportFolder> folder = ReportFolder::create(parent_ / name);
+    const Result<ReportFolder> folder = ReportFolder::create(parent_ / name, "--out");
     ASSERT_FALSE(folder) << name;
     EXPECT_NE(folder.error().message.find("--out"), std::string::npos);
   }
-  EXPECT_FALSE(ReportFolder::create(parent_ / "missing" / "report"));
-  EXPECT_FALSE(ReportFolder::create("/"));
+  EXPECT_FALSE(ReportFolder::create(parent_ / "missing" / "report", "--out"));
+  EXPECT_FALSE(ReportFolder::create("/", "--out"));
   EXPECT_EQ(entries(), 3u);
 }
 
 TEST_F(ReportFolderTest, LooksAgainBeforeItTakesAPlace) {
-  Result<ReportFolder> folder = ReportFolder::create(parent_ / "report");
+  Result<ReportFolder> folder = ReportFolder::create(parent_ / "report", "--out");
   ASSERT_TRUE(folder);
   fs::create_directories(parent_ / "report");
   write(parent_ / "report" / "thesis.txt");

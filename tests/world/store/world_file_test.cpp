@@ -47,6 +47,31 @@ TEST(WorldFile, WhatWasCommittedIsRead) {
   }
 }
 
+TEST(WorldFile, ReadingLeavesTheFolderAsItWas) {
+  const Folder folder;
+  const fs::path path = folder / "w";
+  Rng rng(7);
+  {
+    auto file = WorldFile::create(path, info_of_seed_4());
+    ASSERT_TRUE(file) << file.error().message;
+    fill(**file, rng, 3);
+  }
+  const auto bytes_of = [&] {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string before = bytes_of();
+  {
+    const auto first = WorldFile::open(path, Mode::kRead);
+    const auto second = WorldFile::open(path, Mode::kRead);
+    ASSERT_TRUE(first && second);
+    EXPECT_FALSE((*first)->read().islands.empty());
+    EXPECT_FALSE((*second)->read().islands.empty());
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+  EXPECT_EQ(bytes_of(), before);
+}
+
 TEST(WorldFile, ANameOrSeedTooLongIsRefused) {
   const Folder folder;
   EXPECT_FALSE(WorldFile::create(folder / "a.skerry", {std::string(201, 'n'), "1", {}}));

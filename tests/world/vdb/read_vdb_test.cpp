@@ -54,6 +54,16 @@ TEST(ReadVdb, SamplesOfALevelSetLieWhereTheFileHasThem) {
   EXPECT_EQ(grids[0].active_box.max, (IVec3{24, 19, 27}));
 }
 
+TEST(ReadVdb, AGridFurtherOutThanIslandsCanBeIsLeftOutAndNotCalledDamaged) {
+  SKIP_WITHOUT_OPENVDB();
+  const std::vector<VolumeGrid> grids = read_sample("far.vdb");
+  ASSERT_EQ(grids.size(), 2u);
+  EXPECT_EQ(grids[0].kind, VolumeKind::kOther);
+  EXPECT_NE(grids[0].remark.find("2^30"), std::string::npos) << grids[0].remark;
+  EXPECT_EQ(grids[0].active_box.min.x, (1 << 30) + 8);
+  EXPECT_EQ(grids[1].kind, VolumeKind::kFog);
+}
+
 TEST(ReadVdb, TilesStayTiles) {
   SKIP_WITHOUT_OPENVDB();
   const std::vector<VolumeGrid> grids = read_sample("cloud.vdb");

@@ -188,6 +188,9 @@ int main(int count, char** words) {
   write(folder + "huge.vdb", huge_tiles());
   write(folder + "no_grids.vdb", {});
   write(folder + "empty.vdb", {fog("density")});
+  const auto far = named<openvdb::Int32Grid>("ids");
+  far->tree().setValueOn(Coord((1 << 30) + 8, 0, 0), 7);
+  write(folder + "far.vdb", {far, fog("density")});
   const auto velocity = named<openvdb::Vec3SGrid>("vel");
   velocity->tree().setValueOn(Coord(0), openvdb::Vec3s(1.0f));
   write(folder + "vectors.vdb", {velocity});

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/core/check.h"
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 
 namespace skerry::tools {
 
@@ -21,10 +21,9 @@ Spread spread_of(std::vector<double> samples) {
 Result<void> write_rows(const std::optional<std::filesystem::path>& file,
                         const nlohmann::ordered_json& rows) {
   if (!file) return {};
-  return platform::write_text(*file,
-                              nlohmann::ordered_json{{"rows", rows}}.dump(
-                                  2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-                                  "\n");
+  return write_text(*file, nlohmann::ordered_json{{"rows", rows}}.dump(
+                               2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+                               "\n");
 }
 
 }  // namespace skerry::tools

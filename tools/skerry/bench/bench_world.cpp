@@ -1,14 +1,15 @@
 #include "tools/skerry/bench/bench_world.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <vector>
 
 #include "engine/core/clock.h"
+#include "engine/core/draft.h"
 #include "tools/skerry/bench/bench_report.h"
 #include "tools/skerry/scene/scene_device.h"
 #include "world/islands/stored_voxels.h"
@@ -40,25 +41,6 @@ void add_row(Rows& rows, const char* name, const std::vector<double>& ms,
   rows.push_back(row);
 }
 
-/// A folder for one run.
-class Scratch {
- public:
-  Scratch()
-      : path_(std::filesystem::temp_directory_path() / fmt::format("skerry_bench_{}", ::getpid())) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Scratch() {
-    std::error_code code;
-    std::filesystem::remove_all(path_, code);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::filesystem::path file(int number) const { return path_ / fmt::format("{}.skerry", number); }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// 10,000 edits as a player makes them: shafts and walls about places of the home island.
 std::map<IVec3, ChunkEdits> walk_edits(std::size_t count) {
   Rng rng(1);
@@ -80,7 +62,10 @@ std::map<IVec3, ChunkEdits> walk_edits(std::size_t count) {
 }
 
 Result<void> bench_saving(Rows& rows) {
-  const Scratch scratch;
+  std::error_code missing;
+  const auto folder = std::filesystem::temp_directory_path(missing) / "skerry_bench";
+  const Result<Draft> scratch = Draft::create(folder, Draft::What::kFolder);  // gone at the end
+  if (!scratch) return Error{"cannot make a folder for worlds: " + scratch.error().message};
   constexpr std::size_t kEdits = 10'000;
   const std::map<IVec3, ChunkEdits> edits = walk_edits(kEdits);
   WorldInfo info{"bench", "1", {}};
@@ -90,7 +75,7 @@ Result<void> bench_saving(Rows& rows) {
   std::vector<double> save_ms, open_ms;
   std::uint64_t bytes = 0;
   for (int round = 0; round < kRounds; ++round) {
-    const std::filesystem::path path = scratch.file(round);
+    const std::filesystem::path path = scratch->folder() / fmt::format("{}.skerry", round);
     Result<std::unique_ptr<WorldFile>> file = WorldFile::create(path, info);
     if (!file) return file.error();
     Stopwatch watch;

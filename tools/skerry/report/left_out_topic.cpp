@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "tools/measure/html.h"
 
 namespace skerry::tools {
@@ -107,10 +107,9 @@ ordered_json left_out_json(const std::vector<LeftOutRow>& rows) {
 
 Result<std::string> write_left_out(const std::vector<LeftOutRow>& rows,
                                    const std::filesystem::path& dir) {
-  if (Result<void> done = platform::write_text(dir / "left_out.csv", left_out_csv(rows)); !done)
+  if (Result<void> done = write_text(dir / "left_out.csv", left_out_csv(rows)); !done)
     return done.error();
-  if (Result<void> done =
-          platform::write_text(dir / "left_out.json", left_out_json(rows).dump(2) + "\n");
+  if (Result<void> done = write_text(dir / "left_out.json", left_out_json(rows).dump(2) + "\n");
       !done)
     return done.error();
   std::vector<std::string_view> headings{"feature", "left out because", "picture"};

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/clock.h"
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "tools/measure/html.h"
 #include "tools/skerry/report/left_out_topic.h"
 #include "tools/skerry/report/measure_topic.h"
@@ -74,10 +74,9 @@ Result<void> write_front(const Run& run, const std::filesystem::path& dir) {
     j["defects"].push_back({{"text", defect.text}, {"certain", defect.certain}});
   j["left_out"] = run.left_out;
   j["topics"] = run.topics;
-  if (Result<void> done = platform::write_text(dir / "index.html", front_page(run)); !done)
-    return done;
-  return platform::write_text(dir / kReportFile,
-                              j.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  if (Result<void> done = write_text(dir / "index.html", front_page(run)); !done) return done;
+  return write_text(dir / kReportFile,
+                    j.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 Result<void> run_topic(ReportSession& session, const Topic& topic, const std::filesystem::path& dir,
@@ -143,7 +142,7 @@ Result<void> run_topics(ReportSession& session, const std::filesystem::path& dir
 
 int report(const ReportRequest& request) {
   const Stopwatch watch;
-  Result<ReportFolder> folder = ReportFolder::create(request.out);
+  Result<ReportFolder> folder = ReportFolder::create(request.out, "--out");
   if (!folder) return fail(kFailed, folder.error());
   Result<std::unique_ptr<gpu::Device>> device = open_device(request.scene);
   if (!device) return fail(kNoDevice, device.error());

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "engine/core/draft.h"
@@ -15,17 +16,18 @@ inline constexpr std::string_view kReportFile = "report.json";
 class ReportFolder {
  public:
   /// Creates the folder to fill. Errors: `dir` exists and is neither an empty folder nor a report;
-  /// its parent is missing or not writable.
-  static Result<ReportFolder> create(const std::filesystem::path& dir);
+  /// its parent is missing or not writable. They name `option`, which `dir` was given to.
+  static Result<ReportFolder> create(const std::filesystem::path& dir, std::string_view option);
   /// The folder to fill.
   std::filesystem::path path() const { return draft_.path(); }
   /// Gives the folder its name, in the place of the report that was there.
   Result<void> publish();
 
  private:
-  ReportFolder(std::filesystem::path dir, Draft draft);
+  ReportFolder(std::filesystem::path dir, std::string option, Draft draft);
 
   std::filesystem::path dir_;
+  std::string option_;
   Draft draft_;
 };
 

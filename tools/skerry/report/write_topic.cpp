@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "tools/measure/chart.h"
 #include "tools/measure/html.h"
 
@@ -309,13 +309,12 @@ std::vector<Defect> defects_of(const TopicResult& result) {
 Result<std::string> write_topic(const TopicResult& result, const std::filesystem::path& dir) {
   const Topic& topic = *result.topic;
   const std::string name(topic.name);
-  if (Result<void> done = platform::write_text(dir / (name + ".csv"), topic_csv(result)); !done)
+  if (Result<void> done = write_text(dir / (name + ".csv"), topic_csv(result)); !done)
     return done.error();
-  if (Result<void> done =
-          platform::write_text(dir / (name + ".json"), topic_json(result).dump(2) + "\n");
+  if (Result<void> done = write_text(dir / (name + ".json"), topic_json(result).dump(2) + "\n");
       !done)
     return done.error();
-  if (Result<void> done = platform::write_text(dir / (name + ".svg"), topic_svg(result)); !done)
+  if (Result<void> done = write_text(dir / (name + ".svg"), topic_svg(result)); !done)
     return done.error();
 
   const measure::Attribute id{"id", name};

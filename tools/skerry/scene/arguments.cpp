@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "game/scene_file/parse.h"
 #include "game/worlds/open_world.h"
@@ -150,7 +151,7 @@ std::optional<Refusal> check_leftovers(const CLI::App& command) {
 
 std::optional<Refusal> check_output(const std::optional<std::string>& path) {
   if (!path) return std::nullopt;
-  const auto writable = platform::check_writable(*path);
+  const auto writable = check_writable(*path);
   if (!writable) return Refusal{kFailed, writable.error()};
   return std::nullopt;
 }

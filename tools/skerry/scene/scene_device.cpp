@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <utility>
 
+#include "engine/core/log.h"
 #include "engine/platform/files.h"
 
 namespace skerry::tools {
@@ -13,7 +13,11 @@ namespace {
 /// Empty, for none, when the user has no folder for caches.
 std::string pipeline_cache_file() {
   const std::filesystem::path folder = platform::cache_dir();
-  if (folder.empty() || !platform::make_dirs(folder)) return {};
+  if (folder.empty()) return {};
+  if (const Result<void> made = platform::make_dirs(folder); !made) {
+    log_warning("compiled shaders are not kept: " + made.error().message);
+    return {};
+  }
   return (folder / "pipelines.bin").string();
 }
 
@@ -38,7 +42,7 @@ Result<void> check_size(const gpu::Device& device, const game::PictureSize& size
 }
 
 int fail(int status, const Error& error) {
-  std::fprintf(stderr, "skerry: %s\n", error.message.c_str());
+  log_error(error.message);
   return status;
 }
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "engine/platform/image_file.h"
 #include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/scene/scene_device.h"
@@ -132,20 +132,24 @@ int shot(const ShotOptions& options) {
   const platform::PixelView image{size.width, size.height, 4, drawn->rgba};
   const std::array<platform::PngText, 2> text{
       {{"Software", "Skerry"}, {"Command", game::shot_command(options.scene)}}};
-  if (Result<void> written = platform::write_png(options.out, image, text); !written)
-    return fail(kFailed, written.error());
+  Outputs outputs;
+  const Result<std::vector<std::byte>> png = platform::encode_png(image, text);
+  if (!png) return fail(kFailed, png.error());
+  if (Result<void> added = outputs.add(options.out, *png); !added)
+    return fail(kFailed, added.error());
   cpu_ms["write"] = watch.lap();
   cpu_ms["total"] = total.lap();
 
-  if (options.explain) print_explanation((*drawer)->view().renderer(), drawn->report);
   if (options.stats) {
     const ordered_json j = stats_json(**device, (*drawer)->view(), *drawn, cpu_ms);
-    if (Result<void> written = platform::write_text(
+    if (Result<void> added = outputs.add(
             *options.stats,
             j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-        !written)
-      return fail(kFailed, written.error());
+        !added)
+      return fail(kFailed, added.error());
   }
+  if (Result<void> written = outputs.publish(); !written) return fail(kFailed, written.error());
+  if (options.explain) print_explanation((*drawer)->view().renderer(), drawn->report);
   if (drawn->report.pixels.non_finite != 0)
     return fail(kFailed,
                 {fmt::format(

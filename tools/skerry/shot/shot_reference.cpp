@@ -8,7 +8,7 @@
 
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
-#include "engine/platform/files.h"
+#include "engine/core/output.h"
 #include "engine/platform/image_file.h"
 #include "tools/reference/reference.h"
 #include "tools/skerry/scene/draw_scene.h"
@@ -83,18 +83,22 @@ int shot_reference(const ShotOptions& options) {
   const platform::PixelView image{picture->radiance.width, picture->radiance.height, 4, rgba};
   const std::array<platform::PngText, 2> text{
       {{"Software", "Skerry"}, {"Command", game::shot_command(options.scene)}}};
-  if (Result<void> written = platform::write_png(options.out, image, text); !written)
-    return fail(kFailed, written.error());
+  Outputs outputs;
+  const Result<std::vector<std::byte>> png = platform::encode_png(image, text);
+  if (!png) return fail(kFailed, png.error());
+  if (Result<void> added = outputs.add(options.out, *png); !added)
+    return fail(kFailed, added.error());
   cpu_ms["total"] = total.milliseconds();
+  if (options.stats) {
+    const ordered_json j = stats_json(options, *picture, rgba, cpu_ms);
+    if (Result<void> added = outputs.add(*options.stats, j.dump(2) + "\n"); !added)
+      return fail(kFailed, added.error());
+  }
+  if (Result<void> written = outputs.publish(); !written) return fail(kFailed, written.error());
   log_info(summary(options, *picture));
   if (options.explain)
     fmt::print("runs:\n  reference: {} islands, {} chunks looked at\nleft out:\n  all passes\n",
                picture->islands, picture->chunks);
-  if (options.stats) {
-    const ordered_json j = stats_json(options, *picture, rgba, cpu_ms);
-    if (Result<void> written = platform::write_text(*options.stats, j.dump(2) + "\n"); !written)
-      return fail(kFailed, written.error());
-  }
   if (picture->non_finite_pixels != 0)
     return fail(kFailed, {fmt::format("{} pixels were not finite; this is a bug in Skerry",
                                       picture->non_finite_pixels)});

@@ -39,8 +39,10 @@ int StabilityCommand::run() {
   }
   scene.validate = validate_;
   std::unique_ptr<gpu::Device> device;
-  if (std::any_of(cases->begin(), cases->end(),
-                  [](const auto& one) { return one.needs_device(); })) {
+  // One that was asked for has to be there, even if no case draws on it.
+  if (device_ || validate_ || std::any_of(cases->begin(), cases->end(), [](const auto& one) {
+        return one.needs_device();
+      })) {
     Result<std::unique_ptr<gpu::Device>> opened = open_device(scene);
     if (!opened) return fail(kNoDevice, opened.error());
     device = *std::move(opened);

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 
 namespace skerry::tools {
@@ -74,7 +75,8 @@ Result<Hashes> read_hashes(const fs::path& file) {
   if (!fs::exists(file, code)) return Hashes{};
   const Result<std::string> text = platform::read_text(file, kMaxHashBytes);
   if (!text) return text.error();
-  const nlohmann::json from = nlohmann::json::parse(*text, nullptr, false);
+  const Result<nlohmann::json> parsed = game::parse_json(*text);
+  const nlohmann::json from = parsed ? *parsed : nlohmann::json();
   Hashes hashes;
   for (const auto& [scene, hash] : from.items()) {
     if (!from.is_object() || !is_hash(hash)) break;
@@ -91,7 +93,7 @@ Result<void> write_hashes(const fs::path& file, const Hashes& hashes) {
   if (const Result<void> made = platform::make_dirs(file.parent_path()); !made) return made;
   // Names of files may hold bytes that are no UTF-8.
   const auto replace = nlohmann::json::error_handler_t::replace;
-  return platform::write_text(file, nlohmann::json(hashes).dump(2, ' ', false, replace) + "\n");
+  return write_text(file, nlohmann::json(hashes).dump(2, ' ', false, replace) + "\n");
 }
 
 Result<void> forget_others(const fs::path& scenes, std::string_view driver,

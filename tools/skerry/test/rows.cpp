@@ -9,6 +9,7 @@
 
 #include "engine/core/check.h"
 #include "engine/platform/files.h"
+#include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 #include "tools/measure/html.h"
 
@@ -168,10 +169,10 @@ Result<Results> read_results(const std::filesystem::path& file) {
     return Error{fmt::format("cannot merge {}: {}; give files that skerry test --json wrote",
                              game::quote_text(file.string()), why)};
   };
-  const json from = json::parse(*text, nullptr, false);
-  if (from.is_discarded()) return wrong("it is not JSON");
+  const Result<json> from = game::parse_json(*text);
+  if (!from) return wrong("it " + from.error().message);
   try {
-    return results_or_throw(from);
+    return results_or_throw(*from);
   } catch (const json::exception& why) {
     return wrong(game::quote_text(why.what()));
   }

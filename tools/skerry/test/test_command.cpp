@@ -6,7 +6,10 @@
 #include <set>
 
 #include "engine/core/clock.h"
+#include "engine/core/log.h"
+#include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "engine/platform/image_file.h"
 #include "game/scene_file/parse.h"
 #include "game/scene_file/vdb_options.h"
 #include "tools/skerry/scene/progress.h"
@@ -49,7 +52,8 @@ void add_run(Outcome& sum, const Outcome& run) {
 
 void print_row(const Row& row) {
   if (row.failed() || row.verdict == Verdict::kApproved)
-    fmt::print("{}: {}: {}\n", verdict_name(row.verdict), row.scene, row.message);
+    fmt::print("{}: {}: {}\n", verdict_name(row.verdict), one_line(row.scene),
+               one_line(row.message));
 }
 
 /// @return how many scenes failed.
@@ -120,16 +124,19 @@ std::optional<Refusal> TestCommand::check_typed() {
   if (approve_ && pool_.runs > 1) return usage({"--approve needs one run: leave out --repeat"});
   pool_.validate = validate_;
   pool_.judge.approve = approve_;
-  if (html_) pool_.judge.html = *html_;
   return std::nullopt;
 }
 
 /// Before any work is done.
-std::optional<Refusal> TestCommand::check_outputs() const {
+std::optional<Refusal> TestCommand::check_outputs() {
   if (html_) {
-    if (const auto made = platform::make_dirs(*html_); !made) return usage(made.error());
-    const auto writable = platform::check_writable(fs::path(*html_) / "index.html");
-    if (!writable) return usage(writable.error());
+    std::error_code code;
+    const fs::path above = fs::absolute(fs::path(*html_) / "..", code).lexically_normal();
+    if (const auto made = platform::make_dirs(above); !made) return usage(made.error());
+    auto report = ReportFolder::create(*html_, "--html");
+    if (!report) return usage(report.error());
+    report_.emplace(*std::move(report));
+    pool_.judge.html = report_->path();
   }
   if (auto refusal = check_output(json_)) return refusal;
   return check_output(junit_);
@@ -143,7 +150,7 @@ std::optional<Refusal> TestCommand::read_set(std::vector<TestScene>& scenes,
     Result<TestScene> scene = read_scene(file);
     if (!scene) return usage(scene.error());
     if (needs_openvdb(scene->scene) && !world::has_openvdb()) {
-      fmt::print("skipped: {}: this build has no OpenVDB\n", scene->name);
+      fmt::print("skipped: {}: this build has no OpenVDB\n", one_line(scene->name));
       continue;
     }
     scenes.push_back(*std::move(scene));
@@ -224,21 +231,29 @@ Result<void> TestCommand::approve(const std::vector<TestScene>& scenes,
   return {};
 }
 
-Result<void> TestCommand::write_outputs(Results results) const {
-  if (html_) {
-    const std::string page = test_page(results, *html_);
-    if (const auto done = platform::write_text(fs::path(*html_) / "index.html", page); !done)
-      return done;
+Result<void> TestCommand::write_outputs(Results results) {
+  const auto json_text = [&] {
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    return results_json(results).dump(2, ' ', false, replace) + "\n";
+  };
+  Outputs files;
+  if (junit_)
+    if (auto added = files.add(*junit_, junit_xml(results)); !added) return added;
+  if (report_) {
+    const std::string page = test_page(results, report_->path());
+    if (auto done = write_text(report_->path() / "index.html", page); !done) return done;
+    results.html = ".";
+    if (auto done = write_text(report_->path() / kReportFile, json_text()); !done) return done;
   }
   if (json_) {
     std::error_code code;
     const fs::path base = fs::absolute(*json_, code).parent_path();
     if (html_) results.html = fs::relative(fs::absolute(*html_, code), base, code).string();
-    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    const std::string text = results_json(results).dump(2, ' ', false, replace) + "\n";
-    if (const auto done = platform::write_text(*json_, text); !done) return done;
+    if (auto added = files.add(*json_, json_text()); !added) return added;
   }
-  return junit_ ? platform::write_text(*junit_, junit_xml(results)) : Result<void>{};
+  if (report_)
+    if (auto done = report_->publish(); !done) return done;
+  return files.publish();
 }
 
 /// Brings the pictures of the shards' reports together. @param shards in the order of the files.
@@ -258,12 +273,10 @@ Result<void> TestCommand::copy_pictures(const std::vector<Results>& shards) cons
       for (const ReportPicture kind : kReportPictures) {
         const std::string name = report_picture_name(row.scene, kind);
         if (!fs::exists(from / name, code)) continue;
-        fs::copy_file(from / name, fs::path(*html_) / name, fs::copy_options::overwrite_existing,
-                      code);
-        if (code) {
-          return Error{fmt::format("cannot copy {}: {}; look at both folders",
-                                   game::quote_text((from / name).string()), code.message())};
-        }
+        const auto picture = platform::read_text(from / name, platform::kMaxPngFileBytes);
+        if (!picture) return picture.error();
+        if (const auto copied = write_text(report_->path() / name, *picture); !copied)
+          return copied;
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/skerry/report/report_folder.h"
 #include "tools/skerry/scene/arguments.h"
 #include "tools/skerry/test/pool.h"
 
@@ -23,13 +24,13 @@ class TestCommand {
 
  private:
   std::optional<Refusal> check_typed();
-  std::optional<Refusal> check_outputs() const;
+  std::optional<Refusal> check_outputs();
   int draw_and_judge();
   int merge_shards();
   std::optional<Refusal> read_set(std::vector<TestScene>& scenes, std::size_t& in_set) const;
   Result<void> approve(const std::vector<TestScene>& scenes,
                        const std::vector<Outcome>& outcomes) const;
-  Result<void> write_outputs(Results results) const;
+  Result<void> write_outputs(Results results);
   Result<void> copy_pictures(const std::vector<Results>& shards) const;
 
   CLI::App* test_;
@@ -39,6 +40,7 @@ class TestCommand {
   bool approve_ = false, merge_ = false, validate_ = false;
   Shard shard_;
   PoolOptions pool_;
+  std::optional<ReportFolder> report_;  // for html_
 };
 
 }  // namespace skerry::tools

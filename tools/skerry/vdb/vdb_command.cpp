@@ -104,6 +104,7 @@ void VdbCommand::add_export() {
                    "world without a seed)")
       ->type_name("X0,Y0,Z0,X1,Y1,Z1");
   export_->add_option("--out", out_, "Where the volumes go")->type_name("FILE.vdb")->required();
+  export_->add_flag("--partial", partial_, "Export what is left of a damaged world");
 }
 
 int VdbCommand::run() {
@@ -130,6 +131,7 @@ int VdbCommand::run_export() {
   if (seed_) options.seed_text = *seed_;
   options.world = world_;
   options.out = *out_;
+  options.partial = partial_;
   if (box_) {
     const Result<world::BlockBox> box = parse_box(*box_);
     if (!box) return fail(kUsage, box.error());

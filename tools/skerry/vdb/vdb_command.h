@@ -32,7 +32,7 @@ class VdbCommand {
   CLI::App* import_;
   CLI::App* export_;
   std::string file_;
-  bool json_ = false;
+  bool json_ = false, partial_ = false;
   std::optional<std::string> grid_, scale_, size_, threshold_, up_;  ///< of import
   std::optional<std::string> seed_, world_, box_;                    ///< of export
   std::optional<std::string> out_;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/clock.h"
+#include "engine/core/log.h"
 #include "game/scene_file/parse.h"
 #include "game/worlds/open_world.h"
 #include "game/worlds/vdb_world.h"
@@ -106,8 +107,13 @@ int vdb_export(const VdbExportOptions& options) {
   game::SceneOptions scene;
   scene.seed_text = options.seed_text;
   scene.world = options.world;
-  auto world = game::open_world(scene);
+  std::vector<std::string> damage;
+  auto world = game::open_world(scene, damage);
   if (!world) return fail(kFailed, world.error());
+  if (!damage.empty() && !options.partial)
+    return fail(kFailed, {"cannot export all of it: " + damage.front() +
+                          "; give --partial to export the rest"});
+  for (const std::string& line : damage) log_warning(line);
   ProgressBar bar;
   const Stopwatch watch;
   const auto grids = world::volumes_of(**world, options.box.value_or(whole_world()),
@@ -122,8 +128,10 @@ int vdb_export(const VdbExportOptions& options) {
   for (const world::VolumeGrid& grid : *grids)
     fmt::print("{}: {} voxels, {} bricks, {} tiles\n", grid.name, grid.active_voxels,
                grid.bricks.size(), grid.tiles.size());
-  fmt::print("collected in {:.2f} s, written and read back in {:.2f} s, {} bytes\n", collected_s,
-             watch.seconds() - collected_s, std::filesystem::file_size(options.out));
+  std::error_code stream;  // which has no size
+  const std::uintmax_t bytes = std::filesystem::file_size(options.out, stream);
+  fmt::print("collected in {:.2f} s, written and read back in {:.2f} s{}\n", collected_s,
+             watch.seconds() - collected_s, stream ? "" : fmt::format(", {} bytes", bytes));
   return kDone;
 }
 

@@ -24,8 +24,10 @@ struct VdbExportOptions {
   std::optional<std::string> world;    ///< a file in place of a seed
   std::optional<world::BlockBox> box;  ///< none: all islands of a world that no seed made
   std::filesystem::path out;
+  bool partial = false;  ///< a damaged world's rest, too
 };
-/// `skerry vdb export`: writes islands to a .vdb file. @return exit status.
+/// `skerry vdb export`: writes islands to a .vdb file. @return exit status: kFailed for a world
+/// that has lost something, unless a part is enough.
 int vdb_export(const VdbExportOptions& options);
 
 }  // namespace skerry::tools
