@@ -6,38 +6,56 @@ file(GLOB shader_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*.vert ${
 set(shader_dir ${CMAKE_BINARY_DIR}/shaders)
 file(MAKE_DIRECTORY ${shader_dir})
 set(spirv_files)
-set(table "")
+set(full_files)
+set(names)
+set(name_constants "")
 set(assembly "")
 foreach(source ${shader_sources})
   get_filename_component(name ${source} NAME)
   set(spirv ${shader_dir}/${name}.spv)
-  # -g keeps names for the reflection test in an unoptimised twin; the shipped one is optimised.
+  # The unoptimised twin holds all that the source declares, and names for the tests; the optimised one is shipped.
   add_custom_command(OUTPUT ${shader_dir}/${name}.full.spv ${spirv}
     COMMAND ${GLSLANG} --target-env vulkan1.2 -g -Od --quiet -I${CMAKE_SOURCE_DIR}/shaders -I${CMAKE_SOURCE_DIR}/shaders/shared ${source} --depfile ${shader_dir}/${name}.d -o ${shader_dir}/${name}.full.spv
     COMMAND ${SPIRV_OPT} -O --strip-debug ${shader_dir}/${name}.full.spv -o ${spirv}
     DEPENDS ${source} DEPFILE ${shader_dir}/${name}.d COMMENT "Compiling shader ${name}" VERBATIM)
   list(APPEND spirv_files ${spirv})
+  list(APPEND full_files ${shader_dir}/${name}.full.spv)
+  list(APPEND names ${name})
+  # march_clouds.comp is programs::kMarchClouds, draw_quads.vert is programs::kDrawQuadsVert.
+  string(REGEX REPLACE "\\.comp$" "" words ${name})
+  string(REGEX REPLACE "[_.]" ";" words ${words})
+  set(constant k)
+  foreach(word ${words})
+    string(SUBSTRING ${word} 0 1 first)
+    string(SUBSTRING ${word} 1 -1 rest)
+    string(TOUPPER ${first} first)
+    string(APPEND constant ${first}${rest})
+  endforeach()
+  string(APPEND name_constants "inline constexpr const char* ${constant} = \"${name}\";\n")
   string(MAKE_C_IDENTIFIER ${name} id)
   string(APPEND assembly ".balign 16\n.global skerry_shader_${id}\nskerry_shader_${id}:\n.incbin \"${spirv}\"\n.global skerry_shader_${id}_end\nskerry_shader_${id}_end:\n")
-  string(APPEND externs "extern const unsigned char skerry_shader_${id}[], skerry_shader_${id}_end[];\n")
-  string(APPEND entries "  {\"${name}\", skerry_shader_${id}, skerry_shader_${id}_end},\n")
 endforeach()
-if(spirv_files)
-  enable_language(ASM)
-  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/shader_blob.S CONTENT ".section .rodata\n${assembly}.section .note.GNU-stack,\"\",%progbits\n" @ONLY)
-  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/shader_table.cpp CONTENT
-"// Generated: every compiled shader, embedded.
-#include \"engine/gpu/program/shader_table.h\"
-extern \"C\" {
-${externs}}
-namespace skerry::gpu {
-static const EmbeddedShader kShaders[] = {
-${entries}};
-std::span<const EmbeddedShader> embedded_shaders() { return kShaders; }
-}  // namespace skerry::gpu
+
+# Passes name programs by these constants: one that is not there does not compile.
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/shader_names.h CONTENT
+"// Generated: the programs there are.
+#pragma once
+
+namespace skerry::programs {
+${name_constants}}  // namespace skerry::programs
 " @ONLY)
-  set_source_files_properties(${CMAKE_BINARY_DIR}/generated/shader_blob.S PROPERTIES OBJECT_DEPENDS "${spirv_files}")
-  add_library(skerry_shaders STATIC ${CMAKE_BINARY_DIR}/generated/shader_blob.S ${CMAKE_BINARY_DIR}/generated/shader_table.cpp)
-  target_link_libraries(skerry_shaders PUBLIC skerry_options)
-  target_link_libraries(skerry_gpu PUBLIC skerry_shaders)
-endif()
+
+# What passes must bind is what the sources declare; the build ends with a source that declares what it does not use.
+add_executable(skerry_shader_table ${CMAKE_SOURCE_DIR}/tools/shader_table/main.cpp ${CMAKE_SOURCE_DIR}/engine/gpu/program/reflection.cpp)
+target_link_libraries(skerry_shader_table PRIVATE skerry_options)
+set(shader_table ${CMAKE_BINARY_DIR}/generated/shader_table.cpp)
+add_custom_command(OUTPUT ${shader_table}
+  COMMAND skerry_shader_table ${shader_table} ${shader_dir} ${names}
+  DEPENDS skerry_shader_table ${full_files} COMMENT "Listing what shaders declare" VERBATIM)
+
+enable_language(ASM)
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/shader_blob.S CONTENT ".section .rodata\n${assembly}.section .note.GNU-stack,\"\",%progbits\n" @ONLY)
+set_source_files_properties(${CMAKE_BINARY_DIR}/generated/shader_blob.S PROPERTIES OBJECT_DEPENDS "${spirv_files}")
+add_library(skerry_shaders STATIC ${CMAKE_BINARY_DIR}/generated/shader_blob.S ${shader_table})
+target_link_libraries(skerry_shaders PUBLIC skerry_options)
+target_link_libraries(skerry_gpu PUBLIC skerry_shaders)

@@ -6,18 +6,19 @@
 #include "shared/clusters.h"
 #include "shared/frame.h"
 #include "shared/light.h"
+#include "shared/bindings.h"
 
 layout(local_size_x = 64) in;
 
-layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
-layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = 2) readonly buffer Large { TileDepths tiles[]; };
-layout(scalar, binding = 3) readonly buffer Bins { uint bins[]; };
-layout(scalar, binding = 4) readonly buffer Work { ClusterWork work; };
-layout(scalar, binding = 5) readonly buffer Occupied { uint occupied[]; };
-layout(scalar, binding = 6) buffer Counts { uint counts[]; };  // [slot][chunk]; in the second run where the chunk's part of the list begins
-layout(scalar, binding = 7) readonly buffer Clusters { Cluster clusters[]; };
-layout(scalar, binding = 8) writeonly buffer Entries { uint entries[]; };
+layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = kLightsBinding) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = kGridTilesBinding) readonly buffer Large { TileDepths tiles[]; };
+layout(scalar, binding = kLightBinsBinding) readonly buffer Bins { uint bins[]; };
+layout(scalar, binding = kClusterWorkBinding) readonly buffer Work { ClusterWork work; };
+layout(scalar, binding = kOccupiedClustersBinding) readonly buffer Occupied { uint occupied[]; };
+layout(scalar, binding = kLightCountsBinding) buffer Counts { uint counts[]; };  // [slot][chunk]; in the second run where the chunk's part of the list begins
+layout(scalar, binding = kClustersBinding) readonly buffer Clusters { Cluster clusters[]; };
+layout(scalar, binding = kLightEntriesBinding) writeonly buffer Entries { uint entries[]; };
 layout(push_constant) uniform Push { uint list; } push;  // 0: count, 1: list
 
 #include "include/clusters.glsl"

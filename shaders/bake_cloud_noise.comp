@@ -4,10 +4,11 @@
 // Fills the tiling noise of the cloud layer, once: red the shapes, green and blue small and smaller billows, alpha a smooth field.
 // Cells that repeat make it tile. Twin, written on its own: tools/reference/cloud_noise.cpp.
 #include "shared/clouds.h"
+#include "shared/bindings.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0, rgba8) writeonly uniform image3D noise;
+layout(binding = kCloudNoiseBinding, rgba8) writeonly uniform image3D noise;
 
 uint hashed(uvec3 v) {
   uint h = v.x * 1664525u + v.y * 1013904223u + v.z * 374761393u;

@@ -4,11 +4,12 @@
 // Fills the sky-view table, kSkyLutWidth x kSkyLutHeight, once whenever sun or moon have moved: the
 // sky's own light and, by night, the Milky Way.
 #include "include/sky.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = kSkyLutGroup, local_size_y = kSkyLutGroup) in;
 
-layout(scalar, binding = 0) uniform Sky { SkyConstants sky; };
-layout(binding = 1, rgba16f) writeonly uniform image2D sky_lut;
+layout(scalar, binding = kSkyBinding) uniform Sky { SkyConstants sky; };
+layout(binding = kSkyTableBinding, rgba16f) writeonly uniform image2D sky_lut;
 
 const float kMilkyWay = 3.0e-4;  // radiance in its middle
 

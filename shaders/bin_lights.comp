@@ -5,13 +5,14 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/clusters.h"
 #include "shared/light.h"
+#include "shared/bindings.h"
 
 layout(local_size_x = 64) in;
 
-layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
-layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = 2) readonly buffer Large { TileDepths tiles[]; };
-layout(scalar, binding = 3) writeonly buffer Bins { uint bins[]; };  // [bin][word]
+layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = kLightsBinding) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = kGridTilesBinding) readonly buffer Large { TileDepths tiles[]; };
+layout(scalar, binding = kLightBinsBinding) writeonly buffer Bins { uint bins[]; };  // [bin][word]
 
 #include "include/clusters.glsl"
 

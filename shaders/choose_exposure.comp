@@ -4,11 +4,12 @@
 // sums run in a fixed order. docs/exposure.md, docs/conventions.md.
 #extension GL_EXT_scalar_block_layout : require
 #include "include/meter.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = kHistogramBins) in;
 
-layout(scalar, binding = 0) readonly buffer Histogram { uint counts[kHistogramBins]; };
-layout(scalar, binding = 1) buffer Chosen { Exposure exposure; };
+layout(scalar, binding = kHistogramBinding) readonly buffer Histogram { uint counts[kHistogramBins]; };
+layout(scalar, binding = kExposureBinding) buffer Chosen { Exposure exposure; };
 layout(push_constant) uniform Push { Metering metering; } push;
 
 shared uint counted[kHistogramBins];

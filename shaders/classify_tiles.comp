@@ -3,12 +3,13 @@
 // Sorts 8x8-pixel tiles into those with surfaces and those with open pixels (a tile may be both), so that each shader runs where it is
 // needed only: lavapipe runs both sides of every branch, and on any device a tile's pixels then do the same. docs/conventions.md.
 #include "include/common.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = 64) in;
 
-layout(binding = 0, r32ui) readonly uniform uimage2D surfaces;
-layout(scalar, binding = 1) buffer Dispatches { TileDispatch dispatches[2]; };  // 0 covered, 1 open
-layout(scalar, binding = 2) writeonly buffer Tiles { uint tiles[]; };           // [kind][tile]
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[2]; };  // 0 covered, 1 open
+layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };           // [kind][tile]
 layout(push_constant) uniform Push { uvec2 size; uvec2 tile_count; } push;
 
 void list_tile(uint kind, uint tile) {

@@ -2,14 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 // Step 3 of 3: writes the indirect commands of every view and list, in section order. docs/conventions.md.
 #include "include/cull.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = 256) in;
 
-layout(scalar, binding = 0) readonly buffer Sections { Section sections[]; };
-layout(scalar, binding = 1) readonly buffer Masks { uint masks[]; };
-layout(scalar, binding = 2) readonly buffer Totals { uint group_offsets[]; };
-layout(scalar, binding = 3) readonly buffer Views { CullView views[]; };
-layout(scalar, binding = 4) writeonly buffer Draws { DrawCommand draws[]; };  // [view][list][max_draws]
+layout(scalar, binding = kSectionsBinding) readonly buffer Sections { Section sections[]; };
+layout(scalar, binding = kCullMasksBinding) readonly buffer Masks { uint masks[]; };
+layout(scalar, binding = kCullTotalsBinding) readonly buffer Totals { uint group_offsets[]; };
+layout(scalar, binding = kCullViewsBinding) readonly buffer Views { CullView views[]; };
+layout(scalar, binding = kDrawCommandsBinding) writeonly buffer Draws { DrawCommand draws[]; };  // [view][list][max_draws]
 layout(push_constant) uniform Push { uint section_count; uint group_count; uint max_draws; } push;
 
 shared uint sums[256];

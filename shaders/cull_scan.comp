@@ -3,11 +3,12 @@
 // Step 2 of 3: where each group's draws begin. One work group a list; exclusive scan of the group totals in place, the sum becomes
 // the list's draw count. docs/conventions.md.
 #include "include/cull.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = 256) in;
 
-layout(scalar, binding = 0) buffer Totals { uint group_totals[]; };        // [view][list][group]
-layout(scalar, binding = 1) writeonly buffer Counts { uint draw_counts[]; }; // [view][list]
+layout(scalar, binding = kCullTotalsBinding) buffer Totals { uint group_totals[]; };        // [view][list][group]
+layout(scalar, binding = kDrawCountsBinding) writeonly buffer Counts { uint draw_counts[]; }; // [view][list]
 layout(push_constant) uniform Push { uint group_count; uint max_draws; } push;
 
 shared uint sums[256];

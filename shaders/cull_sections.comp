@@ -3,16 +3,17 @@
 // Step 1 of 3: which ranges of each section a view needs (frustum, then the directions its faces look in), and how many draws each
 // work group of sections makes. One thread a section, one row of groups a view. docs/conventions.md.
 #include "include/cull.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = 256) in;
 
-layout(scalar, binding = 0) readonly buffer Sections { Section sections[]; };
-layout(scalar, binding = 1) readonly buffer Islands { IslandTransform islands[]; };
-layout(scalar, binding = 2) readonly buffer Views { CullView views[]; };
-layout(scalar, binding = 3) writeonly buffer Masks { uint masks[]; };         // [view][section]
-layout(scalar, binding = 4) writeonly buffer Totals { uint group_totals[]; }; // [view][list][group]
-layout(scalar, binding = 5) buffer Stats { CullStats stats[]; };              // [view]
-layout(scalar, binding = 6) writeonly buffer Transforms { SectionTransform transforms[]; };  // [view][section]
+layout(scalar, binding = kSectionsBinding) readonly buffer Sections { Section sections[]; };
+layout(scalar, binding = kIslandsBinding) readonly buffer Islands { IslandTransform islands[]; };
+layout(scalar, binding = kCullViewsBinding) readonly buffer Views { CullView views[]; };
+layout(scalar, binding = kCullMasksBinding) writeonly buffer Masks { uint masks[]; };         // [view][section]
+layout(scalar, binding = kCullTotalsBinding) writeonly buffer Totals { uint group_totals[]; }; // [view][list][group]
+layout(scalar, binding = kCullStatsBinding) buffer Stats { CullStats stats[]; };              // [view]
+layout(scalar, binding = kSectionTransformsBinding) writeonly buffer Transforms { SectionTransform transforms[]; };  // [view][section]
 layout(push_constant) uniform Push { uint section_count; uint group_count; uint islands_per_view; } push;
 
 shared uint draws_of_list[3];

@@ -3,15 +3,17 @@
 // Outline and cracks of the block pointed at, over the developed picture and behind what is nearer. docs/conventions.md.
 #include "include/common.glsl"
 #include "shared/marker.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(binding = 4) uniform sampler2D depths;
-layout(binding = 6, rgba8) uniform image2D picture;
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kPictureBinding, rgba8) uniform image2D picture;
 layout(scalar, push_constant) uniform Push { MarkerConstants marker; } push;
 
-layout(constant_id = 0) const uint kSamplesPerEdge = 1u;  // of a pixel, in the depth image
+layout(constant_id = kSamplesPerEdgeConstant) const uint kSamplesPerEdge = 1u;  // of a pixel, in the depth image
 
 const float kRim = 1.0;            // pixels of light around a line, so that it shows before what is dark, too
 const float kLineCover = 0.85, kRimCover = 0.22, kCrackCover = 0.65, kCrackRim = 0.1;

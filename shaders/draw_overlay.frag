@@ -1,8 +1,10 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/bindings.h"
 // Overlay text and panels, in sRGB values as ImGui blends them. Pixels: docs/conventions.md.
 
-layout(binding = 2) uniform sampler2D font;      // coverage in red
-layout(binding = 3) uniform sampler2D pictures;  // sRGB values, straight alpha
+layout(binding = kFontBinding) uniform sampler2D font;      // coverage in red
+layout(binding = kOverlayPicturesBinding) uniform sampler2D pictures;  // sRGB values, straight alpha
 
 layout(location = 0) in vec2 in_uv;
 layout(location = 1) in vec4 in_color;

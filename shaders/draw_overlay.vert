@@ -3,9 +3,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shared/overlay.h"
+#include "shared/bindings.h"
 
-layout(binding = 0, scalar) readonly buffer Vertices { OverlayVertex vertices[]; };
-layout(binding = 1, scalar) readonly buffer Clips { vec4 clips[]; };  // min x, min y, max x, max y [pixels]
+layout(binding = kOverlayVerticesBinding, scalar) readonly buffer Vertices { OverlayVertex vertices[]; };
+layout(binding = kOverlayClipsBinding, scalar) readonly buffer Clips { vec4 clips[]; };  // min x, min y, max x, max y [pixels]
 layout(push_constant, scalar) uniform Constants { OverlayConstants constants; };
 
 layout(location = 0) out vec2 out_uv;

@@ -3,16 +3,18 @@
 // Pulls one corner of a merged quad. Indexed draws: vertex = 4 * quad + corner, firstInstance = section. docs/conventions.md.
 // Two loads of the quad and three of its section are all a vertex reads: on lavapipe loads are what vertices cost.
 #include "include/common.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
-layout(scalar, binding = 0) readonly buffer Quads { uvec2 quads[]; };  // Quad
-layout(scalar, binding = 1) readonly buffer Transforms { SectionTransform transforms[]; };
+layout(scalar, binding = kQuadsBinding) readonly buffer Quads { uvec2 quads[]; };  // Quad
+layout(scalar, binding = kSectionTransformsBinding) readonly buffer Transforms { SectionTransform transforms[]; };
 layout(push_constant, scalar) uniform Push {
   mat4 clip_from_source;  // of this view
   uint first_transform;   // of this view
   float growth;           // see below, blocks a block of distance (of an orthographic view: blocks)
 } push;
 
-layout(constant_id = 0) const bool kTextured = false;  // cut-outs need texture coordinates
+layout(constant_id = kTexturedConstant) const bool kTextured = false;  // cut-outs need texture coordinates
 
 layout(location = 0) flat out uint out_surface;
 layout(location = 1) out vec2 out_uv;

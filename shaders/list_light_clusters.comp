@@ -3,14 +3,15 @@
 // Lists the clusters that show something. Their order depends on timing; nothing else does. docs/conventions.md.
 #include "include/common.glsl"
 #include "shared/clusters.h"
+#include "shared/bindings.h"
 
 layout(local_size_x = 64) in;
 
-layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
-layout(scalar, binding = 1) readonly buffer Small { TileDepths small_tiles[]; };  // of 8x8 pixels
-layout(scalar, binding = 2) writeonly buffer Large { TileDepths tiles[]; };       // of the grid
-layout(scalar, binding = 3) buffer Work { ClusterWork work; };
-layout(scalar, binding = 4) writeonly buffer Occupied { uint occupied[]; };
+layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = kTileDepthsBinding) readonly buffer Small { TileDepths small_tiles[]; };  // of 8x8 pixels
+layout(scalar, binding = kGridTilesBinding) writeonly buffer Large { TileDepths tiles[]; };       // of the grid
+layout(scalar, binding = kClusterWorkBinding) buffer Work { ClusterWork work; };
+layout(scalar, binding = kOccupiedClustersBinding) writeonly buffer Occupied { uint occupied[]; };
 
 #include "include/clusters.glsl"
 

@@ -3,16 +3,18 @@
 // Lists the 8x8-pixel tiles that some light reaches, for shade_lights. docs/conventions.md.
 #include "include/common.glsl"
 #include "shared/clusters.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = 64) in;
 
-layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
-layout(scalar, binding = 1) readonly buffer Small { TileDepths small_tiles[]; };
-layout(scalar, binding = 2) readonly buffer Clusters { Cluster clusters[]; };
-layout(scalar, binding = 3) buffer Dispatches { TileDispatch dispatch; };
-layout(scalar, binding = 4) writeonly buffer Tiles { uint tiles[]; };
+layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = kTileDepthsBinding) readonly buffer Small { TileDepths small_tiles[]; };
+layout(scalar, binding = kClustersBinding) readonly buffer Clusters { Cluster clusters[]; };
+layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatch; };
+layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };
 
-layout(constant_id = 16) const bool kOracle = false;  // every light may reach every tile
+layout(constant_id = kOracleConstant) const bool kOracle = false;  // every light may reach every tile
 
 #include "include/clusters.glsl"
 

@@ -4,20 +4,22 @@
 // docs/conventions.md.
 #include "include/common.glsl"
 #include "shared/clusters.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = 64) in;
 
-layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
-layout(binding = 1) uniform sampler2D depths;
-layout(binding = 2, r32ui) readonly uniform uimage2D surfaces;
-layout(binding = 3) uniform sampler2D layer_depths_0;
-layout(binding = 4) uniform sampler2D layer_depths_1;
-layout(binding = 5) uniform sampler2D layer_depths_2;
-layout(binding = 6) uniform sampler2D layer_depths_3;
-layout(scalar, binding = 7) writeonly buffer TilesOut { TileDepths tiles[]; };
+layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths_0;
+layout(binding = kLayerDepthsBinding + 1u) uniform sampler2D layer_depths_1;
+layout(binding = kLayerDepthsBinding + 2u) uniform sampler2D layer_depths_2;
+layout(binding = kLayerDepthsBinding + 3u) uniform sampler2D layer_depths_3;
+layout(scalar, binding = kTileDepthsBinding) writeonly buffer TilesOut { TileDepths tiles[]; };
 
-layout(constant_id = 0) const uint kLayers = 0u;       // of translucent surfaces, 0..4
-layout(constant_id = 6) const bool kDepth16 = false;  // what lies farthest then has depth 0, and only its word tells it from the sky
+layout(constant_id = kLayersConstant) const uint kLayers = 0u;       // of translucent surfaces, 0..4
+layout(constant_id = kDepth16Constant) const bool kDepth16 = false;  // what lies farthest then has depth 0, and only its word tells it from the sky
 
 #include "include/clusters.glsl"
 

@@ -4,12 +4,13 @@
 // random and is always the same. Integer counts: no order of work groups shows. docs/exposure.md.
 #include "include/common.glsl"
 #include "include/meter.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = kMeterGroup, local_size_y = kMeterGroup) in;
 
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(binding = 1, rgba16f) readonly uniform image2D radiance;
-layout(scalar, binding = 2) buffer Histogram { uint counts[kHistogramBins]; };
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
+layout(scalar, binding = kHistogramBinding) buffer Histogram { uint counts[kHistogramBins]; };
 layout(push_constant) uniform Push { Metering metering; } push;
 
 shared uint here[kHistogramBins];

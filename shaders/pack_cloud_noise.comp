@@ -4,13 +4,14 @@
 // weather, which is asked for at height 0 alone. What a ray asks for lies close together, for waiting for memory is most of what it costs on CPUs.
 // docs/clouds.md.
 #include "shared/clouds.h"
+#include "shared/bindings.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0) uniform sampler3D noise;
-layout(binding = 1, rgba8) writeonly uniform image2D weather;
-layout(binding = 2, rgba8) writeonly uniform image2D shapes;  // the layer that is filled
-layout(binding = 3, rgba8) writeonly uniform image2D billows;
+layout(binding = kCloudNoiseBinding) uniform sampler3D noise;
+layout(binding = kCloudWeatherBinding, rgba8) writeonly uniform image2D weather;
+layout(binding = kCloudShapesBinding, rgba8) writeonly uniform image2D shapes;  // the layer that is filled
+layout(binding = kCloudBillowsBinding, rgba8) writeonly uniform image2D billows;
 layout(push_constant) uniform Push { uint layer; } push;
 
 const vec2 kBillowShares = vec2(0.6, 0.4);  // of the small, of the smaller

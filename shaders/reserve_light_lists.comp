@@ -5,14 +5,15 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/clusters.h"
 #include "shared/frame.h"
+#include "shared/bindings.h"
 
 layout(local_size_x = 64) in;
 
-layout(scalar, binding = 0) uniform Grid { ClusterGrid grid; };
-layout(scalar, binding = 1) buffer Work { ClusterWork work; };
-layout(scalar, binding = 2) readonly buffer Occupied { uint occupied[]; };
-layout(scalar, binding = 3) buffer Counts { uint counts[]; };  // [slot][chunk]: of lights; becomes where the chunk's part of the list begins
-layout(scalar, binding = 4) writeonly buffer Clusters { Cluster clusters[]; };
+layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = kClusterWorkBinding) buffer Work { ClusterWork work; };
+layout(scalar, binding = kOccupiedClustersBinding) readonly buffer Occupied { uint occupied[]; };
+layout(scalar, binding = kLightCountsBinding) buffer Counts { uint counts[]; };  // [slot][chunk]: of lights; becomes where the chunk's part of the list begins
+layout(scalar, binding = kClustersBinding) writeonly buffer Clusters { Cluster clusters[]; };
 
 void main() {
   uint slot = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * kClusterGroup + gl_LocalInvocationIndex;

@@ -1,4 +1,47 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Deferred light of the frame's lights. docs/conventions.md.
-#include "include/shade_lights.glsl"
+// Adds the light of the clusters' lights to the surfaces of the tiles that have any, in place on the radiance image.
+// The air only takes from it: haze glows of sun and moon alone. docs/conventions.md.
+#define SKERRY_STORED
+#include "include/common.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
+layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
+layout(binding = kRadianceBinding, rgba16f) uniform image2D radiance;
+
+layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
+
+#include "include/tiles.glsl"
+#include "include/surface.glsl"
+#include "include/reflection.glsl"
+#include "include/clustered.glsl"
+#include "include/corners.glsl"
+#include "include/traced.glsl"
+#include "include/blocked_lights.glsl"
+
+void main() {
+  uvec2 pixel;
+  bool here = tile_pixel(pixel);
+  uint word = imageLoad(surfaces, ivec2(pixel)).r;
+  here = here && word != 0u;
+  float depth = here ? surface_depth(texelFetch(depths, ivec2(pixel), 0).r) : 1.0;
+  Cluster list = lights_at(pixel, view_distance(depth, frame.near_plane));
+  if (!here) list.count = 0u;
+  Surface s = resolve_surface(word, ivec2(pixel), depth, pixel_ray(pixel), kTextureTaps);
+  vec3 to_eye = -normalize(s.position);
+  Brdf b = surface_brdf(s, to_eye);
+  s.openness = surface_openness(s, word);
+  vec3 light = lights_reflected(list, b, way_start(s, word), to_eye) * s.openness;
+  vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb + light * clear_air(s.position);
+  if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
+  if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
+}

@@ -1,5 +1,65 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Water and glass with shadow maps. docs/conventions.md.
-#define SKERRY_SHADOWS
-#include "include/shade_translucent.glsl"
+// Looks through the peeled layers of water and glass from front to back: absorption along each stretch
+// inside a medium, light scattered towards the eye, and at each surface Fresnel reflection. In place on the radiance image. docs/conventions.md.
+#include "include/common.glsl"
+#include "shared/sky.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
+layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
+layout(binding = kRadianceBinding, rgba16f) uniform image2D radiance;
+layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
+layout(binding = kLayerSurfacesBinding, r32ui) readonly uniform uimage2D layer_surfaces_0;
+layout(binding = kLayerSurfacesBinding + 1u, r32ui) readonly uniform uimage2D layer_surfaces_1;
+layout(binding = kLayerSurfacesBinding + 2u, r32ui) readonly uniform uimage2D layer_surfaces_2;
+layout(binding = kLayerSurfacesBinding + 3u, r32ui) readonly uniform uimage2D layer_surfaces_3;
+layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths_0;
+layout(binding = kLayerDepthsBinding + 1u) uniform sampler2D layer_depths_1;
+layout(binding = kLayerDepthsBinding + 2u) uniform sampler2D layer_depths_2;
+layout(binding = kLayerDepthsBinding + 3u) uniform sampler2D layer_depths_3;
+
+uint layer_surface(uint k, ivec2 pixel) {
+  return k == 0u ? imageLoad(layer_surfaces_0, pixel).r
+                 : k == 1u ? imageLoad(layer_surfaces_1, pixel).r
+                           : k == 2u ? imageLoad(layer_surfaces_2, pixel).r : imageLoad(layer_surfaces_3, pixel).r;
+}
+float layer_depth(uint k, ivec2 pixel) {
+  return k == 0u ? texelFetch(layer_depths_0, pixel, 0).r
+                 : k == 1u ? texelFetch(layer_depths_1, pixel, 0).r
+                           : k == 2u ? texelFetch(layer_depths_2, pixel, 0).r : texelFetch(layer_depths_3, pixel, 0).r;
+}
+
+layout(binding = kMirroredCloudsBinding) uniform sampler2D mirrored_clouds;
+layout(constant_id = kMirroredCloudsConstant) const bool kMirroredClouds = false;  // whether they are known
+
+layout(constant_id = kLayersConstant) const uint kLayers = 3u;
+
+#include "include/tiles.glsl"
+#include "include/surface.glsl"
+#include "include/sky.glsl"
+#include "include/lighting.glsl"
+#include "include/clustered.glsl"
+#include "include/traced.glsl"
+#include "include/ripples.glsl"
+#include "include/mirrored_clouds.glsl"
+#include "include/water.glsl"
+
+void main() {
+  uvec2 pixel;
+  bool here = tile_pixel(pixel);
+  // A mixed tile is in both lists: each list does its own pixels.
+  here = here && (layer_surface(0u, ivec2(pixel)) != 0u) == (push.kind == 0u);
+  vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
+  vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
+  if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
+  if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
+}

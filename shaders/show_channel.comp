@@ -1,5 +1,69 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Debug views with shadow maps. docs/conventions.md.
-#define SKERRY_SHADOWS
-#include "include/show_channel.glsl"
+// One channel of the G-buffer, or one term of the light, in place of the lit scene. docs/conventions.md.
+#define SKERRY_STORED
+#include "include/common.glsl"
+#include "shared/exposure.h"
+#include "shared/sky.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
+layout(binding = kPictureBinding, rgba8) writeonly uniform image2D picture;
+layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
+
+layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; };
+
+layout(constant_id = kChannelConstant) const uint kChannel = 1u;  // render::DebugView
+
+#include "include/surface.glsl"
+#include "include/sky.glsl"
+#include "include/visibility.glsl"
+#include "include/corners.glsl"
+#include "include/tonemap.glsl"
+
+vec3 hashed_colour(uint id) {
+  uint h = id * 0x9e3779b1u;
+  h ^= h >> 15;
+  h *= 0x85ebca77u;
+  return vec3((h >> 8) & 255u, (h >> 16) & 255u, h >> 24) / 255.0;
+}
+
+uint cascade_at(Body body, float distance) {
+  uint c = body.first_cascade;
+  while (c < body.first_cascade + body.cascade_count && distance > frame.cascades[c].radius) ++c;
+  return c;
+}
+
+vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
+  Surface s = resolve_surface(word, pixel, depth, ray, 1u);
+  if (kChannel == 1u) return srgb_encode(s.albedo);
+  if (kChannel == 2u) return s.normal * 0.5 + 0.5;
+  // Position in its island's lattice: red, green, blue repeat every block along x, y, z.
+  if (kChannel == 3u) return fract(lattice_from_world(islands[surface_island(word)], s.position));
+  if (kChannel == 4u) return hashed_colour(surface_block(word) | (surface_island(word) << 16));
+  if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * exp2(-exposure.ev)));
+  if (kChannel == 6u) return vec3(fract(log2(view_distance(depth, frame.near_plane))));
+  if (kChannel == 9u) return vec3(surface_openness(s, word));
+  if (kChannel >= 10u) return vec3(0.0);  // lights, of which there are none: else show_lights.comp is used
+  Body body = frame.bodies[(kBodies & 1u) != 0u ? 0 : 1];
+  if (kChannel == 7u) return hashed_colour(cascade_at(body, length(s.position)) + 3u) * 0.6 + 0.4 * s.albedo;
+  float n_dot_l = dot(s.normal, body.to_light);
+  return vec3(n_dot_l > 0.0 && body.cascade_count != 0u ? surface_visibility(s, body.to_light, 0u, n_dot_l) : 0.0);
+}
+
+void main() {
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(pixel, frame.size))) return;
+  uint word = imageLoad(surfaces, ivec2(pixel)).r;
+  vec3 colour = vec3(0.0);
+  if (word != 0u) colour = channel(word, ivec2(pixel), surface_depth(texelFetch(depths, ivec2(pixel), 0).r), pixel_ray(pixel));
+  imageStore(picture, ivec2(pixel), vec4(clamp(colour, 0.0, 1.0), 1.0));
+}

@@ -5,13 +5,14 @@
 // docs/conventions.md.
 #include "include/common.glsl"
 #include "include/meter.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Histogram { uint counts[kHistogramBins]; };
-layout(scalar, binding = 2) uniform Chosen { Exposure exposure; };
-layout(binding = 3, rgba8) uniform image2D picture;
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kHistogramBinding) readonly buffer Histogram { uint counts[kHistogramBins]; };
+layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; };
+layout(binding = kPictureBinding, rgba8) uniform image2D picture;
 layout(push_constant) uniform Push { Metering metering; } push;
 
 // Column of the mean log2 luminance that is exposed at `ev`.

@@ -2,16 +2,18 @@
 #extension GL_GOOGLE_include_directive : require
 // Debug views of the clusters. docs/conventions.md.
 #include "include/common.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) uniform Islands { IslandTransform islands[kMaxIslands]; };
-layout(binding = 3, r32ui) readonly uniform uimage2D surfaces;
-layout(binding = 4) uniform sampler2D depths;
-layout(binding = 6, rgba8) writeonly uniform image2D picture;
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kPictureBinding, rgba8) writeonly uniform image2D picture;
 
-layout(constant_id = 0) const bool kReaching = false;  // count the lights that light the pixel, not those of its list
+layout(constant_id = kReachingConstant) const bool kReaching = false;  // count the lights that light the pixel, not those of its list
 
 #include "include/clustered.glsl"
 

@@ -5,15 +5,17 @@
 #include "include/common.glsl"
 #include "shared/bloom.h"
 #include "shared/exposure.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0, rgba16f) readonly uniform image2D fine;
-layout(binding = 1, rgba16f) writeonly uniform image2D coarse;
-layout(scalar, binding = 22) uniform Chosen { Exposure exposure; };
+layout(binding = kFineBloomBinding, rgba16f) readonly uniform image2D fine;
+layout(binding = kCoarseBloomBinding, rgba16f) writeonly uniform image2D coarse;
+layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; };
 layout(push_constant) uniform Push { BloomStep step; } push;
 
-layout(constant_id = 0) const bool kFirst = false;  // from radiance: exposes it and takes what is too bright
+layout(constant_id = kFirstConstant) const bool kFirst = false;  // from radiance: exposes it and takes what is too bright
 
 const int kTile = 20;  // texels that 8x8 coarser ones look at, along an edge
 shared vec3 tile[kTile * kTile];

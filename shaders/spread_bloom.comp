@@ -3,11 +3,12 @@
 // Mixes the coarser levels of bloom's pyramid into a finer one, in place. docs/exposure.md, docs/conventions.md.
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/bloom.h"
+#include "shared/bindings.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0, rgba16f) uniform image2D fine;
-layout(binding = 1, rgba16f) readonly uniform image2D coarse;
+layout(binding = kFineBloomBinding, rgba16f) uniform image2D fine;
+layout(binding = kCoarseBloomBinding, rgba16f) readonly uniform image2D coarse;
 layout(push_constant) uniform Push { BloomStep step; } push;
 
 uvec2 coarse_size() { return push.step.coarse_size; }

@@ -4,14 +4,15 @@
 // Optical depth of the cloud layer towards a body, a column an invocation: from the top of the layer down along the light.
 // docs/clouds.md.
 #include "include/cloud_columns.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar, binding = 0) uniform Clouds { CloudConstants clouds; };
-layout(binding = 1) uniform sampler2D cloud_weather;
-layout(binding = 2, r16f) writeonly uniform image3D layer_light;
-layout(binding = 3) uniform sampler2DArray cloud_shapes;
-layout(binding = 4) uniform sampler2DArray cloud_billows;
+layout(scalar, binding = kCloudsBinding) uniform Clouds { CloudConstants clouds; };
+layout(binding = kCloudWeatherBinding) uniform sampler2D cloud_weather;
+layout(binding = kLayerLightBinding, r16f) writeonly uniform image3D layer_light;
+layout(binding = kCloudShapesBinding) uniform sampler2DArray cloud_shapes;
+layout(binding = kCloudBillowsBinding) uniform sampler2DArray cloud_billows;
 layout(push_constant) uniform Push { uint body; } push;
 
 #include "include/cloud_layer.glsl"

@@ -2,13 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Optical depth of a file's grid towards a body: a texel an invocation, along the light to where its way leaves the box. docs/clouds.md.
-#include "include/cloud_light.glsl"
+#include "include/cloud_boxes.glsl"
+#include "shared/bindings.h"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
-layout(binding = 11) uniform sampler3D cloud_cells;
-layout(binding = 13) uniform sampler3D cloud_bricks;
-layout(binding = 14, r16f) writeonly uniform image3D lit;
+layout(binding = kCloudCellsBinding) uniform sampler3D cloud_cells;
+layout(binding = kCloudBricksBinding) uniform sampler3D cloud_bricks;
+layout(binding = kVolumeLightBinding, r16f) writeonly uniform image3D lit;
 layout(push_constant) uniform Push { CloudLightJob job; } push;
 
 #include "include/cloud_volumes.glsl"

@@ -3,14 +3,16 @@
 // One layer of translucent surfaces: the nearest one behind the previous layer and before the opaque surface (depth peeling, Everitt 2001).
 // docs/conventions.md.
 #include "include/common.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(location = 0) flat in uint in_surface;
 layout(location = 0) out uint out_surface;
 
-layout(binding = 4) uniform sampler2D opaque_depth;
-layout(binding = 5) uniform sampler2D previous_depth;  // of the layer before; for the first layer the opaque depth again, unread
+layout(binding = kDepthsBinding) uniform sampler2D opaque_depth;
+layout(binding = kPreviousDepthsBinding) uniform sampler2D previous_depth;  // of the layer before; for the first layer the opaque depth again, unread
 
-layout(constant_id = 1) const bool kFirstLayer = true;
+layout(constant_id = kFirstLayerConstant) const bool kFirstLayer = true;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);

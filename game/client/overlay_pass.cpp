@@ -1,11 +1,13 @@
 #include "game/client/overlay_pass.h"
 
+#include <shader_names.h>
 #include <bit>
 #include <cstring>
 #include <utility>
 
 #include "engine/core/check.h"
 #include "engine/gpu/transfer/uploader.h"
+#include "shaders/shared/bindings.h"
 
 namespace skerry::game {
 namespace {
@@ -85,8 +87,8 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
                        clips = graph.import(buffers.clips);
   const gpu::ImageRef font = graph.import(font_), pictures = graph.import(pictures_);
   const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::GraphicsDesc{.vertex = "draw_overlay.vert",
-                                      .fragment = "draw_overlay.frag",
+      pipelines.get(gpu::GraphicsDesc{.vertex = programs::kDrawOverlayVert,
+                                      .fragment = programs::kDrawOverlayFrag,
                                       .constants = {},
                                       .color_formats = {VK_FORMAT_R8G8B8A8_UNORM},
                                       .cull = VK_CULL_MODE_NONE,
@@ -107,10 +109,10 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
       [&pipeline, vertices, clips, font, pictures, constants, count,
        sampler = sampler_](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, vertices);
-        c.storage(1, clips);
-        c.sampled(2, font, sampler);
-        c.sampled(3, pictures, sampler);
+        c.storage(shared::kOverlayVerticesBinding, vertices);
+        c.storage(shared::kOverlayClipsBinding, clips);
+        c.sampled(shared::kFontBinding, font, sampler);
+        c.sampled(shared::kOverlayPicturesBinding, pictures, sampler);
         c.push(constants);
         c.draw(count, 1);
       });

@@ -2,34 +2,18 @@
 // filled in. Model: docs/clouds.md.
 #ifndef SKERRY_CLOUD_LIGHT_GLSL
 #define SKERRY_CLOUD_LIGHT_GLSL
-#include "shared/clouds.h"
+#include "shared/constants.h"
+#include "include/cloud_boxes.glsl"
 #include "include/cloud_columns.glsl"
 
-layout(scalar, binding = 3) uniform Clouds { CloudConstants clouds; };
-layout(binding = 30) uniform sampler3D layer_light;
-layout(binding = 31) uniform sampler3D volume_light;
+layout(binding = kLayerLightBinding) uniform sampler3D layer_light;
+layout(binding = kVolumeLightBinding) uniform sampler3D volume_light;
 
-layout(constant_id = 20) const bool kCloudLayer = false;
-layout(constant_id = 21) const uint kCloudVolumes = 0u;
-
-vec3 index_from_world(const uint v, vec3 p) {
-  vec4 q = vec4(p, 1.0);
-  return vec3(dot(clouds.volumes[v].index_x, q), dot(clouds.volumes[v].index_y, q), dot(clouds.volumes[v].index_z, q));
-}
-vec3 index_from_world_vector(const uint v, vec3 d) {
-  return vec3(dot(clouds.volumes[v].index_x.xyz, d), dot(clouds.volumes[v].index_y.xyz, d), dot(clouds.volumes[v].index_z.xyz, d));
-}
+layout(constant_id = kCloudLayerConstant) const bool kCloudLayer = false;
+layout(constant_id = kCloudVolumesConstant) const uint kCloudVolumes = 0u;
 
 // Of an image's part, in which values are looked up so far from its ends: what lies beyond takes no part in a blend, for it may be anything.
 const float kRim = 0.51;  // texels
-
-// Where a line in a volume's index space is inside its box: from x to y; x > y: nowhere.
-vec2 box_range(const uint v, vec3 origin, vec3 along) {
-  vec3 safe = mix(along, vec3(1e-20), lessThan(abs(along), vec3(1e-20)));
-  vec3 a = (clouds.volumes[v].low - origin) / safe, b = (clouds.volumes[v].high - origin) / safe;
-  vec3 low = min(a, b), high = max(a, b);
-  return vec2(max(max(low.x, low.y), low.z), min(min(high.x, high.y), high.z));
-}
 
 // A point above the layer reads its top, where nothing is left to pass; one below reads its base, on the same column.
 float layer_depth(const uint body, vec3 p) {

@@ -4,6 +4,7 @@
 // clustered.glsl and traced.glsl have.
 #ifndef SKERRY_CLOUD_MARCH_GLSL
 #define SKERRY_CLOUD_MARCH_GLSL
+#include "shared/constants.h"
 #include "include/cloud_scattering.glsl"
 
 // What a ray through clouds brings.
@@ -23,13 +24,10 @@ const float kLayerStepGrowth = 100.0;  // blocks: the layer's steps are even up 
 
 // Light of a body that islands leave to a place in the open. Past the last map nothing stands in its way.
 float past_islands(const uint first_cascade, vec3 p) {
-#ifdef SKERRY_SHADOWS
+  if (!kShadows) return 1.0;
   uint index = cascades_within(first_cascade, kCascades, length(p));
   Cascade c = pick_cascade(first_cascade, min(index, kCascades - 1u));
   return index >= kCascades ? 1.0 : air_tap(c, p);
-#else
-  return 1.0;
-#endif
 }
 
 // Where a ray is inside the layer; x > y: nowhere.
@@ -81,6 +79,8 @@ vec3 source_at(vec3 p, vec4 sun_phases, vec4 moon_phases, float air, vec3 sky) {
 }
 
 #ifdef SKERRY_LIGHTS
+layout(constant_id = kLitConstant) const bool kLit = false;  // lamps light clouds; if not, their lists are not read
+
 // Mean radiance that a light with nothing in its way but the cloud, taken for as dense as here, makes a stretch of it send to the eye, over its
 // extinction. Light falls off so fast that it is integrated along the stretch, not looked at in its middle.
 vec3 lit_by_light(Light light, vec3 dir, float t, float length_blocks, float extinction) {
@@ -139,6 +139,7 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
 // Where the clusters of a place on a ray end, if lights reach any as far away.
 float lights_change_at(vec3 dir, float t) {
 #ifdef SKERRY_LIGHTS
+  if (!kLit) return 1e30;
   float forward = dot(dir, frame.ray_forward);
   uint slice = slice_at(t * forward);
   // What rounding leaves of a slice is not worth a step.
@@ -226,7 +227,7 @@ Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end,
       if (kCloudVolumes != 0u)
         sent += m.emitted * (clear * clear_air(dir * middle) * (depth > 1e-4 ? opacity / m.extinction : part_blocks));
 #ifdef SKERRY_LIGHTS
-      if (opacity > 0.0 && clear > kHidden)
+      if (kLit && opacity > 0.0 && clear > kHidden)
         sent += lit_by_lights(pixel, dir, from, free_path, m.extinction) * (clear * opacity * clear_air(dir * middle));
 #endif
       seen_share += clear * opacity;

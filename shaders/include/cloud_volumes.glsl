@@ -1,4 +1,4 @@
-// Values of files' grids: bricks in an atlas, found through cells. Needs before the include: what cloud_light.glsl has, `cloud_cells` (sampler3D,
+// Values of files' grids: bricks in an atlas, found through cells. Needs before the include: what cloud_boxes.glsl has, `cloud_cells` (sampler3D,
 // nearest; rgb: the brick's place in the atlas in bricks, a: the largest value within, 0: there is nothing) and `cloud_bricks` (sampler3D, linear).
 #ifndef SKERRY_CLOUD_VOLUMES_GLSL
 #define SKERRY_CLOUD_VOLUMES_GLSL

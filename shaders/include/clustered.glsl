@@ -3,13 +3,15 @@
 #define SKERRY_CLUSTERED_GLSL
 #include "shared/clusters.h"
 #include "shared/light.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
-layout(scalar, binding = 22) uniform Grid { ClusterGrid grid; };
-layout(scalar, binding = 23) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = 24) readonly buffer Clusters { Cluster clusters[]; };
-layout(scalar, binding = 25) readonly buffer Entries { uint entries[]; };
+layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = kLightsBinding) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = kClustersBinding) readonly buffer Clusters { Cluster clusters[]; };
+layout(scalar, binding = kLightEntriesBinding) readonly buffer Entries { uint entries[]; };
 
-layout(constant_id = 16) const bool kOracle = false;  // every pixel asks every light: the truth that clusters are held against
+layout(constant_id = kOracleConstant) const bool kOracle = false;  // every pixel asks every light: the truth that clusters are held against
 
 #include "include/clusters.glsl"
 #include "include/lights.glsl"

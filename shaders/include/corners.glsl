@@ -1,10 +1,11 @@
 // Corners take a part of all light. Needs before the include: `frame`, `islands[]`, surface.glsl.
 #ifndef SKERRY_CORNERS_GLSL
 #define SKERRY_CORNERS_GLSL
+#include "shared/constants.h"
 #include "include/occupancy.glsl"
 
 // Whether they do. If not, some buffers are bound for the occupancy that are never read.
-layout(constant_id = 15) const bool kCorners = false;
+layout(constant_id = kCornersConstant) const bool kCorners = false;
 
 // Share of light that corners leave to a surface. Plants are loose leaves, which have none.
 float surface_openness(Surface s, uint word) {

@@ -4,10 +4,11 @@
 #ifndef SKERRY_OCCUPANCY_GLSL
 #define SKERRY_OCCUPANCY_GLSL
 #include "shared/occupancy.h"
+#include "shared/bindings.h"
 
-layout(scalar, binding = 26) readonly buffer OccupancyGrids { OccupancyGrid occupancy_grids[]; };
-layout(scalar, binding = 27) readonly buffer OccupancyTables { uint occupancy_tables[]; };
-layout(scalar, binding = 28) readonly buffer OccupancyBricks { uint occupancy_words[]; };
+layout(scalar, binding = kOccupancyGridsBinding) readonly buffer OccupancyGrids { OccupancyGrid occupancy_grids[]; };
+layout(scalar, binding = kOccupancyTablesBinding) readonly buffer OccupancyTables { uint occupancy_tables[]; };
+layout(scalar, binding = kOccupancyBricksBinding) readonly buffer OccupancyBricks { uint occupancy_words[]; };
 
 // A grid, unpacked.
 struct VoxelGrid {

@@ -1,11 +1,12 @@
 // What every light meets: how a surface reflects, and what clear air leaves of it. Needs before the include: `frame`.
 #ifndef SKERRY_REFLECTION_GLSL
 #define SKERRY_REFLECTION_GLSL
+#include "shared/constants.h"
 #include "include/brdf.glsl"
 
-layout(constant_id = 11) const bool kHaze = true;
+layout(constant_id = kHazeConstant) const bool kHaze = true;
 // Which bodies give light: bit 0 the sun, bit 1 the moon. A constant, so that the other body costs nothing.
-layout(constant_id = 8) const uint kBodies = 3u;
+layout(constant_id = kBodiesConstant) const uint kBodies = 3u;
 
 // How a surface reflects. Literally flat shading has matt surfaces only.
 Brdf surface_brdf(Surface s, vec3 to_eye) {

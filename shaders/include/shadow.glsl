@@ -2,11 +2,12 @@
 // Needs before the include: `frame` (FrameConstants) and `shadow_maps` (sampler2DArray of reverse depth, nearest filter).
 #ifndef SKERRY_SHADOW_GLSL
 #define SKERRY_SHADOW_GLSL
+#include "shared/constants.h"
 
-layout(constant_id = 9) const uint kShadowTaps = 8u;             // 1, 4, 8, 16 or 32
-layout(constant_id = 13) const bool kPenumbrae = true;  // the filter follows what casts the shadow
-layout(constant_id = 14) const uint kSamplesPerEdge = 1u;       // of a pixel; each sample turns the taps its own way
-layout(constant_id = 10) const uint kCascades = kCascadeCount;  // a body has, 1 to kCascadeCount
+layout(constant_id = kShadowTapsConstant) const uint kShadowTaps = 8u;             // 1, 4, 8, 16 or 32
+layout(constant_id = kPenumbraeConstant) const bool kPenumbrae = true;  // the filter follows what casts the shadow
+layout(constant_id = kSamplesPerEdgeConstant) const uint kSamplesPerEdge = 1u;       // of a pixel; each sample turns the taps its own way
+layout(constant_id = kCascadesConstant) const uint kCascades = kCascadeCount;  // a body has, 1 to kCascadeCount
 
 // What light falls on in one map: the receiver's plane, to be compared with the map's texels.
 struct Receiver {

@@ -2,15 +2,17 @@
 // Needs before the include: `frame`, `islands[]`, `materials[]`, `block_textures` (sampler2DArray, repeat, trilinear).
 #ifndef SKERRY_SURFACE_GLSL
 #define SKERRY_SURFACE_GLSL
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
-layout(constant_id = 6) const bool kDepth16 = false;  // depth was kept in 16 bits
+layout(constant_id = kDepth16Constant) const bool kDepth16 = false;  // depth was kept in 16 bits
 #ifdef SKERRY_STORED
 #include "include/stored.glsl"
-layout(constant_id = 4) const uint kNormalCode = 0u;
-layout(constant_id = 5) const bool kPositionStored = false;
+layout(constant_id = kNormalCodeConstant) const uint kNormalCode = 0u;
+layout(constant_id = kPositionStoredConstant) const bool kPositionStored = false;
 // Where one of them is not kept, some image is bound that is never read.
-layout(binding = 13) uniform sampler2D stored_normals;
-layout(binding = 14) uniform sampler2D stored_positions;
+layout(binding = kStoredNormalsBinding) uniform sampler2D stored_normals;
+layout(binding = kStoredPositionsBinding) uniform sampler2D stored_positions;
 #endif
 
 // Of a plant: position in its voxel's cube, 0..1. Rounding at its foot must not take it for the voxel below.

@@ -1,9 +1,10 @@
 // Which pixel an invocation of a tile-listed pass works on (classify_tiles.comp). Needs before the include: `frame`.
 #ifndef SKERRY_TILES_GLSL
 #define SKERRY_TILES_GLSL
+#include "shared/bindings.h"
 
-layout(scalar, binding = 20) readonly buffer Tiles { uint tiles[]; };
-layout(scalar, binding = 21) readonly buffer Dispatches { TileDispatch dispatches[2]; };
+layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };
+layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[2]; };
 layout(push_constant) uniform Push { uint kind; } push;  // of tiles: 0 covered, 1 open
 
 // @return false where there is no such tile or the picture has no such pixel; `pixel` is then some valid pixel.

@@ -1,8 +1,9 @@
 // From exposed scene radiance to the picture. docs/conventions.md.
 #ifndef SKERRY_TONEMAP_GLSL
 #define SKERRY_TONEMAP_GLSL
+#include "shared/constants.h"
 
-layout(constant_id = 30) const uint kTone = 0u;  // render::ToneCurve
+layout(constant_id = kToneConstant) const uint kTone = 0u;  // render::ToneCurve
 
 // ACES, the fit of reference and output transforms by S. Hill (BakingLab), with its matrices from
 // and to linear Rec. 709. The fit's constant term of -0.00009 is left out, so that 0 gives 0,

@@ -3,15 +3,17 @@
 #define SKERRY_TRACED_GLSL
 #include "include/occupancy.glsl"
 #include "include/march.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
 
-layout(scalar, binding = 29) readonly buffer LightIslands { uint light_islands[]; };
+layout(scalar, binding = kLightIslandsBinding) readonly buffer LightIslands { uint light_islands[]; };
 
 // For how many lights of a pixel walls are looked for: none, all (kEveryLight), or those that send the most light to the eye, at most kMostTraced.
-layout(constant_id = 40) const uint kTracedLights = 0u;
+layout(constant_id = kTracedLightsConstant) const uint kTracedLights = 0u;
 const uint kEveryLight = 0xffffffffu;
 const uint kMostTraced = 8u;
 
-layout(constant_id = 41) const uint kLightSamples = 1u;  // ways to a light that has a size
+layout(constant_id = kLightSamplesConstant) const uint kLightSamples = 1u;  // ways to a light that has a size
 
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 

@@ -1,6 +1,7 @@
 // Water, glass and what is seen through them. Needs what shade_translucent.glsl declares.
 #ifndef SKERRY_WATER_GLSL
 #define SKERRY_WATER_GLSL
+#include "shared/constants.h"
 
 const float kWaterIndex = 1.333;
 
@@ -36,13 +37,14 @@ void add_light(inout Reach r, const uint index, const uint first_cascade, vec3 p
   Body body = frame.bodies[index];
   float n_dot_l = dot(n, body.to_light);
   float visibility = n_dot_l > 0.0 ? body_visibility(first_cascade, p, n, n_dot_l) : 0.0;
-  vec3 irradiance = body.irradiance * (visibility * past_clouds(index, p));
+  vec3 irradiance = body.irradiance * (visibility * light_through_clouds(index, p));
   r.light += irradiance * max(n_dot_l, 0.0);
   r.mirrored += glitter(irradiance, body.to_light, shading_normal, to_eye, roughness);
   r.any = max(r.any, visibility);
 }
 
-#ifdef SKERRY_LIGHTS
+layout(constant_id = kLitConstant) const bool kLit = false;  // lamps are; if not, their lists are not read
+
 // Walls are looked for before every light. @param word of the surface; 0: a place in the open.
 WayStart layer_start(uint word, vec3 p, vec3 n) {
   if (word == 0u) return WayStart(p, n, ~0u, ivec3(0), vec3(0.0));
@@ -67,16 +69,13 @@ void add_lights(inout Reach r, uvec2 pixel, float z, uint word, vec3 p, vec3 n, 
     r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, shading_normal, to_eye, roughness);
   }
 }
-#else
-#define add_lights(r, pixel, z, word, p, n, shading_normal, to_eye, roughness)
-#endif
 
 // @param z of p along the view axis, as the depth of the pixel says; @param word of its surface, 0 in the open.
 Reach light_at(uvec2 pixel, float z, uint word, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
   Reach r = Reach(vec3(0.0), vec3(0.0), 0.0);
   if ((kBodies & 1u) != 0u) add_light(r, 0u, 0u, p, n, shading_normal, to_eye, roughness);
   if ((kBodies & 2u) != 0u) add_light(r, 1u, kMoonCascade, p, n, shading_normal, to_eye, roughness);
-  add_lights(r, pixel, z, word, p, n, shading_normal, to_eye, roughness);
+  if (kLit) add_lights(r, pixel, z, word, p, n, shading_normal, to_eye, roughness);
   return r;
 }
 
@@ -121,9 +120,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     vec3 mirror = reflect(-to_eye, shading);
     Reach reach = light_at(pixel, t, word, ray * t, n, shading, to_eye, max(m.roughness, 0.06));
     vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror) : scattered(m, light_in, 1e3);
-#ifdef SKERRY_CLOUDS
     if (kMirroredClouds && entering && k == 0u) mirrored_sky = past_mirrored_clouds(mirrored_clouds, mirrored_sky, pixel);
-#endif
     colour += through * (reach.mirrored + reflected * mirrored_sky * (entering ? reach.any : 1.0));
     through *= 1.0 - reflected;
     // What the texture covers (the frame of a pane) is a diffuse surface.

@@ -1,14 +1,16 @@
 // Body of write_cutout*.frag: leaves and plants, the same as opaque geometry where the texture's alpha covers the pixel.
+#include "shared/bindings.h"
+#include "shared/constants.h"
 #include "include/common.glsl"
 #ifdef SKERRY_STORED
 #include "include/write_stored.glsl"
 #endif
 
-layout(scalar, binding = 4) uniform Materials { Material materials[kMaxMaterials]; };
-layout(binding = 5) uniform sampler2DArray block_textures;
+layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 
-layout(constant_id = 1) const bool kWriteSurface = true;  // false in shadow passes, which have depth only
-layout(constant_id = 17) const bool kFinestCoverage = false;  // where several samples make a pixel: their mean is its coverage
+layout(constant_id = kWriteSurfaceConstant) const bool kWriteSurface = true;  // false in shadow passes, which have depth only
+layout(constant_id = kFinestCoverageConstant) const bool kFinestCoverage = false;  // where several samples make a pixel: their mean is its coverage
 
 layout(location = 0) flat in uint in_surface;
 layout(location = 1) in vec2 in_uv;

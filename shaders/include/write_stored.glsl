@@ -1,13 +1,15 @@
 // For fragment shaders of a G-buffer that keeps normals or positions: one or two more colour targets, the normal first.
 #ifndef SKERRY_WRITE_STORED_GLSL
 #define SKERRY_WRITE_STORED_GLSL
+#include "shared/bindings.h"
+#include "shared/constants.h"
 #include "include/stored.glsl"
 
-layout(scalar, binding = 6) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 7) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
 
-layout(constant_id = 2) const uint kNormalCode = 0u;
-layout(constant_id = 3) const bool kPositionStored = false;
+layout(constant_id = kNormalCodeConstant) const uint kNormalCode = 0u;
+layout(constant_id = kPositionStoredConstant) const bool kPositionStored = false;
 
 layout(location = 1) out vec4 out_first;
 layout(location = 2) out vec4 out_second;  // the position, when both are kept

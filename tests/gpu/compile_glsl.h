@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <test_paths.h>
+#include "engine/gpu/program/reflection.h"
 #include "engine/gpu/program/shader_table.h"
 
 namespace skerry::gpu {
@@ -38,6 +39,8 @@ class TestShader {
     } else {
       words_ = read(small);
       words_with_names_ = read(full);
+      if (const Result<ShaderReflection> declared = reflect(words_with_names_))
+        declared_ = *declared;
     }
     fs::remove_all(folder);
   }
@@ -46,7 +49,8 @@ class TestShader {
   const std::vector<std::uint32_t>& words_with_names() const { return words_with_names_; }
   EmbeddedShader embedded() const {
     const auto* begin = reinterpret_cast<const unsigned char*>(words_.data());
-    return {name_.c_str(), begin, begin + words_.size() * sizeof(std::uint32_t)};
+    return {name_.c_str(), begin, begin + words_.size() * sizeof(std::uint32_t), declared_.bindings,
+            declared_.push_bytes};
   }
 
  private:
@@ -59,6 +63,7 @@ class TestShader {
   }
   std::string name_;
   std::vector<std::uint32_t> words_, words_with_names_;
+  ShaderReflection declared_;
 };
 
 }  // namespace skerry::gpu

@@ -48,6 +48,31 @@ TEST(Reflection, WhatTheShaderDoesNotUseIsNotThere) {
             (std::vector<ShaderReflection::Binding>{{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}}));
 }
 
+TEST(Reflection, UseIsWhatTheEntryPointReaches) {
+  // 0 read in main, 1 written by a function of a function, 2 an image read, 3 an atomic on an
+  // image, 4 only the length of, 5 in a function that nobody calls, 6 nowhere.
+  const TestShader shader("use.comp", R"(
+    layout(local_size_x = 1) in;
+    layout(binding = 0) buffer A { uint a; };
+    layout(binding = 1) buffer B { uint b[]; };
+    layout(binding = 2) uniform sampler2D c;
+    layout(binding = 3, r32ui) uniform uimage2D d;
+    layout(binding = 4) buffer E { uint e[]; };
+    layout(binding = 5) buffer F { uint f; };
+    layout(binding = 6) buffer G { uint g; };
+    void inner(uint value) { b[value] = value; }
+    void outer(uint value) { inner(value + 1); }
+    void nobody() { f = 1; }
+    void main() {
+      outer(a + uint(texelFetch(c, ivec2(0), 0).r) + e.length());
+      imageAtomicAdd(d, ivec2(0), 1u);
+    })");
+  const Result<ShaderReflection> reflection = reflect(shader.words_with_names());
+  ASSERT_TRUE(reflection) << reflection.error().message;
+  EXPECT_EQ(reflection->bindings.size(), 7u);
+  EXPECT_EQ(reflection->unused, (std::vector<std::uint32_t>{5, 6}));
+}
+
 TEST(Reflection, PushConstantsEndWithTheirLastMemberInScalarLayout) {
   // 64 (mat4) + 12 (vec3) + 4 (uint) + 3 * 12 (vec3[3]) + 2 * (12 + 4) (struct[2]) = 148
   const TestShader shader("push.comp", R"(

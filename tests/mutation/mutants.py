@@ -62,7 +62,7 @@ MUTANTS = (
     Mutant("shadow_casters_lost", "what the camera does not see casts no shadow of a far sun",
            "engine/render/renderer/frame_tables.cpp", "light.planes[5] = glm::vec4(\n        0, 0, 0, 1);",
            "light.planes[5] = glm::vec4(\n        0, 0, 0, -1);", "day"),
-    Mutant("haze_ignores_shadow", "haze glows in caves", "shaders/include/lighting.glsl",
+    Mutant("haze_ignores_shadow", "haze glows in caves", "shaders/include/haze.glsl",
            "float lit = light_in_air(0u, p) *", "float lit =", "cave cave_mouth sealed_dark"),
     # Clouds
     Mutant("clouds_cast_nothing", "clouds leave all light to the land", "shaders/include/cloud_light.glsl",

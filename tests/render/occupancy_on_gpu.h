@@ -11,6 +11,7 @@
 #include "engine/gpu/transfer/readback.h"
 #include "engine/gpu/transfer/uploader.h"
 #include "engine/render/scene/occupancy_store.h"
+#include "shaders/shared/bindings.h"
 #include "tests/gpu/compile_glsl.h"
 #include "tests/gpu/test_device.h"
 #include "world/mesh/mesh.h"
@@ -130,9 +131,9 @@ class OccupancyOnGpu : public gpu::GpuTest {
           c.bind(pipelines.get(gpu::ComputeDesc{"ask.comp", constants}));
           c.storage(0, from);
           c.storage(1, to);
-          c.storage(26, grids);
-          c.storage(27, tables);
-          c.storage(28, words);
+          c.storage(shared::kOccupancyGridsBinding, grids);
+          c.storage(shared::kOccupancyTablesBinding, tables);
+          c.storage(shared::kOccupancyBricksBinding, words);
           for (std::size_t i = 0; i < besides.size(); ++i)
             c.storage(besides[i].binding, refs_besides[i]);
           c.dispatch(gpu::Commands::groups(static_cast<std::uint32_t>(questions.size()), 64), 1, 1);

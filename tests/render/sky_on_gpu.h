@@ -16,6 +16,7 @@
 #include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/celestial.h"
 #include "engine/render/sky/sky_model.h"
+#include "shaders/shared/bindings.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/sky.h"
 #include "tests/gpu/compile_glsl.h"
@@ -199,8 +200,9 @@ class SkyOnGpu : public testing::Test {
     gpu::Image lut =
         image(shared::kSkyLutWidth, shared::kSkyLutHeight, VK_FORMAT_R16G16B16A16_SFLOAT);
     const gpu::Buffer constants = buffer(sky);
-    dispatch("bake_sky.comp", {{0, &constants}, {1, nullptr, &lut}}, shared::kSkyLutWidth,
-             shared::kSkyLutHeight);
+    dispatch("bake_sky.comp",
+             {{shared::kSkyBinding, &constants}, {shared::kSkyTableBinding, nullptr, &lut}},
+             shared::kSkyLutWidth, shared::kSkyLutHeight);
     return lut;
   }
 

@@ -144,9 +144,9 @@ class Commands {
     VkDescriptorImageInfo image{};
   };
   Bound& slot(std::uint32_t binding);
-  std::array<Bound, 32> bound_{};
-  bool dirty_ = false;   ///< bindings changed since they were last pushed
-  bool pushed_ = false;  ///< push() was called for this pipeline
+  std::vector<Bound> bound_;  ///< by place in the pipeline's bindings
+  bool dirty_ = false;        ///< bindings changed since they were last pushed
+  bool pushed_ = false;       ///< push() was called for this pipeline
 };
 
 /// One frame's passes, rebuilt each frame: unused passes and their images vanish, barriers, debug

@@ -58,7 +58,7 @@ void Commands::fail(const std::string& text) const {
 
 void Commands::bind(const Pipeline& pipeline) {
   pipeline_ = &pipeline;
-  bound_ = {};
+  bound_.assign(pipeline.bindings.size(), {});
   dirty_ = true;
   pushed_ = false;
   vkCmdBindPipeline(commands_, pipeline.bind_point, pipeline.handle);
@@ -66,14 +66,12 @@ void Commands::bind(const Pipeline& pipeline) {
 
 Commands::Bound& Commands::slot(std::uint32_t binding) {
   if (!pipeline_) fail("sets the binding " + std::to_string(binding));
-  for (const Pipeline::Binding& wanted : pipeline_->bindings) {
-    if (wanted.binding != binding) continue;
-    if (binding >= bound_.size()) break;
-    Bound& bound = bound_[binding];
-    bound.set = true;
-    bound.type = wanted.type;
+  for (std::size_t i = 0; i < bound_.size(); ++i) {
+    if (pipeline_->bindings[i].binding != binding) continue;
+    bound_[i].set = true;
+    bound_[i].type = pipeline_->bindings[i].type;
     dirty_ = true;
-    return bound;
+    return bound_[i];
   }
   fail("sets the binding " + std::to_string(binding) + ", which the shader does not have");
 }
@@ -121,13 +119,14 @@ void Commands::flush_bindings() {
   if (!pipeline_) fail("draws or dispatches");
   if (pipeline_->push_bytes > 0 && !pushed_) fail("draws or dispatches before push()");
   if (!dirty_) return;
-  std::array<VkWriteDescriptorSet, 32> writes;
+  std::array<VkWriteDescriptorSet, 32> writes;  // every device takes that many (Roadmap 2022)
   std::uint32_t count = 0;
-  for (const Pipeline::Binding& wanted : pipeline_->bindings) {
-    if (wanted.binding >= bound_.size() || !bound_[wanted.binding].set) {
+  for (std::size_t i = 0; i < bound_.size(); ++i) {
+    const Pipeline::Binding& wanted = pipeline_->bindings[i];
+    const Bound& bound = bound_[i];
+    if (!bound.set) {
       fail("draws or dispatches without the binding " + std::to_string(wanted.binding));
     }
-    const Bound& bound = bound_[wanted.binding];
     auto& write = writes[count++] =
         vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     write.dstBinding = wanted.binding;

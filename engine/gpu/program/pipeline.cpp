@@ -7,15 +7,9 @@
 #include "engine/gpu/device/gpu_check.h"
 #include "engine/gpu/device/vk_struct.h"
 #include "engine/gpu/program/pipeline_build.h"
-#include "engine/gpu/program/reflection.h"
 
 namespace skerry::gpu {
 namespace {
-
-std::span<const std::uint32_t> words_of(const EmbeddedShader& shader) {
-  const auto bytes = static_cast<std::size_t>(shader.end - shader.begin);
-  return {reinterpret_cast<const std::uint32_t*>(shader.begin), bytes / sizeof(std::uint32_t)};
-}
 
 void merge_binding(std::vector<VkDescriptorSetLayoutBinding>& all,
                    const ShaderReflection::Binding& one, VkShaderStageFlags stage,
@@ -63,21 +57,16 @@ const EmbeddedShader& find_shader(std::span<const EmbeddedShader> shaders,
 
 }  // namespace
 
-Pipeline reflect_layout(Device& device, const std::string& name,
-                        std::span<const ShaderStage> stages) {
+Pipeline make_layout(Device& device, const std::string& name, std::span<const ShaderStage> stages) {
   Pipeline pipeline;
   pipeline.name = name;
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const ShaderStage& stage : stages) {
-    const Result<ShaderReflection> reflection = reflect(words_of(*stage.shader));
-    if (!reflection)
-      gpu_fatal("the shader '" + std::string(stage.shader->name) +
-                "' cannot be used: " + reflection.error().message);
-    for (const auto& binding : reflection->bindings)
+    for (const auto& binding : stage.shader->bindings)
       merge_binding(bindings, binding, stage.stage, name);
-    if (reflection->push_bytes > 0)
+    if (stage.shader->push_bytes > 0)
       pipeline.push_stages |= static_cast<VkShaderStageFlags>(stage.stage);
-    pipeline.push_bytes = std::max(pipeline.push_bytes, reflection->push_bytes);
+    pipeline.push_bytes = std::max(pipeline.push_bytes, stage.shader->push_bytes);
   }
   for (const auto& binding : bindings)
     pipeline.bindings.push_back({binding.binding, binding.descriptorType});
@@ -112,7 +101,7 @@ const Pipeline& Pipelines::get(const ComputeDesc& desc) {
   const auto found = state_->compute.find(desc);
   if (found != state_->compute.end()) return found->second;
   const ShaderStage stage{VK_SHADER_STAGE_COMPUTE_BIT, &find_shader(state_->shaders, desc.shader)};
-  Pipeline pipeline = reflect_layout(state_->device, desc.shader, {&stage, 1});
+  Pipeline pipeline = make_layout(state_->device, desc.shader, {&stage, 1});
   compile_compute(state_->device, pipeline, stage, desc);
   return state_->compute.emplace(desc, std::move(pipeline)).first->second;
 }
@@ -127,7 +116,7 @@ const Pipeline& Pipelines::get(const GraphicsDesc& desc) {
     stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, &find_shader(state_->shaders, desc.fragment)});
     name += " + " + desc.fragment;
   }
-  Pipeline pipeline = reflect_layout(state_->device, name, stages);
+  Pipeline pipeline = make_layout(state_->device, name, stages);
   compile_graphics(state_->device, pipeline, stages, desc);
   return state_->graphics.emplace(desc, std::move(pipeline)).first->second;
 }

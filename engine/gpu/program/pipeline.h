@@ -45,7 +45,7 @@ struct GraphicsDesc {
   auto operator<=>(const GraphicsDesc&) const = default;
 };
 
-/// A compiled pipeline with the layout reflected from its SPIR-V: one push-descriptor set 0 and one
+/// A compiled pipeline with the layout that its sources declare: one push-descriptor set 0 and one
 /// push-constant block.
 struct Pipeline {
   VkPipeline handle{};
@@ -62,9 +62,8 @@ struct Pipeline {
   std::string name;  ///< its shaders' file names
 };
 
-/// Compiles pipelines when first asked for and keeps them. Reflection (bindings, push-constant
-/// size) comes from the SPIR-V, so that bindings are stated once, in the shader. Bad SPIR-V or a
-/// missing shader is fatal with its name.
+/// Compiles pipelines when first asked for and keeps them. Bindings and push constants are those
+/// that the shader's source declares. Bad SPIR-V or a missing shader is fatal with its name.
 class Pipelines {
  public:
   /// @param shaders where names are looked up; must outlive this.

@@ -16,12 +16,11 @@ struct ShaderStage {
   const EmbeddedShader* shader = nullptr;
 };
 
-/// Sets up layout, bindings and push constants as the stages' SPIR-V together ask for. Fatal on bad
-/// SPIR-V or stages that disagree.
-Pipeline reflect_layout(Device& device, const std::string& name,
-                        std::span<const ShaderStage> stages);
+/// Sets up layout, bindings and push constants as the stages' sources together declare them. Fatal
+/// on stages that disagree.
+Pipeline make_layout(Device& device, const std::string& name, std::span<const ShaderStage> stages);
 
-/// Compiles. @param pipeline comes from reflect_layout; its handle is filled in.
+/// Compiles. @param pipeline comes from make_layout; its handle is filled in.
 void compile_compute(Device& device, Pipeline& pipeline, const ShaderStage& stage,
                      const ComputeDesc& desc);
 void compile_graphics(Device& device, Pipeline& pipeline, std::span<const ShaderStage> stages,

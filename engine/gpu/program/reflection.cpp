@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace skerry::gpu {
 namespace {
 
 // Numbers of the SPIR-V specification, 3.32 and 3.20.
 enum Op : std::uint32_t {
+  kOpEntryPoint = 15,
   kOpTypeInt = 21,
   kOpTypeFloat = 22,
   kOpTypeVector = 23,
@@ -21,9 +23,19 @@ enum Op : std::uint32_t {
   kOpTypeStruct = 30,
   kOpTypePointer = 32,
   kOpConstant = 43,
+  kOpFunction = 54,
+  kOpFunctionCall = 57,
   kOpVariable = 59,
+  kOpImageTexelPointer = 60,
+  kOpLoad = 61,
+  kOpStore = 62,
+  kOpCopyMemory = 63,
+  kOpAccessChain = 65,
+  kOpInBoundsAccessChain = 66,
+  kOpArrayLength = 68,
   kOpDecorate = 71,
   kOpMemberDecorate = 72,
+  kOpCopyObject = 83,
 };
 enum Decoration : std::uint32_t {
   kBlock = 2,
@@ -56,6 +68,8 @@ struct Module {
   // (struct id, member) -> decoration -> value
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::map<std::uint32_t, std::uint32_t>> members;
   std::vector<Instruction> variables;
+  std::uint32_t entry = 0;                                    // function
+  std::map<std::uint32_t, std::set<std::uint32_t>> named_by;  // function -> functions, variables
 
   std::optional<std::uint32_t> decoration(std::uint32_t id, std::uint32_t which) const {
     const auto found = decorations.find({id, which});
@@ -84,6 +98,8 @@ std::size_t least_operands(std::uint32_t op) {
     case kOpTypeSampledImage:
     case kOpTypeRuntimeArray:
     case kOpDecorate:
+    case kOpEntryPoint:
+    case kOpFunction:
       return 2;
     case kOpTypeInt:
     case kOpTypeVector:
@@ -117,6 +133,9 @@ void take(Module& module, const Instruction& instruction) {
     case kOpConstant:
       module.by_id[operands[1]] = instruction;
       break;
+    case kOpEntryPoint:
+      module.entry = operands[1];
+      break;
     default:
       if (instruction.op >= kOpTypeInt && instruction.op <= kOpTypePointer && !operands.empty()) {
         module.by_id[operands[0]] = instruction;
@@ -124,9 +143,38 @@ void take(Module& module, const Instruction& instruction) {
   }
 }
 
+/// Functions and variables that an instruction of a function names: it calls, reads or writes them.
+std::span<const std::uint32_t> named(const Instruction& instruction) {
+  std::size_t first = 2, count = 1;
+  switch (instruction.op) {
+    case kOpFunctionCall:
+      count = instruction.operands.size();
+      break;
+    case kOpStore:
+      first = 0;
+      break;
+    case kOpCopyMemory:
+      first = 0;
+      count = 2;
+      break;
+    case kOpImageTexelPointer:
+    case kOpLoad:
+    case kOpAccessChain:
+    case kOpInBoundsAccessChain:
+    case kOpArrayLength:
+    case kOpCopyObject:
+      break;
+    default:
+      count = 0;
+  }
+  first = std::min(first, instruction.operands.size());
+  return instruction.operands.subspan(first, std::min(count, instruction.operands.size() - first));
+}
+
 Result<Module> parse(std::span<const std::uint32_t> words) {
   if (words.size() < kHeaderWords || words[0] != kMagic) return Error{"it is not SPIR-V"};
   Module module;
+  std::uint32_t function = 0;
   for (std::size_t at = kHeaderWords; at < words.size();) {
     const std::uint32_t op = words[at] & 0xffffu;
     const std::size_t length = words[at] >> 16;
@@ -135,9 +183,25 @@ Result<Module> parse(std::span<const std::uint32_t> words) {
     if (instruction.operands.size() < least_operands(op))
       return Error{"its SPIR-V has a malformed instruction"};
     take(module, instruction);
+    if (op == kOpFunction) function = instruction.operands[1];
+    for (const std::uint32_t id : named(instruction)) module.named_by[function].insert(id);
     at += length;
   }
   return module;
+}
+
+/// All that the entry point names, and what the functions that it calls name.
+std::set<std::uint32_t> named_by_entry(const Module& module) {
+  std::set<std::uint32_t> reached{module.entry};
+  std::vector<std::uint32_t> open{module.entry};
+  while (!open.empty()) {
+    const auto found = module.named_by.find(open.back());
+    open.pop_back();
+    if (found == module.named_by.end()) continue;
+    for (const std::uint32_t id : found->second)
+      if (reached.insert(id).second) open.push_back(id);
+  }
+  return reached;
 }
 
 // Bytes of a type inside a block. `matrix_stride` comes from the member that has the type. Depth
@@ -199,6 +263,7 @@ Result<ShaderReflection> reflect(std::span<const std::uint32_t> words) {
   Result<Module> parsed = parse(words);
   if (!parsed) return parsed.error();
   const Module& module = *parsed;
+  const std::set<std::uint32_t> used = named_by_entry(module);
   ShaderReflection out;
   for (const Instruction& variable : module.variables) {
     const std::uint32_t id = variable.operands[1], storage_class = variable.operands[2];
@@ -219,8 +284,10 @@ Result<ShaderReflection> reflect(std::span<const std::uint32_t> words) {
     const ShaderReflection::Binding entry{*binding, *type};
     if (std::find(out.bindings.begin(), out.bindings.end(), entry) == out.bindings.end())
       out.bindings.push_back(entry);
+    if (!used.contains(id)) out.unused.push_back(*binding);
   }
   std::sort(out.bindings.begin(), out.bindings.end());
+  std::sort(out.unused.begin(), out.unused.end());
   return out;
 }
 

@@ -1,7 +1,11 @@
+#include <shader_names.h>
 #include <algorithm>
 #include <cstddef>
 
 #include "engine/render/light/light_clusters.h"
+
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 namespace {
@@ -39,10 +43,10 @@ std::uint32_t small_tile_count(const shared::ClusterGrid& grid) {
 
 void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
               const ClusterDepths& depths, const shared::ClusterGrid& grid, Buffers& b) {
-  std::vector<gpu::SpecConstant> constants{{0, depths.layer_count}};
-  if (depths.depth16) constants.push_back({6, 1});
+  std::vector<gpu::SpecConstant> constants{{shared::kLayersConstant, depths.layer_count}};
+  if (depths.depth16) constants.push_back({shared::kDepth16Constant, 1});
   const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{"mark_light_tiles.comp", std::move(constants)});
+      pipelines.get(gpu::ComputeDesc{programs::kMarkLightTiles, std::move(constants)});
   graph.add_pass(
       "mark_light_tiles",
       [&](gpu::PassBuilder& p) {
@@ -56,13 +60,14 @@ void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
       [&pipeline, b, depths, point = scene.point_sampler,
        count = small_tile_count(grid)](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, b.grid);
-        c.sampled(1, depths.depth, point);
-        c.storage(2, depths.surfaces);
+        c.storage(shared::kLightGridBinding, b.grid);
+        c.sampled(shared::kDepthsBinding, depths.depth, point);
+        c.storage(shared::kSurfacesBinding, depths.surfaces);
         // Layers that are not there are never read; depth is bound in their place.
         for (std::uint32_t k = 0; k < depths.layers.size(); ++k)
-          c.sampled(3 + k, k < depths.layer_count ? depths.layers[k] : depths.depth, point);
-        c.storage(7, b.small_tiles);
+          c.sampled(shared::kLayerDepthsBinding + k,
+                    k < depths.layer_count ? depths.layers[k] : depths.depth, point);
+        c.storage(shared::kTileDepthsBinding, b.small_tiles);
         dispatch_items(c, count);
       });
 }
@@ -86,13 +91,13 @@ void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       },
       [b, count = grid.tiles_x * grid.tiles_y,
        &pipeline =
-           pipelines.get(gpu::ComputeDesc{"list_light_clusters.comp", {}})](gpu::Commands& c) {
+           pipelines.get(gpu::ComputeDesc{programs::kListLightClusters, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, b.grid);
-        c.storage(1, b.small_tiles);
-        c.storage(2, b.tiles);
-        c.storage(3, b.work);
-        c.storage(4, b.occupied);
+        c.storage(shared::kLightGridBinding, b.grid);
+        c.storage(shared::kTileDepthsBinding, b.small_tiles);
+        c.storage(shared::kGridTilesBinding, b.tiles);
+        c.storage(shared::kClusterWorkBinding, b.work);
+        c.storage(shared::kOccupiedClustersBinding, b.occupied);
         dispatch_items(c, count);
       });
 }
@@ -107,13 +112,13 @@ void add_bin(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::Cl
       },
       [b, groups = gpu::Commands::groups(grid.bins_x * grid.bins_y, shared::kClusterGroup),
        words = grid.light_words,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{"bin_lights.comp", {{12, kinds}}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{
+           programs::kBinLights, {{shared::kLightKindsConstant, kinds}}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, b.grid);
-        c.storage(1, b.lights);
-        c.storage(2, b.tiles);
-        c.storage(3, b.bins);
+        c.storage(shared::kLightGridBinding, b.grid);
+        c.storage(shared::kLightsBinding, b.lights);
+        c.storage(shared::kGridTilesBinding, b.tiles);
+        c.storage(shared::kLightBinsBinding, b.bins);
         c.dispatch(groups, words, 1);
       });
 }
@@ -132,13 +137,13 @@ void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
       },
       [b, clusters = out.clusters,
        &pipeline =
-           pipelines.get(gpu::ComputeDesc{"reserve_light_lists.comp", {}})](gpu::Commands& c) {
+           pipelines.get(gpu::ComputeDesc{programs::kReserveLightLists, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, b.grid);
-        c.storage(1, b.work);
-        c.storage(2, b.occupied);
-        c.storage(3, b.counts);
-        c.storage(4, clusters);
+        c.storage(shared::kLightGridBinding, b.grid);
+        c.storage(shared::kClusterWorkBinding, b.work);
+        c.storage(shared::kOccupiedClustersBinding, b.occupied);
+        c.storage(shared::kLightCountsBinding, b.counts);
+        c.storage(shared::kClustersBinding, clusters);
         c.dispatch_indirect(b.work, 0);
       });
 }
@@ -158,18 +163,19 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
         if (list) out.entries = p.write(out.entries, Use::kComputeWrite);
       },
       [b, list, clusters = list ? out.clusters : b.counts, entries = list ? out.entries : b.counts,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"assign_lights.comp", {{12, out.kinds}}})](
+       &pipeline = pipelines.get(
+           gpu::ComputeDesc{programs::kAssignLights, {{shared::kLightKindsConstant, out.kinds}}})](
           gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, b.grid);
-        c.storage(1, b.lights);
-        c.storage(2, b.tiles);
-        c.storage(3, b.bins);
-        c.storage(4, b.work);
-        c.storage(5, b.occupied);
-        c.storage(6, b.counts);
-        c.storage(7, clusters);
-        c.storage(8, entries);
+        c.storage(shared::kLightGridBinding, b.grid);
+        c.storage(shared::kLightsBinding, b.lights);
+        c.storage(shared::kGridTilesBinding, b.tiles);
+        c.storage(shared::kLightBinsBinding, b.bins);
+        c.storage(shared::kClusterWorkBinding, b.work);
+        c.storage(shared::kOccupiedClustersBinding, b.occupied);
+        c.storage(shared::kLightCountsBinding, b.counts);
+        c.storage(shared::kClustersBinding, clusters);
+        c.storage(shared::kLightEntriesBinding, entries);
         c.push(list ? 1u : 0u);
         c.dispatch_indirect(b.work, 0);
       });
@@ -187,7 +193,7 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       });
   const gpu::BufferRef clusters = out.oracle ? b.small_tiles : out.clusters;  // bound, not read
   std::vector<gpu::SpecConstant> constants;
-  if (out.oracle) constants.push_back({16, 1});
+  if (out.oracle) constants.push_back({shared::kOracleConstant, 1});
   graph.add_pass(
       "list_light_tiles",
       [&](gpu::PassBuilder& p) {
@@ -198,14 +204,14 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
       },
       [b, clusters, tiles = out.tiles, count = small_tile_count(grid),
-       &pipeline = pipelines.get(gpu::ComputeDesc{"list_light_tiles.comp", std::move(constants)})](
-          gpu::Commands& c) {
+       &pipeline = pipelines.get(
+           gpu::ComputeDesc{programs::kListLightTiles, std::move(constants)})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, b.grid);
-        c.storage(1, b.small_tiles);
-        c.storage(2, clusters);
-        c.storage(3, tiles.dispatches);
-        c.storage(4, tiles.lists);
+        c.storage(shared::kLightGridBinding, b.grid);
+        c.storage(shared::kTileDepthsBinding, b.small_tiles);
+        c.storage(shared::kClustersBinding, clusters);
+        c.storage(shared::kTileDispatchesBinding, tiles.dispatches);
+        c.storage(shared::kTilesBinding, tiles.lists);
         dispatch_items(c, count);
       });
 }

@@ -10,6 +10,8 @@
 #include "engine/core/check.h"
 #include "engine/core/log.h"
 #include "engine/render/frame/camera.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 namespace {
@@ -111,9 +113,18 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
 
 std::vector<gpu::SpecConstant> ClusteredLights::with_lights(
     std::vector<gpu::SpecConstant> own) const {
-  own.push_back({12, kinds});
-  if (oracle) own.push_back({16, 1});
+  if (kinds == 0) return own;
+  own.push_back({shared::kLitConstant, 1});
+  own.push_back({shared::kLightKindsConstant, kinds});
+  if (oracle) own.push_back({shared::kOracleConstant, 1});
   return own;
+}
+
+ClusteredLights ClusteredLights::none(const SceneRefs& scene) {
+  ClusteredLights out;
+  out.grid = scene.frame;
+  out.lights = out.clusters = out.entries = scene.materials;
+  return out;
 }
 
 void ClusteredLights::declare(gpu::PassBuilder& builder) const {
@@ -125,11 +136,11 @@ void ClusteredLights::declare(gpu::PassBuilder& builder) const {
 }
 
 void ClusteredLights::bind(gpu::Commands& commands) const {
-  commands.storage(22, grid);
-  commands.storage(23, lights);
+  commands.storage(shared::kLightGridBinding, grid);
+  commands.storage(shared::kLightsBinding, lights);
   // The oracle reads no lists; its lights are bound in their place so that every binding is valid.
-  commands.storage(24, oracle ? lights : clusters);
-  commands.storage(25, oracle ? lights : entries);
+  commands.storage(shared::kClustersBinding, oracle ? lights : clusters);
+  commands.storage(shared::kLightEntriesBinding, oracle ? lights : entries);
 }
 
 Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,

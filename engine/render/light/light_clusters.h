@@ -46,9 +46,11 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
 struct ClusteredLights {
   gpu::BufferRef grid, lights, clusters, entries;
   Tiles tiles;              ///< those that some light reaches, kCovered alone
-  std::uint32_t kinds = 0;  ///< bit a kind that the frame has
+  std::uint32_t kinds = 0;  ///< bit a kind that the frame has; 0: there are none
   bool oracle = false;      ///< nothing is sorted: every pixel asks every light
 
+  /// For a frame without lights: buffers that are never read.
+  static ClusteredLights none(const SceneRefs& scene);
   std::vector<gpu::SpecConstant> with_lights(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
   void bind(gpu::Commands& commands) const;

@@ -1,27 +1,34 @@
 #include "engine/render/light/light_constants.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 
 std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
                                           const SceneRefs& scene, bool shadows) {
-  own.push_back({8, scene.bodies});
-  if (!scene.haze && scene.bodies != 0) own.push_back({11, 0});
+  own.push_back({shared::kBodiesConstant, scene.bodies});
+  if (!scene.haze && scene.bodies != 0) own.push_back({shared::kHazeConstant, 0});
   if (shadows) {
-    own.push_back({9, scene.shadow_taps});
-    own.push_back({10, scene.shadow_cascades});
-    if (scene.samples_per_edge > 1) own.push_back({14, scene.samples_per_edge});
-    if (!scene.penumbrae) own.push_back({13, 0});
+    own.push_back({shared::kShadowsConstant, 1});
+    own.push_back({shared::kShadowTapsConstant, scene.shadow_taps});
+    own.push_back({shared::kCascadesConstant, scene.shadow_cascades});
+    if (scene.samples_per_edge > 1)
+      own.push_back({shared::kSamplesPerEdgeConstant, scene.samples_per_edge});
+    if (!scene.penumbrae) own.push_back({shared::kPenumbraeConstant, 0});
   }
   return own;
 }
 
-std::optional<CloudRefs> clouds_before_light(const SceneRefs& scene) {
-  return scene.bodies != 0 ? scene.clouds : std::nullopt;
+gpu::ImageRef maps_or_others(const SceneRefs& scene, gpu::ImageRef maps) {
+  return maps ? maps : scene.block_textures;
 }
 
-std::vector<gpu::SpecConstant> with_clouds(std::vector<gpu::SpecConstant> own,
-                                           const std::optional<CloudRefs>& clouds) {
-  return clouds ? clouds->with_clouds(std::move(own)) : own;
+CloudRefs clouds_before_light(const SceneRefs& scene) {
+  if (scene.clouds && scene.bodies != 0) return *scene.clouds;
+  CloudRefs none;
+  none.constants = scene.frame;
+  none.layer_light = none.volume_light = scene.no_volume;
+  none.linear = scene.point_sampler;
+  return none;
 }
 
 }  // namespace skerry::render

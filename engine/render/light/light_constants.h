@@ -13,10 +13,12 @@ namespace skerry::render {
 std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
                                           const SceneRefs& scene, bool shadows);
 
-/// The clouds that sun or moon may stand behind; none if neither gives light.
-std::optional<CloudRefs> clouds_before_light(const SceneRefs& scene);
-/// Adds what the light functions under clouds are specialised by, if there are clouds.
-std::vector<gpu::SpecConstant> with_clouds(std::vector<gpu::SpecConstant> own,
-                                           const std::optional<CloudRefs>& clouds);
+/// What visibility.glsl's binding of shadow maps gets: the maps, or without any some array of
+/// images that is never read.
+gpu::ImageRef maps_or_others(const SceneRefs& scene, gpu::ImageRef maps);
+
+/// The clouds that sun or moon may stand behind, for cloud_light.glsl. If there are none, or
+/// neither gives light, others that let all light through are bound in their place and never read.
+CloudRefs clouds_before_light(const SceneRefs& scene);
 
 }  // namespace skerry::render

@@ -1,10 +1,12 @@
 #include "engine/render/light/light_pass.h"
 
-#include <string>
+#include <shader_names.h>
 
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/gbuffer_formats.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 
@@ -16,11 +18,12 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
   const SurfaceReads surfaces(geometry);
   const WallReads walls(scene, settings, scene.corners);
   gpu::ImageRef radiance = shaded.radiance();
-  const std::vector<gpu::SpecConstant> constants = lights.with_lights(surfaces.with_store(
-      with_light({{0, static_cast<std::uint32_t>(settings.texture_taps)}}, scene, false)));
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{std::string("shade_lights") + surfaces.suffix() + ".comp",
-                                     walls.with_walls(with_corners(constants, scene.corners))});
+  const std::vector<gpu::SpecConstant> constants =
+      lights.with_lights(surfaces.with_store(with_light(
+          {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(settings.texture_taps)}},
+          scene, false)));
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      programs::kShadeLights, walls.with_walls(with_corners(constants, scene.corners))});
   graph.add_pass(
       "shade_lights",
       [&](gpu::PassBuilder& b) {
@@ -36,14 +39,14 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
       },
       [&pipeline, scene, lights, surfaces, walls, radiance](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.frame);
-        c.storage(1, scene.islands);
-        c.storage(2, scene.materials);
-        c.storage(4, scene.pixel_stats);
-        surfaces.bind(c, scene.point_sampler, 5, 6);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kIslandsBinding, scene.islands);
+        c.storage(shared::kMaterialsBinding, scene.materials);
+        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
+        surfaces.bind(c, scene.point_sampler);
         walls.bind(c);
-        c.sampled(7, scene.block_textures, scene.block_sampler);
-        c.storage(9, radiance);
+        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
+        c.storage(shared::kRadianceBinding, radiance);
         lights.bind(c);
         dispatch_tiles(c, lights.tiles, TileKind::kCovered);
       });

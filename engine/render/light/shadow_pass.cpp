@@ -1,8 +1,11 @@
 #include "engine/render/light/shadow_pass.h"
 
+#include <shader_names.h>
 #include <array>
 
 #include "engine/render/light/cascades.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 
@@ -22,19 +25,20 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
   gpu::ImageRef ref = graph.import(*maps);
   // Only what faces the light is drawn, so back faces never cast; casters nearer to the light than
   // the map's range are flattened onto it.
-  const gpu::GraphicsDesc opaque{.vertex = "draw_quads.vert",
+  const gpu::GraphicsDesc opaque{.vertex = programs::kDrawQuadsVert,
                                  .fragment = "",
                                  .constants = {},
                                  .color_formats = {},
                                  .depth_format = VK_FORMAT_D32_SFLOAT,
                                  .depth_clamp = true};
-  const gpu::GraphicsDesc cutout{.vertex = "draw_quads.vert",
-                                 .fragment = "write_cutout.frag",
-                                 .constants = {{0, 1}, {1, 0}},
-                                 .color_formats = {},
-                                 .depth_format = VK_FORMAT_D32_SFLOAT,
-                                 .cull = VK_CULL_MODE_NONE,
-                                 .depth_clamp = true};
+  const gpu::GraphicsDesc cutout{
+      .vertex = programs::kDrawQuadsVert,
+      .fragment = programs::kWriteCutoutFrag,
+      .constants = {{shared::kTexturedConstant, 1}, {shared::kWriteSurfaceConstant, 0}},
+      .color_formats = {},
+      .depth_format = VK_FORMAT_D32_SFLOAT,
+      .cull = VK_CULL_MODE_NONE,
+      .depth_clamp = true};
   for (const ShadowDraw& cascade : cascades) {
     const gpu::Pipeline& opaque_pipeline = pipelines.get(opaque);
     const gpu::Pipeline* cutout_pipeline = cascade.cutouts ? &pipelines.get(cutout) : nullptr;
@@ -53,8 +57,8 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
           draw_list(c, scene, draws, view, DrawList::kOpaque);
           if (cutout_pipeline) {
             c.bind(*cutout_pipeline);
-            c.storage(4, scene.materials);
-            c.sampled(5, scene.block_textures, scene.block_sampler);
+            c.storage(shared::kMaterialsBinding, scene.materials);
+            c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
             draw_list(c, scene, draws, view, DrawList::kCutout);
           }
         });

@@ -1,5 +1,8 @@
 #include "engine/render/light/wall_reads.h"
 
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
+
 namespace skerry::render {
 
 WallReads::WallReads(const SceneRefs& scene, const RenderSettings& settings, bool corners)
@@ -11,8 +14,8 @@ WallReads::WallReads(const SceneRefs& scene, const RenderSettings& settings, boo
 
 std::vector<gpu::SpecConstant> WallReads::with_walls(std::vector<gpu::SpecConstant> own) const {
   if (!traced_) return own;
-  own.push_back({40, lights_});
-  own.push_back({41, samples_});
+  own.push_back({shared::kTracedLightsConstant, lights_});
+  own.push_back({shared::kLightSamplesConstant, samples_});
   return own;
 }
 
@@ -23,7 +26,8 @@ void WallReads::declare(gpu::PassBuilder& builder) const {
 
 void WallReads::bind(gpu::Commands& commands) const {
   occupancy_.bind(commands);
-  commands.storage(29, islands_);  // if not traced, in place of what is then never read
+  commands.storage(shared::kLightIslandsBinding,
+                   islands_);  // if not traced, in place of what is then never read
 }
 
 }  // namespace skerry::render

@@ -1,5 +1,8 @@
 #include "engine/render/post/bloom_pass.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
+#include <shader_names.h>
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -39,12 +42,13 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
         coarse = b.write(coarse, Use::kComputeWrite);
       },
       [fine, coarse, step, exposure = scene.exposure,
-       &pipeline = pipelines.get(
-           gpu::ComputeDesc{"shrink_bloom.comp", {{0, level == 1 ? 1u : 0u}}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{
+           programs::kShrinkBloom, {{shared::kFirstConstant, level == 1 ? 1u : 0u}}})](
+          gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, fine);
-        c.storage(1, coarse);
-        c.storage(22, exposure);
+        c.storage(shared::kFineBloomBinding, fine);
+        c.storage(shared::kCoarseBloomBinding, coarse);
+        c.storage(shared::kExposureBinding, exposure);
         c.push(step);
         dispatch_over(c, step.coarse_size);
       });
@@ -61,10 +65,10 @@ gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, gpu::Ima
         fine = b.write(fine, Use::kComputeWrite);
       },
       [fine, coarse, step,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"spread_bloom.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kSpreadBloom, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, fine);
-        c.storage(1, coarse);
+        c.storage(shared::kFineBloomBinding, fine);
+        c.storage(shared::kCoarseBloomBinding, coarse);
         c.push(step);
         dispatch_over(c, step.fine_size);
       });

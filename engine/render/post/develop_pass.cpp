@@ -1,11 +1,13 @@
 #include "engine/render/post/develop_pass.h"
 
-#include <string>
+#include <shader_names.h>
 
 #include "engine/render/light/light_constants.h"
 #include "engine/render/scene/gbuffer_formats.h"
 #include "engine/render/scene/occupancy_reads.h"
 #include "engine/render/surface/picture_constants.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 
@@ -16,6 +18,8 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
   gpu::ImageRef out = graph.import(picture);
   const gpu::ImageRef radiance = shaded.radiance(), glow = bloom ? bloom->glow : gpu::ImageRef{};
   const shared::BloomStep step = bloom ? bloom->step : shared::BloomStep{};
+  std::vector<gpu::SpecConstant> constants = with_picture({}, scene);
+  if (glow) constants.push_back({shared::kBloomConstant, 1});
   graph.add_pass(
       "develop",
       [&](gpu::PassBuilder& b) {
@@ -27,18 +31,16 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         out = b.write(out, Use::kComputeWrite);
       },
       [scene, radiance, glow, step, out,
-       &pipeline = pipelines.get(gpu::ComputeDesc{glow ? "develop_bloom.comp" : "develop.comp",
-                                                  with_picture({}, scene)})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kDevelop, std::move(constants)})](
+          gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.frame);
-        c.storage(1, scene.pixel_stats);
-        c.storage(2, radiance);
-        if (glow) {
-          c.storage(3, glow);
-          c.push(step);
-        }
-        c.storage(9, out);
-        c.storage(22, scene.exposure);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
+        c.storage(shared::kRadianceBinding, radiance);
+        c.storage(shared::kCoarseBloomBinding, glow ? glow : radiance);
+        c.push(step);
+        c.storage(shared::kTargetBinding, out);
+        c.storage(shared::kExposureBinding, scene.exposure);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });
@@ -56,7 +58,8 @@ gpu::ImageRef show_lights(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sce
                           gpu::ImageRef out) {
   const SurfaceReads surfaces(geometry);
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      "show_lights.comp", lights.with_lights({{0, view == DebugView::kLightCount ? 1u : 0u}})});
+      programs::kShowLights,
+      lights.with_lights({{shared::kReachingConstant, view == DebugView::kLightCount ? 1u : 0u}})});
   graph.add_pass(
       "show_lights",
       [&](gpu::PassBuilder& b) {
@@ -68,11 +71,11 @@ gpu::ImageRef show_lights(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sce
       },
       [&pipeline, scene, lights, surfaces, out](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.frame);
-        c.storage(1, scene.islands);
-        c.storage(3, surfaces.words);
-        c.sampled(4, surfaces.depth, scene.point_sampler);
-        c.storage(6, out);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kIslandsBinding, scene.islands);
+        c.storage(shared::kSurfacesBinding, surfaces.words);
+        c.sampled(shared::kDepthsBinding, surfaces.depth, scene.point_sampler);
+        c.storage(shared::kPictureBinding, out);
         lights.bind(c);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
@@ -93,9 +96,10 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   const gpu::ImageRef maps = shadows.maps();
   const OccupancyReads occupancy(scene, scene.corners && view == DebugView::kCorners);
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      std::string("show_channel") + (maps ? "" : "_unshadowed") + surfaces.suffix() + ".comp",
+      programs::kShowChannel,
       with_picture(with_corners(surfaces.with_store(with_light(
-                                    {{0, static_cast<std::uint32_t>(view)}}, scene, bool{maps})),
+                                    {{shared::kChannelConstant, static_cast<std::uint32_t>(view)}},
+                                    scene, bool{maps})),
                                 bool{occupancy}),
                    scene)});
   graph.add_pass(
@@ -112,15 +116,15 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
       },
       [&pipeline, scene, surfaces, occupancy, maps, out](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.frame);
-        c.storage(1, scene.islands);
-        c.storage(2, scene.materials);
-        surfaces.bind(c, scene.point_sampler, 3, 4);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kIslandsBinding, scene.islands);
+        c.storage(shared::kMaterialsBinding, scene.materials);
+        surfaces.bind(c, scene.point_sampler);
         occupancy.bind(c);
-        c.sampled(5, scene.block_textures, scene.block_sampler);
-        c.storage(6, out);
-        c.storage(22, scene.exposure);
-        if (maps) c.sampled(7, maps, scene.point_sampler);
+        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
+        c.storage(shared::kPictureBinding, out);
+        c.storage(shared::kExposureBinding, scene.exposure);
+        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });

@@ -1,5 +1,8 @@
 #include "engine/render/post/meter_pass.h"
 
+#include <shader_names.h>
+
+#include "shaders/shared/bindings.h"
 #include "shaders/shared/exposure.h"
 
 namespace skerry::render {
@@ -34,15 +37,16 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         histogram = b.write(histogram, Use::kComputeWrite);
       },
       [frame = scene.frame, size = scene.size, radiance, histogram, metering,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"meter_radiance.comp", {}})](gpu::Commands& c) {
+       &pipeline =
+           pipelines.get(gpu::ComputeDesc{programs::kMeterRadiance, {}})](gpu::Commands& c) {
         const auto groups = [&](std::uint32_t pixels) {
           return gpu::Commands::groups(gpu::Commands::groups(pixels, metering.stride),
                                        shared::kMeterGroup);
         };
         c.bind(pipeline);
-        c.storage(0, frame);
-        c.storage(1, radiance);
-        c.storage(2, histogram);
+        c.storage(shared::kFrameBinding, frame);
+        c.storage(shared::kRadianceBinding, radiance);
+        c.storage(shared::kHistogramBinding, histogram);
         c.push(metering);
         c.dispatch(groups(size.width), groups(size.height), 1);
       });
@@ -53,10 +57,11 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         scene.exposure = b.write(scene.exposure, Use::kComputeWrite);
       },
       [histogram, exposure = scene.exposure, metering,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"choose_exposure.comp", {}})](gpu::Commands& c) {
+       &pipeline =
+           pipelines.get(gpu::ComputeDesc{programs::kChooseExposure, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, histogram);
-        c.storage(1, exposure);
+        c.storage(shared::kHistogramBinding, histogram);
+        c.storage(shared::kExposureBinding, exposure);
         c.push(metering);
         c.dispatch(1, 1, 1);
       });
@@ -76,12 +81,12 @@ Developed MeterPass::show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, con
       },
       [picture, histogram, frame = scene.frame, exposure = scene.exposure, size = scene.size,
        metering = metering_of(settings, false),
-       &pipeline = pipelines.get(gpu::ComputeDesc{"show_exposure.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kShowExposure, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, frame);
-        c.storage(1, histogram);
-        c.storage(2, exposure);
-        c.storage(3, picture);
+        c.storage(shared::kFrameBinding, frame);
+        c.storage(shared::kHistogramBinding, histogram);
+        c.storage(shared::kExposureBinding, exposure);
+        c.storage(shared::kPictureBinding, picture);
         c.push(metering);
         c.dispatch(gpu::Commands::groups(size.width, 8),
                    gpu::Commands::groups((size.height + 2) / 3, 8), 1);

@@ -1,5 +1,10 @@
 #include "engine/render/post/resolve_pass.h"
 
+#include <shader_names.h>
+
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
+
 namespace skerry::render {
 
 using gpu::Use;
@@ -13,10 +18,14 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
   gpu::ImageRef radiance = graph.create(gpu::ImageDesc{.name = "radiance of pixels",
                                                        .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                                        .extent = in.picture_size});
-  std::vector<gpu::SpecConstant> constants{{0, static_cast<std::uint32_t>(in.samples_per_edge)}};
-  if (accumulates) constants.push_back({1, in.part == 0 ? 1u : 0u});
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      accumulates ? "accumulate_part.comp" : "average_samples.comp", std::move(constants)});
+  std::vector<gpu::SpecConstant> constants{
+      {shared::kSamplesPerEdgeConstant, static_cast<std::uint32_t>(in.samples_per_edge)}};
+  if (accumulates) {
+    constants.push_back({shared::kAccumulateConstant, 1});
+    constants.push_back({shared::kFirstConstant, in.part == 0 ? 1u : 0u});
+  }
+  const gpu::Pipeline& pipeline =
+      pipelines.get(gpu::ComputeDesc{programs::kAverageSamples, std::move(constants)});
   graph.add_pass(
       accumulates ? "accumulate_part" : "average_samples",
       [&](gpu::PassBuilder& b) {
@@ -27,13 +36,11 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
       },
       [&pipeline, frame = scene.frame, samples, radiance, total, in](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, frame);
-        c.storage(1, samples);
-        c.storage(2, radiance);
-        if (total) {
-          c.storage(3, total);
-          c.push(1.0f / static_cast<float>(in.parts));
-        }
+        c.storage(shared::kFrameBinding, frame);
+        c.storage(shared::kSamplesBinding, samples);
+        c.storage(shared::kRadianceBinding, radiance);
+        c.storage(shared::kTotalBinding, total ? total : radiance);
+        c.push(1.0f / static_cast<float>(in.parts));
         c.dispatch(gpu::Commands::groups(in.picture_size.width, 8),
                    gpu::Commands::groups(in.picture_size.height, 8), 1);
       });

@@ -73,6 +73,20 @@ Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
                                           VK_IMAGE_USAGE_TRANSFER_DST_BIT});
   if (!image) return image.error();
   sky_lut_ = *std::move(image);
+
+  image = device_->create_image({.name = "no volume",
+                                 .format = VK_FORMAT_R8_UNORM,
+                                 .extent = {1, 1},
+                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                 .depth = 1});
+  if (!image) return image.error();
+  no_volume_ = *std::move(image);
+  image = device_->create_image({.name = "no words",
+                                 .format = VK_FORMAT_R32_UINT,
+                                 .extent = {1, 1},
+                                 .usage = VK_IMAGE_USAGE_STORAGE_BIT});
+  if (!image) return image.error();
+  no_words_ = *std::move(image);
   return {};
 }
 
@@ -145,6 +159,8 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.exposure = graph.import(exposure_);
   s.block_textures = graph.import(block_textures_);
   s.sky_lut = graph.import(sky_lut_);
+  s.no_volume = graph.import(no_volume_);
+  s.no_words = graph.import(no_words_);
   s.block_sampler = block_sampler_;
   s.lut_sampler = lut_sampler_;
   s.point_sampler = point_sampler_;

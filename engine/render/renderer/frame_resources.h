@@ -47,7 +47,7 @@ class FrameResources {
   gpu::Device* device_;
   gpu::Buffer frame_, sky_, islands_, view_islands_, views_, light_islands_, materials_, indices_,
       pixel_stats_, exposure_;
-  gpu::Image block_textures_, sky_lut_;
+  gpu::Image block_textures_, sky_lut_, no_volume_, no_words_;
   VkSampler block_sampler_{}, lut_sampler_{}, point_sampler_{};
 };
 

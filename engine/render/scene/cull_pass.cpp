@@ -1,7 +1,9 @@
 #include "engine/render/scene/cull_pass.h"
 
 #include <fmt/format.h>
+#include <shader_names.h>
 
+#include "shaders/shared/bindings.h"
 #include "shaders/shared/geometry.h"
 
 namespace skerry::render {
@@ -67,15 +69,15 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.transforms = b.write(out.transforms, Use::kComputeWrite);
       },
       [scene, masks, totals, stats = out.stats, transforms = out.transforms, in, groups,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"cull_sections.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullSections, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.sections);
-        c.storage(1, scene.view_islands);
-        c.storage(2, scene.views);
-        c.storage(3, masks);
-        c.storage(4, totals);
-        c.storage(5, stats);
-        c.storage(6, transforms);
+        c.storage(shared::kSectionsBinding, scene.sections);
+        c.storage(shared::kIslandsBinding, scene.view_islands);
+        c.storage(shared::kCullViewsBinding, scene.views);
+        c.storage(shared::kCullMasksBinding, masks);
+        c.storage(shared::kCullTotalsBinding, totals);
+        c.storage(shared::kCullStatsBinding, stats);
+        c.storage(shared::kSectionTransformsBinding, transforms);
         const struct {
           std::uint32_t section_count, group_count, islands_per_view;
         } push{in.section_slots, groups, scene.islands_per_view};
@@ -90,10 +92,10 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.counts = b.write(out.counts, Use::kComputeWrite);
       },
       [totals, counts = out.counts, lists, groups, max_draws,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"cull_scan.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullScan, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, totals);
-        c.storage(1, counts);
+        c.storage(shared::kCullTotalsBinding, totals);
+        c.storage(shared::kDrawCountsBinding, counts);
         const struct { std::uint32_t group_count, max_draws; } push{groups, max_draws};
         c.push(push);
         c.dispatch(lists, 1, 1);
@@ -107,13 +109,13 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.commands = b.write(out.commands, Use::kComputeWrite);
       },
       [scene, masks, totals, commands = out.commands, in, groups, max_draws,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"cull_emit.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullEmit, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.sections);
-        c.storage(1, masks);
-        c.storage(2, totals);
-        c.storage(3, scene.views);
-        c.storage(4, commands);
+        c.storage(shared::kSectionsBinding, scene.sections);
+        c.storage(shared::kCullMasksBinding, masks);
+        c.storage(shared::kCullTotalsBinding, totals);
+        c.storage(shared::kCullViewsBinding, scene.views);
+        c.storage(shared::kDrawCommandsBinding, commands);
         const struct {
           std::uint32_t section_count, group_count, max_draws;
         } push{in.section_slots, groups, max_draws};
@@ -133,8 +135,8 @@ void declare_draws(gpu::PassBuilder& builder, const SceneRefs& scene, const Cull
 
 void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
                std::uint32_t view, DrawList list) {
-  commands.storage(0, scene.quads);
-  commands.storage(1, draws.transforms);
+  commands.storage(shared::kQuadsBinding, scene.quads);
+  commands.storage(shared::kSectionTransformsBinding, draws.transforms);
   const struct {
     glm::mat4 clip_from_source;
     std::uint32_t first_transform;

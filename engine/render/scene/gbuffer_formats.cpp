@@ -1,6 +1,8 @@
 #include "engine/render/scene/gbuffer_formats.h"
 
 #include "engine/gpu/device/device.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 
@@ -59,13 +61,12 @@ SurfaceReads::SurfaceReads(const Geometry& geometry)
       depth(geometry.depth()),
       normals(geometry.normals()),
       positions(geometry.positions()),
-      store(geometry.store()),
-      stored(geometry.stored()) {}
+      store(geometry.store()) {}
 
 std::vector<gpu::SpecConstant> SurfaceReads::with_store(std::vector<gpu::SpecConstant> own) const {
-  if (normals) own.push_back({4, normal_code(store.normal)});
-  if (positions) own.push_back({5, 1});
-  if (store.depth == DepthStore::kD16) own.push_back({6, 1});
+  if (normals) own.push_back({shared::kNormalCodeConstant, normal_code(store.normal)});
+  if (positions) own.push_back({shared::kPositionStoredConstant, 1});
+  if (store.depth == DepthStore::kD16) own.push_back({shared::kDepth16Constant, 1});
   return own;
 }
 
@@ -75,14 +76,12 @@ void SurfaceReads::declare(gpu::PassBuilder& builder) const {
     if (image) builder.read(image, gpu::Use::kComputeSampled);
 }
 
-void SurfaceReads::bind(gpu::Commands& commands, VkSampler point, std::uint32_t words_binding,
-                        std::uint32_t depth_binding) const {
-  commands.storage(words_binding, words);
-  commands.sampled(depth_binding, depth, point);
-  if (!stored) return;
+void SurfaceReads::bind(gpu::Commands& commands, VkSampler point) const {
+  commands.storage(shared::kSurfacesBinding, words);
+  commands.sampled(shared::kDepthsBinding, depth, point);
   // What is not kept is never read; depth is bound in its place so that every binding is valid.
-  commands.sampled(13, normals ? normals : depth, point);
-  commands.sampled(14, positions ? positions : depth, point);
+  commands.sampled(shared::kStoredNormalsBinding, normals ? normals : depth, point);
+  commands.sampled(shared::kStoredPositionsBinding, positions ? positions : depth, point);
 }
 
 Result<void> check_store(const gpu::Device& device, const GBufferStore& store) {

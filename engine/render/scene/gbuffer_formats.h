@@ -26,17 +26,13 @@ std::uint32_t normal_code(NormalStore store);
 /// What a compute pass needs that asks shaders/include/surface.glsl for surfaces.
 struct SurfaceReads {
   explicit SurfaceReads(const Geometry& geometry);
-  /// The shader's variant: a part of its name, and constants added to its own.
-  const char* suffix() const { return stored ? "_stored" : ""; }
+  /// Adds what the shader is specialised by.
   std::vector<gpu::SpecConstant> with_store(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
-  /// Words and depth at these bindings, what is kept besides at its own.
-  void bind(gpu::Commands& commands, VkSampler point, std::uint32_t words_binding,
-            std::uint32_t depth_binding) const;
+  void bind(gpu::Commands& commands, VkSampler point) const;
 
   gpu::ImageRef words, depth, normals, positions;
   GBufferStore store;
-  bool stored;  ///< normals or positions are kept
 };
 
 /// Whether the device can draw to and sample these formats; the error names the one it cannot.

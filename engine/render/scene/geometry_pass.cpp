@@ -1,8 +1,11 @@
 #include "engine/render/scene/geometry_pass.h"
 
+#include <shader_names.h>
 #include <array>
 
 #include "engine/render/scene/gbuffer_formats.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 namespace {
@@ -16,23 +19,24 @@ gpu::ImageRef target(gpu::FrameGraph& graph, const char* name, VkFormat format, 
 
 /// Pipeline of opaque quads, and of cut-outs.
 std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store, bool finest_coverage) {
-  gpu::GraphicsDesc opaque{.vertex = "draw_quads.vert",
-                           .fragment = "write_surface.frag",
+  gpu::GraphicsDesc opaque{.vertex = programs::kDrawQuadsVert,
+                           .fragment = programs::kWriteSurfaceFrag,
                            .constants = {},
                            .color_formats = {VK_FORMAT_R32_UINT},
                            .depth_format = depth_format(store.depth)};
   gpu::GraphicsDesc cutout = opaque;
-  cutout.fragment = "write_cutout.frag";
-  cutout.constants = {{0, 1}};
-  if (finest_coverage) cutout.constants.push_back({17, 1});
+  cutout.fragment = programs::kWriteCutoutFrag;
+  cutout.constants = {{shared::kTexturedConstant, 1}};
+  if (finest_coverage) cutout.constants.push_back({shared::kFinestCoverageConstant, 1});
   cutout.cull = VK_CULL_MODE_NONE;
   const VkFormat normal = normal_format(store.normal), position = position_format(store.position);
   if (normal == VK_FORMAT_UNDEFINED && position == VK_FORMAT_UNDEFINED) return {opaque, cutout};
-  opaque.fragment = "write_surface_stored.frag";
-  cutout.fragment = "write_cutout_stored.frag";
+  opaque.fragment = programs::kWriteSurfaceStoredFrag;
+  cutout.fragment = programs::kWriteCutoutStoredFrag;
   for (gpu::GraphicsDesc* desc : {&opaque, &cutout}) {
-    desc->constants.push_back({2, normal_code(store.normal)});
-    desc->constants.push_back({3, position != VK_FORMAT_UNDEFINED ? 1u : 0u});
+    desc->constants.push_back({shared::kNormalCodeConstant, normal_code(store.normal)});
+    desc->constants.push_back(
+        {shared::kPositionStoredConstant, position != VK_FORMAT_UNDEFINED ? 1u : 0u});
     for (const VkFormat format : {normal, position})
       if (format != VK_FORMAT_UNDEFINED) desc->color_formats.push_back(format);
   }
@@ -73,15 +77,15 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         const auto bind = [&](const gpu::Pipeline& pipeline) {
           c.bind(pipeline);
           if (!stored) return;
-          c.storage(6, scene.frame);
-          c.storage(7, scene.islands);
+          c.storage(shared::kFrameBinding, scene.frame);
+          c.storage(shared::kIslandsBinding, scene.islands);
         };
         bind(opaque_pipeline);
         draw_list(c, scene, draws, 0, DrawList::kOpaque);
         if (cutout_pipeline) {
           bind(*cutout_pipeline);
-          c.storage(4, scene.materials);
-          c.sampled(5, scene.block_textures, scene.block_sampler);
+          c.storage(shared::kMaterialsBinding, scene.materials);
+          c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
           draw_list(c, scene, draws, 0, DrawList::kCutout);
         }
       });

@@ -1,5 +1,8 @@
 #include "engine/render/scene/occupancy_reads.h"
 
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
+
 namespace skerry::render {
 
 OccupancyReads::OccupancyReads(const SceneRefs& scene, bool wanted)
@@ -16,13 +19,13 @@ void OccupancyReads::declare(gpu::PassBuilder& builder) const {
 }
 
 void OccupancyReads::bind(gpu::Commands& commands) const {
-  commands.storage(26, grids_);
-  commands.storage(27, tables_);
-  commands.storage(28, words_);
+  commands.storage(shared::kOccupancyGridsBinding, grids_);
+  commands.storage(shared::kOccupancyTablesBinding, tables_);
+  commands.storage(shared::kOccupancyBricksBinding, words_);
 }
 
 std::vector<gpu::SpecConstant> with_corners(std::vector<gpu::SpecConstant> own, bool corners) {
-  if (corners) own.push_back({15, 1});
+  if (corners) own.push_back({shared::kCornersConstant, 1});
   return own;
 }
 

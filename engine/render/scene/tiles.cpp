@@ -1,9 +1,11 @@
 #include "engine/render/scene/tiles.h"
 
+#include <shader_names.h>
 #include <algorithm>
 #include <cstddef>
 #include <string>
 
+#include "shaders/shared/bindings.h"
 #include "shaders/shared/frame.h"
 
 namespace skerry::render {
@@ -38,11 +40,12 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
       [words, out, columns, rows, size,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"classify_tiles.comp", {}})](gpu::Commands& c) {
+       &pipeline =
+           pipelines.get(gpu::ComputeDesc{programs::kClassifyTiles, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, words);
-        c.storage(1, out.dispatches);
-        c.storage(2, out.lists);
+        c.storage(shared::kSurfacesBinding, words);
+        c.storage(shared::kTileDispatchesBinding, out.dispatches);
+        c.storage(shared::kTilesBinding, out.lists);
         const struct {
           std::uint32_t width, height, columns, rows;
         } push{size.width, size.height, columns, rows};
@@ -61,8 +64,8 @@ void declare_tiles(gpu::PassBuilder& builder, const Tiles& tiles) {
 }
 
 void dispatch_tiles(gpu::Commands& commands, const Tiles& tiles, TileKind kind) {
-  commands.storage(20, tiles.lists);
-  commands.storage(21, tiles.dispatches);
+  commands.storage(shared::kTilesBinding, tiles.lists);
+  commands.storage(shared::kTileDispatchesBinding, tiles.dispatches);
   commands.push(static_cast<std::uint32_t>(kind));
   commands.dispatch_indirect(tiles.dispatches,
                              static_cast<std::uint64_t>(kind) * sizeof(shared::TileDispatch));

@@ -1,9 +1,11 @@
 #include "engine/render/sky/cloud_pass.h"
 
-#include <string>
+#include <shader_names.h>
 
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 namespace {
@@ -20,6 +22,8 @@ class ViewReads {
       : scene_(scene),
         clouds_(*scene.clouds),
         maps_(view.shadow_maps),
+        surfaces_(scene.no_words),
+        lights_(view.lights ? *view.lights : ClusteredLights::none(scene)),
         walls_(scene, settings, false),
         part_(part) {
     if (view.geometry) {
@@ -28,59 +32,53 @@ class ViewReads {
       depth16_ = view.geometry->store().depth == DepthStore::kD16;
     }
     if (part != Part::kAll) layer_depth_ = view.layer_depth;
-    if (view.lights) lights_ = *view.lights;
   }
 
-  std::string program(const char* name) const {
-    if (!depth_) return std::string(name) + "_sky.comp";
-    return std::string(name) + (maps_ ? "" : "_unshadowed") + (lights_ ? "_lit.comp" : ".comp");
-  }
   std::vector<gpu::SpecConstant> constants(std::vector<gpu::SpecConstant> own) const {
-    if (depth16_) own.push_back({6, 1});
-    if (layer_depth_) own.push_back({22, 1});
-    if (part_ == Part::kBehind) own.push_back({23, 1});
+    if (!depth_) own.push_back({shared::kSkyAloneConstant, 1});
+    if (depth16_) own.push_back({shared::kDepth16Constant, 1});
+    if (layer_depth_) own.push_back({shared::kTranslucentConstant, 1});
+    if (part_ == Part::kBehind) own.push_back({shared::kBehindConstant, 1});
     own = clouds_.with_clouds(with_light(std::move(own), scene_, bool{maps_}));
-    return lights_ ? walls_.with_walls(lights_->with_lights(std::move(own))) : own;
+    return lit() ? walls_.with_walls(lights_.with_lights(std::move(own))) : own;
   }
   void declare(gpu::PassBuilder& b) const {
     b.read(scene_.frame, Use::kComputeRead);
-    if (depth_) {
-      b.read(surfaces_, Use::kComputeRead);
-      b.read(depth_, Use::kComputeSampled);
-    }
+    b.read(surfaces_, Use::kComputeRead);
+    b.read(depth_or_other(), Use::kComputeSampled);
     if (layer_depth_) b.read(layer_depth_, Use::kComputeSampled);
-    if (maps_) b.read(maps_, Use::kComputeSampled);
+    b.read(maps_or_others(scene_, maps_), Use::kComputeSampled);
     b.read(scene_.sky_lut, Use::kComputeSampled);
     clouds_.declare_light(b);
     clouds_.declare_media(b);
-    if (!lights_) return;
-    lights_->declare(b);
+    lights_.declare(b);
     walls_.declare(b);
     b.read(scene_.islands, Use::kComputeRead);
   }
   void bind(gpu::Commands& c) const {
-    c.storage(0, scene_.frame);
-    if (depth_) {
-      c.storage(5, surfaces_);
-      c.sampled(6, depth_, scene_.point_sampler);
-      // Without water no layer is read; the binding is valid even so.
-      c.sampled(15, layer_depth_ ? layer_depth_ : depth_, scene_.point_sampler);
-    }
-    c.sampled(8, scene_.sky_lut, scene_.lut_sampler);
-    if (maps_) c.sampled(12, maps_, scene_.point_sampler);
+    c.storage(shared::kFrameBinding, scene_.frame);
+    c.storage(shared::kSurfacesBinding, surfaces_);
+    c.sampled(shared::kDepthsBinding, depth_or_other(), scene_.point_sampler);
+    // Without water no layer is read; the binding is valid even so.
+    c.sampled(shared::kLayerDepthsBinding, layer_depth_ ? layer_depth_ : depth_or_other(),
+              scene_.point_sampler);
+    c.sampled(shared::kSkyTableBinding, scene_.sky_lut, scene_.lut_sampler);
+    c.sampled(shared::kShadowMapsBinding, maps_or_others(scene_, maps_), scene_.point_sampler);
     clouds_.bind_light(c);
     clouds_.bind_media(c);
-    if (!lights_) return;
-    lights_->bind(c);
+    lights_.bind(c);
     walls_.bind(c);
-    c.storage(1, scene_.islands);
+    c.storage(shared::kIslandsBinding, scene_.islands);
   }
 
  private:
+  bool lit() const { return lights_.kinds != 0; }
+  gpu::ImageRef depth_or_other() const { return depth_ ? depth_ : scene_.sky_lut; }
+
   const SceneRefs scene_;
   CloudRefs clouds_;
   gpu::ImageRef maps_, surfaces_, depth_, layer_depth_;
-  std::optional<ClusteredLights> lights_;
+  ClusteredLights lights_;
   WallReads walls_;
   bool depth16_ = false;
   Part part_;
@@ -112,11 +110,11 @@ gpu::ImageRef march(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sce
         coarse = b.write(coarse, Use::kComputeWrite);
       },
       [reads, coarse, size = scene.size,
-       &pipeline = pipelines.get(gpu::ComputeDesc{reads.program("march_clouds"),
-                                                  reads.constants({})})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kMarchClouds, reads.constants({})})](
+          gpu::Commands& c) {
         c.bind(pipeline);
         reads.bind(c);
-        c.storage(14, coarse);
+        c.storage(shared::kCoarseCloudsBinding, coarse);
         dispatch_over_fours(c, size);
       });
   return coarse;
@@ -126,7 +124,7 @@ gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
                     const char* name, const ViewReads& reads, gpu::ImageRef coarse,
                     gpu::ImageRef radiance) {
   std::vector<gpu::SpecConstant> constants;
-  if (coarse) constants.push_back({24, 1});
+  if (coarse) constants.push_back({shared::kCoarseConstant, 1});
   graph.add_pass(
       name,
       [&](gpu::PassBuilder& b) {
@@ -137,14 +135,13 @@ gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       },
       [reads, coarse, radiance, stats = scene.pixel_stats, size = scene.size, lut = scene.sky_lut,
        sampler = scene.point_sampler,
-       &pipeline = pipelines.get(
-           gpu::ComputeDesc{reads.program("blend_clouds"), reads.constants(std::move(constants))})](
-          gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{
+           programs::kBlendClouds, reads.constants(std::move(constants))})](gpu::Commands& c) {
         c.bind(pipeline);
         reads.bind(c);
-        c.storage(4, stats);
-        c.storage(9, radiance);
-        c.sampled(14, coarse ? coarse : lut, sampler);
+        c.storage(shared::kPixelStatsBinding, stats);
+        c.storage(shared::kRadianceBinding, radiance);
+        c.sampled(shared::kCoarseCloudsBinding, coarse ? coarse : lut, sampler);
         dispatch_over(c, size);
       });
   return radiance;
@@ -153,8 +150,8 @@ gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
 }  // namespace
 
 std::vector<gpu::SpecConstant> CloudRefs::with_clouds(std::vector<gpu::SpecConstant> own) const {
-  if (layer) own.push_back({20, 1});
-  if (volumes != 0) own.push_back({21, volumes});
+  if (layer) own.push_back({shared::kCloudLayerConstant, 1});
+  if (volumes != 0) own.push_back({shared::kCloudVolumesConstant, volumes});
   return own;
 }
 
@@ -165,9 +162,9 @@ void CloudRefs::declare_light(gpu::PassBuilder& b) const {
 }
 
 void CloudRefs::bind_light(gpu::Commands& c) const {
-  c.storage(3, constants);
-  c.sampled(30, layer_light, linear);
-  c.sampled(31, volume_light, linear);
+  c.storage(shared::kCloudsBinding, constants);
+  c.sampled(shared::kLayerLightBinding, layer_light, linear);
+  c.sampled(shared::kVolumeLightBinding, volume_light, linear);
 }
 
 void CloudRefs::declare_media(gpu::PassBuilder& b) const {
@@ -176,11 +173,11 @@ void CloudRefs::declare_media(gpu::PassBuilder& b) const {
 }
 
 void CloudRefs::bind_media(gpu::Commands& c) const {
-  c.sampled(10, weather, repeating);
-  c.sampled(11, cells, nearest);
-  c.sampled(13, bricks, linear);
-  c.sampled(16, shapes, repeating);
-  c.sampled(17, billows, repeating);
+  c.sampled(shared::kCloudWeatherBinding, weather, repeating);
+  c.sampled(shared::kCloudCellsBinding, cells, nearest);
+  c.sampled(shared::kCloudBricksBinding, bricks, linear);
+  c.sampled(shared::kCloudShapesBinding, shapes, repeating);
+  c.sampled(shared::kCloudBillowsBinding, billows, repeating);
 }
 
 gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
@@ -188,9 +185,9 @@ gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pi
                                       const TranslucentPass::Layers& layers) {
   gpu::ImageRef mirrored = coarse_image(graph, scene, "mirrored clouds");
   const gpu::ImageRef maps = view.shadow_maps;
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      maps ? "march_mirrored_clouds.comp" : "march_mirrored_clouds_unshadowed.comp",
-      scene.clouds->with_clouds(with_light({}, scene, bool{maps}))});
+  const gpu::Pipeline& pipeline =
+      pipelines.get(gpu::ComputeDesc{programs::kMarchMirroredClouds,
+                                     scene.clouds->with_clouds(with_light({}, scene, bool{maps}))});
   graph.add_pass(
       "march_mirrored_clouds",
       [&](gpu::PassBuilder& b) {
@@ -199,23 +196,23 @@ gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pi
         scene.clouds->declare_light(b);
         scene.clouds->declare_media(b);
         b.read(scene.sky_lut, Use::kComputeSampled);
-        if (maps) b.read(maps, Use::kComputeSampled);
+        b.read(maps_or_others(scene, maps), Use::kComputeSampled);
         b.read(layers.surfaces[0], Use::kComputeRead);
         b.read(layers.depth[0], Use::kComputeSampled);
         mirrored = b.write(mirrored, Use::kComputeWrite);
       },
       [scene, layers, maps, mirrored, &pipeline](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.frame);
-        c.storage(1, scene.islands);
-        c.storage(2, scene.materials);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kIslandsBinding, scene.islands);
+        c.storage(shared::kMaterialsBinding, scene.materials);
         scene.clouds->bind_light(c);
         scene.clouds->bind_media(c);
-        c.sampled(8, scene.sky_lut, scene.lut_sampler);
-        if (maps) c.sampled(12, maps, scene.point_sampler);
-        c.storage(14, mirrored);
-        c.sampled(15, layers.depth[0], scene.point_sampler);
-        c.storage(19, layers.surfaces[0]);
+        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
+        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
+        c.storage(shared::kMirroredCloudsBinding, mirrored);
+        c.sampled(shared::kLayerDepthsBinding, layers.depth[0], scene.point_sampler);
+        c.storage(shared::kLayerSurfacesBinding, layers.surfaces[0]);
         dispatch_over_fours(c, scene.size);
       });
   return mirrored;

@@ -1,11 +1,13 @@
 #include "engine/render/sky/clouds.h"
 
 #include <fmt/format.h>
+#include <shader_names.h>
 
 #include <array>
 #include <utility>
 
 #include "engine/core/check.h"
+#include "shaders/shared/bindings.h"
 
 namespace skerry::render {
 namespace {
@@ -183,10 +185,10 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
                                                     .depth = kNoiseEdge});
   graph.add_pass(
       "bake_cloud_noise", [&](gpu::PassBuilder& b) { noise = b.write(noise, Use::kComputeWrite); },
-      [noise,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"bake_cloud_noise.comp", {}})](gpu::Commands& c) {
+      [noise, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kBakeCloudNoise, {}})](
+          gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, noise);
+        c.storage(shared::kCloudNoiseBinding, noise);
         c.dispatch(kGroups, kGroups, kNoiseEdge);
       });
   graph.add_pass(
@@ -196,14 +198,14 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
         for (gpu::ImageRef* ref : {&refs.weather, &refs.shapes, &refs.billows})
           *ref = b.write(*ref, Use::kComputeWrite);
       },
-      [noise, refs,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"pack_cloud_noise.comp", {}})](gpu::Commands& c) {
+      [noise, refs, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kPackCloudNoise, {}})](
+          gpu::Commands& c) {
         c.bind(pipeline);
-        c.sampled(0, noise, refs.nearest);
-        c.storage(1, refs.weather);
+        c.sampled(shared::kCloudNoiseBinding, noise, refs.nearest);
+        c.storage(shared::kCloudWeatherBinding, refs.weather);
         for (std::uint32_t layer = 0; layer < shared::kCloudNoiseLayers; ++layer) {
-          c.storage(2, refs.shapes, 0, layer);
-          c.storage(3, refs.billows, 0, layer);
+          c.storage(shared::kCloudShapesBinding, refs.shapes, 0, layer);
+          c.storage(shared::kCloudBillowsBinding, refs.billows, 0, layer);
           c.push(layer);
           c.dispatch(kGroups, kGroups, 1);
         }
@@ -220,14 +222,14 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
           b.read(ref, Use::kComputeSampled);
         refs.layer_light = b.write(refs.layer_light, Use::kComputeWrite);
       },
-      [refs, body, &pipeline = pipelines.get(gpu::ComputeDesc{"trace_cloud_layer.comp", {}})](
+      [refs, body, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kTraceCloudLayer, {}})](
           gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, refs.constants);
-        c.sampled(1, refs.weather, refs.repeating);
-        c.storage(2, refs.layer_light);
-        c.sampled(3, refs.shapes, refs.repeating);
-        c.sampled(4, refs.billows, refs.repeating);
+        c.storage(shared::kCloudsBinding, refs.constants);
+        c.sampled(shared::kCloudWeatherBinding, refs.weather, refs.repeating);
+        c.storage(shared::kLayerLightBinding, refs.layer_light);
+        c.sampled(shared::kCloudShapesBinding, refs.shapes, refs.repeating);
+        c.sampled(shared::kCloudBillowsBinding, refs.billows, refs.repeating);
         c.push(body);
         const std::uint32_t groups = shared::kLayerLightEdge / kColumnGroup;
         c.dispatch(groups, groups, 1);
@@ -250,13 +252,13 @@ void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         b.read(refs.constants, Use::kComputeRead);
         refs.volume_light = b.write(refs.volume_light, Use::kComputeWrite);
       },
-      [refs, jobs, &pipeline = pipelines.get(gpu::ComputeDesc{"trace_cloud_volume.comp", {}})](
+      [refs, jobs, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kTraceCloudVolume, {}})](
           gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(3, refs.constants);
-        c.sampled(11, refs.cells, refs.nearest);
-        c.sampled(13, refs.bricks, refs.linear);
-        c.storage(14, refs.volume_light);
+        c.storage(shared::kCloudsBinding, refs.constants);
+        c.sampled(shared::kCloudCellsBinding, refs.cells, refs.nearest);
+        c.sampled(shared::kCloudBricksBinding, refs.bricks, refs.linear);
+        c.storage(shared::kVolumeLightBinding, refs.volume_light);
         for (const auto& [job, texels] : jobs) {
           c.push(job);
           c.dispatch(gpu::Commands::groups(static_cast<std::uint32_t>(texels.x), kLightGroup),

@@ -1,5 +1,8 @@
 #include "engine/render/sky/sky_pass.h"
 
+#include <shader_names.h>
+
+#include "shaders/shared/bindings.h"
 #include "shaders/shared/sky.h"
 
 namespace skerry::render {
@@ -14,10 +17,10 @@ gpu::ImageRef add_sky_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         table = b.write(table, gpu::Use::kComputeWrite);
       },
       [sky = scene.sky, table,
-       &pipeline = pipelines.get(gpu::ComputeDesc{"bake_sky.comp", {}})](gpu::Commands& c) {
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kBakeSky, {}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, sky);
-        c.storage(1, table);
+        c.storage(shared::kSkyBinding, sky);
+        c.storage(shared::kSkyTableBinding, table);
         c.dispatch(gpu::Commands::groups(shared::kSkyLutWidth, shared::kSkyLutGroup),
                    gpu::Commands::groups(shared::kSkyLutHeight, shared::kSkyLutGroup), 1);
       });

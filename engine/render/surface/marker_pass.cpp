@@ -1,5 +1,8 @@
 #include "engine/render/surface/marker_pass.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
+#include <shader_names.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -75,8 +78,8 @@ Developed MarkerPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, con
                           const shared::MarkerConstants& marker) {
   gpu::ImageRef out = developed.picture();
   const gpu::ImageRef depth = geometry.depth();
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{"draw_marker.comp", {{0, scene.samples_per_edge}}});
+  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
+      programs::kDrawMarker, {{shared::kSamplesPerEdgeConstant, scene.samples_per_edge}}});
   graph.add_pass(
       "draw_marker",
       [&](gpu::PassBuilder& b) {
@@ -86,9 +89,9 @@ Developed MarkerPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, con
       },
       [&pipeline, scene, depth, out, marker](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.frame);
-        c.sampled(4, depth, scene.point_sampler);
-        c.storage(6, out);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.sampled(shared::kDepthsBinding, depth, scene.point_sampler);
+        c.storage(shared::kPictureBinding, out);
         c.push(marker);
         c.dispatch(gpu::Commands::groups(marker.end.x - marker.first.x, 8),
                    gpu::Commands::groups(marker.end.y - marker.first.y, 8), 1);

@@ -1,6 +1,6 @@
 #include "engine/render/surface/shade_pass.h"
 
-#include <string>
+#include <shader_names.h>
 #include <utility>
 
 #include "engine/render/light/light_constants.h"
@@ -8,6 +8,8 @@
 #include "engine/render/scene/occupancy_reads.h"
 #include "engine/render/scene/tiles.h"
 #include "engine/render/surface/picture_constants.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame.h"
 
 namespace skerry::render {
@@ -17,11 +19,19 @@ using gpu::Use;
 
 std::vector<gpu::SpecConstant> with_target(std::vector<gpu::SpecConstant> own,
                                            const SceneRefs& scene, bool to_picture) {
-  return to_picture ? with_picture(std::move(own), scene) : own;
+  if (!to_picture) return own;
+  own.push_back({shared::kToPictureConstant, 1});
+  return with_picture(std::move(own), scene);
+}
+
+/// What output.glsl reads; shading that is not for the picture at once reads no exposure.
+gpu::BufferRef exposure_or_other(const SceneRefs& scene, bool to_picture) {
+  return to_picture ? scene.exposure : scene.frame;
 }
 
 std::vector<gpu::SpecConstant> constants_of_sky(const ShadeIn& in) {
-  return {{0, in.stars ? 1u : 0u}, {1, in.discs ? 1u : 0u}};
+  return {{shared::kStarsConstant, in.stars ? 1u : 0u},
+          {shared::kDiscsConstant, in.discs ? 1u : 0u}};
 }
 
 /// Adds surfaces and sky, both into `target`. @return its last version.
@@ -33,17 +43,16 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
   const OccupancyReads occupancy(scene, scene.corners && scene.bodies != 0);
-  const std::optional<CloudRefs> clouds = clouds_before_light(scene);
-  const std::string suffix = to_picture ? "_to_picture.comp" : ".comp";
+  const CloudRefs clouds = clouds_before_light(scene);
   const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
-      std::string("shade_surfaces") + (maps ? "" : "_unshadowed") + surfaces.suffix() +
-          (clouds ? "_clouded" : "") + suffix,
-      with_target(with_clouds(with_corners(surfaces.with_store(with_light(
-                                               {{0, static_cast<std::uint32_t>(in.texture_taps)}},
-                                               scene, bool{maps})),
-                                           bool{occupancy}),
-                              clouds),
-                  scene, to_picture)});
+      programs::kShadeSurfaces,
+      with_target(
+          clouds.with_clouds(with_corners(
+              surfaces.with_store(with_light(
+                  {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
+                  scene, bool{maps})),
+              bool{occupancy})),
+          scene, to_picture)});
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
@@ -52,7 +61,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         declare_tiles(b, tiles);
         surfaces.declare(b);
         occupancy.declare(b);
-        if (clouds) clouds->declare_light(b);
+        clouds.declare_light(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         b.read(scene.sky_lut, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
@@ -63,22 +72,22 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       [&surface_pipeline, scene, tiles, surfaces, occupancy, clouds, maps, target,
        to_picture](gpu::Commands& c) {
         c.bind(surface_pipeline);
-        c.storage(0, scene.frame);
-        c.storage(1, scene.islands);
-        c.storage(2, scene.materials);
-        c.storage(4, scene.pixel_stats);
-        surfaces.bind(c, scene.point_sampler, 5, 6);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kIslandsBinding, scene.islands);
+        c.storage(shared::kMaterialsBinding, scene.materials);
+        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
+        surfaces.bind(c, scene.point_sampler);
         occupancy.bind(c);
-        if (clouds) clouds->bind_light(c);
-        c.sampled(7, scene.block_textures, scene.block_sampler);
-        c.sampled(8, scene.sky_lut, scene.lut_sampler);
-        c.storage(9, target);
-        if (maps) c.sampled(12, maps, scene.point_sampler);
-        if (to_picture) c.storage(22, scene.exposure);
+        clouds.bind_light(c);
+        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
+        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
+        c.storage(shared::kTargetBinding, target);
+        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
+        c.storage(shared::kExposureBinding, exposure_or_other(scene, to_picture));
         dispatch_tiles(c, tiles, TileKind::kCovered);
       });
   const gpu::Pipeline& sky_pipeline = pipelines.get(
-      gpu::ComputeDesc{"shade_sky" + suffix, with_target(constants_of_sky(in), scene, to_picture)});
+      gpu::ComputeDesc{programs::kShadeSky, with_target(constants_of_sky(in), scene, to_picture)});
   const gpu::ImageRef words = geometry.surfaces();
   graph.add_pass(
       "shade_sky",
@@ -93,13 +102,13 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       },
       [&sky_pipeline, scene, tiles, words, target, to_picture](gpu::Commands& c) {
         c.bind(sky_pipeline);
-        c.storage(0, scene.frame);
-        c.storage(3, scene.sky);
-        c.storage(4, scene.pixel_stats);
-        c.storage(5, words);
-        c.sampled(8, scene.sky_lut, scene.lut_sampler);
-        c.storage(9, target);
-        if (to_picture) c.storage(22, scene.exposure);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kSkyBinding, scene.sky);
+        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
+        c.storage(shared::kSurfacesBinding, words);
+        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
+        c.storage(shared::kTargetBinding, target);
+        c.storage(shared::kExposureBinding, exposure_or_other(scene, to_picture));
         dispatch_tiles(c, tiles, TileKind::kOpen);
       });
   return target;
@@ -109,13 +118,16 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
 gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                    SceneRefs& scene, const ShadeIn& in, gpu::ImageRef target,
                                    bool to_picture) {
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      to_picture ? "shade_sky_everywhere_to_picture.comp" : "shade_sky_everywhere.comp",
-      with_target(constants_of_sky(in), scene, to_picture)});
+  std::vector<gpu::SpecConstant> constants = constants_of_sky(in);
+  constants.push_back({shared::kSkyAloneConstant, 1});
+  const gpu::Pipeline& pipeline = pipelines.get(
+      gpu::ComputeDesc{programs::kShadeSky, with_target(std::move(constants), scene, to_picture)});
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.sky}) b.read(ref, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {scene.frame, scene.sky, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        b.read(scene.no_words, Use::kComputeRead);
         b.read(scene.sky_lut, Use::kComputeSampled);
         if (to_picture) b.read(scene.exposure, Use::kComputeRead);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
@@ -123,12 +135,17 @@ gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipel
       },
       [&pipeline, scene, target, to_picture](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.frame);
-        c.storage(3, scene.sky);
-        c.storage(4, scene.pixel_stats);
-        c.sampled(8, scene.sky_lut, scene.lut_sampler);
-        c.storage(9, target);
-        if (to_picture) c.storage(22, scene.exposure);
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kSkyBinding, scene.sky);
+        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
+        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
+        c.storage(shared::kTargetBinding, target);
+        c.storage(shared::kExposureBinding, exposure_or_other(scene, to_picture));
+        // Neither surfaces nor tiles are read.
+        c.storage(shared::kSurfacesBinding, scene.no_words);
+        c.storage(shared::kTilesBinding, scene.materials);
+        c.storage(shared::kTileDispatchesBinding, scene.materials);
+        c.push(0u);
         c.dispatch(gpu::Commands::groups(scene.size.width, shared::kTileEdge),
                    gpu::Commands::groups(scene.size.height, shared::kTileEdge), 1);
       });

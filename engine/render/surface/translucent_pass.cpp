@@ -1,12 +1,13 @@
 #include "engine/render/surface/translucent_pass.h"
 
+#include <shader_names.h>
 #include <array>
-#include <optional>
-#include <string>
 
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/tiles.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 
@@ -28,13 +29,13 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
     depth = graph.create(gpu::ImageDesc{
         .name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
     const gpu::ImageRef previous = k == 0 ? opaque_depth : out.depth[k - 1];
-    const gpu::Pipeline& pipeline =
-        pipelines.get(gpu::GraphicsDesc{.vertex = "draw_quads.vert",
-                                        .fragment = "write_layer.frag",
-                                        .constants = {{1, k == 0 ? 1u : 0u}},
-                                        .color_formats = {VK_FORMAT_R32_UINT},
-                                        .depth_format = VK_FORMAT_D32_SFLOAT,
-                                        .cull = VK_CULL_MODE_NONE});
+    const gpu::Pipeline& pipeline = pipelines.get(
+        gpu::GraphicsDesc{.vertex = programs::kDrawQuadsVert,
+                          .fragment = programs::kWriteLayerFrag,
+                          .constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
+                          .color_formats = {VK_FORMAT_R32_UINT},
+                          .depth_format = VK_FORMAT_D32_SFLOAT,
+                          .cull = VK_CULL_MODE_NONE});
     graph.add_pass(
         kNames[k],
         [&](gpu::PassBuilder& b) {
@@ -46,8 +47,8 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
         },
         [scene, draws, opaque_depth, previous, &pipeline](gpu::Commands& c) {
           c.bind(pipeline);
-          c.sampled(4, opaque_depth, scene.point_sampler);
-          c.sampled(5, previous, scene.point_sampler);
+          c.sampled(shared::kDepthsBinding, opaque_depth, scene.point_sampler);
+          c.sampled(shared::kPreviousDepthsBinding, previous, scene.point_sampler);
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
@@ -65,28 +66,26 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
                                      layers.surfaces[0], scene.size);
   gpu::ImageRef radiance = shaded.radiance();
   const gpu::ImageRef maps = shadows.maps();
-  std::vector<gpu::SpecConstant> constants = with_light({{0, layers.count}}, scene, bool{maps});
+  std::vector<gpu::SpecConstant> constants =
+      with_light({{shared::kLayersConstant, layers.count}}, scene, bool{maps});
   const WallReads walls(scene, settings, false);
-  const std::optional<CloudRefs> clouds = clouds_before_light(scene);
-  constants = with_clouds(std::move(constants), clouds);
-  if (layers.mirrored_clouds) constants.push_back({25, 1});
-  if (lights) constants = walls.with_walls(lights->with_lights(std::move(constants)));
-  const gpu::Pipeline& pipeline = pipelines.get(
-      gpu::ComputeDesc{std::string("shade_translucent") + (maps ? "" : "_unshadowed") +
-                           (lights ? "_lit" : "") + (clouds ? "_clouded.comp" : ".comp"),
-                       std::move(constants)});
+  const CloudRefs clouds = clouds_before_light(scene);
+  constants = clouds.with_clouds(std::move(constants));
+  if (layers.mirrored_clouds) constants.push_back({shared::kMirroredCloudsConstant, 1});
+  const ClusteredLights lit = lights ? *lights : ClusteredLights::none(scene);
+  if (lights) constants = walls.with_walls(lit.with_lights(std::move(constants)));
+  const gpu::Pipeline& pipeline =
+      pipelines.get(gpu::ComputeDesc{programs::kShadeTranslucent, std::move(constants)});
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
-        if (clouds) clouds->declare_light(b);
+        clouds.declare_light(b);
         if (layers.mirrored_clouds) b.read(layers.mirrored_clouds, Use::kComputeSampled);
-        if (lights) {
-          lights->declare(b);
-          walls.declare(b);
-        }
+        lit.declare(b);
+        walls.declare(b);
         for (std::uint32_t k = 0; k < layers.count; ++k) {
           b.read(layers.surfaces[k], Use::kComputeRead);
           b.read(layers.depth[k], Use::kComputeSampled);
@@ -98,34 +97,31 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         radiance = b.write(radiance, Use::kComputeWrite);
       },
       [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, walls, clouds, &pipeline,
-       lit = lights ? std::optional(*lights) : std::nullopt](gpu::Commands& c) {
+       lit](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(0, scene.frame);
-        c.storage(1, scene.islands);
-        c.storage(2, scene.materials);
-        c.storage(4, scene.pixel_stats);
-        c.sampled(7, opaque_depth, scene.point_sampler);
-        c.sampled(8, scene.sky_lut, scene.lut_sampler);
-        c.storage(9, radiance);
-        if (maps) c.sampled(10, maps, scene.point_sampler);
-        c.sampled(11, scene.block_textures, scene.block_sampler);
-        if (clouds) {
-          clouds->bind_light(c);
-          // Where none are known, something that is never read is bound in their place.
-          c.sampled(5, layers.mirrored_clouds ? layers.mirrored_clouds : scene.sky_lut,
-                    scene.point_sampler);
-        }
+        c.storage(shared::kFrameBinding, scene.frame);
+        c.storage(shared::kIslandsBinding, scene.islands);
+        c.storage(shared::kMaterialsBinding, scene.materials);
+        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
+        c.sampled(shared::kDepthsBinding, opaque_depth, scene.point_sampler);
+        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
+        c.storage(shared::kRadianceBinding, radiance);
+        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
+        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
+        clouds.bind_light(c);
+        // Where none are known, something that is never read is bound in their place.
+        c.sampled(shared::kMirroredCloudsBinding,
+                  layers.mirrored_clouds ? layers.mirrored_clouds : scene.sky_lut,
+                  scene.point_sampler);
         // Layers that are not kept are never read; they are bound to the first so that every
         // binding is valid.
         for (std::uint32_t k = 0; k < 4; ++k) {
           const std::uint32_t bound = k < layers.count ? k : 0;
-          c.storage(12 + k, layers.surfaces[bound]);
-          c.sampled(16 + k, layers.depth[bound], scene.point_sampler);
+          c.storage(shared::kLayerSurfacesBinding + k, layers.surfaces[bound]);
+          c.sampled(shared::kLayerDepthsBinding + k, layers.depth[bound], scene.point_sampler);
         }
-        if (lit) {
-          lit->bind(c);
-          walls.bind(c);
-        }
+        lit.bind(c);
+        walls.bind(c);
         dispatch_tiles(c, tiles, TileKind::kCovered);
         if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
       });

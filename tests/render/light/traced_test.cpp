@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/render/renderer/frame_tables.h"
+#include "shaders/shared/bindings.h"
 #include "shaders/shared/light.h"
 #include "tests/render/occupancy_on_gpu.h"
 #include "tests/render/random_scenes.h"
@@ -85,7 +86,8 @@ class Traced : public OccupancyOnGpu {
   std::vector<float> visibility(const std::vector<Question>& questions,
                                 const std::vector<shared::IslandTransform>& islands,
                                 const std::vector<std::uint32_t>& light_islands) {
-    return ask<float>(kVisibility, questions, {table(2, islands), table(29, light_islands)},
+    return ask<float>(kVisibility, questions,
+                      {table(2, islands), table(shared::kLightIslandsBinding, light_islands)},
                       {{40, kEvery}});
   }
 };
@@ -358,10 +360,10 @@ class BlockedLights : public OccupancyOnGpu {
   }
   std::vector<glm::vec3> radiance(const std::vector<Pixel>& pixels, std::uint32_t traced) {
     const std::vector<shared::IslandTransform> here{Placed{}.transform()};
-    return ask<glm::vec3>(
-        kPixel, pixels,
-        {table(2, here), table(3, lights_), table(29, std::vector<std::uint32_t>{0})},
-        {{40, traced}});
+    return ask<glm::vec3>(kPixel, pixels,
+                          {table(2, here), table(3, lights_),
+                           table(shared::kLightIslandsBinding, std::vector<std::uint32_t>{0})},
+                          {{40, traced}});
   }
   /// Each light of each pixel by itself.
   std::vector<Pixel> single() const {

@@ -1,6 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// Deferred light with shadow maps from kept normals or positions, to radiance. docs/conventions.md.
-#define SKERRY_SHADOWS
-#define SKERRY_STORED
-#include "include/shade_surfaces.glsl"

@@ -1,5 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// Deferred light without shadow maps from kept normals or positions, to radiance. docs/conventions.md.
-#define SKERRY_STORED
-#include "include/shade_surfaces.glsl"

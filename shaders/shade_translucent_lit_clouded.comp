@@ -1,7 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// Water and glass under clouds, with shadow maps and the frame's lights. docs/conventions.md.
-#define SKERRY_SHADOWS
-#define SKERRY_LIGHTS
-#define SKERRY_CLOUDS
-#include "include/shade_translucent.glsl"

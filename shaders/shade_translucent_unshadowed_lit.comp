@@ -1,5 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// Water and glass in frames without shadow maps, under the frame's lights. docs/conventions.md.
-#define SKERRY_LIGHTS
-#include "include/shade_translucent.glsl"

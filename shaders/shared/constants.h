@@ -1,0 +1,48 @@
+// Specialization constants: one number for one choice, in every program. Shaders declare and passes
+// set them by these names. docs/conventions.md.
+#ifndef SKERRY_SHARED_CONSTANTS_H
+#define SKERRY_SHARED_CONSTANTS_H
+#include "types.h"
+
+SHARED_BEGIN
+SHARED_CONST uint kTextureTapsConstant = 0u;  // uint: most samples of a texture
+SHARED_CONST uint kLayersConstant = 1u;  // uint: translucent layers, 0..4
+SHARED_CONST uint kFirstConstant = 2u;  // bool: the first of several
+SHARED_CONST uint kTexturedConstant = 3u;  // bool: vertices have texture coordinates
+SHARED_CONST uint kNormalCodeConstant = 4u;  // uint: how normals are kept
+SHARED_CONST uint kPositionStoredConstant = 5u;  // bool: positions are kept
+SHARED_CONST uint kDepth16Constant = 6u;  // bool: depth is kept in 16 bits
+SHARED_CONST uint kFirstLayerConstant = 7u;  // bool: nothing lies before the layer
+SHARED_CONST uint kBodiesConstant = 8u;  // uint: bits of sun and moon
+SHARED_CONST uint kShadowTapsConstant = 9u;  // uint
+SHARED_CONST uint kCascadesConstant = 10u;  // uint: of a body
+SHARED_CONST uint kHazeConstant = 11u;  // bool
+SHARED_CONST uint kLightKindsConstant = 12u;  // uint: bits of the kinds that there are
+SHARED_CONST uint kPenumbraeConstant = 13u;  // bool
+SHARED_CONST uint kSamplesPerEdgeConstant = 14u;  // uint: of a pixel
+SHARED_CONST uint kCornersConstant = 15u;  // bool: corners darken
+SHARED_CONST uint kOracleConstant = 16u;  // bool: every light may reach every pixel
+SHARED_CONST uint kFinestCoverageConstant = 17u;  // bool: coverage by the finest texels
+SHARED_CONST uint kWriteSurfaceConstant = 18u;  // bool: false where there is only depth
+SHARED_CONST uint kChannelConstant = 19u;  // uint: render::DebugView
+SHARED_CONST uint kCloudLayerConstant = 20u;  // bool
+SHARED_CONST uint kCloudVolumesConstant = 21u;  // uint
+SHARED_CONST uint kTranslucentConstant = 22u;  // bool: there is water or glass
+SHARED_CONST uint kBehindConstant = 23u;  // bool: behind the nearest water or glass
+SHARED_CONST uint kCoarseConstant = 24u;  // bool: there is a coarse image of clouds
+SHARED_CONST uint kMirroredCloudsConstant = 25u;  // bool
+SHARED_CONST uint kReachingConstant = 26u;  // bool: count lights that reach the pixel
+SHARED_CONST uint kStarsConstant = 27u;  // bool
+SHARED_CONST uint kDiscsConstant = 28u;  // bool: of sun and moon
+SHARED_CONST uint kToneConstant = 30u;  // uint: render::ToneCurve
+SHARED_CONST uint kCalibratedConstant = 31u;  // bool: the display takes other than 0 to 1
+SHARED_CONST uint kShadowsConstant = 32u;  // bool: there are shadow maps
+SHARED_CONST uint kLitConstant = 33u;  // bool: lamps light it
+SHARED_CONST uint kToPictureConstant = 34u;  // bool: to the picture at once, not to radiance
+SHARED_CONST uint kSkyAloneConstant = 35u;  // bool: there is no geometry
+SHARED_CONST uint kBloomConstant = 36u;  // bool
+SHARED_CONST uint kAccumulateConstant = 37u;  // bool: adds to the parts before
+SHARED_CONST uint kTracedLightsConstant = 40u;  // uint: lights whose walls are looked for
+SHARED_CONST uint kLightSamplesConstant = 41u;  // uint: ways to a light that has a size
+SHARED_END
+#endif

@@ -1,5 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// Debug views without shadow maps from kept normals or positions. docs/conventions.md.
-#define SKERRY_STORED
-#include "include/show_channel.glsl"
