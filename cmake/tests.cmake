@@ -36,6 +36,13 @@ if(SKERRY_SANITIZE MATCHES fuzzer)  # Clang's
   target_link_options(skerry_fuzz PRIVATE -fsanitize=fuzzer)
 endif()
 
+# Some damaged .vdb files, by the program itself; the run of thousands is a command of its own.
+if(SKERRY_OPENVDB)
+  add_test(NAME vdb.mutants COMMAND ${CMAKE_SOURCE_DIR}/tests/vdb/mutants
+    $<TARGET_FILE:skerry> $<TARGET_FILE:skerry_vdb_samples> --count 96)
+  set_tests_properties(vdb.mutants PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600 PROCESSORS 2)
+endif()
+
 # The rules of the tree itself.
 add_test(NAME tools.check_includes COMMAND ${CMAKE_SOURCE_DIR}/tools/check_includes)
 add_test(NAME tools.check_paths COMMAND ${CMAKE_SOURCE_DIR}/tools/check_paths)

@@ -9,7 +9,8 @@
 namespace skerry::game {
 namespace {
 
-constexpr std::array<std::string_view, 5> kKeys = {"grid", "scale", "size", "threshold", "up"};
+constexpr std::array<std::string_view, 6> kKeys = {"grid",      "scale", "size",
+                                                   "threshold", "up",    "expect"};
 
 Result<void> set_number(const std::string& value, const std::string& named, double low, double high,
                         std::optional<double>& out) {
@@ -23,6 +24,19 @@ Result<void> set_number(const std::string& value, const std::string& named, doub
 
 bool is_vdb(const std::filesystem::path& path) {
   return path.extension() == ".vdb";
+}
+
+Result<std::string> parse_sha256(const std::string& value, const std::string& named) {
+  constexpr std::size_t kDigits = 64;
+  std::string lower;
+  for (const char c : value) {
+    const bool letter = (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+    if (!letter && !(c >= '0' && c <= '9')) break;
+    lower += c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  if (lower.size() == value.size() && value.size() == kDigits) return lower;
+  return Error{fmt::format("{} cannot be {}: give the {} hexadecimal digits that sha256sum prints",
+                           named, quote_text(value), kDigits)};
 }
 
 Result<void> set_import(std::string_view key, const std::string& value, const std::string& named,
@@ -41,6 +55,10 @@ Result<void> set_import(std::string_view key, const std::string& value, const st
     if (value != "y" && value != "z")
       return Error{fmt::format("{} cannot be {}: give y or z", named, quote_text(value))};
     options.up = value == "z" ? world::UpAxis::kZ : world::UpAxis::kY;
+  } else if (key == "expect") {
+    const Result<std::string> sum = parse_sha256(value, named);
+    if (!sum) return sum.error();
+    options.expect = *sum;
   } else {
     return Error{fmt::format("there is no import option {}: did you mean '{}'?", quote_text(key),
                              nearest_name(key, kKeys))};
@@ -65,6 +83,7 @@ std::vector<std::string> import_assignments(const world::ImportOptions& options)
   if (options.size_blocks) out.push_back(fmt::format("size={}", *options.size_blocks));
   if (options.threshold) out.push_back(fmt::format("threshold={}", *options.threshold));
   if (options.up == world::UpAxis::kZ) out.push_back("up=z");
+  if (options.expect) out.push_back("expect=" + *options.expect);
   return out;
 }
 

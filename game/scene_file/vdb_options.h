@@ -13,7 +13,10 @@ namespace skerry::game {
 /// Whether a path names a .vdb file, by its ending.
 bool is_vdb(const std::filesystem::path& path);
 
-/// Sets one option: grid, scale, size, threshold or up. @param named how messages name it.
+/// A SHA-256 as 64 digits, upper or lower case. @return lower case. Errors: it is none.
+Result<std::string> parse_sha256(const std::string& value, const std::string& named);
+
+/// Sets one option: grid, scale, size, threshold, up or expect. @param named how messages name it.
 /// Errors: no such key (names the nearest), no value that fits; scale and size exclude each other.
 Result<void> set_import(std::string_view key, const std::string& value, const std::string& named,
                         world::ImportOptions& options);

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <system_error>
 #include <utility>
 
 #include "engine/core/draft.h"
 #include "game/scene_file/parse.h"
+#include "game/worlds/file_sum.h"
 #include "world/islands/stored_voxels.h"
 #include "world/store/world_file.h"
+#include "world/vdb_import/grid_choice.h"
 
 namespace skerry::game {
 namespace {
@@ -33,29 +36,36 @@ Result<void> write(const std::vector<world::ImportedIsland>& islands,
 
 }  // namespace
 
-Result<std::vector<world::ImportedIsland>> islands_of_vdb(const std::filesystem::path& path,
-                                                          const world::ImportOptions& options,
-                                                          const world::ReadProgress& progress) {
+Result<VdbIslands> islands_of_vdb(const std::filesystem::path& path,
+                                  const world::ImportOptions& options,
+                                  const world::ReadProgress& progress) {
   constexpr double kReading = 0.2;  // share of the work
   const auto part = [&progress](double from, double share) -> world::ReadProgress {
     if (!progress) return {};
     return [=](double done) { progress(from + share * done); };
   };
+  if (options.expect)
+    if (const Result<void> sum = check_sum(path, *options.expect); !sum) return sum.error();
   const auto grids = world::read_vdb(path, {}, part(0.0, kReading));
   if (!grids) return grids.error();
   Jobs jobs;
   auto islands = world::import_islands(*grids, options, jobs, part(kReading, 1.0 - kReading));
-  if (islands) return islands;
+  VdbIslands out;
+  if (const std::string line = world::choice_line(*grids, options); !line.empty())
+    out.notes.push_back(fmt::format("{} {}", quote_text(path.string()), line));
+  if (islands) out.islands = *std::move(islands);
+  if (islands) return out;
   return Error{
       fmt::format("cannot import {}: {}", quote_text(path.string()), islands.error().message)};
 }
 
 Result<std::unique_ptr<world::World>> world_of_vdb(const std::filesystem::path& path,
                                                    const world::ImportOptions& options) {
-  auto islands = islands_of_vdb(path, options);
-  if (!islands) return islands.error();
+  auto imported = islands_of_vdb(path, options);
+  if (!imported) return imported.error();
+  for (const std::string& note : imported->notes) fmt::print(stderr, "skerry: {}\n", note);
   auto world = std::make_unique<world::World>(desc_of_imported());
-  for (world::ImportedIsland& island : *islands)
+  for (world::ImportedIsland& island : imported->islands)
     world->add_island(island.spec,
                       std::make_shared<const world::StoredVoxels>(std::move(island.chunks)));
   return world;

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -10,14 +11,20 @@
 
 namespace skerry::game {
 
+/// What a .vdb file gave.
+struct VdbIslands {
+  std::vector<world::ImportedIsland> islands;
+  std::vector<std::string> notes;  ///< for the user, one line each: which grids were chosen
+};
+
 /// The islands of a .vdb file. Errors: those of world::read_vdb and world::import_islands, with the
 /// file's name.
 /// @param progress called with the share that is done.
-Result<std::vector<world::ImportedIsland>> islands_of_vdb(const std::filesystem::path& path,
-                                                          const world::ImportOptions& options,
-                                                          const world::ReadProgress& progress = {});
+Result<VdbIslands> islands_of_vdb(const std::filesystem::path& path,
+                                  const world::ImportOptions& options,
+                                  const world::ReadProgress& progress = {});
 
-/// A world of the islands of a .vdb file and nothing else. Errors: as above.
+/// A world of the islands of a .vdb file and nothing else; notes go to stderr. Errors: as above.
 Result<std::unique_ptr<world::World>> world_of_vdb(const std::filesystem::path& path,
                                                    const world::ImportOptions& options);
 

@@ -2,6 +2,8 @@
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 
+#include <cctype>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -46,6 +48,29 @@ TEST(VdbCommand, ImportsAWorldThatExportsToTheSameBlocks) {
   EXPECT_EQ(grids.at(0).at("active_voxels"), blocks);
   // A world is not written over.
   expect_refusal(run({"vdb", "import", sample("ball.vdb"), "--out", world}), 1, {"--out"}, "again");
+}
+
+TEST(VdbCommand, TakesTheSmokeNotItsObstaclesAndSaysSoInOneLine) {
+  SKIP_WITHOUT_OPENVDB();
+  const Folder folder;
+  for (const char* name : {"obstacles.vdb", "no_obstacles.vdb"}) {
+    const std::string world = (folder / (std::string(name) + ".skerry")).string();
+    const Outcome imported =
+        run({"vdb", "import", sample(name), "--out", world, "--size", "64", "--json"});
+    ASSERT_EQ(imported.status, 0) << imported.err;
+    const nlohmann::json islands = nlohmann::json::parse(imported.out).at("islands");
+    ASSERT_EQ(islands.size(), 1u);
+    EXPECT_EQ(islands.at(0).at("grid"), "density");
+    EXPECT_GT(islands.at(0).at("blocks"), 1000);
+    EXPECT_EQ(std::count(imported.err.begin(), imported.err.end(), '\n'), 1) << imported.err;
+    EXPECT_NE(imported.err.find("leaves 'obstacles'"), std::string::npos) << imported.err;
+  }
+  const std::string world = (folder / "named.skerry").string();
+  const Outcome named = run(
+      {"vdb", "import", sample("obstacles.vdb"), "--out", world, "--grid", "obstacles", "--json"});
+  ASSERT_EQ(named.status, 0) << named.err;
+  EXPECT_EQ(nlohmann::json::parse(named.out).at("islands").at(0).at("blocks"), 2);
+  EXPECT_EQ(named.err, "");
 }
 
 TEST(VdbCommand, RefusesInOneLineAndLeavesNothingBehind) {
@@ -125,6 +150,35 @@ TEST(VdbCommand, ExportsOfADamagedWorldAreAskedFor) {
   EXPECT_NE(partial.err.find("skerry: warning: "), std::string::npos) << partial.err;
   EXPECT_NE(partial.err.find("has lost"), std::string::npos) << partial.err;
   EXPECT_EQ(partial.status, 0) << partial.err;
+}
+
+/// As coreutils have it.
+std::string sha256_of(const std::string& path) {
+  const Folder folder;
+  const std::string out = (folder / "sum").string();
+  EXPECT_EQ(std::system(("sha256sum " + path + " > " + out).c_str()), 0);
+  return text_of(out).substr(0, 64);
+}
+
+TEST(VdbCommand, ReadsOnlyTheFileThatIsExpected) {
+  SKIP_WITHOUT_OPENVDB();
+  const Folder folder;
+  const std::string ball = sample("ball.vdb"), out = (folder / "w").string();
+  const std::string sum = sha256_of(ball), other = sha256_of(sample("cloud.vdb"));
+  std::string upper = sum;
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_EQ(run({"vdb", "info", ball, "--expect", upper}).status, 0);
+  expect_refusal(run({"vdb", "info", ball, "--expect", other}), 1, {"ball.vdb", sum}, "info");
+  expect_refusal(run({"vdb", "import", ball, "--out", out, "--expect", other}), 1, {sum}, "import");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(run({"vdb", "import", ball, "--out", out, "--expect", sum}).status, 0);
+  const std::string picture = (folder / "p.png").string();
+  expect_refusal(run({"shot", "--world", ball, "--import", "expect=" + other, "--out", picture}), 1,
+                 {sum}, "shot");
+  for (const std::string& wrong : {sum.substr(1), sum + "0", std::string(64, 'g'), std::string()})
+    expect_refusal(run({"vdb", "info", ball, "--expect", wrong}), 2, {"sha256sum"}, wrong);
+  expect_refusal(run({"vdb", "info", (folder / "none.vdb").string(), "--expect", sum}), 1,
+                 {"none.vdb"}, "missing");
 }
 
 TEST(VdbCommand, ExportNeedsASourceAndAnEnd) {

@@ -16,9 +16,6 @@
 
 namespace skerry::world {
 
-/// Size of all pages of a world file [bytes].
-inline constexpr std::size_t kPageBytes = 4096;
-
 /// One statement, reset and ready again after each run.
 class Statement {
  public:

@@ -1,7 +1,6 @@
 #include "world/store/pages.h"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 #include <system_error>
 
@@ -20,13 +19,6 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 23;  // of a row: no wr
 constexpr std::size_t kMostFields = 8;
 constexpr std::uint32_t kMostPages = 1u << 31;  // as SQLite has it
 constexpr std::uint64_t kOverflowReads = 4;     // of pages, a page of the file: a whole one has 1
-constexpr std::size_t kLogHeader = 32, kFrameHeader = 24;
-
-std::uint64_t big_endian(std::span<const std::byte> bytes) {
-  std::uint64_t value = 0;
-  for (const std::byte b : bytes) value = value << 8 | std::to_integer<std::uint64_t>(b);
-  return value;
-}
 
 /// Up to nine bytes, seven bits each, the ninth all eight. None: the bytes end first.
 std::optional<std::uint64_t> take_varint(std::span<const std::byte>& bytes) {
@@ -82,34 +74,6 @@ std::vector<Field> fields_of(std::span<const std::byte> row) {
   return fields;
 }
 
-/// The checksum of a log, which runs on from frame to frame.
-struct LogSum {
-  bool big_endian_words = false;
-  std::uint32_t first = 0, second = 0;
-
-  void add(std::span<const std::byte> bytes) {
-    const auto word = [&](std::size_t at) {
-      auto value = static_cast<std::uint32_t>(big_endian(bytes.subspan(at, 4)));
-      return big_endian_words ? value : __builtin_bswap32(value);
-    };
-    for (std::size_t at = 0; at + 8 <= bytes.size(); at += 8) {
-      first += word(at) + second;
-      second += word(at + 4) + first;
-    }
-  }
-  bool is(std::span<const std::byte> eight) const {
-    return big_endian(eight) == (std::uint64_t{first} << 32 | second);
-  }
-};
-
-template <std::size_t Size>
-bool read_at(std::ifstream& file, std::uint64_t at, std::array<std::byte, Size>& out) {
-  file.clear();
-  file.seekg(static_cast<std::streamoff>(at));
-  file.read(reinterpret_cast<char*>(out.data()), Size);
-  return file.gcount() == static_cast<std::streamsize>(Size);
-}
-
 }  // namespace
 
 PageFile::PageFile(const fs::path& path) : file_(path, std::ios::binary) {
@@ -117,50 +81,27 @@ PageFile::PageFile(const fs::path& path) : file_(path, std::ios::binary) {
   const std::uintmax_t bytes = fs::file_size(path, code);
   if (!code)
     count_ = static_cast<std::uint32_t>(std::min<std::uintmax_t>(bytes / kPageBytes, kMostPages));
-  in_file_ = count_;
-  read_log(fs::path(path) += "-wal");
+  const std::uint32_t in_file = count_;
+  const fs::path log = fs::path(path) += "-wal";
+  log_.open(log, std::ios::binary);
+  if (log_) in_log_ = read_log(log_);
+  if (in_log_.file_pages != 0) {
+    std::uint32_t last_in_log = 0;
+    for (const auto& [number, where] : in_log_.where) last_in_log = std::max(last_in_log, number);
+    // No more than there are, whatever the log says.
+    count_ = std::min(in_log_.file_pages, std::max(in_file, last_in_log));
+  }
   overflow_left_ = kOverflowReads * count_;
 }
 
-/// Frames count up to the last one that ends a commit and fits the checksum.
-void PageFile::read_log(const fs::path& path) {
-  log_.open(path, std::ios::binary);
-  std::array<std::byte, kLogHeader> header;
-  if (!log_ || !read_at(log_, 0, header)) return;
-  const std::span<const std::byte> head(header);
-  const std::uint64_t magic = big_endian(head.first(4));
-  if ((magic & ~std::uint64_t{1}) != 0x377f0682 || big_endian(head.subspan(8, 4)) != kPageBytes)
-    return;
-  LogSum sum{(magic & 1) != 0};
-  sum.add(head.first(24));
-  if (!sum.is(head.subspan(24))) return;
-  std::unordered_map<std::uint32_t, std::uint64_t> uncommitted;
-  std::array<std::byte, kFrameHeader> frame;
-  PageBytes page;
-  for (std::uint64_t at = kLogHeader;
-       read_at(log_, at, frame) && read_at(log_, at + kFrameHeader, page);
-       at += kFrameHeader + kPageBytes) {
-    const std::span<const std::byte> f(frame);
-    sum.add(f.first(8));
-    sum.add(page);
-    if (!std::ranges::equal(f.subspan(8, 8), head.subspan(16, 8)) || !sum.is(f.subspan(16))) return;
-    uncommitted[static_cast<std::uint32_t>(big_endian(f.first(4)))] = at + kFrameHeader;
-    const auto pages = static_cast<std::uint32_t>(big_endian(f.subspan(4, 4)));
-    if (pages == 0) continue;
-    for (const auto& [number, where] : uncommitted) {
-      in_log_[number] = where;
-      last_in_log_ = std::max(last_in_log_, number);
-    }
-    uncommitted.clear();
-    // No more than there are, whatever the log says.
-    count_ = std::min(pages, std::max(in_file_, last_in_log_));
-  }
+std::uint64_t PageFile::age(std::uint32_t number) const {
+  const auto found = in_log_.where.find(number);
+  return found == in_log_.where.end() ? 0 : found->second;
 }
 
 bool PageFile::read(std::uint32_t number, PageBytes& out) {
   if (number == 0 || number > count_) return false;
-  if (const auto found = in_log_.find(number); found != in_log_.end())
-    return read_at(log_, found->second, out);
+  if (const std::uint64_t where = age(number); where != 0) return read_at(log_, where, out);
   return read_at(file_, std::uint64_t{number - 1} * kPageBytes, out);
 }
 

@@ -1,20 +1,17 @@
 // A SQLite file as pages, without SQLite. Private to world/store.
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
-#include "world/store/database.h"
+#include "world/store/log.h"
+#include "world/store/page_bytes.h"
 
 namespace skerry::world {
-
-using PageBytes = std::array<std::byte, kPageBytes>;
 
 /// A value of a row: what kind it is, an integer, or the bytes of a text or a blob.
 struct Field {
@@ -30,6 +27,10 @@ class PageFile {
   explicit PageFile(const std::filesystem::path& path);
 
   std::uint32_t count() const { return count_; }
+  /// Whether commits are in the log that SQLite would leave out.
+  bool log_damaged() const { return in_log_.damaged; }
+  /// When a page was written, to compare: 0 if no log has it.
+  std::uint64_t age(std::uint32_t number) const;
   /// @param number 1 .. count(). @return false: it cannot be read.
   bool read(std::uint32_t number, PageBytes& out);
 
@@ -39,14 +40,13 @@ class PageFile {
   void rows_of(std::uint32_t number, const TakeRow& take);
 
  private:
-  void read_log(const std::filesystem::path& path);
   bool payload(const PageBytes& page, std::size_t at, std::uint64_t size, std::size_t most_here,
                std::vector<std::byte>& out);
 
   std::ifstream file_, log_;
-  std::uint32_t count_ = 0, in_file_ = 0, last_in_log_ = 0;
+  std::uint32_t count_ = 0;
   std::uint64_t overflow_left_ = 0;  // pages that chains may still be followed through
-  std::unordered_map<std::uint32_t, std::uint64_t> in_log_;  // where a page's last version begins
+  LogPages in_log_;
 };
 
 }  // namespace skerry::world

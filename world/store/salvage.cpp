@@ -19,28 +19,38 @@ namespace {
 using Kind = Field::Kind;
 using Blob = std::vector<std::byte>;
 
-/// Rows of one table. Of two that differ under one key, one was there before the other, and nobody
-/// can tell which: none is left.
+/// Rows of one table. Two that differ under one key: the page of one has lost its last version, and
+/// the row has moved since. What a later commit wrote counts. Of one age, one was there before the
+/// other, and nobody can tell which: none is left.
 template <class Key>
 class Found {
  public:
-  void add(const Key& key, std::span<const std::byte> bytes) {
-    const auto [at, is_new] = rows_.try_emplace(key, Blob(bytes.begin(), bytes.end()));
-    if (!is_new && at->second && !std::ranges::equal(*at->second, bytes)) at->second.reset();
+  void add(const Key& key, std::span<const std::byte> bytes, std::uint64_t age) {
+    const auto [at, is_new] = rows_.try_emplace(key);
+    Row& row = at->second;
+    if (is_new || age > row.age) {
+      row = {Blob(bytes.begin(), bytes.end()), age};
+    } else if (age == row.age && row.bytes && !std::ranges::equal(*row.bytes, bytes)) {
+      row.bytes.reset();
+    }
   }
   /// Calls with each row that is beyond doubt. @return how many are not.
   template <class Take>
   std::size_t each(Take&& take) const {
     std::size_t doubts = 0;
-    for (const auto& [key, bytes] : rows_) {
-      if (bytes) take(key, *bytes);
-      doubts += !bytes;
+    for (const auto& [key, row] : rows_) {
+      if (row.bytes) take(key, *row.bytes);
+      doubts += !row.bytes;
     }
     return doubts;
   }
 
  private:
-  std::map<Key, std::optional<Blob>> rows_;
+  struct Row {
+    std::optional<Blob> bytes;
+    std::uint64_t age = 0;
+  };
+  std::map<Key, Row> rows_;
 };
 
 /// Everything found, by table. Islands by whether they were added, too.
@@ -49,6 +59,7 @@ struct Rows {
   Found<std::pair<std::int64_t, bool>> islands;
   Found<std::int64_t> motions, spares;
   Found<ChunkName> chunks;
+  std::uint64_t age = 0;  ///< of the page at hand
 
   void take(std::int64_t rowid, std::span<const Field> row);
 
@@ -74,21 +85,21 @@ void Rows::take(std::int64_t rowid, std::span<const Field> row) {
   if (!x || !y || !z) return;
   const ChunkName name{static_cast<std::uint64_t>(row[0].integer), {*x, *y, *z}};
   if (decode_edits(name, row[4].bytes) || decode_chunk(name, row[4].bytes))
-    chunks.add(name, row[4].bytes);
+    chunks.add(name, row[4].bytes, age);
 }
 
 void Rows::take_of_table(std::int64_t rowid, std::span<const Field> row) {
   const auto id = static_cast<std::uint64_t>(rowid);
   if (is(row, {Kind::kText, Kind::kBlob})) {
     const std::string name(reinterpret_cast<const char*>(row[0].bytes.data()), row[0].bytes.size());
-    if (unsealed("value", name_key(name), row[1].bytes)) values.add(name, row[1].bytes);
+    if (unsealed("value", name_key(name), row[1].bytes)) values.add(name, row[1].bytes, age);
   } else if (is(row, {Kind::kNull, Kind::kInteger, Kind::kBlob})) {
     const bool added = row[1].integer != 0;
     if (unsealed(added ? "added" : "island", id, row[2].bytes))
-      islands.add({rowid, added}, row[2].bytes);
+      islands.add({rowid, added}, row[2].bytes, age);
   } else if (is(row, {Kind::kNull, Kind::kBlob})) {
-    if (unsealed("motion", id, row[1].bytes)) motions.add(rowid, row[1].bytes);
-    if (unsealed("spare", id, row[1].bytes)) spares.add(rowid, row[1].bytes);
+    if (unsealed("motion", id, row[1].bytes)) motions.add(rowid, row[1].bytes, age);
+    if (unsealed("spare", id, row[1].bytes)) spares.add(rowid, row[1].bytes, age);
   }
 }
 
@@ -114,9 +125,11 @@ class Filler {
 bool salvage(const std::filesystem::path& path, Database& into, std::vector<std::string>& doubts) {
   Rows rows;
   PageFile file(path);
-  for (std::uint32_t page = 1; page <= file.count(); ++page)
+  for (std::uint32_t page = 1; page <= file.count(); ++page) {
+    rows.age = file.age(page);
     file.rows_of(page,
                  [&](std::int64_t rowid, std::span<const Field> row) { rows.take(rowid, row); });
+  }
   if (into.run("BEGIN IMMEDIATE") != SQLITE_OK) return false;
   Filler values(into, "INSERT INTO value(name, data) VALUES(?1, ?2)");
   Filler islands(into, "INSERT OR REPLACE INTO island(id, added, spec) VALUES(?1, ?2, ?3)");

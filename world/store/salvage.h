@@ -12,7 +12,9 @@ namespace skerry::world {
 /// and their keys, however little of the rest can be read, and puts them into a database that has
 /// the tables of this version and nothing in them. Source for the layout of pages and logs:
 /// https://www.sqlite.org/fileformat2.html.
-/// @param doubts told: rows of which there are two that differ; neither is taken.
+/// Of two rows that differ the one from the later commit is taken.
+/// @param doubts told: rows of which there are two that differ and are of one age; neither is
+/// taken.
 /// @return whether that makes a world: what it is called and what seed it has is there. Errors of
 /// `into` count as nothing found.
 bool salvage(const std::filesystem::path& path, Database& into, std::vector<std::string>& doubts);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "world/store/bytes.h"
+#include "world/store/page_bytes.h"
 #include "world/store/rows.h"
 #include "world/store/world_contents.h"
 
@@ -97,6 +98,10 @@ int make_schema(Database& file) {
 
 int set_up(Database& file, bool writes) {
   int code = file.run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
+  // A log is brought into the file by settle() alone, never before it has its mark; and it has no
+  // frames that are written again, whose checksums fit no more if a kill comes between.
+  if (code == SQLITE_OK && writes)
+    code = file.run("PRAGMA wal_autocheckpoint = 0; PRAGMA cache_spill = OFF");
   if (code == SQLITE_OK && writes)
     // What is taken away is overwritten: nothing that was undone is left for salvage() to find.
     // A log, so that readers never wait for a writer; on the disk, not on its way there, when a
@@ -110,15 +115,25 @@ int check_schema(Database& file, bool migrate, int& version) {
   std::int64_t found = 0;
   int code = file.integer("PRAGMA user_version", found);
   version = static_cast<int>(found);
+  if (code != SQLITE_OK || version > kWorldFileVersion) return code;
   bool same = false;
-  if (code == SQLITE_OK && version > 0)
-    code = compare_schema(file, std::min(version, kWorldFileVersion), same);
-  if (version > kWorldFileVersion) return code == SQLITE_OK && same ? SQLITE_CORRUPT : code;
+  if (version > 0) code = compare_schema(file, version, same);
   if (code == SQLITE_OK && !same) code = SQLITE_CORRUPT;
   if (code != SQLITE_OK || version == kWorldFileVersion || !migrate) return code;
   code = bring_up_to_date(file, version);
   if (code == SQLITE_OK) version = kWorldFileVersion;
   return code;
+}
+
+int settle(Database& file) {
+  // Writes the first page, whether or not that changes.
+  int code = file.run(fmt::format("PRAGMA user_version = {}", kWorldFileVersion).c_str());
+  if (code != SQLITE_OK) return code;
+  std::int64_t busy = 0;
+  code = file.integer("PRAGMA wal_checkpoint(TRUNCATE)", busy);
+  // The log keeps what the file has no room for, or what readers keep it from taking now.
+  const int kind = code & 0xff;
+  return kind == SQLITE_FULL || kind == SQLITE_BUSY || kind == SQLITE_LOCKED ? SQLITE_OK : code;
 }
 
 int check_whole(Database& file) {

@@ -27,6 +27,11 @@ int set_up(Database& file, bool writes);
 /// another error. A version newer than this program's is no error, and its tables are not looked
 /// at.
 int check_schema(Database& file, bool migrate, int& version);
+/// After each commit that counts: ends the log behind it with a commit without content, so that
+/// none of its own frames is the last and damage to any of them shows (log.h); then brings all of
+/// it into the file and empties the log, as far as readers allow.
+/// @return SQLITE_OK or an error: what was committed is not safe.
+int settle(Database& file);
 /// Whether all pages hang together. Reads all of them. @return SQLITE_OK, SQLITE_CORRUPT if they do
 /// not, or another error.
 int check_whole(Database& file);

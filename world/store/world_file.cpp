@@ -146,12 +146,19 @@ void WorldFile::Transaction::put_value(std::string_view name, std::span<const st
 Result<void> WorldFile::Transaction::commit() {
   State& s = *file_->state_;
   if (!error_) {
-    if (const int code = s.database->run("COMMIT"); code != SQLITE_OK)
-      error_ = file_error("save", s.path, code);
+    int code = s.database->run("COMMIT");
+    const bool committed = code == SQLITE_OK;
+    if (committed) code = settle(*s.database);
+    if (code != SQLITE_OK) error_ = file_error("save", s.path, code);
+    if (committed) return end();
   }
-  if (error_) s.database->run("ROLLBACK");
-  s.in_transaction = false;
-  file_ = nullptr;
+  s.database->run("ROLLBACK");
+  return end();
+}
+
+/// @return the first error of all.
+Result<void> WorldFile::Transaction::end() {
+  std::exchange(file_, nullptr)->state_->in_transaction = false;
   return error_ ? Result<void>(*error_) : Result<void>();
 }
 

@@ -29,8 +29,8 @@ namespace skerry::world {
 class WorldFile {
  public:
   enum class Mode : std::uint8_t { kRead, kWrite };
-  /// Of the schema; older ones are brought up to it. Grows together with the tables only: a file
-  /// with our tables and another number is damaged.
+  /// Of the tables; older ones are brought up to it, newer ones are refused and left as they are,
+  /// whatever their tables look like.
   static constexpr int kVersion = kWorldFileVersion;
 
   /// Makes a file where there is none, complete or not at all, and opens it for writing.
@@ -66,12 +66,14 @@ class WorldFile {
     void put_chunk(std::uint64_t island, IVec3 chunk, const Chunk& voxels);
     /// Anything else, by name: player, time, settings. At most kMaxValueBytes.
     void put_value(std::string_view name, std::span<const std::byte> bytes);
-    /// When it returns without an error, the changes outlive the process and the machine's power.
+    /// When it returns without an error, the changes outlive the process and the machine's power,
+    /// and damage to them can be told.
     Result<void> commit();
 
    private:
     friend class WorldFile;
     explicit Transaction(WorldFile& file);
+    Result<void> end();
     WorldFile* file_;
     std::optional<Error> error_;
   };

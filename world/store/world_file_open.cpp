@@ -4,14 +4,18 @@
 #include <unistd.h>
 
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <limits>
+#include <span>
 #include <system_error>
 
 #include "engine/core/draft.h"
 #include "world/generate/generate.h"
+#include "world/store/pages.h"
 #include "world/store/rows.h"
 #include "world/store/salvage.h"
 #include "world/store/schema.h"
@@ -28,13 +32,48 @@ struct Trouble {
   bool damage = false;  ///< it may be a world all the same
 };
 
+/// Says of a file that it is newer than this program; it stays as it is.
+Trouble newer_than_this(const fs::path& path, std::int64_t version) {
+  return {
+      {fmt::format("cannot open the world {}: a newer Skerry wrote it (its version is {}, this "
+                   "one knows {}); update Skerry",
+                   quoted(path), version, WorldFile::kVersion)}};
+}
+
+/// A first page's numbers that say whose file it is; big-endian at 60 and 68 of SQLite's header.
+std::optional<Trouble> check_first_bytes(const fs::path& path, std::span<const char> header) {
+  const auto refuse = [&](std::string_view why, std::string_view then, bool damage) {
+    return Trouble{{fmt::format("cannot open the world {}: {}; {}", quoted(path), why, then)},
+                   damage};
+  };
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(header[i]);
+    return value;
+  };
+  constexpr std::size_t kHeaderBytes = 100;
+  const bool is_sqlite =
+      header.size() >= kHeaderBytes && std::memcmp(header.data(), "SQLite format 3", 16) == 0;
+  const std::uint32_t id = header.size() >= kHeaderBytes ? number(68) : 0;
+  // Before SQLite may touch it, and before damage is looked for: an older program cannot tell what
+  // a newer one means by its tables. Beyond the signed range SQLite has no versions.
+  const std::uint32_t version = id == kApplicationId ? number(60) : 0;
+  if (version > WorldFile::kVersion && version <= std::numeric_limits<std::int32_t>::max())
+    return newer_than_this(path, version);
+  if (!is_sqlite) return refuse("it is no saved world of Skerry", "name another file", true);
+  // One flipped bit is damage; anything else may be what a later version calls its files.
+  if (id != kApplicationId)
+    return refuse("it belongs to another program, or to a newer Skerry",
+                  "name a saved world of Skerry", std::has_single_bit(id ^ kApplicationId));
+  return std::nullopt;
+}
+
 /// What the first bytes of a file say, before SQLite may touch it: opening a stranger's database
 /// for writing could already change it.
 std::optional<Trouble> check_header(const fs::path& path) {
-  bool damage = false;
   const auto refuse = [&](std::string_view why, std::string_view then) {
-    return Trouble{{fmt::format("cannot open the world {}: {}; {}", quoted(path), why, then)},
-                   damage};
+    return Trouble{{fmt::format("cannot open the world {}: {}; {}", quoted(path), why, then)}};
   };
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
@@ -43,19 +82,33 @@ std::optional<Trouble> check_header(const fs::path& path) {
   if (status.type() == fs::file_type::none) return refuse(code.message(), "check the path");
   if (status.type() == fs::file_type::directory) return refuse("it is a folder", "name a file");
   if (status.type() != fs::file_type::regular) return refuse("it is no file", "name a file");
-  std::array<char, 100> header{};  // of SQLite; big-endian numbers at 60 and 68
+  std::array<char, 100> header{};
   std::ifstream file(path, std::ios::binary);
   if (!file) return refuse("it may not be read", "check who owns it");
   file.read(header.data(), header.size());
-  damage = true;
-  if (file.gcount() != static_cast<std::streamsize>(header.size()) ||
-      std::memcmp(header.data(), "SQLite format 3", 16) != 0)
-    return refuse("it is no saved world of Skerry", "name another file");
-  std::uint32_t id = 0;
-  for (std::size_t i = 68; i < 72; ++i) id = id << 8 | static_cast<unsigned char>(header[i]);
-  if (id != kApplicationId)
-    return refuse("it belongs to another program", "name a saved world of Skerry");
-  return std::nullopt;
+  return check_first_bytes(path, std::span(header).first(static_cast<std::size_t>(file.gcount())));
+}
+
+/// What SQLite would not see: a newer version in the log, or commits there that it would leave out.
+/// @param locked nobody else writes the file.
+std::optional<Trouble> check_log(const fs::path& path, bool locked) {
+  const auto look = [&]() -> std::optional<Trouble> {
+    PageFile pages(path);
+    if (PageBytes first; pages.read(1, first)) {
+      const auto chars = std::as_writable_bytes(std::span(first));
+      std::optional<Trouble> newer =
+          check_first_bytes(path, {reinterpret_cast<const char*>(chars.data()), chars.size()});
+      if (newer && !newer->damage) return newer;
+    }
+    if (!pages.log_damaged()) return std::nullopt;
+    return Trouble{file_error("open", path, SQLITE_CORRUPT), true};
+  };
+  std::optional<Trouble> trouble = look();
+  if (!trouble || locked) return trouble;
+  // A log that is being written can look like that for a moment: only one at rest counts.
+  int reason = 0;
+  const std::optional<WriterLock> at_rest = WriterLock::take(path, reason);
+  return at_rest ? look() : std::nullopt;
 }
 
 /// Whether a log holds what its file does not yet.
@@ -187,14 +240,16 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const fs::path& named, Mode m
     bool newer = false;
     const int code = state->open_database(newer);
     if (code != SQLITE_OK) return Trouble{file_error("open", path, code), is_damage(code)};
-    if (newer)
-      return Trouble{
-          {fmt::format("cannot open the world {}: a newer Skerry wrote it (its version is "
-                       "{}, this one knows {}); update Skerry",
-                       quoted(path), state->version, kVersion)}};
+    if (newer) return newer_than_this(path, state->version);
     if (!state->find_info()) return Trouble{file_error("open", path, SQLITE_CORRUPT), true};
     return std::nullopt;
   };
+  if (auto of_log = check_log(path, mode == Mode::kWrite)) {
+    trouble = std::move(of_log);
+    if (trouble->damage)
+      state->tell(fmt::format(
+          "the log of the world {} is damaged: what was saved last may be missing", quoted(path)));
+  }
   if (!trouble) trouble = look();
   if (trouble && trouble->damage && state->recover() && state->find_info()) trouble.reset();
   if (trouble) return trouble->error;
@@ -221,8 +276,12 @@ int WorldFile::State::open_database(bool& newer) {
   if (code == SQLITE_OK) code = check_schema(*database, mode == Mode::kWrite, version);
   newer = code == SQLITE_OK && version > kVersion;
   // Nothing is written into a file that does not hang together.
-  if (code == SQLITE_OK && !newer && mode == Mode::kWrite) code = check_whole(*database);
-  return code;
+  if (code != SQLITE_OK || newer || mode != Mode::kWrite) return code;
+  code = check_whole(*database);
+  // What a killed process left in the log, or what brought the tables up to date.
+  std::error_code none;
+  const std::uintmax_t log = fs::file_size(fs::path(path) += "-wal", none);
+  return code == SQLITE_OK && !none && log > 0 ? settle(*database) : code;
 }
 
 bool WorldFile::State::find_info() {

@@ -13,7 +13,7 @@
 namespace skerry::world {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x324c4f564b53ull;  // "SKVOL2"
+constexpr std::uint64_t kMagic = 0x334c4f564b53ull;  // "SKVOL3"
 enum Status : std::uint32_t { kGrids = 0, kRefused = 1 };
 
 // Volumes that a few values stretch over more than this are no use to anyone and only overflow.
@@ -85,8 +85,9 @@ bool take_grid(Reader& in, VolumeGrid& grid) {
          in.take_text(grid.grid_class) && in.take(grid.kind) && in.take_text(grid.remark) &&
          in.take(grid.world_from_index) && in.take(grid.background) &&
          in.take(grid.active_voxels) && in.take(grid.active_tiles) && in.take(grid.leaves) &&
-         in.take(grid.memory_bytes) && in.take(grid.replaced_values) && in.take(grid.active_box) &&
-         in.take_array(grid.tiles) && in.take_array(grid.bricks);
+         in.take(grid.memory_bytes) && in.take(grid.stated_memory_bytes) &&
+         in.take(grid.replaced_values) && in.take(grid.active_box) && in.take_array(grid.tiles) &&
+         in.take_array(grid.bricks);
 }
 
 bool fits(IVec3 at, std::int32_t edge) {
@@ -248,8 +249,9 @@ bool encode_grid(const VolumeGrid& grid, const ByteSink& sink) {
          put_text(sink, grid.grid_class) && put(sink, grid.kind) && put_text(sink, grid.remark) &&
          put(sink, grid.world_from_index) && put(sink, grid.background) &&
          put(sink, grid.active_voxels) && put(sink, grid.active_tiles) && put(sink, grid.leaves) &&
-         put(sink, grid.memory_bytes) && put(sink, grid.replaced_values) &&
-         put(sink, grid.active_box) && put_array(sink, grid.tiles) && put_array(sink, grid.bricks);
+         put(sink, grid.memory_bytes) && put(sink, grid.stated_memory_bytes) &&
+         put(sink, grid.replaced_values) && put(sink, grid.active_box) &&
+         put_array(sink, grid.tiles) && put_array(sink, grid.bricks);
 }
 
 bool encode_error(std::string_view message, const ByteSink& sink) {

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <charconv>
 #include <exception>
+#include <fstream>
 #include <new>
 #include <string>
 #include <string_view>
@@ -46,6 +47,13 @@ void limit(int what, rlim_t amount, rlim_t more = 0) {
   ::setrlimit(static_cast<__rlimit_resource>(what), &both);
 }
 
+/// Address space that this process has by now, most of it libraries [bytes].
+rlim_t address_space() {
+  unsigned long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
 struct Arguments {
   std::uint64_t memory_bytes = 0, answer_bytes = 0, cpu_s = 0;
   std::string_view job, path;
@@ -69,7 +77,7 @@ void confine(const Arguments& arguments) {
   limit(RLIMIT_CORE, 0);
   // SIGXCPU comes first, so that SIGKILL is left to mean that the system ran out of memory.
   limit(RLIMIT_CPU, arguments.cpu_s, 2);
-  if (kAddressesAreScarce) limit(RLIMIT_AS, arguments.memory_bytes);
+  if (kAddressesAreScarce) limit(RLIMIT_AS, address_space() + arguments.memory_bytes);
   ::signal(SIGXFSZ, SIG_IGN);  // a full answer is an error that can be told
   if (arguments.job == "read") limit(RLIMIT_FSIZE, arguments.answer_bytes);
   // Each thread of the allocator's or TBB's own would reserve address space by the gigabyte.

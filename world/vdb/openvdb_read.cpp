@@ -201,6 +201,10 @@ void describe(const openvdb::GridBase& grid, VolumeGrid& out) {
   out.active_tiles = grid.baseTree().activeTileCount();
   out.leaves = grid.baseTree().leafCount();
   out.memory_bytes = grid.memUsage();
+  const auto stated =
+      grid.getMetadata<openvdb::Int64Metadata>(openvdb::GridBase::META_FILE_MEM_BYTES);
+  if (stated && stated->value() > 0)
+    out.stated_memory_bytes = static_cast<std::uint64_t>(stated->value());
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   if (out.active_voxels > 0) out.active_box = {vector_of(box.min()), vector_of(box.max())};
   check_metadata(grid, out);

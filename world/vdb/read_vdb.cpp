@@ -23,8 +23,9 @@ Result<std::vector<VolumeGrid>> read(const std::filesystem::path& path, const Re
   if (!S_ISREG(state.st_mode)) return Error{"it is no regular file; give the path of a .vdb file"};
   Result<MemoryFile> answer = MemoryFile::create();
   if (!answer) return answer.error();
-  const Result<void> ran = run_worker({"read"}, file.get(), answer->descriptor(),
-                                      static_cast<std::uint64_t>(state.st_size), limits, progress);
+  const auto size = static_cast<std::uint64_t>(state.st_size);
+  const Result<void> ran = run_worker({"read"}, file.get(), answer->descriptor(), size,
+                                      limits_for(size, limits), progress);
   if (!ran) return ran.error();
   const Result<std::span<const std::byte>> bytes = answer->seal();
   if (!bytes) return bytes.error();
@@ -32,6 +33,18 @@ Result<std::vector<VolumeGrid>> read(const std::filesystem::path& path, const Re
 }
 
 }  // namespace
+
+ReadLimits limits_for(std::uint64_t file_bytes, const ReadLimits& most) {
+  constexpr std::uint64_t kMiB = 1 << 20;
+  constexpr std::uint64_t kMemoryPerByte = 256, kAnswerPerByte = 128, kBytesPerSecond = kMiB / 2;
+  const std::uint64_t bytes = std::min(file_bytes, std::uint64_t{1} << 40);  // no overflow below
+  ReadLimits out = most;
+  out.memory_bytes = std::min(most.memory_bytes, 128 * kMiB + kMemoryPerByte * bytes);
+  out.answer_bytes = std::min(most.answer_bytes, 16 * kMiB + kAnswerPerByte * bytes);
+  out.cpu_s = static_cast<int>(
+      std::min(static_cast<std::uint64_t>(most.cpu_s), 4 + bytes / kBytesPerSecond));
+  return out;
+}
 
 Result<std::vector<VolumeGrid>> read_vdb(const std::filesystem::path& path,
                                          const ReadLimits& limits, const ReadProgress& progress) {

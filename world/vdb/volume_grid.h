@@ -66,6 +66,7 @@ struct VolumeGrid {
   std::uint64_t active_tiles = 0;
   std::uint64_t leaves = 0;                  ///< OpenVDB leaf nodes
   std::uint64_t memory_bytes = 0;            ///< OpenVDB's own count of the tree
+  std::uint64_t stated_memory_bytes = 0;     ///< what the file says of that; 0: nothing
   std::uint64_t replaced_values = 0;         ///< NaN and infinite ones that became the background
   VolumeBox active_box;                      ///< meaningless without active voxels
   float min_value = 0.0f, max_value = 0.0f;  ///< of bricks, tiles and background
@@ -74,14 +75,20 @@ struct VolumeGrid {
   std::vector<VolumeTile> tiles;
 };
 
-/// What reading one file may take. Files are untrusted and OpenVDB can be crashed by a damaged one,
-/// so that a child process reads them.
+/// What reading one file may take at most. Files are untrusted and OpenVDB can be crashed by a
+/// damaged one, so that a child process reads them.
 struct ReadLimits {
-  std::uint64_t memory_bytes = std::uint64_t{4} << 30;  ///< address space of the child
+  /// Address space of the child, beyond what it starts with.
+  std::uint64_t memory_bytes = std::uint64_t{4} << 30;
   std::uint64_t answer_bytes = std::uint64_t{1} << 30;  ///< of all bricks and tiles together
   int cpu_s = 60;
   double wall_s = 120.0;
 };
+
+/// What a file of a size can rightly need, and no more than `most`: OpenVDB makes room for what a
+/// file states before it finds that there is no such thing in it. The nodes of a tree take up to
+/// 100 times their masks in the file, which are never compressed.
+ReadLimits limits_for(std::uint64_t file_bytes, const ReadLimits& most = {});
 
 /// Called some times a second with the share of the file that has been read, 0..1.
 using ReadProgress = std::function<void(double share)>;

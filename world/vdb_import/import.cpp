@@ -38,6 +38,15 @@ double blocks_per_unit_of(const std::vector<IslandSource>& sources, const Import
   return static_cast<double>(*options.size_blocks) / std::max({extent.x, extent.y, extent.z});
 }
 
+/// What a file's own size allows, or, to who asks for a scale or a size, all there is.
+std::uint64_t looks_allowed(const std::vector<const VolumeGrid*>& grids,
+                            const ImportOptions& options) {
+  if (options.scale || options.size_blocks) return kMaxImportLooks;
+  std::uint64_t parts = 0;
+  for (const VolumeGrid* grid : grids) parts += grid->bricks.size() + grid->tiles.size();
+  return std::min(kMaxImportLooks, kUnaskedLooks + parts * kLooksPerPart);
+}
+
 std::optional<VolumeField> color_field(const std::vector<VolumeGrid>& grids) {
   for (const VolumeGrid& grid : grids)
     if (grid.kind == VolumeKind::kColor) return std::optional<VolumeField>(std::in_place, grid);
@@ -55,6 +64,7 @@ Result<std::vector<ImportedIsland>> import_islands(const std::vector<VolumeGrid>
   const double blocks_per_unit = blocks_per_unit_of(sources, options);
   const std::optional<VolumeField> colors = color_field(grids);
   ImportCost cost;
+  cost.most_looks = looks_allowed(*wanted, options);
   std::vector<ImportedIsland> islands;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const double share = 1.0 / static_cast<double>(sources.size());

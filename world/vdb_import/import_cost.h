@@ -18,6 +18,10 @@ inline constexpr std::uint64_t kMaxImportLooks = std::uint64_t{1} << 31;
 /// What else takes time, in those units: bounds of the values in a cube, materials of a chunk.
 inline constexpr std::uint64_t kBoundsLooks = 16, kPaintLooks = 1 << 15;
 
+/// Without a scale or size that the user gave, an import looks no more often than this, and this
+/// for each brick and tile: what they need at one block a voxel, alone in their chunks.
+inline constexpr std::uint64_t kUnaskedLooks = 1 << 26, kLooksPerPart = 1 << 16;
+
 /// What an import has taken so far.
 struct ImportCost {
   std::size_t chunks = 0;           ///< that may hold something
@@ -25,6 +29,7 @@ struct ImportCost {
   std::size_t detailed_chunks = 0;  ///< of several blocks
   std::uint64_t named_chunks = 0;
   std::uint64_t looks = 0;
+  std::uint64_t most_looks = kMaxImportLooks;  ///< refused beyond
 };
 
 }  // namespace skerry::world

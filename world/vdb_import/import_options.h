@@ -15,6 +15,9 @@ enum class UpAxis : std::uint8_t { kY, kZ };
 struct ImportOptions {
   std::optional<std::string> grid =
       {};  ///< only this one; none: importable_grids (grid_choice.h) chooses
+  /// SHA-256 that the file must have, 64 lower-case digits. For whoever opens the file:
+  /// import_islands has no file to look at.
+  std::optional<std::string> expect = {};
   /// Blocks along a voxel's edge; of a box-shaped voxel, along the edge of the cube of its volume.
   /// All grids of a file are scaled as the first. None: 1, or what `size_blocks` asks for.
   std::optional<double> scale = {};

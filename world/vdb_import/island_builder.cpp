@@ -134,7 +134,7 @@ Result<void> IslandBuilder::fill(ImportedIsland& out, const Land& land,
           fmt::format("it would have more than {} chunks of several blocks; give a smaller "
                       "--scale or --size",
                       2 * kMaxDetailedChunks)};
-    if (cost_.looks > kMaxImportLooks) return too_many_looks();
+    if (cost_.looks > cost_.most_looks) return too_many_looks(cost_);
     if (progress) progress(static_cast<double>(first + count) / static_cast<double>(list.size()));
   }
   return {};

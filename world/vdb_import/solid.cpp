@@ -231,16 +231,17 @@ Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
                       "give a smaller --scale or --size",
                       kMaxDetailedChunks)};
     }
-    if (cost.looks > kMaxImportLooks) return too_many_looks();
+    if (cost.looks > cost.most_looks) return too_many_looks(cost);
     if (progress) progress(static_cast<double>(first + count) / static_cast<double>(list.size()));
   }
   return masks;
 }
 
-Error too_many_looks() {
-  return {
-      "finding what is solid would take too long, most likely because its transform is so "
-      "slanted; give a smaller --scale or --size"};
+Error too_many_looks(const ImportCost& cost) {
+  return {fmt::format(
+      "finding what is solid would take too long, most likely because its transform is so slanted; "
+      "give a smaller --scale or --size{}",
+      cost.most_looks < kMaxImportLooks ? ", or --scale 1 if it may take minutes" : "")};
 }
 
 }  // namespace skerry::world

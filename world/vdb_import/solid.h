@@ -44,12 +44,12 @@ Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,
 
 /// Asks at each block's centre whether it is solid. Whole cubes of blocks are settled at once where
 /// bounds of the values allow it.
-/// Errors: more than kMaxDetailedChunks are mixed; more than kMaxImportLooks.
+/// Errors: more than kMaxDetailedChunks are mixed; more than cost.most_looks.
 Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
                                const Placement& placement, const std::set<IVec3>& chunks,
                                ImportCost& cost, Jobs& jobs, const ReadProgress& progress);
 
 /// That an import looks more often than it may.
-Error too_many_looks();
+Error too_many_looks(const ImportCost& cost);
 
 }  // namespace skerry::world

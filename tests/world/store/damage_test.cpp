@@ -4,6 +4,7 @@
 
 #include "tests/world/store/made_worlds.h"
 #include "world/store/pages.h"
+#include "world/store/schema.h"
 #include "world/store/world_file.h"
 
 namespace skerry::world {
@@ -13,12 +14,13 @@ namespace fs = std::filesystem;
 using Mode = WorldFile::Mode;
 
 TEST(DamagedWorldFile, StrangeTablesAreLeftBehindAndTheRestIsRead) {
-  for (const char* sql :
-       {"PRAGMA user_version = 0", "PRAGMA user_version = -1", "PRAGMA user_version = 7",
-        "PRAGMA application_id = 5", "CREATE VIEW v AS SELECT 1",
-        "CREATE TRIGGER t AFTER INSERT ON chunk BEGIN DELETE FROM value; END",
-        "DROP TABLE motion; CREATE VIEW motion AS SELECT * FROM island", "DROP TABLE motion",
-        "DELETE FROM value"}) {
+  const std::string one_bit_off =
+      "PRAGMA application_id = " + std::to_string(kApplicationId ^ 0x1000);
+  for (const char* sql : {"PRAGMA user_version = 0", "PRAGMA user_version = -1",
+                          one_bit_off.c_str(), "CREATE VIEW v AS SELECT 1",
+                          "CREATE TRIGGER t AFTER INSERT ON chunk BEGIN DELETE FROM value; END",
+                          "DROP TABLE motion; CREATE VIEW motion AS SELECT * FROM island",
+                          "DROP TABLE motion", "DELETE FROM value"}) {
     const Folder folder;
     const fs::path path = folder / "w";
     Rng rng(6);
@@ -123,6 +125,9 @@ TEST(DamagedWorldFile, AnyFlippedBitIsToldAndTheRestIsRead) {
   const auto flip = [&](std::size_t bit) {
     std::string bad = good.bytes;
     bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ 1 << bit % 8);
+    // A version that is greater by a bit cannot be told from a newer program's.
+    if (bit / 8 >= 60 && bit / 8 < 64 && (good.bytes[bit / 8] & 1 << bit % 8) == 0 && bit != 487)
+      return expect_refused(good.with(bad), Mode::kRead, "newer Skerry");
     read += read_damaged(good.with(bad), good.given, bit / 8);
     ++rounds;
   };

@@ -171,12 +171,37 @@ TEST(WorldFile, WhatIsNoWorldIsRefusedAndLeftAlone) {
   EXPECT_FALSE(WorldFile::create("/no/such/folder/w", info_of_seed_4()));
 }
 
-TEST(WorldFile, ANewerVersionIsRefused) {
+TEST(WorldFile, ANewerVersionIsRefusedWhateverItsTablesAndLeftAsItIs) {
+  const auto with_flipped_magic = [](const fs::path& path) {
+    std::fstream(path, std::ios::binary | std::ios::in | std::ios::out).write("T", 1);
+  };
+  for (const char* sql :
+       {"PRAGMA user_version = 4; CREATE TABLE news(x)", "PRAGMA user_version = 4",
+        "PRAGMA user_version = 7", "PRAGMA user_version = 2147483647",
+        "PRAGMA user_version = 4; DROP TABLE spare", "PRAGMA user_version = 4; DROP TABLE value"}) {
+    for (const bool damaged : {false, true}) {
+      const Folder folder;
+      const fs::path path = folder / "w";
+      ASSERT_TRUE(WorldFile::create(path, info_of_seed_4()));
+      run_sql(path, sql);
+      if (damaged) with_flipped_magic(path);
+      const std::string before = bytes_of(path);
+      for (const Mode mode : {Mode::kRead, Mode::kWrite})
+        expect_refused(path, mode, "newer Skerry");
+      EXPECT_EQ(bytes_of(path), before) << sql;
+      EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << sql;
+    }
+  }
+}
+
+TEST(WorldFile, AnotherApplicationIdIsLeftAsItIs) {
   const Folder folder;
   const fs::path path = folder / "w";
   ASSERT_TRUE(WorldFile::create(path, info_of_seed_4()));
-  run_sql(path, "PRAGMA user_version = 4; CREATE TABLE news(x)");
+  run_sql(path, "PRAGMA application_id = 5");
+  const std::string before = bytes_of(path);
   for (const Mode mode : {Mode::kRead, Mode::kWrite}) expect_refused(path, mode, "newer Skerry");
+  EXPECT_EQ(bytes_of(path), before);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 

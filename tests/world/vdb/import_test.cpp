@@ -257,26 +257,81 @@ TEST(VdbImport, MakesAnIslandOfEachGridWhereItsTransformPutsIt) {
   EXPECT_EQ(imported({a, b}, {.grid = "b"}).size(), 1u);
 }
 
-TEST(VdbImport, TakesIdsBeforeLevelSetsBeforeMasksBeforeFog) {
-  const auto grid = [](std::string name, VolumeKind kind) {
-    VolumeGrid out;
-    out.name = std::move(name);
-    out.kind = kind;
-    return out;
-  };
-  using Indices = std::vector<std::size_t>;
-  std::vector<VolumeGrid> grids = {grid("temperature", VolumeKind::kFog),
-                                   grid("smoke", VolumeKind::kFog), grid("Cd", VolumeKind::kColor)};
-  EXPECT_EQ(importable_grids(grids), Indices({1}));
-  grids.push_back(grid("density[0]", VolumeKind::kFog));
-  grids.push_back(grid("density[1]", VolumeKind::kFog));
-  EXPECT_EQ(importable_grids(grids), Indices({3, 4}));
-  grids.push_back(grid("m", VolumeKind::kMask));
-  EXPECT_EQ(importable_grids(grids), Indices({5}));
-  grids.push_back(grid("s", VolumeKind::kLevelSet));
-  EXPECT_EQ(importable_grids(grids), Indices({6}));
-  grids.push_back(grid("block_id", VolumeKind::kFog));
-  EXPECT_EQ(importable_grids(grids), Indices({7}));
+VolumeGrid sorted_grid(std::string name, VolumeKind kind, std::string grid_class = "unknown") {
+  VolumeGrid out;
+  out.name = std::move(name);
+  out.kind = kind;
+  out.grid_class = std::move(grid_class);
+  if (kind == VolumeKind::kOther) {
+    out.remark = "points";
+  } else {
+    out.tiles = {{{0, 0, 0}, 8, 5.0f}};
+    out.active_voxels = 512;
+  }
+  return out;
+}
+
+TEST(VdbImport, TakesTheBestSortOfGridThatThereIs) {
+  // From the last that is taken to the first; of each sort two.
+  const std::vector<VolumeGrid> ascending = {
+      sorted_grid("obstacles", VolumeKind::kIds),
+      sorted_grid("collision_sdf", VolumeKind::kLevelSet, "level set"),
+      sorted_grid("vorticity", VolumeKind::kFog),
+      sorted_grid("pressure", VolumeKind::kFog),
+      sorted_grid("labels", VolumeKind::kIds),
+      sorted_grid("material", VolumeKind::kIds),
+      sorted_grid("m", VolumeKind::kMask),
+      sorted_grid("n", VolumeKind::kMask),
+      sorted_grid("smoke", VolumeKind::kFog, "fog volume"),
+      sorted_grid("mist", VolumeKind::kFog, "fog volume"),
+      sorted_grid("density[0]", VolumeKind::kFog),
+      sorted_grid("density[1]", VolumeKind::kFog, "fog volume"),
+      sorted_grid("s", VolumeKind::kLevelSet, "level set"),
+      sorted_grid("t", VolumeKind::kLevelSet, "level set"),
+      sorted_grid("block_id", VolumeKind::kFog),
+      sorted_grid("ids", VolumeKind::kIds)};
+  std::vector<VolumeGrid> grids = {sorted_grid("temperature", VolumeKind::kFog, "fog volume"),
+                                   sorted_grid("Cd", VolumeKind::kColor),
+                                   sorted_grid("p", VolumeKind::kOther)};
+  EXPECT_TRUE(importable_grids(grids).empty());
+  for (std::size_t i = 0; i < ascending.size(); i += 2) {
+    grids.insert(grids.end(), {ascending[i], ascending[i + 1]});
+    const std::size_t last = grids.size() - 1;
+    EXPECT_EQ(importable_grids(grids), (std::vector<std::size_t>{last - 1, last}))
+        << ascending[i].name;
+  }
+}
+
+TEST(VdbImport, PassesOverEmptyGridsOfABetterSort) {
+  VolumeGrid empty_ids, empty_set;
+  empty_ids.name = "block_id";
+  empty_ids.kind = VolumeKind::kIds;
+  empty_set.name = "surface";
+  empty_set.kind = VolumeKind::kLevelSet;
+  const VolumeGrid smoke = sorted_grid("density", VolumeKind::kFog, "fog volume");
+  EXPECT_EQ(importable_grids({empty_ids, empty_set, smoke}), std::vector<std::size_t>{2});
+  EXPECT_EQ(imported({empty_ids, empty_set, smoke}).at(0).grid, "density");
+  EXPECT_NE(refusal_of({empty_ids, empty_set}).find("empty"), std::string::npos);
+}
+
+TEST(VdbImport, TellsWhichGridsItTakesWhichItLeavesAndWhy) {
+  const VolumeGrid obstacles = sorted_grid("obstacles", VolumeKind::kIds);
+  const VolumeGrid smoke = sorted_grid("density", VolumeKind::kFog, "fog volume");
+  const std::string line = choice_line({obstacles, smoke}, {});
+  for (const char* part :
+       {"takes 'density'", "class fog volume", "512 active voxels", "its name says density",
+        "leaves 'obstacles'", "its name says obstacle", "--import grid=NAME"})
+    EXPECT_NE(line.find(part), std::string::npos) << part << ": " << line;
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  EXPECT_EQ(choice_line({smoke}, {}), "");
+  EXPECT_EQ(choice_line({smoke, smoke}, {}), "") << "all are taken";
+  EXPECT_EQ(choice_line({obstacles, smoke}, {.grid = "obstacles"}), "");
+  EXPECT_EQ(choice_line({smoke, sorted_grid("p", VolumeKind::kOther)}, {}), "");
+  const std::vector<VolumeGrid> many(4000, obstacles);
+  std::vector<VolumeGrid> all = many;
+  all.push_back(smoke);
+  EXPECT_NE(choice_line(all, {}).find("and 3996 more"), std::string::npos);
+  EXPECT_LT(choice_line(all, {}).size(), 1000u);
 }
 
 TEST(VdbImport, TurnsUnknownIdsIntoStoneAndSaysSo) {

@@ -173,6 +173,40 @@ TEST(ReadVdb, TellsWhichLimitAFileRanInto) {
   EXPECT_NE(refusal_of(cloud, no_time).find("took more than"), std::string::npos);
 }
 
+TEST(ReadVdb, AFileGetsWhatItsSizeCanNeedAndNoMore) {
+  constexpr std::uint64_t kMiB = 1 << 20;
+  const ReadLimits most;
+  const ReadLimits small = limits_for(3400);
+  EXPECT_LE(small.memory_bytes, 160 * kMiB);
+  EXPECT_LE(small.answer_bytes, 32 * kMiB);
+  EXPECT_LE(small.cpu_s, 5);
+  const ReadLimits large = limits_for(std::uint64_t{1} << 60);
+  EXPECT_EQ(large.memory_bytes, most.memory_bytes);
+  EXPECT_EQ(large.answer_bytes, most.answer_bytes);
+  EXPECT_EQ(large.cpu_s, most.cpu_s);
+  ReadLimits tight;
+  tight.cpu_s = 1;
+  tight.memory_bytes = 5;
+  EXPECT_EQ(limits_for(3400, tight).cpu_s, 1);
+  EXPECT_EQ(limits_for(3400, tight).memory_bytes, 5u);
+}
+
+TEST(ReadVdb, ALengthBeyondTheFileIsRefused) {
+  SKIP_WITHOUT_OPENVDB();
+  std::ifstream whole(sample_files() / "ball.vdb", std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(whole), {}};
+  // The file's metadata follow 8 bytes of magic number, three versions, a flag and 36 letters; then
+  // the number of entries; then the length of a name.
+  constexpr std::size_t kCount = 8 + 3 * 4 + 1 + 36;
+  for (const std::size_t at : {kCount, kCount + 4}) {
+    std::string bad = bytes;
+    for (std::size_t i = 0; i < 4; ++i) bad[at + i] = static_cast<char>(i == 3 ? 0x7f : 0xff);
+    const Folder folder;
+    std::ofstream(folder / "bad.vdb", std::ios::binary) << bad;
+    EXPECT_NE(refusal_of(folder / "bad.vdb"), "");
+  }
+}
+
 TEST(ReadVdb, ReportsProgressUpToTheWholeFile) {
   SKIP_WITHOUT_OPENVDB();
   double last = 0.0;

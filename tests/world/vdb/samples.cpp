@@ -124,6 +124,14 @@ openvdb::GridPtrVec every_type() {
   return grids;
 }
 
+/// As simulations write it: fog, and where its obstacles were, as integers.
+openvdb::GridPtrVec smoke_with_obstacles(bool some) {
+  const auto obstacles = named<openvdb::Int32Grid>("obstacles");
+  if (some) obstacles->tree().setValueOn(Coord(1, 2, 3), 1);
+  if (some) obstacles->tree().setValueOn(Coord(1, 2, 4), 1);
+  return {obstacles, cloud("density")};
+}
+
 openvdb::GridPtrVec wild_values() {
   const auto grid = fog("wild");
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -184,6 +192,8 @@ int main(int count, char** words) {
   write(folder + "cloud.vdb", {cloud("density")});
   write(folder + "types.vdb", every_type());
   write(folder + "wild.vdb", wild_values());
+  write(folder + "no_obstacles.vdb", smoke_with_obstacles(false));
+  write(folder + "obstacles.vdb", smoke_with_obstacles(true));
   write(folder + "transforms.vdb", transforms());
   write(folder + "huge.vdb", huge_tiles());
   write(folder + "no_grids.vdb", {});

@@ -8,6 +8,7 @@
 
 #include "game/scene_file/parse.h"
 #include "game/scene_file/vdb_options.h"
+#include "game/worlds/file_sum.h"
 #include "tools/skerry/scene/scene_device.h"
 #include "tools/skerry/vdb/vdb_info.h"
 #include "tools/skerry/vdb/vdb_transfer.h"
@@ -19,14 +20,10 @@ int refuse(const Refusal& refusal) {
   return fail(refusal.status, refusal.error);
 }
 
-Result<world::ImportOptions> import_options(const std::optional<std::string>& grid,
-                                            const std::optional<std::string>& scale,
-                                            const std::optional<std::string>& size,
-                                            const std::optional<std::string>& threshold,
-                                            const std::optional<std::string>& up) {
+using Typed = std::pair<const char*, std::optional<std::string>>;
+
+Result<world::ImportOptions> import_options(const std::vector<Typed>& typed) {
   world::ImportOptions out;
-  const std::pair<const char*, const std::optional<std::string>&> typed[] = {
-      {"grid", grid}, {"scale", scale}, {"size", size}, {"threshold", threshold}, {"up", up}};
   for (const auto& [key, value] : typed) {
     if (!value) continue;
     const auto set = game::set_import(key, *value, fmt::format("--{}", key), out);
@@ -61,6 +58,7 @@ VdbCommand::VdbCommand(CLI::App& app)
   info_ = add("info", "Tell what a .vdb file holds and what Skerry does with it");
   info_->add_option("file", file_, "The file")->type_name("FILE.vdb")->required();
   info_->add_flag("--json", json_, "As JSON");
+  add_expect(*info_);
   add_import();
   add_export();
 }
@@ -70,6 +68,11 @@ CLI::App* VdbCommand::add(const char* name, const char* description) {
   command->allow_extras();
   command->footer("");
   return command;
+}
+
+void VdbCommand::add_expect(CLI::App& command) {
+  command.add_option("--expect", expect_, "Read the file only if this is its SHA-256")
+      ->type_name("SHA256");
 }
 
 void VdbCommand::add_import() {
@@ -91,6 +94,7 @@ void VdbCommand::add_import() {
   import_->add_option("--up", up_, "Which axis of the file points up (default y)")
       ->type_name("y|z");
   import_->add_flag("--json", json_, "Print the outcome as JSON");
+  add_expect(*import_);
 }
 
 void VdbCommand::add_export() {
@@ -113,12 +117,26 @@ int VdbCommand::run() {
   if (const auto refusal = check_leftovers(*vdb_)) return refuse(*refusal);
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (const auto refusal = check_output(out_)) return refuse(*refusal);
-  if (chosen == info_) return vdb_info(file_, json_);
+  if (chosen == info_) return run_info();
   return chosen == import_ ? run_import() : run_export();
 }
 
+int VdbCommand::run_info() {
+  if (!expect_) return vdb_info(file_, json_);
+  const Result<std::string> sum = game::parse_sha256(*expect_, "--expect");
+  if (!sum) return fail(kUsage, sum.error());
+  if (const Result<void> same = game::check_sum(file_, *sum); !same)
+    return fail(kFailed, same.error());
+  return vdb_info(file_, json_);
+}
+
 int VdbCommand::run_import() {
-  const Result<world::ImportOptions> how = import_options(grid_, scale_, size_, threshold_, up_);
+  const Result<world::ImportOptions> how = import_options({{"grid", grid_},
+                                                           {"scale", scale_},
+                                                           {"size", size_},
+                                                           {"threshold", threshold_},
+                                                           {"up", up_},
+                                                           {"expect", expect_}});
   if (!how) return fail(kUsage, how.error());
   return vdb_import({file_, *out_, *how, json_});
 }

@@ -21,8 +21,10 @@ class VdbCommand {
 
  private:
   CLI::App* add(const char* name, const char* description);
+  void add_expect(CLI::App& command);
   void add_import();
   void add_export();
+  int run_info();
   int run_import();
   int run_export();
   int refuse_unknown() const;
@@ -32,6 +34,7 @@ class VdbCommand {
   CLI::App* import_;
   CLI::App* export_;
   std::string file_;
+  std::optional<std::string> expect_;  ///< of info and import
   bool json_ = false, partial_ = false;
   std::optional<std::string> grid_, scale_, size_, threshold_, up_;  ///< of import
   std::optional<std::string> seed_, world_, box_;                    ///< of export

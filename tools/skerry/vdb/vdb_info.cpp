@@ -41,10 +41,12 @@ std::string_view kind_name(VolumeKind kind) {
 /// What import and --cloud do with a grid.
 std::string use_of(const VolumeGrid& grid, bool imported) {
   if (grid.kind == VolumeKind::kOther) return "left out: " + grid.remark;
-  if (grid.active_voxels == 0 && grid.bricks.empty() && grid.tiles.empty())
-    return "left out: it is empty";
+  const world::GridSort sort = world::sort_of(grid);
+  if (sort == world::GridSort::kEmpty) return "left out: it is empty";
   if (grid.kind == VolumeKind::kColor) return "colours the surface of what is imported";
-  std::string use = imported ? "imported as an island" : "imported if named by --grid";
+  std::string use =
+      fmt::format("{}, as {}", imported ? "imported as an island" : "imported if named by --grid",
+                  world::reason_of(sort));
   if (world::holds_block_ids(grid)) {
     use += ": values are block ids";
   } else if (grid.kind == VolumeKind::kLevelSet) {

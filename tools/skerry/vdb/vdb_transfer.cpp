@@ -82,19 +82,21 @@ Result<bool> grows_from_a_seed(const VdbExportOptions& options) {
 int vdb_import(const VdbImportOptions& options) {
   ProgressBar bar;
   const Stopwatch importing;
-  const auto islands = game::islands_of_vdb(options.file, options.how,
-                                            [&bar](double share) { bar.show(share, "importing"); });
+  const auto imported = game::islands_of_vdb(
+      options.file, options.how, [&bar](double share) { bar.show(share, "importing"); });
   bar.clear();
-  if (!islands) return fail(kFailed, islands.error());
+  if (!imported) return fail(kFailed, imported.error());
+  for (const std::string& note : imported->notes) fmt::print(stderr, "skerry: {}\n", note);
+  const std::vector<world::ImportedIsland>& islands = imported->islands;
   Times times;
   times.import_s = importing.seconds();
   const auto bytes = static_cast<double>(std::filesystem::file_size(options.file));
   times.bytes_per_s = bytes / times.import_s;
   const Stopwatch writing;
-  if (const Result<void> saved = game::save_imported(*islands, options.out); !saved)
+  if (const Result<void> saved = game::save_imported(islands, options.out); !saved)
     return fail(kFailed, saved.error());
   times.write_s = writing.seconds();
-  options.json ? print_json(*islands, times) : print_text(*islands, times);
+  options.json ? print_json(islands, times) : print_text(islands, times);
   return kDone;
 }
 
