@@ -23,6 +23,14 @@ if(cpu_test_sources)
   target_link_libraries(skerry_cpu_tests PRIVATE skerry_world GTest::gtest_main)
 endif()
 
+# The program with its commands under the address and undefined-behaviour sanitizers, and everything below them as the plain build has it:
+# that builds in a third of the time which the whole program needs, and the sanitizers still watch all memory that the commands touch.
+file(GLOB_RECURSE measure_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tools/measure/*.cpp)
+add_executable(skerry_sanitized EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tools/skerry/main.cpp ${command_sources} ${measure_sources})
+target_link_libraries(skerry_sanitized PRIVATE skerry_game skerry_reference CLI11::CLI11 OpenSSL::Crypto)
+target_compile_options(skerry_sanitized PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
+target_link_options(skerry_sanitized PRIVATE -fsanitize=address,undefined)
+
 # The parsers of what comes from outside, with what they need and no more: built under sanitizers.
 set(fuzz_sources tests/fuzz/targets.cpp game/input/actions.cpp game/input/bindings_file.cpp game/scene_file/expectations.cpp game/scene_file/cloud_files.cpp game/scene_file/json_text.cpp game/scene_file/options.cpp game/scene_file/parse.cpp game/scene_file/scene_files.cpp game/scene_file/scene_lights.cpp game/scene_file/settings.cpp game/scene_file/vdb_options.cpp engine/render/light/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp engine/platform/input.cpp)
 list(TRANSFORM fuzz_sources PREPEND ${CMAKE_SOURCE_DIR}/)
@@ -49,6 +57,11 @@ add_test(NAME tools.check_paths COMMAND ${CMAKE_SOURCE_DIR}/tools/check_paths)
 add_test(NAME tools.check_scripts_test COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/check_scripts_test.py)
 add_test(NAME tools.check_format COMMAND ${CMAKE_SOURCE_DIR}/tools/check_format)
 set_tests_properties(tools.check_format PROPERTIES SKIP_RETURN_CODE 77)
+
+# What differs from main, or from the commit before; a whole look takes a quarter of an hour: tools/check_tidy --all.
+add_test(NAME tools.check_tidy COMMAND ${CMAKE_SOURCE_DIR}/tools/check_tidy)
+add_test(NAME tools.check_tidy_test COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/check_tidy_test.py)
+set_tests_properties(tools.check_tidy tools.check_tidy_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
 
 # The program itself: tests/cli runs it, and a script plays in a window on a virtual display.
 if(test_sources)
@@ -87,6 +100,11 @@ set_tests_properties(stability.all PROPERTIES TIMEOUT 900)
 # A few of the hostile command lines; tests/hostile/run without --count runs 2,000.
 add_test(NAME cli.hostile COMMAND ${CMAKE_SOURCE_DIR}/tests/hostile/run $<TARGET_FILE:skerry> --count 60)
 set_tests_properties(cli.hostile PROPERTIES TIMEOUT 900 PROCESSORS 2)
+# The commands that write reports, on little; tools/sanitize runs the same under the sanitizers.
+add_test(NAME tools.commands COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/commands_test.py
+  $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/commands)
+set_tests_properties(tools.commands PROPERTIES TIMEOUT 300)
 
 # Each deliberate breakage of tests/mutation still fits the code; the run of all of them builds for a quarter of an hour and is no part of this.
 add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --check)
+add_test(NAME mutation.stability COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/stability --check)

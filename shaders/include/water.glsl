@@ -85,10 +85,13 @@ const float kScattering = 0.3;
 vec3 scattering(Material medium) { return vec3(kScattering * dot(medium.absorption, vec3(1.0 / 3.0))); }
 vec3 extinction(Material medium) { return medium.absorption + scattering(medium); }
 
+// 1 - exp(-x), to the last digits for small x.
+vec3 opacities(vec3 x) { return mix(1.0 - exp(-x), x * (1.0 - x * (0.5 - x * (1.0 / 6.0))), lessThan(x, vec3(0.02))); }
+
 // Radiance a stretch of medium sends towards the eye when `light` falls on it: single scattering, isotropic phase 1 / (4 pi).
 vec3 scattered(Material medium, vec3 light, float path) {
   vec3 total = max(extinction(medium), vec3(1e-6));
-  return scattering(medium) / total * light * (0.25 * kInvPi) * (1.0 - exp(-total * path));
+  return scattering(medium) / total * light * (0.25 * kInvPi) * opacities(total * path);
 }
 
 vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {

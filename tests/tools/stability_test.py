@@ -2,6 +2,9 @@
 """Runs `skerry stability` as a user would: every row passes, and wrong use is refused.
 
     stability_test.py SKERRY_PROGRAM FOLDER      FOLDER keeps the rows
+
+What it prints is what docs/stability_rows.md keeps: the same rows with the same bounds, and
+none of those bounds is more than four times what was observed.
 """
 import json
 import subprocess
@@ -9,6 +12,8 @@ import sys
 from pathlib import Path
 
 FEWEST_ROWS = 40
+TABLE = Path(__file__).resolve().parent.parent.parent / "docs" / "stability_rows.md"
+REMEDY = "print it anew: skerry stability (docs/stability.md says how)"
 
 
 def run(program, *arguments):
@@ -46,13 +51,34 @@ def check_rows(program, folder):
     check(len(named) == len(rows), "two rows have one name")
     listed = run(program, "--list").stdout.split()
     check(sorted(listed) == sorted({row["case"] for row in rows}), "a listed case gave no row")
+    return done.stdout
+
+
+def table_of(text):
+    """(case, quantity) -> (bound, observed), as they are written in a table in Markdown."""
+    lines = [line for line in text.splitlines() if line.startswith("| ")]
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    return {(row[0], row[1]): (row[2], row[3]) for row in cells if row[0] != "case"}
+
+
+def check_table(printed):
+    kept = table_of(TABLE.read_text(encoding="utf-8"))
+    printed = table_of(printed)
+    check(kept.keys() == printed.keys(),
+          f"{TABLE.name} and the program differ in {sorted(kept.keys() ^ printed.keys())}; {REMEDY}")
+    for row, (bound, observed) in kept.items():
+        check(printed[row][0] == bound,
+              f"{TABLE.name} has the bound {bound} for {row}, not {printed[row][0]}; {REMEDY}")
+        # Three digits are printed of each.
+        check(float(bound) <= 4.04 * float(observed),
+              f"{row} is bound to {bound}, more than four times the {observed} that is seen")
 
 
 def main(program, folder):
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     check_refusals(program, folder)
-    check_rows(program, folder)
+    check_table(check_rows(program, folder))
 
 
 if __name__ == "__main__":

@@ -102,7 +102,7 @@ std::string escape(std::string_view text) {
   return out;
 }
 
-std::string element(std::string_view name, std::span<const Attribute> attributes,
+std::string element(std::string_view name, std::initializer_list<Attribute> attributes,
                     std::string_view markup) {
   std::string out = fmt::format("<{}", name);
   for (const Attribute& attribute : attributes)
@@ -115,8 +115,7 @@ std::string element(std::string_view name, std::string_view markup) {
 }
 
 std::string labelled(std::string_view name, std::string_view css_class, std::string_view text) {
-  const Attribute attribute{"class", css_class};
-  return element(name, {&attribute, 1}, escape(text));
+  return element(name, {{"class", std::string(css_class)}}, escape(text));
 }
 
 std::string image(std::string_view source, std::string_view alternative) {
@@ -124,8 +123,7 @@ std::string image(std::string_view source, std::string_view alternative) {
 }
 
 std::string figure(std::string_view source, std::string_view target, std::string_view caption) {
-  const Attribute link{"href", target};
-  return element("figure", element("a", {&link, 1}, image(source, caption)) +
+  return element("figure", element("a", {{"href", std::string(target)}}, image(source, caption)) +
                                element("figcaption", escape(caption)));
 }
 
@@ -135,13 +133,11 @@ std::string table(std::span<const std::string_view> headings, std::span<const Ta
   for (const TableRow& row : rows) {
     std::string cells;
     for (const std::string& cell : row.cells) cells += element("td", cell);
-    const Attribute css{"class", row.css_class};
-    body += element("tr", row.css_class.empty() ? std::span<const Attribute>() : std::span(&css, 1),
-                    cells) +
-            "\n";
+    body += row.css_class.empty() ? element("tr", cells)
+                                  : element("tr", {{"class", row.css_class}}, cells);
+    body += "\n";
   }
-  const Attribute scroll{"class", "scroll"};
-  return element("div", {&scroll, 1},
+  return element("div", {{"class", "scroll"}},
                  element("table",
                          element("thead", element("tr", head)) + "\n" + element("tbody", body))) +
          "\n";

@@ -1,6 +1,7 @@
 // Pages of numbers and pictures for people. All output is well-formed XML too. What is called
 // `markup` is taken as it is; every other string is text and is escaped.
 #pragma once
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,13 +13,14 @@ namespace skerry::measure {
 /// (control characters, bytes that are no UTF-8) becomes U+FFFD.
 std::string escape(std::string_view text);
 
+/// Owns its texts, so that a value may come from a function.
 struct Attribute {
-  std::string_view name;
-  std::string_view value;
+  std::string name;
+  std::string value;
 };
 
 /// `<name attributes>markup</name>`.
-std::string element(std::string_view name, std::span<const Attribute> attributes,
+std::string element(std::string_view name, std::initializer_list<Attribute> attributes,
                     std::string_view markup);
 std::string element(std::string_view name, std::string_view markup);
 /// A text in an element with a class.
@@ -33,7 +35,7 @@ std::string figure(std::string_view source, std::string_view target, std::string
 /// "warn", "mark".
 struct TableRow {
   std::vector<std::string> cells;
-  std::string_view css_class;
+  std::string css_class;
 };
 std::string table(std::span<const std::string_view> headings, std::span<const TableRow> rows);
 

@@ -6,7 +6,10 @@
 #include <cstdlib>
 #include <limits>
 
+#include <test_paths.h>
+
 #include "engine/core/output.h"
+#include "engine/platform/files.h"
 #include "tests/folder.h"
 #include "tools/skerry/test/page.h"
 
@@ -158,6 +161,17 @@ TEST(Rows, HostileNamesStayTextInThePage) {
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find('\x01'), std::string::npos);
   EXPECT_NE(page.find("&lt;script&gt;"), std::string::npos);
+}
+
+TEST(Rows, EveryLinkOfThePageHasItsTarget) {
+  // The first fits into a string without memory of its own.
+  const Results results = shard(
+      1, 1, 5, {"a", "a_name_that_is_longer", "two words", "100%", std::string(300, 'x') + "#?&"});
+  const Folder folder;
+  const auto page = folder / "index.html";
+  ASSERT_TRUE(platform::write_text(page, test_page(results, folder.path())));
+  const std::string command = SKERRY_SOURCE_DIR "/tests/tools/page_links.py " + page.string();
+  EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
 TEST(Rows, ThePageShowsFailuresFirst) {

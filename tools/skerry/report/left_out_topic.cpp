@@ -128,8 +128,7 @@ Result<std::string> write_left_out(const std::vector<LeftOutRow>& rows,
     line.cells.push_back(fmt::format("{:.1f}", row.without.start_ms));
     lines.push_back(std::move(line));
   }
-  const measure::Attribute id{"id", kLeftOutTopic};
-  std::string out = element("h2", {&id, 1}, kLeftOutTopic) + "\n";
+  std::string out = element("h2", {{"id", std::string(kLeftOutTopic)}}, kLeftOutTopic) + "\n";
   out += labelled("p", "",
                   fmt::format("{}: each row is a scene without a feature, drawn by the renderer as "
                               "it is, and by one told to have none of it. Pictures and counts must "

@@ -34,10 +34,8 @@ struct Run {
 
   void add(std::string_view name, std::string_view meaning, const std::string& part,
            ordered_json json, std::vector<Defect> found) {
-    const std::string target = fmt::format("#{}", name);
-    const measure::Attribute link{"href", target};
-    contents += element(
-        "li", element("a", {&link, 1}, escape(name)) + escape(fmt::format(": {}", meaning)));
+    contents += element("li", element("a", {{"href", fmt::format("#{}", name)}}, escape(name)) +
+                                  escape(fmt::format(": {}", meaning)));
     parts += part;
     topics.push_back(std::move(json));
     for (Defect& defect : found) defects.push_back(std::move(defect));

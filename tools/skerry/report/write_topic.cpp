@@ -169,8 +169,7 @@ Result<std::string> write_figure(const std::filesystem::path& dir, const std::st
 }
 
 std::string pictures_grid(const std::string& figures) {
-  const measure::Attribute css{"class", "pictures"};
-  return element("div", {&css, 1}, figures) + "\n";
+  return element("div", {{"class", "pictures"}}, figures) + "\n";
 }
 
 Result<std::string> write_scene(const Topic& topic, const SceneRows& scene,
@@ -317,8 +316,7 @@ Result<std::string> write_topic(const TopicResult& result, const std::filesystem
   if (Result<void> done = write_text(dir / (name + ".svg"), topic_svg(result)); !done)
     return done.error();
 
-  const measure::Attribute id{"id", name};
-  std::string out = element("h2", {&id, 1}, escape(name)) + "\n";
+  std::string out = element("h2", {{"id", name}}, escape(name)) + "\n";
   out +=
       element("p", escape(fmt::format("{}. Errors are against {}; times are the {}.", topic.meaning,
                                       judge_name(topic.judge), cost_name(topic.cost))));

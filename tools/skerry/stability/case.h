@@ -1,6 +1,7 @@
 // What a stability case is. Adding one: write a function that gives rows, and name it in the table
 // at the end of its group's file.
 #pragma once
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,12 @@ struct Row {
 };
 
 using Rows = std::vector<Row>;
+
+/// What a row observed, if what it judges was there (its positive control); else NaN, which never
+/// passes. A picture of nothing has no error.
+inline double if_shown(bool shown, double observed) {
+  return shown ? observed : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// An extreme, run with the program's own code. @return at least one row. Errors: it could not be
 /// run.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <memory>
 
 #include "tools/skerry/bench/bench_report.h"
@@ -57,8 +58,12 @@ int StabilityCommand::run() {
   fmt::print("{}", stability::table_of(outcomes));
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
                                     [](const auto& one) { return !one.row.pass(); });
-  fmt::print("{} rows, {} failed{}\n", outcomes.size(), failed,
-             device ? ", on " + device->info().name : std::string());
+  // Of all threads, the driver's among them.
+  const double processor_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  fmt::print("\n{} rows, {} failed, {:.0f} s of processor time{}\n", outcomes.size(), failed,
+             processor_s,
+             device ? fmt::format(", on {}, {}", device->info().name, device->info().driver)
+                    : std::string());
   std::optional<std::filesystem::path> file;
   if (json_) file = *json_;
   if (Result<void> written = write_rows(file, stability::rows_of(outcomes)); !written)

@@ -29,28 +29,30 @@ std::vector<double> time_steps() {
 }
 
 Result<Rows> steps() {
-  double beyond = 0.0, backwards = 0.0, unmoved = 0.0, short_of_target = 0.0;
+  double beyond = 0.0, backwards = 0.0, unmoved = 0.0, short_of_target = 0.0, moved = 0.0;
   for (const auto& [from, to] : {std::pair{kBlack, kBlinding}, std::pair{kBlinding, kBlack}}) {
     double last = from;
     for (const double dt : time_steps()) {
       const double ev = adapted_ev(from, to, dt);
       beyond = std::max({beyond, kBlack - ev, ev - kBlinding});
+      moved = std::max(moved, std::abs(ev - from));
       backwards = std::max(backwards, std::abs(last - to) < std::abs(ev - to) ? 1.0 : 0.0);
       last = ev;
     }
     unmoved = std::max(unmoved, std::abs(adapted_ev(from, to, 0.0) - from));
     short_of_target = std::max(short_of_target, std::abs(last - to));
   }
-  return Rows{{"stops beyond the targets, dt 0 to 1e6 s", 0.0, beyond},
-              {"longer waits that end farther from the target", 0.0, backwards},
-              {"stops moved in no time", 0.0, unmoved},
-              {"stops left after 1e6 s", 0.0, short_of_target}};
+  return Rows{
+      {"stops beyond the targets, dt 0 to 1e6 s", 0.0, if_shown(moved > 0.0, beyond)},
+      {"longer waits that end farther from the target", 0.0, if_shown(moved > 0.0, backwards)},
+      {"stops moved in no time", 0.0, unmoved},
+      {"stops left after 1e6 s", 0.0, short_of_target}};
 }
 
 /// Frames that are black and blinding by turns. Each must move towards its own target, and the pair
 /// must settle: from cycle to cycle the place at the cycle's end moves less and less.
 Result<Rows> alternating() {
-  double wrong_way = 0.0, beyond = 0.0, growth = 0.0;
+  double wrong_way = 0.0, beyond = 0.0, growth = 0.0, moved = 0.0;
   for (const double dt : time_steps()) {
     double ev = 0.0, cycle_end = 0.0, last_move = HUGE_VAL;
     for (int frame = 0; frame < 400; ++frame) {
@@ -62,28 +64,33 @@ Result<Rows> alternating() {
       if (frame % 2 == 0) continue;
       const double move = std::abs(ev - cycle_end);
       growth = std::max(growth, move - last_move);
+      moved = std::max(moved, move);
       last_move = move;
       cycle_end = ev;
     }
   }
-  return Rows{{"frames that move away from their target", 0.0, wrong_way},
-              {"stops beyond the targets, black and blinding by turns", 0.0, beyond},
-              {"stops a cycle moves the exposure more than the cycle before", kRounding, growth}};
+  return Rows{
+      {"frames that move away from their target", 0.0, if_shown(moved > 0.0, wrong_way)},
+      {"stops beyond the targets, black and blinding by turns", 0.0, if_shown(moved > 0.0, beyond)},
+      {"stops a cycle moves the exposure more than the cycle before", 0.0,
+       if_shown(moved > 0.0, growth)}};
 }
 
 Result<Rows> splitting() {
   // n roundings, each of at most kRounding: what a split of n parts may be off by.
-  double most = 0.0;
+  double most = 0.0, moved = 0.0;
   for (const double whole_s : {1e-3, 0.1, 1.0, 10.0, 1e3}) {
     for (const int parts : {2, 7, 1000, 100000}) {
       for (const auto& [from, to] : {std::pair{kBlack, kBlinding}, std::pair{kBlinding, kBlack}}) {
         double ev = from;
         for (int i = 0; i < parts; ++i) ev = adapted_ev(ev, to, whole_s / parts);
         most = std::max(most, std::abs(ev - adapted_ev(from, to, whole_s)) / parts);
+        moved = std::max(moved, std::abs(ev - from));
       }
     }
   }
-  return Rows{{"stops a part that splitting a time changes, 2 to 100,000 parts", kRounding, most}};
+  return Rows{{"stops a part that splitting a time changes, 2 to 100,000 parts", kRounding,
+               if_shown(moved > 0.0, most)}};
 }
 
 Result<Rows> nothing_metered() {
@@ -91,7 +98,8 @@ Result<Rows> nothing_metered() {
   for (const double target : {std::nan(""), HUGE_VAL, -HUGE_VAL})
     for (const double dt : time_steps())
       moved = std::max(moved, adapted_ev(-3.25, target, dt) == -3.25 ? 0.0 : 1.0);
-  return Rows{{"times a target of NaN or infinity was followed", 0.0, moved}};
+  const bool follows = adapted_ev(-3.25, 0.0, 1.0) != -3.25;
+  return Rows{{"times a target of NaN or infinity was followed", 0.0, if_shown(follows, moved)}};
 }
 
 /// A lamp that blinds, or nothing but black stone.
@@ -152,13 +160,15 @@ Result<Rows> metered_frames(gpu::Device& device) {
       }
     }
   }
-  return Rows{
-      {"black frames that moved the meter, exposures of -20 to 20 stops", 0.0, black_metered},
-      {"channels above 0 in black frames, exposures of -20 to 20 stops", 0.0, black_lit},
-      {"blinding frames that were not metered", 0.0, unmetered},
-      {"blinding frames metered otherwise at another exposure", 0.0, differing},
-      {"stops metered beyond the limits", 0.0, beyond},
-      {"metered frames after which the eye moved away", 0.0, wrong_way}};
+  return Rows{{"black frames that moved the meter, exposures of -20 to 20 stops", 0.0,
+               if_shown(glare.has_value(), black_metered)},
+              {"channels above 0 in black frames, exposures of -20 to 20 stops", 0.0, black_lit},
+              {"blinding frames that were not metered", 0.0, unmetered},
+              {"blinding frames metered otherwise at another exposure", 0.0,
+               if_shown(glare.has_value(), differing)},
+              {"stops metered beyond the limits", 0.0, if_shown(glare.has_value(), beyond)},
+              {"metered frames after which the eye moved away", 0.0,
+               if_shown(glare.has_value(), wrong_way)}};
 }
 
 constexpr Case kCases[] = {{"exposure.steps", steps},

@@ -22,7 +22,6 @@ using world::block::kLamp;
 using world::block::kStone;
 
 constexpr VkExtent2D kSize{160, 90};
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr float kBroken[] = {std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::quiet_NaN()};
@@ -77,9 +76,9 @@ void compare(const Frame& clean, const Frame& broken,
 
 Rows rows_of(const std::string& what, const Damage& damage) {
   // A fault that shows nowhere has not been put in: that proves nothing.
-  return {
-      {"channels not finite, " + what, 0.0, damage.non_finite},
-      {"pixels damaged out of reach, " + what, 0.0, damage.inside > 0.0 ? damage.outside : kNan}};
+  const bool shown = damage.inside > 0.0;
+  return {{"channels not finite, " + what, 0.0, if_shown(shown, damage.non_finite)},
+          {"pixels damaged out of reach, " + what, 0.0, if_shown(shown, damage.outside)}};
 }
 
 /// Radiance before glass is looked through, and after: one pixel each.
@@ -124,6 +123,13 @@ Result<Rows> bloom(gpu::Device& device) {
   const auto clean = (*stage)->draw(input, settings, kSize);
   if (!clean) return clean.error();
   Damage damage;
+  // The same texel, blinding, must glow on others, or there is no bloom to be damaged.
+  Damage glow;
+  input.fault->value = 1e4f;
+  const auto glowing = (*stage)->draw(input, settings, kSize);
+  if (!glowing) return glowing.error();
+  compare(
+      *clean, *glowing, [&](auto x, auto y) { return x != texel.x || y != texel.y; }, glow);
   for (const float value : kBroken) {
     input.fault->value = value;
     const auto frame = (*stage)->draw(input, settings, kSize);
@@ -133,7 +139,7 @@ Result<Rows> bloom(gpu::Device& device) {
   }
   // Nothing at all may differ, not even the pixel: black it was, and as black it is developed.
   return Rows{{"pixels damaged, a texel of radiance before bloom, +-Inf, NaN", 0.0,
-               damage.outside + damage.inside}};
+               if_shown(glow.inside > 0.0, damage.outside + damage.inside)}};
 }
 
 /// Place of a direction in the sky's table [texels, centres at whole numbers], from the layout that

@@ -32,13 +32,18 @@ render::FrameInput input_of(std::span<const render::IslandPlacement> islands) {
 /// How often a brighter light makes a channel darker, and what is not finite on the way.
 struct Course {
   double falls = 0.0, non_finite = 0.0;
+  double rises = 0.0;  ///< channels of radiance that were made brighter: what must not be none
   std::vector<glm::vec3> last;
   std::vector<std::uint8_t> last_picture;
 
   void follow(const Frame& frame) {
     non_finite += non_finite_channels(frame.radiance) + frame.report.pixels.non_finite;
     for (std::size_t i = 0; i < last.size(); ++i)
-      for (int c = 0; c < 3; ++c) falls += frame.radiance[i][c] < last[i][c];
+      for (int c = 0; c < 3; ++c) {
+        falls += frame.radiance[i][c] < last[i][c];
+        // By more than half: a decade brighter, and no longer lost in what else is there.
+        rises += frame.radiance[i][c] > 1.5f * last[i][c];
+      }
     for (std::size_t i = 0; i < last_picture.size(); ++i) falls += frame.rgba[i] < last_picture[i];
     last = frame.radiance;
     last_picture = frame.rgba;
@@ -52,6 +57,7 @@ Result<Rows> sun(gpu::Device& device) {
     return added.error();
   const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
   Course course;
+  double lit = 0.0;
   for (int decade = -8; decade <= 8; ++decade) {
     render::FrameInput in = input_of(islands);
     // A sky that does not change: only the light on surfaces does.
@@ -60,16 +66,20 @@ Result<Rows> sun(gpu::Device& device) {
     const auto frame = (*stage)->draw(in, {}, kSize);
     if (!frame) return frame.error();
     course.follow(*frame);
+    lit = lit_surfaces(*frame);
   }
-  return Rows{
-      {"channels that a brighter sun darkens, irradiance times 1e-8 to 1e8", 0.0, course.falls},
-      {"channels or pixels not finite, sun times 1e-8 to 1e8", 0.0, course.non_finite}};
+  // Each lit surface rises in most of the decades; one is enough to tell that it is lit.
+  const bool shown = lit > 0.0 && course.rises > lit;
+  return Rows{{"channels that a brighter sun darkens, irradiance times 1e-8 to 1e8", 0.0,
+               if_shown(shown, course.falls)},
+              {"channels or pixels not finite, sun times 1e-8 to 1e8", 0.0,
+               if_shown(shown, course.non_finite)}};
 }
 
 /// A wall of lamps at night: its radiance is albedo times emission and nothing else.
 Result<Rows> emission(gpu::Device& device) {
   Course course;
-  double off = 0.0;
+  double off = 0.0, dark_albedo = 0.0;
   std::vector<glm::vec3> albedo;
   const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
   for (const double emitted : {1.0, 6.0e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 65504.0}) {
@@ -88,6 +98,7 @@ Result<Rows> emission(gpu::Device& device) {
     if (!frame) return frame.error();
     if (albedo.empty()) {  // an emission of 1 shows the albedo
       albedo = frame->radiance;
+      for (const glm::vec3& a : albedo) dark_albedo += std::max({a.x, a.y, a.z}) < 1.0f / 64.0f;
       continue;
     }
     course.follow(*frame);
@@ -100,9 +111,13 @@ Result<Rows> emission(gpu::Device& device) {
             std::max(off, std::abs(static_cast<double>(frame->radiance[i][c]) - wanted) / allowed);
       }
   }
-  return Rows{{"error of a lamp's radiance over two roundings, emission 6e-8 to 65504", 1.0, off},
-              {"channels that a brighter lamp darkens", 0.0, course.falls},
-              {"channels or pixels not finite, lamps 6e-8 to 65504", 0.0, course.non_finite}};
+  const bool shown = dark_albedo == 0.0 && course.rises > 0.0;
+  return Rows{{"error of a lamp's radiance over two roundings, emission 6e-8 to 65504", 1.0,
+               if_shown(shown, off)},
+              {"pixels of lamps that are almost black, emission 1", 0.0, dark_albedo},
+              {"channels that a brighter lamp darkens", 0.0, if_shown(shown, course.falls)},
+              {"channels or pixels not finite, lamps 6e-8 to 65504", 0.0,
+               if_shown(shown, course.non_finite)}};
 }
 
 shared::Light lamp(std::uint32_t kind, float intensity, float range) {
@@ -141,6 +156,7 @@ Result<Course> follow_lights(gpu::Device& device, const std::vector<shared::Ligh
 
 Result<Rows> lamps(gpu::Device& device) {
   Course by_intensity, by_range;
+  double unlit_kinds = 0.0;
   for (std::uint32_t kind = 0; kind < shared::kLightKindCount; ++kind) {
     std::vector<shared::Light> brighter, wider;
     for (int decade = -8; decade <= 8; decade += 2)
@@ -155,12 +171,18 @@ Result<Rows> lamps(gpu::Device& device) {
     by_intensity.non_finite += intensities->non_finite;
     by_range.falls += ranges->falls;
     by_range.non_finite += ranges->non_finite;
+    unlit_kinds += intensities->rises == 0.0 || ranges->rises == 0.0;
   }
-  return Rows{
-      {"channels that a brighter light darkens, five kinds, 1e-8 to 1e8", 0.0, by_intensity.falls},
-      {"channels or pixels not finite, lights 1e-8 to 1e8", 0.0, by_intensity.non_finite},
-      {"channels that a longer range darkens, 1e-6 to 1e6 blocks", 0.0, by_range.falls},
-      {"channels or pixels not finite, ranges 1e-6 to 1e6 blocks", 0.0, by_range.non_finite}};
+  const bool shown = unlit_kinds == 0.0;
+  return Rows{{"channels that a brighter light darkens, five kinds, 1e-8 to 1e8", 0.0,
+               if_shown(shown, by_intensity.falls)},
+              {"channels or pixels not finite, lights 1e-8 to 1e8", 0.0,
+               if_shown(shown, by_intensity.non_finite)},
+              {"channels that a longer range darkens, 1e-6 to 1e6 blocks", 0.0,
+               if_shown(shown, by_range.falls)},
+              {"channels or pixels not finite, ranges 1e-6 to 1e6 blocks", 0.0,
+               if_shown(shown, by_range.non_finite)},
+              {"kinds of light that brighten nothing", 0.0, unlit_kinds}};
 }
 
 /// Every light of a million reaches every pixel.
@@ -182,7 +204,8 @@ Result<Rows> million_lamps(gpu::Device& device) {
     non_finite += non_finite_channels(frame->radiance) + frame->report.pixels.non_finite;
     if (frame->radiance[kFewPixels.width * kFewPixels.height - 1] == glm::vec3(0.0f)) ++dark;
   }
-  return Rows{{"channels or pixels not finite, a million lights in a pixel", 0.0, non_finite},
+  return Rows{{"channels or pixels not finite, a million lights in a pixel", 0.0,
+               if_shown(dark == 0.0, non_finite)},
               {"frames that a million lights leave dark", 0.0, dark}};
 }
 

@@ -76,11 +76,10 @@ int status_of(std::span<const Outcome> outcomes) {
 }
 
 std::string table_of(std::span<const Outcome> outcomes) {
-  std::string text =
-      fmt::format("{:<22} {:<92} {:>10} {:>10}\n", "case", "quantity", "bound", "observed");
+  std::string text = "| case | quantity | bound | observed |\n|---|---|---|---|\n";
   for (const Outcome& one : outcomes)
-    text += fmt::format("{:<22} {:<92} {:>10.3g} {:>10.3g} {}\n", one.case_name, one.row.quantity,
-                        one.row.bound, one.row.observed, one.row.pass() ? "" : "FAILED");
+    text += fmt::format("| {} | {} | {:.3g} | {:.3g}{} |\n", one.case_name, one.row.quantity,
+                        one.row.bound, one.row.observed, one.row.pass() ? "" : " FAILED");
   return text;
 }
 

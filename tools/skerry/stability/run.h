@@ -31,7 +31,7 @@ std::vector<Outcome> run_cases(std::span<const Case> cases, gpu::Device* device,
 /// kDone when there are rows and all pass, else kFailed.
 int status_of(std::span<const Outcome> outcomes);
 
-/// A table for people; bounds and what was observed with three digits.
+/// A table in Markdown, which docs/stability_rows.md keeps; numbers with three digits.
 std::string table_of(std::span<const Outcome> outcomes);
 /// Rows of case, quantity, bound, observed, pass. What is not finite becomes null.
 nlohmann::ordered_json rows_of(std::span<const Outcome> outcomes);

@@ -131,20 +131,39 @@ render::RenderSettings settings() {
   return out;
 }
 
+/// The sun as the cases of motion have it.
+render::Celestial slanting_sun() {
+  return sun_towards({0.4, 0.7, -0.5});
+}
+
+/// Whether the pillars are lit and cast shadows: without either, no row of shadows means anything.
+Result<bool> shadows_show(Stage& stage) {
+  const auto sunlight = sunlight_of(stage, input_of(slanting_sun()), settings(), kSize);
+  if (!sunlight) return sunlight.error();
+  return sunlight->lit > 0.0 && sunlight->shadowed > 0.0;
+}
+
 Result<Rows> pictures(gpu::Device& device) {
   auto stage = pillar_stage(device);
   if (!stage) return stage.error();
-  double non_finite = 0.0, out_of_range = 0.0;
+  const auto shown = shadows_show(**stage);
+  if (!shown) return shown.error();
+  double non_finite = 0.0, out_of_range = 0.0, without_maps = 0.0;
   for (const glm::dvec3& to_sun : hard_directions()) {
     const auto frame = (*stage)->draw(input_of(sun_towards(to_sun)), settings(), kSize);
     if (!frame) return frame.error();
     non_finite += non_finite_channels(frame->radiance) + frame->report.pixels.non_finite;
     for (const float depth : frame->shadow_maps) out_of_range += !(depth >= 0.0f && depth <= 1.0f);
+    // A sun above the horizon has maps, and something stands in them.
+    without_maps += to_sun.y > 0.01 && std::ranges::none_of(frame->shadow_maps, [](float depth) {
+                      return depth > 0.0f && depth < 1.0f;
+                    });
   }
   return Rows{{"channels or pixels not finite, sun at zenith, horizon, below, axes, poles", 0.0,
-               non_finite},
+               if_shown(*shown, non_finite)},
               {"shadow texels outside 0..1, sun at zenith, horizon, below, axes, poles", 0.0,
-               out_of_range}};
+               if_shown(*shown, out_of_range)},
+              {"suns above the horizon whose shadow maps are empty", 0.0, without_maps}};
 }
 
 /// What changes in the shadow maps over frames of a motion that must not show.
@@ -175,7 +194,9 @@ Result<Change> change_over(Stage& stage, int frames, bool afresh,
 Result<Rows> camera_motion(gpu::Device& device) {
   auto stage = pillar_stage(device);
   if (!stage) return stage.error();
-  const render::Celestial sky = sun_towards({0.4, 0.7, -0.5});
+  const render::Celestial sky = slanting_sun();
+  const auto shown = shadows_show(**stage);
+  if (!shown) return shown.error();
   CascadeInput in;
   in.far_blocks = settings().view_distance_blocks;
   in.map_size = settings().shadow_map_size;
@@ -190,18 +211,20 @@ Result<Rows> camera_motion(gpu::Device& device) {
   if (!afresh) return afresh.error();
   const auto kept = change_over(**stage, 32, false, input);
   if (!kept) return kept.error();
-  return Rows{
-      {"shadow texels changed, camera moving 1/64 texel in each of 32 frames, drawn afresh", 0.0,
-       afresh->texels},
-      {"shadow maps drawn again while the camera moves by less than a texel", 0.0, kept->redrawn}};
+  return Rows{{"shadow texels changed, camera moving 1/64 texel in each of 32 frames, drawn afresh",
+               0.0, if_shown(*shown && afresh->redrawn > 0.0, afresh->texels)},
+              {"shadow maps drawn again while the camera moves by less than a texel", 0.0,
+               if_shown(*shown && afresh->redrawn > 0.0, kept->redrawn)}};
 }
 
 /// The sun moves by 1e-7 rad a frame, as the clock of play turns it.
 Result<Rows> sun_motion(gpu::Device& device) {
   auto stage = pillar_stage(device);
   if (!stage) return stage.error();
+  const auto shown = shadows_show(**stage);
+  if (!shown) return shown.error();
   constexpr double kStep = 1e-7 / (2.0 * std::numbers::pi) * render::kDaySeconds;
-  double texels = 0.0, redrawn = 0.0;
+  double texels = 0.0, redrawn = 0.0, drawn = 0.0;
   for (const bool afresh : {true, false}) {
     game::DayClock clock(9 * 3600);
     const auto input = [&](int) {
@@ -211,10 +234,13 @@ Result<Rows> sun_motion(gpu::Device& device) {
     const auto change = change_over(**stage, 64, afresh, input);
     if (!change) return change.error();
     texels += change->texels;
-    if (!afresh) redrawn = change->redrawn;
+    (afresh ? drawn : redrawn) = change->redrawn;
   }
-  return Rows{{"shadow texels changed, sun moving 1e-7 rad in each of 64 frames", 0.0, texels},
-              {"shadow maps drawn again, sun moving 1e-7 rad in each of 64 frames", 0.0, redrawn}};
+  const bool moved = *shown && drawn > 0.0;
+  return Rows{{"shadow texels changed, sun moving 1e-7 rad in each of 64 frames", 0.0,
+               if_shown(moved, texels)},
+              {"shadow maps drawn again, sun moving 1e-7 rad in each of 64 frames", 0.0,
+               if_shown(moved, redrawn)}};
 }
 
 constexpr Case kCases[] = {{"shadows.directions", directions},

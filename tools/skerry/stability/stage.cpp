@@ -166,6 +166,44 @@ render::Celestial darkness() {
   return sky;
 }
 
+render::Celestial moon_above(float irradiance) {
+  render::Celestial sky = darkness();
+  sky.to_moon = {0.0, 1.0, 0.0};
+  sky.moon_irradiance = glm::vec3(irradiance);
+  sky.moon_casts = true;
+  return sky;
+}
+
+Result<Sunlight> sunlight_of(Stage& stage, const render::FrameInput& input,
+                             const render::RenderSettings& settings, VkExtent2D size) {
+  const auto frame = stage.draw(input, settings, size);
+  if (!frame) return frame.error();
+  render::FrameInput changed = input;
+  changed.sky.sun_irradiance = glm::vec3(0.0f);
+  changed.sky.sun_casts = false;
+  const auto dark = stage.draw(changed, settings, size);
+  if (!dark) return dark.error();
+  render::RenderSettings open = settings;
+  open.shadows = false;
+  const auto unshadowed = stage.draw(input, open, size);
+  if (!unshadowed) return unshadowed.error();
+  Sunlight out;
+  for (std::size_t i = 0; i < frame->words.size(); ++i) {
+    if (frame->words[i] == 0) continue;
+    // Twice as bright: more than haze between the surface and the eye makes of it.
+    out.lit += frame->radiance[i].x > 2.0f * dark->radiance[i].x;
+    out.shadowed += unshadowed->radiance[i].x > 2.0f * frame->radiance[i].x;
+  }
+  return out;
+}
+
+double lit_surfaces(const Frame& frame) {
+  double count = 0.0;
+  for (std::size_t i = 0; i < frame.words.size(); ++i)
+    count += frame.words[i] != 0 && frame.radiance[i] != glm::vec3(0.0f);
+  return count;
+}
+
 double non_finite_channels(std::span<const glm::vec3> pixels) {
   double count = 0.0;
   for (const glm::vec3& p : pixels)

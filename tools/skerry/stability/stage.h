@@ -77,6 +77,20 @@ glm::dvec3 ray_of(const render::Camera& camera, VkExtent2D size, std::uint32_t x
 render::Celestial sun_towards(const glm::dvec3& to_sun);
 /// No light at all.
 render::Celestial darkness();
+/// A full moon in the zenith of a night, as bright as wanted: light from straight above, that
+/// leaves walls black.
+render::Celestial moon_above(float irradiance);
+
+/// What the sun does to surfaces of a frame, found by drawing it three times.
+struct Sunlight {
+  double lit = 0.0;       ///< pixels of surfaces that are darker under a sun without light
+  double shadowed = 0.0;  ///< of surfaces that are brighter without shadows
+};
+/// @param input with `capture`. Errors: as Stage::draw.
+Result<Sunlight> sunlight_of(Stage& stage, const render::FrameInput& input,
+                             const render::RenderSettings& settings, VkExtent2D size);
+/// Pixels of surfaces that give any light to the eye.
+double lit_surfaces(const Frame& frame);
 
 /// Channels that are not finite.
 double non_finite_channels(std::span<const glm::vec3> pixels);

@@ -43,6 +43,10 @@ const std::vector<IslandPlacement>& one_island() {
   return islands;
 }
 
+bool any_light(std::span<const glm::vec3> radiance) {
+  return std::ranges::any_of(radiance, [](const glm::vec3& c) { return c.x > 0.0f; });
+}
+
 Result<Rows> empty(gpu::Device& device) {
   game::SceneOptions scene = scene_of("1");
   scene.settings.world_islands = 0;
@@ -53,26 +57,43 @@ Result<Rows> empty(gpu::Device& device) {
   double passes = 0.0;
   for (const std::string& pass : (*drawer)->view().renderer().graph().pass_names())
     passes += pass.starts_with("draw_") || pass.starts_with("cull_");
-  return Rows{{"channels not finite, a world without islands", 0.0,
-               non_finite_channels(drawn->radiance->pixels)},
-              {"passes that draw or cull in a world without islands", 0.0, passes}};
+  return Rows{
+      {"channels not finite, a world without islands", 0.0,
+       if_shown(any_light(drawn->radiance->pixels), non_finite_channels(drawn->radiance->pixels))},
+      {"passes that draw or cull in a world without islands", 0.0,
+       if_shown(any_light(drawn->radiance->pixels), passes)}};
 }
 
-/// A world of stone, 27 chunks of it, but for the voxel that holds the eye; and without even that.
+/// A world of stone, 27 chunks of it, but for the voxel that holds the eye; without even that; and
+/// with a shaft from there to the sky, down which the sun must shine.
 Result<Rows> solid(gpu::Device& device) {
+  enum class Eye { kInShaft, kInVoxel, kInStone };
   Rows rows;
-  for (const bool cavity : {true, false}) {
+  bool shines = false;
+  for (const Eye eye : {Eye::kInShaft, Eye::kInVoxel, Eye::kInStone}) {
     auto stage = Stage::create(device);
     if (!stage) return stage.error();
     const auto stone = [&](int x, int y, int z) -> world::BlockId {
       const bool outside = std::min({x, y, z}) < -60 || std::max({x, y, z}) >= 124;
-      return outside || (cavity && x == 32 && y == 32 && z == 32) ? kAirBlock : kStone;
+      const bool voxel = eye == Eye::kInVoxel && x == 32 && y == 32 && z == 32;
+      const bool shaft = eye == Eye::kInShaft && std::abs(x - 32) <= 2 && y >= 32 && z == 32;
+      return outside || voxel || shaft ? kAirBlock : kStone;
     };
     if (Result<void> added = (*stage)->add(stone, {-1, -1, -1}, {2, 2, 2}); !added)
       return added.error();
+    if (eye == Eye::kInShaft) {
+      render::FrameInput in = input_of(one_island());
+      in.sky = sun_towards({0.0, 1.0, 0.0});
+      in.camera.pitch_deg = -90.0;
+      const auto sunlight = sunlight_of(**stage, in, {}, kSize);
+      if (!sunlight) return sunlight.error();
+      shines = sunlight->lit > 0.0;
+      continue;
+    }
     double lit = 0.0, non_finite = 0.0;
     for (const double pitch : {-90.0, -20.0, 45.0, 90.0}) {
       render::FrameInput in = input_of(one_island());
+      in.sky = sun_towards({0.0, 1.0, 0.0});
       in.camera.pitch_deg = pitch;
       const auto frame = (*stage)->draw(in, {}, kSize);
       if (!frame) return frame.error();
@@ -80,10 +101,13 @@ Result<Rows> solid(gpu::Device& device) {
       for (const glm::vec3& p : frame->radiance) lit += p != glm::vec3(0.0f);
     }
     // An eye inside stone sees no face of it; then it must only not break.
-    if (cavity) rows.push_back({"pixels that are not black in a closed voxel at noon", 0.0, lit});
-    rows.push_back({cavity ? "channels not finite in a closed voxel of a solid world"
-                           : "channels not finite inside solid stone",
-                    0.0, non_finite});
+    const bool voxel = eye == Eye::kInVoxel;
+    if (voxel)
+      rows.push_back(
+          {"pixels that are not black in a closed voxel at noon", 0.0, if_shown(shines, lit)});
+    rows.push_back({voxel ? "channels not finite in a closed voxel of a solid world"
+                          : "channels not finite inside solid stone",
+                    0.0, if_shown(shines, non_finite)});
   }
   return rows;
 }
@@ -139,7 +163,8 @@ Result<Rows> full_arena(gpu::Device& device) {
               {"checkerboard chunks taken beyond what the device allows", 0.0,
                static_cast<double>(added.size()) - static_cast<double>(wanted)},
               {"refusals that do not say that the arena is full", 0.0, unclear ? 1.0 : 0.0},
-              {"channels not finite with a full arena", 0.0, non_finite_channels(frame->radiance)},
+              {"channels not finite with a full arena", 0.0,
+               if_shown(shown > 0.0, non_finite_channels(frame->radiance))},
               {"pictures of a full arena that show none of it", 0.0, shown > 0.0 ? 0.0 : 1.0},
               {"chunks refused after one was removed", 0.0, refilled ? 0.0 : 1.0}};
 }
@@ -175,7 +200,8 @@ Result<Rows> many_islands(gpu::Device& device) {
     if (word != 0) seen.insert(word >> 19 & 0xfffu);
   return Rows{{"islands of 1024 that do not show", 0.0,
                static_cast<double>(kCount) - static_cast<double>(seen.size())},
-              {"channels not finite with 1024 islands", 0.0, non_finite_channels(frame->radiance)}};
+              {"channels not finite with 1024 islands", 0.0,
+               if_shown(lit_surfaces(*frame) > 0.0, non_finite_channels(frame->radiance))}};
 }
 
 /// An island that turns by more than a turn a frame: each frame stands for itself.
@@ -190,7 +216,7 @@ Result<Rows> whirling_island(gpu::Device& device) {
   world::IslandSpec spec;
   spec.spin_rad_per_s = 1000.0;
   spec.bounding_radius = 120.0;
-  double non_finite = 0.0, different = 0.0, kept = 0.0;
+  double non_finite = 0.0, different = 0.0, kept = 0.0, lit = 0.0;
   std::vector<std::vector<std::uint8_t>> pictures;
   for (const bool again : {false, true}) {
     for (int i = 0; i < 8; ++i) {
@@ -204,6 +230,7 @@ Result<Rows> whirling_island(gpu::Device& device) {
       const auto frame = (*stage)->draw(in, {}, kSize);
       if (!frame) return frame.error();
       non_finite += non_finite_channels(frame->radiance);
+      lit += lit_surfaces(*frame);
       if (again)
         different += different_pixels(frame->rgba, pictures[static_cast<std::size_t>(i)]);
       else
@@ -214,13 +241,15 @@ Result<Rows> whirling_island(gpu::Device& device) {
                            [](const std::string& p) { return p == "draw_shadow_sun_0"; });
     }
   }
-  return Rows{{"channels not finite, an island at 1000 rad/s", 0.0, non_finite},
-              {"pixels that differ when its 8 frames are drawn again", 0.0, different},
-              {"frames with a shadow map kept from another turn of it", 0.0, kept}};
+  const bool whirls = lit > 0.0 && pictures[0] != pictures[1];
+  return Rows{
+      {"channels not finite, an island at 1000 rad/s", 0.0, if_shown(whirls, non_finite)},
+      {"pixels that differ when its 8 frames are drawn again", 0.0, if_shown(whirls, different)},
+      {"frames with a shadow map kept from another turn of it", 0.0, kept}};
 }
 
 Result<Rows> seeds(gpu::Device& device) {
-  double non_finite = 0.0, without_ground = 0.0;
+  double non_finite = 0.0, without_ground = 0.0, black = 0.0;
   for (const std::string& seed : {std::string("0"), std::string("18446744073709551615"),
                                   std::string("18446744073709551616"), std::string(4096, 'x')}) {
     auto drawer = SceneDrawer::create(device, scene_of(seed));
@@ -229,13 +258,15 @@ Result<Rows> seeds(gpu::Device& device) {
     if (!drawn) return drawn.error();
     non_finite += non_finite_channels(drawn->radiance->pixels) + drawn->report.pixels.non_finite;
     without_ground += drawn->report.camera.quads == 0;
+    black += !any_light(drawn->radiance->pixels);
   }
-  return Rows{{"channels not finite, seeds 0, 2^64-1, 2^64 and 4096 letters", 0.0, non_finite},
+  return Rows{{"channels not finite, seeds 0, 2^64-1, 2^64 and 4096 letters", 0.0,
+               if_shown(black == 0.0, non_finite)},
               {"of those seeds that show no block at their spawn", 0.0, without_ground}};
 }
 
 Result<Rows> world_times(gpu::Device& device) {
-  double non_finite = 0.0, empty_worlds = 0.0;
+  double non_finite = 0.0, empty_worlds = 0.0, black = 0.0;
   for (const double time_s : {1e9, -1e9}) {
     game::SceneOptions scene = scene_of("1");
     scene.settings.world_time_s = time_s;
@@ -244,9 +275,10 @@ Result<Rows> world_times(gpu::Device& device) {
     const auto drawn = (*drawer)->draw(true);
     if (!drawn) return drawn.error();
     non_finite += non_finite_channels(drawn->radiance->pixels) + drawn->report.pixels.non_finite;
+    black += !any_light(drawn->radiance->pixels);
     empty_worlds += (*drawer)->view().renderer().geometry().quads_resident() == 0;
   }
-  return Rows{{"channels not finite, world.time +-1e9", 0.0, non_finite},
+  return Rows{{"channels not finite, world.time +-1e9", 0.0, if_shown(black == 0.0, non_finite)},
               {"of those worlds without a block in reach of the spawn", 0.0, empty_worlds}};
 }
 

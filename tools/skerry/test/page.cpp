@@ -42,7 +42,7 @@ std::string_view hash_word(const Row& row) {
   return *row.hash_equal ? "equal" : "different";
 }
 
-std::string_view css_class(const Row& row) {
+std::string css_class(const Row& row) {
   switch (row.verdict) {
     case Verdict::kPass:
       return "good";
@@ -54,8 +54,7 @@ std::string_view css_class(const Row& row) {
 }
 
 std::string link(const std::string& target, std::string_view markup) {
-  const measure::Attribute attribute{"href", target};
-  return measure::element("a", {&attribute, 1}, markup);
+  return measure::element("a", {{"href", target}}, markup);
 }
 
 measure::TableRow table_row(const Row& row) {
@@ -85,9 +84,8 @@ class Figures {
   }
   /// The two pictures in turn.
   std::string blink() const {
-    const measure::Attribute css{"class", "blink"};
     return with_caption(
-        measure::element("div", {&css, 1},
+        measure::element("div", {{"class", "blink"}},
                          image(ReportPicture::kReference) + image(ReportPicture::kActual)),
         "blink");
   }
@@ -114,14 +112,12 @@ std::string pictures_of(const Row& row, const fs::path& folder) {
   out += figures.figure(ReportPicture::kDifference, "difference, 8 times");
   out += figures.figure(ReportPicture::kFlip, "FLIP");
   if (figures.has(ReportPicture::kDifference)) out += figures.blink();
-  const measure::Attribute css{"class", "pictures"};
-  return measure::element("div", {&css, 1}, out);
+  return measure::element("div", {{"class", "pictures"}}, out);
 }
 
 std::string section(const Row& row, const fs::path& folder) {
-  const measure::Attribute id{"id", address(row.scene)};
   std::string out =
-      measure::element("h2", {&id, 1},
+      measure::element("h2", {{"id", address(row.scene)}},
                        measure::escape(row.scene) + " " +
                            measure::labelled("span", css_class(row), verdict_name(row.verdict)));
   if (!row.message.empty()) out += measure::element("p", measure::escape(row.message));
