@@ -29,6 +29,7 @@ layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 #include "include/lighting.glsl"
 #include "include/haze.glsl"
 #include "include/corners.glsl"
+#include "include/indirect.glsl"
 
 void main() {
   uvec2 pixel;
@@ -38,6 +39,8 @@ void main() {
   // Pixels of sky go along as some surface near the eye; they are not stored.
   Surface surface = resolve_surface(word, ivec2(pixel), word != 0u ? depth : 1.0, pixel_ray(pixel), kTextureTaps);
   surface.openness = surface_openness(surface, word);
-  vec3 colour = seen_through_air(shade_surface(surface), surface.position);
+  SkyLight sky = light_of_sky(surface, word);
+  vec3 lit = shade_surface(surface) + surface.albedo * kInvPi * sky.irradiance;
+  vec3 colour = seen_through_air(lit, surface.position, sky.seen);
   put_pixel(pixel, colour, here && word != 0u);
 }

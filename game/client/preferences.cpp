@@ -14,7 +14,7 @@ namespace {
 /// What the screen shows. Everything else belongs to a scene, not to a player.
 constexpr std::string_view kKept[] = {"view.distance",   "view.detail",    "shadow.enabled",
                                       "shadow.size",     "lights.shadows", "ao.strength",
-                                      "bloom.intensity", "aa.samples",     "water.layers",
+                                      "indirect",        "bloom.intensity", "aa.samples",     "water.layers",
                                       "display.peak",    "display.black",  "clouds.coverage"};
 
 bool is_kept(std::string_view assignment) {

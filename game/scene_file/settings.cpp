@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "re
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
 constexpr std::array<std::string_view, 2> kToneNames{"aces", "agx"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"0", "1"};
+constexpr std::array<std::string_view, 3> kIndirectNames{"off", "sky", "full"};
 
 constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct16",
                                                        "rgb8",  "rgb10a2", "rgba16f"};
@@ -329,6 +330,15 @@ constexpr SettingKey kKeys[] = {
        return into_number(parse_number(t, "ao.strength", 0.0, 0.9), s.ao_strength);
      },
      [](const Settings& s) { return fmt::format("{}", s.ao_strength); }},
+    {"indirect", "off, sky or full",
+     "Light of the whole sky, as far as each face sees it; full: weak lamps go with it, which is "
+     "cheaper; off: sun, moon and lamps alone.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "indirect", kIndirectNames), s.indirect);
+     },
+     [](const Settings& s) {
+       return std::string(kIndirectNames[static_cast<std::size_t>(s.indirect)]);
+     }},
     {"exposure", "auto, or stops from -20 to 20",
      "Metered, or fixed: each stop doubles the brightness.", parse_exposure,
      [](const Settings& s) {

@@ -49,6 +49,7 @@ struct Settings {
   std::uint32_t lights_random = 0;    ///< torches scattered over what the first camera sees
   bool lights_held = false;           ///< a torch in the hand
   double ao_strength = 0.5;           ///< share of light that a closed corner takes, 0 .. 0.9
+  render::Indirect indirect = render::Indirect::kFull;
   std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   render::MeterSettings meter;        ///< of what has no exposure of its own
   render::ToneCurve tone = render::ToneCurve::kAces;

@@ -15,6 +15,7 @@ enum class Knob : std::uint8_t {
   kShadows,
   kLightShadows,
   kCorners,
+  kIndirect,
   kBloom,
   kAntialiasing,
   kWater,

@@ -120,6 +120,10 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
               kWallNames);
   rows.row("Dark corners", Knob::kCorners,
            [&] { return slide(settings.ao_strength, 0.0f, 0.9f, "%.2f"); });
+  constexpr render::Indirect kIndirect[] = {render::Indirect::kOff, render::Indirect::kSky,
+                                            render::Indirect::kFull};
+  constexpr const char* kIndirectNames[] = {"off", "of the sky", "of sky and glow"};
+  rows.choice("Light in the shade", Knob::kIndirect, settings.indirect, kIndirect, kIndirectNames);
   rows.row("Glow of bright things", Knob::kBloom,
            [&] { return slide(settings.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
   constexpr std::uint32_t kSamples[] = {1, 4, 16};

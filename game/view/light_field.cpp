@@ -88,8 +88,8 @@ LightField::Group LightField::group_of(const world::SectionKey& key,
   return group;
 }
 
-void LightField::add(const world::SectionKey& key, std::span<const world::Emitter> emitters) {
-  if (emitters.empty()) return;
+std::vector<LatticeLight> LightField::lights_of(const world::SectionKey& key,
+                                                std::span<const world::Emitter> emitters) const {
   const float voxel = static_cast<float>(1 << key.level);  // blocks
   std::vector<LatticeLight> lights;
   for (const world::Emitter& emitter : emitters) {
@@ -99,7 +99,11 @@ void LightField::add(const world::SectionKey& key, std::span<const world::Emitte
     const glm::vec3 intensity = block.face_intensity * (faces * voxel * voxel);
     lights.push_back({(emitter.place + block.offset) * voxel, intensity, light_range(intensity)});
   }
-  emitted_.emplace(key, group_of(key, std::move(lights)));
+  return lights;
+}
+
+void LightField::add_lights(const world::SectionKey& key, std::vector<LatticeLight> lights) {
+  if (!lights.empty()) emitted_.emplace(key, group_of(key, std::move(lights)));
 }
 
 void LightField::scatter(std::map<world::SectionKey, std::vector<LatticeLight>> lights) {

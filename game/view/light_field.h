@@ -45,8 +45,14 @@ class LightField {
  public:
   LightField() : emission_(emission_table()) {}
 
-  /// Takes in a section's lights. @pre it has none yet.
-  void add(const world::SectionKey& key, std::span<const world::Emitter> emitters);
+  /// What glows in a section. Places are from the lowest corner of its chunk.
+  std::vector<LatticeLight> lights_of(const world::SectionKey& key,
+                                      std::span<const world::Emitter> emitters) const;
+  /// Takes in a section's lights, or those that its emitters make. @pre it has none yet.
+  void add(const world::SectionKey& key, std::span<const world::Emitter> emitters) {
+    add_lights(key, lights_of(key, emitters));
+  }
+  void add_lights(const world::SectionKey& key, std::vector<LatticeLight> lights);
   /// Forgets them. A section without lights is no concern.
   void remove(const world::SectionKey& key) { emitted_.erase(key); }
   /// Forgets all that add() took in.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/common.hpp>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/core/clock.h"
@@ -20,6 +22,7 @@ namespace skerry::game {
 namespace {
 
 constexpr std::size_t kMaxPolledQuads = 200'000;  // taken from the workers in one frame
+constexpr float kWeakLampRange = 10.0f;           // blocks: lamps that reach no further are weak
 constexpr double kReachStep = 128.0;              // blocks
 constexpr std::uint32_t kFirstArenaQuads = 1u << 19;
 constexpr std::uint64_t kBytesPerMiB = std::uint64_t{1} << 20;
@@ -84,6 +87,18 @@ shared::Section section_record(const world::SectionKey& key, const world::ChunkM
   section.bounds_max = packed_box(mesh.bounds_max);
   std::copy(mesh.range_end.begin(), mesh.range_end.end(), section.range_end);
   return section;
+}
+
+/// Takes the weak ones out of a section's lights.
+std::vector<world::WeakLamp> take_weak(std::vector<LatticeLight>& lights, int level) {
+  const float voxel = static_cast<float>(1 << level);  // blocks
+  std::vector<world::WeakLamp> weak;
+  std::erase_if(lights, [&](const LatticeLight& light) {
+    if (light.range > kWeakLampRange) return false;
+    weak.push_back({light.place / voxel, light.intensity / (voxel * voxel), light.range / voxel});
+    return true;
+  });
+  return weak;
 }
 
 }  // namespace
@@ -167,6 +182,10 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
     add_waiting();
   } while (!waiting_.empty() && show_less(camera));
   renderer_->set_upload_budget(UINT64_MAX);
+  find_light();
+  if (!island_light_) return {};
+  island_light_->wait();
+  find_light();
   return {};
 }
 
@@ -187,6 +206,7 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
   } else if (!waiting_.empty() && frames_since_lowered_ > kFramesToLetGo) {
     show_less(camera);
   }
+  find_light();
   return {};
 }
 
@@ -213,8 +233,11 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
   island_slots_.clear();
   waiting_.clear();
   light_field_.remove_sections();
+  island_light_.reset();
   if (Result<void> ok = renderer_->restart_world(less); !ok) return ok;
   occupancy_ = nullptr;
+  indirect_ = nullptr;
+  weak_lamps_kept_ = false;
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
   show_less(camera);
   return follow_settings();
@@ -225,21 +248,33 @@ bool SceneView::occupancy_wanted() const {
          settings_.lights_shadows != 0;
 }
 
-// Occupancy is made along with the meshes, so that all of them are made again when it is wanted for
-// the first time.
+// Occupancy and light are made of what comes along with the meshes, so that all of them are made
+// again when one is wanted for the first time, or weak lamps change sides.
 Result<void> SceneView::follow_settings() {
-  if (occupancy_ || !occupancy_wanted()) return {};
-  Result<render::OccupancyStore*> store = renderer_->occupancy();
-  if (!store) return store.error();
+  const bool full = settings_.indirect == render::Indirect::kFull;
+  const bool store = !occupancy_ && occupancy_wanted();
+  const bool light = !island_light_ && settings_.indirect != render::Indirect::kOff;
+  if (!store && !light && full == weak_lamps_kept_) return {};
   while (!sections_.empty()) remove_section(sections_.begin()->first);
   waiting_.clear();
-  occupancy_ = *store;
+  if (store) {
+    Result<render::OccupancyStore*> made = renderer_->occupancy();
+    if (!made) return made.error();
+    occupancy_ = *made;
+  }
+  if (light) island_light_ = std::make_unique<IslandLight>(*jobs_);
+  weak_lamps_kept_ = full;
   streamer_ =
       std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);
   return {};
 }
 
 void SceneView::take_in(world::StreamUpdate update) {
+  // An island all of whose sections are replaced keeps its slot, and its light until there is new.
+  std::vector<std::uint64_t> held;
+  for (const world::ReadySection& ready : update.ready)
+    if (sections_.contains(ready.key)) held.push_back(ready.key.island);
+  for (const std::uint64_t island : held) ++islands_[island_slots_.at(island)].sections;
   for (const world::SectionKey& key : update.removed) {
     if (sections_.contains(key)) {
       remove_section(key);
@@ -254,6 +289,7 @@ void SceneView::take_in(world::StreamUpdate update) {
     if (anew && add_section(ready)) continue;
     waiting_.push_back(std::move(ready));
   }
+  for (const std::uint64_t island : held) release_island(island);
 }
 
 void SceneView::add_waiting() {
@@ -266,17 +302,63 @@ bool SceneView::is_full() const {
   return static_cast<double>(memory.used) >= (1.0 - kForEdits) * static_cast<double>(memory.limit);
 }
 
+/// Has workers look for light where something has changed, and hands what they have found to the
+/// renderer. An island that there is no memory for keeps none.
+void SceneView::find_light() {
+  if (settings_.indirect == render::Indirect::kOff) return;
+  // What waits for memory would let light in.
+  if (waiting_.empty()) island_light_->start(*streamer_);
+  for (const IslandLight::Found& found : island_light_->poll()) {
+    const auto slot = island_slots_.find(found.island);
+    if (slot == island_slots_.end() || found.chunks.empty()) continue;
+    const Result<void> taken = take_in_light(found, slot->second);
+    if (taken) continue;
+    if (indirect_) indirect_->end_island(renderer_->mesh_uploader(), slot->second);
+    if (!std::exchange(light_refused_, true)) {
+      notices_.push_back("some islands have no light of the sky: " + taken.error().message);
+      log_warning(notices_.back());
+    }
+  }
+}
+
+Result<void> SceneView::take_in_light(const IslandLight::Found& found, std::uint32_t slot) {
+  if (!indirect_) {
+    Result<render::IndirectStore*> made = renderer_->indirect();
+    if (!made) return made.error();
+    indirect_ = *made;
+  }
+  std::vector<render::ChunkSkyLight> chunks;
+  glm::ivec3 low(INT32_MAX), high(INT32_MIN);
+  for (const IslandLight::FoundChunk& chunk : found.chunks) {
+    const glm::ivec3 at{chunk.at.x, chunk.at.y, chunk.at.z};
+    chunks.push_back({at, chunk.sky->table, chunk.sky->texels, chunk.changed});
+    low = glm::min(low, at), high = glm::max(high, at);
+  }
+  const render::IslandChunks box{low, high - low + 1, static_cast<std::uint32_t>(found.level)};
+  return indirect_->set_island(renderer_->mesh_uploader(), slot, box, chunks);
+}
+
 void SceneView::remove_section(const world::SectionKey& key) {
   const auto found = sections_.find(key);
   SKERRY_ASSERT(found != sections_.end());
   gpu::Uploader& uploader = renderer_->mesh_uploader();
   light_field_.remove(key);
+  if (island_light_) island_light_->remove(key);
   const auto slot = island_slots_.find(key.island);
   if (found->second) renderer_->geometry().remove(uploader, *found->second);
   if (occupancy_) occupancy_->remove(uploader, slot->second, chunk_place(key));
   sections_.erase(found);
+  release_island(key.island);
+}
+
+/// One section of it less; the last one takes the island with it.
+void SceneView::release_island(std::uint64_t island) {
+  gpu::Uploader& uploader = renderer_->mesh_uploader();
+  const auto slot = island_slots_.find(island);
   if (--islands_[slot->second].sections != 0) return;
   if (occupancy_) occupancy_->end_island(uploader, slot->second);
+  if (indirect_) indirect_->end_island(uploader, slot->second);
+  if (island_light_) island_light_->end_island(island);
   island_slots_.erase(slot);
 }
 
@@ -288,7 +370,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   // Building beyond the island's box widens it.
   if (const auto spec = world_->island(ready.key.island)) islands_[*slot].spec = *spec;
   std::optional<render::SectionId>& section = sections_[ready.key];
-  if (ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
+  if (occupancy_ && ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
     const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
                                      ready.occupancy.table, ready.occupancy.words};
     if (Result<void> added = occupancy_->add(uploader, *slot, chunk_place(ready.key), bits);
@@ -306,7 +388,13 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
     }
     section = *added;
   }
-  light_field_.add(ready.key, ready.emitters);
+  std::vector<LatticeLight> lights = light_field_.lights_of(ready.key, ready.emitters);
+  std::vector<world::WeakLamp> weak;
+  if (weak_lamps_kept_) weak = take_weak(lights, ready.key.level);
+  light_field_.add_lights(ready.key, std::move(lights));
+  if (island_light_)
+    island_light_->add(ready.key,
+                       {ready.occupancy, ready.leaves, ready.mesh.quads, std::move(weak)});
   return {};
 }
 
@@ -406,6 +494,7 @@ render::RenderSettings SceneView::render_settings(
   // Many samples blur edges exactly.
   out.shadow_penumbra_blocks =
       settings_.shadow_samples == 1 ? static_cast<float>(settings_.shadow_blur) : 0.0f;
+  out.indirect = settings_.indirect;
   out.corner_darkening = static_cast<float>(settings_.ao_strength);
   out.texture_taps = static_cast<int>(settings_.texture_taps);
   out.flat_shading = settings_.shading == Shading::kFlat;

@@ -16,6 +16,7 @@
 #include "engine/gpu/device/resources.h"
 #include "engine/render/renderer/renderer.h"
 #include "game/scene_file/options.h"
+#include "game/view/island_light.h"
 #include "game/view/light_field.h"
 #include "game/view/view_fit.h"
 #include "world/islands/world.h"
@@ -99,6 +100,9 @@ class SceneView {
   bool show_less(const render::Camera& camera);
   Result<void> restart_with_less(const render::Camera& camera, const std::string& why);
   Result<void> add_section(const world::ReadySection& ready);
+  void release_island(std::uint64_t island);
+  void find_light();
+  Result<void> take_in_light(const IslandLight::Found& found, std::uint32_t slot);
   void remove_section(const world::SectionKey& key);
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
   world::Pose pose_of(const IslandEntry& entry, double world_time_s) const;
@@ -129,6 +133,10 @@ class SceneView {
   int frames_since_lowered_ = 0;
   std::vector<std::string> notices_;
   render::OccupancyStore* occupancy_ = nullptr;  // the renderer's; null: not wanted so far
+  render::IndirectStore* indirect_ = nullptr;    // the renderer's; null: no light so far
+  std::unique_ptr<IslandLight> island_light_;    // none: not wanted so far
+  bool light_refused_ = false;                   // for want of memory, and that has been said
+  bool weak_lamps_kept_ = false;                 // by island_light_, not by light_field_
   LightField light_field_;
   FrameLights lights_;  // of the last frame
   double gather_ms_ = 0.0;

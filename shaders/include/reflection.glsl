@@ -2,6 +2,7 @@
 #ifndef SKERRY_REFLECTION_GLSL
 #define SKERRY_REFLECTION_GLSL
 #include "shared/constants.h"
+#include "shared/indirect.h"
 #include "include/brdf.glsl"
 
 layout(constant_id = kHazeConstant) const bool kHaze = true;
@@ -15,6 +16,9 @@ Brdf surface_brdf(Surface s, vec3 to_eye) {
   return b;
 }
 
+// What lights surfaces besides bodies and lights; the sky then lights the air, too.
+layout(constant_id = kIndirectConstant) const uint kIndirect = kIndirectOff;
+
 // What clear air leaves of a radiance from p.
-float clear_air(vec3 p) { return kBodies == 0u || !kHaze ? 1.0 : exp(-frame.haze_per_block * length(p)); }
+float clear_air(vec3 p) { return (kBodies == 0u && kIndirect == kIndirectOff) || !kHaze ? 1.0 : exp(-frame.haze_per_block * length(p)); }
 #endif

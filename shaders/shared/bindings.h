@@ -89,6 +89,7 @@ SHARED_CONST uint kOverlayClipsBinding = 66u;
 SHARED_CONST uint kFontBinding = 67u;
 SHARED_CONST uint kOverlayPicturesBinding = 68u;
 
-SHARED_CONST uint kTargetBinding = 69u;  // of shading: radiance, or the picture at once
+SHARED_CONST uint kTargetBinding = 69u;    // of shading: radiance, or the picture at once
+SHARED_CONST uint kIndirectBinding = 70u;  // texels of shared/indirect.h
 SHARED_END
 #endif

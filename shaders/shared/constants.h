@@ -42,6 +42,7 @@ SHARED_CONST uint kToPictureConstant = 34u;  // bool: to the picture at once, no
 SHARED_CONST uint kSkyAloneConstant = 35u;  // bool: there is no geometry
 SHARED_CONST uint kBloomConstant = 36u;  // bool
 SHARED_CONST uint kAccumulateConstant = 37u;  // bool: adds to the parts before
+SHARED_CONST uint kIndirectConstant = 38u;  // uint: kIndirectOff, kIndirectSky or kIndirectFull
 SHARED_CONST uint kTracedLightsConstant = 40u;  // uint: lights whose walls are looked for
 SHARED_CONST uint kLightSamplesConstant = 41u;  // uint: ways to a light that has a size
 SHARED_END

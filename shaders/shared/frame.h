@@ -53,6 +53,7 @@ struct FrameConstants {
   uint camera_medium;      // block id the camera is in: 0 air, else a translucent block
   float penumbra_blocks;   // largest radius of the shadow filter [blocks]
   float haze_per_block;    // extinction of clear air [1/block]
+  float body_in_air;       // where the sky lights the air: how much of it sun or moon lights first
   float corner_darkening;  // share of light that a closed corner takes, 0..1
   Body bodies[kBodyCount];
   Cascade cascades[8];

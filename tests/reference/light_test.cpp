@@ -64,6 +64,78 @@ TEST(ReferenceLight, InAWhiteFurnaceABlockCannotBeTold) {
               0.5, 1e-6);
 }
 
+// Two blocks and a floor light each other as much as the furnace does.
+TEST(ReferenceLight, InAWhiteFurnaceNothingCanBeToldHoweverOftenLightBounces) {
+  Scene scene = seen_from({0.0, 2.0, -4.0}, {0.2, -0.5, 1.0},
+                          {stone_floor(), single_block(world::block::kStone, {0.5, 0.5, 0.5}),
+                           single_block(world::block::kStone, {2.1, 0.5, 0.7})},
+                          8, 0.5);
+  scene.environment = glm::dvec3(1.0);
+  scene.bounces = 1000;
+  for (const glm::vec3& seen : render(scene, samples(8)).radiance.pixels)
+    EXPECT_NEAR(seen.x, 1.0, 1e-6);
+}
+
+/// Walls one block thick about 6 x 4 x 5 blocks of air.
+Island closed_room() {
+  return {world::Volume::from_voxels({-1, -1, -1}, {7, 5, 6}, [](world::IVec3 v) {
+    const bool air = v.x >= 0 && v.x < 6 && v.y >= 0 && v.y < 4 && v.z >= 0 && v.z < 5;
+    return air ? world::kAir : world::BlockId{world::block::kStone};
+  })};
+}
+
+// All that a lamp sends out falls on the walls, and of what falls on them a share rho falls on them
+// again: F = flux + rho F. So walls receive flux / ((1 - rho) area) on average.
+TEST(ReferenceLight, AClosedRoomHoldsTheLampsFluxOverOneMinusItsAlbedo) {
+  for (const double rho : {0.0, 0.5, 0.8}) {
+    Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {closed_room()});
+    scene.albedo = glm::dvec3(rho);
+    scene.bounces = 1000;
+    scene.lights = {{.position = {2.3, 1.9, 2.6}, .intensity = glm::dvec3(1.0)}};
+    const Tracer tracer(scene.islands);
+    const Shader shader(scene, tracer);
+    const glm::dvec3 size(6.0, 4.0, 5.0);
+    const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> even(0.0, 1.0);
+    double sum = 0.0;
+    constexpr std::uint32_t kCount = 40000;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      // A wall as likely as it is large, then a place on it.
+      const double lot = even(random) * area / 2.0;
+      const int axis = lot < size.y * size.z ? 0 : lot < size.y * size.z + size.z * size.x ? 1 : 2;
+      const bool far = even(random) < 0.5;
+      glm::dvec3 point(even(random) * size.x, even(random) * size.y, even(random) * size.z);
+      glm::dvec3 normal(0.0);
+      point[axis] = far ? size[axis] - 1e-7 : 1e-7;
+      normal[axis] = far ? -1.0 : 1.0;
+      Sampler sampler(5, 9, i);
+      sum += shader.irradiance({point, normal}, sampler).x;
+    }
+    const double expected = 4.0 * kPi / ((1.0 - rho) * area);
+    EXPECT_NEAR(sum / kCount, expected, 0.02 * expected) << rho;
+  }
+}
+
+// Under a sky of radiance 1 an open plane receives pi; at the foot of a wall without end half of
+// that comes from the sky, and the wall sends back rho times its own half.
+TEST(ReferenceLight, AWallOfAlbedoRhoGivesBackItsHalfOfTheSky) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {stone_floor(3)});
+  scene.environment = glm::dvec3(1.0);
+  EXPECT_NEAR(ground_irradiance(scene, {0.0, 1e-7, 0.0}, 100), kPi, 1e-9);
+  scene.islands = {{world::Volume::from_voxels({0, -1, -400}, {1, 800, 400}, [](world::IVec3) {
+    return world::BlockId{world::block::kStone};
+  })}};
+  // The wall alone: it sees half of the sphere beyond it, all of it sky.
+  for (const double rho : {0.0, 0.5}) {
+    scene.albedo = glm::dvec3(rho);
+    scene.bounces = 1;
+    EXPECT_NEAR(ground_irradiance(scene, {-1e-4, 1e-7, 0.0}, 40000), kPi * (0.5 + 0.5 * rho),
+                0.02 * kPi)
+        << rho;
+  }
+}
+
 TEST(ReferenceLight, FalloffOfAPointIsTheInverseSquare) {
   for (const double height : {0.1, 1.0, 7.0, 1000.0}) {
     Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {});

@@ -116,13 +116,13 @@ BlockId medium_at_eye(const std::vector<Island>& islands) {
   return world::kAir;
 }
 
-/// Extinction of clear air [1/block]: 0.0005, taken back as the body that lights it sets.
+/// How much of the light of clear air there is, taken back as the body that lights it sets.
 /// docs/decisions/0009-haze-that-keeps-caves-black.md.
-double haze_per_block(const render::Celestial& sky) {
+double light_in_air(const render::Celestial& sky) {
   const glm::dvec3 light = sky.sun_casts ? glm::dvec3(sky.sun_irradiance)
                                          : glm::dvec3(sky.moon_irradiance) / render::kMoonToSun;
   const double t = std::clamp((light.x + light.y + light.z) / 3.0 / 0.05, 0.0, 1.0);
-  return 0.0005 * t * t * (3.0 - 2.0 * t);
+  return t * t * (3.0 - 2.0 * t);
 }
 
 void add_sky(const game::SceneOptions& options, const render::Celestial& sky, double body_radius,
@@ -132,7 +132,11 @@ void add_sky(const game::SceneOptions& options, const render::Celestial& sky, do
     scene.bodies.push_back({sky.to_sun, glm::dvec3(sky.sun_irradiance), body_radius});
   if (sky.moon_casts)
     scene.bodies.push_back({sky.to_moon, glm::dvec3(sky.moon_irradiance), body_radius});
-  scene.haze_per_block = haze_per_block(sky);
+  scene.sky_lights = options.settings.indirect != render::Indirect::kOff;
+  scene.air_light = light_in_air(sky);
+  // What the sky lights stays as thick when sun and moon have set.
+  scene.haze_per_block = 0.0005 * (scene.sky_lights ? 1.0 : scene.air_light);
+  scene.body_in_air = scene.sky_lights ? scene.air_light : 1.0;
   scene.shadows = options.settings.shadow_enabled;
   scene.flat_shading = options.settings.shading == game::Shading::kFlat;
   scene.corner_occlusion = scene.flat_shading ? 0.0 : options.settings.ao_strength;
@@ -211,7 +215,6 @@ Result<CloudGrid> cloud_grid(const render::CloudVolumeDesc& volume,
 Result<void> add_clouds(const game::SceneOptions& options, world::WorldPos camera,
                         world::WorldPos origin, Scene& scene) {
   const render::CloudSettings& settings = options.settings.clouds;
-  scene.air_light = scene.haze_per_block / 0.0005;
   if (settings.coverage > 0.0f)
     scene.clouds.layer = cloud_layer(settings, camera, origin, options.settings.world_time_s);
   const Result<game::LoadedClouds> loaded = game::load_clouds(options.clouds);

@@ -53,6 +53,9 @@ struct Scene {
   std::vector<Light> lights;
   glm::dvec3 environment{0.0};  ///< radiance that comes from everywhere beyond the voxels
   std::optional<Sky> sky;       ///< none: `environment` is what is seen behind the voxels
+  bool sky_lights = false;      ///< `sky` lights surfaces and the air, as far as they see it
+  int bounces = 0;  ///< of light between surfaces that a surface's light may have behind it
+  double body_in_air = 1.0;  ///< then: how much of the air's light is that of the first body
   Clouds clouds;
   double air_light = 0.0;            ///< share of the sky's light that clouds take, 0..1
   double haze_per_block = 0.0;       ///< extinction of clear air [1/block]

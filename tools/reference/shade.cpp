@@ -65,11 +65,62 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
   });
 }
 
-glm::dvec3 Shader::from_environment(const Receiver& at, Sampler& sampler) const {
-  if (scene_.environment == glm::dvec3(0.0)) return glm::dvec3(0.0);
+/// What lights surfaces from beyond the voxels, sun and moon aside.
+glm::dvec3 Shader::beyond_voxels(glm::dvec3 direction) const {
+  if (scene_.sky_lights && scene_.sky) return sky_behind(direction, *scene_.sky);
+  return scene_.environment;
+}
+
+/// The first surface that a ray from another one meets; a plant does not meet itself.
+std::optional<Meeting> Shader::met_from(const Receiver& at, glm::dvec3 direction) const {
+  Trace trace;
+  double passed = 0.0;
+  for (int planes = 0; planes < 4; ++planes) {
+    tracer_.trace(at.point + direction * passed, direction, trace);
+    if (!trace.hit) return std::nullopt;
+    trace.hit->t += passed;
+    const bool own =
+        at.plant && trace.hit->island == at.plant->island && trace.hit->voxel == at.plant->voxel;
+    if (!own) return trace.hit;
+    passed = trace.hit->t + kOffSurface;
+  }
+  return std::nullopt;
+}
+
+/// Radiance that a surface sends back of the light that arrives there. Its own light is left out:
+/// it arrives as that of a lamp. Long ways end by lot, as likely as the surface swallows light.
+glm::dvec3 Shader::bounced(const Meeting& hit, glm::dvec3 point, int bounces,
+                           Sampler& sampler) const {
+  constexpr int kSurely = 4;  // bounces
+  const bool plant = axis_of_face(hit.face) == 3;
+  const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
+  Receiver at{point, normal, plant ? &hit : nullptr};
+  if (!plant) at.point += normal * kOffSurface;
+  const glm::dvec3 albedo =
+      scene_.albedo.value_or(BlockTexels::shared().texel(hit.block, hit.face, hit.lattice));
+  glm::dvec3 irradiance(0.0);
+  arrive(at, sampler,
+         [&](const Arrival& light) { irradiance += light.irradiance * cosine_of(light, normal); });
+  double goes_on = 1.0;
+  if (scene_.bounces - bounces >= kSurely)
+    goes_on = std::min(1.0, std::max({albedo.x, albedo.y, albedo.z}));
+  if (sampler.next().x < goes_on)
+    irradiance += from_around(at, bounces, sampler).radiance * (kPi / goes_on);
+  return irradiance * albedo / kPi;
+}
+
+/// @param bounces that may still come before the light.
+Shader::Around Shader::from_around(const Receiver& at, int bounces, Sampler& sampler) const {
+  const bool lit = scene_.sky_lights || scene_.environment != glm::dvec3(0.0);
+  if (bounces == 0 && !lit) return {at.normal, glm::dvec3(0.0)};
   const glm::dvec3 direction = Frame(at.normal).world(by_cosine(sampler.next()));
-  const bool hidden = tracer_.hidden(at.point, direction, kFar, at.plant);
-  return hidden ? glm::dvec3(0.0) : scene_.environment * kPi;
+  if (bounces > 0) {
+    if (const std::optional<Meeting> hit = met_from(at, direction))
+      return {direction, bounced(*hit, at.point + direction * hit->t, bounces - 1, sampler)};
+    return {direction, beyond_voxels(direction)};
+  }
+  if (tracer_.hidden(at.point, direction, kFar, at.plant)) return {direction, glm::dvec3(0.0)};
+  return {direction, beyond_voxels(direction)};
 }
 
 double Shader::cosine_of(const Arrival& light, glm::dvec3 normal) const {
@@ -77,7 +128,7 @@ double Shader::cosine_of(const Arrival& light, glm::dvec3 normal) const {
 }
 
 glm::dvec3 Shader::irradiance(const Receiver& at, Sampler& sampler) const {
-  glm::dvec3 sum = from_environment(at, sampler);
+  glm::dvec3 sum = kPi * from_around(at, scene_.bounces, sampler).radiance;
   arrive(at, sampler,
          [&](const Arrival& light) { sum += light.irradiance * cosine_of(light, at.normal); });
   return sum;
@@ -119,30 +170,45 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 
       scene_.albedo.value_or(BlockTexels::shared().texel(hit.block, hit.face, place));
   const world::BlockType& type = world::block_types()[hit.block];
   const bool matt = plant || scene_.matt || scene_.flat_shading;
-  glm::dvec3 reflected = from_environment(at, sampler) * albedo / kPi;
+  const Around around = from_around(at, scene_.bounces, sampler);
+  glm::dvec3 reflected(0.0);
   arrive(at, sampler, [&](const Arrival& light) {
     const glm::dvec3 share = matt ? albedo / kPi
                                   : surface_brdf(normal, light.to_light, -direction, albedo,
                                                  type.roughness, type.metalness);
     reflected += light.irradiance * share * cosine_of(light, normal);
   });
-  return reflected * openness(hit) + albedo * static_cast<double>(type.emission);
+  const glm::dvec3 share = matt ? albedo / kPi
+                                : surface_brdf(normal, around.to_light, -direction, albedo,
+                                               type.roughness, type.metalness);
+  // Corners darken what has no other shadow in them; what comes from around has passed all voxels.
+  return reflected * openness(hit) + kPi * around.radiance * share +
+         albedo * static_cast<double>(type.emission);
 }
 
 glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,
                                Sampler& sampler) const {
   const double extinction = scene_.haze_per_block;
-  if (extinction == 0.0 || scene_.bodies.empty()) return radiance;
+  if (extinction == 0.0 || (scene_.bodies.empty() && !scene_.sky_lights)) return radiance;
   const double clear = std::exp(-extinction * distance), lost = -std::expm1(-extinction * distance);
   // One place on the way, as likely as the air there is the last to scatter what the eye sees.
   const double at = -std::log1p(-sampler.next().x * lost) / extinction;
-  const Body& body = scene_.bodies.front();
-  const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
-  const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(sampler.next(), spread));
-  const bool lit = body_seen({direction * std::min(at, distance), to_light}, to_light);
-  if (!lit) return radiance * clear;
-  const double past = past_clouds(direction * std::min(at, distance), to_light, sampler);
-  return radiance * clear + behind_voxels(direction) * (lost * past);
+  const glm::dvec3 place = direction * std::min(at, distance);
+  double lit = 0.0;
+  if (!scene_.bodies.empty()) {
+    const Body& body = scene_.bodies.front();
+    const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
+    const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(sampler.next(), spread));
+    if (body_seen({place, to_light}, to_light))
+      lit = scene_.body_in_air * past_clouds(place, to_light, sampler);
+  }
+  if (scene_.sky_lights && lit < 1.0) {
+    const double y = 1.0 - 2.0 * sampler.next().x, turn = 2.0 * kPi * sampler.next().x;
+    const double r = std::sqrt(std::max(0.0, 1.0 - y * y));
+    const glm::dvec3 aside{r * std::sin(turn), y, r * std::cos(turn)};
+    if (!tracer_.hidden(place, aside)) lit = 1.0;
+  }
+  return radiance * clear + behind_voxels(direction) * (lost * lit);
 }
 
 // --- Clouds
@@ -251,7 +317,7 @@ glm::dvec3 Shader::lamps_along(const CloudMeeting& met, glm::dvec3 origin, glm::
 Seen Shader::through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction, double begin,
                             double end, Sampler& sampler) const {
   if (!scene_.clouds.layer && scene_.clouds.grids.empty()) return behind;
-  const double air = scene_.bodies.empty() ? 0.0 : scene_.haze_per_block;
+  const double air = scene_.bodies.empty() && !scene_.sky_lights ? 0.0 : scene_.haze_per_block;
   const CloudMeeting met =
       meet_clouds(scene_.clouds, origin, direction, begin, end, air, sampler.next().x);
   if (met.clear == 1.0) return {behind.radiance + met.emitted, behind.open};
@@ -358,7 +424,7 @@ glm::dvec3 transmitted_by(glm::dvec3 absorption, double length_blocks) {
 Shader::Reach Shader::reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye,
                             double roughness, Sampler& sampler) const {
   Reach reach;
-  reach.light = from_environment(at, sampler);
+  reach.light = kPi * from_around(at, scene_.bounces, sampler).radiance;
   arrive(at, sampler, [&](const Arrival& light) {
     reach.light += light.irradiance * glm::dot(at.normal, light.to_light);
     reach.mirrored += light.irradiance *

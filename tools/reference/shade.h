@@ -47,7 +47,14 @@ class Shader {
   void arrive(const Receiver& at, Sampler& sampler, Take&& take) const;
   double cosine_of(const Arrival& light, glm::dvec3 normal) const;
   bool body_seen(const Receiver& at, glm::dvec3 to_light) const;
-  glm::dvec3 from_environment(const Receiver& at, Sampler& sampler) const;
+  /// Radiance from one direction, chosen by its cosine to the surface; and that.
+  struct Around {
+    glm::dvec3 to_light{}, radiance{};
+  };
+  Around from_around(const Receiver& at, int bounces, Sampler& sampler) const;
+  glm::dvec3 beyond_voxels(glm::dvec3 direction) const;
+  glm::dvec3 bounced(const Meeting& hit, glm::dvec3 point, int bounces, Sampler& sampler) const;
+  std::optional<Meeting> met_from(const Receiver& at, glm::dvec3 direction) const;
   glm::dvec3 behind_voxels(glm::dvec3 direction) const;
 
   glm::dvec3 surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,

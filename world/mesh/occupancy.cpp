@@ -14,15 +14,11 @@ namespace {
 constexpr int kRowsAlongX = kChunkEdge;
 constexpr int kBrick = static_cast<int>(shared::kBrickEdge);
 
-/// One row of voxels along z: bit z says whether it is opaque.
+/// One row of voxels along z: bit z says whether it is of the kind.
 using Rows = std::array<std::uint64_t, std::size_t{kChunkEdge} * kRowsAlongX>;
 
-bool is_opaque(BlockId id) {
-  return block_kind(id) == BlockKind::kOpaque;
-}
-
 /// Rows in the order x, then y. Runs of one id, which most of a world is, ask the table once.
-void fill_rows(std::span<const BlockId> voxels, Rows& rows) {
+void fill_rows(std::span<const BlockId> voxels, BlockKind kind, Rows& rows) {
   BlockId known = kAir;
   std::uint64_t bit = 0;
   for (int y = 0; y < kChunkEdge; ++y) {
@@ -33,7 +29,7 @@ void fill_rows(std::span<const BlockId> voxels, Rows& rows) {
       for (int z = 0; z < kChunkEdge; ++z) {
         if (row[z] != known) {
           known = row[z];
-          bit = is_opaque(known) ? 1 : 0;
+          bit = block_kind(known) == kind ? 1 : 0;
         }
         bits |= bit << z;
       }
@@ -79,11 +75,11 @@ std::uint32_t add_brick(const BrickBits& bits, ChunkOccupancy& out) {
 
 }  // namespace
 
-ChunkOccupancy occupancy_of(std::span<const BlockId> voxels) {
+ChunkOccupancy occupancy_of(std::span<const BlockId> voxels, BlockKind kind) {
   SKERRY_ASSERT(voxels.size() == kPaddedVoxels);
   ChunkOccupancy out;
   Rows rows;
-  fill_rows(voxels, rows);
+  fill_rows(voxels, kind, rows);
   if (std::ranges::all_of(rows, [](std::uint64_t row) { return row == 0; })) return out;
   if (std::ranges::all_of(rows, [](std::uint64_t row) { return row == ~std::uint64_t{0}; })) {
     out.fill = ChunkOccupancy::Fill::kFull;

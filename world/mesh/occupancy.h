@@ -7,8 +7,8 @@
 
 namespace skerry::world {
 
-/// Which voxels of a chunk are opaque, in the GPU's own words (shaders/shared/occupancy.h), bricks
-/// numbered from 0.
+/// Which voxels of a chunk are of one kind, mostly opaque, in the GPU's own words
+/// (shaders/shared/occupancy.h), bricks numbered from 0.
 struct ChunkOccupancy {
   enum class Fill : std::uint8_t { kEmpty, kFull, kMixed };
   Fill fill = Fill::kEmpty;
@@ -17,6 +17,6 @@ struct ChunkOccupancy {
 };
 
 /// @param voxels kPaddedVoxels block ids, as mesh_chunk takes them; the shell is not looked at.
-ChunkOccupancy occupancy_of(std::span<const BlockId> voxels);
+ChunkOccupancy occupancy_of(std::span<const BlockId> voxels, BlockKind kind = BlockKind::kOpaque);
 
 }  // namespace skerry::world

@@ -209,8 +209,8 @@ std::size_t hand_out(std::uint64_t island, int level, const IVec3& chunk, Stream
   slot.resident = slot.has_something();
   slot.phase = Phase::kDone;
   if (slot.resident)
-    update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.occupancy, {}),
-                            std::exchange(slot.emitters, {})});
+    update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.leaves, {}),
+                            std::exchange(slot.occupancy, {}), std::exchange(slot.emitters, {})});
   return quads;
 }
 
@@ -263,6 +263,15 @@ bool Streamer::complete() const {
   return std::all_of(s.islands.begin(), s.islands.end(), [](const auto& entry) {
     return !entry.second.coming && entry.second.shown.made == 0;
   });
+}
+
+bool Streamer::settled(std::uint64_t island) const {
+  const State& s = *state_;
+  const std::lock_guard lock(s.mutex);
+  const auto found = s.islands.find(island);
+  if (found == s.islands.end() || found->second.coming) return false;
+  const StreamLevel& shown = found->second.shown;
+  return shown.planned && shown.unmade == 0 && shown.made == 0;
 }
 
 void Streamer::wait_until_complete() {

@@ -27,6 +27,7 @@ struct SectionKey {
 struct ReadySection {
   SectionKey key;
   ChunkMesh mesh;                 ///< without a quad if there is nothing to be seen of the chunk
+  ChunkOccupancy leaves;          ///< cut-out voxels; empty unless asked for occupancy
   ChunkOccupancy occupancy;       ///< empty unless asked for; of the two, one at least is not empty
   std::vector<Emitter> emitters;  ///< of the mesh
 };
@@ -79,6 +80,8 @@ class Streamer {
   StreamUpdate poll(std::size_t max_quads);
   /// Whether all that the last update asked for has been made and handed out.
   bool complete() const;
+  /// Whether all of an island's chunks at the level it is shown at have been handed out.
+  bool settled(std::uint64_t island) const;
   /// Blocks until all that the last update asked for has been made; poll then hands it out, in an
   /// order that does not depend on threads.
   void wait_until_complete();

@@ -24,6 +24,11 @@ double distance_cost(const glm::dvec3& to, const glm::dvec3& forward, double rad
   return in_view ? near : kOutOfViewFactor * near;
 }
 
+// Leaves hide only each other: where a chunk has some, it shows some, unless it is full of them.
+bool has_cutouts(const ChunkMesh& mesh) {
+  return mesh.range_end[shared::kRangePlant - 1] != mesh.range_end[shared::kRangeCutout - 1];
+}
+
 }  // namespace
 
 StreamLevel Streamer::State::start_level(std::uint64_t island, int level) {
@@ -160,7 +165,10 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
     const bool any = world.generate_padded(task.island, *task.chunk, task.level, padded);
     if (any) mesh_chunk(padded, scratch->mesh, chunk.mesh);
     find_emitters(chunk.mesh, chunk.emitters);
-    if (any && makes == StreamOf::kMeshesAndOccupancy) chunk.occupancy = occupancy_of(padded);
+    if (any && makes == StreamOf::kMeshesAndOccupancy) {
+      chunk.occupancy = occupancy_of(padded, BlockKind::kOpaque);
+      if (has_cutouts(chunk.mesh)) chunk.leaves = occupancy_of(padded, BlockKind::kCutout);
+    }
     if (task.level == 0) chunk.voxels = any ? chunk_from_padded(padded) : Chunk(kAir);
     lock.lock();
     spare.push_back(std::move(scratch));
@@ -205,6 +213,7 @@ void Streamer::State::note_made(const StreamTask& task, MadeChunk&& chunk) {
   --level->unmade;
   slot.mesh = std::move(chunk.mesh);
   slot.emitters = std::move(chunk.emitters);
+  slot.leaves = std::move(chunk.leaves);
   slot.occupancy = std::move(chunk.occupancy);
   const bool nothing_to_say = !slot.has_something() && !slot.resident;
   slot.phase = nothing_to_say ? Phase::kDone : Phase::kMade;

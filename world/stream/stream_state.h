@@ -26,7 +26,7 @@ struct StreamSlot {
   bool resident = false;  // handed out and not removed
   ChunkMesh mesh;
   std::vector<Emitter> emitters;
-  ChunkOccupancy occupancy;
+  ChunkOccupancy leaves, occupancy;
   bool has_something() const {
     return !mesh.quads.empty() || occupancy.fill != ChunkOccupancy::Fill::kEmpty;
   }
@@ -70,7 +70,7 @@ struct StreamScratch {
 struct MadeChunk {
   ChunkMesh mesh;
   std::vector<Emitter> emitters;
-  ChunkOccupancy occupancy;
+  ChunkOccupancy leaves, occupancy;
   std::optional<Chunk> voxels;  // of level 0
 };
 

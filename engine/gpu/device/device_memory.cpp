@@ -60,6 +60,8 @@ std::vector<std::uint32_t> rank_types(const VkPhysicalDeviceMemoryProperties& ty
   return order;
 }
 
+constexpr std::uint64_t kTexelBytes = 16;  // of RGBA32_UINT
+
 struct Allocation {
   VkDeviceMemory memory{};
   VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
@@ -101,6 +103,11 @@ Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
                  ": this device binds at most " + mebibytes(limits_.max_storage_range) +
                  "; lower view.distance"};
   }
+  if (desc.texels && desc.size_bytes > limits_.max_texels * kTexelBytes) {
+    return Error{"cannot create the buffer '" + desc.name + "' of " + mebibytes(desc.size_bytes) +
+                 ": this device fetches from at most " + std::to_string(limits_.max_texels) +
+                 " texels; set indirect=off"};
+  }
   Buffer buffer;
   auto info = vk_struct<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = desc.size_bytes;
@@ -136,6 +143,15 @@ Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
            desc.name.c_str());
   set_name(reinterpret_cast<std::uint64_t>(buffer.memory_), VK_OBJECT_TYPE_DEVICE_MEMORY,
            desc.name.c_str());
+  if (desc.texels) {
+    auto view = vk_struct<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
+    view.buffer = buffer.handle_;
+    view.format = VK_FORMAT_R32G32B32A32_UINT;
+    view.range = VK_WHOLE_SIZE;
+    GPU_CHECK(vkCreateBufferView(device_, &view, nullptr, &buffer.texels_));
+    set_name(reinterpret_cast<std::uint64_t>(buffer.texels_), VK_OBJECT_TYPE_BUFFER_VIEW,
+             desc.name.c_str());
+  }
   return buffer;
 }
 
@@ -280,6 +296,7 @@ void Device::destroy(std::uint64_t object, VkObjectType type) {
     vkDestroy##suffix(device_, reinterpret_cast<Vk##suffix>(object), nullptr); \
     return
     SKERRY_DESTROY(Buffer, BUFFER);
+    SKERRY_DESTROY(BufferView, BUFFER_VIEW);
     SKERRY_DESTROY(Image, IMAGE);
     SKERRY_DESTROY(ImageView, IMAGE_VIEW);
     SKERRY_DESTROY(Pipeline, PIPELINE);

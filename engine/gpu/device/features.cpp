@@ -173,6 +173,7 @@ DeviceLimits read_limits(VkPhysicalDevice device) {
   const VkPhysicalDeviceLimits& limits = properties.limits;
   DeviceLimits out;
   out.max_storage_range = limits.maxStorageBufferRange;
+  out.max_texels = limits.maxTexelBufferElements;
   out.max_image_edge = limits.maxImageDimension2D;
   out.max_volume_edge = limits.maxImageDimension3D;
   out.max_draw_count = limits.maxDrawIndirectCount;

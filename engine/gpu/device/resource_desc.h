@@ -18,6 +18,7 @@ struct BufferDesc {
   std::uint64_t size_bytes = 0;
   VkBufferUsageFlags usage = 0;
   Memory memory = Memory::kDevice;
+  bool texels = false;  ///< shaders fetch texels of it, RGBA32_UINT; wants the usage for that
   bool operator==(const BufferDesc&) const = default;
 };
 

@@ -37,6 +37,9 @@ void retire_view(ResourceOwner& owner, VkImageView view, const std::string& name
 
 Buffer::~Buffer() {
   if (!owner_) return;
+  if (texels_)
+    owner_->retire(reinterpret_cast<std::uint64_t>(texels_), VK_OBJECT_TYPE_BUFFER_VIEW,
+                   VK_NULL_HANDLE, 0, name_);
   owner_->retire(reinterpret_cast<std::uint64_t>(handle_), VK_OBJECT_TYPE_BUFFER, memory_,
                  allocated_, name_);
 }
@@ -45,6 +48,7 @@ void Buffer::swap(Buffer& other) noexcept {
   std::swap(state, other.state);
   std::swap(owner_, other.owner_);
   std::swap(handle_, other.handle_);
+  std::swap(texels_, other.texels_);
   std::swap(memory_, other.memory_);
   std::swap(size_, other.size_);
   std::swap(allocated_, other.allocated_);

@@ -53,6 +53,7 @@ class Buffer {
   std::uint64_t size_bytes() const { return size_; }
   std::uint64_t allocated_bytes() const { return allocated_; }  ///< device memory it takes
   std::byte* mapped() const { return mapped_; }                 ///< null unless host memory
+  VkBufferView texels() const { return texels_; }               ///< null unless asked for
   const std::string& name() const { return name_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   AccessState state;
@@ -62,6 +63,7 @@ class Buffer {
   void swap(Buffer& other) noexcept;
   ResourceOwner* owner_ = nullptr;
   VkBuffer handle_{};
+  VkBufferView texels_{};
   VkDeviceMemory memory_{};
   std::uint64_t size_ = 0, allocated_ = 0;
   std::byte* mapped_ = nullptr;

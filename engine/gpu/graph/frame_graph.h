@@ -95,6 +95,8 @@ class Commands {
   void bind(const Pipeline& pipeline);  ///< forgets all bindings
   void storage(std::uint32_t binding,
                BufferRef buffer);  ///< a storage or a uniform buffer, as the shader declares it
+  /// A buffer made with BufferDesc::texels, declared as one that is read.
+  void texels(std::uint32_t binding, BufferRef buffer);
   void storage(std::uint32_t binding, ImageRef image, std::uint32_t mip = 0,
                std::uint32_t layer = 0);
   void sampled(std::uint32_t binding, ImageRef image, VkSampler sampler);
@@ -142,6 +144,7 @@ class Commands {
     VkDescriptorType type{};
     VkDescriptorBufferInfo buffer{};
     VkDescriptorImageInfo image{};
+    VkBufferView texels{};
   };
   Bound& slot(std::uint32_t binding);
   std::vector<Bound> bound_;  ///< by place in the pipeline's bindings

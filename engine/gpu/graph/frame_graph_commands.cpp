@@ -86,6 +86,14 @@ void Commands::storage(std::uint32_t binding, BufferRef ref) {
   bound.buffer = {buffer(ref).handle(), 0, VK_WHOLE_SIZE};
 }
 
+void Commands::texels(std::uint32_t binding, BufferRef ref) {
+  require(ref.id, ref.version, VK_ACCESS_2_SHADER_READ_BIT);
+  Bound& bound = slot(binding);
+  bound.texels = buffer(ref).texels();
+  if (bound.type != VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER || !bound.texels)
+    fail("gives texels of a buffer to the binding " + std::to_string(binding));
+}
+
 void Commands::storage(std::uint32_t binding, ImageRef ref, std::uint32_t mip,
                        std::uint32_t layer) {
   require(ref.id, ref.version, VK_ACCESS_2_SHADER_READ_BIT);
@@ -134,6 +142,7 @@ void Commands::flush_bindings() {
     write.descriptorType = wanted.type;
     write.pBufferInfo = &bound.buffer;
     write.pImageInfo = &bound.image;
+    write.pTexelBufferView = &bound.texels;
   }
   counted().descriptor_writes += count;
   if (count > 0)

@@ -247,6 +247,10 @@ std::optional<VkDescriptorType> descriptor_type(const Module& module, std::uint3
   }
   if (block && storage_class == kUniform) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   if (storage_class != kUniformConstant) return std::nullopt;
+  constexpr std::uint32_t kDimBuffer = 5;
+  const Instruction image = type.op == kOpTypeSampledImage ? module.find(type.operands[1]) : type;
+  if (image.op == kOpTypeImage && image.operands[2] == kDimBuffer && image.operands[6] == 1)
+    return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
   if (type.op == kOpTypeSampledImage) return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
   if (type.op == kOpTypeSampler) return VK_DESCRIPTOR_TYPE_SAMPLER;
   constexpr std::uint32_t kStorageImage = 2, kDim2D = 1, kDim3D = 2;
@@ -279,7 +283,9 @@ Result<ShaderReflection> reflect(std::span<const std::uint32_t> words) {
     if (module.decoration(id, kDescriptorSet).value_or(0) != 0)
       return Error{what + " is not in descriptor set 0"};
     const std::optional<VkDescriptorType> type = descriptor_type(module, storage_class, pointee);
-    if (!type) return Error{what + " is not a buffer, 2D or 3D storage image, texture or sampler"};
+    if (!type)
+      return Error{what +
+                   " is not a buffer, texel buffer, 2D or 3D storage image, texture or sampler"};
     // Two variables may share a binding, say to read a buffer as two types.
     const ShaderReflection::Binding entry{*binding, *type};
     if (std::find(out.bindings.begin(), out.bindings.end(), entry) == out.bindings.end())

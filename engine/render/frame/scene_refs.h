@@ -29,6 +29,7 @@ struct SceneRefs {
   std::uint64_t quads_resident = 0;
   /// The occupancy store; empty without one.
   gpu::BufferRef occupancy_grids, occupancy_tables, occupancy_words;
+  gpu::BufferRef indirect;       ///< shaders/shared/indirect.h; a texel that is never read if off
   gpu::BufferRef light_islands;  ///< FrameInput::light_islands; empty when no light is traced
   gpu::BufferRef indices;        ///< 16-bit: 0 1 2 0 2 3, 4 5 6 ...
   gpu::BufferRef pixel_stats;    ///< shared::PixelStats
@@ -43,6 +44,7 @@ struct SceneRefs {
   std::uint32_t samples_per_edge = 1;                  ///< of a pixel, see RenderSettings
   bool penumbrae = true;                               ///< whether shadow_penumbra_blocks is not 0
   bool haze = true;
+  Indirect indirect_light = Indirect::kOff;
   ToneCurve tone = ToneCurve::kAces;
   bool calibrated = false;          ///< whether the display takes other than 0 to 1
   bool corners = false;             ///< whether they darken; then there is an occupancy store

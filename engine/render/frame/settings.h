@@ -81,6 +81,13 @@ struct CloudSettings {
   bool operator==(const CloudSettings&) const = default;
 };
 
+/// Light that does not come straight from sun, moon or a lamp. docs/lights.md.
+enum class Indirect : std::uint8_t {
+  kOff,  ///< none
+  kSky,  ///< of the sky, as far as each face sees it
+  kFull  ///< also of weak lamps, which then are no lights of the frame
+};
+
 /// Knobs of the picture. Defaults are the medium quality level's.
 struct RenderSettings {
   double view_distance_blocks =
@@ -98,6 +105,7 @@ struct RenderSettings {
   bool flat_shading = false;  ///< shadow result times light colour, no N.L and no corners
   float corner_darkening =
       0.5f;                    ///< share of light that a closed corner takes, 0..1; 0: no corners
+  Indirect indirect = Indirect::kFull;
   int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
   int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;

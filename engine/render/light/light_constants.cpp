@@ -6,7 +6,10 @@ namespace skerry::render {
 std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
                                           const SceneRefs& scene, bool shadows) {
   own.push_back({shared::kBodiesConstant, scene.bodies});
-  if (!scene.haze && scene.bodies != 0) own.push_back({shared::kHazeConstant, 0});
+  const bool indirect = scene.indirect_light != Indirect::kOff;
+  if (indirect)
+    own.push_back({shared::kIndirectConstant, static_cast<std::uint32_t>(scene.indirect_light)});
+  if (!scene.haze && (scene.bodies != 0 || indirect)) own.push_back({shared::kHazeConstant, 0});
   if (shadows) {
     own.push_back({shared::kShadowsConstant, 1});
     own.push_back({shared::kShadowTapsConstant, scene.shadow_taps});

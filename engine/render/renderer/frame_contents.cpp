@@ -51,7 +51,8 @@ FrameContents contents_of(const FrameInput& input, const RenderSettings& setting
   if (!input.sky.sun_casts) features.set_absent(Feature::kSun, "the sun is below the horizon");
   if (!input.sky.moon_casts)
     features.set_absent(Feature::kMoon, "the moon is below the horizon or gives no light");
-  if (!input.sky.sun_casts && !input.sky.moon_casts)
+  const bool sky_lights = settings.indirect != Indirect::kOff && facts.indirect;
+  if (!input.sky.sun_casts && !input.sky.moon_casts && !sky_lights)
     features.set_absent(Feature::kHaze, "there is no light for the air to scatter");
   if (sky.stars == 0.0f) features.set_absent(Feature::kStars, "it is not dark enough");
   if (!disc_in_view(input.sky, tables.constants))

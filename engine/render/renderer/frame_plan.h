@@ -25,7 +25,9 @@ struct FramePlan {
   shared::SkyConstants sky{};     ///< of the whole picture, not of its part
   bool bake_sky = false;          ///< else the sky table of an earlier frame is kept
   bool corners = false;           ///< they darken
-  bool direct = false;            ///< shading writes the picture itself
+  bool indirect = false;          ///< the sky lights surfaces
+  std::vector<glm::uvec4> sky_light{};  ///< what it sends to them, see sky_irradiance()
+  bool direct = false;                  ///< shading writes the picture itself
   ShadowPlan shadows{};
   FrameTables tables{};
   FrameContents contents;

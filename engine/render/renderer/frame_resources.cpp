@@ -6,6 +6,7 @@
 
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/scene/block_textures.h"
+#include "engine/render/scene/grow_buffer.h"
 #include "shaders/shared/exposure.h"
 
 namespace skerry::render {
@@ -112,6 +113,10 @@ Result<void> FrameResources::create(gpu::Uploader& uploader,
   if (Result<void> ok = reserve(pixel_stats_, "pixel stats", sizeof(shared::PixelStats)); !ok)
     return ok;
   if (Result<void> ok = create_images(uploader); !ok) return ok;
+  Result<gpu::Buffer> texels =
+      device_->create_buffer({"no texels", 16, kTexelTableUsage, gpu::Memory::kDevice, true});
+  if (!texels) return texels.error();
+  no_texels_ = *std::move(texels);
   return create_samplers();
 }
 

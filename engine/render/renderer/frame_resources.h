@@ -31,6 +31,8 @@ class FrameResources {
   /// @param size of the G-buffer. @param tables lives until the graph has been executed.
   SceneRefs import(gpu::FrameGraph& graph, const FrameInput& input, const RenderSettings& settings,
                    VkExtent2D size, const FrameTables& tables);
+  /// Stands in for texels that a shader names and does not read.
+  gpu::Buffer& no_texels() { return no_texels_; }
   gpu::BufferRef import_light_islands(gpu::FrameGraph& graph) {
     return graph.import(light_islands_);
   }
@@ -46,7 +48,7 @@ class FrameResources {
 
   gpu::Device* device_;
   gpu::Buffer frame_, sky_, islands_, view_islands_, views_, light_islands_, materials_, indices_,
-      pixel_stats_, exposure_;
+      pixel_stats_, exposure_, no_texels_;
   gpu::Image block_textures_, sky_lut_, no_volume_, no_words_;
   VkSampler block_sampler_{}, lut_sampler_{}, point_sampler_{};
 };

@@ -50,9 +50,6 @@ void append_islands(std::vector<shared::IslandTransform>& out,
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
 }
 
-/// Extinction of clear air [1/block].
-constexpr float kClearAir = 0.0005f;
-
 glm::vec3 unpack_box(std::uint32_t packed) {
   return {packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u};
 }

@@ -8,6 +8,7 @@
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/light/shadow_pass.h"
 #include "engine/render/renderer/frame_steps.h"
+#include "engine/render/sky/sky_irradiance.h"
 #include "engine/render/sky/sky_model.h"
 #include "engine/render/surface/marker_pass.h"
 
@@ -40,6 +41,21 @@ void plan_sky(FramePlan& plan, const FrameHistory& history) {
   plan.next.baked_sky = plan.sky;
   // A table that is broken on purpose is made again by the next frame.
   if (plan.input.fault && plan.input.fault->in == Fault::In::kSkyTable) plan.next.baked_sky.reset();
+}
+
+/// The sky lights the air, too: without sun and moon it stays as thick as it was.
+void plan_indirect(FramePlan& plan) {
+  shared::FrameConstants& frame = plan.tables.constants;
+  frame.body_in_air = 1.0f;
+  if (!plan.indirect) {
+    plan.left_out.push_back({"indirect", plan.settings.indirect == Indirect::kOff
+                                             ? "indirect=off"
+                                             : "no face is known to see the sky"});
+    return;
+  }
+  plan.sky_light = sky_irradiance(plan.sky, plan.input.islands);
+  frame.body_in_air = air_light(plan.input.sky);
+  frame.haze_per_block = kClearAir;
 }
 
 void plan_marker(FramePlan& plan) {
@@ -98,6 +114,8 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   const auto samples = static_cast<std::uint32_t>(samples_per_edge(settings));
   plan.drawn = {request.size.width * samples, request.size.height * samples};
   plan.geometry = facts.has_geometry();
+  plan.indirect = settings.indirect != Indirect::kOff && facts.indirect && plan.geometry &&
+                  !shows_channel(settings);
   plan.sky = sky_constants(plan.input.sky);
   plan.input.sky = sky_of_part(plan.input.sky, plan.input.part, plan.input.parts);
   if (plan.geometry)
@@ -119,6 +137,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   }
   plan_culling(plan, history);
   plan_sky(plan, history);
+  plan_indirect(plan);
   plan_marker(plan);
   plan.next.previous = PreviousFrame{
       plan.input.camera, plan.input.anchor, {plan.input.islands.begin(), plan.input.islands.end()}};

@@ -82,6 +82,7 @@ struct Renderer::State {
   MemoryBudget world_budget;  // outlives the stores
   std::unique_ptr<GeometryStore> geometry;
   std::unique_ptr<OccupancyStore> occupancy;  // null: never asked for
+  std::unique_ptr<IndirectStore> indirect;    // null: never asked for
   ShadowMaps shadows;
   LightClusters light_clusters;
   Clouds clouds;
@@ -113,6 +114,7 @@ SceneFacts Renderer::State::facts() const {
           .cutout_quads = geometry->cutout_quads(),
           .changes = &geometry->changes(),
           .occupancy = occupancy != nullptr,
+          .indirect = indirect != nullptr,
           .clouds = clouds.facts(),
           .shadow_generation = shadows.generation()};
 }
@@ -150,6 +152,7 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
                                   {plan.drawn, plan.marked_slices, plan.settings.light_tile});
         !ok)
       return ok;
+  if (plan.indirect) indirect->set_sky(frame_uploader, plan.sky_light);
   if (plan.clouds)
     if (Result<void> ok = clouds.prepare(frame_uploader, *plan.clouds); !ok) return ok;
   if (occupancy && plan.settings.traced_lights != 0 && !input.light_islands.empty())
@@ -165,6 +168,8 @@ SceneRefs Renderer::State::import_scene(const FramePlan& plan) {
   s.quads_resident = geometry->quads_resident();
   s.haze = plan.contents.features.has(Feature::kHaze);
   s.corners = plan.corners;
+  if (plan.indirect) s.indirect_light = plan.settings.indirect;
+  s.indirect = graph.import(plan.indirect ? indirect->texels() : resources.no_texels());
   if (!occupancy) return s;
   s.occupancy_grids = graph.import(occupancy->grids());
   s.occupancy_tables = graph.import(occupancy->tables());
@@ -252,6 +257,7 @@ Result<std::uint64_t> Renderer::draw(
   slot.lights = static_cast<std::uint32_t>(plan.contents.lights.size());
   s.geometry->collect();
   if (s.occupancy) s.occupancy->collect();
+  if (s.indirect) s.indirect->collect();
   s.frame_uploader.record(frame.commands, UINT64_MAX);
   s.mesh_uploader.record(frame.commands, s.upload_budget);
   s.build(plan, slot);
@@ -301,12 +307,22 @@ Result<OccupancyStore*> Renderer::occupancy() {
   }
   return state_->occupancy.get();
 }
+Result<IndirectStore*> Renderer::indirect() {
+  if (!state_->indirect) {
+    Result<std::unique_ptr<IndirectStore>> made =
+        IndirectStore::create(state_->device, state_->world_budget);
+    if (!made) return made.error();
+    state_->indirect = *std::move(made);
+  }
+  return state_->indirect.get();
+}
 gpu::Uploader& Renderer::mesh_uploader() {
   return state_->mesh_uploader;
 }
 Renderer::WorldMemory Renderer::world_memory() const {
   return {state_->geometry->bytes_in_use() +
-              (state_->occupancy ? state_->occupancy->bytes_in_use() : 0),
+              (state_->occupancy ? state_->occupancy->bytes_in_use() : 0) +
+              (state_->indirect ? state_->indirect->bytes_in_use() : 0),
           state_->world_budget.limit()};
 }
 void Renderer::reclaim() {
@@ -314,6 +330,7 @@ void Renderer::reclaim() {
   state_->device.run_now([](VkCommandBuffer) {});
   state_->geometry->collect();
   if (state_->occupancy) state_->occupancy->collect();
+  if (state_->indirect) state_->indirect->collect();
 }
 Result<void> Renderer::restart_world(std::uint64_t bytes) {
   State& s = *state_;
@@ -322,6 +339,7 @@ Result<void> Renderer::restart_world(std::uint64_t bytes) {
   const bool had_occupancy = s.occupancy != nullptr;
   s.geometry.reset();
   s.occupancy.reset();
+  s.indirect.reset();
   s.history = {};
   s.device.run_now([](VkCommandBuffer) {});  // the old tables are retired until then
   s.device.collect();

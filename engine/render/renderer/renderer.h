@@ -15,6 +15,7 @@
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/frame_report.h"
 #include "engine/render/frame/settings.h"
+#include "engine/render/light/indirect_store.h"
 #include "engine/render/scene/geometry_store.h"
 #include "engine/render/scene/occupancy_store.h"
 #include "engine/render/sky/cloud_atlas.h"
@@ -43,6 +44,9 @@ class Renderer {
   /// Which voxels are opaque: for corners and traced lights. Made when first asked for; a renderer
   /// that is never asked has none, and draws neither. Errors: out of memory.
   Result<OccupancyStore*> occupancy();
+  /// How much of the sky each face sees. Made when first asked for; a renderer that is never asked
+  /// has none, and draws no light of the sky. Errors: out of memory.
+  Result<IndirectStore*> indirect();
   gpu::Uploader& mesh_uploader();
   /// Bytes of the world's tables: what is resident in them, and the most that may be.
   struct WorldMemory {

@@ -16,6 +16,7 @@ struct SceneFacts {
   std::uint64_t quads_resident = 0, translucent_quads = 0, cutout_quads = 0;
   const GeometryChanges* changes = nullptr;  ///< never null in a plan
   bool occupancy = false;                    ///< there is an occupancy store
+  bool indirect = false;                     ///< there is a store of the sky's light
   CloudFacts clouds;
   std::uint64_t shadow_generation = 0;  ///< ShadowMaps::generation()
 

@@ -12,14 +12,14 @@
 namespace skerry::render {
 
 Result<gpu::Buffer> make_table(gpu::Device& device, MemoryBudget& budget, const char* name,
-                               std::uint64_t size_bytes) {
+                               std::uint64_t size_bytes, bool texels) {
   if (!budget.take(size_bytes))
     return Error{
         fmt::format("'{}' needs {} bytes and the world's memory budget has {} left; raise "
                     "memory.budget or lower view.distance",
                     name, size_bytes, budget.left())};
-  Result<gpu::Buffer> made =
-      device.create_buffer({name, size_bytes, kTableUsage, gpu::Memory::kDevice});
+  Result<gpu::Buffer> made = device.create_buffer(
+      {name, size_bytes, texels ? kTexelTableUsage : kTableUsage, gpu::Memory::kDevice, texels});
   if (!made) budget.give_back(size_bytes);
   return made;
 }
@@ -28,7 +28,8 @@ Result<void> grow_buffer(gpu::Device& device, MemoryBudget& budget, gpu::Buffer&
                          std::uint64_t size_bytes) {
   const std::uint64_t old_bytes = buffer.size_bytes();
   budget.give_back(old_bytes);
-  Result<gpu::Buffer> bigger = make_table(device, budget, buffer.name().c_str(), size_bytes);
+  Result<gpu::Buffer> bigger = make_table(device, budget, buffer.name().c_str(), size_bytes,
+                                          buffer.texels() != VK_NULL_HANDLE);
   if (!bigger) {
     budget.take(old_bytes);
     return bigger.error();

@@ -16,10 +16,14 @@ namespace skerry::render {
 inline constexpr VkBufferUsageFlags kTableUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                                   VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                                   VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+/// Same, for shaders that fetch texels.
+inline constexpr VkBufferUsageFlags kTexelTableUsage =
+    kTableUsage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 
-/// A table, taken from the budget. Errors: more than is left; out of memory.
+/// A table, taken from the budget. @param texels shaders fetch texels of it. Errors: more than is
+/// left; out of memory.
 Result<gpu::Buffer> make_table(gpu::Device& device, MemoryBudget& budget, const char* name,
-                               std::uint64_t size_bytes);
+                               std::uint64_t size_bytes, bool texels = false);
 
 /// Puts a bigger buffer with the old one's bytes in its place. Waits for the GPU: growth is rare,
 /// and doubles. Errors, with nothing changed: as make_table.

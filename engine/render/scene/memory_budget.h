@@ -4,7 +4,7 @@
 
 namespace skerry::render {
 
-/// Device memory that the tables of a world share: quads, sections, occupancy. What is asked for is
+/// Device memory that the tables of a world share: quads, sections, occupancy, light of the sky. What is asked for is
 /// refused rather than taken beyond the limit; buffers never shrink.
 class MemoryBudget {
  public:

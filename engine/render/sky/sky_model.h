@@ -16,6 +16,9 @@ shared::SkyConstants sky_constants(const Celestial& sky);
 /// twin of sky_radiance() in shaders/include/sky.glsl. @param dir unit, any.
 glm::dvec3 sky_radiance(glm::dvec3 dir, const shared::SkyConstants& sky);
 
+/// Extinction of clear air [1/block].
+inline constexpr float kClearAir = 0.0005f;
+
 /// How much of the light that air and clouds take from the sky there is, 0..1: taken back as the
 /// brighter body sets, so that nothing ends in a step when it is gone.
 float air_light(const Celestial& sky);

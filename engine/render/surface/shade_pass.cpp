@@ -56,7 +56,8 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+        for (const gpu::BufferRef ref :
+             {scene.frame, scene.islands, scene.materials, scene.indirect})
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
         surfaces.declare(b);
@@ -75,6 +76,7 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         c.storage(shared::kFrameBinding, scene.frame);
         c.storage(shared::kIslandsBinding, scene.islands);
         c.storage(shared::kMaterialsBinding, scene.materials);
+        c.texels(shared::kIndirectBinding, scene.indirect);
         c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
         surfaces.bind(c, scene.point_sampler);
         occupancy.bind(c);

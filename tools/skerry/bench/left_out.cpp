@@ -102,9 +102,10 @@ Result<std::vector<LackingScene>> lacking_scenes() {
       {"cutouts", "leave.out=cutouts", scene("1", "00:00", "0", "0,-160,0,0,26", "4")},
       {"stars", "leave.out=stars", scene("1", "12:00", "0")},
       {"discs", "leave.out=discs", scene("1", "10:30", "0")},
-      {"haze", "leave.out=haze", scene("1", "00:00", "0")},
+      {"haze", "leave.out=haze", with("indirect=off", scene("1", "00:00", "0"))},
       {"lights", "leave.out=lights", scene("1", "00:00", "0", "0,-160,0,0,26", "4")},
       {"clouds", "leave.out=clouds", scene("1", "12:00", "0")},
+      {"indirect", "indirect=off", with("world.islands=0", scene("1", "12:00", "0"))},
       {"corners", "ao.strength=0", with("shading=flat", scene("1", "12:00", "0"))},
   };
   std::vector<LackingScene> out;

@@ -1,0 +1,145 @@
+#include "engine/render/sky/sky_irradiance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/packing.hpp>
+#include <numbers>
+
+#include "engine/render/sky/sky_model.h"
+#include "shaders/shared/indirect.h"
+
+namespace skerry::render {
+namespace {
+
+constexpr int kCubeEdge = 12;  // texels along a face of the cube that the sky is sampled on
+constexpr int kStrata = 8;     // samples of an octant, each way
+constexpr float kMostHalf = 65504.0f;
+constexpr std::size_t kFaces = 6;
+
+/// The sky about the world's axes, a texel in the middle of each of kCubeEdge^2 parts of a cube's
+/// sides. Smooth enough to be interpolated: discs are not in it.
+class SkyCube {
+ public:
+  explicit SkyCube(const shared::SkyConstants& sky) {
+    for (int side = 0; side < 6; ++side)
+      for (int j = 0; j < kCubeEdge; ++j)
+        for (int i = 0; i < kCubeEdge; ++i) {
+          const double u = (2.0 * i + 1.0) / kCubeEdge - 1.0, v = (2.0 * j + 1.0) / kCubeEdge - 1.0;
+          glm::dvec3 d;
+          d[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
+          d[(side / 2 + 1) % 3] = u;
+          d[(side / 2 + 2) % 3] = v;
+          texels_[index(side, i, j)] = glm::vec3(sky_radiance(glm::normalize(d), sky));
+        }
+  }
+  glm::vec3 at(const glm::vec3& d) const {
+    const glm::vec3 size = glm::abs(d);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int side = 2 * axis + (d[axis] < 0.0f ? 1 : 0);
+    const float u = place(d[(axis + 1) % 3] / size[axis]),
+                v = place(d[(axis + 2) % 3] / size[axis]);
+    const int i = std::min(static_cast<int>(u), kCubeEdge - 2),
+              j = std::min(static_cast<int>(v), kCubeEdge - 2);
+    const float fu = u - static_cast<float>(i), fv = v - static_cast<float>(j);
+    return glm::mix(
+        glm::mix(texels_[index(side, i, j)], texels_[index(side, i + 1, j)], fu),
+        glm::mix(texels_[index(side, i, j + 1)], texels_[index(side, i + 1, j + 1)], fu), fv);
+  }
+
+ private:
+  static float place(float u) {
+    return std::clamp((u + 1.0f) * (0.5f * kCubeEdge) - 0.5f, 0.0f, kCubeEdge - 1.0f);
+  }
+  static std::size_t index(int side, int i, int j) {
+    return static_cast<std::size_t>((side * kCubeEdge + j) * kCubeEdge + i);
+  }
+  std::array<glm::vec3, 6 * kCubeEdge * kCubeEdge> texels_;
+};
+
+/// A direction of the lattice, and for each axis the face it lights, the lobe and its share.
+struct LobeSample {
+  glm::vec3 direction{};
+  std::array<std::uint8_t, 3> face{}, lobe{};
+  glm::vec3 weight{};  ///< cosine times solid angle, so that a whole sky of 1 sums to pi a face
+};
+
+/// Whether the pattern nearest to a direction of the first octant is steep for an axis.
+std::array<bool, 3> steep_of(const glm::dvec3& d) {
+  glm::dvec3 best(0.0);
+  for (const glm::ivec3& pattern : shared::kSkyPatterns) {
+    const glm::dvec3 p = glm::normalize(glm::dvec3(pattern));
+    if (glm::dot(p, d) > glm::dot(best, d)) best = p;
+  }
+  const auto steep = static_cast<double>(shared::kSteepCosine);
+  return {best.x >= steep, best.y >= steep, best.z >= steep};
+}
+
+std::vector<LobeSample> make_samples() {
+  std::vector<LobeSample> out;
+  glm::dvec3 sum(0.0);
+  for (int octant = 0; octant < 8; ++octant)
+    for (int i = 0; i < kStrata; ++i)
+      for (int j = 0; j < kStrata; ++j) {
+        const double y = (i + 0.5) / kStrata, turn = (j + 0.5) / kStrata * std::numbers::pi / 2.0,
+                     flat = std::sqrt(1.0 - y * y);
+        const glm::dvec3 d{flat * std::cos(turn), y, flat * std::sin(turn)};
+        const std::array<bool, 3> steep = steep_of(d);
+        LobeSample sample;
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto a = static_cast<std::size_t>(axis);
+          const auto negative = [&](int which) { return octant >> (which % 3) & 1; };
+          sample.face[a] = static_cast<std::uint8_t>(2 * axis + negative(axis));
+          sample.lobe[a] = static_cast<std::uint8_t>(
+              2 * (negative(axis + 1) + 2 * negative(axis + 2)) + (steep[a] ? 0 : 1));
+          sample.direction[axis] = static_cast<float>(negative(axis) ? -d[axis] : d[axis]);
+        }
+        sample.weight = glm::vec3(d);
+        sum += d;
+        out.push_back(sample);
+      }
+  // Two faces share each axis.
+  const glm::vec3 scale(2.0 * std::numbers::pi / sum);
+  for (LobeSample& sample : out) sample.weight *= scale;
+  return out;
+}
+
+using Lobes = std::array<glm::vec3, shared::kSkyLobes>;
+
+glm::uvec4 packed(const Lobes& lobes, int channel) {
+  glm::uvec4 out;
+  for (std::size_t i = 0; i < 4; ++i)
+    out[static_cast<int>(i)] = glm::packHalf2x16({std::min(lobes[2 * i][channel], kMostHalf),
+                                                  std::min(lobes[2 * i + 1][channel], kMostHalf)});
+  return out;
+}
+
+void append_island(const SkyCube& cube, const glm::dquat& rotation, std::vector<glm::uvec4>& out) {
+  static const std::vector<LobeSample> kSamples = make_samples();
+  const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
+  std::array<Lobes, kFaces> faces{};
+  for (const LobeSample& sample : kSamples) {
+    const glm::vec3 radiance = cube.at(world_from_lattice * sample.direction);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      faces[sample.face[axis]][sample.lobe[axis]] +=
+          radiance * sample.weight[static_cast<int>(axis)];
+  }
+  for (const Lobes& lobes : faces)
+    for (int channel = 0; channel < 3; ++channel) out.push_back(packed(lobes, channel));
+}
+
+}  // namespace
+
+std::vector<glm::uvec4> sky_irradiance(const shared::SkyConstants& sky,
+                                       std::span<const IslandPlacement> islands) {
+  const SkyCube cube(sky);
+  std::vector<glm::uvec4> out;
+  out.reserve(islands.size() * kFaces * shared::kIndirectSkyTexels);
+  for (const IslandPlacement& island : islands) append_island(cube, island.rotation, out);
+  return out;
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,108 @@
+#include "game/view/island_light.h"
+
+#include <atomic>
+#include <utility>
+
+namespace skerry::game {
+
+/// One look at an island. Made by the frame thread, worked on by jobs, read when `done`.
+struct IslandLight::Search {
+  world::LightChunks chunks;
+  std::uint64_t version = 0;
+  int level = 0;
+  std::unique_ptr<world::SkyTransfer> transfer;
+  std::atomic<int> parts_left = world::kOctants + 1;  // octants, and lamps
+  std::map<world::IVec3, world::ChunkSky> found;
+  std::atomic<bool> done = false;
+};
+
+IslandLight::IslandLight(Jobs& jobs) : jobs_(jobs) {}
+
+void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
+  Island& island = islands_[key.island];
+  island.level = key.level;
+  if (const auto before = island.known.find(key.chunk);
+      before != island.known.end() && island.known_level == key.level) {
+    before->second =
+        std::make_shared<const world::ChunkSky>(world::inherit_faces(*before->second, chunk.quads));
+    island.guessed.insert(key.chunk);
+  }
+  island.chunks[key.chunk] = std::make_shared<const world::LightChunk>(std::move(chunk));
+  ++island.version;
+}
+
+void IslandLight::remove(const world::SectionKey& key) {
+  const auto found = islands_.find(key.island);
+  if (found == islands_.end()) return;
+  if (found->second.chunks.erase(key.chunk) == 0) return;
+  ++found->second.version;
+}
+
+// Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
+void IslandLight::run(Jobs& jobs, std::shared_ptr<Search> search) {
+  jobs.submit([&jobs, search] {
+    search->transfer = std::make_unique<world::SkyTransfer>(search->chunks);
+    for (int part = 0; part <= world::kOctants; ++part)
+      jobs.submit([search, part] {
+        if (part < world::kOctants)
+          search->transfer->look(part);
+        else
+          search->transfer->spread_lamps();
+        if (search->parts_left.fetch_sub(1) != 1) return;
+        search->found = search->transfer->faces();
+        search->transfer.reset();
+        search->done = true;
+      });
+  });
+}
+
+void IslandLight::start(const world::Streamer& streamer) {
+  for (auto& [id, island] : islands_) {
+    if (island.search || island.asked == island.version || !streamer.settled(id)) continue;
+    island.search = std::make_shared<Search>();
+    island.search->chunks = island.chunks;
+    island.search->version = island.asked = island.version;
+    island.search->level = island.level;
+    run(jobs_, island.search);
+  }
+}
+
+IslandLight::Found IslandLight::guesses(std::uint64_t id, Island& island) {
+  Found found{id, island.known_level, {}};
+  for (const auto& [at, sky] : island.known)
+    found.chunks.push_back({at, sky, island.guessed.contains(at)});
+  island.guessed.clear();
+  return found;
+}
+
+std::vector<IslandLight::Found> IslandLight::poll() {
+  std::vector<Found> out;
+  for (auto& [id, island] : islands_) {
+    if (!island.search || !island.search->done) {
+      if (!island.guessed.empty()) out.push_back(guesses(id, island));
+      continue;
+    }
+    const std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
+    Found found{id, search->level, {}};
+    Skies skies;
+    for (auto& [at, sky] : search->found) {
+      // Edited since the look began: what is new is guessed once more.
+      const auto now = island.chunks.find(at);
+      if (now != island.chunks.end() && search->level == island.level &&
+          now->second != search->chunks[at])
+        sky = world::inherit_faces(sky, now->second->quads);
+      const auto before = island.known.find(at);
+      const bool same = island.known_level == search->level && before != island.known.end() &&
+                        !island.guessed.contains(at) && *before->second == sky;
+      skies[at] = same ? before->second : std::make_shared<const world::ChunkSky>(std::move(sky));
+      found.chunks.push_back({at, skies[at], !same});
+    }
+    island.guessed.clear();
+    island.known = std::move(skies);
+    island.known_level = search->level;
+    out.push_back(std::move(found));
+  }
+  return out;
+}
+
+}  // namespace skerry::game

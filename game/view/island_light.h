@@ -1,0 +1,68 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "engine/core/jobs.h"
+#include "world/light/sky_transfer.h"
+#include "world/stream/stream.h"
+
+namespace skerry::game {
+
+/// The light of the sky on the islands that are resident, found on jobs. An island is looked at as
+/// a whole, anew whenever one of its chunks has changed; what is found depends on its voxels alone.
+/// The frame thread calls everything here.
+class IslandLight {
+ public:
+  explicit IslandLight(Jobs& jobs);
+
+  /// Takes in a chunk. An island's chunks are of one level at a time. One that takes the place of
+  /// another has a guess (world::inherit_faces) until its island has been looked at again.
+  void add(const world::SectionKey& key, world::LightChunk chunk);
+  /// Forgets it. A chunk that was not added is no concern.
+  void remove(const world::SectionKey& key);
+  /// Forgets an island and what is known of its light.
+  void end_island(std::uint64_t island) { islands_.erase(island); }
+  /// Looks at islands that have changed and whose chunks have all come: what is not there yet would
+  /// let light into rooms that it closes.
+  void start(const world::Streamer& streamer);
+  /// Waits until all that was started has been found.
+  void wait() { jobs_.wait(); }
+
+  struct FoundChunk {
+    world::IVec3 at;
+    std::shared_ptr<const world::ChunkSky> sky;
+    bool changed = true;  ///< against what poll() last said of the island at this level
+  };
+  struct Found {
+    std::uint64_t island = 0;
+    int level = 0;
+    std::vector<FoundChunk> chunks;  ///< ascending
+  };
+  /// What has been found since the last call. An island that has changed meanwhile is looked at
+  /// again.
+  std::vector<Found> poll();
+
+ private:
+  using Skies = std::map<world::IVec3, std::shared_ptr<const world::ChunkSky>>;
+  struct Search;
+  struct Island {
+    int level = 0;
+    world::LightChunks chunks;
+    std::uint64_t version = 0;  // grows with every change
+    std::uint64_t asked = 0;    // version that was looked at last
+    std::shared_ptr<Search> search;
+    Skies known;  // as poll() last said, or says next
+    int known_level = -1;
+    std::set<world::IVec3> guessed;  // of `known`, since poll() last said
+  };
+  static Found guesses(std::uint64_t id, Island& island);
+  static void run(Jobs& jobs, std::shared_ptr<Search> search);
+
+  Jobs& jobs_;
+  std::map<std::uint64_t, Island> islands_;
+};
+
+}  // namespace skerry::game

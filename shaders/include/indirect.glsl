@@ -1,0 +1,68 @@
+// Light of the sky and weak lamps on a surface, as far as the corners of its face see it. Layout: shared/indirect.h.
+// Needs before the include: lighting.glsl, `islands[]`.
+#ifndef SKERRY_INDIRECT_GLSL
+#define SKERRY_INDIRECT_GLSL
+
+// If the sky gives no light, a texel is bound that is never read.
+layout(binding = kIndirectBinding) uniform usamplerBuffer indirect_texels;
+
+uvec4 indirect_texel(bool known, uint index) { return texelFetch(indirect_texels, int(known ? index : 0u)); }
+
+// Where a surface's record is; 0: it has none.
+uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
+  ivec3 low = (ivec3(grid.x) << ivec3(22, 12, 2)) >> 22;
+  ivec3 size = ivec3(grid.y & 255u, (grid.y >> 8) & 255u, (grid.y >> 16) & 255u);
+  ivec3 chunk = (voxel >> 6) - low;
+  bool known = grid.w != 0u && all(lessThan(uvec3(chunk), uvec3(size)));
+  uint table = grid.z + uint((chunk.y * size.x + chunk.x) * size.z + chunk.z) * kIndirectTableTexels;
+  ivec3 brick = (voxel >> 3) & 7;
+  uvec4 bricks = indirect_texel(known, table + uint(brick.y * 16 + brick.x * 2 + (brick.z >> 2)));
+  uint first = (brick.z & 2) != 0 ? ((brick.z & 1) != 0 ? bricks.w : bricks.z) : ((brick.z & 1) != 0 ? bricks.y : bricks.x);
+  known = known && first != 0u;
+  uvec4 masks = indirect_texel(known, first + face * 8u + uint(voxel.y & 7));
+  bool far = (voxel.x & 4) != 0;
+  uint mask = far ? masks.y : masks.x, record = far ? masks.w : masks.z;
+  uint bit = uint((voxel.z & 7) + 8 * (voxel.x & 3));
+  known = known && ((mask >> bit) & 1u) != 0u;
+  return known ? record + kIndirectRecordTexels * bitCount(mask & ((1u << bit) - 1u)) : 0u;
+}
+
+// Irradiance of a corner by weak lamps.
+vec3 lamp_light(uint word) { return vec3(word & 511u, (word >> 9) & 511u, (word >> 18) & 511u) * exp2(float(word >> 27) - 24.0); }
+
+struct SkyLight {
+  vec3 irradiance;  // of the surface's face
+  float seen;       // share of the face's sky, 0..1
+};
+
+// Light of the sky and of weak lamps on a surface, as if it were matt. @param word of the G-buffer.
+SkyLight light_of_sky(Surface s, uint word) {
+  if (kIndirect == kIndirectOff) return SkyLight(vec3(0.0), 0.0);
+  vec3 lattice = lattice_from_world(islands[surface_island(word)], s.position);
+  uint island = surface_island(word), face = surface_face(word);
+  uvec4 grid = indirect_texel(true, island);
+  bool plant = face >= 6u;
+  face = plant ? 2u : face;
+  vec3 place = lattice * exp2(-float(grid.y >> 24));
+  // Of a face, the voxel behind it; of a plant, its own.
+  ivec3 voxel = ivec3(floor(plant ? place + vec3(0.0, 0.001, 0.0) : place - 0.5 * face_normal(face)));
+  uint record = sky_record(grid, face, voxel);
+  uvec4 near = indirect_texel(record != 0u, record), far = indirect_texel(record != 0u, record + 1u);
+  vec3 in_voxel = clamp(place - vec3(voxel), 0.0, 1.0);
+  vec2 at = face < 2u ? in_voxel.yz : face < 4u ? in_voxel.zx : in_voxel.xy;
+  vec4 seen_a = mix(mix(unpackUnorm4x8(near.x), unpackUnorm4x8(near.z), at.x), mix(unpackUnorm4x8(far.x), unpackUnorm4x8(far.z), at.x), at.y);
+  vec4 seen_b = mix(mix(unpackUnorm4x8(near.y), unpackUnorm4x8(near.w), at.x), mix(unpackUnorm4x8(far.y), unpackUnorm4x8(far.w), at.x), at.y);
+  vec3 sum;
+  for (uint channel = 0u; channel < 3u; ++channel) {
+    uvec4 lobes = indirect_texel(true, kIndirectSkies + (island * 6u + face) * kIndirectSkyTexels + channel);
+    sum[channel] = dot(seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
+                   dot(seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
+  }
+  if (kIndirect == kIndirectFull) {
+    uvec4 lamps = indirect_texel(record != 0u, record + 2u);
+    sum += mix(mix(lamp_light(lamps.x), lamp_light(lamps.y), at.x), mix(lamp_light(lamps.z), lamp_light(lamps.w), at.x), at.y);
+  }
+  float open = dot(seen_a + seen_b, vec4(1.0 / float(kSkyLobes)));
+  return record != 0u ? SkyLight(sum, open) : SkyLight(vec3(0.0), 0.0);
+}
+#endif

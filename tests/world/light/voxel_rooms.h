@@ -1,0 +1,90 @@
+#pragma once
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "world/light/air_volume.h"
+#include "world/mesh/mesh.h"
+#include "world/voxel/chunk.h"
+
+namespace skerry::world::test {
+
+using Voxels = std::set<IVec3>;
+
+inline IVec3 beside(IVec3 v, int face) {
+  const int by = face % 2 == 0 ? 1 : -1;
+  return {v.x + (face / 2 == 0 ? by : 0), v.y + (face / 2 == 1 ? by : 0),
+          v.z + (face / 2 == 2 ? by : 0)};
+}
+
+inline IVec3 chunk_holding(IVec3 v) {
+  return {static_cast<std::int32_t>(floor_div(v.x, kChunkEdge)),
+          static_cast<std::int32_t>(floor_div(v.y, kChunkEdge)),
+          static_cast<std::int32_t>(floor_div(v.z, kChunkEdge))};
+}
+
+/// A white lamp in the middle of each of some voxels.
+struct Lamps {
+  Voxels voxels;
+  float range = 8.0f;
+};
+
+/// Chunks of stone voxels with a quad for each face that is not covered by stone.
+inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {}) {
+  struct Building {
+    std::vector<BlockId> padded = std::vector<BlockId>(kPaddedVoxels, kAir);
+    LightChunk chunk;
+  };
+  std::map<IVec3, Building> building;
+  for (const IVec3& v : stone) {
+    const IVec3 at = chunk_holding(v);
+    Building& b = building[at];
+    const int x = v.x - at.x * kChunkEdge, y = v.y - at.y * kChunkEdge, z = v.z - at.z * kChunkEdge;
+    b.padded[static_cast<std::size_t>(1 + z + kPaddedEdge * (x + 1 + kPaddedEdge * (y + 1)))] =
+        block::kStone;
+    for (int face = 0; face < 6; ++face)
+      if (!stone.contains(beside(v, face)))
+        b.chunk.quads.push_back({static_cast<std::uint32_t>(x | y << 6 | z << 12),
+                                 static_cast<std::uint32_t>(block::kStone | face << 16)});
+  }
+  for (const IVec3& v : lamps.voxels) {
+    const IVec3 at = chunk_holding(v);
+    const auto place = [](int voxel, int chunk) {
+      return static_cast<float>(voxel - chunk * kChunkEdge) + 0.5f;
+    };
+    building[at].chunk.lamps.push_back(
+        {{place(v.x, at.x), place(v.y, at.y), place(v.z, at.z)}, glm::vec3(1.0f), lamps.range});
+  }
+  LightChunks out;
+  for (auto& [at, b] : building) {
+    b.chunk.opaque = occupancy_of(b.padded);
+    out[at] = std::make_shared<const LightChunk>(std::move(b.chunk));
+  }
+  return out;
+}
+
+/// What the GPU would read for a face: 8 words of the sky, 4 of lamps; empty: no such face.
+inline std::vector<std::uint32_t> record_of(const std::map<IVec3, ChunkSky>& sky, IVec3 voxel,
+                                            int face) {
+  const IVec3 at = chunk_holding(voxel);
+  const auto found = sky.find(at);
+  if (found == sky.end()) return {};
+  const ChunkSky& chunk = found->second;
+  const int x = voxel.x & 63, y = voxel.y & 63, z = voxel.z & 63;
+  const std::uint32_t brick = chunk.table[static_cast<std::size_t>(z / 8 + x / 8 * 8 + y / 8 * 64)];
+  if (brick == 0) return {};
+  const glm::uvec4 masks = chunk.texels[(brick - 1) * shared::kIndirectBrickTexels +
+                                        static_cast<std::size_t>(face * 8 + y % 8)];
+  const int half = x / 4 % 2, bit = z % 8 + 8 * (x % 4);
+  if ((masks[half] >> bit & 1u) == 0) return {};
+  std::size_t record = masks[2 + half];
+  for (int i = 0; i < bit; ++i) record += shared::kIndirectRecordTexels * (masks[half] >> i & 1u);
+  const glm::uvec4 a = chunk.texels[record], b = chunk.texels[record + 1],
+                   c = chunk.texels[record + 2];
+  return {a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w};
+}
+
+}  // namespace skerry::world::test

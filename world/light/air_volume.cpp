@@ -1,0 +1,121 @@
+#include "world/light/air_volume.h"
+
+#include <algorithm>
+
+#include "engine/core/check.h"
+#include "shaders/shared/occupancy.h"
+#include "world/voxel/chunk.h"
+
+namespace skerry::world {
+namespace {
+
+constexpr int kBrick = static_cast<int>(shared::kBrickEdge);
+constexpr int kMargin = 2;
+
+/// Calls fn(x, y, z, bits) for each run of 8 voxels along z, chunk-local, that has a bit.
+template <class Fn>
+void for_each_byte(const ChunkOccupancy& chunk, const Fn& fn) {
+  using Fill = ChunkOccupancy::Fill;
+  if (chunk.fill == Fill::kEmpty) return;
+  for (int b = 0; b < static_cast<int>(shared::kBricksPerChunk); ++b) {
+    const int z0 = (b & 7) * kBrick, x0 = (b >> 3 & 7) * kBrick, y0 = (b >> 6) * kBrick;
+    const std::uint32_t entry =
+        chunk.fill == Fill::kFull ? shared::kBrickFull : chunk.table[static_cast<std::size_t>(b)];
+    if (entry == shared::kBrickEmpty || entry == shared::kChunkEmpty) continue;
+    const std::uint32_t* words =
+        entry == shared::kBrickFull
+            ? nullptr
+            : &chunk.words[std::size_t{entry & shared::kMaxBricks} * shared::kBrickWords];
+    for (int y = 0; y < kBrick; ++y) {
+      for (int x = 0; x < kBrick; ++x) {
+        std::uint32_t bits = 0xffu;
+        if (words) {
+          const int word = 2 * (x / 4) + 4 * (y / 2), shift = 4 * (x % 4) + 16 * (y % 2);
+          bits = (words[word] >> shift & 15u) | (words[word + 1] >> shift & 15u) << 4;
+        }
+        if (bits != 0) fn(x0 + x, y0 + y, z0, bits);
+      }
+    }
+  }
+}
+
+struct Box {
+  IVec3 low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
+};
+
+void widen(Box& box, IVec3 corner, const ChunkOccupancy& chunk) {
+  for_each_byte(chunk, [&](int x, int y, int z, std::uint32_t) {
+    box.low = {std::min(box.low.x, corner.x + x), std::min(box.low.y, corner.y + y),
+               std::min(box.low.z, corner.z + z)};
+    box.high = {std::max(box.high.x, corner.x + x), std::max(box.high.y, corner.y + y),
+                std::max(box.high.z, corner.z + z + 7)};
+  });
+}
+
+void fill(VoxelBits& bits, IVec3 corner, const ChunkOccupancy& chunk) {
+  for_each_byte(chunk, [&](int x, int y, int z, std::uint32_t eight) {
+    const int row_z = corner.z + z - bits.low().z;
+    bits.row(corner.x + x - bits.low().x, corner.y + y - bits.low().y)[row_z / 64] |=
+        std::uint64_t{eight} << row_z % 64;
+  });
+}
+
+IVec3 corner_of(IVec3 chunk) {
+  return {chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
+}
+
+}  // namespace
+
+VoxelBits::VoxelBits(IVec3 low, IVec3 size, bool value) : low_(low), size_(size) {
+  SKERRY_ASSERT(floor_mod(low.z, 64) == 0 && size.z % 64 == 0);
+  words_.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                    static_cast<std::size_t>(row_words() + 2),
+                value ? ~std::uint64_t{0} : 0);
+}
+
+bool VoxelBits::at(IVec3 voxel) const {
+  const IVec3 p{voxel.x - low_.x, voxel.y - low_.y, voxel.z - low_.z};
+  if (!has_row(p.x, p.y) || p.z < 0 || p.z >= size_.z) return false;
+  return row(p.x, p.y)[p.z / 64] >> p.z % 64 & 1;
+}
+
+void VoxelBits::set(IVec3 voxel) {
+  const IVec3 p{voxel.x - low_.x, voxel.y - low_.y, voxel.z - low_.z};
+  row(p.x, p.y)[p.z / 64] |= std::uint64_t{1} << p.z % 64;
+}
+
+AirVolume air_volume_of(const LightChunks& chunks) {
+  Box box;
+  AirVolume out;
+  for (const auto& [at, chunk] : chunks) {
+    widen(box, corner_of(at), chunk->opaque);
+    widen(box, corner_of(at), chunk->leaves);
+    out.has_leaves = out.has_leaves || chunk->leaves.fill != ChunkOccupancy::Fill::kEmpty;
+    // Glass and plants may stand away from all else.
+    for (const shared::Quad& q : chunk->quads) {
+      const IVec3 c = corner_of(at);
+      const int x = static_cast<int>(q.geometry & 63u), y = static_cast<int>(q.geometry >> 6 & 63u),
+                z = static_cast<int>(q.geometry >> 12 & 63u),
+                most = static_cast<int>(std::max(q.geometry >> 18 & 63u, q.geometry >> 24 & 63u));
+      box.low = {std::min(box.low.x, c.x + x), std::min(box.low.y, c.y + y),
+                 std::min(box.low.z, c.z + z)};
+      box.high = {std::max(box.high.x, c.x + std::min(x + most, 63)),
+                  std::max(box.high.y, c.y + std::min(y + most, 63)),
+                  std::max(box.high.z, c.z + std::min(z + most, 63))};
+    }
+  }
+  if (box.low.x > box.high.x) return out;
+  const auto aligned = [](int z) { return static_cast<int>(floor_div(z, 64)) * 64; };
+  const IVec3 low{box.low.x - kMargin, box.low.y - kMargin, aligned(box.low.z - kMargin)};
+  const IVec3 size{box.high.x + kMargin + 1 - low.x, box.high.y + kMargin + 1 - low.y,
+                   aligned(box.high.z + kMargin) + 64 - low.z};
+  out.opaque = VoxelBits(low, size, false);
+  if (out.has_leaves) out.leaves = VoxelBits(low, size, false);
+  for (const auto& [at, chunk] : chunks) {
+    fill(out.opaque, corner_of(at), chunk->opaque);
+    if (out.has_leaves) fill(out.leaves, corner_of(at), chunk->leaves);
+  }
+  return out;
+}
+
+}  // namespace skerry::world

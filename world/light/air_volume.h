@@ -1,0 +1,64 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "shaders/shared/geometry.h"
+#include "world/mesh/occupancy.h"
+#include "world/voxel/coords.h"
+
+namespace skerry::world {
+
+/// A lamp that is weak enough to be kept with the light of faces.
+struct WeakLamp {
+  glm::vec3 place{};      ///< from the chunk's lowest corner [voxels]
+  glm::vec3 intensity{};  ///< irradiance of what faces it at a distance of one voxel
+  float range = 0.0f;     ///< voxels; the light ends there smoothly, as shaders/shared/light.h says
+};
+
+/// What light needs to know of one chunk. Immutable once shared.
+struct LightChunk {
+  ChunkOccupancy opaque;
+  ChunkOccupancy leaves;            ///< cut-out blocks: they let about half of the light past
+  std::vector<shared::Quad> quads;  ///< all that is drawn of the chunk
+  std::vector<WeakLamp> lamps{};
+};
+using LightChunks = std::map<IVec3, std::shared_ptr<const LightChunk>>;  ///< by chunk at its level
+
+/// One bit a voxel for a box of an island's voxels, in rows along z. All voxels outside are air.
+class VoxelBits {
+ public:
+  VoxelBits() = default;
+  /// @param low, size voxels; low.z and size.z are multiples of 64.
+  VoxelBits(IVec3 low, IVec3 size, bool value);
+
+  IVec3 low() const { return low_; }
+  IVec3 size() const { return size_; }
+  int row_words() const { return size_.z / 64; }
+  bool at(IVec3 voxel) const;  ///< false outside
+  void set(IVec3 voxel);       ///< @pre inside
+  /// Words of a row, with one more of `outside` readable before and after. @param x, y from low.
+  std::uint64_t* row(int x, int y) { return words_.data() + index(x, y); }
+  const std::uint64_t* row(int x, int y) const { return words_.data() + index(x, y); }
+  bool has_row(int x, int y) const { return x >= 0 && x < size_.x && y >= 0 && y < size_.y; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) +
+            static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(row_words() + 2) +
+           1;
+  }
+  IVec3 low_{}, size_{};
+  std::vector<std::uint64_t> words_;
+};
+
+/// Opaque voxels of an island and its leaves, in a box two voxels larger than they are.
+struct AirVolume {
+  VoxelBits opaque, leaves;
+  bool has_leaves = false;
+};
+AirVolume air_volume_of(const LightChunks& chunks);
+
+}  // namespace skerry::world

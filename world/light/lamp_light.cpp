@@ -1,0 +1,98 @@
+#include "world/light/lamp_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace skerry::world {
+namespace {
+
+constexpr float kNearest = 0.5f;    // voxels: nearer, light grows no more
+constexpr double kTogether = 1e-6;  // of the way: crossings that count as one
+
+int floor_to_int(double v) {
+  return static_cast<int>(std::floor(v));
+}
+
+/// What is left of the light between two points, 0..1. Steps through the voxels that the line
+/// touches.
+class Line {
+ public:
+  Line(const AirVolume& air, glm::dvec3 from, glm::dvec3 to) : air_(air) {
+    const glm::dvec3 way = to - from;
+    for (int a = 0; a < 3; ++a) {
+      at_[a] = floor_to_int(from[a]);
+      end_[a] = floor_to_int(to[a]);
+      step_[a] = way[a] > 0.0 ? 1 : -1;
+      const double border = way[a] > 0.0 ? at_[a] + 1.0 : at_[a];
+      next_[a] = way[a] == 0.0 ? 2.0 : (border - from[a]) / way[a];
+      every_[a] = way[a] == 0.0 ? 2.0 : 1.0 / std::abs(way[a]);
+    }
+  }
+
+  float clear() {
+    while (left_ > 0.0f && at_ != end_) {
+      const double t = std::min({next_[0], next_[1], next_[2]});
+      if (t >= 1.0) break;
+      std::array<bool, 3> crosses{};
+      for (std::size_t a = 0; a < 3; ++a) crosses[a] = next_[static_cast<int>(a)] <= t + kTogether;
+      pass(crosses);
+    }
+    return left_;
+  }
+
+ private:
+  // Where the line crosses several borders at once, all voxels about that point but the one it came
+  // from are touched.
+  void pass(const std::array<bool, 3>& crosses) {
+    for (int corner = 1; corner < 8; ++corner) {
+      glm::ivec3 v = at_;
+      bool touched = true;
+      for (int a = 0; a < 3; ++a) {
+        if ((corner >> a & 1) == 0) continue;
+        touched = touched && crosses[static_cast<std::size_t>(a)];
+        v[a] += step_[a];
+      }
+      if (touched) meet(v);
+    }
+    for (int a = 0; a < 3; ++a) {
+      if (!crosses[static_cast<std::size_t>(a)]) continue;
+      at_[a] += step_[a];
+      next_[a] += every_[a];
+    }
+  }
+  void meet(glm::ivec3 v) {
+    if (v == end_) return;
+    const IVec3 voxel{v.x, v.y, v.z};
+    if (air_.opaque.at(voxel)) left_ = 0.0f;
+    if (air_.has_leaves && air_.leaves.at(voxel)) left_ *= 0.5f;
+  }
+
+  const AirVolume& air_;
+  glm::ivec3 at_{}, end_{}, step_{};
+  glm::dvec3 next_{}, every_{};
+  float left_ = 1.0f;
+};
+
+}  // namespace
+
+LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel) {
+  LampLight out{};
+  const glm::vec3 middle(static_cast<float>(voxel.x) + 0.5f, static_cast<float>(voxel.y) + 0.5f,
+                         static_cast<float>(voxel.z) + 0.5f);
+  const glm::vec3 way = lamp.place - middle;
+  const float distance2 = glm::dot(way, way), q = distance2 / (lamp.range * lamp.range);
+  if (q >= 1.0f) return out;
+  const float clear = Line(air, glm::dvec3(middle), glm::dvec3(lamp.place)).clear();
+  if (clear == 0.0f) return out;
+  const float window = (1.0f - q * q) * (1.0f - q * q);
+  const float reach = std::max(std::sqrt(distance2), kNearest);
+  const float facing = clear * window / (reach * reach * reach);
+  for (std::size_t face = 0; face < 6; ++face) {
+    const float along = way[static_cast<int>(face / 2)] * (face % 2 == 0 ? 1.0f : -1.0f);
+    if (along > 0.0f) out[face] = lamp.intensity * (facing * along);
+  }
+  return out;
+}
+
+}  // namespace skerry::world

@@ -1,0 +1,19 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <unordered_map>
+
+#include "world/light/air_volume.h"
+
+namespace skerry::world {
+
+/// Irradiance of weak lamps at the middle of voxels, for each of the six face directions.
+using LampLight = std::array<glm::vec3, 6>;
+
+/// What a lamp gives a voxel: nothing unless the line between them is clear. A line that passes
+/// where voxels meet at an edge or a corner needs all of them clear; leaves take half; the lamp's
+/// own voxel hides nothing. @param lamp place from the lattice's origin. @return zeros: none.
+LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel);
+
+}  // namespace skerry::world

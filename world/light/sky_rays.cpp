@@ -1,0 +1,115 @@
+#include "world/light/sky_rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skerry::world {
+namespace {
+
+constexpr std::uint32_t kAll = 65280;  // 255 * 256
+
+/// Cosine-weighted share of a pattern's cell in its octant, of kAll: by its own component along the
+/// axis and the other two in order. Integrals over the sphere, 9 million points; a test repeats
+/// them.
+double cell_share(int along, int least, int most) {
+  struct Row {
+    std::array<int, 3> key;
+    double share;
+  };
+  static constexpr std::array<Row, 10> kRows{{{{1, 1, 1}, 3766.1},
+                                              {{1, 1, 2}, 2160.1},
+                                              {{2, 1, 1}, 4033.0},
+                                              {{1, 2, 2}, 2530.8},
+                                              {{2, 1, 2}, 6556.7},
+                                              {{1, 1, 4}, 1652.4},
+                                              {{4, 1, 1}, 9347.0},
+                                              {{1, 2, 4}, 1216.7},
+                                              {{2, 1, 4}, 4031.6},
+                                              {{4, 1, 2}, 7183.9}}};
+  for (const Row& row : kRows)
+    if (row.key == std::array{along, least, most}) return row.share;
+  return 0.0;
+}
+
+LobeWeights make_weights(int axis) {
+  LobeWeights out;
+  for (std::uint32_t k = 0; k < shared::kSkyPatternCount; ++k) {
+    const glm::ivec3 p = shared::kSkyPatterns[k];
+    const int along = p[axis], b = p[(axis + 1) % 3], c = p[(axis + 2) % 3];
+    out.weight[k] =
+        static_cast<std::uint32_t>(std::lround(cell_share(along, std::min(b, c), std::max(b, c))));
+    const double length = std::sqrt(static_cast<double>(along * along + b * b + c * c));
+    if (along / length >= static_cast<double>(shared::kSteepCosine)) out.steep |= 1u << k;
+  }
+  return out;
+}
+
+/// For each byte of an octant's bits, both lobes' sums.
+struct SeenTable {
+  std::array<std::array<std::array<std::uint32_t, 2>, 256>, 2> sums{};
+};
+
+SeenTable make_table(int axis) {
+  const LobeWeights& weights = lobe_weights(axis);
+  std::array<double, 2> whole{};
+  for (std::uint32_t k = 0; k < shared::kSkyPatternCount; ++k)
+    whole[(weights.steep >> k & 1u) ? 0 : 1] += weights.weight[k];
+  SeenTable table;
+  for (std::uint32_t half = 0; half < 2; ++half) {
+    for (std::uint32_t bits = 0; bits < 256; ++bits) {
+      std::array<double, 2> sum{};
+      for (std::uint32_t i = 0; i < 8; ++i)
+        if (bits >> i & 1u)
+          sum[(weights.steep >> (half * 8 + i) & 1u) ? 0 : 1] += weights.weight[half * 8 + i];
+      for (std::size_t lobe = 0; lobe < 2; ++lobe)
+        table.sums[half][bits][lobe] =
+            static_cast<std::uint32_t>(std::lround(kAll * sum[lobe] / whole[lobe]));
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+IVec3 sky_direction(int octant, int pattern) {
+  const glm::ivec3 p = shared::kSkyPatterns[pattern];
+  return {octant & 1 ? -p.x : p.x, octant & 2 ? -p.y : p.y, octant & 4 ? -p.z : p.z};
+}
+
+std::vector<IVec3> voxels_between(IVec3 direction) {
+  const std::array<int, 3> d{direction.x, direction.y, direction.z};
+  const std::array<int, 3> n{std::abs(d[0]), std::abs(d[1]), std::abs(d[2])};
+  std::vector<IVec3> out;
+  for (int x = 0; x <= n[0]; ++x) {
+    for (int y = 0; y <= n[1]; ++y) {
+      for (int z = 0; z <= n[2]; ++z) {
+        const std::array<int, 3> at{x, y, z};
+        if (at == std::array{0, 0, 0} || at == n) continue;
+        // When the line enters and leaves the voxel's slabs, in eighths of the way.
+        int enter = 0, leave = 8;
+        for (std::size_t a = 0; a < 3; ++a) {
+          enter = std::max(enter, (2 * at[a] - 1) * 4 / n[a]);
+          leave = std::min(leave, (2 * at[a] + 1) * 4 / n[a]);
+        }
+        if (enter > leave) continue;
+        out.push_back({d[0] < 0 ? -x : x, d[1] < 0 ? -y : y, d[2] < 0 ? -z : z});
+      }
+    }
+  }
+  return out;
+}
+
+const LobeWeights& lobe_weights(int axis) {
+  static const std::array<LobeWeights, 3> kWeights{make_weights(0), make_weights(1),
+                                                   make_weights(2)};
+  return kWeights[static_cast<std::size_t>(axis)];
+}
+
+std::array<std::uint32_t, 2> lobes_seen(int axis, std::uint32_t seen) {
+  static const std::array<SeenTable, 3> kTables{make_table(0), make_table(1), make_table(2)};
+  const SeenTable& table = kTables[static_cast<std::size_t>(axis)];
+  const auto &low = table.sums[0][seen & 255u], &high = table.sums[1][seen >> 8 & 255u];
+  return {std::min(kAll, low[0] + high[0]), std::min(kAll, low[1] + high[1])};
+}
+
+}  // namespace skerry::world

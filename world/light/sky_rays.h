@@ -1,0 +1,34 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "shaders/shared/indirect.h"
+#include "world/voxel/coords.h"
+
+namespace skerry::world {
+
+/// Ways to the sky: 8 octants of shared::kSkyPatterns. Bit 0 of an octant: x negative, 1 y, 2 z.
+inline constexpr int kOctants = 8;
+
+/// The lattice vector of a pattern in an octant.
+IVec3 sky_direction(int octant, int pattern);
+
+/// Voxels between a voxel and the one a lattice vector further that the line between their centres
+/// touches, at an edge or a corner too, so that no line slips between two that meet at an edge.
+/// Both ends are left out. @pre each component divides 4.
+std::vector<IVec3> voxels_between(IVec3 direction);
+
+/// Which of an octant's patterns belong to the steep lobe of a face whose axis this is, and the
+/// weight of each: its cell's share of the irradiance of the octant under an even sky, of 65280.
+/// The cell of a pattern holds the directions of its octant that are nearest to it.
+struct LobeWeights {
+  std::array<std::uint32_t, shared::kSkyPatternCount> weight{};
+  std::uint32_t steep = 0;  ///< a bit a pattern
+};
+const LobeWeights& lobe_weights(int axis);
+
+/// Share of both lobes that is seen, of 65280. @param seen a bit a pattern of one octant.
+std::array<std::uint32_t, 2> lobes_seen(int axis, std::uint32_t seen);
+
+}  // namespace skerry::world
