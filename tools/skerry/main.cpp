@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/core/log.h"
+#include "engine/platform/heap.h"
 #include "game/client/preferences.h"
 #include "game/scene_file/parse.h"
 #include "tools/skerry/bench/bench_commands.h"
@@ -163,6 +164,7 @@ int run(std::vector<std::string> typed) {
 }  // namespace skerry::tools
 
 int main(int count, char** arguments) {
+<<<<<<< HEAD
   using namespace skerry::tools;
   // A standard stream that is closed would be the next file that is opened.
   while (true) {
@@ -178,4 +180,8 @@ int main(int count, char** arguments) {
   }
   if (std::fflush(stdout) == 0 || status != kDone) return status;
   return fail(kFailed, {"cannot write to the standard output; check where it leads"});
+=======
+  skerry::platform::keep_freed_memory();
+  return skerry::tools::run({arguments + 1, arguments + count});
+>>>>>>> b1d88dd (Keep freed memory with the process, so that lavapipe draws alike in every run)
 }
