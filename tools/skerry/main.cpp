@@ -164,8 +164,8 @@ int run(std::vector<std::string> typed) {
 }  // namespace skerry::tools
 
 int main(int count, char** arguments) {
-<<<<<<< HEAD
   using namespace skerry::tools;
+  skerry::platform::keep_freed_memory();
   // A standard stream that is closed would be the next file that is opened.
   while (true) {
     const int descriptor = ::open("/dev/null", O_RDWR);
@@ -180,8 +180,4 @@ int main(int count, char** arguments) {
   }
   if (std::fflush(stdout) == 0 || status != kDone) return status;
   return fail(kFailed, {"cannot write to the standard output; check where it leads"});
-=======
-  skerry::platform::keep_freed_memory();
-  return skerry::tools::run({arguments + 1, arguments + count});
->>>>>>> b1d88dd (Keep freed memory with the process, so that lavapipe draws alike in every run)
 }
