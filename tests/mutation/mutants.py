@@ -171,9 +171,9 @@ MUTANTS = (
     # The picture
     Mutant("wrong_srgb_curve", "gamma 2.2 instead of sRGB's curve", "shaders/include/tonemap.glsl",
            "vec3(1.0 / 2.4)", "vec3(1.0 / 2.2)", "day"),
-    Mutant("channels_swapped", "red and blue are swapped", "shaders/include/output.glsl",
+    Mutant("channels_swapped", "red and blue are swapped", "shaders/include/picture.glsl",
            "srgb_encode(tone_map(exposed))", "srgb_encode(tone_map(exposed.bgr))", "day"),
-    Mutant("exposure_5_percent", "the picture is 5% brighter", "shaders/include/output.glsl",
+    Mutant("exposure_5_percent", "the picture is 5% brighter", "shaders/include/picture.glsl",
            "exp2(-exposure.ev)", "1.05 * exp2(-exposure.ev)", "day empty mesa"),
     Mutant("meter_follows_more", "nights are almost as bright as days", "shaders/shared/exposure.h",
            "kFollowed = 0.7f", "kFollowed = 0.9f", "dusk moonlit volcanic"),
