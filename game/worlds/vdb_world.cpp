@@ -51,8 +51,9 @@ Result<VdbIslands> islands_of_vdb(const std::filesystem::path& path,
   Jobs jobs;
   auto islands = world::import_islands(*grids, options, jobs, part(kReading, 1.0 - kReading));
   VdbIslands out;
-  if (const std::string line = world::choice_line(*grids, options); !line.empty())
-    out.notes.push_back(fmt::format("{} {}", quote_text(path.string()), line));
+  for (const std::string& line :
+       {world::metadata_doubt(*grids), world::choice_line(*grids, options)})
+    if (!line.empty()) out.notes.push_back(fmt::format("{}: {}", quote_text(path.string()), line));
   if (islands) out.islands = *std::move(islands);
   if (islands) return out;
   return Error{

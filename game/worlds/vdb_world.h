@@ -14,7 +14,8 @@ namespace skerry::game {
 /// What a .vdb file gave.
 struct VdbIslands {
   std::vector<world::ImportedIsland> islands;
-  std::vector<std::string> notes;  ///< for the user, one line each: which grids were chosen
+  std::vector<std::string>
+      notes;  ///< for the user, one line each: what looks damaged, which grids it took
 };
 
 /// The islands of a .vdb file. Errors: those of world::read_vdb and world::import_islands, with the

@@ -152,6 +152,27 @@ TEST(VdbCommand, ExportsOfADamagedWorldAreAskedFor) {
   EXPECT_EQ(partial.status, 0) << partial.err;
 }
 
+TEST(VdbCommand, WarnsWhenMetadataDisagreesWithWhatWasRead) {
+  SKIP_WITHOUT_OPENVDB();
+  const Folder folder;
+  const std::string path = (folder / "odd.vdb").string(), out = (folder / "w").string();
+  std::string bytes = text_of(sample("ball.vdb"));
+  const std::size_t name = bytes.find("file_mem_bytes");
+  ASSERT_NE(name, std::string::npos);
+  // Behind the name come the type's name, with its length in front, and the number with its own.
+  const std::size_t type = bytes.find("int64", name);
+  ASSERT_EQ(type, name + 14 + 4);
+  bytes[type + 5 + 4 + 3] ^= '\1';  // 16 MiB more
+  std::ofstream(path, std::ios::binary) << bytes;
+  for (const Outcome& outcome :
+       {run({"vdb", "info", path}), run({"vdb", "import", path, "--out", out})}) {
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("may be damaged"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(run({"vdb", "info", sample("types.vdb")}).err, "");
+}
+
 /// As coreutils have it.
 std::string sha256_of(const std::string& path) {
   const Folder folder;

@@ -104,7 +104,7 @@ std::optional<Trouble> check_log(const fs::path& path, bool locked) {
     return Trouble{file_error("open", path, SQLITE_CORRUPT), true};
   };
   std::optional<Trouble> trouble = look();
-  if (!trouble || locked) return trouble;
+  if (!trouble || !trouble->damage || locked) return trouble;
   // A log that is being written can look like that for a moment: only one at rest counts.
   int reason = 0;
   const std::optional<WriterLock> at_rest = WriterLock::take(path, reason);
@@ -279,9 +279,7 @@ int WorldFile::State::open_database(bool& newer) {
   if (code != SQLITE_OK || newer || mode != Mode::kWrite) return code;
   code = check_whole(*database);
   // What a killed process left in the log, or what brought the tables up to date.
-  std::error_code none;
-  const std::uintmax_t log = fs::file_size(fs::path(path) += "-wal", none);
-  return code == SQLITE_OK && !none && log > 0 ? settle(*database) : code;
+  return code == SQLITE_OK && has_log(path) ? settle(*database) : code;
 }
 
 bool WorldFile::State::find_info() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 #include "world/vdb/answer.h"
@@ -33,6 +34,24 @@ Result<std::vector<VolumeGrid>> read(const std::filesystem::path& path, const Re
 }
 
 }  // namespace
+
+std::string metadata_doubt(const std::vector<VolumeGrid>& grids) {
+  constexpr double kAllowed = 1.0 / 32.0, kOfEmptyTrees = 4096.0;
+  const VolumeGrid* first = nullptr;
+  std::size_t count = 0;
+  for (const VolumeGrid& grid : grids) {
+    const auto stated = static_cast<double>(grid.stated_memory_bytes);
+    const double off = std::abs(static_cast<double>(grid.memory_bytes) - stated);
+    if (grid.stated_memory_bytes == 0 || off <= kAllowed * stated + kOfEmptyTrees) continue;
+    if (count++ == 0) first = &grid;
+  }
+  if (!first) return {};
+  return fmt::format(
+      "grid '{}'{} may be damaged: it states {} bytes of memory and takes {}; "
+      "compare the file with its source",
+      first->name, count > 1 ? fmt::format(" and {} more", count - 1) : "",
+      first->stated_memory_bytes, first->memory_bytes);
+}
 
 ReadLimits limits_for(std::uint64_t file_bytes, const ReadLimits& most) {
   constexpr std::uint64_t kMiB = 1 << 20;

@@ -85,6 +85,12 @@ struct ReadLimits {
   double wall_s = 120.0;
 };
 
+/// What makes grids that could be read look damaged, in one line without the file's name; empty:
+/// nothing. The memory of a tree follows from its nodes, and versions of OpenVDB differ by less
+/// than one percent in what they state of it. Active voxels and their box are held against the
+/// metadata when a file is read, which refuses it.
+std::string metadata_doubt(const std::vector<VolumeGrid>& grids);
+
 /// What a file of a size can rightly need, and no more than `most`: OpenVDB makes room for what a
 /// file states before it finds that there is no such thing in it. The nodes of a tree take up to
 /// 100 times their masks in the file, which are never compressed.

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "game/scene_file/parse.h"
 #include "tools/skerry/scene/progress.h"
 #include "tools/skerry/scene/scene_device.h"
 #include "world/vdb_import/grid_choice.h"
@@ -144,6 +146,8 @@ int vdb_info(const std::filesystem::path& file, bool json) {
       world::read_vdb(file, {}, [&bar](double share) { bar.show(share, "reading"); });
   bar.clear();
   if (!grids) return fail(kFailed, grids.error());
+  if (const std::string doubt = world::metadata_doubt(*grids); !doubt.empty())
+    fmt::print(stderr, "skerry: {}: {}\n", game::quote_text(file.string()), doubt);
   json ? print_json(*grids) : print_table(*grids);
   return 0;
 }
