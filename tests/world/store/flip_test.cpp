@@ -1,7 +1,6 @@
 // Any one bit of a world's file or of its log is flipped, at rest and as kills leave them: what was
 // saved is read, or the damage is told. SKERRY_FLIPS=4000 makes it the long run of docs/saving.md.
-#include <sqlite3.h>
-
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
@@ -54,22 +53,6 @@ void change(WorldFile& file, Rng& rng, Save& save) {
   transaction.put_value("play", std::as_bytes(std::span(save.play)));
   EXPECT_TRUE(transaction.commit());
 }
-
-/// Keeps what is committed now from leaving the log.
-class HeldReader {
- public:
-  explicit HeldReader(const fs::path& path) {
-    sqlite3_open(path.c_str(), &db_);
-    EXPECT_EQ(sqlite3_exec(db_, "BEGIN; SELECT * FROM value", nullptr, nullptr, nullptr),
-              SQLITE_OK);
-  }
-  ~HeldReader() { sqlite3_close(db_); }
-  HeldReader(const HeldReader&) = delete;
-  HeldReader& operator=(const HeldReader&) = delete;
-
- private:
-  sqlite3* db_ = nullptr;
-};
 
 std::uint32_t page_of_frame(const std::string& log, std::size_t frame) {
   std::uint32_t page = 0;
@@ -238,7 +221,9 @@ TEST(FlippedBit, OfFileOrLogIsToldOrHarmless) {
     for (std::size_t at = kLogHeader; at + kFrameHeader <= left.log.size(); at += kFrame)
       parts.push_back({&left, true, at, std::min(kFrame, left.log.size() - at)});
   }
-  if (asked) EXPECT_GE(most, parts.size()) << "not every page gets one";
+  if (asked) {
+    EXPECT_GE(most, parts.size()) << "not every page gets one";
+  }
   Rng rng(22);
   Tally tally;
   for (std::size_t i = 0; i < most; ++i) {

@@ -83,7 +83,7 @@ TEST(KillTest, WhatWasCommittedOutlivesTheProcess) {
     const pid_t child = ::fork();
     if (child == 0) edit_for_ever(path, last + 1, told[1]);
     ::close(told[1]);
-    std::this_thread::sleep_for(std::chrono::microseconds(rng.in(0, 60'000)));
+    std::this_thread::sleep_for(std::chrono::microseconds(rng.in(0, 200'000)));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     std::uint64_t committed = last;

@@ -80,6 +80,22 @@ inline void run_sql(const std::filesystem::path& path, const std::string& sql) {
   sqlite3_close(db);
 }
 
+/// Keeps what is committed from now on from leaving the log. Each commit waits two seconds for it.
+class HeldReader {
+ public:
+  explicit HeldReader(const std::filesystem::path& path) {
+    sqlite3_open(path.c_str(), &db_);
+    EXPECT_EQ(sqlite3_exec(db_, "BEGIN; SELECT * FROM value", nullptr, nullptr, nullptr),
+              SQLITE_OK);
+  }
+  ~HeldReader() { sqlite3_close(db_); }
+  HeldReader(const HeldReader&) = delete;
+  HeldReader& operator=(const HeldReader&) = delete;
+
+ private:
+  sqlite3* db_ = nullptr;
+};
+
 inline void expect_refused(const std::filesystem::path& path, WorldFile::Mode mode,
                            std::string_view why) {
   const auto file = WorldFile::open(path, mode);

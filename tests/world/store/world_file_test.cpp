@@ -329,10 +329,12 @@ TEST(WorldFile, TheLogOfAWorldThatIsNoMoreIsNotReadIntoANewOne) {
   {
     auto file = WorldFile::create(path, info_of_seed_4());
     ASSERT_TRUE(file);
+    const HeldReader reader(path);
     auto transaction = (*file)->begin();
     transaction.put_island({spec_of(77), true});
     ASSERT_TRUE(transaction.commit());
     fs::copy_file(log, aside);
+    ASSERT_GT(fs::file_size(aside), 0u);
   }
   fs::remove(path);
   fs::rename(aside, log);
