@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <future>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -33,8 +34,8 @@ constexpr std::chrono::seconds kMostWork{2};
 struct Registry {
   std::mutex mutex;
   std::multiset<std::filesystem::path> paths;
-  std::mutex works_mutex;  // never taken while the other is held
-  std::list<std::function<bool()>> works;
+  std::mutex works_mutex;                              // never taken while the other is held
+  std::map<const void*, std::function<bool()>> works;  // by who wants it
 };
 
 /// Never destroyed: the thread may outlive main().
@@ -75,7 +76,7 @@ bool do_works() {
     // Never given back: nobody may drop what is at work.
     registry().works_mutex.lock();
     bool all = true;
-    for (const std::function<bool()>& work : registry().works) all = work() && all;
+    for (const auto& [owner_of_work, work] : registry().works) all = work() && all;
     done->set_value(all);
   }).detach();
   if (result.wait_for(kMostWork) == std::future_status::ready) return result.get();
@@ -140,12 +141,12 @@ DoneWhenInterrupted::DoneWhenInterrupted(std::function<bool()> work) {
     listen();
   }
   const std::lock_guard lock(registry().works_mutex);
-  work_ = registry().works.insert(registry().works.end(), std::move(work));
+  registry().works.emplace(this, std::move(work));
 }
 
 DoneWhenInterrupted::~DoneWhenInterrupted() {
   const std::lock_guard lock(registry().works_mutex);
-  registry().works.erase(work_);
+  registry().works.erase(this);
 }
 
 RemovedWhenInterrupted::~RemovedWhenInterrupted() {

@@ -1,7 +1,6 @@
 #pragma once
 #include <filesystem>
 #include <functional>
-#include <list>
 
 namespace skerry {
 
@@ -32,9 +31,6 @@ class DoneWhenInterrupted {
   ~DoneWhenInterrupted();
   DoneWhenInterrupted(const DoneWhenInterrupted&) = delete;
   DoneWhenInterrupted& operator=(const DoneWhenInterrupted&) = delete;
-
- private:
-  std::list<std::function<bool()>>::iterator work_;
 };
 
 /// Does something that no removal may begin in the midst of; when one has begun, this does not

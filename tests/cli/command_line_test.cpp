@@ -169,7 +169,7 @@ TEST(CommandLine, APipeThatNobodyWritesIsNoScene) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   expect_refusal(run({"shot", "--scene", pipe}), 1, {pipe, "within 10 s"}, "scene");
   expect_refusal(run({"shot", "--world", pipe}), 1, {pipe, "no file"}, "world");
-  expect_refusal(run({"test", pipe}), 1, {}, "test");
+  expect_refusal(run({"test", pipe}), 2, {pipe, "within 10 s"}, "test");
 }
 
 TEST(CommandLine, ACacheFolderThatIsAFileIsToldInOneWarning) {

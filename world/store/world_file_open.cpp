@@ -121,8 +121,10 @@ bool has_log(const fs::path& path) {
 /// Opens for reading, from read-only media and folders, too.
 std::optional<Database> open_to_read(const fs::path& path, int& code) {
   // Who may write takes log and index away again at the end, and has nothing to write here without
-  // a log. With one, reading must not bring it into the file.
-  const int how = has_log(path) ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+  // a log or journal. With one, reading must not bring it into the file.
+  std::error_code missing;
+  const bool pending = has_log(path) || fs::exists(fs::path(path) += "-journal", missing);
+  const int how = pending ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
   std::optional<Database> file = Database::open(path.string(), how, code);
   std::int64_t version = 0;
   if (file) code = file->run("PRAGMA query_only = ON");
