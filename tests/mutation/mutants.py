@@ -89,7 +89,7 @@ MUTANTS = (
     Mutant("sky_doubled", "the sky sends twice its light", "engine/render/sky/sky_irradiance.cpp",
            "2.0 * std::numbers::pi / sum", "4.0 * std::numbers::pi / sum", "day dusk"),
     Mutant("sky_not_turned", "turned islands have the sky of others", "engine/render/sky/sky_irradiance.cpp",
-           "cube.at(world_from_lattice * sample.direction)", "cube.at(sample.direction)", "turned moonlit"),
+           "cube.at(world_from_lattice * sample.direction)", "cube.at(sample.direction)", "turned_islands dusk"),
     Mutant("sky_below", "the sky shines from below", "engine/render/sky/sky_irradiance.cpp",
            "cube.at(world_from_lattice * sample.direction)", "cube.at(-(world_from_lattice * sample.direction))", "day dusk"),
     Mutant("sky_through_one_wall", "light slips through one voxel of each line", "world/light/sky_transfer.cpp",
