@@ -156,8 +156,7 @@ Result<Rows> full_arena(gpu::Device& device) {
   for (int i = 0; i < 3; ++i)
     if (const auto again = (*stage)->draw(in, settings, kSize); !again) return again.error();
   const auto refilled = store.add((*stage)->renderer().mesh_uploader(), chunk.section, chunk.quads);
-  const bool unclear =
-      room < kMostChunks && refusal.find("quad arena is full") == std::string::npos;
+  const bool unclear = room < kMostChunks && refusal.find("is full") == std::string::npos;
   return Rows{{"checkerboard chunks refused although they fit", 0.0,
                static_cast<double>(wanted) - static_cast<double>(added.size())},
               {"checkerboard chunks taken beyond what the device allows", 0.0,
