@@ -29,6 +29,7 @@ constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
 constexpr std::array<std::string_view, 4> kTileNames{"8", "16", "32", "64"};
 constexpr std::array<std::string_view, 2> kResolutionNames{"full", "half"};
 constexpr std::array<std::string_view, 3> kPrecisionNames{"8", "16", "32"};
+constexpr std::array<std::string_view, 3> kRateNames{"1", "2", "4"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{
@@ -466,6 +467,22 @@ constexpr SettingKey kKeys[] = {
      [](const Settings& s) {
        return std::string(kShadingNames[static_cast<std::size_t>(s.shading)]);
      }},
+    {"shading.rate", "1, 2 or 4",
+     "Pixels along a block whose light is worked out once where its neighbours agree; textures and "
+     "edges keep every pixel.",
+     [](std::string_view t, Settings& s) {
+       const auto name = parse_name(t, "shading.rate", kRateNames);
+       if (!name) return Result<void>(name.error());
+       return into(parse_integer(kRateNames[*name], "shading.rate", 1, 4), s.shading_rate);
+     },
+     [](const Settings& s) { return std::to_string(s.shading_rate); }},
+    {"shading.tolerance", "0 to 1",
+     "Light that may differ within such a block, as a share of the brightest. 0: every pixel is "
+     "lit by itself where light differs at all.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "shading.tolerance", 0.0, 1.0), s.shading_tolerance);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.shading_tolerance); }},
     {"debug.view",
      "none, albedo, normal, position, metadata, emissive, depth, cascades, shadow, ao, clusters, "
      "light_count or exposure",

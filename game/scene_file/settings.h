@@ -58,6 +58,8 @@ struct Settings {
   render::CloudSettings clouds;
   RendererKind renderer = RendererKind::kAuto;
   Shading shading = Shading::kPbr;
+  std::uint32_t shading_rate = 1;  ///< pixels along a block that is lit once: 1, 2 or 4
+  double shading_tolerance = 0.1;  ///< light that may differ within such a block, 0 .. 1
   DebugView debug_view = DebugView::kNone;
   UploadMode upload_path = UploadMode::kUpdate;
   std::uint64_t upload_budget_bytes = 8u << 20;    ///< a frame, 65536 .. 2^30

@@ -497,6 +497,8 @@ render::RenderSettings SceneView::render_settings(
   out.indirect = settings_.indirect;
   out.corner_darkening = static_cast<float>(settings_.ao_strength);
   out.texture_taps = static_cast<int>(settings_.texture_taps);
+  out.shading_rate = static_cast<int>(settings_.shading_rate);
+  out.shading_tolerance = static_cast<float>(settings_.shading_tolerance);
   out.flat_shading = settings_.shading == Shading::kFlat;
   out.translucent_layers = static_cast<int>(settings_.water_layers);
   out.gbuffer = settings_.gbuffer;

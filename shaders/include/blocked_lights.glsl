@@ -3,43 +3,68 @@
 #ifndef SKERRY_BLOCKED_LIGHTS_GLSL
 #define SKERRY_BLOCKED_LIGHTS_GLSL
 
+// What is summed: radiance of a surface; or, of a surface of any albedo, that of a black one and of a white one (light_samples.glsl).
+#ifdef SKERRY_ANY_ALBEDO
+struct BrdfPair {
+  Brdf black;
+  Brdf white;
+};
+#define Reflectance BrdfPair
+#define Reflected mat2x3
+Reflected sent_to_eye(Light light, BrdfPair b, WayStart start, vec3 to_eye) {
+  return mat2x3(light_reflected(light, b.black, start.position, start.normal, to_eye),
+                light_reflected(light, b.white, start.position, start.normal, to_eye));
+}
+// Of a surface of average albedo.
+float strength_of(Reflected sent) { return luminance(mix(sent[0], sent[1], 0.3)); }
+Reflected not_negative(Reflected sent) { return mat2x3(max(sent[0], vec3(0.0)), max(sent[1], vec3(0.0))); }
+#else
+#define Reflectance Brdf
+#define Reflected vec3
+Reflected sent_to_eye(Light light, Brdf b, WayStart start, vec3 to_eye) {
+  return light_reflected(light, b, start.position, start.normal, to_eye);
+}
+float strength_of(Reflected sent) { return luminance(sent); }
+Reflected not_negative(Reflected sent) { return max(sent, vec3(0.0)); }
+#endif
+
 // Walls are looked for before the strongest lights alone. What arrives of them stands for the others: those are dimmed by the same share, so
 // that a closed room stays dark.
-vec3 strongest_blocked(Cluster list, Brdf b, WayStart start, vec3 to_eye) {
+Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to_eye) {
   Strongest strongest = no_lights();
-  vec3 others = vec3(0.0);
+  Reflected others = Reflected(0.0);
   for (uint i = 0u; i < list.count; ++i) {
     uint light = light_index(list, i);
-    vec3 part = light_reflected(lights[light], b, start.position, start.normal, to_eye);
+    Reflected part = sent_to_eye(lights[light], b, start, to_eye);
     others += part;
-    add_strength(strongest, luminance(part), light);
+    add_strength(strongest, strength_of(part), light);
   }
-  vec3 arrived = vec3(0.0);
+  Reflected arrived = Reflected(0.0);
   float asked = 0.0, through = 0.0;
   for (uint k = 0u; k < min(kTracedLights, kMostTraced); ++k) {
     if (strongest.strengths[k] <= 0.0) continue;
     Light light = lights[strongest.lights[k]];
-    vec3 part = light_reflected(light, b, start.position, start.normal, to_eye);
+    Reflected part = sent_to_eye(light, b, start, to_eye);
     float visibility = traced_visibility(start, light);
     others -= part;
     arrived += part * visibility;
     asked += strongest.strengths[k];
     through += strongest.strengths[k] * visibility;
   }
-  return arrived + max(others, vec3(0.0)) * (asked > 0.0 ? through / asked : 1.0);
+  return arrived + not_negative(others) * (asked > 0.0 ? through / asked : 1.0);
 }
 
-vec3 light_past_walls(Light light, Brdf b, WayStart start, vec3 to_eye) {
-  if (out_of_range(light, start.position)) return vec3(0.0);
-  vec3 part = light_reflected(light, b, start.position, start.normal, to_eye);
-  if (kTracedLights != 0u && part != vec3(0.0)) part *= traced_visibility(start, light);
+Reflected light_past_walls(Light light, Reflectance b, WayStart start, vec3 to_eye) {
+  if (out_of_range(light, start.position)) return Reflected(0.0);
+  Reflected part = sent_to_eye(light, b, start, to_eye);
+  if (kTracedLights != 0u && part != Reflected(0.0)) part *= traced_visibility(start, light);
   return part;
 }
 
 // Radiance that a surface sends to the eye. Nothing is marched for lights that do not light it.
-vec3 lights_reflected(Cluster list, Brdf b, WayStart start, vec3 to_eye) {
+Reflected lights_reflected(Cluster list, Reflectance b, WayStart start, vec3 to_eye) {
   if (kTracedLights != 0u && kTracedLights != kEveryLight) return strongest_blocked(list, b, start, to_eye);
-  vec3 sum = vec3(0.0);
+  Reflected sum = Reflected(0.0);
   // Two a round for the oracle: lavapipe ends loops after 65,535 rounds.
   for (uint i = 0u; i < list.count; ++i) {
     sum += light_past_walls(lights[light_index(list, i)], b, start, to_eye);

@@ -71,16 +71,13 @@ vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
 // Depth of a surface. What 16 bits round to 0 lies half a step before infinity.
 float surface_depth(float depth) { return kDepth16 ? max(depth, 0.5 / 65535.0) : depth; }
 
-// @param pixel where the word is from. @param depth of the surface, greater than 0.
-Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_taps) {
+// Without its albedo and what comes of that. @param pixel where the word is from. @param depth of the surface, greater than 0.
+Surface surface_without_texture(uint word, ivec2 pixel, float depth, vec3 ray) {
   float t = view_distance(depth, frame.near_plane);
   Surface s;
   s.position = ray * t;
 #ifdef SKERRY_STORED
-  if (kPositionStored && word != 0u) {
-    s.position = texelFetch(stored_positions, pixel, 0).xyz;
-    t = dot(s.position, frame.ray_forward);
-  }
+  if (kPositionStored && word != 0u) s.position = texelFetch(stored_positions, pixel, 0).xyz;
 #endif
   s.normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
 #ifdef SKERRY_STORED
@@ -93,10 +90,22 @@ Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_
   s.axis_y = island.axis_y;
   s.axis_z = island.axis_z;
   s.openness = 1.0;
-  s.albedo = surface_texel(word, ray, t, max_taps).rgb;
-  s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
+  s.albedo = vec3(0.0);
+  s.emitted = vec3(0.0);
   s.roughness = materials[surface_block(word)].roughness;
   s.metalness = materials[surface_block(word)].metalness;
+  return s;
+}
+
+// @param pixel where the word is from. @param depth of the surface, greater than 0.
+Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_taps) {
+  Surface s = surface_without_texture(word, pixel, depth, ray);
+  float t = view_distance(depth, frame.near_plane);
+#ifdef SKERRY_STORED
+  if (kPositionStored && word != 0u) t = dot(s.position, frame.ray_forward);
+#endif
+  s.albedo = surface_texel(word, ray, t, max_taps).rgb;
+  s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
   return s;
 }
 #endif

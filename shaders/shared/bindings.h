@@ -91,5 +91,11 @@ SHARED_CONST uint kOverlayPicturesBinding = 68u;
 
 SHARED_CONST uint kTargetBinding = 69u;    // of shading: radiance, or the picture at once
 SHARED_CONST uint kIndirectBinding = 70u;  // texels of shared/indirect.h
+
+// Light at fewer pixels than are drawn.
+SHARED_CONST uint kCoarserSamplesBinding = 71u;  // of the next coarser level
+SHARED_CONST uint kOwnSamplesBinding = 72u;      // of the level that is worked on
+SHARED_CONST uint kListedBinding = 73u;          // TileDispatch of the pixels that are listed
+SHARED_CONST uint kListedPixelsBinding = 74u;    // x in bits 0-15, y in bits 16-31
 SHARED_END
 #endif

@@ -104,10 +104,13 @@ struct RenderSettings {
   float shadow_penumbra_blocks = 0.15f;
   bool flat_shading = false;  ///< shadow result times light colour, no N.L and no corners
   float corner_darkening =
-      0.5f;                    ///< share of light that a closed corner takes, 0..1; 0: no corners
+      0.5f;  ///< share of light that a closed corner takes, 0..1; 0: no corners
   Indirect indirect = Indirect::kFull;
-  int texture_taps = 2;        ///< samples along the long side of a texture footprint, 1..16
-  int translucent_layers = 3;  ///< nearest surfaces of water and glass kept a pixel, 1..4
+  /// Pixels along a block whose light is worked out once where its neighbours agree: 1, 2 or 4.
+  int shading_rate = 1;
+  float shading_tolerance = 0.1f;  ///< how much light may differ between them, of the brightest
+  int texture_taps = 2;            ///< samples along the long side of a texture footprint, 1..16
+  int translucent_layers = 3;      ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;
   MeterSettings meter;
   BloomSettings bloom;

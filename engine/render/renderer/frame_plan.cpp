@@ -14,4 +14,12 @@ bool FramePlan::lights() const {
   return geometry && wanted && contents.features.has(Feature::kLights);
 }
 
+bool FramePlan::sampled() const {
+  const GBufferStore& store = settings.gbuffer;
+  const bool stored =
+      store.normal != NormalStore::kExact || store.position != PositionStore::kDepth;
+  return geometry && settings.shading_rate > 1 && samples_per_edge(settings) == 1 && !stored &&
+         !shows_channel();
+}
+
 }  // namespace skerry::render

@@ -41,7 +41,8 @@ struct FramePlan {
 
   bool shows_channel() const;  ///< a debug view takes the place of the lit scene
   bool last_part() const { return input.part + 1 == input.parts; }
-  bool lights() const;  ///< the frame's lights are sorted
+  bool lights() const;   ///< the frame's lights are sorted
+  bool sampled() const;  ///< light is worked out at fewer pixels than are drawn
 };
 
 }  // namespace skerry::render

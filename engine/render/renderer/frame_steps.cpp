@@ -59,8 +59,9 @@ const char* needs_clouds(const FramePlan& plan) {
   return needs(plan.clouds && !plan.shows_channel());
 }
 
+/// Light at fewer pixels is that of lights as well.
 const char* needs_lights(const FramePlan& plan) {
-  return needs(plan.lights() && !plan.shows_channel());
+  return needs(plan.lights() && !plan.shows_channel() && !plan.sampled());
 }
 
 /// Clouds that water mirrors need an eye in the open, and a sky to be mirrored.
@@ -173,11 +174,15 @@ void light_clouds(FrameAssembly& f) {
 
 ShadeIn shade_in(const FramePlan& plan) {
   const FrameFeatures& features = plan.contents.features;
-  return {plan.settings.texture_taps, features.has(Feature::kStars), features.has(Feature::kDiscs)};
+  return {plan.settings.texture_taps, features.has(Feature::kStars), features.has(Feature::kDiscs),
+          std::nullopt};
 }
 
 void shade(FrameAssembly& f) {
-  const ShadeIn in = shade_in(f.plan);
+  ShadeIn in = shade_in(f.plan);
+  if (f.plan.sampled())
+    in.sampled.emplace(SampledLight{f.lights_or_null(), f.plan.settings,
+                                    static_cast<std::uint32_t>(f.plan.settings.shading_rate)});
   gpu::Image& picture = f.owners.picture.image();
   if (f.plan.geometry && f.plan.direct)
     f.developed = ShadePass::add_to_picture(f.graph, f.pipelines, f.scene, *f.geometry, *f.shadows,

@@ -125,7 +125,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.tables.constants.picture_size = {request.size.width, request.size.height};
   plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky, facts);
   plan.corners = facts.occupancy && settings.corner_darkening > 0.0f && !settings.flat_shading;
-  plan.direct = !plan.shows_channel() &&
+  plan.direct = !plan.shows_channel() && !plan.sampled() &&
                 !(plan.geometry && plan.contents.features.has(Feature::kWater)) &&
                 !by_radiance(plan.input, settings, plan.contents.features);
   plan.marked_slices = marked_slices(plan.input, plan.contents);

@@ -34,14 +34,20 @@ std::vector<gpu::SpecConstant> constants_of_sky(const ShadeIn& in) {
           {shared::kDiscsConstant, in.discs ? 1u : 0u}};
 }
 
-/// Adds surfaces and sky, both into `target`. @return its last version.
-gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const Geometry& geometry, const Shadows& shadows, const ShadeIn& in,
-                    gpu::ImageRef target, bool to_picture) {
-  const Tiles tiles =
-      classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size);
-  const SurfaceReads surfaces(geometry);
-  const gpu::ImageRef maps = shadows.maps();
+/// What shading writes to.
+struct Target {
+  gpu::ImageRef image;
+  bool to_picture = false;
+};
+
+/// Adds surfaces, at every pixel of their tiles.
+void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const ShadeIn& in, const SampleIn& on, Target& into) {
+  const Tiles& tiles = on.tiles;
+  gpu::ImageRef& target = into.image;
+  const bool to_picture = into.to_picture;
+  const SurfaceReads surfaces(on.geometry);
+  const gpu::ImageRef maps = on.shadows.maps();
   const OccupancyReads occupancy(scene, scene.corners && scene.bodies != 0);
   const CloudRefs clouds = clouds_before_light(scene);
   const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
@@ -88,9 +94,17 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         c.storage(shared::kExposureBinding, exposure_or_other(scene, to_picture));
         dispatch_tiles(c, tiles, TileKind::kCovered);
       });
+}
+
+/// Adds sky to the pixels without a surface.
+void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+               const ShadeIn& in, const SampleIn& on, Target& into) {
+  gpu::ImageRef& target = into.image;
+  const bool to_picture = into.to_picture;
   const gpu::Pipeline& sky_pipeline = pipelines.get(
       gpu::ComputeDesc{programs::kShadeSky, with_target(constants_of_sky(in), scene, to_picture)});
-  const gpu::ImageRef words = geometry.surfaces();
+  const Tiles& tiles = on.tiles;
+  const gpu::ImageRef words = on.geometry.surfaces();
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
@@ -113,7 +127,21 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         c.storage(shared::kExposureBinding, exposure_or_other(scene, to_picture));
         dispatch_tiles(c, tiles, TileKind::kOpen);
       });
-  return target;
+}
+
+/// Adds surfaces and sky, both into `target`. @return its last version.
+gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const Geometry& geometry, const Shadows& shadows, const ShadeIn& in,
+                    Target target) {
+  const SampleIn on{
+      geometry, shadows,
+      classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size)};
+  if (in.sampled)
+    target.image = add_sample_passes(graph, pipelines, scene, on, *in.sampled, target.image);
+  else
+    shade_surfaces(graph, pipelines, scene, in, on, target);
+  shade_sky(graph, pipelines, scene, in, on, target);
+  return target.image;
 }
 
 /// Sky for every pixel into `target`. @return its last version.
@@ -164,7 +192,7 @@ gpu::ImageRef radiance(gpu::FrameGraph& graph, const SceneRefs& scene) {
 Shaded ShadePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                       const Geometry& geometry, const Shadows& shadows, const ShadeIn& in) {
   return Shaded(
-      shade(graph, pipelines, scene, geometry, shadows, in, radiance(graph, scene), false));
+      shade(graph, pipelines, scene, geometry, shadows, in, {radiance(graph, scene), false}));
 }
 
 Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
@@ -172,7 +200,7 @@ Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipe
                                     const Shadows& shadows, const ShadeIn& in,
                                     gpu::Image& picture) {
   return Developed(
-      shade(graph, pipelines, scene, geometry, shadows, in, graph.import(picture), true));
+      shade(graph, pipelines, scene, geometry, shadows, in, {graph.import(picture), true}));
 }
 
 Shaded ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,

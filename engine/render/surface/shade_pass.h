@@ -1,6 +1,9 @@
 #pragma once
+#include <optional>
+
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/scene_refs.h"
+#include "engine/render/surface/sample_pass.h"
 
 namespace skerry::gpu {
 class Image;
@@ -12,6 +15,8 @@ struct ShadeIn {
   int texture_taps = 2;  ///< samples along the long side of a texture footprint
   bool stars = false;    ///< whether any star can be seen
   bool discs = true;     ///< whether the sun's or the moon's disc may be in the picture
+  /// None: the sun and the moon light every pixel. Else add() lights fewer, with the lights too.
+  std::optional<SampledLight> sampled{};
 };
 
 /// Light for every pixel, in compute, by tiles: surfaces under sun and moon, sky elsewhere.

@@ -81,6 +81,13 @@ constexpr TopicPoint kTextureTaps[] = {{"1", "texture.taps=1"},
                                        {"4", "texture.taps=4"},
                                        {"8", "texture.taps=8"},
                                        {"16", "texture.taps=16"}};
+constexpr TopicPoint kShadingRates[] = {{"4, 0.3", "shading.rate=4 shading.tolerance=0.3"},
+                                        {"4, 0.1", "shading.rate=4 shading.tolerance=0.1"},
+                                        {"4, 0.03", "shading.rate=4 shading.tolerance=0.03"},
+                                        {"2, 0.3", "shading.rate=2 shading.tolerance=0.3"},
+                                        {"2, 0.1", "shading.rate=2 shading.tolerance=0.1"},
+                                        {"2, 0.03", "shading.rate=2 shading.tolerance=0.03"},
+                                        {"1", "shading.rate=1"}};
 constexpr TopicPoint kCorners[] = {
     {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
@@ -137,6 +144,7 @@ constexpr TopicPoint kCloudPrecisions[] = {
     {"8", "clouds.precision=8"}, {"16", "clouds.precision=16"}, {"32", "clouds.precision=32"}};
 
 constexpr std::string_view kShadowScenes[] = {"day", "low_sun", "water"};
+constexpr std::string_view kLitScenes[] = {"day", "low_sun", "water", "torches"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kGlow[] = {"lava"};
@@ -166,6 +174,8 @@ constexpr Topic kTopics[] = {
      CostOf::kFrame, true, "view.distance=4000"},
     {"view_detail", "blocks up to which everything is drawn in full detail", kDetails, kFar,
      Judge::kReference, CostOf::kFrame, true},
+    {"shading_rate", "pixels that share light where it is alike, and how much it may differ",
+     kShadingRates, kLitScenes, Judge::kLimit, CostOf::kShading},
     {"ao", "how much light a closed corner of blocks takes", kCorners, kShadowScenes,
      Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,

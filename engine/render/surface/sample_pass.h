@@ -1,0 +1,31 @@
+#pragma once
+#include "engine/render/frame/phases.h"
+#include "engine/render/frame/scene_refs.h"
+#include "engine/render/light/light_clusters.h"
+#include "engine/render/scene/tiles.h"
+
+namespace skerry::render {
+
+/// What a frame's opaque surfaces are shaded from.
+struct SampleIn {
+  const Geometry& geometry;
+  const Shadows& shadows;
+  Tiles tiles;  ///< of the geometry
+};
+
+/// Light at fewer pixels than are drawn.
+struct SampledLight {
+  const ClusteredLights* lights;  ///< null: the frame has none
+  const RenderSettings& settings;
+  std::uint32_t rate;  ///< pixels along a block that is lit once where its neighbours agree: 2, 4
+};
+
+/// Light of sun, moon and lamps on opaque surfaces, worked out at one pixel of each rate x rate and
+/// wherever its neighbours on the same plane do not agree. Textures are sampled at every pixel.
+/// docs/decisions/0030-light-at-fewer-pixels.md. @pre normals and positions are not kept.
+/// @return the last version of `radiance`.
+gpu::ImageRef add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                                const SampleIn& on, const SampledLight& light,
+                                gpu::ImageRef radiance);
+
+}  // namespace skerry::render
