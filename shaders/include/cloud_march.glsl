@@ -1,7 +1,6 @@
 // The march of a ray through all clouds, front to back; analytic within a step, so that no step length loses or makes light (Hillaire,
 // Physically Based Sky, Atmosphere and Cloud Rendering in Frostbite, 2016). Needs before the include: `frame`, `sky_lut`, what
-// cloud_light.glsl, cloud_layer.glsl, cloud_volumes.glsl and reflection.glsl have; with SKERRY_SHADOWS what shadow.glsl has; with SKERRY_LIGHTS what
-// clustered.glsl and traced.glsl have.
+// cloud_light.glsl, cloud_layer.glsl, cloud_volumes.glsl and visibility.glsl have; with SKERRY_LIGHTS what clustered.glsl and traced.glsl have.
 #ifndef SKERRY_CLOUD_MARCH_GLSL
 #define SKERRY_CLOUD_MARCH_GLSL
 #include "shared/constants.h"

@@ -1,4 +1,4 @@
-// What march_clouds*.comp and blend_clouds*.comp share: what a pixel's ray has before it.
+// What march_clouds.comp and blend_clouds.comp share: what a pixel's ray has before it.
 #define SKERRY_LIGHTS
 #include "shared/constants.h"
 #include "include/cloud_ray.glsl"

@@ -1,4 +1,4 @@
-// Body of write_cutout*.frag: leaves and plants, the same as opaque geometry where the texture's alpha covers the pixel.
+// Body of write_cutout.frag and write_cutout_stored.frag: leaves and plants, the same as opaque geometry where the texture's alpha covers the pixel.
 #include "shared/bindings.h"
 #include "shared/constants.h"
 #include "include/common.glsl"

@@ -64,7 +64,7 @@ class BloomOnGpu : public PostOnGpu {
     PostOnGpu::TearDown();
   }
 
-  /// What develop_bloom.comp adds to each exposed pixel.
+  /// What develop.comp adds to each exposed pixel.
   Picture glow(const Picture& picture, const BloomSettings& settings) {
     gpu::Buffer out = room("glow", picture.pixels.size() * sizeof(glm::vec3));
     shared::Exposure given{};
