@@ -32,7 +32,7 @@ class CheckTidy(unittest.TestCase):
         commands = [{"directory": str(self.root), "file": str(self.root / name),
                      "command": f"c++ -std=c++20 -c {self.root / name}"}
                     for name in ("tools/sound.cpp", "tools/dangles.cpp")]
-        self.write("build/release/compile_commands.json", json.dumps(commands))
+        self.write("build/tidy/compile_commands.json", json.dumps(commands))
         self.write(".gitignore", "/build/\n")
         for words in (["init", "--quiet"], ["add", "--all"], ["commit", "--quiet", "-m", "all"]):
             self.git(*words)

@@ -16,6 +16,7 @@ namespace skerry::render {
 namespace {
 
 constexpr std::uint32_t kFramesInFlight = 2;
+constexpr std::uint64_t kLeastWorldBytes = std::uint64_t{4} << 20;  // what empty tables take, twice
 
 /// What one frame in flight owns.
 struct Slot {
@@ -52,7 +53,6 @@ struct Renderer::State {
         mesh_uploader(d, desc.upload_path),
         resources(d),
         upload_budget(desc.upload_budget_bytes),
-        arena_quads(desc.arena_quads),
         world_budget(desc.world_budget_bytes != 0 ? desc.world_budget_bytes
                                                   : d.limits().heap_bytes / 8 * 5),
         shadows(d),
@@ -78,7 +78,6 @@ struct Renderer::State {
   gpu::Uploader frame_uploader, mesh_uploader;
   FrameResources resources;
   std::uint64_t upload_budget;
-  std::uint32_t arena_quads;
   MemoryBudget world_budget;  // outlives the stores
   std::unique_ptr<GeometryStore> geometry;
   std::unique_ptr<OccupancyStore> occupancy;  // null: never asked for
@@ -97,7 +96,7 @@ struct Renderer::State {
 
 Result<void> Renderer::State::create(const RendererDesc& desc) {
   Result<std::unique_ptr<GeometryStore>> store =
-      GeometryStore::create(device, world_budget, arena_quads);
+      GeometryStore::create(device, world_budget, desc.arena_quads);
   if (!store) return store.error();
   geometry = *std::move(store);
   if (Result<void> ok = resources.create(frame_uploader, desc.materials); !ok) return ok;
@@ -343,9 +342,9 @@ Result<void> Renderer::restart_world(std::uint64_t bytes) {
   s.history = {};
   s.device.run_now([](VkCommandBuffer) {});  // the old tables are retired until then
   s.device.collect();
-  s.world_budget = MemoryBudget(bytes);
+  s.world_budget = MemoryBudget(std::max(bytes, kLeastWorldBytes));
   Result<std::unique_ptr<GeometryStore>> geometry =
-      GeometryStore::create(s.device, s.world_budget, s.arena_quads);
+      GeometryStore::create(s.device, s.world_budget, kLeastWorldBytes / 4 / sizeof(shared::Quad));
   if (!geometry) return geometry.error();
   s.geometry = *std::move(geometry);
   if (had_occupancy)

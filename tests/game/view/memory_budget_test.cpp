@@ -19,8 +19,8 @@ class SceneMemory : public gpu::GpuTest {
   std::unique_ptr<SceneView> view(std::optional<std::uint32_t> budget_mib) {
     SceneOptions options;
     options.seed_text = "1";
-    options.settings.view_distance = 700;
-    options.settings.view_detail = 400;
+    options.settings.view_distance = 1200;
+    options.settings.view_detail = 1200;
     options.settings.shadow_size = 256;
     options.settings.memory_budget_mib = budget_mib;
     Result<std::unique_ptr<SceneView>> made = SceneView::create(device(), options);

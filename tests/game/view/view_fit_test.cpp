@@ -6,7 +6,7 @@ namespace skerry::game {
 namespace {
 
 constexpr ViewFit::Distances kAsked{1000.0, 200.0};
-const world::WorldPos kHere{}, kFar = world::blocks(500.0, 0.0, 0.0);
+const world::WorldPos kHere{}, kFar = {500 * world::kUnitsPerBlock, 0, 0};
 
 TEST(ViewFit, ShowsWhatIsAskedUntilMemoryRunsOut) {
   ViewFit fit;
@@ -24,7 +24,9 @@ TEST(ViewFit, DetailGivesWayBeforeDistanceAndBothEnd) {
     EXPECT_LE(now.view_blocks, before.view_blocks);
     EXPECT_LE(now.detail_blocks, before.detail_blocks);
     EXPECT_NE(now, before);
-    if (now.view_blocks < kAsked.view_blocks) EXPECT_EQ(now.detail_blocks, 50.0);
+    if (now.view_blocks < kAsked.view_blocks) {
+      EXPECT_EQ(now.detail_blocks, 50.0);
+    }
     before = now;
     ASSERT_LT(++steps, 100);
   }

@@ -169,7 +169,7 @@ TEST(Rows, EveryLinkOfThePageHasItsTarget) {
       1, 1, 5, {"a", "a_name_that_is_longer", "two words", "100%", std::string(300, 'x') + "#?&"});
   const Folder folder;
   const auto page = folder / "index.html";
-  ASSERT_TRUE(platform::write_text(page, test_page(results, folder.path())));
+  ASSERT_TRUE(write_text(page, test_page(results, folder.path())));
   const std::string command = SKERRY_SOURCE_DIR "/tests/tools/page_links.py " + page.string();
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
