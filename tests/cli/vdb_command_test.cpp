@@ -134,14 +134,12 @@ TEST(VdbCommand, ExportsOfADamagedWorldAreAskedFor) {
   SKIP_WITHOUT_OPENVDB();
   const Folder folder;
   const std::string world = make_ball(folder), out = (folder / "out.vdb").string();
-  // Chunks are compressed by zstd: the middle of each is spoiled.
+  // Chunks are compressed by zstd: the middle of one is spoiled.
   std::string bytes = text_of(world);
   const std::string frame = "\x28\xb5\x2f\xfd";
-  std::size_t spoiled = 0;
-  for (std::size_t at = bytes.find(frame); at != std::string::npos && at + 40 < bytes.size();
-       at = bytes.find(frame, at + 1), ++spoiled)
-    bytes[at + 30] = static_cast<char>(bytes[at + 30] ^ 1);
-  ASSERT_GT(spoiled, 0u);
+  const std::size_t at = bytes.find(frame);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 30] = static_cast<char>(bytes[at + 30] ^ 1);
   std::ofstream(world, std::ios::binary) << bytes;
   expect_refusal(run({"vdb", "export", "--world", world, "--out", out}), 1, {"--partial"},
                  "damage");

@@ -51,6 +51,10 @@ class Database {
   std::optional<Statement> prepare(std::string_view sql, int& code);
   /// The one integer that a pragma answers, or an error.
   int integer(const char* sql, std::int64_t& value);
+  /// Closing it leaves file and log as they are: a damaged pair is kept to the byte.
+  void leave_log() {
+    sqlite3_db_config(handle_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  }
   bool read_only() const { return sqlite3_db_readonly(handle_.get(), "main") == 1; }
 
  private:

@@ -306,6 +306,7 @@ bool WorldFile::State::recover() {
   std::optional<fs::path> kept;
   if (found) {
     statements.clear();
+    if (database) database->leave_log();
     database = std::move(rescued);
     version = kVersion;
   }

@@ -20,7 +20,7 @@ inline constexpr std::uint64_t kBoundsLooks = 16, kPaintLooks = 1 << 15;
 
 /// Without a scale or size that the user gave, an import looks no more often than this, and this
 /// for each brick and tile: what they need at one block a voxel, alone in their chunks.
-inline constexpr std::uint64_t kUnaskedLooks = 1 << 26, kLooksPerPart = 1 << 16;
+inline constexpr std::uint64_t kUnaskedLooks = 3 << 26, kLooksPerPart = 1 << 16;
 
 /// What an import has taken so far.
 struct ImportCost {

@@ -62,6 +62,13 @@ void add_clear(gpu::FrameGraph& graph, SampleLevel& level) {
       });
 }
 
+/// The finest level writes no samples: the coarser ones stand in where the shader may write.
+void declare_coarser(gpu::PassBuilder& b, SampleLevel& level) {
+  if (!level.coarser) return;
+  if (level.own) return b.read(level.coarser, Use::kComputeRead);
+  level.coarser = b.write(level.coarser, Use::kComputeWrite);
+}
+
 /// Lists the level's pixels that need light of their own; the others get it at once.
 void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                   const SampleIn& on, SampleLevel& level, gpu::ImageRef& radiance,
@@ -74,7 +81,7 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
-        if (level.coarser) b.read(level.coarser, Use::kComputeRead);
+        declare_coarser(b, level);
         declare_tiles(b, on.tiles);
         level.listed = b.write(level.listed, Use::kComputeWrite);
         level.pixels = b.write(level.pixels, Use::kComputeWrite);
@@ -116,7 +123,6 @@ const gpu::Pipeline& shading_pipeline(gpu::Pipelines& pipelines, const SceneRefs
   constants = clouds_before_light(scene).with_clouds(
       with_corners(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.corners));
   if (light.lights) {
-    constants.push_back({shared::kLitConstant, 1});
     constants = WallReads(scene, light.settings, scene.corners)
                     .with_walls(light.lights->with_lights(std::move(constants)));
   }
@@ -157,7 +163,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         b.read(level.listed, Use::kIndirect);
         b.read(level.listed, Use::kComputeRead);
         b.read(level.pixels, Use::kComputeRead);
-        if (level.coarser) b.read(level.coarser, Use::kComputeRead);
+        declare_coarser(b, level);
         if (level.own) level.own = b.write(level.own, Use::kComputeWrite);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);

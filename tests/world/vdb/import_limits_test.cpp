@@ -107,14 +107,6 @@ TEST(VdbImportLimits, EveryGridOfAFileDrawsOnTheSameLimits) {
   EXPECT_NE(refusal_of({grid, grid, grid}).find("8192 chunks"), std::string::npos);
 }
 
-TEST(VdbImportLimits, WithoutAScaleAFewTilesBuyFewLooks) {
-  VolumeGrid grid;
-  grid.kind = VolumeKind::kIds;
-  grid.world_from_index[1][0] = 300.0;
-  for (int i = 0; i < 4; ++i) grid.tiles.push_back({{0, 4096 * i, 0}, 512, 5.0f});
-  EXPECT_NE(refusal_of({grid}).find("--scale 1"), std::string::npos);
-}
-
 TEST(VdbImportLimits, ManyBlocksOfOneIdUnderASlantAreCounted) {
   VolumeGrid grid;
   grid.kind = VolumeKind::kIds;

@@ -171,7 +171,9 @@ Result<Rows> lamps(gpu::Device& device) {
     by_intensity.non_finite += intensities->non_finite;
     by_range.falls += ranges->falls;
     by_range.non_finite += ranges->non_finite;
-    unlit_kinds += intensities->rises == 0.0 || ranges->rises == 0.0;
+    // A directional light's range says where it ends, not how bright it is.
+    const bool by_distance = kind != shared::kLightDirectional;
+    unlit_kinds += intensities->rises == 0.0 || (by_distance && ranges->rises == 0.0);
   }
   const bool shown = unlit_kinds == 0.0;
   return Rows{{"channels that a brighter light darkens, five kinds, 1e-8 to 1e8", 0.0,
