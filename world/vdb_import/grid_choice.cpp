@@ -27,7 +27,11 @@ bool starts_with_any(const std::string& name, std::initializer_list<std::string_
 
 bool names_block_ids(const VolumeGrid& grid) {
   constexpr std::array<std::string_view, 4> kNames = {"block_id", "block_ids", "ids", "blocks"};
-  const std::string_view name = std::string_view(grid.name).substr(0, grid.name.find('['));
+  std::string_view name = std::string_view(grid.name).substr(0, grid.name.find('['));
+  // Exports of several islands number them: block_id_0, block_id_1 ...
+  if (const std::size_t end = name.find_last_not_of("0123456789");
+      end != std::string_view::npos && end + 1 < name.size() && name[end] == '_')
+    name = name.substr(0, end);
   return std::ranges::find(kNames, name) != kNames.end();
 }
 

@@ -267,6 +267,7 @@ VolumeGrid sorted_grid(std::string name, VolumeKind kind, std::string grid_class
   } else {
     out.tiles = {{{0, 0, 0}, 8, 5.0f}};
     out.active_voxels = 512;
+    out.max_value = 5.0f;
   }
   return out;
 }
@@ -310,8 +311,15 @@ TEST(VdbImport, PassesOverEmptyGridsOfABetterSort) {
   empty_set.kind = VolumeKind::kLevelSet;
   const VolumeGrid smoke = sorted_grid("density", VolumeKind::kFog, "fog volume");
   EXPECT_EQ(importable_grids({empty_ids, empty_set, smoke}), std::vector<std::size_t>{2});
-  EXPECT_EQ(imported({empty_ids, empty_set, smoke}).at(0).grid, "density");
   EXPECT_NE(refusal_of({empty_ids, empty_set}).find("empty"), std::string::npos);
+}
+
+TEST(VdbImport, TakesNumberedBlockIdsBeforeTheirDensity) {
+  const std::vector<VolumeGrid> grids = {sorted_grid("density_0", VolumeKind::kFog, "fog volume"),
+                                         sorted_grid("block_id_0", VolumeKind::kIds),
+                                         sorted_grid("density_1", VolumeKind::kFog, "fog volume"),
+                                         sorted_grid("block_id_12", VolumeKind::kIds)};
+  EXPECT_EQ(importable_grids(grids), (std::vector<std::size_t>{1, 3}));
 }
 
 TEST(VdbImport, TellsWhichGridsItTakesWhichItLeavesAndWhy) {
