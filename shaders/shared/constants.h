@@ -45,8 +45,8 @@ SHARED_CONST uint kAccumulateConstant = 37u;      // bool: adds to the parts bef
 SHARED_CONST uint kIndirectConstant = 38u;      // uint: kIndirectOff, kIndirectSky or kIndirectFull
 SHARED_CONST uint kTracedLightsConstant = 40u;  // uint: lights whose walls are looked for
 SHARED_CONST uint kLightSamplesConstant = 41u;  // uint: ways to a light that has a size
-SHARED_CONST uint kStepConstant = 42u;  // uint: pixels between a level's points
-SHARED_CONST uint kEveryPixelConstant = 43u;  // bool: the level is the picture itself
-SHARED_CONST uint kToleranceConstant = 44u;  // float: how much shared light may differ
+SHARED_CONST uint kStepConstant = 42u;          // uint: pixels between a level's points
+SHARED_CONST uint kEveryPixelConstant = 43u;    // bool: the level is the picture itself
+SHARED_CONST uint kToleranceConstant = 44u;     // float: how much shared light may differ
 SHARED_END
 #endif

@@ -1,15 +1,18 @@
-// Light of the sky that stays in the world, as CPU and GPU share it: for each drawn face, how much of
-// the sky its corners see. docs/decisions/0028-sky-light-on-faces.md.
+// Light of the sky that stays in the world, as CPU and GPU share it: for each drawn face, how much
+// of the sky its corners see. docs/decisions/0028-sky-light-on-faces.md.
 //
-// One buffer of RGBA32_UINT texels. Texel i < kMaxIslands is island i's grid: x lowest chunk (10 bits
-// each of x, y, z from bit 0 up, two's complement), y chunks along x, y, z (8 bits each; 24-31 log2 of
-// a voxel's edge), z first texel of its tables, w 1 if there is one. From kIndirectSkies on: what the
-// sky sends to each face of each island now (SkyIrradiance). From kIndirectFirst on:
-// - a table a chunk of the grid (z fastest, x, y slowest): kIndirectTableTexels, a word a brick of 8^3
+// One buffer of RGBA32_UINT texels. Texel i < kMaxIslands is island i's grid: x lowest chunk (10
+// bits each of x, y, z from bit 0 up, two's complement), y chunks along x, y, z (8 bits each; 24-31
+// log2 of a voxel's edge), z first texel of its tables, w 1 if there is one. From kIndirectSkies
+// on: what the sky sends to each face of each island now (SkyIrradiance). From kIndirectFirst on:
+// - a table a chunk of the grid (z fastest, x, y slowest): kIndirectTableTexels, a word a brick of
+// 8^3
 //   voxels (index z + 8 x + 64 y), the first texel of the brick's masks, or 0: it has no face;
-// - a brick's masks: for each face direction and y of the brick a texel: xy which voxels have the face
+// - a brick's masks: for each face direction and y of the brick a texel: xy which voxels have the
+// face
 //   (x: those with x < 4; bit z + 8 (x % 4)), zw the record of the first of each;
-// - a face's record: two texels with two words a corner, a byte a lobe: share of the lobe that is seen;
+// - a face's record: two texels with two words a corner, a byte a lobe: share of the lobe that is
+// seen;
 //   then a texel with a word a corner: irradiance of weak lamps, shared exponent (9, 9, 9, 5 bits).
 //   Corner b + 2 c, where b and c are 1 at the far end of the axes after the face's own (y, z for x
 //   faces; z, x for y faces; x, y for z faces).
@@ -20,10 +23,9 @@ SHARED_BEGIN
 
 // Ways to the sky that are looked along, in each octant: lattice vectors.
 SHARED_CONST uint kSkyPatternCount = 16u;
-SHARED_CONST ivec3 kSkyPatterns[16] = {{1, 1, 1}, {1, 1, 2}, {1, 2, 1}, {2, 1, 1},
-                                       {1, 2, 2}, {2, 1, 2}, {2, 2, 1}, {1, 1, 4},
-                                       {1, 4, 1}, {4, 1, 1}, {1, 2, 4}, {1, 4, 2},
-                                       {2, 1, 4}, {2, 4, 1}, {4, 1, 2}, {4, 2, 1}};
+SHARED_CONST ivec3 kSkyPatterns[16] = {
+    {1, 1, 1}, {1, 1, 2}, {1, 2, 1}, {2, 1, 1}, {1, 2, 2}, {2, 1, 2}, {2, 2, 1}, {1, 1, 4},
+    {1, 4, 1}, {4, 1, 1}, {1, 2, 4}, {1, 4, 2}, {2, 1, 4}, {2, 4, 1}, {4, 1, 2}, {4, 2, 1}};
 
 // A face's hemisphere has four quarters (bit 0: negative along the axis after its own, bit 1: along
 // the one after that), and each of them two lobes, 2 * quarter + (0 steep, 1 grazing): the cells of
@@ -31,8 +33,9 @@ SHARED_CONST ivec3 kSkyPatterns[16] = {{1, 1, 1}, {1, 1, 2}, {1, 2, 1}, {2, 1, 1
 SHARED_CONST uint kSkyLobes = 8u;
 SHARED_CONST float kSteepCosine = 0.6f;
 
-SHARED_CONST uint kIndirectSkyTexels = 3u;  // a face: red, green, blue; halves of the lobes in order
-SHARED_CONST uint kIndirectSkies = 1024u;   // kMaxIslands
+SHARED_CONST uint kIndirectSkyTexels =
+    3u;                                    // a face: red, green, blue; halves of the lobes in order
+SHARED_CONST uint kIndirectSkies = 1024u;  // kMaxIslands
 SHARED_CONST uint kIndirectFirst = 19456u;  // + 6 faces * kIndirectSkyTexels * kMaxIslands
 SHARED_CONST uint kIndirectTableTexels = 128u;
 SHARED_CONST uint kIndirectBrickTexels = 48u;

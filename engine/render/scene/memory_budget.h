@@ -4,8 +4,8 @@
 
 namespace skerry::render {
 
-/// Device memory that the tables of a world share: quads, sections, occupancy, light of the sky. What is asked for is
-/// refused rather than taken beyond the limit; buffers never shrink.
+/// Device memory that the tables of a world share: quads, sections, occupancy, light of the sky.
+/// What is asked for is refused rather than taken beyond the limit; buffers never shrink.
 class MemoryBudget {
  public:
   explicit MemoryBudget(std::uint64_t limit_bytes) : limit_(limit_bytes) {}
