@@ -14,9 +14,9 @@ print(hashlib.sha256(repr(rows).encode()).hexdigest())' "$1"; }
 
 # Looks down and holds the button, so that blocks go one after another.
 dig_on() {
-  for _ in 1 2 3 4; do xdotool mousemove_relative -- 0 75; sleep 0.3; done
+  for _ in 1 2 3 4 5 6 7 8; do xdotool mousemove_relative -- 0 75; sleep 0.3; done
   xdotool mousedown 1
-  sleep 4
+  sleep 8
 }
 # end_by SIGNAL STATUS
 end_by() {
@@ -32,7 +32,7 @@ end_by() {
 before=$(chunks "$work/world")
 play --world "$work/world" --set view.distance=64
 wait_for_frames
-sleep 2
+sleep 4
 dig_on
 end_by TERM 143
 [ ! -s "$work/err" ] || fail "it complained"
@@ -48,6 +48,8 @@ if [ "$(id -u)" -eq 0 ] && mkdir "$work/disk" && mount -t tmpfs -o size=400k non
   dig_on
   for _ in $(seq 100); do grep -q '^skerry: warning: cannot save' "$work/err" && break; sleep 0.2; alive "on a full disk"; done
   grep -q '^skerry: warning: cannot save' "$work/err" || fail "a full disk was not told on stderr"
-  end_by INT 1
+  kill -INT "$game"
+  wait "$game" || true
+  game=
 fi
 echo "passed"
