@@ -48,8 +48,6 @@ if [ "$(id -u)" -eq 0 ] && mkdir "$work/disk" && mount -t tmpfs -o size=400k non
   dig_on
   for _ in $(seq 100); do grep -q '^skerry: warning: cannot save' "$work/err" && break; sleep 0.2; alive "on a full disk"; done
   grep -q '^skerry: warning: cannot save' "$work/err" || fail "a full disk was not told on stderr"
-  kill -INT "$game"
-  wait "$game" || true
-  game=
+  end_by TERM 1
 fi
 echo "passed"
