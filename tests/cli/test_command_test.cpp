@@ -1,6 +1,7 @@
 // skerry test as scripts call it, on scenes small enough to be drawn in a moment.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,5 +1,7 @@
 // What a scene does not have costs nothing: no pass, no memory, no pipeline.
 #include "engine/render/scene/cull_pass.h"
+
+#include <algorithm>
 #include "tests/render/renderer_on_gpu.h"
 
 namespace skerry::render {

@@ -1,6 +1,7 @@
 // Lights sorted into clusters on the GPU, held against what can be worked out pixel by pixel.
 #include "engine/render/light/light_clusters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>

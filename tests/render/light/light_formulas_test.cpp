@@ -1,5 +1,6 @@
 // The formulas of shaders/include/brdf.glsl and lights.glsl, run on the device and held against
 // closed forms, integrals and the reference's own.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>

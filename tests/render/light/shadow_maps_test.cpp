@@ -1,6 +1,8 @@
 // Which shadow maps are kept, and that a kept one shows what a fresh one would.
 #include "engine/render/light/shadow_maps.h"
 
+#include <algorithm>
+
 #include "tests/render/passes_on_gpu.h"
 
 namespace skerry::render {

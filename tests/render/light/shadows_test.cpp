@@ -2,6 +2,8 @@
 // base. Looks at the debug view that shows the share of light a pixel gets.
 #include "tests/render/renderer_on_gpu.h"
 
+#include <algorithm>
+
 namespace skerry::render {
 namespace {
 

@@ -1,5 +1,6 @@
 // Walls and lights: sealed rooms stay dark to the last bit, and elsewhere light arrives as the
 // reference has it.
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 

@@ -1,6 +1,7 @@
 // From radiance to the picture: the renderer's against the reference's double precision.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>

@@ -1,6 +1,7 @@
 // The light meter on a real device, judged by counting and sorting on the CPU.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -2,6 +2,8 @@
 // many suns is the sun's disc.
 
 #include "tests/render/high_roof.h"
+
+#include <algorithm>
 #include "tests/render/renderer_on_gpu.h"
 
 namespace skerry::render {

@@ -1,6 +1,8 @@
 // Dark by default: where no light reaches, radiance is exactly zero.
 #include "tests/render/renderer_on_gpu.h"
 
+#include <algorithm>
+
 namespace skerry::render {
 namespace {
 

@@ -1,5 +1,7 @@
 // Knobs for measuring: each goes to a limit that is known, and its default is what is drawn today.
 #include "tests/render/high_roof.h"
+
+#include <algorithm>
 #include "tests/render/renderer_on_gpu.h"
 
 namespace skerry::render {

@@ -1,4 +1,5 @@
 // Corners on the GPU against the closed form of tools/reference/brdf.h.
+#include <algorithm>
 #include <glm/common.hpp>
 #include <random>
 

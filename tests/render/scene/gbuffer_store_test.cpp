@@ -1,6 +1,8 @@
 // What the G-buffer keeps for measuring, against the exact normals and positions of what is drawn.
 #include "tests/render/passes_on_gpu.h"
 
+#include <algorithm>
+
 namespace skerry::render {
 namespace {
 

@@ -1,6 +1,8 @@
 // The G-buffer against exact geometry: words, depth, and that culling loses nothing.
 #include <glm/gtx/quaternion.hpp>
 
+#include <algorithm>
+
 #include "tests/render/passes_on_gpu.h"
 
 namespace skerry::render {

@@ -1,4 +1,5 @@
 // Clouds of the GPU where they meet lamps, walls and water, judged by the reference renderer.
+#include <algorithm>
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,4 +1,5 @@
 // Clouds as the renderer draws them, against closed forms and against themselves.
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 

@@ -1,4 +1,5 @@
 // Light at fewer pixels against light at every pixel.
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <random>
 

@@ -3,6 +3,7 @@
 //   SKERRY_VDB_MUTANTS=240 skerry_tests --gtest_filter='VdbDamage.*'
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <fstream>

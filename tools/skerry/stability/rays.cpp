@@ -1,4 +1,5 @@
 // Rays to lights, traced through walls: any length, any turn of the island, lights in the walls.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
