@@ -135,6 +135,7 @@ Result<void> App::play(const SceneOptions& options, std::unique_ptr<SessionClien
   backdrop_.reset();
   auto view = SceneView::create(device_, options, session->world());
   if (!view) return view.error();
+  (*view)->renderer().foresee_programs();
   world_path_ = options.world;
   world_name_ = session->joined().world.name;
   world_ = std::make_unique<PlayLoop>(window_, device_, *presenter_, bindings_, options,

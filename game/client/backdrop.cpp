@@ -20,6 +20,7 @@ Result<std::unique_ptr<Backdrop>> Backdrop::create(gpu::Device& device, const Sc
                                                    View view) {
   Result<std::unique_ptr<SceneView>> scene = SceneView::create(device, options);
   if (!scene) return scene.error();
+  (*scene)->renderer().foresee_programs();
   return std::unique_ptr<Backdrop>(new Backdrop(*std::move(scene), view));
 }
 

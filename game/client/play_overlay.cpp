@@ -91,6 +91,7 @@ ui::HudFacts PlayLoop::hud() const {
   facts.numbers = overlay_shown_;
   if (helm_) facts.steering = ui::HudFacts::Steering{island_name(*helm_), helm_speed_};
   if (!view_->complete()) facts.islands_to_come = view_->streamer().stats().tasks_left;
+  facts.shaders_to_come = view_->renderer().programs_to_come();
   return facts;
 }
 

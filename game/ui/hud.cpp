@@ -141,6 +141,9 @@ void show_hud(const HudFacts& facts, const Pictures& pictures) {
   else if (facts.islands_to_come != 0)
     write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kFaint,
           fmt::format("Islands come into view: {} parts left", facts.islands_to_come));
+  else if (facts.shaders_to_come != 0)
+    write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kFaint,
+          fmt::format("Shaders are compiled: {} left", facts.shaders_to_come));
   pop_size();
 }
 

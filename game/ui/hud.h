@@ -27,6 +27,7 @@ struct HudFacts {
   bool choosing = false;            ///< the palette lies over the name of what is held
   double hidden = 0.0;              ///< how much of the world black covers, 0 .. 1: after a fall
   std::size_t islands_to_come = 0;  ///< tasks left until the neighbourhood is there
+  std::size_t shaders_to_come = 0;  ///< programs left until no view needs another
 };
 
 /// Lines that say what happened, for a while.

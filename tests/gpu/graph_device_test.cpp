@@ -89,7 +89,7 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
   }
   EXPECT_EQ(contents<std::uint32_t>(result),
             std::vector<std::uint32_t>(kCount, ((5 * 2 + 1) * 3 + 1) * 4 + 1));
-  EXPECT_EQ(pipelines.created(), 3);
+  EXPECT_EQ(pipelines.used(), 3);
 
   const std::vector<PassTime> times = graph.times(0);
   ASSERT_EQ(times.size(), 4u);

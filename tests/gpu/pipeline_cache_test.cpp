@@ -40,7 +40,7 @@ class PipelineCacheTest : public testing::Test {
       const TestShader shader("one.comp", kShader);
       const EmbeddedShader table[] = {shader.embedded()};
       Pipelines pipelines(**device, table);
-      EXPECT_NE(pipelines.get(ComputeDesc{"one.comp", {}}).handle, VK_NULL_HANDLE);
+      EXPECT_NE(pipelines.get(ComputeDesc{"one.comp", {}}).made().handle, VK_NULL_HANDLE);
     }
     EXPECT_EQ((*device)->validation_message_count(), 0);
   }

@@ -168,8 +168,9 @@ class PassesOnGpu : public gpu::GpuTest {
     const FrameTables tables = build_tables(input, settings, kSize, cascades);
     const SceneRefs scene = begin(input, kSize, tables);
     const CulledDraws draws = cull(scene, static_cast<std::uint32_t>(tables.views.size()));
-    const Shadows maps =
-        ShadowPass::add(*graph_, *pipelines_, scene, draws, shadows_->maps(), redraw);
+    const gpu::ImageRef array =
+        shadows_->maps() ? graph_->import(*shadows_->maps()) : gpu::ImageRef{};
+    const Shadows maps = ShadowPass::add(*graph_, *pipelines_, scene, draws, array, redraw);
     const auto edge = static_cast<std::uint32_t>(settings.shadow_map_size);
     const auto layers = static_cast<std::uint32_t>(out.redrawn.size());
     gpu::Buffer texels = back("texels", std::uint64_t{edge} * edge * layers * 4);

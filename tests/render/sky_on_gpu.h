@@ -166,7 +166,7 @@ class SkyOnGpu : public testing::Test {
     }
     device_->run_now([&](VkCommandBuffer c) {
       order_memory(c);
-      vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
+      vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.made().handle);
       vkCmdPushDescriptorSetKHR(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0,
                                 static_cast<std::uint32_t>(writes.size()), writes.data());
       vkCmdDispatch(c, (width + 7) / 8, (height + 7) / 8, 1);

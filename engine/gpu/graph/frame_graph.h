@@ -92,7 +92,7 @@ class PassBuilder {
 /// each binding is set.
 class Commands {
  public:
-  void bind(const Pipeline& pipeline);  ///< forgets all bindings
+  void bind(const Pipeline& pipeline);  ///< waits for it; forgets all bindings
   void storage(std::uint32_t binding,
                BufferRef buffer);  ///< a storage or a uniform buffer, as the shader declares it
   /// A buffer made with BufferDesc::texels, declared as one that is read.

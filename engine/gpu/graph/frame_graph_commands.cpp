@@ -61,7 +61,7 @@ void Commands::bind(const Pipeline& pipeline) {
   bound_.assign(pipeline.bindings.size(), {});
   dirty_ = true;
   pushed_ = false;
-  vkCmdBindPipeline(commands_, pipeline.bind_point, pipeline.handle);
+  vkCmdBindPipeline(commands_, pipeline.bind_point, pipeline.made().handle);
 }
 
 Commands::Bound& Commands::slot(std::uint32_t binding) {

@@ -7,6 +7,7 @@
 #include "engine/gpu/device/gpu_check.h"
 #include "engine/gpu/device/vk_struct.h"
 #include "engine/gpu/program/pipeline_build.h"
+#include "engine/gpu/program/pipeline_queue.h"
 
 namespace skerry::gpu {
 namespace {
@@ -57,13 +58,11 @@ const EmbeddedShader& find_shader(std::span<const EmbeddedShader> shaders,
 
 }  // namespace
 
-Pipeline make_layout(Device& device, const std::string& name, std::span<const ShaderStage> stages) {
-  Pipeline pipeline;
-  pipeline.name = name;
+void make_layout(Device& device, std::span<const ShaderStage> stages, Pipeline& pipeline) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const ShaderStage& stage : stages) {
     for (const auto& binding : stage.shader->bindings)
-      merge_binding(bindings, binding, stage.stage, name);
+      merge_binding(bindings, binding, stage.stage, pipeline.name);
     if (stage.shader->push_bytes > 0)
       pipeline.push_stages |= static_cast<VkShaderStageFlags>(stage.stage);
     pipeline.push_bytes = std::max(pipeline.push_bytes, stage.shader->push_bytes);
@@ -71,58 +70,115 @@ Pipeline make_layout(Device& device, const std::string& name, std::span<const Sh
   for (const auto& binding : bindings)
     pipeline.bindings.push_back({binding.binding, binding.descriptorType});
   create_layouts(device, pipeline, bindings);
-  return pipeline;
 }
 
 struct Pipelines::State {
+  /// One that was asked for.
+  struct Program {
+    Pipeline pipeline;
+    bool used = false;  // by a frame
+  };
+
+  State(Device& d, std::span<const EmbeddedShader> s) : device(d), shaders(s) {}
+
   Device& device;
   std::span<const EmbeddedShader> shaders;
-  std::map<ComputeDesc, Pipeline> compute;
-  std::map<GraphicsDesc, Pipeline> graphics;
+  std::map<ComputeDesc, Program> compute;
+  std::map<GraphicsDesc, Program> graphics;
+  bool foreseeing = false;
+  int used = 0, late = 0;
+  PipelineQueue queue;  // ends before what it compiles does
+
+  void begin(const ComputeDesc& desc, Pipeline& pipeline);
+  void begin(const GraphicsDesc& desc, Pipeline& pipeline);
+
+  template <class Desc>
+  const Pipeline& get(std::map<Desc, Program>& known, const Desc& desc) {
+    const auto [place, is_new] = known.try_emplace(desc);
+    Program& program = place->second;
+    if (is_new) begin(place->first, program.pipeline);
+    if (foreseeing || program.used) return program.pipeline;
+    program.used = true;
+    ++used;
+    if (!program.pipeline.ready()) ++late;
+    return program.pipeline;
+  }
+  template <class F>
+  void each(F&& f) {
+    for (auto& [desc, program] : compute) f(program.pipeline);
+    for (auto& [desc, program] : graphics) f(program.pipeline);
+  }
 };
 
+void Pipelines::State::begin(const ComputeDesc& desc, Pipeline& pipeline) {
+  const ShaderStage stage{VK_SHADER_STAGE_COMPUTE_BIT, &find_shader(shaders, desc.shader)};
+  pipeline.name = desc.shader;
+  make_layout(device, {&stage, 1}, pipeline);
+  queue.add(
+      pipeline,
+      [this, &desc, stage](Pipeline& made) { compile_compute(device, made, stage, desc); },
+      foreseeing);
+}
+
+void Pipelines::State::begin(const GraphicsDesc& desc, Pipeline& pipeline) {
+  std::vector<ShaderStage> stages{{VK_SHADER_STAGE_VERTEX_BIT, &find_shader(shaders, desc.vertex)}};
+  pipeline.name = desc.vertex;
+  pipeline.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  if (!desc.fragment.empty()) {
+    stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, &find_shader(shaders, desc.fragment)});
+    pipeline.name += " + " + desc.fragment;
+  }
+  make_layout(device, stages, pipeline);
+  queue.add(
+      pipeline,
+      [this, &desc, stages](Pipeline& made) { compile_graphics(device, made, stages, desc); },
+      foreseeing);
+}
+
 Pipelines::Pipelines(Device& device, std::span<const EmbeddedShader> shaders)
-    : state_(std::make_unique<State>(State{device, shaders, {}, {}})) {}
+    : state_(std::make_unique<State>(device, shaders)) {}
 
 Pipelines::~Pipelines() {
-  const auto retire = [this](const Pipeline& pipeline) {
+  state_->queue.stop();
+  state_->each([this](const Pipeline& pipeline) {
     const auto one = [this](auto handle, VkObjectType type) {
+      if (!handle) return;
       state_->device.retire(reinterpret_cast<std::uint64_t>(handle), type, VK_NULL_HANDLE, 0, {});
     };
     one(pipeline.handle, VK_OBJECT_TYPE_PIPELINE);
     one(pipeline.layout, VK_OBJECT_TYPE_PIPELINE_LAYOUT);
     one(pipeline.set_layout, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT);
-  };
-  for (const auto& [desc, pipeline] : state_->compute) retire(pipeline);
-  for (const auto& [desc, pipeline] : state_->graphics) retire(pipeline);
+  });
 }
 
 const Pipeline& Pipelines::get(const ComputeDesc& desc) {
-  const auto found = state_->compute.find(desc);
-  if (found != state_->compute.end()) return found->second;
-  const ShaderStage stage{VK_SHADER_STAGE_COMPUTE_BIT, &find_shader(state_->shaders, desc.shader)};
-  Pipeline pipeline = make_layout(state_->device, desc.shader, {&stage, 1});
-  compile_compute(state_->device, pipeline, stage, desc);
-  return state_->compute.emplace(desc, std::move(pipeline)).first->second;
+  return state_->get(state_->compute, desc);
 }
 
 const Pipeline& Pipelines::get(const GraphicsDesc& desc) {
-  const auto found = state_->graphics.find(desc);
-  if (found != state_->graphics.end()) return found->second;
-  std::vector<ShaderStage> stages{
-      {VK_SHADER_STAGE_VERTEX_BIT, &find_shader(state_->shaders, desc.vertex)}};
-  std::string name = desc.vertex;
-  if (!desc.fragment.empty()) {
-    stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, &find_shader(state_->shaders, desc.fragment)});
-    name += " + " + desc.fragment;
-  }
-  Pipeline pipeline = make_layout(state_->device, name, stages);
-  compile_graphics(state_->device, pipeline, stages, desc);
-  return state_->graphics.emplace(desc, std::move(pipeline)).first->second;
+  return state_->get(state_->graphics, desc);
 }
 
-int Pipelines::created() const {
-  return static_cast<int>(state_->compute.size() + state_->graphics.size());
+void Pipelines::foresee(const std::function<void()>& ask) {
+  state_->foreseeing = true;
+  ask();
+  state_->foreseeing = false;
+}
+
+int Pipelines::used() const {
+  return state_->used;
+}
+
+int Pipelines::late() const {
+  return state_->late;
+}
+
+std::size_t Pipelines::pending() const {
+  return state_->queue.pending();
+}
+
+void Pipelines::wait() const {
+  state_->each([](const Pipeline& pipeline) { pipeline.made(); });
 }
 
 }  // namespace skerry::gpu

@@ -1,8 +1,11 @@
 #pragma once
 #include <volk.h>
 
+#include <atomic>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,8 +48,10 @@ struct GraphicsDesc {
   auto operator<=>(const GraphicsDesc&) const = default;
 };
 
-/// A compiled pipeline with the layout that its sources declare: one push-descriptor set 0 and one
-/// push-constant block.
+class PipelineQueue;
+
+/// A pipeline with the layout that its sources declare: one push-descriptor set 0 and one
+/// push-constant block. The layout exists from the start; the handle exists once made() returns.
 struct Pipeline {
   VkPipeline handle{};
   VkPipelineLayout layout{};
@@ -60,18 +65,38 @@ struct Pipeline {
   };
   std::vector<Binding> bindings;
   std::string name;  ///< its shaders' file names
+
+  bool ready() const { return ready_.load(std::memory_order_acquire); }
+  /// Waits until the pipeline is compiled; compiles it on this thread when no worker has begun.
+  const Pipeline& made() const;
+
+ private:
+  friend class PipelineQueue;
+  PipelineQueue* queue_ = nullptr;
+  std::function<void(Pipeline&)> compile_;
+  bool begun_ = false;  // guarded by the queue
+  std::atomic<bool> ready_{false};
 };
 
-/// Compiles pipelines when first asked for and keeps them. Bindings and push constants are those
-/// that the shader's source declares. Bad SPIR-V or a missing shader is fatal with its name.
+/// Compiles pipelines on worker threads when first asked for and keeps them. Bindings and push
+/// constants are those that the shader's source declares. Bad SPIR-V or a missing shader is fatal
+/// with its name. One thread calls the members.
 class Pipelines {
  public:
   /// @param shaders where names are looked up; must outlive this.
   explicit Pipelines(Device& device, std::span<const EmbeddedShader> shaders = embedded_shaders());
-  ~Pipelines();
+  ~Pipelines();  ///< waits for what is being compiled
+  /// Returns at once; Commands::bind waits for the pipeline.
   const Pipeline& get(const ComputeDesc& desc);
   const Pipeline& get(const GraphicsDesc& desc);
-  int created() const;  ///< pipelines compiled so far
+  /// Runs `ask`, whose get() calls are for later frames: workers compile those pipelines last.
+  void foresee(const std::function<void()>& ask);
+  /// Pipelines that get() was called for outside foresee(); and those of them that were not ready
+  /// by then, so that a frame had to wait.
+  int used() const;
+  int late() const;
+  std::size_t pending() const;  ///< pipelines that are still to be compiled
+  void wait() const;            ///< until all are compiled
 
  private:
   struct State;

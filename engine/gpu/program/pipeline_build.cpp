@@ -120,7 +120,6 @@ void compile_compute(Device& device, Pipeline& pipeline, const ShaderStage& stag
       vk_struct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
   info.layout = pipeline.layout;
-  pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
   GPU_CHECK(vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr,
                                      &pipeline.handle));
   name_pipeline(device, pipeline);
@@ -182,7 +181,6 @@ void compile_graphics(Device& device, Pipeline& pipeline, std::span<const Shader
   info.pColorBlendState = &blend;
   info.pDynamicState = &dynamic;
   info.layout = pipeline.layout;
-  pipeline.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
   GPU_CHECK(vkCreateGraphicsPipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr,
                                       &pipeline.handle));
   name_pipeline(device, pipeline);

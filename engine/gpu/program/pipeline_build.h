@@ -17,10 +17,10 @@ struct ShaderStage {
 };
 
 /// Sets up layout, bindings and push constants as the stages' sources together declare them. Fatal
-/// on stages that disagree.
-Pipeline make_layout(Device& device, const std::string& name, std::span<const ShaderStage> stages);
+/// on stages that disagree. @param pipeline has its name.
+void make_layout(Device& device, std::span<const ShaderStage> stages, Pipeline& pipeline);
 
-/// Compiles. @param pipeline comes from make_layout; its handle is filled in.
+/// Compiles, on any thread. @param pipeline comes from make_layout; its handle is filled in.
 void compile_compute(Device& device, Pipeline& pipeline, const ShaderStage& stage,
                      const ComputeDesc& desc);
 void compile_graphics(Device& device, Pipeline& pipeline, std::span<const ShaderStage> stages,

@@ -11,7 +11,8 @@
 
 namespace skerry::render {
 
-/// Numbers of a frame the GPU has finished. Times are sums over its parts.
+/// Numbers of a frame the GPU has finished. Times, programs and allocations are sums over its
+/// parts.
 struct FrameReport {
   std::vector<gpu::PassTime> passes;
   double gpu_ms = 0.0;
@@ -25,7 +26,9 @@ struct FrameReport {
   std::uint32_t lights = 0;        ///< whose range the view touches
   shared::ClusterWork clusters{};  ///< that those were sorted into; none under the oracle
   gpu::FrameCounts counts{};       ///< of the frame's graph
-  int pipelines_created = 0;       ///< since the renderer was made
+  int pipelines_created = 0;       ///< that frames have used since the renderer was made
+  int programs_made = 0;           ///< pipelines this frame had to wait for
+  std::uint64_t allocations = 0;   ///< of device memory, in this frame
   std::uint64_t memory_bytes = 0;  ///< of the device, in use when the frame was recorded
 };
 

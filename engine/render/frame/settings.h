@@ -125,6 +125,7 @@ struct RenderSettings {
   bool lights_oracle = false;     ///< every pixel asks every light: slow, to hold clusters against
   FeatureSet leave_out;           ///< absent even where the scene has them
   DebugView debug_view = DebugView::kNone;
+  bool operator==(const RenderSettings&) const = default;
 };
 
 }  // namespace skerry::render

@@ -44,6 +44,12 @@ std::uint64_t most_entries(const gpu::DeviceLimits& limits) {
 
 }  // namespace
 
+std::uint32_t light_kinds(std::span<const shared::Light> lights) {
+  std::uint32_t kinds = 0;
+  for (const shared::Light& light : lights) kinds |= 1u << (light.kind & shared::kLightKindMask);
+  return kinds;
+}
+
 std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
                                           const shared::CullView& view) {
   std::vector<shared::Light> out;
@@ -166,8 +172,7 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
     said_too_many_ = true;
     lights = lights.first(most);
   }
-  kinds_ = 0;
-  for (const shared::Light& light : lights) kinds_ |= 1u << (light.kind & shared::kLightKindMask);
+  kinds_ = light_kinds(lights);
   const std::uint64_t room = std::clamp(
       std::max(wanted_entries_, std::min(lights.size() * kEntriesPerLight, kFirstEntries)),
       kLeastEntries, most_entries(device_.limits()));

@@ -17,6 +17,9 @@ namespace skerry::render {
 
 struct CameraView;
 
+/// A bit for each kind among them, see ClusteredLights.
+std::uint32_t light_kinds(std::span<const shared::Light> lights);
+
 /// The lights whose range touches a view, in their order; directional ones always. Those without
 /// intensity light nothing and are left out.
 std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
@@ -75,6 +78,9 @@ class LightClusters {
   /// @param lights not empty, in view. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
                       const CameraView& camera, const ClusterPicture& picture);
+  /// Takes lights of these kinds for uploaded, so that add() asks for the programs they need.
+  /// @param kinds see ClusteredLights.
+  void suppose(std::uint32_t kinds) { kinds_ = kinds; }
   /// Adds the passes that sort what was uploaded last. @param oracle see ClusteredLights.
   ClusteredLights add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const ClusterDepths& depths, bool oracle);

@@ -19,10 +19,9 @@ const char* shadow_pass_name(int body, int index) {
 }
 
 Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                        const CulledDraws& draws, gpu::Image* maps,
+                        const CulledDraws& draws, gpu::ImageRef maps,
                         std::span<const ShadowDraw> cascades) {
   if (!maps) return Shadows({});
-  gpu::ImageRef ref = graph.import(*maps);
   // Only what faces the light is drawn, so back faces never cast; casters nearer to the light than
   // the map's range are flattened onto it.
   const gpu::GraphicsDesc opaque{.vertex = programs::kDrawQuadsVert,
@@ -50,7 +49,7 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
             b.read(scene.materials, Use::kFragmentRead);
             b.read(scene.block_textures, Use::kFragmentRead);
           }
-          ref = b.depth(ref, gpu::Load::cleared({}), cascade.layer);
+          maps = b.depth(maps, gpu::Load::cleared({}), cascade.layer);
         },
         [scene, draws, view = cascade.view, &opaque_pipeline, cutout_pipeline](gpu::Commands& c) {
           c.bind(opaque_pipeline);
@@ -63,7 +62,7 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
           }
         });
   }
-  return Shadows(ref);
+  return Shadows(maps);
 }
 
 }  // namespace skerry::render

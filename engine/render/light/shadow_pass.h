@@ -26,7 +26,7 @@ struct ShadowDraw {
 struct ShadowPass {
   /// @param maps the kept D32 array, or null when nothing casts.
   static Shadows add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                     const CulledDraws& draws, gpu::Image* maps,
+                     const CulledDraws& draws, gpu::ImageRef maps,
                      std::span<const ShadowDraw> cascades);
 };
 

@@ -145,8 +145,7 @@ void draw_shadows(FrameAssembly& f) {
         {view, c.layer, shadow_pass_name(c.body, c.index), f.plan.contents.cutouts_in_view[view]});
     ++view;
   }
-  f.shadows =
-      ShadowPass::add(f.graph, f.pipelines, f.scene, *f.draws, f.owners.shadows.maps(), redraw);
+  f.shadows = ShadowPass::add(f.graph, f.pipelines, f.scene, *f.draws, f.shadow_maps, redraw);
 }
 
 void draw_translucent(FrameAssembly& f) {

@@ -5,7 +5,6 @@
 
 #include "engine/render/frame/phases.h"
 #include "engine/render/light/light_clusters.h"
-#include "engine/render/light/shadow_maps.h"
 #include "engine/render/post/bloom_pass.h"
 #include "engine/render/post/capture.h"
 #include "engine/render/post/picture.h"
@@ -18,7 +17,6 @@ namespace skerry::render {
 
 /// What outlives a frame and its passes write to.
 struct FrameOwners {
-  ShadowMaps& shadows;
   LightClusters& light_clusters;
   Clouds& clouds;
   Captures& captures;
@@ -33,6 +31,7 @@ struct FrameAssembly {
   const FramePlan& plan;
   FrameOwners& owners;
   SceneRefs scene;
+  gpu::ImageRef shadow_maps;  ///< empty: nothing casts
   std::optional<CulledDraws> draws{};
   std::optional<Geometry> geometry{};
   std::optional<Shadows> shadows{};

@@ -89,7 +89,12 @@ void explain_contents(FramePlan& plan) {
   }
 }
 
-void plan_steps(FramePlan& plan) {
+}  // namespace
+
+void choose_steps(FramePlan& plan) {
+  plan.direct = !plan.shows_channel() && !plan.sampled() &&
+                !(plan.geometry && plan.contents.features.has(Feature::kWater)) &&
+                !by_radiance(plan.input, plan.settings, plan.contents.features);
   const std::span<const FrameStep> all = frame_steps();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const char* why = all[i].why_not(plan);
@@ -101,8 +106,6 @@ void plan_steps(FramePlan& plan) {
       plan.left_out.push_back({std::string(pass), why});
   }
 }
-
-}  // namespace
 
 FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
                      const FrameHistory& history) {
@@ -125,9 +128,6 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.tables.constants.picture_size = {request.size.width, request.size.height};
   plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky, facts);
   plan.corners = facts.occupancy && settings.corner_darkening > 0.0f && !settings.flat_shading;
-  plan.direct = !plan.shows_channel() && !plan.sampled() &&
-                !(plan.geometry && plan.contents.features.has(Feature::kWater)) &&
-                !by_radiance(plan.input, settings, plan.contents.features);
   plan.marked_slices = marked_slices(plan.input, plan.contents);
   plan.next.shadows = plan.geometry ? plan.shadows.next : history.shadows;
   plan.next.clouds = history.clouds;
@@ -142,7 +142,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.next.previous = PreviousFrame{
       plan.input.camera, plan.input.anchor, {plan.input.islands.begin(), plan.input.islands.end()}};
   explain_contents(plan);
-  plan_steps(plan);
+  choose_steps(plan);
   return plan;
 }
 

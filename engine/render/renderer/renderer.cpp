@@ -6,6 +6,7 @@
 
 #include "engine/gpu/graph/frame_ring.h"
 #include "engine/render/frame/frame_choices.h"
+#include "engine/render/renderer/foreseen_plans.h"
 #include "engine/render/renderer/frame_readback.h"
 #include "engine/render/renderer/frame_resources.h"
 #include "engine/render/renderer/frame_steps.h"
@@ -26,12 +27,15 @@ struct Slot {
   std::uint32_t lights = 0;                 // in view
   std::optional<shared::ClusterGrid> grid;  // of the lights it sorted
   gpu::FrameCounts counts{};
-  int pipelines_created = 0;
+  int pipelines_created = 0, programs_made = 0;
+  std::uint64_t allocations = 0;
   std::uint64_t memory_bytes = 0;
 };
 
-void add_times(const FrameReport& earlier, FrameReport& to) {
+void add_earlier(const FrameReport& earlier, FrameReport& to) {
   to.gpu_ms += earlier.gpu_ms;
+  to.programs_made += earlier.programs_made;
+  to.allocations += earlier.allocations;
   for (const gpu::PassTime& pass : earlier.passes) {
     const auto same = std::find_if(to.passes.begin(), to.passes.end(),
                                    [&](const gpu::PassTime& p) { return p.name == pass.name; });
@@ -67,7 +71,8 @@ struct Renderer::State {
   Result<void> check(const FramePlan& plan) const;
   Result<void> make_room(const FramePlan& plan);
   Result<void> upload(const FramePlan& plan);
-  SceneRefs import_scene(const FramePlan& plan);
+  SceneRefs import_scene(gpu::FrameGraph& to, const FramePlan& plan);
+  void foresee(const FramePlan& plan);
   void build(const FramePlan& plan, Slot& slot);
   void advance(FramePlan& plan);
   void take_report(std::uint32_t slot_index);
@@ -75,6 +80,8 @@ struct Renderer::State {
   gpu::Device& device;
   gpu::Pipelines pipelines;
   gpu::FrameGraph graph;
+  bool foresees = false;
+  std::optional<ProgramNeeds> foreseen;  // that programs are being made for
   gpu::Uploader frame_uploader, mesh_uploader;
   FrameResources resources;
   std::uint64_t upload_budget;
@@ -159,22 +166,22 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
   return {};
 }
 
-SceneRefs Renderer::State::import_scene(const FramePlan& plan) {
-  SceneRefs s = resources.import(graph, plan.input, plan.settings, plan.drawn, plan.tables);
-  s.quads = graph.import(geometry->quads());
-  s.sections = graph.import(geometry->sections());
+SceneRefs Renderer::State::import_scene(gpu::FrameGraph& to, const FramePlan& plan) {
+  SceneRefs s = resources.import(to, plan.input, plan.settings, plan.drawn, plan.tables);
+  s.quads = to.import(geometry->quads());
+  s.sections = to.import(geometry->sections());
   s.section_slots = geometry->section_slots();
   s.quads_resident = geometry->quads_resident();
   s.haze = plan.contents.features.has(Feature::kHaze);
   s.corners = plan.corners;
   if (plan.indirect) s.indirect_light = plan.settings.indirect;
-  s.indirect = graph.import(plan.indirect ? indirect->texels() : resources.no_texels());
+  s.indirect = to.import(plan.indirect && indirect ? indirect->texels() : resources.no_texels());
   if (!occupancy) return s;
-  s.occupancy_grids = graph.import(occupancy->grids());
-  s.occupancy_tables = graph.import(occupancy->tables());
-  s.occupancy_words = graph.import(occupancy->words());
+  s.occupancy_grids = to.import(occupancy->grids());
+  s.occupancy_tables = to.import(occupancy->tables());
+  s.occupancy_words = to.import(occupancy->words());
   if (plan.settings.traced_lights != 0 && !plan.input.light_islands.empty())
-    s.light_islands = resources.import_light_islands(graph);
+    s.light_islands = resources.import_light_islands(to);
   return s;
 }
 
@@ -182,12 +189,14 @@ SceneRefs Renderer::State::import_scene(const FramePlan& plan) {
 void Renderer::State::build(const FramePlan& plan, Slot& slot) {
   graph.begin();
   for (const gpu::LeftOut& absent : plan.left_out) graph.leave_out(absent.name, absent.why);
-  FrameOwners owners{shadows, light_clusters, clouds, captures, picture};
-  FrameAssembly frame{.graph = graph,
-                      .pipelines = pipelines,
-                      .plan = plan,
-                      .owners = owners,
-                      .scene = import_scene(plan)};
+  FrameOwners owners{light_clusters, clouds, captures, picture};
+  FrameAssembly frame{
+      .graph = graph,
+      .pipelines = pipelines,
+      .plan = plan,
+      .owners = owners,
+      .scene = import_scene(graph, plan),
+      .shadow_maps = shadows.maps() ? graph.import(*shadows.maps()) : gpu::ImageRef{}};
   for (const std::size_t step : plan.steps) frame_steps()[step].add(frame);
   const bool sorted = frame.lights && !plan.settings.lights_oracle;
   if (sorted) slot.grid = light_clusters.grid();
@@ -195,6 +204,32 @@ void Renderer::State::build(const FramePlan& plan, Slot& slot) {
                     static_cast<std::uint32_t>(plan.tables.views.size()),
                     sorted ? light_clusters.work() : gpu::BufferRef{});
 }
+/// Asks for the programs of frames to come, by adding their steps to a graph that is never drawn.
+void Renderer::State::foresee(const FramePlan& plan) {
+  if (!foresees) return;
+  const ProgramNeeds needs = program_needs(plan, facts());
+  if (foreseen == needs) return;
+  foreseen = needs;
+  gpu::FrameGraph never_drawn(nullptr);
+  LightClusters no_lights(device);
+  FrameOwners owners{no_lights, clouds, captures, picture};
+  pipelines.foresee([&] {
+    each_foreseen(plan, needs, [&](const FramePlan& supposed) {
+      never_drawn.begin();
+      no_lights.suppose(light_kinds(supposed.contents.lights));
+      FrameAssembly frame{.graph = never_drawn,
+                          .pipelines = pipelines,
+                          .plan = supposed,
+                          .owners = owners,
+                          .scene = import_scene(never_drawn, supposed),
+                          .shadow_maps = {}};
+      if (const std::uint32_t layers = supposed.shadows.layout.layers; layers != 0)
+        frame.shadow_maps = never_drawn.create({.name = "shadow maps", .layers = layers});
+      for (const std::size_t step : supposed.steps) frame_steps()[step].add(frame);
+    });
+  });
+}
+
 
 /// The frame has been submitted: what it leaves behind is so from now on.
 void Renderer::State::advance(FramePlan& plan) {
@@ -217,9 +252,11 @@ void Renderer::State::take_report(std::uint32_t slot_index) {
   r.lights = slot.lights;
   if (slot.grid) light_clusters.learn(*slot.grid, r.clusters);
   r.counts = slot.counts;
+  r.programs_made = slot.programs_made;
+  r.allocations = slot.allocations;
   r.pipelines_created = slot.pipelines_created;
   r.memory_bytes = slot.memory_bytes;
-  if (slot.part != 0 && report) add_times(*report, r);
+  if (slot.part != 0 && report) add_earlier(*report, r);
   report = std::move(r);
   slot.value = 0;
 }
@@ -243,6 +280,8 @@ Result<std::uint64_t> Renderer::draw(
     const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
     std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
+  const int late = s.pipelines.late();
+  const std::uint64_t allocations = s.device.allocations();
   State& s = *state_;
   FramePlan plan = plan_frame({input, settings, size}, s.facts(), s.history);
   if (Result<void> ok = s.check(plan); !ok) return ok.error();
@@ -268,10 +307,13 @@ Result<std::uint64_t> Renderer::draw(
   s.graph.execute(frame.commands, frame.slot);
   slot.part = plan.input.part;
   slot.counts = s.graph.counts();
-  slot.pipelines_created = s.pipelines.created();
+  slot.pipelines_created = s.pipelines.used();
+  slot.programs_made = s.pipelines.late() - late;
+  slot.allocations = s.device.allocations() - allocations;
   slot.memory_bytes = s.device.memory_total();
   if (after) after(frame.commands, s.picture.image());
   slot.value = s.ring.submit(waits, signals);
+  s.foresee(plan);
   s.last_slot = frame.slot;
   s.advance(plan);
   return slot.value;
@@ -355,7 +397,19 @@ const gpu::FrameGraph& Renderer::graph() const {
   return state_->graph;
 }
 int Renderer::pipelines_created() const {
-  return state_->pipelines.created();
+  return state_->pipelines.used();
+}
+void Renderer::foresee_programs() {
+  state_->foresees = true;
+}
+int Renderer::programs_made() const {
+  return state_->pipelines.late();
+}
+std::size_t Renderer::programs_to_come() const {
+  return state_->pipelines.pending();
+}
+void Renderer::wait_for_programs() {
+  state_->pipelines.wait();
 }
 gpu::Image& Renderer::picture() {
   return state_->picture.image();

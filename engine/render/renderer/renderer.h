@@ -65,7 +65,15 @@ class Renderer {
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);
   const gpu::FrameGraph& graph() const;  ///< of the last frame, for --explain
+  /// From now on each frame asks for the programs that later ones can need as settings and world
+  /// are, and worker threads make them: docs/frame.md. Until then a frame asks for its own alone.
+  void foresee_programs();
+  /// Pipelines that frames have used, and those of them that a frame had to wait for.
   int pipelines_created() const;
+  int programs_made() const;
+  /// Pipelines that worker threads have still to make for the frames so far and those foreseen.
+  std::size_t programs_to_come() const;
+  void wait_for_programs();  ///< until there are none
 
   /// Records and submits one frame. Two are in flight; waits for the one before last.
   /// @param after records into the same command buffer behind the frame, e.g. the copy to a window;

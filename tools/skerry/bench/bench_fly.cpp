@@ -33,7 +33,8 @@ struct Frame {
   double at_s = 0.0, ms = 0.0, stream_ms = 0.0, draw_ms = 0.0, gpu_ms = 0.0;
   double cpu_ms = 0.0;  // that this thread worked, rather than waited
   std::uint64_t pending_bytes = 0;
-  int pipelines = 0;  // made since the first frame
+  int programs = 0;  // that it waited for
+  std::uint64_t allocations = 0;
   std::vector<gpu::PassTime> passes;
 };
 
@@ -62,26 +63,29 @@ class Flight {
     go_to(0.0);
   }
 
-  /// As who stood there for a while: all is in view.
+  /// As who stood there for a while: all is in view, and no program is still being made.
   Result<void> begin(gpu::Device& device) {
     if (Result<void> loaded = view_.load_completely(moment_.camera, moment_.world_time_s); !loaded)
       return loaded;
+    view_.renderer().foresee_programs();
     for (int i = 0; i < 8; ++i) {
       const Result<std::uint64_t> value = view_.draw(moment_, size_);
       if (!value) return value.error();
       device.wait(*value);
     }
+    view_.renderer().wait_for_programs();
     return {};
   }
 
-  Result<void> fly(double seconds) {
+  Result<void> fly(const gpu::Device& device, double seconds) {
     const Stopwatch flight;
-    const int pipelines = view_.renderer().pipelines_created();
     for (double at_s = 0.0; at_s < seconds;) {
       go_to(at_s);
       Frame frame;
       frame.at_s = at_s;
       const double cpu_ms = thread_cpu_ms();
+      const int programs = view_.renderer().programs_made();
+      const std::uint64_t allocations = device.allocations();
       Stopwatch watch;
       if (Result<void> done = view_.stream(moment_.camera, moment_.world_time_s); !done)
         return done;
@@ -92,7 +96,8 @@ class Flight {
       frame.draw_ms = watch.milliseconds();
       frame.cpu_ms = thread_cpu_ms() - cpu_ms;
       frame.pending_bytes = view_.renderer().mesh_uploader().pending_bytes();
-      frame.pipelines = view_.renderer().pipelines_created() - pipelines;
+      frame.programs = view_.renderer().programs_made() - programs;
+      frame.allocations = device.allocations() - allocations;
       // The newest report is of the frame that the one before had to wait for.
       if (const auto& report = view_.renderer().report(); report && !frames_.empty()) {
         frames_.back().passes = report->passes;
@@ -163,7 +168,8 @@ nlohmann::ordered_json hitches_of(const std::vector<Frame>& frames, double limit
                     {"cpu_ms", frame->cpu_ms},
                     {"gpu_ms", frame->gpu_ms},
                     {"pending_bytes", frame->pending_bytes},
-                    {"pipelines", frame->pipelines},
+                    {"programs_made", frame->programs},
+                    {"allocations", frame->allocations},
                     {"slow_pass", pass},
                     {"slow_pass_beyond_ms", beyond_ms}});
   }
@@ -173,12 +179,46 @@ nlohmann::ordered_json hitches_of(const std::vector<Frame>& frames, double limit
     const auto [pass, beyond_ms] = slow_pass(*frame, usual);
     fmt::print(
         "  at {:5.2f} s {:8.1f} ms: streaming {:.1f}, drawing {:.1f}, of both on the CPU "
-        "{:.1f}; GPU {:.1f}, most beyond the usual {} by {:.1f}; {} KiB to upload; {} "
-        "pipelines so far\n",
+        "{:.1f}; GPU {:.1f}, most beyond the usual {} by {:.1f}; {} KiB to upload; {} programs "
+        "made, {} allocations\n",
         frame->at_s, frame->ms, frame->stream_ms, frame->draw_ms, frame->cpu_ms, frame->gpu_ms,
-        pass, beyond_ms, frame->pending_bytes / 1024, frame->pipelines);
+        pass, beyond_ms, frame->pending_bytes / 1024, frame->programs, frame->allocations);
   }
   return rows;
+}
+
+void add_numbers(nlohmann::ordered_json& row, const std::vector<Frame>& frames) {
+  std::vector<double> ms;
+  int programs = 0;
+  std::uint64_t allocations = 0, late_allocations = 0;
+  for (const Frame& frame : frames) {
+    ms.push_back(frame.ms);
+    programs += frame.programs;
+    allocations += frame.allocations;
+    if (frame.at_s > 0.5 * frames.back().at_s) late_allocations += frame.allocations;
+  }
+  const Spread spread = spread_of(ms);
+  row["frames"] = ms.size();
+  row["ms_median"] = spread.median;
+  row["ms_p99"] = spread.p99;
+  row["ms_max"] = spread.max;
+  row["frames_over_2x"] = spread.over_twice;
+  row["programs_made"] = programs;
+  row["allocations"] = allocations;
+  row["allocations_second_half"] = late_allocations;
+}
+
+void print(const nlohmann::ordered_json& row, std::uint64_t chunks_made) {
+  const auto number = [&](const char* key) { return row.at(key).get<double>(); };
+  const auto count = [&](const char* key) { return row.at(key).get<std::uint64_t>(); };
+  fmt::print(
+      "{} | {}x{} | {:.0f} blocks/s for {:.0f} s | {} frames | median {:.2f} ms, p99 {:.2f}, "
+      "max {:.1f} | {} over twice the median | {} programs made | {} allocations, {} of them in "
+      "the second half | {} | {} chunks made\n",
+      row.at("name").get<std::string>(), row.at("size")[0].get<int>(), row.at("size")[1].get<int>(),
+      number("speed"), number("seconds"), count("frames"), number("ms_median"), number("ms_p99"),
+      number("ms_max"), count("frames_over_2x"), count("programs_made"), count("allocations"),
+      count("allocations_second_half"), row.at("device").get<std::string>(), chunks_made);
 }
 
 std::string name_of(const game::SceneOptions& scene) {
@@ -218,32 +258,17 @@ int bench_fly(const BenchFlyOptions& options) {
   Flight flight(**view, options);
   if (Result<void> begun = flight.begin(**device); !begun) return fail(kFailed, begun.error());
   const double seconds = options.seconds.value_or(kSeconds);
-  if (Result<void> flown = flight.fly(seconds); !flown) return fail(kFailed, flown.error());
+  if (Result<void> flown = flight.fly(**device, seconds); !flown)
+    return fail(kFailed, flown.error());
 
-  std::vector<double> ms;
-  for (const Frame& frame : flight.frames()) ms.push_back(frame.ms);
-  const Spread spread = spread_of(ms);
-  const auto over =
-      std::count_if(ms.begin(), ms.end(), [&](double v) { return v > 2.0 * spread.median; });
-  const auto& size = options.scene.size;
-  const double speed = options.speed.value_or(kSpeed);
-  fmt::print(
-      "{} | {}x{} | {:.0f} blocks/s for {:.0f} s | {} frames | median {:.2f} ms, p99 {:.2f}, "
-      "most {:.1f} | {} over twice the median | {} | {} chunks made\n",
-      name_of(options.scene), size.width, size.height, speed, seconds, ms.size(), spread.median,
-      spread.p99, *std::max_element(ms.begin(), ms.end()), over, (*device)->info().name,
-      (*view)->streamer().stats().chunks_made);
   nlohmann::ordered_json row{{"name", name_of(options.scene)},
                              {"device", (*device)->info().name},
-                             {"size", {size.width, size.height}},
-                             {"speed", speed},
-                             {"seconds", seconds},
-                             {"frames", ms.size()},
-                             {"ms_median", spread.median},
-                             {"ms_p99", spread.p99},
-                             {"ms_most", *std::max_element(ms.begin(), ms.end())},
-                             {"over_twice", over}};
-  row["hitches"] = hitches_of(flight.frames(), 2.0 * spread.median);
+                             {"size", {options.scene.size.width, options.scene.size.height}},
+                             {"speed", options.speed.value_or(kSpeed)},
+                             {"seconds", seconds}};
+  add_numbers(row, flight.frames());
+  print(row, (*view)->streamer().stats().chunks_made);
+  row["hitches"] = hitches_of(flight.frames(), 2.0 * row["ms_median"].get<double>());
   if (Result<void> written = write_rows(options.json, nlohmann::ordered_json::array({row}));
       !written)
     return fail(kFailed, written.error());

@@ -16,8 +16,10 @@ struct BenchFlyOptions {
 /// Flies straight ahead from the start at a fixed speed, in real time, through islands that nobody
 /// has seen yet, streaming as play does, and times every frame. Prints the spread of the
 /// frames' times, and how many took more than twice the median, with what the slowest of them
-/// waited for. As JSON: name, size, speed, seconds, frames, ms_median, ms_p99, ms_most, over_twice,
-/// and `hitches`, each frame over twice the median with its parts. @return exit status.
+/// waited for. As JSON: name, size, speed, seconds, frames, ms_median, ms_p99, ms_max,
+/// frames_over_2x, programs_made (that frames waited for), allocations (of device memory), those in
+/// the flight's second half, and `hitches`, each frame over twice the median with its parts.
+/// @return exit status.
 int bench_fly(const BenchFlyOptions& options);
 
 /// Opens a world as play does, and times from now until the first picture whose chunk under the

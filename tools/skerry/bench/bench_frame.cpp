@@ -34,18 +34,26 @@ double peak_rss_mib() {
 struct Timings {
   std::vector<double> frames;                         ///< [ms]
   std::map<std::string, std::vector<double>> passes;  ///< on the GPU, of the frames that had them
+  int programs_made = 0;                              ///< that frames waited for
+  std::uint64_t allocations = 0;                      ///< of device memory
 };
 
-Result<Timings> time_frames(game::SceneView& view, game::SceneView::Moment moment,
-                            VkExtent2D size) {
+Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
+                            game::SceneView::Moment moment, VkExtent2D size) {
   Timings out;
+  view.renderer().foresee_programs();
   double last = now_ms();
   const double start = last;
   for (int i = 0; i < kWarmUpFrames + kMaxFrames; ++i) {
     moment.camera.yaw_deg += kTurnDegPerFrame;
+    const int programs = view.renderer().programs_made();
+    const std::uint64_t allocations = device.allocations();
     if (Result<std::uint64_t> drawn = view.draw(moment, size); !drawn) return drawn.error();
+    if (i == 0) view.renderer().wait_for_programs();
     const double now = now_ms();
     if (i >= kWarmUpFrames) {
+      out.programs_made += view.renderer().programs_made() - programs;
+      out.allocations += device.allocations() - allocations;
       out.frames.push_back(now - last);
       for (const gpu::PassTime& pass : view.renderer().report()->passes)
         out.passes[pass.name].push_back(pass.ms);
@@ -88,7 +96,11 @@ nlohmann::ordered_json row_of(const game::SceneOptions& scene, const gpu::Device
           {"ms_median", ms.median},
           {"ms_p10", ms.p10},
           {"ms_p99", ms.p99},
+          {"ms_max", ms.max},
+          {"frames_over_2x", ms.over_twice},
           {"fps_median", 1000.0 / ms.median},
+          {"programs_made", timings.programs_made},
+          {"allocations", timings.allocations},
           {"quads_resident", renderer.geometry().quads_resident()},
           {"quads_drawn", renderer.report()->camera.quads},
           {"gpu_memory_bytes", device.memory_total()},
@@ -101,13 +113,16 @@ void print(const nlohmann::ordered_json& row) {
   const int shadows = row.at("shadows").get<int>();
   const nlohmann::ordered_json& passes = row.at("gpu_ms");
   fmt::print(
-      "{} | {}x{} | distance {} | shadows {} | median {:.2f} ms (p10 {:.2f}, p99 {:.2f}) | {:.1f} "
-      "fps | GPU {:.2f} ms | {} quads of {} | {:.0f} MiB\n",
+      "{} | {}x{} | distance {} | shadows {} | median {:.2f} ms (p10 {:.2f}, p99 {:.2f}, max "
+      "{:.2f}; {} over twice) | {:.1f} fps | GPU {:.2f} ms | {} quads of {} | {:.0f} MiB | {} "
+      "programs made, {} allocations\n",
       row.at("name").get<std::string>(), row.at("size")[0].get<int>(), row.at("size")[1].get<int>(),
       row.at("distance").get<int>(), shadows != 0 ? fmt::format("{}", shadows) : "off",
-      number("ms_median"), number("ms_p10"), number("ms_p99"), number("fps_median"),
-      passes.at("total").get<double>(), row.at("quads_drawn").get<std::uint64_t>(),
-      row.at("quads_resident").get<std::uint64_t>(), number("peak_rss_mib"));
+      number("ms_median"), number("ms_p10"), number("ms_p99"), number("ms_max"),
+      row.at("frames_over_2x").get<int>(), number("fps_median"), passes.at("total").get<double>(),
+      row.at("quads_drawn").get<std::uint64_t>(), row.at("quads_resident").get<std::uint64_t>(),
+      number("peak_rss_mib"), row.at("programs_made").get<int>(),
+      row.at("allocations").get<std::uint64_t>());
   for (const auto& [pass, value] : passes.items())
     fmt::print("  {:<24} {:8.3f} ms\n", pass, value.get<double>());
 }
@@ -128,7 +143,7 @@ int bench_frame(const BenchFrameOptions& options) {
   if (Result<void> loaded = (*view)->load_completely(moment.camera, world_time_s); !loaded)
     return fail(kFailed, loaded.error());
   const VkExtent2D size{options.scene.size.width, options.scene.size.height};
-  const Result<Timings> timings = time_frames(**view, moment, size);
+  const Result<Timings> timings = time_frames(**device, **view, moment, size);
   if (!timings) return fail(kFailed, timings.error());
   const nlohmann::ordered_json row = row_of(options.scene, **device, (*view)->renderer(), *timings);
   print(row);

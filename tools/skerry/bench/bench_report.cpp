@@ -15,7 +15,9 @@ Spread spread_of(std::vector<double> samples) {
     const double place = std::ceil(q * static_cast<double>(samples.size())) - 1.0;
     return samples[static_cast<std::size_t>(std::max(place, 0.0))];
   };
-  return {rank(0.10), rank(0.50), rank(0.90), rank(0.99)};
+  Spread out{rank(0.10), rank(0.50), rank(0.90), rank(0.99), samples.back(), 0};
+  out.over_twice = std::ranges::count_if(samples, [&](double ms) { return ms > 2.0 * out.median; });
+  return out;
 }
 
 Result<void> write_rows(const std::optional<std::filesystem::path>& file,

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,7 +11,8 @@ namespace skerry::tools {
 
 /// Order statistics of repeated timings.
 struct Spread {
-  double p10 = 0.0, median = 0.0, p90 = 0.0, p99 = 0.0;
+  double p10 = 0.0, median = 0.0, p90 = 0.0, p99 = 0.0, max = 0.0;
+  std::int64_t over_twice = 0;  ///< samples that took more than twice the median
 };
 
 /// @param samples not empty; nearest-rank quantiles.

@@ -71,6 +71,8 @@ ordered_json stats_json(const gpu::Device& device, game::SceneView& view, const 
                  {"images", counts.images},
                  {"buffers", counts.buffers},
                  {"transient_bytes", counts.transient_bytes}};
+  j["programs_made"] = report.programs_made;
+  j["allocations"] = report.allocations;
   j["exposure"] = {{"ev", report.exposure_ev}, {"metered_ev", nullptr}};
   if (report.metered_ev) j["exposure"]["metered_ev"] = *report.metered_ev;
   j["non_finite_pixels"] = report.pixels.non_finite;

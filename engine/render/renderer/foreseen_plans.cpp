@@ -1,0 +1,130 @@
+#include "engine/render/renderer/foreseen_plans.h"
+
+#include <array>
+#include <vector>
+
+#include "engine/render/light/light_clusters.h"
+#include "engine/render/renderer/plan_frame.h"
+
+namespace skerry::render {
+namespace {
+
+enum class Water : std::uint8_t { kNone, kInView, kAroundEye };
+
+/// What changes with the view and the time of day.
+struct Supposed {
+  std::uint32_t bodies = 0;  // bit a body that gives light
+  std::uint32_t lights = 0;  // bit a kind that is in view
+  Water water = Water::kNone;
+  bool stars = false, discs = false;
+};
+
+constexpr std::uint32_t kTorches = 1u << shared::kLightPoint;  // what grows and is built
+constexpr const char* kSupposed = "supposed to be absent";
+constexpr std::uint32_t kSomeBlock = 1;
+constexpr std::uint32_t kSomeIsland[]{0};
+
+std::vector<shared::Light> lights_of(std::uint32_t kinds) {
+  std::vector<shared::Light> out;
+  for (std::uint32_t kind = 0; kind < shared::kLightKindCount; ++kind) {
+    if ((kinds & 1u << kind) == 0) continue;
+    out.emplace_back();
+    out.back().kind = kind;
+  }
+  return out;
+}
+
+/// What all supposed frames share.
+FramePlan common_of(const FramePlan& now, const ProgramNeeds& needs) {
+  FramePlan plan = now;
+  plan.geometry = true;
+  plan.input.capture = false;
+  plan.input.fault.reset();
+  plan.input.part = plan.input.parts - 1;
+  plan.input.light_islands = kSomeIsland;
+  plan.indirect = plan.settings.indirect != Indirect::kOff && !plan.shows_channel();
+  plan.corners =
+      needs.occupancy && plan.settings.corner_darkening > 0.0f && !plan.settings.flat_shading;
+  plan.bake_sky = true;
+  if (!plan.shows_channel()) plan.marker.emplace();
+  if (plan.clouds) plan.clouds->bake_noise = plan.clouds->layer;
+  return plan;
+}
+
+void suppose_bodies(FramePlan& plan, const ProgramNeeds& needs, std::uint32_t bodies) {
+  plan.input.sky.sun_casts = (bodies & 1u) != 0;
+  plan.input.sky.moon_casts = (bodies & 2u) != 0;
+  plan.shadows.cascades.clear();
+  for (std::uint32_t body = 0; body < shared::kBodyCount; ++body) {
+    const bool shines = (bodies & 1u << body) != 0;
+    plan.tables.constants.bodies[body].irradiance = glm::vec3(shines ? 1.0f : 0.0f);
+    plan.shadows.layout.casting[body] = shines && plan.settings.shadows;
+    if (plan.shadows.layout.casting[body])
+      plan.shadows.cascades.push_back({static_cast<int>(body), 0, 0, true, {}});
+  }
+  plan.shadows.layout.layers = static_cast<std::uint32_t>(plan.shadows.cascades.size());
+  if (!plan.clouds || !needs.volumes) return;
+  plan.clouds->volume_light = bodies != 0;
+  plan.clouds->light_jobs = {{0, 0}};
+}
+
+void suppose(FramePlan& plan, const ProgramNeeds& needs, const Supposed& what) {
+  suppose_bodies(plan, needs, what.bodies);
+  FrameFeatures features(plan.settings.leave_out);
+  const auto absent_unless = [&](bool there, Feature feature) {
+    if (!there) features.set_absent(feature, kSupposed);
+  };
+  absent_unless((what.bodies & 1u) != 0, Feature::kSun);
+  absent_unless((what.bodies & 2u) != 0, Feature::kMoon);
+  absent_unless(what.bodies != 0 || plan.indirect, Feature::kHaze);
+  absent_unless(what.stars, Feature::kStars);
+  absent_unless(what.discs, Feature::kDiscs);
+  absent_unless(what.water != Water::kNone, Feature::kWater);
+  absent_unless(what.lights != 0, Feature::kLights);
+  absent_unless(plan.clouds.has_value(), Feature::kClouds);
+  plan.input.camera_medium =
+      what.water == Water::kAroundEye && features.has(Feature::kWater) ? kSomeBlock : 0;
+  plan.contents = {features, {}, {}};
+  plan.contents.cutouts_in_view.assign(1 + plan.shadows.cascades.size(),
+                                       features.has(Feature::kCutouts));
+  if (features.has(Feature::kLights)) plan.contents.lights = lights_of(what.lights);
+  plan.steps.clear();
+  plan.left_out.clear();
+  choose_steps(plan);
+}
+
+}  // namespace
+
+ProgramNeeds program_needs(const FramePlan& plan, const SceneFacts& facts) {
+  ProgramNeeds needs{.settings = plan.settings,
+                     .metered = plan.input.meter,
+                     .given_exposure = plan.input.exposure_ev.has_value(),
+                     .parts = plan.input.parts > 1,
+                     .occupancy = facts.occupancy,
+                     .volumes = !facts.clouds.volumes.empty(),
+                     .light_kinds = light_kinds(plan.input.lights) | kTorches};
+  needs.settings.view_distance_blocks = 0.0;
+  return needs;
+}
+
+void each_foreseen(const FramePlan& now, const ProgramNeeds& needs,
+                   const std::function<void(const FramePlan&)>& visit) {
+  FramePlan plan = common_of(now, needs);
+  std::vector<std::uint32_t> kinds{0, kTorches};
+  if (needs.light_kinds != kTorches) kinds.push_back(needs.light_kinds);
+  const auto visit_with = [&](const Supposed& what) {
+    suppose(plan, needs, what);
+    visit(plan);
+  };
+  // Day before night: both, sun, moon, neither.
+  for (const std::uint32_t bodies : {3u, 1u, 2u, 0u}) {
+    for (const Water water : {Water::kNone, Water::kInView, Water::kAroundEye})
+      for (const std::uint32_t lights : kinds) visit_with({bodies, lights, water, false, false});
+    // Stars and discs concern the sky alone, which goes to the picture or to an image of radiance.
+    for (const Water water : {Water::kNone, Water::kInView})
+      for (const bool stars : {false, true})
+        for (const bool discs : {false, true}) visit_with({bodies, 0, water, stars, discs});
+  }
+}
+
+}  // namespace skerry::render

@@ -1,0 +1,139 @@
+// Programs of frames to come are made before they are needed.
+#include <gtest/gtest.h>
+
+#include "shaders/shared/light.h"
+#include "tests/render/renderer_on_gpu.h"
+
+namespace skerry::render {
+namespace {
+
+constexpr VkExtent2D kSize{64, 48};
+constexpr double kNoon = 12.0 * 3600.0, kDusk = 18.05 * 3600.0, kMidnight = 0.0;
+
+world::BlockId meadow_with_pond(int x, int y, int z) {
+  const bool in_pond = y == -1 && x >= 10 && x < 20 && z >= 10 && z < 20;
+  if (in_pond) return static_cast<world::BlockId>(world::block::kWater);
+  if (y == 0 && x == 12 && z == 6) return world::block::kOakLeaves;
+  return y < 0 ? world::block::kGrass : world::block::kAirBlock;
+}
+
+class ForeseenPrograms : public RendererOnGpu {
+ protected:
+  void SetUp() override {
+    RendererOnGpu::SetUp();
+    if (!HasFatalFailure()) begin();
+  }
+  void begin() {
+    ASSERT_TRUE(renderer().occupancy());
+    add(meadow_with_pond, {0, -1, 0}, {1, 0, 1});
+  }
+  FrameInput input(double time_s, double moon_phase) const {
+    FrameInput in;
+    in.islands = islands_;
+    in.light_islands = light_islands_;
+    in.sky = celestial_at(time_s, moon_phase);
+    in.camera = camera_at({15.0, 8.0, -3.0}, 0.0, -30.0);  // towards the pond
+    return in;
+  }
+  FrameInput dull() const {
+    FrameInput in = input(kNoon, 0.0);
+    in.camera = camera_at({15.0, 8.0, -3.0}, 180.0, -30.0);
+    return in;
+  }
+  /// Frames that show what the dull one does not, one thing after another and together.
+  std::vector<FrameInput> lively() const {
+    std::vector<FrameInput> out;
+    for (const double time_s : {kNoon, kDusk, kMidnight})
+      for (const double moon : {0.0, 0.5})
+        for (const bool lit : {false, true}) {
+          out.push_back(input(time_s, moon));
+          if (lit) out.back().lights = lamps_;
+          out.push_back(out.back());
+          out.back().camera.pitch_deg = 80.0;  // sky alone, stars
+          out.push_back(out.back());
+          out.back().camera.yaw_deg = 90.0;
+          out.back().camera.pitch_deg = 10.0;
+          out.push_back(out[out.size() - 3]);
+          out.back().camera_medium = world::block::kWater;
+          out.push_back(out[out.size() - 4]);
+          out.back().marker = BlockMarker{0, {12.0, 0.0, 6.0}, {13.0, 1.0, 7.0}, 0.5f};
+        }
+    return out;
+  }
+  /// Programs that the lively frames wait for, after a dull one.
+  int made_late(const RenderSettings& settings, bool foresee) {
+    restart();
+    begin();
+    if (foresee) renderer().foresee_programs();
+    drawn(dull(), settings, kSize);
+    renderer().wait_for_programs();
+    EXPECT_EQ(renderer().programs_to_come(), 0u);
+    int late = 0;
+    for (const FrameInput& in : lively()) late += drawn(in, settings, kSize).programs_made;
+    return late;
+  }
+
+ private:
+  std::vector<IslandPlacement> islands_{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
+  std::vector<std::uint32_t> light_islands_{0};
+  std::vector<shared::Light> lamps_ = [] {
+    shared::Light lamp{};
+    lamp.kind = shared::kLightPoint;
+    lamp.position = {0.0f, -6.0f, 12.0f};
+    lamp.range = 20.0f;
+    lamp.intensity = glm::vec3(5.0f);
+    return std::vector<shared::Light>{lamp};
+  }();
+};
+
+TEST_F(ForeseenPrograms, WhatComesNewlyIntoViewNeedsNoProgramInItsFrame) {
+  EXPECT_GT(made_late({}, false), 10) << "frames that foresee nothing make their own";
+  EXPECT_EQ(made_late({}, true), 0);
+}
+
+TEST_F(ForeseenPrograms, AreThoseOfTheSettingsInForce) {
+  RenderSettings cloudy;
+  cloudy.clouds.coverage = 0.5f;
+  cloudy.bloom.intensity = 0.2f;
+  EXPECT_EQ(made_late(cloudy, true), 0);
+  RenderSettings plain;
+  plain.shadows = false;
+  plain.traced_lights = 0;
+  plain.indirect = Indirect::kOff;
+  plain.corner_darkening = 0.0f;
+  EXPECT_EQ(made_late(plain, true), 0);
+  RenderSettings shared_light;
+  shared_light.shading_rate = 4;
+  EXPECT_EQ(made_late(shared_light, true), 0);
+  RenderSettings without;
+  without.leave_out.add(Feature::kMoon);
+  without.leave_out.add(Feature::kWater);
+  EXPECT_EQ(made_late(without, true), 0);
+}
+
+TEST_F(ForeseenPrograms, AreForeseenAnewWhenSettingsChange) {
+  renderer().foresee_programs();
+  drawn(dull(), {}, kSize);
+  renderer().wait_for_programs();
+  RenderSettings cloudy;
+  cloudy.clouds.coverage = 0.5f;
+  drawn(dull(), cloudy, kSize);
+  EXPECT_GT(renderer().programs_to_come(), 0u);
+  renderer().wait_for_programs();
+  for (const FrameInput& in : lively()) EXPECT_EQ(drawn(in, cloudy, kSize).programs_made, 0);
+}
+
+TEST_F(ForeseenPrograms, LeaveThePictureAsItIs) {
+  const FrameInput in = lively().front();
+  drawn(in, {}, kSize);
+  const std::vector<std::uint8_t> alone = picture();
+  restart();
+  begin();
+  renderer().foresee_programs();
+  drawn(dull(), {}, kSize);
+  drawn(in, {}, kSize);
+  EXPECT_EQ(picture(), alone);
+}
+
+}  // namespace
+}  // namespace skerry::render
