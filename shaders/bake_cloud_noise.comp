@@ -3,12 +3,21 @@
 #extension GL_EXT_scalar_block_layout : require
 // Fills the tiling noise of the cloud layer, once: red the shapes, green and blue small and smaller billows, alpha a smooth field.
 // Cells that repeat make it tile. Twin, written on its own: tools/reference/cloud_noise.cpp.
+// Then packs it as a march asks for it: a texel holds four slices of height, so that a blend of eight texels is one of four; and the weather, which
+// is asked for at height 0 alone. What a ray asks for lies close together, for waiting for memory is most of what it costs on CPUs. docs/clouds.md.
 #include "shared/clouds.h"
 #include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = kCloudNoiseBinding, rgba8) writeonly uniform image3D noise;
+layout(binding = kCloudNoiseBinding, rgba8) uniform image3D noise;
+layout(binding = kCloudWeatherBinding, rgba8) writeonly uniform image2D weather;
+layout(binding = kCloudShapesBinding, rgba8) writeonly uniform image2D shapes;  // the layer that is filled
+layout(binding = kCloudBillowsBinding, rgba8) writeonly uniform image2D packed_billows;
+layout(push_constant) uniform Push { uint layer; } push;
+
+layout(constant_id = kPackConstant) const bool kPack = false;  // else the noise is filled
 
 uint hashed(uvec3 v) {
   uint h = v.x * 1664525u + v.y * 1013904223u + v.z * 374761393u;
@@ -58,7 +67,7 @@ float billows(vec3 place, int cells, uint seed) {
   return 1.0 - sqrt(nearest);
 }
 
-void main() {
+void fill() {
   uvec3 texel = gl_GlobalInvocationID;
   vec3 place = (vec3(texel) + 0.5) / float(kCloudNoiseEdge);
   float smooth_field = 0.5 + 0.5 * (gradient_noise(place, 4, 1u) + 0.5 * gradient_noise(place, 8, 2u));
@@ -69,4 +78,31 @@ void main() {
   float shape = 0.5 * ragged + 0.5 * lumps;
   vec4 value = vec4(shape, 0.625 * middle + 0.375 * small, 0.625 * small + 0.375 * least, smooth_field);
   imageStore(noise, ivec3(texel), clamp(value, 0.0, 1.0));
+}
+
+const vec2 kBillowShares = vec2(0.6, 0.4);  // of the small, of the smaller
+
+void pack() {
+  ivec2 texel = ivec2(gl_GlobalInvocationID.xy);  // x, z
+  vec4 shape, billow;
+  for (int i = 0; i < 4; ++i) {
+    int slice = int(push.layer * kSlicesPerLayer) + i;
+    vec4 value = imageLoad(noise, ivec3(texel.x, slice & int(kCloudNoiseEdge - 1u), texel.y));
+    shape[i] = value.r;
+    billow[i] = dot(value.gb, kBillowShares);
+  }
+  imageStore(shapes, texel, shape);
+  imageStore(packed_billows, texel, billow);
+  if (push.layer != 0u) return;
+  // Height 0 is between the last slice and the first.
+  float below = imageLoad(noise, ivec3(texel.x, int(kCloudNoiseEdge - 1u), texel.y)).a;
+  float above = imageLoad(noise, ivec3(texel.x, 0, texel.y)).a;
+  imageStore(weather, texel, vec4(0.5 * (below + above), 0.0, 0.0, 0.0));
+}
+
+void main() {
+  if (kPack)
+    pack();
+  else
+    fill();
 }

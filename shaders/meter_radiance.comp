@@ -1,17 +1,23 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Histogram of the luminance of scene radiance, black left out: one pixel of each cell of stride x stride, at a place in it that looks
-// random and is always the same. Integer counts: no order of work groups shows. docs/exposure.md.
+// The meter. First the histogram of the luminance of scene radiance, black left out: one pixel of each cell of stride x stride, at a place in it
+// that looks random and is always the same; integer counts: no order of work groups shows. Then, in one work group with a thread a bin, an
+// exposure from the histogram: mean of log2 luminance without the darkest and the brightest pixels; sums run in a fixed order.
+// docs/exposure.md, docs/conventions.md.
 #include "include/common.glsl"
 #include "include/meter.glsl"
 #include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = kMeterGroup, local_size_y = kMeterGroup) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
 layout(scalar, binding = kHistogramBinding) buffer Histogram { uint counts[kHistogramBins]; };
+layout(scalar, binding = kExposureBinding) buffer Chosen { Exposure exposure; };
 layout(push_constant) uniform Push { Metering metering; } push;
+
+layout(constant_id = kChooseConstant) const bool kChoose = false;  // else the histogram is filled
 
 shared uint here[kHistogramBins];
 
@@ -22,7 +28,7 @@ uint hashed(uvec2 cell) {
   return (word >> 22) ^ word;
 }
 
-void main() {
+void fill_histogram() {
   uint stride = push.metering.stride, thread = gl_LocalInvocationIndex;
   here[thread] = 0u;
   barrier();
@@ -35,4 +41,62 @@ void main() {
   }
   barrier();
   if (here[thread] != 0u) atomicAdd(counts[thread], here[thread]);
+}
+
+shared uint counted[kHistogramBins];
+shared float summed[kHistogramBins];
+shared uint first_bin, last_bin, most;
+
+uint share_of(uint total, uint fraction) {
+  uint high, low;
+  umulExtended(total, fraction, high, low);
+  return high;
+}
+
+void choose_exposure() {
+  uint bin = gl_LocalInvocationIndex, count = counts[bin];
+  counted[bin] = count;
+  if (bin == 0u) {
+    first_bin = kHistogramBins;
+    last_bin = most = 0u;
+  }
+  for (uint step = 1u; step < kHistogramBins; step *= 2u) {
+    barrier();
+    uint before = bin >= step ? counted[bin - step] : 0u;
+    barrier();
+    counted[bin] += before;
+  }
+  barrier();
+  uint total = counted[kHistogramBins - 1u], end = counted[bin];
+  uint first = share_of(total, kPassedOverDark), last = total - share_of(total, kPassedOverBright);
+  // Ranks of this bin's pixels that lie in [first, last).
+  uint kept = max(min(end, last), first) - max(min(end - count, last), first);
+  if (kept != 0u) {
+    atomicMin(first_bin, bin);
+    atomicMax(last_bin, bin);
+  }
+  atomicMax(most, count);
+  summed[bin] = kept != 0u ? float(kept) * log2_of_bin(bin) : 0.0;
+  for (uint step = kHistogramBins / 2u; step != 0u; step /= 2u) {
+    barrier();
+    if (bin < step) summed[bin] += summed[bin + step];
+  }
+  if (bin != 0u) return;
+  exposure.metered = total;
+  if (total == 0u) return;
+  exposure.first_bin = first_bin;
+  exposure.last_bin = last_bin;
+  exposure.most = most;
+  Metering m = push.metering;
+  float seen = summed[0] / float(last - first);
+  float ev = log2(kDayLuminance / m.key) + kFollowed * (seen - log2(kDayLuminance));
+  exposure.metered_ev = max(min(ev, m.max_ev), m.min_ev);
+  if (m.decides != 0u) exposure.ev = exposure.metered_ev;
+}
+
+void main() {
+  if (kChoose)
+    choose_exposure();
+  else
+    fill_histogram();
 }

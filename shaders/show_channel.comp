@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One channel of the G-buffer, or one term of the light, in place of the lit scene. docs/conventions.md.
+// One channel of the G-buffer, one term of the light or what clusters hold, in place of the lit scene. docs/conventions.md.
 #define SKERRY_STORED
 #include "include/common.glsl"
 #include "shared/exposure.h"
@@ -28,6 +28,10 @@ layout(constant_id = kChannelConstant) const uint kChannel = 1u;  // render::Deb
 #include "include/visibility.glsl"
 #include "include/corners.glsl"
 #include "include/tonemap.glsl"
+#include "include/clustered.glsl"
+
+layout(constant_id = kLitConstant) const bool kLit = false;  // clusters are shown, and there are some
+const uint kClustersChannel = 10u, kLightCountChannel = 11u;
 
 vec3 hashed_colour(uint id) {
   uint h = id * 0x9e3779b1u;
@@ -42,6 +46,29 @@ uint cascade_at(Body body, float distance) {
   return c;
 }
 
+// 0 black, then blue over green and yellow to red: each step of the scale doubles the count, up to 256 and more.
+vec3 heat(uint count) {
+  float h = log2(float(count) + 1.0) / 8.0;
+  vec3 warm = clamp(vec3(4.0 * h - 2.0, 2.0 - abs(4.0 * h - 2.0), 2.0 - 4.0 * h), 0.0, 1.0);
+  return count == 0u ? vec3(0.0) : mix(vec3(0.0, 0.0, 0.4), warm, min(4.0 * h, 1.0));
+}
+
+// How many lights the pixel's list has; or how many of them light it.
+vec3 light_count(uint word, uvec2 pixel, float depth) {
+  bool here = word != 0u && depth > 0.0;
+  float z = view_distance(here ? depth : 1.0, frame.near_plane);
+  Cluster list = lights_at(pixel, z);
+  uint count = here ? list.count : 0u;
+  if (kChannel == kLightCountChannel) {
+    vec3 normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
+    uint reaching = 0u;
+    for (uint i = 0u; i < count; ++i)
+      if (light_received(lights[light_index(list, i)], pixel_ray(pixel) * z, normal) != vec3(0.0)) ++reaching;
+    count = reaching;
+  }
+  return heat(count);
+}
+
 vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
   Surface s = resolve_surface(word, pixel, depth, ray, 1u);
   if (kChannel == 1u) return srgb_encode(s.albedo);
@@ -52,7 +79,7 @@ vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
   if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * exp2(-exposure.ev)));
   if (kChannel == 6u) return vec3(fract(log2(view_distance(depth, frame.near_plane))));
   if (kChannel == 9u) return vec3(surface_openness(s, word));
-  if (kChannel >= 10u) return vec3(0.0);  // lights, of which there are none: else show_lights.comp is used
+  if (kChannel >= kClustersChannel) return vec3(0.0);  // lights, of which there are none
   Body body = frame.bodies[(kBodies & 1u) != 0u ? 0 : 1];
   if (kChannel == 7u) return hashed_colour(cascade_at(body, length(s.position)) + 3u) * 0.6 + 0.4 * s.albedo;
   float n_dot_l = dot(s.normal, body.to_light);
@@ -64,6 +91,9 @@ void main() {
   if (any(greaterThanEqual(pixel, frame.size))) return;
   uint word = imageLoad(surfaces, ivec2(pixel)).r;
   vec3 colour = vec3(0.0);
-  if (word != 0u) colour = channel(word, ivec2(pixel), surface_depth(texelFetch(depths, ivec2(pixel), 0).r), pixel_ray(pixel));
+  if (kLit && kChannel >= kClustersChannel)
+    colour = light_count(word, pixel, texelFetch(depths, ivec2(pixel), 0).r);
+  else if (word != 0u)
+    colour = channel(word, ivec2(pixel), surface_depth(texelFetch(depths, ivec2(pixel), 0).r), pixel_ray(pixel));
   imageStore(picture, ivec2(pixel), vec4(clamp(colour, 0.0, 1.0), 1.0));
 }

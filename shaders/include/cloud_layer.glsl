@@ -1,5 +1,5 @@
 // Density of the layer: noise that repeats, shaped by a profile of height. Twin, written on its own: tools/reference/clouds.cpp.
-// Needs before the include: `cloud_weather` (sampler2D), `cloud_shapes` and `cloud_billows` (sampler2DArray), which repeat; pack_cloud_noise.comp.
+// Needs before the include: `cloud_weather` (sampler2D), `cloud_shapes` and `cloud_billows` (sampler2DArray), which repeat; bake_cloud_noise.comp.
 #ifndef SKERRY_CLOUD_LAYER_GLSL
 #define SKERRY_CLOUD_LAYER_GLSL
 #include "shared/clouds.h"

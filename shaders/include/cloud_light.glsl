@@ -1,4 +1,4 @@
-// How much of a body's light clouds let through to a place: optical depths that trace_cloud_layer.comp and trace_cloud_volume.comp have
+// How much of a body's light clouds let through to a place: optical depths that trace_cloud_light.comp has
 // filled in. Model: docs/clouds.md.
 #ifndef SKERRY_CLOUD_LIGHT_GLSL
 #define SKERRY_CLOUD_LIGHT_GLSL

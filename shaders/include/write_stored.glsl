@@ -8,6 +8,7 @@
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
 
+layout(constant_id = kStoredConstant) const bool kStored = false;  // else what follows is not used
 layout(constant_id = kNormalCodeConstant) const uint kNormalCode = 0u;
 layout(constant_id = kPositionStoredConstant) const bool kPositionStored = false;
 

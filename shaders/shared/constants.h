@@ -31,7 +31,6 @@ SHARED_CONST uint kTranslucentConstant = 22u;     // bool: there is water or gla
 SHARED_CONST uint kBehindConstant = 23u;          // bool: behind the nearest water or glass
 SHARED_CONST uint kCoarseConstant = 24u;          // bool: there is a coarse image of clouds
 SHARED_CONST uint kMirroredCloudsConstant = 25u;  // bool
-SHARED_CONST uint kReachingConstant = 26u;        // bool: count lights that reach the pixel
 SHARED_CONST uint kStarsConstant = 27u;           // bool
 SHARED_CONST uint kDiscsConstant = 28u;           // bool: of sun and moon
 SHARED_CONST uint kToneConstant = 30u;            // uint: render::ToneCurve
@@ -48,5 +47,15 @@ SHARED_CONST uint kLightSamplesConstant = 41u;  // uint: ways to a light that ha
 SHARED_CONST uint kStepConstant = 42u;          // uint: pixels between a level's points
 SHARED_CONST uint kEveryPixelConstant = 43u;    // bool: the level is the picture itself
 SHARED_CONST uint kToleranceConstant = 44u;     // float: how much shared light may differ
+SHARED_CONST uint kUpConstant = 45u;            // bool: bloom goes to the finer level
+SHARED_CONST uint kChooseConstant = 46u;        // bool: an exposure is chosen from the histogram
+SHARED_CONST uint kPackConstant = 47u;          // bool: noise that is there is packed
+SHARED_CONST uint kStoredConstant = 48u;        // bool: normals or positions are kept
+SHARED_CONST uint kScanConstant = 49u;          // bool: totals are summed, nothing is emitted
+SHARED_CONST uint kLightListConstant = 50u;     // uint: kListClusters, kListRoom or kListTiles
+
+SHARED_CONST uint kListClusters = 0u;
+SHARED_CONST uint kListRoom = 1u;
+SHARED_CONST uint kListTiles = 2u;
 SHARED_END
 #endif

@@ -135,7 +135,7 @@ MUTANTS = (
     Mutant("meter_sees_black", "black is metered as light", "shaders/meter_radiance.comp",
            "if (counts_as_light(y)) atomicAdd(here[bin_of(y)], 1u);", "atomicAdd(here[bin_of(max(y, 1e-3))], 1u);",
            "exposure.metered_frames"),
-    Mutant("meter_without_limits", "the meter keeps no limits", "shaders/choose_exposure.comp",
+    Mutant("meter_without_limits", "the meter keeps no limits", "shaders/meter_radiance.comp",
            "exposure.metered_ev = max(min(ev, m.max_ev), m.min_ev);", "exposure.metered_ev = 3.0 * ev;",
            "exposure.metered_frames"),
     Mutant("black_is_grey", "black is shown as grey", "shaders/include/picture.glsl",

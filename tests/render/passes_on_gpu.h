@@ -87,7 +87,7 @@ class PassesOnGpu : public gpu::GpuTest {
     const SceneRefs scene = begin(input, size, tables);
     const CulledDraws draws = cull(scene, 1);
     const Geometry geometry =
-        GeometryPass::add(*graph_, *pipelines_, scene, draws, false, false, {});
+        GeometryPass::add(*graph_, *pipelines_, scene, draws, {GBufferStore{}, false, false});
     const gpu::ImageRef surfaces = geometry.surfaces(), depths = geometry.depth();
     gpu::BufferRef words_ref = graph_->import(words), depth_ref = graph_->import(depth),
                    stats_ref = graph_->import(stats);
@@ -128,7 +128,7 @@ class PassesOnGpu : public gpu::GpuTest {
     scene.islands = table("island transforms", islands);
     const CulledDraws draws = cull(scene, 1);
     const SurfaceReads surfaces(
-        GeometryPass::add(*graph_, *pipelines_, scene, draws, false, false, store));
+        GeometryPass::add(*graph_, *pipelines_, scene, draws, {store, false, false}));
     gpu::BufferRef to_normals = graph_->import(normals), to_positions = graph_->import(positions);
     const VkSampler point = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
     graph_->add_pass(
@@ -223,7 +223,7 @@ class PassesOnGpu : public gpu::GpuTest {
   }
   CulledDraws cull(const SceneRefs& scene, std::uint32_t views) {
     return add_cull_passes(*graph_, *pipelines_, scene,
-                           {store_->section_slots(), store_->quads_resident(), views});
+                           {store_->section_slots(), store_->most_draws(), views});
   }
   void run() {
     graph_->compile();

@@ -7,6 +7,7 @@
 
 #include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/cloud_refs.h"
+#include "engine/render/frame/draw_limits.h"
 #include "engine/render/frame/settings.h"
 
 namespace skerry::render {
@@ -26,7 +27,7 @@ struct SceneRefs {
   gpu::BufferRef materials;        ///< shared::Material[block id]
   gpu::BufferRef quads, sections;  ///< the geometry store
   std::uint32_t section_slots = 0;
-  std::uint64_t quads_resident = 0;
+  DrawLimits most_draws{};
   /// The occupancy store; empty without one.
   gpu::BufferRef occupancy_grids, occupancy_tables, occupancy_words;
   gpu::BufferRef indirect;       ///< shaders/shared/indirect.h; a texel that is never read if off

@@ -72,6 +72,29 @@ void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
       });
 }
 
+/// What list_lights.comp works on; what a step does not use is bound to another of its buffers.
+struct Lists {
+  gpu::BufferRef grid, small_tiles, tiles, work, occupied, counts, clusters, dispatches, listed;
+
+  void bind(gpu::Commands& c) const {
+    c.storage(shared::kLightGridBinding, grid);
+    c.storage(shared::kTileDepthsBinding, small_tiles);
+    c.storage(shared::kGridTilesBinding, tiles);
+    c.storage(shared::kClusterWorkBinding, work);
+    c.storage(shared::kOccupiedClustersBinding, occupied);
+    c.storage(shared::kLightCountsBinding, counts);
+    c.storage(shared::kClustersBinding, clusters);
+    c.storage(shared::kTileDispatchesBinding, dispatches);
+    c.storage(shared::kTilesBinding, listed);
+  }
+};
+
+const gpu::Pipeline& list_pipeline(gpu::Pipelines& pipelines, std::uint32_t list, bool oracle) {
+  std::vector<gpu::SpecConstant> constants{{shared::kLightListConstant, list}};
+  if (oracle) constants.push_back({shared::kOracleConstant, 1});
+  return pipelines.get(gpu::ComputeDesc{programs::kListLights, std::move(constants)});
+}
+
 void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                        const shared::ClusterGrid& grid, Buffers& b) {
   graph.add_pass(
@@ -90,14 +113,11 @@ void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         b.occupied = p.write(b.occupied, Use::kComputeWrite);
       },
       [b, count = grid.tiles_x * grid.tiles_y,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{programs::kListLightClusters, {}})](gpu::Commands& c) {
+       &pipeline = list_pipeline(pipelines, shared::kListClusters, false)](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kTileDepthsBinding, b.small_tiles);
-        c.storage(shared::kGridTilesBinding, b.tiles);
-        c.storage(shared::kClusterWorkBinding, b.work);
-        c.storage(shared::kOccupiedClustersBinding, b.occupied);
+        Lists{b.grid,     b.small_tiles, b.tiles,    b.work,    b.occupied,
+              b.occupied, b.occupied,    b.occupied, b.occupied}
+            .bind(c);
         dispatch_items(c, count);
       });
 }
@@ -136,14 +156,11 @@ void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
         out.clusters = p.write(out.clusters, Use::kComputeWrite);
       },
       [b, clusters = out.clusters,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{programs::kReserveLightLists, {}})](gpu::Commands& c) {
+       &pipeline = list_pipeline(pipelines, shared::kListRoom, false)](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kClusterWorkBinding, b.work);
-        c.storage(shared::kOccupiedClustersBinding, b.occupied);
-        c.storage(shared::kLightCountsBinding, b.counts);
-        c.storage(shared::kClustersBinding, clusters);
+        Lists{b.grid,   b.counts, b.counts, b.work,  b.occupied,
+              b.counts, clusters, b.counts, b.counts}
+            .bind(c);
         c.dispatch_indirect(b.work, 0);
       });
 }
@@ -192,8 +209,6 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         fill_dispatch(c, dispatches, 2 * sizeof(shared::TileDispatch), 1);
       });
   const gpu::BufferRef clusters = out.oracle ? b.small_tiles : out.clusters;  // bound, not read
-  std::vector<gpu::SpecConstant> constants;
-  if (out.oracle) constants.push_back({shared::kOracleConstant, 1});
   graph.add_pass(
       "list_light_tiles",
       [&](gpu::PassBuilder& p) {
@@ -204,14 +219,11 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
       },
       [b, clusters, tiles = out.tiles, count = small_tile_count(grid),
-       &pipeline = pipelines.get(
-           gpu::ComputeDesc{programs::kListLightTiles, std::move(constants)})](gpu::Commands& c) {
+       &pipeline = list_pipeline(pipelines, shared::kListTiles, out.oracle)](gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kTileDepthsBinding, b.small_tiles);
-        c.storage(shared::kClustersBinding, clusters);
-        c.storage(shared::kTileDispatchesBinding, tiles.dispatches);
-        c.storage(shared::kTilesBinding, tiles.lists);
+        Lists{b.grid,      b.small_tiles, tiles.lists,      tiles.lists, tiles.lists,
+              tiles.lists, clusters,      tiles.dispatches, tiles.lists}
+            .bind(c);
         dispatch_items(c, count);
       });
 }

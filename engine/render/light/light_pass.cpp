@@ -13,14 +13,14 @@ namespace skerry::render {
 using gpu::Use;
 
 Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                      const Geometry& geometry, const ClusteredLights& lights, Shaded shaded,
-                      const RenderSettings& settings) {
-  const SurfaceReads surfaces(geometry);
-  const WallReads walls(scene, settings, scene.corners);
+                      const In& in, Shaded shaded) {
+  const ClusteredLights& lights = in.lights;
+  const SurfaceReads surfaces(in.geometry);
+  const WallReads walls(scene, in.settings, scene.corners);
   gpu::ImageRef radiance = shaded.radiance();
   const std::vector<gpu::SpecConstant> constants =
       lights.with_lights(surfaces.with_store(with_light(
-          {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(settings.texture_taps)}},
+          {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.settings.texture_taps)}},
           scene, false)));
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
       programs::kShadeLights, walls.with_walls(with_corners(constants, scene.corners))});

@@ -46,7 +46,8 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
         [&](gpu::PassBuilder& b) {
           declare_draws(b, scene, draws);
           if (cutout_pipeline) {
-            b.read(scene.materials, Use::kFragmentRead);
+            for (const gpu::BufferRef ref : {scene.materials, scene.frame, scene.islands})
+              b.read(ref, Use::kFragmentRead);
             b.read(scene.block_textures, Use::kFragmentRead);
           }
           maps = b.depth(maps, gpu::Load::cleared({}), cascade.layer);
@@ -57,6 +58,8 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
           if (cutout_pipeline) {
             c.bind(*cutout_pipeline);
             c.storage(shared::kMaterialsBinding, scene.materials);
+            c.storage(shared::kFrameBinding, scene.frame);      // not read:
+            c.storage(shared::kIslandsBinding, scene.islands);  // a map keeps depth alone
             c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
             draw_list(c, scene, draws, view, DrawList::kCutout);
           }

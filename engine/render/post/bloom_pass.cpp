@@ -16,6 +16,12 @@ VkExtent2D halved(VkExtent2D size) {
   return {(size.width + 1) / 2, (size.height + 1) / 2};
 }
 
+/// A step of the pyramid.
+struct Level {
+  shared::BloomStep step;
+  std::uint32_t index = 0;  // of the level that is made
+};
+
 shared::BloomStep step_between(VkExtent2D fine, VkExtent2D coarse, const BloomSettings& settings) {
   return {{fine.width, fine.height},
           {coarse.width, coarse.height},
@@ -29,13 +35,14 @@ void dispatch_over(gpu::Commands& c, glm::uvec2 size) {
 
 /// @return the coarser level.
 gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                     gpu::ImageRef fine, const shared::BloomStep& step, std::uint32_t level) {
+                     gpu::ImageRef fine, const Level& level) {
+  const shared::BloomStep& step = level.step;
   gpu::ImageRef coarse =
-      graph.create(gpu::ImageDesc{.name = "bloom " + std::to_string(level),
+      graph.create(gpu::ImageDesc{.name = "bloom " + std::to_string(level.index),
                                   .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                   .extent = {step.coarse_size.x, step.coarse_size.y}});
   graph.add_pass(
-      "shrink_bloom_" + std::to_string(level),
+      "shrink_bloom_" + std::to_string(level.index),
       [&](gpu::PassBuilder& b) {
         b.read(fine, Use::kComputeRead);
         b.read(scene.exposure, Use::kComputeRead);
@@ -43,7 +50,7 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
       },
       [fine, coarse, step, exposure = scene.exposure,
        &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kShrinkBloom, {{shared::kFirstConstant, level == 1 ? 1u : 0u}}})](
+           programs::kResizeBloom, {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}}})](
           gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kFineBloomBinding, fine);
@@ -56,19 +63,22 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
 }
 
 /// @return the finer level, with the coarser ones in it.
-gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, gpu::ImageRef fine,
-                     gpu::ImageRef coarse, const shared::BloomStep& step, std::uint32_t level) {
+gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                     gpu::ImageRef fine, gpu::ImageRef coarse, const Level& level) {
   graph.add_pass(
-      "spread_bloom_" + std::to_string(level),
+      "spread_bloom_" + std::to_string(level.index),
       [&](gpu::PassBuilder& b) {
         b.read(coarse, Use::kComputeRead);
+        b.read(scene.exposure, Use::kComputeRead);
         fine = b.write(fine, Use::kComputeWrite);
       },
-      [fine, coarse, step,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kSpreadBloom, {}})](gpu::Commands& c) {
+      [fine, coarse, step = level.step, exposure = scene.exposure,
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kResizeBloom,
+                                                  {{shared::kUpConstant, 1}}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kFineBloomBinding, fine);
         c.storage(shared::kCoarseBloomBinding, coarse);
+        c.storage(shared::kExposureBinding, exposure);  // not read on the way up
         c.push(step);
         dispatch_over(c, step.fine_size);
       });
@@ -93,11 +103,12 @@ Bloom BloomPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
   VkExtent2D size = scene.size;
   for (std::uint32_t level = 1; level <= levels; ++level) {
     steps.push_back(step_between(size, halved(size), settings));
-    images.push_back(shrink(graph, pipelines, scene, images.back(), steps.back(), level));
+    images.push_back(shrink(graph, pipelines, scene, images.back(), {steps.back(), level}));
     size = halved(size);
   }
   for (std::uint32_t level = levels - 1; level >= 1; --level)
-    images[level] = spread(graph, pipelines, images[level], images[level + 1], steps[level], level);
+    images[level] =
+        spread(graph, pipelines, scene, images[level], images[level + 1], {steps[level], level});
   return {images[1], steps[0]};
 }
 

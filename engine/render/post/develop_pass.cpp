@@ -53,74 +53,45 @@ bool shows_lights(DebugView view) {
   return view == DebugView::kClusters || view == DebugView::kLightCount;
 }
 
-gpu::ImageRef show_lights(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                          const Geometry& geometry, const ClusteredLights& lights, DebugView view,
-                          gpu::ImageRef out) {
-  const SurfaceReads surfaces(geometry);
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      programs::kShowLights,
-      lights.with_lights({{shared::kReachingConstant, view == DebugView::kLightCount ? 1u : 0u}})});
-  graph.add_pass(
-      "show_lights",
-      [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands})
-          b.read(ref, Use::kComputeRead);
-        lights.declare(b);
-        surfaces.declare(b);
-        out = b.write(out, Use::kComputeWrite);
-      },
-      [&pipeline, scene, lights, surfaces, out](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kSurfacesBinding, surfaces.words);
-        c.sampled(shared::kDepthsBinding, surfaces.depth, scene.point_sampler);
-        c.storage(shared::kPictureBinding, out);
-        lights.bind(c);
-        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
-                   gpu::Commands::groups(scene.size.height, 8), 1);
-      });
-  return out;
-}
-
 }  // namespace
 
 Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                 SceneRefs& scene, const Geometry& geometry, const Shadows& shadows,
-                                 const ClusteredLights* lights, DebugView view,
-                                 gpu::Image& picture) {
+                                 SceneRefs& scene, const DebugIn& in, gpu::Image& picture) {
   gpu::ImageRef out = graph.import(picture);
-  if (lights && shows_lights(view))
-    return Developed(show_lights(graph, pipelines, scene, geometry, *lights, view, out));
-  const SurfaceReads surfaces(geometry);
-  const gpu::ImageRef maps = shadows.maps();
-  const OccupancyReads occupancy(scene, scene.corners && view == DebugView::kCorners);
+  const bool lit = in.lights && shows_lights(in.view);
+  const ClusteredLights clusters = lit ? *in.lights : ClusteredLights::none(scene);
+  const SurfaceReads surfaces(in.geometry);
+  const gpu::ImageRef maps = in.shadows.maps();
+  const OccupancyReads occupancy(scene, scene.corners && in.view == DebugView::kCorners);
   const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
       programs::kShowChannel,
-      with_picture(with_corners(surfaces.with_store(with_light(
-                                    {{shared::kChannelConstant, static_cast<std::uint32_t>(view)}},
-                                    scene, bool{maps})),
-                                bool{occupancy}),
-                   scene)});
+      clusters.with_lights(with_picture(
+          with_corners(surfaces.with_store(with_light(
+                           {{shared::kChannelConstant, static_cast<std::uint32_t>(in.view)}}, scene,
+                           bool{maps})),
+                       bool{occupancy}),
+          scene))});
   graph.add_pass(
-      "show_channel",
+      lit ? "show_lights" : "show_channel",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref :
              {scene.frame, scene.islands, scene.materials, scene.exposure})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
         occupancy.declare(b);
+        clusters.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         if (maps) b.read(maps, Use::kComputeSampled);
         out = b.write(out, Use::kComputeWrite);
       },
-      [&pipeline, scene, surfaces, occupancy, maps, out](gpu::Commands& c) {
+      [&pipeline, scene, surfaces, occupancy, clusters, maps, out](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kFrameBinding, scene.frame);
         c.storage(shared::kIslandsBinding, scene.islands);
         c.storage(shared::kMaterialsBinding, scene.materials);
         surfaces.bind(c, scene.point_sampler);
         occupancy.bind(c);
+        clusters.bind(c);
         c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
         c.storage(shared::kPictureBinding, out);
         c.storage(shared::kExposureBinding, scene.exposure);

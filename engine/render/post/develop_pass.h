@@ -16,10 +16,14 @@ struct DevelopPass {
   /// @param bloom null: none. @param picture RGBA8 storage image of the frame's size.
   static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                        Shaded shaded, const Bloom* bloom, gpu::Image& picture);
-  /// @param lights null: there are none.
+  struct DebugIn {
+    const Geometry& geometry;
+    const Shadows& shadows;
+    const ClusteredLights* lights;  ///< null: there are none
+    DebugView view;
+  };
   static Developed add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                             const Geometry& geometry, const Shadows& shadows,
-                             const ClusteredLights* lights, DebugView view, gpu::Image& picture);
+                             const DebugIn& in, gpu::Image& picture);
 };
 
 }  // namespace skerry::render

@@ -3,6 +3,7 @@
 #include <shader_names.h>
 
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/exposure.h"
 
 namespace skerry::render {
@@ -34,9 +35,11 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       [&](gpu::PassBuilder& b) {
         b.read(scene.frame, Use::kComputeRead);
         b.read(radiance, Use::kComputeRead);
+        b.read(scene.exposure, Use::kComputeRead);
         histogram = b.write(histogram, Use::kComputeWrite);
       },
       [frame = scene.frame, size = scene.size, radiance, histogram, metering,
+       exposure = scene.exposure,
        &pipeline =
            pipelines.get(gpu::ComputeDesc{programs::kMeterRadiance, {}})](gpu::Commands& c) {
         const auto groups = [&](std::uint32_t pixels) {
@@ -47,19 +50,24 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         c.storage(shared::kFrameBinding, frame);
         c.storage(shared::kRadianceBinding, radiance);
         c.storage(shared::kHistogramBinding, histogram);
+        c.storage(shared::kExposureBinding, exposure);  // not read by the histogram
         c.push(metering);
         c.dispatch(groups(size.width), groups(size.height), 1);
       });
   graph.add_pass(
       "choose_exposure",
       [&](gpu::PassBuilder& b) {
+        b.read(scene.frame, Use::kComputeRead);
+        b.read(radiance, Use::kComputeRead);
         b.read(histogram, Use::kComputeRead);
         scene.exposure = b.write(scene.exposure, Use::kComputeWrite);
       },
-      [histogram, exposure = scene.exposure, metering,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{programs::kChooseExposure, {}})](gpu::Commands& c) {
+      [frame = scene.frame, radiance, histogram, exposure = scene.exposure, metering,
+       &pipeline = pipelines.get(gpu::ComputeDesc{
+           programs::kMeterRadiance, {{shared::kChooseConstant, 1}}})](gpu::Commands& c) {
         c.bind(pipeline);
+        c.storage(shared::kFrameBinding, frame);        // neither this
+        c.storage(shared::kRadianceBinding, radiance);  // nor this is read
         c.storage(shared::kHistogramBinding, histogram);
         c.storage(shared::kExposureBinding, exposure);
         c.push(metering);

@@ -126,14 +126,14 @@ void clear_pixel_stats(FrameAssembly& f) {
 void cull(FrameAssembly& f) {
   const SceneRefs& scene = f.scene;
   f.draws = add_cull_passes(f.graph, f.pipelines, scene,
-                            {scene.section_slots, scene.quads_resident,
+                            {scene.section_slots, scene.most_draws,
                              static_cast<std::uint32_t>(f.plan.tables.views.size())});
 }
 
 void draw_geometry(FrameAssembly& f) {
-  f.geometry =
-      GeometryPass::add(f.graph, f.pipelines, f.scene, *f.draws, f.plan.contents.cutouts_in_view[0],
-                        samples_per_edge(f.plan.settings) > 1, f.plan.settings.gbuffer);
+  f.geometry = GeometryPass::add(f.graph, f.pipelines, f.scene, *f.draws,
+                                 {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
+                                  samples_per_edge(f.plan.settings) > 1});
 }
 
 void draw_shadows(FrameAssembly& f) {
@@ -162,9 +162,10 @@ void sort_lights(FrameAssembly& f) {
 }
 
 void show_channel(FrameAssembly& f) {
-  (void)DevelopPass::add_debug(f.graph, f.pipelines, f.scene, *f.geometry, *f.shadows,
-                               f.lights_or_null(), f.plan.settings.debug_view,
-                               f.owners.picture.image());
+  (void)DevelopPass::add_debug(
+      f.graph, f.pipelines, f.scene,
+      {*f.geometry, *f.shadows, f.lights_or_null(), f.plan.settings.debug_view},
+      f.owners.picture.image());
 }
 
 void light_clouds(FrameAssembly& f) {
@@ -184,10 +185,10 @@ void shade(FrameAssembly& f) {
                                     static_cast<std::uint32_t>(f.plan.settings.shading_rate)});
   gpu::Image& picture = f.owners.picture.image();
   if (f.plan.geometry && f.plan.direct)
-    f.developed = ShadePass::add_to_picture(f.graph, f.pipelines, f.scene, *f.geometry, *f.shadows,
-                                            in, picture);
+    f.developed = ShadePass::add_to_picture(f.graph, f.pipelines, f.scene,
+                                            {*f.geometry, *f.shadows}, in, picture);
   else if (f.plan.geometry)
-    f.shaded = ShadePass::add(f.graph, f.pipelines, f.scene, *f.geometry, *f.shadows, in);
+    f.shaded = ShadePass::add(f.graph, f.pipelines, f.scene, {*f.geometry, *f.shadows}, in);
   else if (f.plan.direct)
     f.developed = ShadePass::add_sky_only_to_picture(f.graph, f.pipelines, f.scene, in, picture);
   else
@@ -195,8 +196,8 @@ void shade(FrameAssembly& f) {
 }
 
 void shade_lights(FrameAssembly& f) {
-  f.shaded = LightPass::add(f.graph, f.pipelines, f.scene, *f.geometry, *f.lights,
-                            *std::move(f.shaded), f.plan.settings);
+  f.shaded = LightPass::add(f.graph, f.pipelines, f.scene,
+                            {*f.geometry, *f.lights, f.plan.settings}, *std::move(f.shaded));
 }
 
 void break_sky_table(FrameAssembly& f) {
@@ -223,9 +224,10 @@ void mirror_clouds(FrameAssembly& f) {
 }
 
 void shade_translucent(FrameAssembly& f) {
-  f.shaded = TranslucentPass::add(f.graph, f.pipelines, f.scene, *f.geometry, *f.shadows, f.layers,
-                                  f.lights_or_null(), *std::move(f.shaded), f.plan.settings,
-                                  f.plan.input.camera_medium != 0);
+  f.shaded = TranslucentPass::add(f.graph, f.pipelines, f.scene,
+                                  {*f.geometry, *f.shadows, f.layers, f.lights_or_null(),
+                                   f.plan.settings, f.plan.input.camera_medium != 0},
+                                  *std::move(f.shaded));
 }
 
 void blend_clouds(FrameAssembly& f) {

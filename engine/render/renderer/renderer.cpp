@@ -128,8 +128,7 @@ SceneFacts Renderer::State::facts() const {
 /// Whether the device can draw the frame at all.
 Result<void> Renderer::State::check(const FramePlan& plan) const {
   if (Result<void> ok = check_store(device, plan.settings.gbuffer); !ok) return ok;
-  return check_draws(most_draws(geometry->section_slots(), geometry->quads_resident()),
-                     device.limits());
+  return check_draws(geometry->most_draws(), device.limits());
 }
 
 /// Makes what the frame's passes write to and what outlives them. May fail half-way: what has been
@@ -171,7 +170,7 @@ SceneRefs Renderer::State::import_scene(gpu::FrameGraph& to, const FramePlan& pl
   s.quads = to.import(geometry->quads());
   s.sections = to.import(geometry->sections());
   s.section_slots = geometry->section_slots();
-  s.quads_resident = geometry->quads_resident();
+  s.most_draws = geometry->most_draws();
   s.haze = plan.contents.features.has(Feature::kHaze);
   s.corners = plan.corners;
   if (plan.indirect) s.indirect_light = plan.settings.indirect;
@@ -204,6 +203,7 @@ void Renderer::State::build(const FramePlan& plan, Slot& slot) {
                     static_cast<std::uint32_t>(plan.tables.views.size()),
                     sorted ? light_clusters.work() : gpu::BufferRef{});
 }
+
 /// Asks for the programs of frames to come, by adding their steps to a graph that is never drawn.
 void Renderer::State::foresee(const FramePlan& plan) {
   if (!foresees) return;
@@ -230,7 +230,6 @@ void Renderer::State::foresee(const FramePlan& plan) {
   });
 }
 
-
 /// The frame has been submitted: what it leaves behind is so from now on.
 void Renderer::State::advance(FramePlan& plan) {
   history = std::move(plan.next);
@@ -252,9 +251,9 @@ void Renderer::State::take_report(std::uint32_t slot_index) {
   r.lights = slot.lights;
   if (slot.grid) light_clusters.learn(*slot.grid, r.clusters);
   r.counts = slot.counts;
+  r.pipelines_created = slot.pipelines_created;
   r.programs_made = slot.programs_made;
   r.allocations = slot.allocations;
-  r.pipelines_created = slot.pipelines_created;
   r.memory_bytes = slot.memory_bytes;
   if (slot.part != 0 && report) add_earlier(*report, r);
   report = std::move(r);
@@ -280,9 +279,9 @@ Result<std::uint64_t> Renderer::draw(
     const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
     std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
+  State& s = *state_;
   const int late = s.pipelines.late();
   const std::uint64_t allocations = s.device.allocations();
-  State& s = *state_;
   FramePlan plan = plan_frame({input, settings, size}, s.facts(), s.history);
   if (Result<void> ok = s.check(plan); !ok) return ok.error();
   if (Result<void> ok = s.make_room(plan); !ok) return ok.error();
@@ -313,8 +312,8 @@ Result<std::uint64_t> Renderer::draw(
   slot.memory_bytes = s.device.memory_total();
   if (after) after(frame.commands, s.picture.image());
   slot.value = s.ring.submit(waits, signals);
-  s.foresee(plan);
   s.last_slot = frame.slot;
+  s.foresee(plan);
   s.advance(plan);
   return slot.value;
 }

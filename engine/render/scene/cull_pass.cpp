@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <shader_names.h>
 
+#include <algorithm>
+
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/geometry.h"
 
 namespace skerry::render {
@@ -11,64 +14,37 @@ namespace {
 
 using gpu::Use;
 
-std::uint64_t list_index(std::uint32_t view, DrawList list) {
-  return std::uint64_t{view} * shared::kListCount + static_cast<std::uint32_t>(list);
+std::uint32_t list_index(std::uint32_t view, DrawList list) {
+  return view * shared::kListCount + static_cast<std::uint32_t>(list);
 }
 
-}  // namespace
+/// What cull_emit.comp is told, in both of its steps.
+struct EmitPush {
+  std::uint32_t section_count, group_count;
+  DrawLimits most;
+};
 
-std::uint64_t most_draws(std::uint32_t section_slots, std::uint64_t quads) {
-  return 4ull * section_slots + quads / shared::kMaxQuadsPerDraw;
-}
+/// What passes on the way from sections to draws.
+struct Culling {
+  const CullIn& in;
+  std::uint32_t groups = 0;
+  gpu::BufferRef masks, totals;
+};
 
-Result<void> check_draws(std::uint64_t most, const gpu::DeviceLimits& limits) {
-  if (most <= limits.max_draw_count) return {};
-  return Error{fmt::format(
-      "cannot draw the world at once: it may take {} indirect draws and this device allows {}; "
-      "lower view.distance",
-      most, limits.max_draw_count)};
-}
-
-CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                            const SceneRefs& scene, const CullIn& in) {
-  const std::uint32_t groups = gpu::Commands::groups(in.section_slots, shared::kCullGroup);
-  const std::uint32_t lists = in.views * shared::kListCount;
-  const auto max_draws = static_cast<std::uint32_t>(most_draws(in.section_slots, in.quads));
-  const auto words = [&](const char* name, std::uint64_t count) {
-    return graph.create(gpu::BufferDesc{name, count * 4, 0, gpu::Memory::kDevice});
-  };
-  gpu::BufferRef masks = words("cull masks", std::uint64_t{in.views} * in.section_slots);
-  gpu::BufferRef totals = words("cull totals", std::uint64_t{lists} * groups);
-  CulledDraws out;
-  out.max_draws = max_draws;
-  out.commands = graph.create(gpu::BufferDesc{
-      "draw commands", std::uint64_t{lists} * max_draws * sizeof(shared::DrawCommand), 0,
-      gpu::Memory::kDevice});
-  out.counts = words("draw counts", lists);
-  out.transforms = graph.create(
-      gpu::BufferDesc{"section transforms",
-                      std::uint64_t{in.views} * in.section_slots * sizeof(shared::SectionTransform),
-                      0, gpu::Memory::kDevice});
-  out.section_slots = in.section_slots;
-  out.stats = graph.create(
-      gpu::BufferDesc{"cull stats", in.views * sizeof(shared::CullStats), 0, gpu::Memory::kDevice});
-
-  graph.add_pass(
-      "clear_cull_stats",
-      [&](gpu::PassBuilder& b) { out.stats = b.write(out.stats, Use::kTransferWrite); },
-      [stats = out.stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
-
+void add_sections(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                  Culling& culling, CulledDraws& out) {
   graph.add_pass(
       "cull_sections",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.sections, scene.view_islands, scene.views})
           b.read(ref, Use::kComputeRead);
-        masks = b.write(masks, Use::kComputeWrite);
-        totals = b.write(totals, Use::kComputeWrite);
+        culling.masks = b.write(culling.masks, Use::kComputeWrite);
+        culling.totals = b.write(culling.totals, Use::kComputeWrite);
         out.stats = b.write(out.stats, Use::kComputeWrite);
         out.transforms = b.write(out.transforms, Use::kComputeWrite);
       },
-      [scene, masks, totals, stats = out.stats, transforms = out.transforms, in, groups,
+      [scene, masks = culling.masks, totals = culling.totals, stats = out.stats,
+       transforms = out.transforms, in = culling.in, groups = culling.groups,
        &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullSections, {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kSectionsBinding, scene.sections);
@@ -84,31 +60,46 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         c.push(push);
         c.dispatch(groups, in.views, 1);
       });
+}
 
+void add_scan(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Culling& culling,
+              CulledDraws& out) {
   graph.add_pass(
       "cull_scan",
       [&](gpu::PassBuilder& b) {
-        totals = b.write(totals, Use::kComputeWrite);
+        culling.totals = b.write(culling.totals, Use::kComputeWrite);
         out.counts = b.write(out.counts, Use::kComputeWrite);
       },
-      [totals, counts = out.counts, lists, groups, max_draws,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullScan, {}})](gpu::Commands& c) {
+      [totals = culling.totals, counts = out.counts, lists = culling.in.views * shared::kListCount,
+       push = EmitPush{culling.in.section_slots, culling.groups, culling.in.most},
+       &pipeline = pipelines.get(
+           gpu::ComputeDesc{programs::kCullEmit, {{shared::kScanConstant, 1}}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kCullTotalsBinding, totals);
         c.storage(shared::kDrawCountsBinding, counts);
-        const struct { std::uint32_t group_count, max_draws; } push{groups, max_draws};
+        // Used by the next step alone.
+        for (const std::uint32_t other : {shared::kSectionsBinding, shared::kCullMasksBinding,
+                                          shared::kCullViewsBinding, shared::kDrawCommandsBinding})
+          c.storage(other, totals);
         c.push(push);
         c.dispatch(lists, 1, 1);
       });
+}
 
+void add_emit(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+              const Culling& culling, CulledDraws& out) {
+  gpu::BufferRef totals = culling.totals;
   graph.add_pass(
       "cull_emit",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.sections, masks, totals, scene.views})
+        for (const gpu::BufferRef ref : {scene.sections, culling.masks, scene.views})
           b.read(ref, Use::kComputeRead);
+        b.read(totals, Use::kComputeRead);
         out.commands = b.write(out.commands, Use::kComputeWrite);
       },
-      [scene, masks, totals, commands = out.commands, in, groups, max_draws,
+      [scene, masks = culling.masks, totals, commands = out.commands,
+       push = EmitPush{culling.in.section_slots, culling.groups, culling.in.most},
+       views = culling.in.views,
        &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullEmit, {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kSectionsBinding, scene.sections);
@@ -116,12 +107,61 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         c.storage(shared::kCullTotalsBinding, totals);
         c.storage(shared::kCullViewsBinding, scene.views);
         c.storage(shared::kDrawCommandsBinding, commands);
-        const struct {
-          std::uint32_t section_count, group_count, max_draws;
-        } push{in.section_slots, groups, max_draws};
+        c.storage(shared::kDrawCountsBinding, commands);  // of the step before
         c.push(push);
-        c.dispatch(groups, in.views, 1);
+        c.dispatch(push.group_count, views, 1);
       });
+}
+
+}  // namespace
+
+std::uint64_t CulledDraws::first(std::uint32_t view, DrawList list) const {
+  std::uint64_t before = 0, of_view = 0;
+  for (std::uint32_t i = 0; i < shared::kListCount; ++i) {
+    of_view += most[i];
+    if (i < static_cast<std::uint32_t>(list)) before += most[i];
+  }
+  return view * of_view + before;
+}
+
+Result<void> check_draws(const DrawLimits& most, const gpu::DeviceLimits& limits) {
+  const std::uint32_t largest = *std::ranges::max_element(most);
+  if (largest <= limits.max_draw_count) return {};
+  return Error{fmt::format(
+      "cannot draw the world at once: it may take {} indirect draws and this device allows {}; "
+      "lower view.distance",
+      largest, limits.max_draw_count)};
+}
+
+CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                            const SceneRefs& scene, const CullIn& in) {
+  const auto words = [&](const char* name, std::uint64_t count) {
+    return graph.create(gpu::BufferDesc{name, count * 4, 0, gpu::Memory::kDevice});
+  };
+  const std::uint64_t lists = std::uint64_t{in.views} * shared::kListCount;
+  Culling culling{in, gpu::Commands::groups(in.section_slots, shared::kCullGroup), {}, {}};
+  culling.masks = words("cull masks", std::uint64_t{in.views} * in.section_slots);
+  culling.totals = words("cull totals", lists * culling.groups);
+  CulledDraws out;
+  out.section_slots = in.section_slots;
+  out.most = in.most;
+  out.counts = words("draw counts", lists);
+  out.commands = graph.create(gpu::BufferDesc{
+      "draw commands", out.first(in.views, DrawList::kOpaque) * sizeof(shared::DrawCommand), 0,
+      gpu::Memory::kDevice});
+  out.transforms = graph.create(
+      gpu::BufferDesc{"section transforms",
+                      std::uint64_t{in.views} * in.section_slots * sizeof(shared::SectionTransform),
+                      0, gpu::Memory::kDevice});
+  out.stats = graph.create(
+      gpu::BufferDesc{"cull stats", in.views * sizeof(shared::CullStats), 0, gpu::Memory::kDevice});
+  graph.add_pass(
+      "clear_cull_stats",
+      [&](gpu::PassBuilder& b) { out.stats = b.write(out.stats, Use::kTransferWrite); },
+      [stats = out.stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
+  add_sections(graph, pipelines, scene, culling, out);
+  add_scan(graph, pipelines, culling, out);
+  add_emit(graph, pipelines, scene, culling, out);
   return out;
 }
 
@@ -144,10 +184,9 @@ void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraw
   } push{scene.clip_from_source[view], view * draws.section_slots, scene.edge_growth[view]};
   commands.push(push);
   commands.index_buffer(scene.indices, VK_INDEX_TYPE_UINT16);
-  const std::uint64_t index = list_index(view, list);
-  commands.draw_indirect_count(draws.commands,
-                               index * draws.max_draws * sizeof(shared::DrawCommand), draws.counts,
-                               index * 4, draws.max_draws);
+  commands.draw_indirect_count(
+      draws.commands, draws.first(view, list) * sizeof(shared::DrawCommand), draws.counts,
+      std::uint64_t{list_index(view, list)} * 4, draws.most[static_cast<std::size_t>(list)]);
 }
 
 }  // namespace skerry::render

@@ -11,27 +11,25 @@ enum class DrawList : std::uint32_t { kOpaque = 0, kCutout = 1, kTranslucent = 2
 
 struct CullIn {
   std::uint32_t section_slots = 0;  ///< of the geometry store, > 0
-  std::uint64_t quads = 0;          ///< resident
+  DrawLimits most{};                ///< GeometryStore::most_draws()
   std::uint32_t views = 1;          ///< entries of SceneRefs::views
 };
 
 /// Indirect draws of every view and list, in section order.
 struct CulledDraws {
-  gpu::BufferRef commands;    ///< shared::DrawCommand[view][list][max_draws]
+  gpu::BufferRef commands;    ///< shared::DrawCommand[view][list][most[list]]
   gpu::BufferRef counts;      ///< uint[view][list]
   gpu::BufferRef stats;       ///< shared::CullStats[view]
   gpu::BufferRef transforms;  ///< shared::SectionTransform[view][section]
   std::uint32_t section_slots = 0;
-  std::uint32_t max_draws = 0;
+  DrawLimits most{};
+
+  /// Index in `commands` of a list's first draw.
+  std::uint64_t first(std::uint32_t view, DrawList list) const;
 };
 
-/// Indirect commands that one list of one view may need, at most. A list's ranges make at most four
-/// runs a section (six faces and the plants, every second one visible), and splitting a run adds at
-/// most one draw for every kMaxQuadsPerDraw quads.
-std::uint64_t most_draws(std::uint32_t section_slots, std::uint64_t quads);
-
 /// Whether the device draws that many indirectly at once; the error says what to lower.
-Result<void> check_draws(std::uint64_t most, const gpu::DeviceLimits& limits);
+Result<void> check_draws(const DrawLimits& most, const gpu::DeviceLimits& limits);
 
 /// Frustum and face-direction culling on the GPU for all views at once: three compute passes
 /// (sections, scan, emit). The order of draws does not depend on thread timing. Conservative:

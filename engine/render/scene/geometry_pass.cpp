@@ -31,9 +31,8 @@ std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store, bool 
   cutout.cull = VK_CULL_MODE_NONE;
   const VkFormat normal = normal_format(store.normal), position = position_format(store.position);
   if (normal == VK_FORMAT_UNDEFINED && position == VK_FORMAT_UNDEFINED) return {opaque, cutout};
-  opaque.fragment = programs::kWriteSurfaceStoredFrag;
-  cutout.fragment = programs::kWriteCutoutStoredFrag;
   for (gpu::GraphicsDesc* desc : {&opaque, &cutout}) {
+    desc->constants.push_back({shared::kStoredConstant, 1});
     desc->constants.push_back({shared::kNormalCodeConstant, normal_code(store.normal)});
     desc->constants.push_back(
         {shared::kPositionStoredConstant, position != VK_FORMAT_UNDEFINED ? 1u : 0u});
@@ -46,37 +45,35 @@ std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store, bool 
 }  // namespace
 
 Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                           const SceneRefs& scene, const CulledDraws& draws, bool cutouts,
-                           bool finest_coverage, const GBufferStore& store) {
+                           const SceneRefs& scene, const CulledDraws& draws, const In& in) {
+  const GBufferStore& store = in.store;
   Geometry out;
   out.store_ = store;
   out.surfaces_ = target(graph, "surfaces", VK_FORMAT_R32_UINT, scene.size);
   out.depth_ = target(graph, "depth", depth_format(store.depth), scene.size);
   out.normals_ = target(graph, "normals", normal_format(store.normal), scene.size);
   out.positions_ = target(graph, "positions", position_format(store.position), scene.size);
-  const std::array<gpu::GraphicsDesc, 2> descs = pipeline_descs(store, finest_coverage);
+  const std::array<gpu::GraphicsDesc, 2> descs = pipeline_descs(store, in.finest_coverage);
   const gpu::Pipeline& opaque_pipeline = pipelines.get(descs[0]);
-  const gpu::Pipeline* cutout_pipeline = cutouts ? &pipelines.get(descs[1]) : nullptr;
+  const gpu::Pipeline* cutout_pipeline = in.cutouts ? &pipelines.get(descs[1]) : nullptr;
 
   graph.add_pass(
       "draw_geometry",
       [&](gpu::PassBuilder& b) {
         declare_draws(b, scene, draws);
-        if (cutouts) {
+        if (in.cutouts) {
           b.read(scene.materials, Use::kFragmentRead);
           b.read(scene.block_textures, Use::kFragmentRead);
         }
-        if (out.stored())
-          for (const gpu::BufferRef ref : {scene.frame, scene.islands})
-            b.read(ref, Use::kFragmentRead);
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands})
+          b.read(ref, Use::kFragmentRead);
         for (gpu::ImageRef* image : {&out.surfaces_, &out.normals_, &out.positions_})
           if (*image) *image = b.color(*image, gpu::Load::cleared({}));
         out.depth_ = b.depth(out.depth_, gpu::Load::cleared({}));
       },
-      [scene, draws, stored = out.stored(), &opaque_pipeline, cutout_pipeline](gpu::Commands& c) {
+      [scene, draws, &opaque_pipeline, cutout_pipeline](gpu::Commands& c) {
         const auto bind = [&](const gpu::Pipeline& pipeline) {
-          c.bind(pipeline);
-          if (!stored) return;
+          c.bind(pipeline);  // frame and islands are read where normals or positions are kept
           c.storage(shared::kFrameBinding, scene.frame);
           c.storage(shared::kIslandsBinding, scene.islands);
         };

@@ -8,13 +8,15 @@ namespace skerry::render {
 /// pixel. Position comes back from the depth, the exact normal from word and island, albedo from
 /// position and block textures (docs/decisions/0002).
 struct GeometryPass {
-  /// @param cutouts false leaves the pass's alpha-tested half out.
-  /// @param finest_coverage tests alpha on the finest texels, as suits several samples a pixel;
-  /// mips of thin plants keep nothing of them where a block is smaller than a sample.
-  /// @param store what is written besides the word, see gbuffer_formats.h.
+  struct In {
+    const GBufferStore& store;  ///< what is written besides the word, see gbuffer_formats.h
+    bool cutouts = true;        ///< false leaves the pass's alpha-tested half out
+    /// Tests alpha on the finest texels, as suits several samples a pixel; mips of thin plants keep
+    /// nothing of them where a block is smaller than a sample.
+    bool finest_coverage = false;
+  };
   static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                      const CulledDraws& draws, bool cutouts, bool finest_coverage,
-                      const GBufferStore& store);
+                      const CulledDraws& draws, const In& in);
 };
 
 }  // namespace skerry::render

@@ -1,5 +1,7 @@
 #include "engine/render/scene/geometry_store.h"
 
+#include <algorithm>
+
 #include "engine/core/check.h"
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/device/resources.h"
@@ -15,6 +17,17 @@ constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
 
 std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
   return section.range_end[end - 1] - (first == 0 ? 0 : section.range_end[first - 1]);
+}
+
+constexpr std::array<std::uint32_t, shared::kListCount + 1> kListRanges{
+    shared::kRangeOpaque, shared::kRangeCutout, shared::kRangeTranslucent, shared::kRangeCount};
+
+/// Neighbouring ranges are drawn at once, so that most draws come of every second one.
+std::uint32_t most_runs(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
+  std::uint32_t filled = 0;
+  for (std::uint32_t range = first; range < end; ++range)
+    filled += range_quads(section, range, range + 1) != 0 ? 1 : 0;
+  return (filled + 1) / 2;
 }
 
 }  // namespace
@@ -98,6 +111,14 @@ void GeometryStore::count(const shared::Section& section, std::int64_t sign) {
       sign * range_quads(section, shared::kRangeCutout, shared::kRangeTranslucent));
   translucent_quads_ += static_cast<std::uint64_t>(
       sign * range_quads(section, shared::kRangeTranslucent, shared::kRangeCount));
+  for (std::uint32_t list = 0; list < shared::kListCount; ++list) {
+    const std::uint32_t first = kListRanges[list], end = kListRanges[list + 1];
+    runs_[list] += static_cast<std::uint64_t>(sign * most_runs(section, first, end));
+    quads_of_list_[list] += static_cast<std::uint64_t>(sign * range_quads(section, first, end));
+    // A run is split at kMaxQuadsPerDraw.
+    const std::uint64_t most = runs_[list] + quads_of_list_[list] / shared::kMaxQuadsPerDraw;
+    most_draws_[list] = std::max(most_draws_[list], static_cast<std::uint32_t>(most));
+  }
   changes_.note(section);
 }
 

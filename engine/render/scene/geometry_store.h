@@ -7,6 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device/resources.h"
 #include "engine/gpu/transfer/quad_arena.h"
+#include "engine/render/frame/draw_limits.h"
 #include "engine/render/scene/geometry_changes.h"
 #include "engine/render/scene/memory_budget.h"
 #include "shaders/shared/geometry.h"
@@ -58,6 +59,9 @@ class GeometryStore {
   std::uint64_t bytes_in_use() const {
     return (std::uint64_t{arena_.used()} + arena_.waiting()) * sizeof(shared::Quad);
   }
+  /// Enough for what is resident and for what the GPU holds until the uploads have been recorded:
+  /// never less than before.
+  const DrawLimits& most_draws() const { return most_draws_; }
   std::uint64_t translucent_quads() const { return translucent_quads_; }
   std::uint64_t cutout_quads() const { return cutout_quads_; }
   std::span<const shared::Section> records() const { return records_; }
@@ -79,6 +83,8 @@ class GeometryStore {
   std::vector<shared::Quad> scratch_;
   std::uint32_t section_capacity_ = 0;
   std::uint64_t translucent_quads_ = 0, cutout_quads_ = 0;
+  std::array<std::uint64_t, shared::kListCount> runs_{}, quads_of_list_{};
+  DrawLimits most_draws_{};
   GeometryChanges changes_;
 };
 

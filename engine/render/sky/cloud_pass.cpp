@@ -120,13 +120,20 @@ gpu::ImageRef march(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sce
   return coarse;
 }
 
+struct Blend {
+  const char* name;
+  const ViewReads& reads;
+  gpu::ImageRef coarse;  // empty: every pixel marches
+};
+
 gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const char* name, const ViewReads& reads, gpu::ImageRef coarse,
-                    gpu::ImageRef radiance) {
+                    const Blend& in, gpu::ImageRef radiance) {
+  const ViewReads& reads = in.reads;
+  const gpu::ImageRef coarse = in.coarse;
   std::vector<gpu::SpecConstant> constants;
   if (coarse) constants.push_back({shared::kCoarseConstant, 1});
   graph.add_pass(
-      name,
+      in.name,
       [&](gpu::PassBuilder& b) {
         reads.declare(b);
         if (coarse) b.read(coarse, Use::kComputeSampled);
@@ -222,7 +229,7 @@ Shaded CloudPass::add_behind(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
                              const View& view, Shaded shaded, const RenderSettings& settings) {
   const ViewReads reads(scene, view, settings, Part::kBehind);
   return Shaded(
-      blend(graph, pipelines, scene, "blend_clouds_behind_water", reads, {}, shaded.radiance()));
+      blend(graph, pipelines, scene, {"blend_clouds_behind_water", reads, {}}, shaded.radiance()));
 }
 
 Shaded CloudPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
@@ -233,7 +240,7 @@ Shaded CloudPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
     coarse = march(graph, pipelines, scene, reads);
   else
     graph.leave_out("march_clouds", "clouds.resolution=full");
-  return Shaded(blend(graph, pipelines, scene, "blend_clouds", reads, coarse, shaded.radiance()));
+  return Shaded(blend(graph, pipelines, scene, {"blend_clouds", reads, coarse}, shaded.radiance()));
 }
 
 }  // namespace skerry::render

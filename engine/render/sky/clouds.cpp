@@ -8,13 +8,14 @@
 
 #include "engine/core/check.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 namespace {
 
 using gpu::Use;
 
-constexpr std::uint32_t kLightGroup = 4, kColumnGroup = 8;
+constexpr std::uint32_t kColumnGroup = 8;
 constexpr std::uint32_t kNoiseEdge = shared::kCloudNoiseEdge;
 
 constexpr VkImageUsageFlags kBaked = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
@@ -183,25 +184,41 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
                                                     .format = VK_FORMAT_R8G8B8A8_UNORM,
                                                     .extent = {kNoiseEdge, kNoiseEdge},
                                                     .depth = kNoiseEdge});
+  const auto declare_packed = [&](gpu::PassBuilder& b) {
+    for (gpu::ImageRef* ref : {&refs.weather, &refs.shapes, &refs.billows})
+      *ref = b.write(*ref, Use::kComputeWrite);
+  };
+  const auto bind_layer = [refs](gpu::Commands& c, std::uint32_t layer) {
+    c.storage(shared::kCloudShapesBinding, refs.shapes, 0, layer);
+    c.storage(shared::kCloudBillowsBinding, refs.billows, 0, layer);
+    c.push(layer);
+  };
   graph.add_pass(
-      "bake_cloud_noise", [&](gpu::PassBuilder& b) { noise = b.write(noise, Use::kComputeWrite); },
-      [noise, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kBakeCloudNoise, {}})](
-          gpu::Commands& c) {
+      "bake_cloud_noise",
+      [&](gpu::PassBuilder& b) {
+        noise = b.write(noise, Use::kComputeWrite);
+        declare_packed(b);
+      },
+      [noise, weather = refs.weather, bind_layer,
+       &pipeline =
+           pipelines.get(gpu::ComputeDesc{programs::kBakeCloudNoise, {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kCloudNoiseBinding, noise);
+        c.storage(shared::kCloudWeatherBinding, weather);
+        bind_layer(c, 0);  // what packing writes
         c.dispatch(kGroups, kGroups, kNoiseEdge);
       });
   graph.add_pass(
       "pack_cloud_noise",
       [&](gpu::PassBuilder& b) {
-        b.read(noise, Use::kComputeSampled);
-        for (gpu::ImageRef* ref : {&refs.weather, &refs.shapes, &refs.billows})
-          *ref = b.write(*ref, Use::kComputeWrite);
+        b.read(noise, Use::kComputeRead);
+        declare_packed(b);
       },
-      [noise, refs, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kPackCloudNoise, {}})](
-          gpu::Commands& c) {
+      [noise, refs,
+       &pipeline = pipelines.get(gpu::ComputeDesc{
+           programs::kBakeCloudNoise, {{shared::kPackConstant, 1}}})](gpu::Commands& c) {
         c.bind(pipeline);
-        c.sampled(shared::kCloudNoiseBinding, noise, refs.nearest);
+        c.storage(shared::kCloudNoiseBinding, noise);
         c.storage(shared::kCloudWeatherBinding, refs.weather);
         for (std::uint32_t layer = 0; layer < shared::kCloudNoiseLayers; ++layer) {
           c.storage(shared::kCloudShapesBinding, refs.shapes, 0, layer);
@@ -218,19 +235,17 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
       body == 0 ? "trace_cloud_layer_sun" : "trace_cloud_layer_moon",
       [&](gpu::PassBuilder& b) {
         b.read(refs.constants, Use::kComputeRead);
-        for (const gpu::ImageRef ref : {refs.weather, refs.shapes, refs.billows})
-          b.read(ref, Use::kComputeSampled);
+        refs.declare_media(b);
         refs.layer_light = b.write(refs.layer_light, Use::kComputeWrite);
       },
-      [refs, body, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kTraceCloudLayer, {}})](
-          gpu::Commands& c) {
+      [refs, body,
+       &pipeline = pipelines.get(gpu::ComputeDesc{
+           programs::kTraceCloudLight, {{shared::kCloudLayerConstant, 1}}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kCloudsBinding, refs.constants);
-        c.sampled(shared::kCloudWeatherBinding, refs.weather, refs.repeating);
-        c.storage(shared::kLayerLightBinding, refs.layer_light);
-        c.sampled(shared::kCloudShapesBinding, refs.shapes, refs.repeating);
-        c.sampled(shared::kCloudBillowsBinding, refs.billows, refs.repeating);
-        c.push(body);
+        refs.bind_media(c);
+        c.storage(shared::kTargetBinding, refs.layer_light);
+        c.push(shared::CloudLightJob{0, body});
         const std::uint32_t groups = shared::kLayerLightEdge / kColumnGroup;
         c.dispatch(groups, groups, 1);
       });
@@ -238,7 +253,7 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
 
 void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                               std::span<const shared::CloudLightJob> light_jobs, CloudRefs& refs) {
-  std::vector<std::pair<shared::CloudLightJob, glm::ivec3>> jobs;
+  std::vector<std::pair<shared::CloudLightJob, glm::uvec3>> jobs;
   for (const shared::CloudLightJob& job : light_jobs)
     jobs.emplace_back(job, packed_[job.volume].light_texels);
   if (jobs.empty()) {
@@ -248,22 +263,20 @@ void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   graph.add_pass(
       "trace_cloud_volumes",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::ImageRef ref : {refs.cells, refs.bricks}) b.read(ref, Use::kComputeSampled);
         b.read(refs.constants, Use::kComputeRead);
+        refs.declare_media(b);
         refs.volume_light = b.write(refs.volume_light, Use::kComputeWrite);
       },
-      [refs, jobs, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kTraceCloudVolume, {}})](
+      [refs, jobs, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kTraceCloudLight, {}})](
           gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kCloudsBinding, refs.constants);
-        c.sampled(shared::kCloudCellsBinding, refs.cells, refs.nearest);
-        c.sampled(shared::kCloudBricksBinding, refs.bricks, refs.linear);
-        c.storage(shared::kVolumeLightBinding, refs.volume_light);
+        refs.bind_media(c);
+        c.storage(shared::kTargetBinding, refs.volume_light);
         for (const auto& [job, texels] : jobs) {
           c.push(job);
-          c.dispatch(gpu::Commands::groups(static_cast<std::uint32_t>(texels.x), kLightGroup),
-                     gpu::Commands::groups(static_cast<std::uint32_t>(texels.y), kLightGroup),
-                     gpu::Commands::groups(static_cast<std::uint32_t>(texels.z), kLightGroup));
+          c.dispatch(gpu::Commands::groups(texels.x, kColumnGroup),
+                     gpu::Commands::groups(texels.y, kColumnGroup), texels.z);
         }
       });
 }
@@ -296,18 +309,15 @@ CloudRefs Clouds::add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
     add_noise(graph, pipelines, plan.bake_noise, refs);
     refs.layer_light = graph.import(layer_light_);
   }
-  if (refs.volumes != 0) {
-    refs.bricks = graph.import(bricks_);
-    refs.cells = graph.import(cells_);
-  }
-  add_light_of_bodies(graph, pipelines, scene.bodies, plan, refs);
   // What there is none of is never read; something is bound so that every binding is valid.
   if (!refs.layer) {
     refs.weather = scene.sky_lut;
     refs.shapes = refs.billows = scene.block_textures;
-    refs.layer_light = refs.bricks;
+    refs.layer_light = scene.no_volume;
   }
-  if (refs.volumes == 0) refs.bricks = refs.cells = refs.layer_light;
+  refs.bricks = refs.volumes != 0 ? graph.import(bricks_) : scene.no_volume;
+  refs.cells = refs.volumes != 0 ? graph.import(cells_) : scene.no_volume;
+  add_light_of_bodies(graph, pipelines, scene.bodies, plan, refs);
   if (!refs.volume_light) refs.volume_light = refs.bricks;
   return refs;
 }

@@ -27,6 +27,7 @@ struct SampleLevel {
   std::uint32_t step = 1;
   gpu::ImageRef coarser;          ///< samples of the next coarser one; empty: there is none
   gpu::ImageRef own;              ///< samples; empty at step 1, which writes radiance
+  gpu::ImageRef radiance;         ///< of the picture
   gpu::BufferRef listed, pixels;  ///< shared::TileDispatch in groups of 64, and x | y << 16
 
   /// What is bound where samples are read and written; where there are none, the other one, which
@@ -71,7 +72,7 @@ void declare_coarser(gpu::PassBuilder& b, SampleLevel& level) {
 
 /// Lists the level's pixels that need light of their own; the others get it at once.
 void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                  const SampleIn& on, SampleLevel& level, gpu::ImageRef& radiance,
+                  const SampleIn& on, SampleLevel& level,
                   std::vector<gpu::SpecConstant> constants) {
   const SurfaceReads surfaces(on.geometry);
   graph.add_pass(
@@ -86,9 +87,9 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
         level.listed = b.write(level.listed, Use::kComputeWrite);
         level.pixels = b.write(level.pixels, Use::kComputeWrite);
         if (level.own) level.own = b.write(level.own, Use::kComputeWrite);
-        radiance = b.write(radiance, Use::kComputeWrite);
+        level.radiance = b.write(level.radiance, Use::kComputeWrite);
       },
-      [scene, surfaces, level, tiles = on.tiles, radiance,
+      [scene, surfaces, level, tiles = on.tiles,
        &pipeline = pipelines.get(gpu::ComputeDesc{programs::kChooseSamples, std::move(constants)})](
           gpu::Commands& c) {
         c.bind(pipeline);
@@ -98,7 +99,7 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
         c.storage(shared::kSurfacesBinding, surfaces.words);
         c.sampled(shared::kDepthsBinding, surfaces.depth, scene.point_sampler);
         c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        c.storage(shared::kRadianceBinding, radiance);
+        c.storage(shared::kRadianceBinding, level.radiance);
         c.storage(shared::kCoarserSamplesBinding, level.read());
         c.storage(shared::kOwnSamplesBinding, level.written());
         c.storage(shared::kListedBinding, level.listed);
@@ -139,8 +140,7 @@ void bind_no_lights(gpu::Commands& c, const SceneRefs& scene) {
 
 /// Works out the light of the listed pixels.
 void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                 const SampleIn& on, const SampledLight& light, SampleLevel& level,
-                 gpu::ImageRef& radiance) {
+                 const SampleIn& on, const SampledLight& light, SampleLevel& level) {
   const SurfaceReads surfaces(on.geometry);
   const WallReads walls(scene, light.settings, scene.corners);
   const CloudRefs clouds = clouds_before_light(scene);
@@ -166,10 +166,10 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         declare_coarser(b, level);
         if (level.own) level.own = b.write(level.own, Use::kComputeWrite);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
-        radiance = b.write(radiance, Use::kComputeWrite);
+        level.radiance = b.write(level.radiance, Use::kComputeWrite);
       },
       [&pipeline = shading_pipeline(pipelines, scene, on, light, level.step == 1), scene, surfaces,
-       walls, clouds, lights, maps, level, radiance](gpu::Commands& c) {
+       walls, clouds, lights, maps, level](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kFrameBinding, scene.frame);
         c.storage(shared::kIslandsBinding, scene.islands);
@@ -186,7 +186,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         }
         c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
         c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
-        c.storage(shared::kRadianceBinding, radiance);
+        c.storage(shared::kRadianceBinding, level.radiance);
         c.storage(shared::kOwnSamplesBinding, level.written());
         c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
         c.storage(shared::kListedBinding, level.listed);
@@ -205,7 +205,12 @@ gpu::ImageRef add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipeline
   gpu::ImageRef coarser;
   for (std::uint32_t step = light.rate; step > 0; step /= 2) {
     const VkExtent2D size = points(scene.size, step);
-    SampleLevel level{.step = step, .coarser = coarser, .own = {}, .listed = {}, .pixels = {}};
+    SampleLevel level{.step = step,
+                      .coarser = coarser,
+                      .own = {},
+                      .radiance = radiance,
+                      .listed = {},
+                      .pixels = {}};
     level.listed = graph.create(
         gpu::BufferDesc{"sample dispatch", sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
     level.pixels = graph.create(gpu::BufferDesc{
@@ -214,9 +219,9 @@ gpu::ImageRef add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipeline
       level.own = graph.create(gpu::ImageDesc{
           .name = "light samples", .format = VK_FORMAT_R32G32B32A32_UINT, .extent = size});
     add_clear(graph, level);
-    add_choosing(graph, pipelines, scene, on, level, radiance,
-                 choosing_constants(level, on, light.settings));
-    add_shading(graph, pipelines, scene, on, light, level, radiance);
+    add_choosing(graph, pipelines, scene, on, level, choosing_constants(level, on, light.settings));
+    add_shading(graph, pipelines, scene, on, light, level);
+    radiance = level.radiance;
     coarser = level.own;
   }
   return radiance;

@@ -131,11 +131,10 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
 
 /// Adds surfaces and sky, both into `target`. @return its last version.
 gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const Geometry& geometry, const Shadows& shadows, const ShadeIn& in,
-                    Target target) {
+                    const ShadedFrom& from, const ShadeIn& in, Target target) {
   const SampleIn on{
-      geometry, shadows,
-      classify_tiles(graph, pipelines, "classify_tiles", geometry.surfaces(), scene.size)};
+      from.geometry, from.shadows,
+      classify_tiles(graph, pipelines, "classify_tiles", from.geometry.surfaces(), scene.size)};
   if (in.sampled)
     target.image = add_sample_passes(graph, pipelines, scene, on, *in.sampled, target.image);
   else
@@ -190,17 +189,14 @@ gpu::ImageRef radiance(gpu::FrameGraph& graph, const SceneRefs& scene) {
 }  // namespace
 
 Shaded ShadePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                      const Geometry& geometry, const Shadows& shadows, const ShadeIn& in) {
-  return Shaded(
-      shade(graph, pipelines, scene, geometry, shadows, in, {radiance(graph, scene), false}));
+                      const ShadedFrom& from, const ShadeIn& in) {
+  return Shaded(shade(graph, pipelines, scene, from, in, {radiance(graph, scene), false}));
 }
 
 Developed ShadePass::add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                    SceneRefs& scene, const Geometry& geometry,
-                                    const Shadows& shadows, const ShadeIn& in,
+                                    SceneRefs& scene, const ShadedFrom& from, const ShadeIn& in,
                                     gpu::Image& picture) {
-  return Developed(
-      shade(graph, pipelines, scene, geometry, shadows, in, {graph.import(picture), true}));
+  return Developed(shade(graph, pipelines, scene, from, in, {graph.import(picture), true}));
 }
 
 Shaded ShadePass::add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,

@@ -19,15 +19,21 @@ struct ShadeIn {
   std::optional<SampledLight> sampled{};
 };
 
+/// What opaque surfaces are shaded from.
+struct ShadedFrom {
+  const Geometry& geometry;
+  const Shadows& shadows;
+};
+
 /// Light for every pixel, in compute, by tiles: surfaces under sun and moon, sky elsewhere.
 struct ShadePass {
   /// To scene radiance, for the passes that follow.
   static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const Geometry& geometry, const Shadows& shadows, const ShadeIn& in);
+                    const ShadedFrom& from, const ShadeIn& in);
   /// Straight to the picture, when nothing comes between: two image passes less.
   static Developed add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                  SceneRefs& scene, const Geometry& geometry,
-                                  const Shadows& shadows, const ShadeIn& in, gpu::Image& picture);
+                                  SceneRefs& scene, const ShadedFrom& from, const ShadeIn& in,
+                                  gpu::Image& picture);
   /// A frame without geometry: sky alone, to scene radiance or straight to the picture.
   static Shaded add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                              const ShadeIn& in);

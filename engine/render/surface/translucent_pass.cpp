@@ -55,73 +55,101 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
   return out;
 }
 
+namespace {
+
+/// What shade_translucent.comp reads.
+class LayerReads {
+ public:
+  LayerReads(const SceneRefs& scene, const TranslucentPass::In& in)
+      : scene_(scene),
+        layers_(in.layers),
+        opaque_depth_(in.geometry.depth()),
+        maps_(in.shadows.maps()),
+        walls_(scene, in.settings, false),
+        clouds_(clouds_before_light(scene)),
+        lights_(in.lights ? *in.lights : ClusteredLights::none(scene)),
+        lit_(in.lights != nullptr) {}
+
+  std::vector<gpu::SpecConstant> constants() const {
+    std::vector<gpu::SpecConstant> own = clouds_.with_clouds(
+        with_light({{shared::kLayersConstant, layers_.count}}, scene_, bool{maps_}));
+    if (layers_.mirrored_clouds) own.push_back({shared::kMirroredCloudsConstant, 1});
+    return lit_ ? walls_.with_walls(lights_.with_lights(std::move(own))) : own;
+  }
+  void declare(gpu::PassBuilder& b) const {
+    for (const gpu::BufferRef ref : {scene_.frame, scene_.islands, scene_.materials})
+      b.read(ref, Use::kComputeRead);
+    clouds_.declare_light(b);
+    if (layers_.mirrored_clouds) b.read(layers_.mirrored_clouds, Use::kComputeSampled);
+    lights_.declare(b);
+    walls_.declare(b);
+    for (std::uint32_t k = 0; k < layers_.count; ++k) {
+      b.read(layers_.surfaces[k], Use::kComputeRead);
+      b.read(layers_.depth[k], Use::kComputeSampled);
+    }
+    for (const gpu::ImageRef ref : {opaque_depth_, scene_.sky_lut, scene_.block_textures})
+      b.read(ref, Use::kComputeSampled);
+    if (maps_) b.read(maps_, Use::kComputeSampled);
+  }
+  void bind(gpu::Commands& c) const {
+    c.storage(shared::kFrameBinding, scene_.frame);
+    c.storage(shared::kIslandsBinding, scene_.islands);
+    c.storage(shared::kMaterialsBinding, scene_.materials);
+    c.sampled(shared::kDepthsBinding, opaque_depth_, scene_.point_sampler);
+    c.sampled(shared::kSkyTableBinding, scene_.sky_lut, scene_.lut_sampler);
+    c.sampled(shared::kShadowMapsBinding, maps_or_others(scene_, maps_), scene_.point_sampler);
+    c.sampled(shared::kBlockTexturesBinding, scene_.block_textures, scene_.block_sampler);
+    clouds_.bind_light(c);
+    // Where none are known, something that is never read is bound in their place.
+    c.sampled(shared::kMirroredCloudsBinding,
+              layers_.mirrored_clouds ? layers_.mirrored_clouds : scene_.sky_lut,
+              scene_.point_sampler);
+    // Layers that are not kept are never read; they are bound to the first so that every binding
+    // is valid.
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t bound = k < layers_.count ? k : 0;
+      c.storage(shared::kLayerSurfacesBinding + k, layers_.surfaces[bound]);
+      c.sampled(shared::kLayerDepthsBinding + k, layers_.depth[bound], scene_.point_sampler);
+    }
+    lights_.bind(c);
+    walls_.bind(c);
+  }
+
+ private:
+  SceneRefs scene_;
+  TranslucentPass::Layers layers_;
+  gpu::ImageRef opaque_depth_, maps_;
+  WallReads walls_;
+  CloudRefs clouds_;
+  ClusteredLights lights_;
+  bool lit_;
+};
+
+}  // namespace
+
 Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                            const Geometry& geometry, const Shadows& shadows, const Layers& layers,
-                            const ClusteredLights* lights, Shaded shaded,
-                            const RenderSettings& settings, bool inside_medium) {
-  const gpu::ImageRef opaque_depth = geometry.depth();
+                            const In& in, Shaded shaded) {
   // Inside a medium every pixel is looked at through it; else only those with a translucent
   // surface.
   const Tiles tiles = classify_tiles(graph, pipelines, "classify_translucent_tiles",
-                                     layers.surfaces[0], scene.size);
+                                     in.layers.surfaces[0], scene.size);
   gpu::ImageRef radiance = shaded.radiance();
-  const gpu::ImageRef maps = shadows.maps();
-  std::vector<gpu::SpecConstant> constants =
-      with_light({{shared::kLayersConstant, layers.count}}, scene, bool{maps});
-  const WallReads walls(scene, settings, false);
-  const CloudRefs clouds = clouds_before_light(scene);
-  constants = clouds.with_clouds(std::move(constants));
-  if (layers.mirrored_clouds) constants.push_back({shared::kMirroredCloudsConstant, 1});
-  const ClusteredLights lit = lights ? *lights : ClusteredLights::none(scene);
-  if (lights) constants = walls.with_walls(lit.with_lights(std::move(constants)));
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{programs::kShadeTranslucent, std::move(constants)});
+  const LayerReads reads(scene, in);
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
-          b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
-        clouds.declare_light(b);
-        if (layers.mirrored_clouds) b.read(layers.mirrored_clouds, Use::kComputeSampled);
-        lit.declare(b);
-        walls.declare(b);
-        for (std::uint32_t k = 0; k < layers.count; ++k) {
-          b.read(layers.surfaces[k], Use::kComputeRead);
-          b.read(layers.depth[k], Use::kComputeSampled);
-        }
-        for (const gpu::ImageRef ref : {opaque_depth, scene.sky_lut, scene.block_textures})
-          b.read(ref, Use::kComputeSampled);
-        if (maps) b.read(maps, Use::kComputeSampled);
+        reads.declare(b);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, walls, clouds, &pipeline,
-       lit](gpu::Commands& c) {
+      [reads, tiles, radiance, stats = scene.pixel_stats, inside_medium = in.inside_medium,
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kShadeTranslucent, reads.constants()})](
+          gpu::Commands& c) {
         c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        c.sampled(shared::kDepthsBinding, opaque_depth, scene.point_sampler);
-        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
+        reads.bind(c);
+        c.storage(shared::kPixelStatsBinding, stats);
         c.storage(shared::kRadianceBinding, radiance);
-        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
-        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        clouds.bind_light(c);
-        // Where none are known, something that is never read is bound in their place.
-        c.sampled(shared::kMirroredCloudsBinding,
-                  layers.mirrored_clouds ? layers.mirrored_clouds : scene.sky_lut,
-                  scene.point_sampler);
-        // Layers that are not kept are never read; they are bound to the first so that every
-        // binding is valid.
-        for (std::uint32_t k = 0; k < 4; ++k) {
-          const std::uint32_t bound = k < layers.count ? k : 0;
-          c.storage(shared::kLayerSurfacesBinding + k, layers.surfaces[bound]);
-          c.sampled(shared::kLayerDepthsBinding + k, layers.depth[bound], scene.point_sampler);
-        }
-        lit.bind(c);
-        walls.bind(c);
         dispatch_tiles(c, tiles, TileKind::kCovered);
         if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
       });

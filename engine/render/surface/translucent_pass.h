@@ -22,12 +22,16 @@ struct TranslucentPass {
   /// translucent followed.
   static Layers draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      const CulledDraws& draws, const Geometry& geometry, int layers);
-  /// @param inside_medium the camera itself is in a translucent block.
-  /// @param lights null: there are none. Walls block all of them, if any.
+  struct In {
+    const Geometry& geometry;
+    const Shadows& shadows;
+    const Layers& layers;
+    const ClusteredLights* lights;  ///< null: there are none. Walls block all of them, if any.
+    const RenderSettings& settings;
+    bool inside_medium;  ///< the camera itself is in a translucent block
+  };
   static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const Geometry& geometry, const Shadows& shadows, const Layers& layers,
-                    const ClusteredLights* lights, Shaded shaded, const RenderSettings& settings,
-                    bool inside_medium);
+                    const In& in, Shaded shaded);
 };
 
 }  // namespace skerry::render

@@ -173,10 +173,23 @@ TEST_F(Features, CutOutsAreDrawnOnlyIntoViewsThatHaveThem) {
 TEST(DrawBound, IsCheckedAgainstTheDevice) {
   gpu::DeviceLimits limits;
   limits.max_draw_count = 65535;
-  EXPECT_TRUE(check_draws(most_draws(16000, 20'000'000), limits));
-  const Result<void> refused = check_draws(most_draws(16384, 0), limits);
+  EXPECT_TRUE(check_draws({65535, 65535, 0}, limits));
+  const Result<void> refused = check_draws({3, 65536, 0}, limits);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("65535"), std::string::npos);
+}
+
+TEST_F(Features, DrawsHaveRoomForWhatIsResident) {
+  add(pond, {0, -1, 0}, {1, 0, 1});
+  const GeometryStore& store = renderer().geometry();
+  const DrawLimits most = store.most_draws();
+  EXPECT_GE(most[0], store.sections_resident());
+  EXPECT_LE(most[0], 3 * store.sections_resident()) << "six faces make three runs at most";
+  EXPECT_EQ(most[1], 0u) << "there is no leaf";
+  EXPECT_GE(most[2], 1u);
+  const FrameReport report = drawn(input(celestial_at(kNoon, 0.0)), {}, kSize);
+  EXPECT_GT(report.camera.draws, 0u);
+  EXPECT_LE(report.camera.draws, most[0] + most[2]);
 }
 
 TEST_F(Features, OnlyAsManyLayersArePeeledAsAskedFor) {

@@ -40,9 +40,9 @@ static_assert(kNotMadeFrom<Developed, Geometry, Shadows, Shaded>);
 
 // Shading needs geometry and shadows; sampling a phase that was not written has no type to name.
 template <class... Inputs>
-constexpr bool kShades =
-    std::is_invocable_v<decltype(&ShadePass::add), gpu::FrameGraph&, gpu::Pipelines&, SceneRefs&,
-                        Inputs..., const ShadeIn&>;
+constexpr bool kShades = requires(Inputs... inputs) {
+  ShadedFrom{inputs...};
+};
 static_assert(kShades<const Geometry&, const Shadows&>);
 static_assert(!kShades<const Shadows&, const Geometry&>);
 static_assert(!kShades<const Geometry&>);
@@ -60,8 +60,7 @@ static_assert(!kDevelops<Geometry> && !kDevelops<Developed> && !kDevelops<gpu::I
 template <class Input>
 constexpr bool kLooksThrough =
     std::is_invocable_v<decltype(&TranslucentPass::add), gpu::FrameGraph&, gpu::Pipelines&,
-                        SceneRefs&, const Geometry&, const Shadows&, const TranslucentPass::Layers&,
-                        const ClusteredLights*, Input, const RenderSettings&, bool>;
+                        SceneRefs&, const TranslucentPass::In&, Input>;
 static_assert(kLooksThrough<Shaded>);
 static_assert(!kLooksThrough<Shaded&> && !kLooksThrough<const Shaded&>, "drawn over twice");
 static_assert(!kLooksThrough<Developed>, "translucent surfaces after the tone curve");
@@ -69,7 +68,7 @@ static_assert(!kLooksThrough<Developed>, "translucent surfaces after the tone cu
 template <class Input>
 constexpr bool kLights =
     std::is_invocable_v<decltype(&LightPass::add), gpu::FrameGraph&, gpu::Pipelines&, SceneRefs&,
-                        const Geometry&, const ClusteredLights&, Input, const RenderSettings&>;
+                        const LightPass::In&, Input>;
 static_assert(kLights<Shaded>);
 static_assert(!kLights<Shaded&> && !kLights<const Shaded&>, "lit twice");
 static_assert(!kLights<Developed>, "lights after the tone curve");
