@@ -110,6 +110,28 @@ VkPipelineColorBlendAttachmentState attachment_state(const GraphicsDesc& desc) {
   return state;
 }
 
+/// The last one where a depth bias is set.
+constexpr std::array kDynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                    VK_DYNAMIC_STATE_DEPTH_BIAS};
+
+VkPipelineDynamicStateCreateInfo dynamic_state(const GraphicsDesc& desc) {
+  auto info = vk_struct<VkPipelineDynamicStateCreateInfo>(
+      VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+  info.dynamicStateCount = desc.depth_bias ? 3 : 2;
+  info.pDynamicStates = kDynamicStates.data();
+  return info;
+}
+
+/// @return points to the formats of `desc`.
+VkPipelineRenderingCreateInfo targets(const GraphicsDesc& desc) {
+  auto info =
+      vk_struct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
+  info.colorAttachmentCount = static_cast<std::uint32_t>(desc.color_formats.size());
+  info.pColorAttachmentFormats = desc.color_formats.data();
+  info.depthAttachmentFormat = desc.depth_format;
+  return info;
+}
+
 }  // namespace
 
 void compile_compute(Device& device, Pipeline& pipeline, const ShaderStage& stage,
@@ -156,17 +178,8 @@ void compile_graphics(Device& device, Pipeline& pipeline, std::span<const Shader
       VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
   blend.pAttachments = attachments.data();
-  const std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                  VK_DYNAMIC_STATE_DEPTH_BIAS};
-  auto dynamic = vk_struct<VkPipelineDynamicStateCreateInfo>(
-      VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
-  dynamic.dynamicStateCount = desc.depth_bias ? 3 : 2;
-  dynamic.pDynamicStates = dynamic_states.data();
-  auto rendering =
-      vk_struct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
-  rendering.colorAttachmentCount = static_cast<std::uint32_t>(desc.color_formats.size());
-  rendering.pColorAttachmentFormats = desc.color_formats.data();
-  rendering.depthAttachmentFormat = desc.depth_format;
+  const auto dynamic = dynamic_state(desc);
+  auto rendering = targets(desc);
 
   auto info = vk_struct<VkGraphicsPipelineCreateInfo>(
       VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering);

@@ -246,6 +246,43 @@ bool is_ground_known(game::WorldSurroundings& around, world::WorldPos place, dou
   return true;
 }
 
+/// A world that someone can play in.
+struct Started {
+  double first_ms = 0.0;  // of the first picture, by the watch
+  int frames = 0;
+};
+
+/// Draws until there is ground to stand on. Errors: nothing can be seen; no memory.
+Result<Started> wait_until_playable(gpu::Device& device, game::SceneView& view,
+                                    const BenchFlyOptions& options, const Stopwatch& watch) {
+  game::WorldSurroundings around(view.world());
+  const game::SceneView::Moment moment{view.start_camera(),
+                                       static_cast<double>(options.scene.time_of_day_s),
+                                       options.scene.settings.world_time_s};
+  const world::WorldPos eye = place_of(moment.camera.position);
+  const VkExtent2D size{options.scene.size.width, options.scene.size.height};
+  Started out;
+  bool known = false, playable = false;
+  while (!playable) {
+    if (watch.seconds() > kLongestStart)
+      return Error{fmt::format(
+          "nothing can be seen after {:.0f} s: choose a --camera with an island in view",
+          kLongestStart)};
+    around.refresh(eye, 0.0, moment.world_time_s);
+    // Once the ground is known its meshes are made, and handed over by the next call but one.
+    const bool was_known = std::exchange(known, is_ground_known(around, eye, moment.world_time_s));
+    if (Result<void> done = view.stream(moment.camera, moment.world_time_s); !done)
+      return done.error();
+    const Result<std::uint64_t> value = view.draw(moment, size);
+    if (!value) return value.error();
+    playable = was_known && view.renderer().geometry().sections_resident() != 0 &&
+               view.renderer().mesh_uploader().pending_bytes() == 0;
+    if (playable || out.frames == 0) device.wait(*value);
+    if (out.frames++ == 0) out.first_ms = watch.milliseconds();
+  }
+  return out;
+}
+
 }  // namespace
 
 int bench_fly(const BenchFlyOptions& options) {
@@ -290,33 +327,11 @@ int bench_start(const BenchFlyOptions& options) {
   if (!view) return fail(kFailed, view.error());
   const double view_ms = watch.milliseconds();
 
-  game::WorldSurroundings around((*view)->world());
-  const game::SceneView::Moment moment{(*view)->start_camera(),
-                                       static_cast<double>(options.scene.time_of_day_s),
-                                       options.scene.settings.world_time_s};
-  const world::WorldPos eye = place_of(moment.camera.position);
-  const VkExtent2D size{options.scene.size.width, options.scene.size.height};
-  double first_ms = 0.0;
-  bool known = false, playable = false;
-  int frames = 0;
-  while (!playable) {
-    if (watch.seconds() > kLongestStart)
-      return fail(kFailed, {fmt::format("nothing can be seen after {:.0f} s: choose a --camera "
-                                        "with an island in view",
-                                        kLongestStart)});
-    around.refresh(eye, 0.0, moment.world_time_s);
-    // Once the ground is known its meshes are made, and handed over by the next call but one.
-    const bool was_known = std::exchange(known, is_ground_known(around, eye, moment.world_time_s));
-    if (Result<void> done = (*view)->stream(moment.camera, moment.world_time_s); !done)
-      return fail(kFailed, done.error());
-    const Result<std::uint64_t> value = (*view)->draw(moment, size);
-    if (!value) return fail(kFailed, value.error());
-    playable = was_known && (*view)->renderer().geometry().sections_resident() != 0 &&
-               (*view)->renderer().mesh_uploader().pending_bytes() == 0;
-    if (playable || frames == 0) (*device)->wait(*value);
-    if (frames++ == 0) first_ms = watch.milliseconds();
-  }
-  const double playable_ms = watch.milliseconds();
+  const Result<Started> started = wait_until_playable(**device, **view, options, watch);
+  if (!started) return fail(kFailed, started.error());
+  const double playable_ms = watch.milliseconds(), first_ms = started->first_ms;
+  const int frames = started->frames;
+  const game::PictureSize size = options.scene.size;
   (*view)->renderer().finish();
   fmt::print(
       "{} | {}x{} | playable after {:.0f} ms, {} frames | device {:.0f} ms, world {:.0f}, "
