@@ -47,7 +47,6 @@ SHARED_CONST uint kLightSamplesConstant = 41u;  // uint: ways to a light that ha
 SHARED_CONST uint kStepConstant = 42u;          // uint: pixels between a level's points
 SHARED_CONST uint kEveryPixelConstant = 43u;    // bool: the level is the picture itself
 SHARED_CONST uint kToleranceConstant = 44u;     // float: how much shared light may differ
-SHARED_CONST uint kUpConstant = 45u;            // bool: bloom goes to the finer level
 SHARED_CONST uint kChooseConstant = 46u;        // bool: an exposure is chosen from the histogram
 SHARED_CONST uint kPackConstant = 47u;          // bool: noise that is there is packed
 SHARED_CONST uint kStoredConstant = 48u;        // bool: normals or positions are kept

@@ -184,7 +184,7 @@ MUTANTS = (
            "atomicAdd(here[counts_as_light(y) ? bin_of(y) : 0u], 1u);", "cave_mouth underneath water"),
     Mutant("bloom_reaches_too_far", "more of the glow goes to the coarse levels", "shaders/shared/bloom.h",
            "kBloomShare = 0.7f", "kBloomShare = 0.9f", "bloom quality_high"),
-    Mutant("bloom_takes_all", "everything glows", "shaders/resize_bloom.comp",
+    Mutant("bloom_takes_all", "everything glows", "shaders/shrink_bloom.comp",
            "return kFirst ? too_bright(value) : value;",
            "return kFirst ? sanitised(value) * exp2(-exposure.ev) : value;", "bloom quality_high"),
     Mutant("bloom_mirrored_weights", "glow is shifted", "shaders/include/bloom.glsl",

@@ -149,9 +149,10 @@ void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
       "reserve_light_lists",
       [&](gpu::PassBuilder& p) {
         p.read(b.grid, Use::kComputeRead);
-        p.read(b.occupied, Use::kComputeRead);
         p.read(b.work, Use::kIndirect);
         b.work = p.write(b.work, Use::kComputeWrite);
+        // Read alone by this step, but the shader may write it.
+        b.occupied = p.write(b.occupied, Use::kComputeWrite);
         b.counts = p.write(b.counts, Use::kComputeWrite);
         out.clusters = p.write(out.clusters, Use::kComputeWrite);
       },
@@ -208,13 +209,14 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       [dispatches = out.tiles.dispatches](gpu::Commands& c) {
         fill_dispatch(c, dispatches, 2 * sizeof(shared::TileDispatch), 1);
       });
-  const gpu::BufferRef clusters = out.oracle ? b.small_tiles : out.clusters;  // bound, not read
+  const gpu::BufferRef clusters = out.oracle ? out.tiles.lists : out.clusters;  // may be unread
   graph.add_pass(
       "list_light_tiles",
       [&](gpu::PassBuilder& p) {
         p.read(b.grid, Use::kComputeRead);
         p.read(b.small_tiles, Use::kComputeRead);
-        if (!out.oracle) p.read(clusters, Use::kComputeRead);
+        // Read alone by this step, but the shader may write them.
+        if (!out.oracle) out.clusters = p.write(out.clusters, Use::kComputeWrite);
         out.tiles.dispatches = p.write(out.tiles.dispatches, Use::kComputeWrite);
         out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
       },

@@ -50,7 +50,7 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
       },
       [fine, coarse, step, exposure = scene.exposure,
        &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kResizeBloom, {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}}})](
+           programs::kShrinkBloom, {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}}})](
           gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kFineBloomBinding, fine);
@@ -63,22 +63,19 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
 }
 
 /// @return the finer level, with the coarser ones in it.
-gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                     gpu::ImageRef fine, gpu::ImageRef coarse, const Level& level) {
+gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, gpu::ImageRef fine,
+                     gpu::ImageRef coarse, const Level& level) {
   graph.add_pass(
       "spread_bloom_" + std::to_string(level.index),
       [&](gpu::PassBuilder& b) {
         b.read(coarse, Use::kComputeRead);
-        b.read(scene.exposure, Use::kComputeRead);
         fine = b.write(fine, Use::kComputeWrite);
       },
-      [fine, coarse, step = level.step, exposure = scene.exposure,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kResizeBloom,
-                                                  {{shared::kUpConstant, 1}}})](gpu::Commands& c) {
+      [fine, coarse, step = level.step,
+       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kSpreadBloom, {}})](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kFineBloomBinding, fine);
         c.storage(shared::kCoarseBloomBinding, coarse);
-        c.storage(shared::kExposureBinding, exposure);  // not read on the way up
         c.push(step);
         dispatch_over(c, step.fine_size);
       });
@@ -108,7 +105,7 @@ Bloom BloomPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
   }
   for (std::uint32_t level = levels - 1; level >= 1; --level)
     images[level] =
-        spread(graph, pipelines, scene, images[level], images[level + 1], {steps[level], level});
+        spread(graph, pipelines, images[level], images[level + 1], {steps[level], level});
   return {images[1], steps[0]};
 }
 

@@ -42,7 +42,8 @@ FramePlan common_of(const FramePlan& now, const ProgramNeeds& needs) {
   plan.input.fault.reset();
   plan.input.part = plan.input.parts - 1;
   plan.input.light_islands = kSomeIsland;
-  plan.indirect = plan.settings.indirect != Indirect::kOff && !plan.shows_channel();
+  plan.indirect =
+      needs.indirect && plan.settings.indirect != Indirect::kOff && !plan.shows_channel();
   plan.corners =
       needs.occupancy && plan.settings.corner_darkening > 0.0f && !plan.settings.flat_shading;
   plan.bake_sky = true;
@@ -101,6 +102,7 @@ ProgramNeeds program_needs(const FramePlan& plan, const SceneFacts& facts) {
                      .given_exposure = plan.input.exposure_ev.has_value(),
                      .parts = plan.input.parts > 1,
                      .occupancy = facts.occupancy,
+                     .indirect = facts.indirect,
                      .volumes = !facts.clouds.volumes.empty(),
                      .light_kinds = light_kinds(plan.input.lights) | kTorches};
   needs.settings.view_distance_blocks = 0.0;

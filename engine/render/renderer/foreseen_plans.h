@@ -8,7 +8,8 @@ namespace skerry::render {
 /// What the programs of frames depend on that does not change with the view or the time of day.
 struct ProgramNeeds {
   RenderSettings settings;
-  bool metered = false, given_exposure = false, parts = false, occupancy = false, volumes = false;
+  bool metered = false, given_exposure = false, parts = false, occupancy = false, indirect = false,
+       volumes = false;
   std::uint32_t light_kinds =
       0;  ///< of the lights that come with frames, in view or not, and torches
   bool operator==(const ProgramNeeds&) const = default;
