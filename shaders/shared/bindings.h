@@ -51,6 +51,7 @@ SHARED_CONST uint kLightBinsBinding = 36u;
 SHARED_CONST uint kClusterWorkBinding = 37u;       // ClusterWork
 SHARED_CONST uint kOccupiedClustersBinding = 38u;  // clusters with a surface in them
 SHARED_CONST uint kLightCountsBinding = 39u;       // of each occupied cluster, by chunk
+SHARED_CONST uint kLightReachBinding = 75u;        // LightReach[]
 
 // Clouds.
 SHARED_CONST uint kCloudsBinding = 40u;       // CloudConstants

@@ -31,7 +31,7 @@ void fill_dispatch(gpu::Commands& c, gpu::BufferRef to, std::uint64_t size_bytes
 }
 
 struct Buffers {
-  gpu::BufferRef grid, lights;
+  gpu::BufferRef grid, lights, islands, reaches;
   gpu::BufferRef small_tiles, tiles;  ///< shared::TileDepths
   gpu::BufferRef bins, occupied, counts, work;
 };
@@ -155,7 +155,8 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
   graph.add_pass(
       list ? "assign_lights" : "count_lights",
       [&](gpu::PassBuilder& p) {
-        for (const gpu::BufferRef ref : {b.grid, b.lights, b.tiles, b.bins, b.occupied, b.work})
+        for (const gpu::BufferRef ref :
+             {b.grid, b.lights, b.islands, b.reaches, b.tiles, b.bins, b.occupied, b.work})
           p.read(ref, Use::kComputeRead);
         p.read(b.work, Use::kIndirect);
         if (list) p.read(out.clusters, Use::kComputeRead);
@@ -169,6 +170,8 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
         c.bind(pipeline);
         c.storage(shared::kLightGridBinding, b.grid);
         c.storage(shared::kLightsBinding, b.lights);
+        c.storage(shared::kIslandsBinding, b.islands);
+        c.storage(shared::kLightReachBinding, b.reaches);
         c.storage(shared::kGridTilesBinding, b.tiles);
         c.storage(shared::kLightBinsBinding, b.bins);
         c.storage(shared::kClusterWorkBinding, b.work);
@@ -236,6 +239,8 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
   Buffers b;
   b.grid = out.grid;
   b.lights = out.lights;
+  b.islands = scene.islands;
+  b.reaches = reaches_ ? graph.import(reaches_) : out.lights;
   b.small_tiles = create("tile depths", std::uint64_t{small} * sizeof(shared::TileDepths));
   work_ = {};
   add_mark(graph, pipelines, scene, depths, grid_, b);

@@ -74,7 +74,8 @@ class LightClusters {
   /// Takes a frame's lights to the GPU. More than most_lights() are cut off, and said so once.
   /// @param lights not empty, in view. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
-                      const CameraView& camera, const ClusterPicture& picture);
+                      std::span<const shared::LightReach> reaches, const CameraView& camera,
+                      const ClusterPicture& picture);
   /// Adds the passes that sort what was uploaded last. @param oracle see ClusteredLights.
   ClusteredLights add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const ClusterDepths& depths, bool oracle);
@@ -87,9 +88,10 @@ class LightClusters {
 
  private:
   Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
+  std::uint64_t roomy(std::uint64_t size_bytes) const;
 
   gpu::Device& device_;
-  gpu::Buffer grid_buffer_, lights_, entries_;
+  gpu::Buffer grid_buffer_, lights_, reaches_, entries_;
   shared::ClusterGrid grid_{};
   std::uint32_t kinds_ = 0;
   std::uint64_t wanted_entries_ = 0;
