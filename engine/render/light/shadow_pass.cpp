@@ -31,14 +31,13 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
                                  .color_formats = {},
                                  .depth_format = VK_FORMAT_D32_SFLOAT,
                                  .depth_clamp = true};
-  const gpu::GraphicsDesc cutout{
-      .vertex = programs::kDrawQuadsVert,
-      .fragment = programs::kWriteCutoutFrag,
-      .constants = {{shared::kTexturedConstant, 1}, {shared::kWriteSurfaceConstant, 0}},
-      .color_formats = {},
-      .depth_format = VK_FORMAT_D32_SFLOAT,
-      .cull = VK_CULL_MODE_NONE,
-      .depth_clamp = true};
+  const gpu::GraphicsDesc cutout{.vertex = programs::kDrawQuadsVert,
+                                 .fragment = programs::kWriteCutoutDepthFrag,
+                                 .constants = {{shared::kTexturedConstant, 1}},
+                                 .color_formats = {},
+                                 .depth_format = VK_FORMAT_D32_SFLOAT,
+                                 .cull = VK_CULL_MODE_NONE,
+                                 .depth_clamp = true};
   for (const ShadowDraw& cascade : cascades) {
     const gpu::Pipeline& opaque_pipeline = pipelines.get(opaque);
     const gpu::Pipeline* cutout_pipeline = cascade.cutouts ? &pipelines.get(cutout) : nullptr;

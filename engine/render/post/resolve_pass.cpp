@@ -14,7 +14,12 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
   scene.size = in.picture_size;
   const bool accumulates = in.parts > 1;
   const gpu::ImageRef samples = shaded.radiance();
-  gpu::ImageRef total = accumulates ? graph.import(*in.total) : gpu::ImageRef{};
+  // Without parts there is no total: one texel of its format is bound in its place.
+  gpu::ImageRef total =
+      accumulates
+          ? graph.import(*in.total)
+          : graph.create(gpu::ImageDesc{
+                .name = "no total", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {1, 1}});
   gpu::ImageRef radiance = graph.create(gpu::ImageDesc{.name = "radiance of pixels",
                                                        .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                                        .extent = in.picture_size});
@@ -32,14 +37,14 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
         b.read(scene.frame, Use::kComputeRead);
         b.read(samples, Use::kComputeRead);
         radiance = b.write(radiance, Use::kComputeWrite);
-        if (accumulates) total = b.write(total, Use::kComputeWrite);
+        total = b.write(total, Use::kComputeWrite);
       },
       [&pipeline, frame = scene.frame, samples, radiance, total, in](gpu::Commands& c) {
         c.bind(pipeline);
         c.storage(shared::kFrameBinding, frame);
         c.storage(shared::kSamplesBinding, samples);
         c.storage(shared::kRadianceBinding, radiance);
-        c.storage(shared::kTotalBinding, total ? total : radiance);
+        c.storage(shared::kTotalBinding, total);
         c.push(1.0f / static_cast<float>(in.parts));
         c.dispatch(gpu::Commands::groups(in.picture_size.width, 8),
                    gpu::Commands::groups(in.picture_size.height, 8), 1);

@@ -31,12 +31,11 @@ std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store, bool 
   cutout.cull = VK_CULL_MODE_NONE;
   const VkFormat normal = normal_format(store.normal), position = position_format(store.position);
   if (normal == VK_FORMAT_UNDEFINED && position == VK_FORMAT_UNDEFINED) return {opaque, cutout};
-  opaque.fragment = programs::kWriteSurfaceStoredFrag;
-  cutout.fragment = programs::kWriteCutoutStoredFrag;
+  const bool both = normal != VK_FORMAT_UNDEFINED && position != VK_FORMAT_UNDEFINED;
+  opaque.fragment = both ? programs::kWriteSurfaceBothFrag : programs::kWriteSurfaceStoredFrag;
+  cutout.fragment = both ? programs::kWriteCutoutBothFrag : programs::kWriteCutoutStoredFrag;
   for (gpu::GraphicsDesc* desc : {&opaque, &cutout}) {
     desc->constants.push_back({shared::kNormalCodeConstant, normal_code(store.normal)});
-    desc->constants.push_back(
-        {shared::kPositionStoredConstant, position != VK_FORMAT_UNDEFINED ? 1u : 0u});
     for (const VkFormat format : {normal, position})
       if (format != VK_FORMAT_UNDEFINED) desc->color_formats.push_back(format);
   }
