@@ -2,6 +2,7 @@
 
 #include <shader_names.h>
 
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -29,8 +30,7 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
     constants.push_back({shared::kAccumulateConstant, 1});
     constants.push_back({shared::kFirstConstant, in.part == 0 ? 1u : 0u});
   }
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{programs::kAverageSamples, std::move(constants)});
+  const auto program = gpu::compute(pipelines, programs::kAverageSamples, std::move(constants));
   graph.add_pass(
       accumulates ? "accumulate_part" : "average_samples",
       [&](gpu::PassBuilder& b) {
@@ -39,12 +39,11 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
         radiance = b.write(radiance, Use::kComputeWrite);
         total = b.write(total, Use::kComputeWrite);
       },
-      [&pipeline, frame = scene.frame, samples, radiance, total, in](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, frame);
-        c.storage(shared::kSamplesBinding, samples);
-        c.storage(shared::kRadianceBinding, radiance);
-        c.storage(shared::kTotalBinding, total);
+      [program, frame = scene.frame, samples, radiance, total, in](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
+                  gpu::storage<shared::kSamplesBinding>(samples),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::storage<shared::kTotalBinding>(total));
         c.push(1.0f / static_cast<float>(in.parts));
         c.dispatch(gpu::Commands::groups(in.picture_size.width, 8),
                    gpu::Commands::groups(in.picture_size.height, 8), 1);
