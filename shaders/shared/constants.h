@@ -23,7 +23,6 @@ SHARED_CONST uint kSamplesPerEdgeConstant = 14u;  // uint: of a pixel
 SHARED_CONST uint kCornersConstant = 15u;         // bool: corners darken
 SHARED_CONST uint kOracleConstant = 16u;          // bool: every light may reach every pixel
 SHARED_CONST uint kFinestCoverageConstant = 17u;  // bool: coverage by the finest texels
-SHARED_CONST uint kWriteSurfaceConstant = 18u;    // bool: false where there is only depth
 SHARED_CONST uint kChannelConstant = 19u;         // uint: render::DebugView
 SHARED_CONST uint kCloudLayerConstant = 20u;      // bool
 SHARED_CONST uint kCloudVolumesConstant = 21u;    // uint

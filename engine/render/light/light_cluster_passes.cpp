@@ -4,6 +4,7 @@
 
 #include "engine/render/light/light_clusters.h"
 
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -45,8 +46,7 @@ void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
               const ClusterDepths& depths, const shared::ClusterGrid& grid, Buffers& b) {
   std::vector<gpu::SpecConstant> constants{{shared::kLayersConstant, depths.layer_count}};
   if (depths.depth16) constants.push_back({shared::kDepth16Constant, 1});
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{programs::kMarkLightTiles, std::move(constants)});
+  const auto program = gpu::compute(pipelines, programs::kMarkLightTiles, std::move(constants));
   graph.add_pass(
       "mark_light_tiles",
       [&](gpu::PassBuilder& p) {
@@ -57,17 +57,18 @@ void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
           p.read(depths.layers[k], Use::kComputeSampled);
         b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
       },
-      [&pipeline, b, depths, point = scene.point_sampler,
+      [program, b, depths, point = scene.point_sampler,
        count = small_tile_count(grid)](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.sampled(shared::kDepthsBinding, depths.depth, point);
-        c.storage(shared::kSurfacesBinding, depths.surfaces);
-        // Layers that are not there are never read; depth is bound in their place.
-        for (std::uint32_t k = 0; k < depths.layers.size(); ++k)
-          c.sampled(shared::kLayerDepthsBinding + k,
-                    k < depths.layer_count ? depths.layers[k] : depths.depth, point);
-        c.storage(shared::kTileDepthsBinding, b.small_tiles);
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::sampled<shared::kDepthsBinding>(depths.depth, point),
+                  gpu::storage<shared::kSurfacesBinding>(depths.surfaces),
+                  // Layers that are not there are never read; depth is bound in their place.
+                  gpu::each_of<shared::kLayerDepthsBinding, 4>(
+                      [&]<std::uint32_t kBinding>(std::size_t k) {
+                        return gpu::sampled<kBinding>(
+                            k < depths.layer_count ? depths.layers[k] : depths.depth, point);
+                      }),
+                  gpu::storage<shared::kTileDepthsBinding>(b.small_tiles));
         dispatch_items(c, count);
       });
 }
@@ -90,14 +91,12 @@ void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         b.occupied = p.write(b.occupied, Use::kComputeWrite);
       },
       [b, count = grid.tiles_x * grid.tiles_y,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{programs::kListLightClusters, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kTileDepthsBinding, b.small_tiles);
-        c.storage(shared::kGridTilesBinding, b.tiles);
-        c.storage(shared::kClusterWorkBinding, b.work);
-        c.storage(shared::kOccupiedClustersBinding, b.occupied);
+       program = gpu::compute(pipelines, programs::kListLightClusters)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::storage<shared::kTileDepthsBinding>(b.small_tiles),
+                  gpu::storage<shared::kGridTilesBinding>(b.tiles),
+                  gpu::storage<shared::kClusterWorkBinding>(b.work),
+                  gpu::storage<shared::kOccupiedClustersBinding>(b.occupied));
         dispatch_items(c, count);
       });
 }
@@ -112,13 +111,12 @@ void add_bin(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::Cl
       },
       [b, groups = gpu::Commands::groups(grid.bins_x * grid.bins_y, shared::kClusterGroup),
        words = grid.light_words,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kBinLights, {{shared::kLightKindsConstant, kinds}}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kLightsBinding, b.lights);
-        c.storage(shared::kGridTilesBinding, b.tiles);
-        c.storage(shared::kLightBinsBinding, b.bins);
+       program = gpu::compute(pipelines, programs::kBinLights,
+                              {{shared::kLightKindsConstant, kinds}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::storage<shared::kLightsBinding>(b.lights),
+                  gpu::storage<shared::kGridTilesBinding>(b.tiles),
+                  gpu::storage<shared::kLightBinsBinding>(b.bins));
         c.dispatch(groups, words, 1);
       });
 }
@@ -136,14 +134,12 @@ void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
         out.clusters = p.write(out.clusters, Use::kComputeWrite);
       },
       [b, clusters = out.clusters,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{programs::kReserveLightLists, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kClusterWorkBinding, b.work);
-        c.storage(shared::kOccupiedClustersBinding, b.occupied);
-        c.storage(shared::kLightCountsBinding, b.counts);
-        c.storage(shared::kClustersBinding, clusters);
+       program = gpu::compute(pipelines, programs::kReserveLightLists)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::storage<shared::kClusterWorkBinding>(b.work),
+                  gpu::storage<shared::kOccupiedClustersBinding>(b.occupied),
+                  gpu::storage<shared::kLightCountsBinding>(b.counts),
+                  gpu::storage<shared::kClustersBinding>(clusters));
         c.dispatch_indirect(b.work, 0);
       });
 }
@@ -164,21 +160,19 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
         if (list) out.entries = p.write(out.entries, Use::kComputeWrite);
       },
       [b, list, clusters = list ? out.clusters : b.counts, entries = list ? out.entries : b.counts,
-       &pipeline = pipelines.get(
-           gpu::ComputeDesc{programs::kAssignLights, {{shared::kLightKindsConstant, out.kinds}}})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kLightsBinding, b.lights);
-        c.storage(shared::kIslandsBinding, b.islands);
-        c.storage(shared::kLightReachBinding, b.reaches);
-        c.storage(shared::kGridTilesBinding, b.tiles);
-        c.storage(shared::kLightBinsBinding, b.bins);
-        c.storage(shared::kClusterWorkBinding, b.work);
-        c.storage(shared::kOccupiedClustersBinding, b.occupied);
-        c.storage(shared::kLightCountsBinding, b.counts);
-        c.storage(shared::kClustersBinding, clusters);
-        c.storage(shared::kLightEntriesBinding, entries);
+       program = gpu::compute(pipelines, programs::kAssignLights,
+                              {{shared::kLightKindsConstant, out.kinds}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::storage<shared::kLightsBinding>(b.lights),
+                  gpu::storage<shared::kIslandsBinding>(b.islands),
+                  gpu::storage<shared::kLightReachBinding>(b.reaches),
+                  gpu::storage<shared::kGridTilesBinding>(b.tiles),
+                  gpu::storage<shared::kLightBinsBinding>(b.bins),
+                  gpu::storage<shared::kClusterWorkBinding>(b.work),
+                  gpu::storage<shared::kOccupiedClustersBinding>(b.occupied),
+                  gpu::storage<shared::kLightCountsBinding>(b.counts),
+                  gpu::storage<shared::kClustersBinding>(clusters),
+                  gpu::storage<shared::kLightEntriesBinding>(entries));
         c.push(list ? 1u : 0u);
         c.dispatch_indirect(b.work, 0);
       });
@@ -207,14 +201,13 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
       },
       [b, clusters, tiles = out.tiles, count = small_tile_count(grid),
-       &pipeline = pipelines.get(
-           gpu::ComputeDesc{programs::kListLightTiles, std::move(constants)})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kTileDepthsBinding, b.small_tiles);
-        c.storage(shared::kClustersBinding, clusters);
-        c.storage(shared::kTileDispatchesBinding, tiles.dispatches);
-        c.storage(shared::kTilesBinding, tiles.lists);
+       program = gpu::compute(pipelines, programs::kListLightTiles, std::move(constants))](
+          gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::storage<shared::kTileDepthsBinding>(b.small_tiles),
+                  gpu::storage<shared::kClustersBinding>(clusters),
+                  gpu::storage<shared::kTileDispatchesBinding>(tiles.dispatches),
+                  gpu::storage<shared::kTilesBinding>(tiles.lists));
         dispatch_items(c, count);
       });
 }

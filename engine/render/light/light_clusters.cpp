@@ -135,14 +135,6 @@ void ClusteredLights::declare(gpu::PassBuilder& builder) const {
   builder.read(entries, Use::kComputeRead);
 }
 
-void ClusteredLights::bind(gpu::Commands& commands) const {
-  commands.storage(shared::kLightGridBinding, grid);
-  commands.storage(shared::kLightsBinding, lights);
-  // The oracle reads no lists; its lights are bound in their place so that every binding is valid.
-  commands.storage(shared::kClustersBinding, oracle ? lights : clusters);
-  commands.storage(shared::kLightEntriesBinding, oracle ? lights : entries);
-}
-
 Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
                                     std::uint64_t size_bytes) {
   if (buffer && buffer.size_bytes() >= size_bytes) return {};

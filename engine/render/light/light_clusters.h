@@ -53,7 +53,14 @@ struct ClusteredLights {
   static ClusteredLights none(const SceneRefs& scene);
   std::vector<gpu::SpecConstant> with_lights(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
-  void bind(gpu::Commands& commands) const;
+  auto bindings() const {
+    // The oracle reads no lists; its lights are bound in their place so that every binding is
+    // valid.
+    return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
+                      gpu::storage<shared::kLightsBinding>(lights),
+                      gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters),
+                      gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
+  }
 };
 
 /// Depths of what a frame shows.

@@ -2,6 +2,7 @@
 
 #include <shader_names.h>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
 #include "engine/render/scene/gbuffer_formats.h"
 #include "engine/render/scene/occupancy_reads.h"
@@ -31,16 +32,15 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         out = b.write(out, Use::kComputeWrite);
       },
       [scene, radiance, glow, step, out,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kDevelop, std::move(constants)})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        c.storage(shared::kRadianceBinding, radiance);
-        c.storage(shared::kCoarseBloomBinding, glow ? glow : radiance);
+       program =
+           gpu::compute(pipelines, programs::kDevelop, std::move(constants))](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::storage<shared::kCoarseBloomBinding>(glow ? glow : radiance),
+                  gpu::storage<shared::kTargetBinding>(out),
+                  gpu::storage<shared::kExposureBinding>(scene.exposure));
         c.push(step);
-        c.storage(shared::kTargetBinding, out);
-        c.storage(shared::kExposureBinding, scene.exposure);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });
@@ -57,9 +57,9 @@ gpu::ImageRef show_lights(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sce
                           const Geometry& geometry, const ClusteredLights& lights, DebugView view,
                           gpu::ImageRef out) {
   const SurfaceReads surfaces(geometry);
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      programs::kShowLights,
-      lights.with_lights({{shared::kReachingConstant, view == DebugView::kLightCount ? 1u : 0u}})});
+  const auto program = gpu::compute(
+      pipelines, programs::kShowLights,
+      lights.with_lights({{shared::kReachingConstant, view == DebugView::kLightCount ? 1u : 0u}}));
   graph.add_pass(
       "show_lights",
       [&](gpu::PassBuilder& b) {
@@ -69,14 +69,12 @@ gpu::ImageRef show_lights(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sce
         surfaces.declare(b);
         out = b.write(out, Use::kComputeWrite);
       },
-      [&pipeline, scene, lights, surfaces, out](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kSurfacesBinding, surfaces.words);
-        c.sampled(shared::kDepthsBinding, surfaces.depth, scene.point_sampler);
-        c.storage(shared::kPictureBinding, out);
-        lights.bind(c);
+      [program, scene, lights, surfaces, out](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::storage<shared::kIslandsBinding>(scene.islands),
+                  gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+                  gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+                  gpu::storage<shared::kPictureBinding>(out), lights.bindings());
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });
@@ -95,13 +93,13 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   const SurfaceReads surfaces(geometry);
   const gpu::ImageRef maps = shadows.maps();
   const OccupancyReads occupancy(scene, scene.corners && view == DebugView::kCorners);
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      programs::kShowChannel,
+  const auto program = gpu::compute(
+      pipelines, programs::kShowChannel,
       with_picture(with_corners(surfaces.with_store(with_light(
                                     {{shared::kChannelConstant, static_cast<std::uint32_t>(view)}},
                                     scene, bool{maps})),
                                 bool{occupancy}),
-                   scene)});
+                   scene));
   graph.add_pass(
       "show_channel",
       [&](gpu::PassBuilder& b) {
@@ -114,17 +112,17 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
         if (maps) b.read(maps, Use::kComputeSampled);
         out = b.write(out, Use::kComputeWrite);
       },
-      [&pipeline, scene, surfaces, occupancy, maps, out](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        surfaces.bind(c, scene.point_sampler);
-        occupancy.bind(c);
-        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        c.storage(shared::kPictureBinding, out);
-        c.storage(shared::kExposureBinding, scene.exposure);
-        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
+      [program, scene, surfaces, occupancy, maps, out](gpu::Commands& c) {
+        gpu::bind(
+            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            surfaces.bindings(scene.point_sampler), occupancy.bindings(),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::storage<shared::kPictureBinding>(out),
+            gpu::storage<shared::kExposureBinding>(scene.exposure),
+            gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
+                                                     scene.point_sampler));
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });

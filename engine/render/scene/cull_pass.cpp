@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <shader_names.h>
 
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/geometry.h"
 
@@ -69,15 +70,14 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.transforms = b.write(out.transforms, Use::kComputeWrite);
       },
       [scene, masks, totals, stats = out.stats, transforms = out.transforms, in, groups,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullSections, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kSectionsBinding, scene.sections);
-        c.storage(shared::kIslandsBinding, scene.view_islands);
-        c.storage(shared::kCullViewsBinding, scene.views);
-        c.storage(shared::kCullMasksBinding, masks);
-        c.storage(shared::kCullTotalsBinding, totals);
-        c.storage(shared::kCullStatsBinding, stats);
-        c.storage(shared::kSectionTransformsBinding, transforms);
+       program = gpu::compute(pipelines, programs::kCullSections)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kSectionsBinding>(scene.sections),
+                  gpu::storage<shared::kIslandsBinding>(scene.view_islands),
+                  gpu::storage<shared::kCullViewsBinding>(scene.views),
+                  gpu::storage<shared::kCullMasksBinding>(masks),
+                  gpu::storage<shared::kCullTotalsBinding>(totals),
+                  gpu::storage<shared::kCullStatsBinding>(stats),
+                  gpu::storage<shared::kSectionTransformsBinding>(transforms));
         const struct {
           std::uint32_t section_count, group_count, islands_per_view;
         } push{in.section_slots, groups, scene.islands_per_view};
@@ -92,10 +92,9 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.counts = b.write(out.counts, Use::kComputeWrite);
       },
       [totals, counts = out.counts, lists, groups, max_draws,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullScan, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCullTotalsBinding, totals);
-        c.storage(shared::kDrawCountsBinding, counts);
+       program = gpu::compute(pipelines, programs::kCullScan)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kCullTotalsBinding>(totals),
+                  gpu::storage<shared::kDrawCountsBinding>(counts));
         const struct { std::uint32_t group_count, max_draws; } push{groups, max_draws};
         c.push(push);
         c.dispatch(lists, 1, 1);
@@ -109,13 +108,12 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.commands = b.write(out.commands, Use::kComputeWrite);
       },
       [scene, masks, totals, commands = out.commands, in, groups, max_draws,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullEmit, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kSectionsBinding, scene.sections);
-        c.storage(shared::kCullMasksBinding, masks);
-        c.storage(shared::kCullTotalsBinding, totals);
-        c.storage(shared::kCullViewsBinding, scene.views);
-        c.storage(shared::kDrawCommandsBinding, commands);
+       program = gpu::compute(pipelines, programs::kCullEmit)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kSectionsBinding>(scene.sections),
+                  gpu::storage<shared::kCullMasksBinding>(masks),
+                  gpu::storage<shared::kCullTotalsBinding>(totals),
+                  gpu::storage<shared::kCullViewsBinding>(scene.views),
+                  gpu::storage<shared::kDrawCommandsBinding>(commands));
         const struct {
           std::uint32_t section_count, group_count, max_draws;
         } push{in.section_slots, groups, max_draws};
@@ -135,8 +133,6 @@ void declare_draws(gpu::PassBuilder& builder, const SceneRefs& scene, const Cull
 
 void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
                std::uint32_t view, DrawList list) {
-  commands.storage(shared::kQuadsBinding, scene.quads);
-  commands.storage(shared::kSectionTransformsBinding, draws.transforms);
   const struct {
     glm::mat4 clip_from_source;
     std::uint32_t first_transform;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 
 namespace skerry::render {
@@ -185,10 +186,8 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
                                                     .depth = kNoiseEdge});
   graph.add_pass(
       "bake_cloud_noise", [&](gpu::PassBuilder& b) { noise = b.write(noise, Use::kComputeWrite); },
-      [noise, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kBakeCloudNoise, {}})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCloudNoiseBinding, noise);
+      [noise, program = gpu::compute(pipelines, programs::kBakeCloudNoise)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kCloudNoiseBinding>(noise));
         c.dispatch(kGroups, kGroups, kNoiseEdge);
       });
   graph.add_pass(
@@ -198,14 +197,13 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
         for (gpu::ImageRef* ref : {&refs.weather, &refs.shapes, &refs.billows})
           *ref = b.write(*ref, Use::kComputeWrite);
       },
-      [noise, refs, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kPackCloudNoise, {}})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.sampled(shared::kCloudNoiseBinding, noise, refs.nearest);
-        c.storage(shared::kCloudWeatherBinding, refs.weather);
+      [noise, refs,
+       program = gpu::compute(pipelines, programs::kPackCloudNoise)](gpu::Commands& c) {
         for (std::uint32_t layer = 0; layer < shared::kCloudNoiseLayers; ++layer) {
-          c.storage(shared::kCloudShapesBinding, refs.shapes, 0, layer);
-          c.storage(shared::kCloudBillowsBinding, refs.billows, 0, layer);
+          gpu::bind(c, program, gpu::sampled<shared::kCloudNoiseBinding>(noise, refs.nearest),
+                    gpu::storage<shared::kCloudWeatherBinding>(refs.weather),
+                    gpu::storage<shared::kCloudShapesBinding>(refs.shapes, layer),
+                    gpu::storage<shared::kCloudBillowsBinding>(refs.billows, layer));
           c.push(layer);
           c.dispatch(kGroups, kGroups, 1);
         }
@@ -222,14 +220,13 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
           b.read(ref, Use::kComputeSampled);
         refs.layer_light = b.write(refs.layer_light, Use::kComputeWrite);
       },
-      [refs, body, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kTraceCloudLayer, {}})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCloudsBinding, refs.constants);
-        c.sampled(shared::kCloudWeatherBinding, refs.weather, refs.repeating);
-        c.storage(shared::kLayerLightBinding, refs.layer_light);
-        c.sampled(shared::kCloudShapesBinding, refs.shapes, refs.repeating);
-        c.sampled(shared::kCloudBillowsBinding, refs.billows, refs.repeating);
+      [refs, body,
+       program = gpu::compute(pipelines, programs::kTraceCloudLayer)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kCloudsBinding>(refs.constants),
+                  gpu::sampled<shared::kCloudWeatherBinding>(refs.weather, refs.repeating),
+                  gpu::storage<shared::kLayerLightBinding>(refs.layer_light),
+                  gpu::sampled<shared::kCloudShapesBinding>(refs.shapes, refs.repeating),
+                  gpu::sampled<shared::kCloudBillowsBinding>(refs.billows, refs.repeating));
         c.push(body);
         const std::uint32_t groups = shared::kLayerLightEdge / kColumnGroup;
         c.dispatch(groups, groups, 1);
@@ -252,13 +249,12 @@ void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         b.read(refs.constants, Use::kComputeRead);
         refs.volume_light = b.write(refs.volume_light, Use::kComputeWrite);
       },
-      [refs, jobs, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kTraceCloudVolume, {}})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCloudsBinding, refs.constants);
-        c.sampled(shared::kCloudCellsBinding, refs.cells, refs.nearest);
-        c.sampled(shared::kCloudBricksBinding, refs.bricks, refs.linear);
-        c.storage(shared::kVolumeLightBinding, refs.volume_light);
+      [refs, jobs,
+       program = gpu::compute(pipelines, programs::kTraceCloudVolume)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kCloudsBinding>(refs.constants),
+                  gpu::sampled<shared::kCloudCellsBinding>(refs.cells, refs.nearest),
+                  gpu::sampled<shared::kCloudBricksBinding>(refs.bricks, refs.linear),
+                  gpu::storage<shared::kVolumeLightBinding>(refs.volume_light));
         for (const auto& [job, texels] : jobs) {
           c.push(job);
           c.dispatch(gpu::Commands::groups(static_cast<std::uint32_t>(texels.x), kLightGroup),

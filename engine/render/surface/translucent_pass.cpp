@@ -3,6 +3,7 @@
 #include <shader_names.h>
 #include <array>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/tiles.h"
@@ -29,10 +30,9 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
     depth = graph.create(gpu::ImageDesc{
         .name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
     const gpu::ImageRef previous = k == 0 ? opaque_depth : out.depth[k - 1];
-    const gpu::Pipeline& pipeline = pipelines.get(
-        gpu::GraphicsDesc{.vertex = programs::kDrawQuadsVert,
-                          .fragment = programs::kWriteLayerFrag,
-                          .constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
+    const auto program = gpu::graphics(
+        pipelines, programs::kDrawQuadsVert, programs::kWriteLayerFrag,
+        gpu::GraphicsDesc{.constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
                           .color_formats = {VK_FORMAT_R32_UINT},
                           .depth_format = VK_FORMAT_D32_SFLOAT,
                           .cull = VK_CULL_MODE_NONE});
@@ -45,10 +45,11 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           words = b.color(words, gpu::Load::cleared({}));
           depth = b.depth(depth, gpu::Load::cleared({}));
         },
-        [scene, draws, opaque_depth, previous, &pipeline](gpu::Commands& c) {
-          c.bind(pipeline);
-          c.sampled(shared::kDepthsBinding, opaque_depth, scene.point_sampler);
-          c.sampled(shared::kPreviousDepthsBinding, previous, scene.point_sampler);
+        [scene, draws, opaque_depth, previous, program](gpu::Commands& c) {
+          gpu::bind(c, program,
+                    gpu::sampled<shared::kDepthsBinding>(opaque_depth, scene.point_sampler),
+                    gpu::sampled<shared::kPreviousDepthsBinding>(previous, scene.point_sampler),
+                    draw_bindings(scene, draws));
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
@@ -74,8 +75,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
   if (layers.mirrored_clouds) constants.push_back({shared::kMirroredCloudsConstant, 1});
   const ClusteredLights lit = lights ? *lights : ClusteredLights::none(scene);
   if (lights) constants = walls.with_walls(lit.with_lights(std::move(constants)));
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{programs::kShadeTranslucent, std::move(constants)});
+  const auto program = gpu::compute(pipelines, programs::kShadeTranslucent, std::move(constants));
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {
@@ -96,32 +96,26 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, walls, clouds, &pipeline,
+      [scene, layers, tiles, inside_medium, opaque_depth, maps, radiance, walls, clouds, program,
        lit](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        c.sampled(shared::kDepthsBinding, opaque_depth, scene.point_sampler);
-        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
-        c.storage(shared::kRadianceBinding, radiance);
-        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
-        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        clouds.bind_light(c);
-        // Where none are known, something that is never read is bound in their place.
-        c.sampled(shared::kMirroredCloudsBinding,
-                  layers.mirrored_clouds ? layers.mirrored_clouds : scene.sky_lut,
-                  scene.point_sampler);
-        // Layers that are not kept are never read; they are bound to the first so that every
-        // binding is valid.
-        for (std::uint32_t k = 0; k < 4; ++k) {
-          const std::uint32_t bound = k < layers.count ? k : 0;
-          c.storage(shared::kLayerSurfacesBinding + k, layers.surfaces[bound]);
-          c.sampled(shared::kLayerDepthsBinding + k, layers.depth[bound], scene.point_sampler);
-        }
-        lit.bind(c);
-        walls.bind(c);
+        gpu::bind(
+            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+            gpu::sampled<shared::kDepthsBinding>(opaque_depth, scene.point_sampler),
+            gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+            gpu::storage<shared::kRadianceBinding>(radiance),
+            gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
+                                                     scene.point_sampler),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            clouds.light_bindings(),
+            // Where none are known, something that is never read is bound in their place.
+            gpu::sampled<shared::kMirroredCloudsBinding>(
+                layers.mirrored_clouds ? layers.mirrored_clouds : scene.sky_lut,
+                scene.point_sampler),
+            layers.bindings(scene.point_sampler), lit.bindings(), walls.bindings(),
+            tiles.bindings());
         dispatch_tiles(c, tiles, TileKind::kCovered);
         if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
       });
