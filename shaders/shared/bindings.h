@@ -51,7 +51,6 @@ SHARED_CONST uint kLightBinsBinding = 36u;
 SHARED_CONST uint kClusterWorkBinding = 37u;       // ClusterWork
 SHARED_CONST uint kOccupiedClustersBinding = 38u;  // clusters with a surface in them
 SHARED_CONST uint kLightCountsBinding = 39u;       // of each occupied cluster, by chunk
-SHARED_CONST uint kLightReachBinding = 75u;        // LightReach[]
 
 // Clouds.
 SHARED_CONST uint kCloudsBinding = 40u;       // CloudConstants
@@ -98,5 +97,9 @@ SHARED_CONST uint kCoarserSamplesBinding = 71u;  // of the next coarser level
 SHARED_CONST uint kOwnSamplesBinding = 72u;      // of the level that is worked on
 SHARED_CONST uint kListedBinding = 73u;          // TileDispatch of the pixels that are listed
 SHARED_CONST uint kListedPixelsBinding = 74u;    // x in bits 0-15, y in bits 16-31
+
+// Past walls: LightReach[].
+SHARED_CONST uint kLightReachBinding = 75u;
+
 SHARED_END
 #endif

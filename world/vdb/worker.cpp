@@ -104,7 +104,8 @@ Result<void> outcome_of(std::optional<int> status, bool writes, const ReadLimits
   if (WEXITSTATUS(*status) == 0) return {};
   constexpr int kCannotStart = 127;  // of the dynamic loader, too
   if (WEXITSTATUS(*status) == kCannotStart)
-    return Error{"skerry_openvdb cannot start, as when a library of OpenVDB is missing; install it"};
+    return Error{
+        "skerry_openvdb cannot start, as when a library of OpenVDB is missing; install it"};
   return Error{writes ? "OpenVDB gave up without a word; check the space on the disk"
                       : "the file is damaged: OpenVDB gave up on it without a word"};
 }
