@@ -8,7 +8,6 @@ file(MAKE_DIRECTORY ${shader_dir})
 set(spirv_files)
 set(full_files)
 set(names)
-set(name_constants "")
 set(assembly "")
 foreach(source ${shader_sources})
   get_filename_component(name ${source} NAME)
@@ -21,36 +20,18 @@ foreach(source ${shader_sources})
   list(APPEND spirv_files ${spirv})
   list(APPEND full_files ${shader_dir}/${name}.full.spv)
   list(APPEND names ${name})
-  # march_clouds.comp is programs::kMarchClouds, draw_quads.vert is programs::kDrawQuadsVert.
-  string(REGEX REPLACE "\\.comp$" "" words ${name})
-  string(REGEX REPLACE "[_.]" ";" words ${words})
-  set(constant k)
-  foreach(word ${words})
-    string(SUBSTRING ${word} 0 1 first)
-    string(SUBSTRING ${word} 1 -1 rest)
-    string(TOUPPER ${first} first)
-    string(APPEND constant ${first}${rest})
-  endforeach()
-  string(APPEND name_constants "inline constexpr const char* ${constant} = \"${name}\";\n")
   string(MAKE_C_IDENTIFIER ${name} id)
   string(APPEND assembly ".balign 16\n.global skerry_shader_${id}\nskerry_shader_${id}:\n.incbin \"${spirv}\"\n.global skerry_shader_${id}_end\nskerry_shader_${id}_end:\n")
 endforeach()
 
-# Passes name programs by these constants: one that is not there does not compile.
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/shader_names.h CONTENT
-"// Generated: the programs there are.
-#pragma once
-
-namespace skerry::programs {
-${name_constants}}  // namespace skerry::programs
-" @ONLY)
-
-# What passes must bind is what the sources declare; the build ends with a source that declares what it does not use.
+# What passes must bind is what the sources declare: a pass that binds something else does not compile (engine/gpu/graph/bindings.h), and
+# the build ends with a source that declares what it does not use.
 add_executable(skerry_shader_table ${CMAKE_SOURCE_DIR}/tools/shader_table/main.cpp ${CMAKE_SOURCE_DIR}/engine/gpu/program/reflection.cpp)
 target_link_libraries(skerry_shader_table PRIVATE skerry_options)
-set(shader_table ${CMAKE_BINARY_DIR}/generated/shader_table.cpp)
+set(generated ${CMAKE_BINARY_DIR}/generated)
+set(shader_table ${generated}/shader_table.cpp ${generated}/shader_names.h)
 add_custom_command(OUTPUT ${shader_table}
-  COMMAND skerry_shader_table ${shader_table} ${shader_dir} ${names}
+  COMMAND skerry_shader_table ${generated} ${shader_dir} ${names}
   DEPENDS skerry_shader_table ${full_files} COMMENT "Listing what shaders declare" VERBATIM)
 
 enable_language(ASM)

@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/clusters.h"
 #include "shared/frame.h"
+#include "shared/geometry.h"
 #include "shared/light.h"
 #include "shared/bindings.h"
 
@@ -12,6 +13,8 @@ layout(local_size_x = 64) in;
 
 layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
 layout(scalar, binding = kLightsBinding) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kLightReachBinding) readonly buffer Reaches { LightReach reaches[]; };  // if no light has one, a buffer that is never read
 layout(scalar, binding = kGridTilesBinding) readonly buffer Large { TileDepths tiles[]; };
 layout(scalar, binding = kLightBinsBinding) readonly buffer Bins { uint bins[]; };
 layout(scalar, binding = kClusterWorkBinding) readonly buffer Work { ClusterWork work; };
@@ -23,6 +26,27 @@ layout(push_constant) uniform Push { uint list; } push;  // 0: count, 1: list
 
 #include "include/clusters.glsl"
 
+// Whether walls let a light arrive at what a cell shows, as far as that is known. Errs on the side of yes.
+bool arrives_in(uint index, vec3 middle, vec3 half_size) {
+  if (index == 0u) return true;
+  ivec3 first = reaches[index - 1u].low, size = reaches[index - 1u].size;
+  float per_block = reaches[index - 1u].per_block;
+  IslandTransform t = islands[reaches[index - 1u].island];
+  vec3 at = middle - t.translation;
+  vec3 centre = vec3(dot(t.axis_x, at), dot(t.axis_y, at), dot(t.axis_z, at));
+  vec3 around = vec3(dot(abs(t.axis_x), half_size), dot(abs(t.axis_y), half_size), dot(abs(t.axis_z), half_size));
+  around += 0.01 + 1e-4 * (abs(middle.x) + abs(middle.y) + abs(middle.z));  // rounding
+  ivec3 low = max(ivec3(floor((centre - around) * per_block)) - first, 0);
+  ivec3 high = min(ivec3(floor((centre + around) * per_block)) - first, size - 1);
+  for (int y = low.y; y <= high.y; ++y)
+    for (int x = low.x; x <= high.x; ++x)
+      for (int z = low.z; z <= high.z; ++z) {
+        uint bit = uint(z + size.z * (x + size.x * y));
+        if ((reaches[index - 1u].bits[bit >> 5] >> (bit & 31u) & 1u) != 0u) return true;
+      }
+  return false;
+}
+
 void main() {
   uint slot = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * kClusterGroup + gl_LocalInvocationIndex, chunk = gl_WorkGroupID.z;
   if (slot >= work.clusters) return;
@@ -31,6 +55,9 @@ void main() {
   TileDepths t = tiles[tile];
   float far = slice + 1u < kClusterSlices ? min(t.farthest, slice_begin(slice + 1u)) : t.farthest;
   Cell cell = cell_of(at << grid.edge_log2, min((at + 1u) << grid.edge_log2, grid.size), max(t.nearest, slice_begin(slice)), far);
+  vec3 low, high;
+  world_bounds(cell, low, high);
+  vec3 middle = 0.5 * (low + high), half_size = 0.5 * (high - low);
   uint bin = (at.y / kBinClusters * grid.bins_x + at.x / kBinClusters) * grid.light_words;
   uint place = slot * grid.chunks + chunk;
   bool write = push.list != 0u;
@@ -40,7 +67,7 @@ void main() {
   for (uint word = chunk * grid.chunk_words; word < end; ++word) {
     for (uint bits = bins[bin + word]; bits != 0u; bits &= bits - 1u) {
       uint light = word * 32u + uint(findLSB(bits));
-      if (!light_reaches(lights[light], cell, 1e-5)) continue;
+      if (!light_reaches(lights[light], cell, 1e-5) || !arrives_in(lights[light].reach, middle, half_size)) continue;
       if (write) entries[first + count] = light;
       ++count;
     }

@@ -13,7 +13,7 @@ layout(binding = kSamplesBinding, rgba16f) readonly uniform image2D samples;
 layout(binding = kRadianceBinding, rgba16f) writeonly uniform image2D radiance;
 
 layout(constant_id = kSamplesPerEdgeConstant) const uint kSamplesPerEdge = 2u;
-// A picture has several parts: each adds its share to the sum of those before. If not, something is bound in place of the sum.
+// A picture has several parts: each adds its share to the sum of those before. If not, one texel is bound in place of the sum.
 layout(constant_id = kAccumulateConstant) const bool kAccumulate = false;
 layout(binding = kTotalBinding, rgba32f) uniform image2D total;
 layout(constant_id = kFirstConstant) const bool kFirst = true;

@@ -73,16 +73,15 @@ std::string quoted_path(const fs::path& path) {
 }
 
 Result<OutputPlace> find_output(const fs::path& name) {
-  using Kind = OutputPlace::Kind;
   if (name.empty()) return output_error(ENOENT);
   std::error_code failed;
-  OutputPlace place{Kind::kFree, fs::absolute(name, failed)};
+  OutputPlace place{OutputPlace::Kind::kFree, fs::absolute(name, failed)};
   if (failed) return output_error(failed.value());
   struct stat info {};
   const bool exists = ::stat(place.path.c_str(), &info) == 0;
   if (!exists && errno != ENOENT) return output_error(errno);
   if (exists && (S_ISCHR(info.st_mode) || S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode))) {
-    place.kind = Kind::kStream;
+    place.kind = OutputPlace::Kind::kStream;
     return place;
   }
   if (exists && S_ISBLK(info.st_mode)) return Error{"it is a block device; give another path"};
@@ -93,7 +92,7 @@ Result<OutputPlace> find_output(const fs::path& name) {
   struct stat found {};
   if (::lstat(place.path.c_str(), &found) != 0)
     return Error{"the file that it leads to has been deleted; give another path"};
-  place.kind = S_ISDIR(info.st_mode) ? Kind::kFolder : Kind::kFile;
+  place.kind = S_ISDIR(info.st_mode) ? OutputPlace::Kind::kFolder : Kind::kFile;
   return place;
 }
 

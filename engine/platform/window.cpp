@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <optional>
 
@@ -155,9 +156,18 @@ GLFWmonitor* monitor_of(GLFWwindow* handle) {
   return best;
 }
 
+/// GLFW from 3.4 on looks for Wayland unasked, and where none runs libwayland writes a line of its
+/// own to stderr.
+void look_for_named_displays() {
+#ifdef GLFW_PLATFORM
+  if (!std::getenv("WAYLAND_DISPLAY")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
+  look_for_named_displays();
   if (!glfwInit()) {
     return Error{fmt::format(
         "cannot open a window: there is no display ({}); start it on a desktop, or draw a "

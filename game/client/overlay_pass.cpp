@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/transfer/uploader.h"
 #include "shaders/shared/bindings.h"
 
@@ -86,10 +87,9 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
   const gpu::BufferRef vertices = graph.import(buffers.vertices),
                        clips = graph.import(buffers.clips);
   const gpu::ImageRef font = graph.import(font_), pictures = graph.import(pictures_);
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::GraphicsDesc{.vertex = programs::kDrawOverlayVert,
-                                      .fragment = programs::kDrawOverlayFrag,
-                                      .constants = {},
+  const auto program =
+      gpu::graphics(pipelines, programs::kDrawOverlayVert, programs::kDrawOverlayFrag,
+                    gpu::GraphicsDesc{.constants = {},
                                       .color_formats = {VK_FORMAT_R8G8B8A8_UNORM},
                                       .cull = VK_CULL_MODE_NONE,
                                       .blend = true});
@@ -106,13 +106,12 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
         b.read(pictures, Use::kFragmentRead);
         drawn = b.color(picture, gpu::Load::keep());
       },
-      [&pipeline, vertices, clips, font, pictures, constants, count,
+      [program, vertices, clips, font, pictures, constants, count,
        sampler = sampler_](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kOverlayVerticesBinding, vertices);
-        c.storage(shared::kOverlayClipsBinding, clips);
-        c.sampled(shared::kFontBinding, font, sampler);
-        c.sampled(shared::kOverlayPicturesBinding, pictures, sampler);
+        gpu::bind(c, program, gpu::storage<shared::kOverlayVerticesBinding>(vertices),
+                  gpu::storage<shared::kOverlayClipsBinding>(clips),
+                  gpu::sampled<shared::kFontBinding>(font, sampler),
+                  gpu::sampled<shared::kOverlayPicturesBinding>(pictures, sampler));
         c.push(constants);
         c.draw(count, 1);
       });

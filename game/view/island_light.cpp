@@ -1,5 +1,6 @@
 #include "game/view/island_light.h"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -10,13 +11,18 @@ struct IslandLight::Search {
   world::LightChunks chunks;
   std::uint64_t version = 0;
   int level = 0;
+  bool sky = false;
+  std::map<world::IVec3, std::vector<world::LampReach::Bricks>>
+      reach;  // of chunks with strong lamps
+  std::atomic<bool> reach_done = false;
+  bool reach_taken = false;
   std::unique_ptr<world::SkyTransfer> transfer;
-  std::atomic<int> parts_left = world::kOctants + 1;  // octants, and lamps
+  std::atomic<int> parts_left = world::kOctants + 1;  // octants, and weak lamps
   std::map<world::IVec3, world::ChunkSky> found;
   std::atomic<bool> done = false;
 };
 
-IslandLight::IslandLight(Jobs& jobs) : jobs_(jobs) {}
+IslandLight::IslandLight(Jobs& jobs, bool sky) : jobs_(jobs), sky_(sky) {}
 
 void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
   Island& island = islands_[key.island];
@@ -38,8 +44,26 @@ void IslandLight::remove(const world::SectionKey& key) {
   ++found->second.version;
 }
 
-// Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
 void IslandLight::run(Jobs& jobs, std::shared_ptr<Search> search) {
+  jobs.submit([search] {
+    const bool any = std::any_of(search->chunks.begin(), search->chunks.end(),
+                                 [](const auto& one) { return !one.second->strong.empty(); });
+    if (any) {
+      const world::LampReach reach(search->chunks);
+      for (const auto& [at, chunk] : search->chunks)
+        for (const world::LampPlace& lamp : chunk->strong)
+          search->reach[at].push_back(reach.of(at, lamp));
+    }
+    search->reach_done = true;
+  });
+  if (search->sky)
+    look_at_sky(jobs, search);
+  else
+    search->done = true;
+}
+
+// Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
+void IslandLight::look_at_sky(Jobs& jobs, std::shared_ptr<Search> search) {
   jobs.submit([&jobs, search] {
     search->transfer = std::make_unique<world::SkyTransfer>(search->chunks);
     for (int part = 0; part <= world::kOctants; ++part)
@@ -63,6 +87,7 @@ void IslandLight::start(const world::Streamer& streamer) {
     island.search->chunks = island.chunks;
     island.search->version = island.asked = island.version;
     island.search->level = island.level;
+    island.search->sky = sky_;
     run(jobs_, island.search);
   }
 }
@@ -75,14 +100,27 @@ IslandLight::Found IslandLight::guesses(std::uint64_t id, Island& island) {
   return found;
 }
 
+std::vector<IslandLight::FoundReach> IslandLight::poll_reach() {
+  std::vector<FoundReach> out;
+  for (auto& [id, island] : islands_) {
+    if (!island.search || !island.search->reach_done || island.search->reach_taken) continue;
+    island.search->reach_taken = true;
+    if (island.search->version != island.version) continue;
+    for (auto& [at, reach] : island.search->reach)
+      out.push_back({{id, at, island.search->level}, std::move(reach)});
+  }
+  return out;
+}
+
 std::vector<IslandLight::Found> IslandLight::poll() {
   std::vector<Found> out;
   for (auto& [id, island] : islands_) {
-    if (!island.search || !island.search->done) {
+    if (!island.search || !island.search->done || !island.search->reach_taken) {
       if (!island.guessed.empty()) out.push_back(guesses(id, island));
       continue;
     }
     const std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
+    if (!sky_) continue;
     Found found{id, search->level, {}};
     Skies skies;
     for (auto& [at, sky] : search->found) {

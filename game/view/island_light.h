@@ -6,17 +6,20 @@
 #include <vector>
 
 #include "engine/core/jobs.h"
+#include "world/light/lamp_reach.h"
 #include "world/light/sky_transfer.h"
 #include "world/stream/stream.h"
 
 namespace skerry::game {
 
-/// The light of the sky on the islands that are resident, found on jobs. An island is looked at as
-/// a whole, anew whenever one of its chunks has changed; what is found depends on its voxels alone.
-/// The frame thread calls everything here.
+/// The light of the sky on the islands that are resident, and where their lamps can arrive, found
+/// on jobs. An island is looked at as a whole, anew whenever one of its chunks has changed; what is
+/// found depends on its voxels alone. The frame thread calls everything here.
 class IslandLight {
  public:
-  explicit IslandLight(Jobs& jobs);
+  /// @param sky look for the sky's light and that of weak lamps; else for the reach of lamps alone.
+  IslandLight(Jobs& jobs, bool sky);
+  bool finds_sky() const { return sky_; }
 
   /// Takes in a chunk. An island's chunks are of one level at a time. One that takes the place of
   /// another has a guess (world::inherit_faces) until its island has been looked at again.
@@ -41,9 +44,17 @@ class IslandLight {
     int level = 0;
     std::vector<FoundChunk> chunks;  ///< ascending
   };
-  /// What has been found since the last call. An island that has changed meanwhile is looked at
-  /// again.
+  /// What has been found of the sky since the last call. An island that has changed meanwhile is
+  /// looked at again.
   std::vector<Found> poll();
+
+  struct FoundReach {
+    world::SectionKey section;
+    std::vector<world::LampReach::Bricks> reach;  ///< of LightChunk::strong, in its order
+  };
+  /// Where lamps can arrive, found since the last call, sooner than poll(); of islands that have
+  /// not changed meanwhile.
+  std::vector<FoundReach> poll_reach();
 
  private:
   using Skies = std::map<world::IVec3, std::shared_ptr<const world::ChunkSky>>;
@@ -60,8 +71,10 @@ class IslandLight {
   };
   static Found guesses(std::uint64_t id, Island& island);
   static void run(Jobs& jobs, std::shared_ptr<Search> search);
+  static void look_at_sky(Jobs& jobs, std::shared_ptr<Search> search);
 
   Jobs& jobs_;
+  const bool sky_;
   std::map<std::uint64_t, Island> islands_;
 };
 

@@ -25,13 +25,27 @@ class Writer {
 
   void write(const shared::Light& light, glm::dvec3 position) {
     list_islands(light, position);
+    write_listed(light, position);
+  }
+  /// @param reach where it can arrive on `own`; counts if it touches no other island.
+  void write(const shared::Light& light, glm::dvec3 position, const PlacedIsland& own,
+             const shared::LightReach& reach) {
+    list_islands(light, position);
+    const bool alone = out_.found.size() == 1 && out_.found.front() == own.index;
+    if (alone && reach.size == glm::ivec3(0)) return;
+    write_listed(light, position);
+    if (!alone) return;
+    out_.reaches.push_back(reach);
+    out_.lights.back().reach = static_cast<std::uint32_t>(out_.reaches.size());
+  }
+
+ private:
+  void write_listed(const shared::Light& light, glm::dvec3 position) {
     shared::Light& out = out_.lights.emplace_back(light);
     out.position = position;
     out.first_island = static_cast<std::uint32_t>(out_.islands.size()) - count_;
     out.island_count = count_;
   }
-
- private:
   void list_islands(const shared::Light& light, glm::dvec3 position) {
     const bool everywhere = light.kind == shared::kLightDirectional;
     out_.found.clear();
@@ -67,6 +81,17 @@ shared::Light point_light(glm::vec3 intensity, float range) {
   light.intensity = intensity;
   light.range = range;
   return light;
+}
+
+shared::LightReach reach_of(const world::LampReach::Bricks& bricks, int level,
+                            const PlacedIsland& island) {
+  shared::LightReach out{};
+  out.low = {bricks.low.x, bricks.low.y, bricks.low.z};
+  out.size = {bricks.size.x, bricks.size.y, bricks.size.z};
+  out.per_block = std::ldexp(1.0f, -level - bricks.edge_log2);
+  out.island = island.index;
+  std::copy(bricks.bits.begin(), bricks.bits.end(), out.bits);
+  return out;
 }
 
 }  // namespace
@@ -106,13 +131,27 @@ void LightField::add_lights(const world::SectionKey& key, std::vector<LatticeLig
   if (!lights.empty()) emitted_.emplace(key, group_of(key, std::move(lights)));
 }
 
+void LightField::set_reach(const world::SectionKey& key,
+                           std::vector<world::LampReach::Bricks> reach) {
+  const auto group = emitted_.find(key);
+  if (group != emitted_.end() && reach.size() == group->second.lights.size())
+    group->second.bricks = std::move(reach);
+}
+
+void LightField::forget_reach(std::uint64_t island) {
+  for (auto group = emitted_.lower_bound({island, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
+       group != emitted_.end() && group->first.island == island; ++group)
+    group->second.bricks.clear();
+}
+
 void LightField::scatter(std::map<world::SectionKey, std::vector<LatticeLight>> lights) {
   scattered_.clear();
   for (auto& [key, group] : lights) scattered_.emplace(key, group_of(key, std::move(group)));
 }
 
 void LightField::gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
-                               std::span<const PlacedIsland> islands, FrameLights& out) {
+                               std::span<const PlacedIsland> islands, bool in_the_open,
+                               FrameLights& out) {
   Writer writer(islands, out);
   auto island = islands.begin();
   for (const auto& [key, group] : groups) {
@@ -127,9 +166,15 @@ void LightField::gather_groups(const Groups& groups, const std::optional<render:
     writer.within(centre, group.reach);
     // Within a chunk, float is exact to a few millionths of a block.
     const glm::mat3 rotation(island->rotation);
-    for (const LatticeLight& light : group.lights)
-      writer.write(point_light(light.intensity, light.range),
-                   corner + glm::dvec3(rotation * light.place));
+    for (std::size_t i = 0; i < group.lights.size(); ++i) {
+      const LatticeLight& light = group.lights[i];
+      const glm::dvec3 position = corner + glm::dvec3(rotation * light.place);
+      const shared::Light point = point_light(light.intensity, light.range);
+      if (in_the_open || group.bricks.empty())
+        writer.write(point, position);
+      else
+        writer.write(point, position, *island, reach_of(group.bricks[i], key.level, *island));
+    }
   }
 }
 
@@ -150,15 +195,17 @@ void LightField::gather_world(const world::WorldPos& camera, std::span<const Pla
 void LightField::gather(const world::WorldPos& camera,
                         const std::optional<render::CameraView>& view,
                         std::span<const PlacedIsland> islands,
-                        const std::optional<shared::Light>& held, FrameLights& out) const {
+                        const std::optional<shared::Light>& held, bool in_the_open,
+                        FrameLights& out) const {
   out.lights.clear();
   out.islands.clear();
+  out.reaches.clear();
   std::size_t most = world_.size() + 1;
   for (const Groups* groups : {&emitted_, &scattered_})
     for (const auto& [key, group] : *groups) most += group.lights.size();
   out.lights.reserve(most);
-  gather_groups(emitted_, view, islands, out);
-  gather_groups(scattered_, view, islands, out);
+  gather_groups(emitted_, view, islands, in_the_open, out);
+  gather_groups(scattered_, view, islands, in_the_open, out);
   gather_world(camera, islands, out);
   if (!held) return;
   Writer writer(islands, out);

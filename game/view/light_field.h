@@ -9,6 +9,7 @@
 #include "engine/render/frame/camera.h"
 #include "game/scene_file/emission.h"
 #include "game/scene_file/scene_lights.h"
+#include "world/light/lamp_reach.h"
 #include "world/stream/stream.h"
 
 namespace skerry::game {
@@ -33,6 +34,7 @@ struct PlacedIsland {
 struct FrameLights {
   std::vector<shared::Light> lights;
   std::vector<std::uint32_t> islands;
+  std::vector<shared::LightReach> reaches;
   /// Working memory of LightField::gather, kept between frames.
   std::vector<const PlacedIsland*> near;
   std::vector<std::uint32_t> found;
@@ -53,6 +55,11 @@ class LightField {
     add_lights(key, lights_of(key, emitters));
   }
   void add_lights(const world::SectionKey& key, std::vector<LatticeLight> lights);
+  /// Says where on their own island a section's lights can arrive, in their order. Holds until
+  /// forget_reach() of the island, or until the section is removed.
+  void set_reach(const world::SectionKey& key, std::vector<world::LampReach::Bricks> reach);
+  /// To be called whenever a voxel of the island changes.
+  void forget_reach(std::uint64_t island);
   /// Forgets them. A section without lights is no concern.
   void remove(const world::SectionKey& key) { emitted_.erase(key); }
   /// Forgets all that add() took in.
@@ -65,10 +72,12 @@ class LightField {
 
   /// @param camera what world lights are seen from. @param view none: everything is gathered, as if
   /// the camera looked to all sides. @param islands in order of their ids; lights on others are
-  /// left out. @param held a light relative to the camera. @param out replaced; keeps its memory.
+  /// left out. @param held a light relative to the camera. @param in_the_open lights count where
+  /// no surface is or walls hide them, too, as in clouds, in water or without shadows. @param out
+  /// replaced; keeps its memory.
   void gather(const world::WorldPos& camera, const std::optional<render::CameraView>& view,
               std::span<const PlacedIsland> islands, const std::optional<shared::Light>& held,
-              FrameLights& out) const;
+              bool in_the_open, FrameLights& out) const;
 
  private:
   /// The lights of one section.
@@ -77,11 +86,13 @@ class LightField {
     glm::vec3 centre{};   // of the sphere about all they light, from the corner
     float reach = 0.0f;   // its radius
     std::vector<LatticeLight> lights;
+    std::vector<world::LampReach::Bricks> bricks;  // that each can arrive at; empty: not known
   };
   using Groups = std::map<world::SectionKey, Group>;
   static Group group_of(const world::SectionKey& key, std::vector<LatticeLight> lights);
   static void gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
-                            std::span<const PlacedIsland> islands, FrameLights& out);
+                            std::span<const PlacedIsland> islands, bool in_the_open,
+                            FrameLights& out);
   void gather_world(const world::WorldPos& camera, std::span<const PlacedIsland> islands,
                     FrameLights& out) const;
 

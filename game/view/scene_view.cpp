@@ -101,6 +101,14 @@ std::vector<world::WeakLamp> take_weak(std::vector<LatticeLight>& lights, int le
   return weak;
 }
 
+std::vector<world::LampPlace> places_of(const std::vector<LatticeLight>& lights, int level) {
+  const float voxel = static_cast<float>(1 << level);  // blocks
+  std::vector<world::LampPlace> places;
+  for (const LatticeLight& light : lights)
+    places.push_back({light.place / voxel, light.range / voxel});
+  return places;
+}
+
 }  // namespace
 
 SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> world)
@@ -149,6 +157,7 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
     const Result<LoadedClouds> clouds = load_clouds(options.clouds);
     if (!clouds) return clouds.error();
     for (const std::string& line : clouds->remarks) fmt::print(stderr, "skerry: {}\n", line);
+    view->cloud_volumes_ = true;
     if (Result<void> ok = view->renderer_->set_clouds(
             clouds->volumes,
             static_cast<render::CloudPrecision>(options.settings.clouds.precision));
@@ -253,7 +262,9 @@ bool SceneView::occupancy_wanted() const {
 Result<void> SceneView::follow_settings() {
   const bool full = settings_.indirect == render::Indirect::kFull;
   const bool store = !occupancy_ && occupancy_wanted();
-  const bool light = !island_light_ && settings_.indirect != render::Indirect::kOff;
+  const bool sky = settings_.indirect != render::Indirect::kOff;
+  const bool light =
+      island_light_ ? sky && !island_light_->finds_sky() : sky || settings_.lights_shadows != 0;
   if (!store && !light && full == weak_lamps_kept_) return {};
   while (!sections_.empty()) remove_section(sections_.begin()->first);
   waiting_.clear();
@@ -262,7 +273,7 @@ Result<void> SceneView::follow_settings() {
     if (!made) return made.error();
     occupancy_ = *made;
   }
-  if (light) island_light_ = std::make_unique<IslandLight>(*jobs_);
+  if (light) island_light_ = std::make_unique<IslandLight>(*jobs_, sky);
   weak_lamps_kept_ = full;
   streamer_ =
       std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);
@@ -305,9 +316,11 @@ bool SceneView::is_full() const {
 /// Has workers look for light where something has changed, and hands what they have found to the
 /// renderer. An island that there is no memory for keeps none.
 void SceneView::find_light() {
-  if (settings_.indirect == render::Indirect::kOff) return;
+  if (!island_light_) return;
   // What waits for memory would let light in.
   if (waiting_.empty()) island_light_->start(*streamer_);
+  for (IslandLight::FoundReach& found : island_light_->poll_reach())
+    light_field_.set_reach(found.section, std::move(found.reach));
   for (const IslandLight::Found& found : island_light_->poll()) {
     const auto slot = island_slots_.find(found.island);
     if (slot == island_slots_.end() || found.chunks.empty()) continue;
@@ -343,6 +356,7 @@ void SceneView::remove_section(const world::SectionKey& key) {
   SKERRY_ASSERT(found != sections_.end());
   gpu::Uploader& uploader = renderer_->mesh_uploader();
   light_field_.remove(key);
+  light_field_.forget_reach(key.island);
   if (island_light_) island_light_->remove(key);
   const auto slot = island_slots_.find(key.island);
   if (found->second) renderer_->geometry().remove(uploader, *found->second);
@@ -391,10 +405,11 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   std::vector<LatticeLight> lights = light_field_.lights_of(ready.key, ready.emitters);
   std::vector<world::WeakLamp> weak;
   if (weak_lamps_kept_) weak = take_weak(lights, ready.key.level);
-  light_field_.add_lights(ready.key, std::move(lights));
   if (island_light_)
-    island_light_->add(ready.key,
-                       {ready.occupancy, ready.leaves, ready.mesh.quads, std::move(weak)});
+    island_light_->add(ready.key, {ready.occupancy, ready.leaves, ready.mesh.quads, std::move(weak),
+                                   places_of(lights, ready.key.level)});
+  light_field_.forget_reach(ready.key.island);
+  light_field_.add_lights(ready.key, std::move(lights));
   return {};
 }
 
@@ -446,13 +461,20 @@ std::vector<PlacedIsland> SceneView::placed_islands(
   return out;
 }
 
+/// Whether lamps count where no surface is, or behind walls; the oracle takes nothing on trust.
+bool SceneView::lights_count_in_the_open(std::uint32_t medium) const {
+  return settings_.lights_shadows == 0 || settings_.lights_oracle ||
+         settings_.clouds.coverage > 0.0 || cloud_volumes_ || medium != world::kAir;
+}
+
 void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
-                              std::span<const render::IslandPlacement> islands) {
+                              std::span<const render::IslandPlacement> islands, bool in_the_open) {
   const Stopwatch watch;
   light_field_.gather(
       place(moment.camera.position), render::view_of(moment.camera, size.width, size.height),
       placed_islands(moment.camera.position, islands),
-      held_light(settings_, light_field_, moment.camera.yaw_deg, moment.world_time_s), lights_);
+      held_light(settings_, light_field_, moment.camera.yaw_deg, moment.world_time_s), in_the_open,
+      lights_);
   gather_ms_ = watch.milliseconds();
 }
 
@@ -535,16 +557,17 @@ Result<std::uint64_t> SceneView::draw(
   input.anchor = fixed(world_->origin());
   input.islands = islands;
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
-  gather_lights(moment, size, islands);
+  input.camera_medium = medium_at(moment.camera, moment.world_time_s);
+  gather_lights(moment, size, islands, lights_count_in_the_open(input.camera_medium));
   input.lights = lights_.lights;
   input.light_islands = lights_.islands;
+  input.light_reaches = lights_.reaches;
   const std::optional<double> ev =
       settings_.exposure_ev ? settings_.exposure_ev : moment.exposure_ev;
   input.exposure_ev.reset();
   if (ev) input.exposure_ev = static_cast<float>(*ev);
   input.meter = !settings_.exposure_ev;
   input.time_s = moment.world_time_s;
-  input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
   input.marker = marker_of(moment);

@@ -110,7 +110,8 @@ class SceneView {
   std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera,
                                            std::span<const render::IslandPlacement> islands) const;
   void gather_lights(const Moment& moment, VkExtent2D size,
-                     std::span<const render::IslandPlacement> islands);
+                     std::span<const render::IslandPlacement> islands, bool in_the_open);
+  bool lights_count_in_the_open(std::uint32_t medium) const;
   /// Id of the translucent block the camera is in, or air.
   world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
   std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
@@ -137,6 +138,7 @@ class SceneView {
   std::unique_ptr<IslandLight> island_light_;    // none: not wanted so far
   bool light_refused_ = false;                   // for want of memory, and that has been said
   bool weak_lamps_kept_ = false;                 // by island_light_, not by light_field_
+  bool cloud_volumes_ = false;                   // what lamps light in the air, too
   LightField light_field_;
   FrameLights lights_;  // of the last frame
   double gather_ms_ = 0.0;

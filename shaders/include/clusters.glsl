@@ -39,6 +39,19 @@ Cell cell_of(uvec2 first, uvec2 end, float near, float far) {
   return c;
 }
 
+// Bounds of a cell in world axes.
+void world_bounds(Cell c, out vec3 low, out vec3 high) {
+  low = vec3(1e30);
+  high = vec3(-1e30);
+  for (uint i = 0u; i < 8u; ++i) {
+    float z = (i & 4u) != 0u ? c.high.z : c.low.z;
+    vec2 slope = vec2((i & 1u) != 0u ? c.high_slope.x : c.low_slope.x, (i & 2u) != 0u ? c.high_slope.y : c.low_slope.y);
+    vec3 corner = (grid.right * slope.x + grid.up * slope.y + grid.forward) * z;
+    low = min(low, corner);
+    high = max(high, corner);
+  }
+}
+
 vec3 view_from_world(vec3 v) { return vec3(dot(v, grid.right), dot(v, grid.up), dot(v, grid.forward)); }
 
 // Whether a ball touches a cell's box and lies within its sides. Errs on the side of yes, by `margin` of its distance and radius at least.

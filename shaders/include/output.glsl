@@ -7,15 +7,13 @@
 
 layout(constant_id = kToPictureConstant) const bool kToPicture = false;  // if not, something is bound in place of the exposure
 
-layout(binding = kTargetBinding, rgba16f) writeonly uniform image2D radiance;  // shares its place with the picture
-
 // Every invocation calls this once; `here` tells which have a pixel. What is stored is finite.
 void put_pixel(uvec2 pixel, vec3 colour, bool here) {
   if (kToPicture) {
     put_in_picture(pixel, colour, vec3(0.0), here);
   } else if (here) {
     if (!finite3(colour)) atomicAdd(stats.non_finite, 1u);
-    imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
+    imageStore(target, ivec2(pixel), vec4(sanitised(colour), 1.0));
   }
 }
 #endif

@@ -7,7 +7,7 @@
 #include "shared/exposure.h"
 #include "include/tonemap.glsl"
 
-layout(binding = kTargetBinding, rgba8) writeonly uniform image2D picture;
+layout(binding = kTargetBinding) writeonly uniform image2D target;  // of any format: the picture, or scene radiance
 layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; };
 
 layout(constant_id = kCalibratedConstant) const bool kCalibrated = false;  // the display takes other than 0 to 1
@@ -25,6 +25,6 @@ void put_in_picture(uvec2 pixel, vec3 colour, vec3 glow, bool here) {
   if (black != 0u && subgroupElect()) atomicAdd(stats.black, black);
   if (!here) return;
   if (!finite3(colour)) atomicAdd(stats.non_finite, 1u);
-  imageStore(picture, ivec2(pixel), developed(sanitised(colour) * exp2(-exposure.ev) + glow, pixel));
+  imageStore(target, ivec2(pixel), developed(sanitised(colour) * exp2(-exposure.ev) + glow, pixel));
 }
 #endif

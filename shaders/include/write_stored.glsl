@@ -1,4 +1,4 @@
-// For fragment shaders of a G-buffer that keeps normals or positions: one or two more colour targets, the normal first.
+// For fragment shaders of a G-buffer that keeps normals or positions: a further colour target, or with SKERRY_STORED_BOTH two.
 #ifndef SKERRY_WRITE_STORED_GLSL
 #define SKERRY_WRITE_STORED_GLSL
 #include "shared/bindings.h"
@@ -8,18 +8,24 @@
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
 
-layout(constant_id = kStoredConstant) const bool kStored = false;  // else what follows is not used
 layout(constant_id = kNormalCodeConstant) const uint kNormalCode = 0u;
-layout(constant_id = kPositionStoredConstant) const bool kPositionStored = false;
 
-layout(location = 1) out vec4 out_first;
-layout(location = 2) out vec4 out_second;  // the position, when both are kept
+#ifdef SKERRY_STORED_BOTH
+layout(location = 1) out vec4 out_normal;
+layout(location = 2) out vec4 out_position;
+#else
+layout(location = 1) out vec4 out_stored;  // the normal, or the position if normals are exact
+#endif
 
 void write_stored(uint word) {
   vec3 ray = pixel_ray(ivec2(gl_FragCoord.xy));
   vec4 position = vec4(ray * view_distance(gl_FragCoord.z, frame.near_plane), 1.0);
   vec3 normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
-  out_first = kNormalCode != kNormalExact ? texel_from_normal(normal, kNormalCode) : position;
-  if (kNormalCode != kNormalExact && kPositionStored) out_second = position;
+#ifdef SKERRY_STORED_BOTH
+  out_normal = texel_from_normal(normal, kNormalCode);
+  out_position = position;
+#else
+  out_stored = kNormalCode != kNormalExact ? texel_from_normal(normal, kNormalCode) : position;
+#endif
 }
 #endif

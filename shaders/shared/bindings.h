@@ -97,5 +97,9 @@ SHARED_CONST uint kCoarserSamplesBinding = 71u;  // of the next coarser level
 SHARED_CONST uint kOwnSamplesBinding = 72u;      // of the level that is worked on
 SHARED_CONST uint kListedBinding = 73u;          // TileDispatch of the pixels that are listed
 SHARED_CONST uint kListedPixelsBinding = 74u;    // x in bits 0-15, y in bits 16-31
+
+// Past walls: LightReach[].
+SHARED_CONST uint kLightReachBinding = 75u;
+
 SHARED_END
 #endif

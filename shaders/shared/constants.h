@@ -23,7 +23,6 @@ SHARED_CONST uint kSamplesPerEdgeConstant = 14u;  // uint: of a pixel
 SHARED_CONST uint kCornersConstant = 15u;         // bool: corners darken
 SHARED_CONST uint kOracleConstant = 16u;          // bool: every light may reach every pixel
 SHARED_CONST uint kFinestCoverageConstant = 17u;  // bool: coverage by the finest texels
-SHARED_CONST uint kWriteSurfaceConstant = 18u;    // bool: false where there is only depth
 SHARED_CONST uint kChannelConstant = 19u;         // uint: render::DebugView
 SHARED_CONST uint kCloudLayerConstant = 20u;      // bool
 SHARED_CONST uint kCloudVolumesConstant = 21u;    // uint
@@ -49,7 +48,6 @@ SHARED_CONST uint kEveryPixelConstant = 43u;    // bool: the level is the pictur
 SHARED_CONST uint kToleranceConstant = 44u;     // float: how much shared light may differ
 SHARED_CONST uint kChooseConstant = 46u;        // bool: an exposure is chosen from the histogram
 SHARED_CONST uint kPackConstant = 47u;          // bool: noise that is there is packed
-SHARED_CONST uint kStoredConstant = 48u;        // bool: normals or positions are kept
 SHARED_CONST uint kScanConstant = 49u;          // bool: totals are summed, nothing is emitted
 SHARED_CONST uint kLightListConstant = 50u;     // uint: kListClusters, kListRoom or kListTiles
 

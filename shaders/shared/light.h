@@ -28,6 +28,20 @@ struct Light {
   float cos_outer;    // spot: none beyond; < cos_inner
   uint first_island;  // into the frame's list of islands that may block lights: those whose
   uint island_count;  // bounding spheres the light's range touches
+  uint reach;  // 1 + which of the frame's LightReach bounds what it can arrive at; 0: its range
+               // alone
+};
+
+SHARED_CONST uint kReachWords = 128u;
+
+// Where past walls a light can arrive at surfaces of the one island that it touches, in bricks of
+// its lattice. Bit z + size.z * (x + size.x * y): a face or a plant may be lit in the brick.
+struct LightReach {
+  ivec3 low;  // bricks
+  ivec3 size;
+  float per_block;  // bricks in a block
+  uint island;
+  uint bits[kReachWords];
 };
 
 SHARED_END

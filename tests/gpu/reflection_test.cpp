@@ -38,16 +38,6 @@ TEST(Reflection, EveryKindOfBindingIsFound) {
   EXPECT_EQ(reflect_ok(shader).push_bytes, 0u);
 }
 
-TEST(Reflection, WhatTheShaderDoesNotUseIsNotThere) {
-  const TestShader shader("unused.comp", R"(
-    layout(local_size_x = 1) in;
-    layout(binding = 0) buffer A { uint a; };
-    layout(binding = 1) buffer B { uint b; };
-    void main() { a = 1; })");
-  EXPECT_EQ(reflect_ok(shader).bindings,
-            (std::vector<ShaderReflection::Binding>{{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}}));
-}
-
 TEST(Reflection, UseIsWhatTheEntryPointReaches) {
   // 0 read in main, 1 written by a function of a function, 2 an image read, 3 an atomic on an
   // image, 4 only the length of, 5 in a function that nobody calls, 6 nowhere.

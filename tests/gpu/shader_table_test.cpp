@@ -70,9 +70,8 @@ int tabulate(const TestShader& shader, std::string& said) {
   std::ofstream(folder / "mine.comp.full.spv", std::ios::binary)
       .write(reinterpret_cast<const char*>(words.data()),
              static_cast<std::streamsize>(words.size() * sizeof(std::uint32_t)));
-  const std::string command = SKERRY_BINARY_DIR "/skerry_shader_table " +
-                              (folder / "table.cpp").string() + " " + folder.string() +
-                              " mine.comp 2> " + (folder / "said").string();
+  const std::string command = SKERRY_BINARY_DIR "/skerry_shader_table " + folder.string() + " " +
+                              folder.string() + " mine.comp 2> " + (folder / "said").string();
   const int status = std::system(command.c_str());
   said = text_of(folder / "said");
   fs::remove_all(folder);

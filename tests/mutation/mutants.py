@@ -85,6 +85,11 @@ MUTANTS = (
     Mutant("corners_turned", "a face's corners are taken crosswise", "shaders/include/occupancy.glsl",
            "mix(c01, c11, at.in_face.x), at.in_face.y)", "mix(c01, c11, at.in_face.x), 1.0 - at.in_face.y)",
            "mesa tropical"),
+    # Where lamps can arrive
+    Mutant("reach_shifted", "the bricks that a lamp can arrive at are one off", "game/view/light_field.cpp",
+           "out.low = {bricks.low.x,", "out.low = {bricks.low.x + 1,", "cave lava_close"),
+    Mutant("reach_facing", "lamps light faces that look away and no others", "world/light/lamp_reach.cpp",
+           "const bool faces = axes.sign > 0 ?", "const bool faces = axes.sign < 0 ?", "cave lava_close"),
     # Light of the sky
     Mutant("sky_doubled", "the sky sends twice its light", "engine/render/sky/sky_irradiance.cpp",
            "2.0 * std::numbers::pi / sum", "4.0 * std::numbers::pi / sum", "day dusk"),

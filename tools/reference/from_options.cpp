@@ -98,7 +98,8 @@ std::vector<Light> lights_of(world::World& world, const game::SceneOptions& opti
       field.add(section.key, section.emitters);
   game::FrameLights gathered;
   field.gather(camera.position, std::nullopt, islands,
-               game::held_light(settings, field, camera.yaw_deg, settings.world_time_s), gathered);
+               game::held_light(settings, field, camera.yaw_deg, settings.world_time_s), true,
+               gathered);
   std::vector<Light> lights;
   for (const shared::Light& light : gathered.lights) lights.push_back(light_from(light));
   return lights;

@@ -60,10 +60,6 @@ void fill(VoxelBits& bits, IVec3 corner, const ChunkOccupancy& chunk) {
   });
 }
 
-IVec3 corner_of(IVec3 chunk) {
-  return {chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
-}
-
 }  // namespace
 
 VoxelBits::VoxelBits(IVec3 low, IVec3 size, bool value) : low_(low), size_(size) {

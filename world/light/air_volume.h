@@ -6,9 +6,15 @@
 
 #include "shaders/shared/geometry.h"
 #include "world/mesh/occupancy.h"
+#include "world/voxel/chunk.h"
 #include "world/voxel/coords.h"
 
 namespace skerry::world {
+
+/// Lowest voxel of a chunk.
+constexpr IVec3 corner_of(IVec3 chunk) {
+  return {chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
+}
 
 /// A lamp that is weak enough to be kept with the light of faces.
 struct WeakLamp {
@@ -17,12 +23,19 @@ struct WeakLamp {
   float range = 0.0f;     ///< voxels; the light ends there smoothly, as shaders/shared/light.h says
 };
 
+/// Where a lamp that is not kept with faces stands.
+struct LampPlace {
+  glm::vec3 place{};   ///< from the chunk's lowest corner [voxels]
+  float range = 0.0f;  ///< voxels
+};
+
 /// What light needs to know of one chunk. Immutable once shared.
 struct LightChunk {
   ChunkOccupancy opaque;
   ChunkOccupancy leaves;            ///< cut-out blocks: they let about half of the light past
   std::vector<shared::Quad> quads;  ///< all that is drawn of the chunk
   std::vector<WeakLamp> lamps{};
+  std::vector<LampPlace> strong{};  ///< all other lamps
 };
 using LightChunks = std::map<IVec3, std::shared_ptr<const LightChunk>>;  ///< by chunk at its level
 

@@ -14,10 +14,6 @@ namespace {
 
 constexpr int kLeafSets = 8;  // leaves stop different rays by different sets of voxels
 
-IVec3 corner_of(IVec3 chunk) {
-  return {chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
-}
-
 /// Which voxels rays pass: air, and half of the leaves.
 VoxelBits open_to(const AirVolume& air, int leaf_set) {
   const IVec3 low = air.opaque.low(), size = air.opaque.size();

@@ -36,13 +36,13 @@ Result<std::vector<VolumeGrid>> read(const std::filesystem::path& path, const Re
 }  // namespace
 
 std::string metadata_doubt(const std::vector<VolumeGrid>& grids) {
-  constexpr double kAllowed = 1.0 / 32.0, kOfEmptyTrees = 4096.0;
+  constexpr double kAllowedShare = 1.0 / 32.0, kOfEmptyTrees = 4096.0;
   const VolumeGrid* first = nullptr;
   std::size_t count = 0;
   for (const VolumeGrid& grid : grids) {
     const auto stated = static_cast<double>(grid.stated_memory_bytes);
     const double off = std::abs(static_cast<double>(grid.memory_bytes) - stated);
-    if (grid.stated_memory_bytes == 0 || off <= kAllowed * stated + kOfEmptyTrees) continue;
+    if (grid.stated_memory_bytes == 0 || off <= kAllowedShare * stated + kOfEmptyTrees) continue;
     if (count++ == 0) first = &grid;
   }
   if (!first) return {};

@@ -102,6 +102,10 @@ Result<void> outcome_of(std::optional<int> status, bool writes, const ReadLimits
     return Error{
         fmt::format("the file is damaged: OpenVDB crashed on it (signal {})", WTERMSIG(*status))};
   if (WEXITSTATUS(*status) == 0) return {};
+  constexpr int kCannotStart = 127;  // of the dynamic loader, too
+  if (WEXITSTATUS(*status) == kCannotStart)
+    return Error{
+        "skerry_openvdb cannot start, as when a library of OpenVDB is missing; install it"};
   return Error{writes ? "OpenVDB gave up without a word; check the space on the disk"
                       : "the file is damaged: OpenVDB gave up on it without a word"};
 }

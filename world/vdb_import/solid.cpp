@@ -201,15 +201,16 @@ Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
                                const Placement& placement, const std::set<IVec3>& chunks,
                                ImportCost& cost, Jobs& jobs, const ReadProgress& progress) {
   const std::vector<IVec3> list(chunks.begin(), chunks.end());
-  constexpr std::size_t kBatch = 256;  // between two looks at the limits and two steps of progress
+  constexpr std::size_t kChunkBatch =
+      256;  // between two looks at the limits and two steps of progress
   struct Made {
     ChunkMask mask;
     std::uint64_t looks = 0;
   };
   SolidMasks masks;
   std::vector<Made> made;
-  for (std::size_t first = 0; first < list.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, list.size() - first);
+  for (std::size_t first = 0; first < list.size(); first += kChunkBatch) {
+    const std::size_t count = std::min(kChunkBatch, list.size() - first);
     made.clear();
     made.resize(count);
     jobs.parallel_for(static_cast<int>(count), [&](int i) {

@@ -20,6 +20,7 @@ struct DeviceInfo {
 
 /// Limits the renderer plans with.
 struct DeviceLimits {
+  std::uint64_t max_buffer_bytes = 0;   ///< of any buffer
   std::uint64_t max_storage_range = 0;  ///< bytes one storage buffer binding may cover
   std::uint64_t max_texels = 0;         ///< of a buffer that shaders fetch texels of
   std::uint32_t max_image_edge = 0;     ///< pixels, 2D

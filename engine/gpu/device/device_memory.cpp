@@ -108,6 +108,9 @@ Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
                  ": this device fetches from at most " + std::to_string(limits_.max_texels) +
                  " texels; set indirect=off"};
   }
+  if (desc.size_bytes > limits_.max_buffer_bytes)
+    return out_of_memory(desc.name, desc.size_bytes, state_->memory_total,
+                         VK_ERROR_OUT_OF_DEVICE_MEMORY);
   Buffer buffer;
   auto info = vk_struct<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = desc.size_bytes;

@@ -168,10 +168,14 @@ DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index, bool su
 }
 
 DeviceLimits read_limits(VkPhysicalDevice device) {
-  VkPhysicalDeviceProperties properties{};
-  vkGetPhysicalDeviceProperties(device, &properties);
-  const VkPhysicalDeviceLimits& limits = properties.limits;
+  auto core = vk_struct<VkPhysicalDeviceVulkan13Properties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES);
+  auto properties =
+      vk_struct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &core);
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  const VkPhysicalDeviceLimits& limits = properties.properties.limits;
   DeviceLimits out;
+  out.max_buffer_bytes = core.maxBufferSize;
   out.max_storage_range = limits.maxStorageBufferRange;
   out.max_texels = limits.maxTexelBufferElements;
   out.max_image_edge = limits.maxImageDimension2D;

@@ -33,8 +33,8 @@ struct ComputeDesc {
 };
 
 struct GraphicsDesc {
-  std::string vertex;
-  std::string fragment;  ///< empty: depth only
+  std::string vertex{};
+  std::string fragment{};  ///< empty: depth only
   std::vector<SpecConstant> constants;
   std::vector<VkFormat> color_formats;
   VkFormat depth_format = VK_FORMAT_UNDEFINED;

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
+#include "shaders/shared/bindings.h"
 
 namespace skerry::render {
 
@@ -23,10 +25,20 @@ struct CloudRefs {
   std::vector<gpu::SpecConstant> with_clouds(std::vector<gpu::SpecConstant> own) const;
   /// What cloud_light.glsl reads: how much light comes through.
   void declare_light(gpu::PassBuilder& builder) const;
-  void bind_light(gpu::Commands& commands) const;
+  auto light_bindings() const {
+    return std::tuple{gpu::storage<shared::kCloudsBinding>(constants),
+                      gpu::sampled<shared::kLayerLightBinding>(layer_light, linear),
+                      gpu::sampled<shared::kVolumeLightBinding>(volume_light, linear)};
+  }
   /// What a march reads besides.
   void declare_media(gpu::PassBuilder& builder) const;
-  void bind_media(gpu::Commands& commands) const;
+  auto media_bindings() const {
+    return std::tuple{gpu::sampled<shared::kCloudWeatherBinding>(weather, repeating),
+                      gpu::sampled<shared::kCloudCellsBinding>(cells, nearest),
+                      gpu::sampled<shared::kCloudBricksBinding>(bricks, linear),
+                      gpu::sampled<shared::kCloudShapesBinding>(shapes, repeating),
+                      gpu::sampled<shared::kCloudBillowsBinding>(billows, repeating)};
+  }
 };
 
 }  // namespace skerry::render

@@ -4,6 +4,7 @@
 
 #include "engine/render/light/light_clusters.h"
 
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -31,7 +32,7 @@ void fill_dispatch(gpu::Commands& c, gpu::BufferRef to, std::uint64_t size_bytes
 }
 
 struct Buffers {
-  gpu::BufferRef grid, lights;
+  gpu::BufferRef grid, lights, islands, reaches;
   gpu::BufferRef small_tiles, tiles;  ///< shared::TileDepths
   gpu::BufferRef bins, occupied, counts, work;
 };
@@ -45,8 +46,7 @@ void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
               const ClusterDepths& depths, const shared::ClusterGrid& grid, Buffers& b) {
   std::vector<gpu::SpecConstant> constants{{shared::kLayersConstant, depths.layer_count}};
   if (depths.depth16) constants.push_back({shared::kDepth16Constant, 1});
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{programs::kMarkLightTiles, std::move(constants)});
+  const auto program = gpu::compute(pipelines, programs::kMarkLightTiles, std::move(constants));
   graph.add_pass(
       "mark_light_tiles",
       [&](gpu::PassBuilder& p) {
@@ -57,17 +57,18 @@ void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
           p.read(depths.layers[k], Use::kComputeSampled);
         b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
       },
-      [&pipeline, b, depths, point = scene.point_sampler,
+      [program, b, depths, point = scene.point_sampler,
        count = small_tile_count(grid)](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.sampled(shared::kDepthsBinding, depths.depth, point);
-        c.storage(shared::kSurfacesBinding, depths.surfaces);
-        // Layers that are not there are never read; depth is bound in their place.
-        for (std::uint32_t k = 0; k < depths.layers.size(); ++k)
-          c.sampled(shared::kLayerDepthsBinding + k,
-                    k < depths.layer_count ? depths.layers[k] : depths.depth, point);
-        c.storage(shared::kTileDepthsBinding, b.small_tiles);
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::sampled<shared::kDepthsBinding>(depths.depth, point),
+                  gpu::storage<shared::kSurfacesBinding>(depths.surfaces),
+                  // Layers that are not there are never read; depth is bound in their place.
+                  gpu::each_of<shared::kLayerDepthsBinding, 4>(
+                      [&]<std::uint32_t kBinding>(std::size_t k) {
+                        return gpu::sampled<kBinding>(
+                            k < depths.layer_count ? depths.layers[k] : depths.depth, point);
+                      }),
+                  gpu::storage<shared::kTileDepthsBinding>(b.small_tiles));
         dispatch_items(c, count);
       });
 }
@@ -76,23 +77,23 @@ void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
 struct Lists {
   gpu::BufferRef grid, small_tiles, tiles, work, occupied, counts, clusters, dispatches, listed;
 
-  void bind(gpu::Commands& c) const {
-    c.storage(shared::kLightGridBinding, grid);
-    c.storage(shared::kTileDepthsBinding, small_tiles);
-    c.storage(shared::kGridTilesBinding, tiles);
-    c.storage(shared::kClusterWorkBinding, work);
-    c.storage(shared::kOccupiedClustersBinding, occupied);
-    c.storage(shared::kLightCountsBinding, counts);
-    c.storage(shared::kClustersBinding, clusters);
-    c.storage(shared::kTileDispatchesBinding, dispatches);
-    c.storage(shared::kTilesBinding, listed);
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
+                      gpu::storage<shared::kTileDepthsBinding>(small_tiles),
+                      gpu::storage<shared::kGridTilesBinding>(tiles),
+                      gpu::storage<shared::kClusterWorkBinding>(work),
+                      gpu::storage<shared::kOccupiedClustersBinding>(occupied),
+                      gpu::storage<shared::kLightCountsBinding>(counts),
+                      gpu::storage<shared::kClustersBinding>(clusters),
+                      gpu::storage<shared::kTileDispatchesBinding>(dispatches),
+                      gpu::storage<shared::kTilesBinding>(listed)};
   }
 };
 
-const gpu::Pipeline& list_pipeline(gpu::Pipelines& pipelines, std::uint32_t list, bool oracle) {
+auto list_program(gpu::Pipelines& pipelines, std::uint32_t list, bool oracle) {
   std::vector<gpu::SpecConstant> constants{{shared::kLightListConstant, list}};
   if (oracle) constants.push_back({shared::kOracleConstant, 1});
-  return pipelines.get(gpu::ComputeDesc{programs::kListLights, std::move(constants)});
+  return gpu::compute(pipelines, programs::kListLights, std::move(constants));
 }
 
 void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
@@ -113,11 +114,10 @@ void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         b.occupied = p.write(b.occupied, Use::kComputeWrite);
       },
       [b, count = grid.tiles_x * grid.tiles_y,
-       &pipeline = list_pipeline(pipelines, shared::kListClusters, false)](gpu::Commands& c) {
-        c.bind(pipeline);
-        Lists{b.grid,     b.small_tiles, b.tiles,    b.work,    b.occupied,
-              b.occupied, b.occupied,    b.occupied, b.occupied}
-            .bind(c);
+       program = list_program(pipelines, shared::kListClusters, false)](gpu::Commands& c) {
+        const Lists lists{b.grid,     b.small_tiles, b.tiles,    b.work,    b.occupied,
+                          b.occupied, b.occupied,    b.occupied, b.occupied};
+        gpu::bind(c, program, lists.bindings());
         dispatch_items(c, count);
       });
 }
@@ -132,13 +132,12 @@ void add_bin(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::Cl
       },
       [b, groups = gpu::Commands::groups(grid.bins_x * grid.bins_y, shared::kClusterGroup),
        words = grid.light_words,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kBinLights, {{shared::kLightKindsConstant, kinds}}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kLightsBinding, b.lights);
-        c.storage(shared::kGridTilesBinding, b.tiles);
-        c.storage(shared::kLightBinsBinding, b.bins);
+       program = gpu::compute(pipelines, programs::kBinLights,
+                              {{shared::kLightKindsConstant, kinds}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::storage<shared::kLightsBinding>(b.lights),
+                  gpu::storage<shared::kGridTilesBinding>(b.tiles),
+                  gpu::storage<shared::kLightBinsBinding>(b.bins));
         c.dispatch(groups, words, 1);
       });
 }
@@ -157,11 +156,10 @@ void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
         out.clusters = p.write(out.clusters, Use::kComputeWrite);
       },
       [b, clusters = out.clusters,
-       &pipeline = list_pipeline(pipelines, shared::kListRoom, false)](gpu::Commands& c) {
-        c.bind(pipeline);
-        Lists{b.grid,   b.counts, b.counts, b.work,  b.occupied,
-              b.counts, clusters, b.counts, b.counts}
-            .bind(c);
+       program = list_program(pipelines, shared::kListRoom, false)](gpu::Commands& c) {
+        const Lists lists{b.grid,   b.counts, b.counts, b.work,  b.occupied,
+                          b.counts, clusters, b.counts, b.counts};
+        gpu::bind(c, program, lists.bindings());
         c.dispatch_indirect(b.work, 0);
       });
 }
@@ -173,7 +171,8 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
   graph.add_pass(
       list ? "assign_lights" : "count_lights",
       [&](gpu::PassBuilder& p) {
-        for (const gpu::BufferRef ref : {b.grid, b.lights, b.tiles, b.bins, b.occupied, b.work})
+        for (const gpu::BufferRef ref :
+             {b.grid, b.lights, b.islands, b.reaches, b.tiles, b.bins, b.occupied, b.work})
           p.read(ref, Use::kComputeRead);
         p.read(b.work, Use::kIndirect);
         if (list) p.read(out.clusters, Use::kComputeRead);
@@ -181,19 +180,19 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
         if (list) out.entries = p.write(out.entries, Use::kComputeWrite);
       },
       [b, list, clusters = list ? out.clusters : b.counts, entries = list ? out.entries : b.counts,
-       &pipeline = pipelines.get(
-           gpu::ComputeDesc{programs::kAssignLights, {{shared::kLightKindsConstant, out.kinds}}})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kLightGridBinding, b.grid);
-        c.storage(shared::kLightsBinding, b.lights);
-        c.storage(shared::kGridTilesBinding, b.tiles);
-        c.storage(shared::kLightBinsBinding, b.bins);
-        c.storage(shared::kClusterWorkBinding, b.work);
-        c.storage(shared::kOccupiedClustersBinding, b.occupied);
-        c.storage(shared::kLightCountsBinding, b.counts);
-        c.storage(shared::kClustersBinding, clusters);
-        c.storage(shared::kLightEntriesBinding, entries);
+       program = gpu::compute(pipelines, programs::kAssignLights,
+                              {{shared::kLightKindsConstant, out.kinds}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
+                  gpu::storage<shared::kLightsBinding>(b.lights),
+                  gpu::storage<shared::kIslandsBinding>(b.islands),
+                  gpu::storage<shared::kLightReachBinding>(b.reaches),
+                  gpu::storage<shared::kGridTilesBinding>(b.tiles),
+                  gpu::storage<shared::kLightBinsBinding>(b.bins),
+                  gpu::storage<shared::kClusterWorkBinding>(b.work),
+                  gpu::storage<shared::kOccupiedClustersBinding>(b.occupied),
+                  gpu::storage<shared::kLightCountsBinding>(b.counts),
+                  gpu::storage<shared::kClustersBinding>(clusters),
+                  gpu::storage<shared::kLightEntriesBinding>(entries));
         c.push(list ? 1u : 0u);
         c.dispatch_indirect(b.work, 0);
       });
@@ -221,11 +220,10 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
       },
       [b, clusters, tiles = out.tiles, count = small_tile_count(grid),
-       &pipeline = list_pipeline(pipelines, shared::kListTiles, out.oracle)](gpu::Commands& c) {
-        c.bind(pipeline);
-        Lists{b.grid,      b.small_tiles, tiles.lists,      tiles.lists, tiles.lists,
-              tiles.lists, clusters,      tiles.dispatches, tiles.lists}
-            .bind(c);
+       program = list_program(pipelines, shared::kListTiles, out.oracle)](gpu::Commands& c) {
+        const Lists lists{b.grid,      b.small_tiles, tiles.lists,      tiles.lists, tiles.lists,
+                          tiles.lists, clusters,      tiles.dispatches, tiles.lists};
+        gpu::bind(c, program, lists.bindings());
         dispatch_items(c, count);
       });
 }
@@ -250,6 +248,8 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
   Buffers b;
   b.grid = out.grid;
   b.lights = out.lights;
+  b.islands = scene.islands;
+  b.reaches = reaches_ ? graph.import(reaches_) : out.lights;
   b.small_tiles = create("tile depths", std::uint64_t{small} * sizeof(shared::TileDepths));
   work_ = {};
   add_mark(graph, pipelines, scene, depths, grid_, b);

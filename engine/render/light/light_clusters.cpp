@@ -141,14 +141,6 @@ void ClusteredLights::declare(gpu::PassBuilder& builder) const {
   builder.read(entries, Use::kComputeRead);
 }
 
-void ClusteredLights::bind(gpu::Commands& commands) const {
-  commands.storage(shared::kLightGridBinding, grid);
-  commands.storage(shared::kLightsBinding, lights);
-  // The oracle reads no lists; its lights are bound in their place so that every binding is valid.
-  commands.storage(shared::kClustersBinding, oracle ? lights : clusters);
-  commands.storage(shared::kLightEntriesBinding, oracle ? lights : entries);
-}
-
 Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
                                     std::uint64_t size_bytes) {
   if (buffer && buffer.size_bytes() >= size_bytes) return {};
@@ -159,7 +151,15 @@ Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
   return {};
 }
 
+/// Lights come and go: a power of two is not outgrown by each that comes.
+std::uint64_t LightClusters::roomy(std::uint64_t size_bytes) const {
+  std::uint64_t bytes = 4096;
+  while (bytes < size_bytes) bytes *= 2;
+  return std::max<std::uint64_t>(std::min(bytes, device_.limits().max_storage_range), size_bytes);
+}
+
 Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
+                                   std::span<const shared::LightReach> reaches,
                                    const CameraView& camera, const ClusterPicture& picture) {
   SKERRY_ASSERT(!lights.empty());
   const std::uint32_t most = most_lights(device_.limits(), picture);
@@ -178,12 +178,12 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
       kLeastEntries, most_entries(device_.limits()));
   if (Result<void> ok = reserve(entries_, "light lists", room * sizeof(std::uint32_t)); !ok)
     return ok;
-  // Lights come and go: a power of two is not outgrown by each that comes.
-  std::uint64_t bytes = 4096;
-  while (bytes < lights.size_bytes()) bytes *= 2;
-  bytes = std::max<std::uint64_t>(std::min(bytes, device_.limits().max_storage_range),
-                                  lights.size_bytes());
-  if (Result<void> ok = reserve(lights_, "lights", bytes); !ok) return ok;
+  if (Result<void> ok = reserve(lights_, "lights", roomy(lights.size_bytes())); !ok) return ok;
+  if (!reaches.empty()) {
+    if (Result<void> ok = reserve(reaches_, "reach of lights", roomy(reaches.size_bytes())); !ok)
+      return ok;
+    uploader.write(reaches_, 0, reaches);
+  }
   if (Result<void> ok = reserve(grid_buffer_, "cluster grid", sizeof(grid_)); !ok) return ok;
   grid_ = cluster_grid(camera, picture, static_cast<std::uint32_t>(lights.size()),
                        entries_.size_bytes() / sizeof(std::uint32_t));

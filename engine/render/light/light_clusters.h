@@ -56,7 +56,14 @@ struct ClusteredLights {
   static ClusteredLights none(const SceneRefs& scene);
   std::vector<gpu::SpecConstant> with_lights(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
-  void bind(gpu::Commands& commands) const;
+  auto bindings() const {
+    // The oracle reads no lists; its lights are bound in their place so that every binding is
+    // valid.
+    return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
+                      gpu::storage<shared::kLightsBinding>(lights),
+                      gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters),
+                      gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
+  }
 };
 
 /// Depths of what a frame shows.
@@ -77,7 +84,8 @@ class LightClusters {
   /// Takes a frame's lights to the GPU. More than most_lights() are cut off, and said so once.
   /// @param lights not empty, in view. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
-                      const CameraView& camera, const ClusterPicture& picture);
+                      std::span<const shared::LightReach> reaches, const CameraView& camera,
+                      const ClusterPicture& picture);
   /// Takes lights of these kinds for uploaded, so that add() asks for the programs they need.
   /// @param kinds see ClusteredLights.
   void suppose(std::uint32_t kinds) { kinds_ = kinds; }
@@ -93,9 +101,10 @@ class LightClusters {
 
  private:
   Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
+  std::uint64_t roomy(std::uint64_t size_bytes) const;
 
   gpu::Device& device_;
-  gpu::Buffer grid_buffer_, lights_, entries_;
+  gpu::Buffer grid_buffer_, lights_, reaches_, entries_;
   shared::ClusterGrid grid_{};
   std::uint32_t kinds_ = 0;
   std::uint64_t wanted_entries_ = 0;

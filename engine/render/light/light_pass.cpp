@@ -2,6 +2,7 @@
 
 #include <shader_names.h>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/gbuffer_formats.h"
@@ -22,8 +23,8 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
       lights.with_lights(surfaces.with_store(with_light(
           {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.settings.texture_taps)}},
           scene, false)));
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      programs::kShadeLights, walls.with_walls(with_corners(constants, scene.corners))});
+  const auto program = gpu::compute(pipelines, programs::kShadeLights,
+                                    walls.with_walls(with_corners(constants, scene.corners)));
   graph.add_pass(
       "shade_lights",
       [&](gpu::PassBuilder& b) {
@@ -37,17 +38,16 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [&pipeline, scene, lights, surfaces, walls, radiance](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        surfaces.bind(c, scene.point_sampler);
-        walls.bind(c);
-        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        c.storage(shared::kRadianceBinding, radiance);
-        lights.bind(c);
+      [program, scene, lights, surfaces, walls, radiance](gpu::Commands& c) {
+        gpu::bind(
+            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+            surfaces.bindings(scene.point_sampler), walls.bindings(),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::storage<shared::kRadianceBinding>(radiance), lights.bindings(),
+            lights.tiles.bindings());
         dispatch_tiles(c, lights.tiles, TileKind::kCovered);
       });
   return Shaded(radiance);

@@ -3,6 +3,7 @@
 #include <shader_names.h>
 #include <array>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/cascades.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
@@ -24,45 +25,38 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
   if (!maps) return Shadows({});
   // Only what faces the light is drawn, so back faces never cast; casters nearer to the light than
   // the map's range are flattened onto it.
-  const gpu::GraphicsDesc opaque{.vertex = programs::kDrawQuadsVert,
-                                 .fragment = "",
-                                 .constants = {},
+  const gpu::GraphicsDesc opaque{.constants = {},
                                  .color_formats = {},
                                  .depth_format = VK_FORMAT_D32_SFLOAT,
                                  .depth_clamp = true};
-  const gpu::GraphicsDesc cutout{
-      .vertex = programs::kDrawQuadsVert,
-      .fragment = programs::kWriteCutoutFrag,
-      .constants = {{shared::kTexturedConstant, 1}, {shared::kWriteSurfaceConstant, 0}},
-      .color_formats = {},
-      .depth_format = VK_FORMAT_D32_SFLOAT,
-      .cull = VK_CULL_MODE_NONE,
-      .depth_clamp = true};
+  const gpu::GraphicsDesc cutout{.constants = {{shared::kTexturedConstant, 1}},
+                                 .color_formats = {},
+                                 .depth_format = VK_FORMAT_D32_SFLOAT,
+                                 .cull = VK_CULL_MODE_NONE,
+                                 .depth_clamp = true};
   for (const ShadowDraw& cascade : cascades) {
-    const gpu::Pipeline& opaque_pipeline = pipelines.get(opaque);
-    const gpu::Pipeline* cutout_pipeline = cascade.cutouts ? &pipelines.get(cutout) : nullptr;
+    using CutoutProgram = gpu::Program<programs::DrawQuadsVert, programs::WriteCutoutDepthFrag>;
+    const auto opaque_program = gpu::graphics(pipelines, programs::kDrawQuadsVert, opaque);
+    const CutoutProgram cutout_program =
+        cascade.cutouts ? gpu::graphics(pipelines, programs::kDrawQuadsVert,
+                                        programs::kWriteCutoutDepthFrag, cutout)
+                        : CutoutProgram{};
     graph.add_pass(
         cascade.name,
         [&](gpu::PassBuilder& b) {
           declare_draws(b, scene, draws);
-          if (cutout_pipeline) {
-            for (const gpu::BufferRef ref : {scene.materials, scene.frame, scene.islands})
-              b.read(ref, Use::kFragmentRead);
+          if (cutout_program.pipeline) {
+            b.read(scene.materials, Use::kFragmentRead);
             b.read(scene.block_textures, Use::kFragmentRead);
           }
           maps = b.depth(maps, gpu::Load::cleared({}), cascade.layer);
         },
-        [scene, draws, view = cascade.view, &opaque_pipeline, cutout_pipeline](gpu::Commands& c) {
-          c.bind(opaque_pipeline);
+        [scene, draws, view = cascade.view, opaque_program, cutout_program](gpu::Commands& c) {
+          gpu::bind(c, opaque_program, draw_bindings(scene, draws));
           draw_list(c, scene, draws, view, DrawList::kOpaque);
-          if (cutout_pipeline) {
-            c.bind(*cutout_pipeline);
-            c.storage(shared::kMaterialsBinding, scene.materials);
-            c.storage(shared::kFrameBinding, scene.frame);      // not read:
-            c.storage(shared::kIslandsBinding, scene.islands);  // a map keeps depth alone
-            c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-            draw_list(c, scene, draws, view, DrawList::kCutout);
-          }
+          if (!cutout_program.pipeline) return;
+          gpu::bind(c, cutout_program, draw_bindings(scene, draws), cutout_bindings(scene));
+          draw_list(c, scene, draws, view, DrawList::kCutout);
         });
   }
   return Shadows(maps);

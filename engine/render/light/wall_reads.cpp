@@ -24,10 +24,4 @@ void WallReads::declare(gpu::PassBuilder& builder) const {
   builder.read(islands_, gpu::Use::kComputeRead);
 }
 
-void WallReads::bind(gpu::Commands& commands) const {
-  occupancy_.bind(commands);
-  commands.storage(shared::kLightIslandsBinding,
-                   islands_);  // if not traced, in place of what is then never read
-}
-
 }  // namespace skerry::render

@@ -1,11 +1,13 @@
 #pragma once
 #include <vector>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
 #include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/frame/settings.h"
 #include "engine/render/scene/occupancy_reads.h"
+#include "shaders/shared/bindings.h"
 
 namespace skerry::render {
 
@@ -17,7 +19,10 @@ class WallReads {
   WallReads(const SceneRefs& scene, const RenderSettings& settings, bool corners);
   std::vector<gpu::SpecConstant> with_walls(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
-  void bind(gpu::Commands& commands) const;
+  auto bindings() const {
+    // Where none is traced, in place of what is then never read.
+    return std::tuple{occupancy_.bindings(), gpu::storage<shared::kLightIslandsBinding>(islands_)};
+  }
 
  private:
   bool traced_;

@@ -1,4 +1,5 @@
 #include "engine/render/post/bloom_pass.h"
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -49,13 +50,12 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
         coarse = b.write(coarse, Use::kComputeWrite);
       },
       [fine, coarse, step, exposure = scene.exposure,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kShrinkBloom, {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}}})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFineBloomBinding, fine);
-        c.storage(shared::kCoarseBloomBinding, coarse);
-        c.storage(shared::kExposureBinding, exposure);
+       program =
+           gpu::compute(pipelines, programs::kShrinkBloom,
+                        {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFineBloomBinding>(fine),
+                  gpu::storage<shared::kCoarseBloomBinding>(coarse),
+                  gpu::storage<shared::kExposureBinding>(exposure));
         c.push(step);
         dispatch_over(c, step.coarse_size);
       });
@@ -72,10 +72,9 @@ gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, gpu::Ima
         fine = b.write(fine, Use::kComputeWrite);
       },
       [fine, coarse, step = level.step,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kSpreadBloom, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFineBloomBinding, fine);
-        c.storage(shared::kCoarseBloomBinding, coarse);
+       program = gpu::compute(pipelines, programs::kSpreadBloom)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFineBloomBinding>(fine),
+                  gpu::storage<shared::kCoarseBloomBinding>(coarse));
         c.push(step);
         dispatch_over(c, step.fine_size);
       });

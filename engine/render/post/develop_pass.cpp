@@ -2,6 +2,7 @@
 
 #include <shader_names.h>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
 #include "engine/render/scene/gbuffer_formats.h"
 #include "engine/render/scene/occupancy_reads.h"
@@ -31,16 +32,15 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         out = b.write(out, Use::kComputeWrite);
       },
       [scene, radiance, glow, step, out,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kDevelop, std::move(constants)})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        c.storage(shared::kRadianceBinding, radiance);
-        c.storage(shared::kCoarseBloomBinding, glow ? glow : radiance);
+       program =
+           gpu::compute(pipelines, programs::kDevelop, std::move(constants))](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::storage<shared::kCoarseBloomBinding>(glow ? glow : radiance),
+                  gpu::storage<shared::kTargetBinding>(out),
+                  gpu::storage<shared::kExposureBinding>(scene.exposure));
         c.push(step);
-        c.storage(shared::kTargetBinding, out);
-        c.storage(shared::kExposureBinding, scene.exposure);
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });
@@ -63,14 +63,14 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   const SurfaceReads surfaces(in.geometry);
   const gpu::ImageRef maps = in.shadows.maps();
   const OccupancyReads occupancy(scene, scene.corners && in.view == DebugView::kCorners);
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      programs::kShowChannel,
+  const auto program = gpu::compute(
+      pipelines, programs::kShowChannel,
       clusters.with_lights(with_picture(
           with_corners(surfaces.with_store(with_light(
                            {{shared::kChannelConstant, static_cast<std::uint32_t>(in.view)}}, scene,
                            bool{maps})),
                        bool{occupancy}),
-          scene))});
+          scene)));
   graph.add_pass(
       lit ? "show_lights" : "show_channel",
       [&](gpu::PassBuilder& b) {
@@ -84,18 +84,17 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
         if (maps) b.read(maps, Use::kComputeSampled);
         out = b.write(out, Use::kComputeWrite);
       },
-      [&pipeline, scene, surfaces, occupancy, clusters, maps, out](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        surfaces.bind(c, scene.point_sampler);
-        occupancy.bind(c);
-        clusters.bind(c);
-        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        c.storage(shared::kPictureBinding, out);
-        c.storage(shared::kExposureBinding, scene.exposure);
-        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
+      [program, scene, surfaces, occupancy, clusters, maps, out](gpu::Commands& c) {
+        gpu::bind(
+            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            surfaces.bindings(scene.point_sampler), occupancy.bindings(), clusters.bindings(),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::storage<shared::kPictureBinding>(out),
+            gpu::storage<shared::kExposureBinding>(scene.exposure),
+            gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
+                                                     scene.point_sampler));
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });

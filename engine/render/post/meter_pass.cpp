@@ -2,6 +2,7 @@
 
 #include <shader_names.h>
 
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/exposure.h"
@@ -40,17 +41,15 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       },
       [frame = scene.frame, size = scene.size, radiance, histogram, metering,
        exposure = scene.exposure,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{programs::kMeterRadiance, {}})](gpu::Commands& c) {
+       program = gpu::compute(pipelines, programs::kMeterRadiance)](gpu::Commands& c) {
         const auto groups = [&](std::uint32_t pixels) {
           return gpu::Commands::groups(gpu::Commands::groups(pixels, metering.stride),
                                        shared::kMeterGroup);
         };
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, frame);
-        c.storage(shared::kRadianceBinding, radiance);
-        c.storage(shared::kHistogramBinding, histogram);
-        c.storage(shared::kExposureBinding, exposure);  // not read by the histogram
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::storage<shared::kHistogramBinding>(histogram),
+                  gpu::storage<shared::kExposureBinding>(exposure));  // not read by the histogram
         c.push(metering);
         c.dispatch(groups(size.width), groups(size.height), 1);
       });
@@ -63,13 +62,12 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         scene.exposure = b.write(scene.exposure, Use::kComputeWrite);
       },
       [frame = scene.frame, radiance, histogram, exposure = scene.exposure, metering,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kMeterRadiance, {{shared::kChooseConstant, 1}}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, frame);        // neither this
-        c.storage(shared::kRadianceBinding, radiance);  // nor this is read
-        c.storage(shared::kHistogramBinding, histogram);
-        c.storage(shared::kExposureBinding, exposure);
+       program = gpu::compute(pipelines, programs::kMeterRadiance, {{shared::kChooseConstant, 1}})](
+          gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),  // neither this
+                  gpu::storage<shared::kRadianceBinding>(radiance),        // nor this is read
+                  gpu::storage<shared::kHistogramBinding>(histogram),
+                  gpu::storage<shared::kExposureBinding>(exposure));
         c.push(metering);
         c.dispatch(1, 1, 1);
       });
@@ -89,12 +87,11 @@ Developed MeterPass::show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, con
       },
       [picture, histogram, frame = scene.frame, exposure = scene.exposure, size = scene.size,
        metering = metering_of(settings, false),
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kShowExposure, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, frame);
-        c.storage(shared::kHistogramBinding, histogram);
-        c.storage(shared::kExposureBinding, exposure);
-        c.storage(shared::kPictureBinding, picture);
+       program = gpu::compute(pipelines, programs::kShowExposure)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
+                  gpu::storage<shared::kHistogramBinding>(histogram),
+                  gpu::storage<shared::kExposureBinding>(exposure),
+                  gpu::storage<shared::kPictureBinding>(picture));
         c.push(metering);
         c.dispatch(gpu::Commands::groups(size.width, 8),
                    gpu::Commands::groups((size.height + 2) / 3, 8), 1);

@@ -152,7 +152,7 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
     return ok;
   if (!plan.contents.lights.empty())
     if (Result<void> ok =
-            light_clusters.upload(frame_uploader, plan.contents.lights,
+            light_clusters.upload(frame_uploader, plan.contents.lights, input.light_reaches,
                                   view_of(input.camera, plan.drawn.width, plan.drawn.height),
                                   {plan.drawn, plan.marked_slices, plan.settings.light_tile});
         !ok)

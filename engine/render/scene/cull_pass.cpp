@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/geometry.h"
@@ -45,15 +46,14 @@ void add_sections(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
       },
       [scene, masks = culling.masks, totals = culling.totals, stats = out.stats,
        transforms = out.transforms, in = culling.in, groups = culling.groups,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullSections, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kSectionsBinding, scene.sections);
-        c.storage(shared::kIslandsBinding, scene.view_islands);
-        c.storage(shared::kCullViewsBinding, scene.views);
-        c.storage(shared::kCullMasksBinding, masks);
-        c.storage(shared::kCullTotalsBinding, totals);
-        c.storage(shared::kCullStatsBinding, stats);
-        c.storage(shared::kSectionTransformsBinding, transforms);
+       program = gpu::compute(pipelines, programs::kCullSections)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kSectionsBinding>(scene.sections),
+                  gpu::storage<shared::kIslandsBinding>(scene.view_islands),
+                  gpu::storage<shared::kCullViewsBinding>(scene.views),
+                  gpu::storage<shared::kCullMasksBinding>(masks),
+                  gpu::storage<shared::kCullTotalsBinding>(totals),
+                  gpu::storage<shared::kCullStatsBinding>(stats),
+                  gpu::storage<shared::kSectionTransformsBinding>(transforms));
         const struct {
           std::uint32_t section_count, group_count, islands_per_view;
         } push{in.section_slots, groups, scene.islands_per_view};
@@ -72,15 +72,15 @@ void add_scan(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Culling& cullin
       },
       [totals = culling.totals, counts = out.counts, lists = culling.in.views * shared::kListCount,
        push = EmitPush{culling.in.section_slots, culling.groups, culling.in.most},
-       &pipeline = pipelines.get(
-           gpu::ComputeDesc{programs::kCullEmit, {{shared::kScanConstant, 1}}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCullTotalsBinding, totals);
-        c.storage(shared::kDrawCountsBinding, counts);
-        // Used by the next step alone.
-        for (const std::uint32_t other : {shared::kSectionsBinding, shared::kCullMasksBinding,
-                                          shared::kCullViewsBinding, shared::kDrawCommandsBinding})
-          c.storage(other, totals);
+       program = gpu::compute(pipelines, programs::kCullEmit, {{shared::kScanConstant, 1}})](
+          gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kCullTotalsBinding>(totals),
+                  gpu::storage<shared::kDrawCountsBinding>(counts),
+                  // Used by the next step alone.
+                  gpu::storage<shared::kSectionsBinding>(totals),
+                  gpu::storage<shared::kCullMasksBinding>(totals),
+                  gpu::storage<shared::kCullViewsBinding>(totals),
+                  gpu::storage<shared::kDrawCommandsBinding>(totals));
         c.push(push);
         c.dispatch(lists, 1, 1);
       });
@@ -100,14 +100,13 @@ void add_emit(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
       [scene, masks = culling.masks, totals, commands = out.commands,
        push = EmitPush{culling.in.section_slots, culling.groups, culling.in.most},
        views = culling.in.views,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kCullEmit, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kSectionsBinding, scene.sections);
-        c.storage(shared::kCullMasksBinding, masks);
-        c.storage(shared::kCullTotalsBinding, totals);
-        c.storage(shared::kCullViewsBinding, scene.views);
-        c.storage(shared::kDrawCommandsBinding, commands);
-        c.storage(shared::kDrawCountsBinding, commands);  // of the step before
+       program = gpu::compute(pipelines, programs::kCullEmit)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kSectionsBinding>(scene.sections),
+                  gpu::storage<shared::kCullMasksBinding>(masks),
+                  gpu::storage<shared::kCullTotalsBinding>(totals),
+                  gpu::storage<shared::kCullViewsBinding>(scene.views),
+                  gpu::storage<shared::kDrawCommandsBinding>(commands),
+                  gpu::storage<shared::kDrawCountsBinding>(commands));  // of the step before
         c.push(push);
         c.dispatch(push.group_count, views, 1);
       });
@@ -175,8 +174,6 @@ void declare_draws(gpu::PassBuilder& builder, const SceneRefs& scene, const Cull
 
 void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
                std::uint32_t view, DrawList list) {
-  commands.storage(shared::kQuadsBinding, scene.quads);
-  commands.storage(shared::kSectionTransformsBinding, draws.transforms);
   const struct {
     glm::mat4 clip_from_source;
     std::uint32_t first_transform;

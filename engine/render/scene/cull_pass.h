@@ -1,8 +1,10 @@
 #pragma once
 #include "engine/core/result.h"
 #include "engine/gpu/device/device.h"
+#include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/scene_refs.h"
+#include "shaders/shared/bindings.h"
 #include "shaders/shared/frame.h"
 
 namespace skerry::render {
@@ -37,7 +39,20 @@ Result<void> check_draws(const DrawLimits& most, const gpu::DeviceLimits& limits
 CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const CullIn& in);
 
-/// Records one list of one view into a pass with the right pipeline and bindings set.
+/// What draw_quads.vert declares.
+inline auto draw_bindings(const SceneRefs& scene, const CulledDraws& draws) {
+  return std::tuple{gpu::storage<shared::kQuadsBinding>(scene.quads),
+                    gpu::storage<shared::kSectionTransformsBinding>(draws.transforms)};
+}
+
+/// What write_cutout.glsl declares.
+inline auto cutout_bindings(const SceneRefs& scene) {
+  return std::tuple{
+      gpu::storage<shared::kMaterialsBinding>(scene.materials),
+      gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler)};
+}
+
+/// Records one list of one view into a pass with a program bound that draws quads.
 void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
                std::uint32_t view, DrawList list);
 

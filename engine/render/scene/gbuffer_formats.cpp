@@ -76,14 +76,6 @@ void SurfaceReads::declare(gpu::PassBuilder& builder) const {
     if (image) builder.read(image, gpu::Use::kComputeSampled);
 }
 
-void SurfaceReads::bind(gpu::Commands& commands, VkSampler point) const {
-  commands.storage(shared::kSurfacesBinding, words);
-  commands.sampled(shared::kDepthsBinding, depth, point);
-  // What is not kept is never read; depth is bound in its place so that every binding is valid.
-  commands.sampled(shared::kStoredNormalsBinding, normals ? normals : depth, point);
-  commands.sampled(shared::kStoredPositionsBinding, positions ? positions : depth, point);
-}
-
 Result<void> check_store(const gpu::Device& device, const GBufferStore& store) {
   constexpr VkFormatFeatureFlags kColor =
       VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/settings.h"
+#include "shaders/shared/bindings.h"
 
 namespace skerry::gpu {
 class Device;
@@ -29,7 +31,15 @@ struct SurfaceReads {
   /// Adds what the shader is specialised by.
   std::vector<gpu::SpecConstant> with_store(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
-  void bind(gpu::Commands& commands, VkSampler point) const;
+  auto bindings(VkSampler point) const {
+    return std::tuple{
+        gpu::storage<shared::kSurfacesBinding>(words),
+        gpu::sampled<shared::kDepthsBinding>(depth, point),
+        // What is not kept is never read; depth is bound in its place so that every binding is
+        // valid.
+        gpu::sampled<shared::kStoredNormalsBinding>(normals ? normals : depth, point),
+        gpu::sampled<shared::kStoredPositionsBinding>(positions ? positions : depth, point)};
+  }
 
   gpu::ImageRef words, depth, normals, positions;
   GBufferStore store;

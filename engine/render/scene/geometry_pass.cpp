@@ -3,6 +3,7 @@
 #include <shader_names.h>
 #include <array>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/scene/gbuffer_formats.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
@@ -17,29 +18,51 @@ gpu::ImageRef target(gpu::FrameGraph& graph, const char* name, VkFormat format, 
   return graph.create(gpu::ImageDesc{.name = name, .format = format, .extent = size});
 }
 
-/// Pipeline of opaque quads, and of cut-outs.
-std::array<gpu::GraphicsDesc, 2> pipeline_descs(const GBufferStore& store, bool finest_coverage) {
-  gpu::GraphicsDesc opaque{.vertex = programs::kDrawQuadsVert,
-                           .fragment = programs::kWriteSurfaceFrag,
-                           .constants = {},
+/// Of the programs for opaque quads, and for cut-outs.
+std::array<gpu::GraphicsDesc, 2> program_descs(const GBufferStore& store, bool finest_coverage) {
+  gpu::GraphicsDesc opaque{.constants = {},
                            .color_formats = {VK_FORMAT_R32_UINT},
                            .depth_format = depth_format(store.depth)};
   gpu::GraphicsDesc cutout = opaque;
-  cutout.fragment = programs::kWriteCutoutFrag;
   cutout.constants = {{shared::kTexturedConstant, 1}};
   if (finest_coverage) cutout.constants.push_back({shared::kFinestCoverageConstant, 1});
   cutout.cull = VK_CULL_MODE_NONE;
-  const VkFormat normal = normal_format(store.normal), position = position_format(store.position);
-  if (normal == VK_FORMAT_UNDEFINED && position == VK_FORMAT_UNDEFINED) return {opaque, cutout};
   for (gpu::GraphicsDesc* desc : {&opaque, &cutout}) {
-    desc->constants.push_back({shared::kStoredConstant, 1});
-    desc->constants.push_back({shared::kNormalCodeConstant, normal_code(store.normal)});
-    desc->constants.push_back(
-        {shared::kPositionStoredConstant, position != VK_FORMAT_UNDEFINED ? 1u : 0u});
-    for (const VkFormat format : {normal, position})
+    if (store.normal != NormalStore::kExact || store.position != PositionStore::kDepth)
+      desc->constants.push_back({shared::kNormalCodeConstant, normal_code(store.normal)});
+    for (const VkFormat format : {normal_format(store.normal), position_format(store.position)})
       if (format != VK_FORMAT_UNDEFINED) desc->color_formats.push_back(format);
   }
   return {opaque, cutout};
+}
+
+/// What the pass draws, whichever outputs its fragment shaders have.
+struct Drawing {
+  std::array<gpu::GraphicsDesc, 2> descs;
+  const SceneRefs& scene;
+  const CulledDraws& draws;
+  bool cutouts;
+};
+
+/// What the pass records. @param stored what its fragment shaders declare besides.
+template <class Surface, class Cutout, class Stored>
+std::function<void(gpu::Commands&)> recording(gpu::Pipelines& pipelines, const Drawing& what,
+                                              Surface surface, Cutout cutout,
+                                              const Stored& stored) {
+  const auto opaque_program =
+      gpu::graphics(pipelines, programs::kDrawQuadsVert, surface, what.descs[0]);
+  using CutoutProgram = gpu::Program<programs::DrawQuadsVert, Cutout>;
+  const CutoutProgram cutout_program =
+      what.cutouts ? gpu::graphics(pipelines, programs::kDrawQuadsVert, cutout, what.descs[1])
+                   : CutoutProgram{};
+  return [scene = what.scene, draws = what.draws, stored, opaque_program,
+          cutout_program](gpu::Commands& c) {
+    gpu::bind(c, opaque_program, draw_bindings(scene, draws), stored);
+    draw_list(c, scene, draws, 0, DrawList::kOpaque);
+    if (!cutout_program.pipeline) return;
+    gpu::bind(c, cutout_program, draw_bindings(scene, draws), cutout_bindings(scene), stored);
+    draw_list(c, scene, draws, 0, DrawList::kCutout);
+  };
 }
 
 }  // namespace
@@ -53,9 +76,12 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   out.depth_ = target(graph, "depth", depth_format(store.depth), scene.size);
   out.normals_ = target(graph, "normals", normal_format(store.normal), scene.size);
   out.positions_ = target(graph, "positions", position_format(store.position), scene.size);
-  const std::array<gpu::GraphicsDesc, 2> descs = pipeline_descs(store, in.finest_coverage);
-  const gpu::Pipeline& opaque_pipeline = pipelines.get(descs[0]);
-  const gpu::Pipeline* cutout_pipeline = in.cutouts ? &pipelines.get(descs[1]) : nullptr;
+  const Drawing drawing{program_descs(store, in.finest_coverage), scene, draws, in.cutouts};
+  const auto record = [&](auto surface, auto cutout, const auto& stored) {
+    return recording(pipelines, drawing, surface, cutout, stored);
+  };
+  const std::tuple stored{gpu::storage<shared::kFrameBinding>(scene.frame),
+                          gpu::storage<shared::kIslandsBinding>(scene.islands)};
 
   graph.add_pass(
       "draw_geometry",
@@ -65,27 +91,18 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
           b.read(scene.materials, Use::kFragmentRead);
           b.read(scene.block_textures, Use::kFragmentRead);
         }
-        for (const gpu::BufferRef ref : {scene.frame, scene.islands})
-          b.read(ref, Use::kFragmentRead);
+        if (out.stored())
+          for (const gpu::BufferRef ref : {scene.frame, scene.islands})
+            b.read(ref, Use::kFragmentRead);
         for (gpu::ImageRef* image : {&out.surfaces_, &out.normals_, &out.positions_})
           if (*image) *image = b.color(*image, gpu::Load::cleared({}));
         out.depth_ = b.depth(out.depth_, gpu::Load::cleared({}));
       },
-      [scene, draws, &opaque_pipeline, cutout_pipeline](gpu::Commands& c) {
-        const auto bind = [&](const gpu::Pipeline& pipeline) {
-          c.bind(pipeline);  // frame and islands are read where normals or positions are kept
-          c.storage(shared::kFrameBinding, scene.frame);
-          c.storage(shared::kIslandsBinding, scene.islands);
-        };
-        bind(opaque_pipeline);
-        draw_list(c, scene, draws, 0, DrawList::kOpaque);
-        if (cutout_pipeline) {
-          bind(*cutout_pipeline);
-          c.storage(shared::kMaterialsBinding, scene.materials);
-          c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-          draw_list(c, scene, draws, 0, DrawList::kCutout);
-        }
-      });
+      out.normals_ && out.positions_
+          ? record(programs::kWriteSurfaceBothFrag, programs::kWriteCutoutBothFrag, stored)
+      : out.stored()
+          ? record(programs::kWriteSurfaceStoredFrag, programs::kWriteCutoutStoredFrag, stored)
+          : record(programs::kWriteSurfaceFrag, programs::kWriteCutoutFrag, std::tuple<>{}));
   return out;
 }
 

@@ -18,12 +18,6 @@ void OccupancyReads::declare(gpu::PassBuilder& builder) const {
   builder.read(words_, gpu::Use::kComputeRead);
 }
 
-void OccupancyReads::bind(gpu::Commands& commands) const {
-  commands.storage(shared::kOccupancyGridsBinding, grids_);
-  commands.storage(shared::kOccupancyTablesBinding, tables_);
-  commands.storage(shared::kOccupancyBricksBinding, words_);
-}
-
 std::vector<gpu::SpecConstant> with_corners(std::vector<gpu::SpecConstant> own, bool corners) {
   if (corners) own.push_back({shared::kCornersConstant, 1});
   return own;

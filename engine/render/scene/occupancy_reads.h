@@ -1,9 +1,11 @@
 #pragma once
 #include <vector>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
 #include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/scene_refs.h"
+#include "shaders/shared/bindings.h"
 
 namespace skerry::render {
 
@@ -16,7 +18,11 @@ class OccupancyReads {
   /// Whether anything is looked up.
   explicit operator bool() const { return read_; }
   void declare(gpu::PassBuilder& builder) const;
-  void bind(gpu::Commands& commands) const;
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kOccupancyGridsBinding>(grids_),
+                      gpu::storage<shared::kOccupancyTablesBinding>(tables_),
+                      gpu::storage<shared::kOccupancyBricksBinding>(words_)};
+  }
 
  private:
   bool read_;

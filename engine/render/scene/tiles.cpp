@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/frame.h"
 
@@ -40,12 +41,10 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
       [words, out, columns, rows, size,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{programs::kClassifyTiles, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kSurfacesBinding, words);
-        c.storage(shared::kTileDispatchesBinding, out.dispatches);
-        c.storage(shared::kTilesBinding, out.lists);
+       program = gpu::compute(pipelines, programs::kClassifyTiles)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kSurfacesBinding>(words),
+                  gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
+                  gpu::storage<shared::kTilesBinding>(out.lists));
         const struct {
           std::uint32_t width, height, columns, rows;
         } push{size.width, size.height, columns, rows};
@@ -64,8 +63,6 @@ void declare_tiles(gpu::PassBuilder& builder, const Tiles& tiles) {
 }
 
 void dispatch_tiles(gpu::Commands& commands, const Tiles& tiles, TileKind kind) {
-  commands.storage(shared::kTilesBinding, tiles.lists);
-  commands.storage(shared::kTileDispatchesBinding, tiles.dispatches);
   commands.push(static_cast<std::uint32_t>(kind));
   commands.dispatch_indirect(tiles.dispatches,
                              static_cast<std::uint64_t>(kind) * sizeof(shared::TileDispatch));

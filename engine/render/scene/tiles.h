@@ -1,5 +1,7 @@
 #pragma once
+#include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
+#include "shaders/shared/bindings.h"
 
 namespace skerry::render {
 
@@ -8,6 +10,12 @@ namespace skerry::render {
 struct Tiles {
   gpu::BufferRef dispatches;  ///< shared::TileDispatch[2]
   gpu::BufferRef lists;       ///< uint[2][tile]
+
+  /// What tiles.glsl declares.
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kTilesBinding>(lists),
+                      gpu::storage<shared::kTileDispatchesBinding>(dispatches)};
+  }
 };
 
 enum class TileKind : std::uint32_t { kCovered = 0, kOpen = 1 };
@@ -20,7 +28,7 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
 /// Declares what dispatch_tiles() uses.
 void declare_tiles(gpu::PassBuilder& builder, const Tiles& tiles);
 
-/// Runs the bound pipeline, one that includes tiles.glsl, on the tiles of one kind.
+/// Runs the bound program, one that includes tiles.glsl, on the tiles of one kind.
 void dispatch_tiles(gpu::Commands& commands, const Tiles& tiles, TileKind kind);
 
 }  // namespace skerry::render

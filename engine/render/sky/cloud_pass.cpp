@@ -2,6 +2,7 @@
 
 #include <shader_names.h>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "shaders/shared/bindings.h"
@@ -55,20 +56,18 @@ class ViewReads {
     walls_.declare(b);
     b.read(scene_.islands, Use::kComputeRead);
   }
-  void bind(gpu::Commands& c) const {
-    c.storage(shared::kFrameBinding, scene_.frame);
-    c.storage(shared::kSurfacesBinding, surfaces_);
-    c.sampled(shared::kDepthsBinding, depth_or_other(), scene_.point_sampler);
-    // Without water no layer is read; the binding is valid even so.
-    c.sampled(shared::kLayerDepthsBinding, layer_depth_ ? layer_depth_ : depth_or_other(),
-              scene_.point_sampler);
-    c.sampled(shared::kSkyTableBinding, scene_.sky_lut, scene_.lut_sampler);
-    c.sampled(shared::kShadowMapsBinding, maps_or_others(scene_, maps_), scene_.point_sampler);
-    clouds_.bind_light(c);
-    clouds_.bind_media(c);
-    lights_.bind(c);
-    walls_.bind(c);
-    c.storage(shared::kIslandsBinding, scene_.islands);
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kFrameBinding>(scene_.frame),
+                      gpu::storage<shared::kSurfacesBinding>(surfaces_),
+                      gpu::sampled<shared::kDepthsBinding>(depth_or_other(), scene_.point_sampler),
+                      // Without water no layer is read; the binding is valid even so.
+                      gpu::sampled<shared::kLayerDepthsBinding>(
+                          layer_depth_ ? layer_depth_ : depth_or_other(), scene_.point_sampler),
+                      gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.lut_sampler),
+                      gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene_, maps_),
+                                                               scene_.point_sampler),
+                      clouds_.light_bindings(), clouds_.media_bindings(), lights_.bindings(),
+                      walls_.bindings(), gpu::storage<shared::kIslandsBinding>(scene_.islands)};
   }
 
  private:
@@ -110,11 +109,9 @@ gpu::ImageRef march(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sce
         coarse = b.write(coarse, Use::kComputeWrite);
       },
       [reads, coarse, size = scene.size,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kMarchClouds, reads.constants({})})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        reads.bind(c);
-        c.storage(shared::kCoarseCloudsBinding, coarse);
+       program =
+           gpu::compute(pipelines, programs::kMarchClouds, reads.constants({}))](gpu::Commands& c) {
+        gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kCoarseCloudsBinding>(coarse));
         dispatch_over_fours(c, size);
       });
   return coarse;
@@ -142,13 +139,11 @@ gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       },
       [reads, coarse, radiance, stats = scene.pixel_stats, size = scene.size, lut = scene.sky_lut,
        sampler = scene.point_sampler,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kBlendClouds, reads.constants(std::move(constants))})](gpu::Commands& c) {
-        c.bind(pipeline);
-        reads.bind(c);
-        c.storage(shared::kPixelStatsBinding, stats);
-        c.storage(shared::kRadianceBinding, radiance);
-        c.sampled(shared::kCoarseCloudsBinding, coarse ? coarse : lut, sampler);
+       program = gpu::compute(pipelines, programs::kBlendClouds,
+                              reads.constants(std::move(constants)))](gpu::Commands& c) {
+        gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kPixelStatsBinding>(stats),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::sampled<shared::kCoarseCloudsBinding>(coarse ? coarse : lut, sampler));
         dispatch_over(c, size);
       });
   return radiance;
@@ -168,23 +163,9 @@ void CloudRefs::declare_light(gpu::PassBuilder& b) const {
   b.read(volume_light, Use::kComputeSampled);
 }
 
-void CloudRefs::bind_light(gpu::Commands& c) const {
-  c.storage(shared::kCloudsBinding, constants);
-  c.sampled(shared::kLayerLightBinding, layer_light, linear);
-  c.sampled(shared::kVolumeLightBinding, volume_light, linear);
-}
-
 void CloudRefs::declare_media(gpu::PassBuilder& b) const {
   for (const gpu::ImageRef ref : {weather, shapes, billows, cells, bricks})
     b.read(ref, Use::kComputeSampled);
-}
-
-void CloudRefs::bind_media(gpu::Commands& c) const {
-  c.sampled(shared::kCloudWeatherBinding, weather, repeating);
-  c.sampled(shared::kCloudCellsBinding, cells, nearest);
-  c.sampled(shared::kCloudBricksBinding, bricks, linear);
-  c.sampled(shared::kCloudShapesBinding, shapes, repeating);
-  c.sampled(shared::kCloudBillowsBinding, billows, repeating);
 }
 
 gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
@@ -192,9 +173,8 @@ gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pi
                                       const TranslucentPass::Layers& layers) {
   gpu::ImageRef mirrored = coarse_image(graph, scene, "mirrored clouds");
   const gpu::ImageRef maps = view.shadow_maps;
-  const gpu::Pipeline& pipeline =
-      pipelines.get(gpu::ComputeDesc{programs::kMarchMirroredClouds,
-                                     scene.clouds->with_clouds(with_light({}, scene, bool{maps}))});
+  const auto program = gpu::compute(pipelines, programs::kMarchMirroredClouds,
+                                    scene.clouds->with_clouds(with_light({}, scene, bool{maps})));
   graph.add_pass(
       "march_mirrored_clouds",
       [&](gpu::PassBuilder& b) {
@@ -208,18 +188,17 @@ gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pi
         b.read(layers.depth[0], Use::kComputeSampled);
         mirrored = b.write(mirrored, Use::kComputeWrite);
       },
-      [scene, layers, maps, mirrored, &pipeline](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        scene.clouds->bind_light(c);
-        scene.clouds->bind_media(c);
-        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
-        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
-        c.storage(shared::kMirroredCloudsBinding, mirrored);
-        c.sampled(shared::kLayerDepthsBinding, layers.depth[0], scene.point_sampler);
-        c.storage(shared::kLayerSurfacesBinding, layers.surfaces[0]);
+      [scene, layers, maps, mirrored, program](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::storage<shared::kIslandsBinding>(scene.islands),
+                  gpu::storage<shared::kMaterialsBinding>(scene.materials),
+                  scene.clouds->light_bindings(), scene.clouds->media_bindings(),
+                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+                  gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
+                                                           scene.point_sampler),
+                  gpu::storage<shared::kMirroredCloudsBinding>(mirrored),
+                  gpu::sampled<shared::kLayerDepthsBinding>(layers.depth[0], scene.point_sampler),
+                  gpu::storage<shared::kLayerSurfacesBinding>(layers.surfaces[0]));
         dispatch_over_fours(c, scene.size);
       });
   return mirrored;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -34,6 +35,14 @@ Result<VkFormat> brick_format(gpu::Device& device, CloudPrecision precision) {
                     "clouds.precision=8 or 16",
                     static_cast<int>(precision))};
   return format;
+}
+
+/// What bake_cloud_noise.comp declares. @param layer of the packed images.
+auto noise_bindings(gpu::ImageRef noise, const CloudRefs& refs, std::uint32_t layer) {
+  return std::tuple{gpu::storage<shared::kCloudNoiseBinding>(noise),
+                    gpu::storage<shared::kCloudWeatherBinding>(refs.weather),
+                    gpu::storage<shared::kCloudShapesBinding>(refs.shapes, layer),
+                    gpu::storage<shared::kCloudBillowsBinding>(refs.billows, layer)};
 }
 
 }  // namespace
@@ -188,24 +197,16 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
     for (gpu::ImageRef* ref : {&refs.weather, &refs.shapes, &refs.billows})
       *ref = b.write(*ref, Use::kComputeWrite);
   };
-  const auto bind_layer = [refs](gpu::Commands& c, std::uint32_t layer) {
-    c.storage(shared::kCloudShapesBinding, refs.shapes, 0, layer);
-    c.storage(shared::kCloudBillowsBinding, refs.billows, 0, layer);
-    c.push(layer);
-  };
   graph.add_pass(
       "bake_cloud_noise",
       [&](gpu::PassBuilder& b) {
         noise = b.write(noise, Use::kComputeWrite);
         declare_packed(b);
       },
-      [noise, weather = refs.weather, bind_layer,
-       &pipeline =
-           pipelines.get(gpu::ComputeDesc{programs::kBakeCloudNoise, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCloudNoiseBinding, noise);
-        c.storage(shared::kCloudWeatherBinding, weather);
-        bind_layer(c, 0);  // what packing writes
+      [noise, refs,
+       program = gpu::compute(pipelines, programs::kBakeCloudNoise)](gpu::Commands& c) {
+        gpu::bind(c, program, noise_bindings(noise, refs, 0));  // the last ones are not written
+        c.push(std::uint32_t{0});
         c.dispatch(kGroups, kGroups, kNoiseEdge);
       });
   graph.add_pass(
@@ -215,14 +216,10 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
         declare_packed(b);
       },
       [noise, refs,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kBakeCloudNoise, {{shared::kPackConstant, 1}}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCloudNoiseBinding, noise);
-        c.storage(shared::kCloudWeatherBinding, refs.weather);
+       program = gpu::compute(pipelines, programs::kBakeCloudNoise, {{shared::kPackConstant, 1}})](
+          gpu::Commands& c) {
         for (std::uint32_t layer = 0; layer < shared::kCloudNoiseLayers; ++layer) {
-          c.storage(shared::kCloudShapesBinding, refs.shapes, 0, layer);
-          c.storage(shared::kCloudBillowsBinding, refs.billows, 0, layer);
+          gpu::bind(c, program, noise_bindings(noise, refs, layer));
           c.push(layer);
           c.dispatch(kGroups, kGroups, 1);
         }
@@ -239,12 +236,10 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
         refs.layer_light = b.write(refs.layer_light, Use::kComputeWrite);
       },
       [refs, body,
-       &pipeline = pipelines.get(gpu::ComputeDesc{
-           programs::kTraceCloudLight, {{shared::kCloudLayerConstant, 1}}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCloudsBinding, refs.constants);
-        refs.bind_media(c);
-        c.storage(shared::kTargetBinding, refs.layer_light);
+       program = gpu::compute(pipelines, programs::kTraceCloudLight,
+                              {{shared::kCloudLayerConstant, 1}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kCloudsBinding>(refs.constants),
+                  refs.media_bindings(), gpu::storage<shared::kTargetBinding>(refs.layer_light));
         c.push(shared::CloudLightJob{0, body});
         const std::uint32_t groups = shared::kLayerLightEdge / kColumnGroup;
         c.dispatch(groups, groups, 1);
@@ -267,12 +262,10 @@ void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         refs.declare_media(b);
         refs.volume_light = b.write(refs.volume_light, Use::kComputeWrite);
       },
-      [refs, jobs, &pipeline = pipelines.get(gpu::ComputeDesc{programs::kTraceCloudLight, {}})](
-          gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kCloudsBinding, refs.constants);
-        refs.bind_media(c);
-        c.storage(shared::kTargetBinding, refs.volume_light);
+      [refs, jobs,
+       program = gpu::compute(pipelines, programs::kTraceCloudLight)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kCloudsBinding>(refs.constants),
+                  refs.media_bindings(), gpu::storage<shared::kTargetBinding>(refs.volume_light));
         for (const auto& [job, texels] : jobs) {
           c.push(job);
           c.dispatch(gpu::Commands::groups(texels.x, kColumnGroup),

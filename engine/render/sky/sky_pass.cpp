@@ -2,6 +2,7 @@
 
 #include <shader_names.h>
 
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/sky.h"
 
@@ -17,10 +18,9 @@ gpu::ImageRef add_sky_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         table = b.write(table, gpu::Use::kComputeWrite);
       },
       [sky = scene.sky, table,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kBakeSky, {}})](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kSkyBinding, sky);
-        c.storage(shared::kSkyTableBinding, table);
+       program = gpu::compute(pipelines, programs::kBakeSky)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kSkyBinding>(sky),
+                  gpu::storage<shared::kSkyTableBinding>(table));
         c.dispatch(gpu::Commands::groups(shared::kSkyLutWidth, shared::kSkyLutGroup),
                    gpu::Commands::groups(shared::kSkyLutHeight, shared::kSkyLutGroup), 1);
       });

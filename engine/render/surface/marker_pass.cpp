@@ -1,4 +1,5 @@
 #include "engine/render/surface/marker_pass.h"
+#include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -78,8 +79,8 @@ Developed MarkerPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, con
                           const shared::MarkerConstants& marker) {
   gpu::ImageRef out = developed.picture();
   const gpu::ImageRef depth = geometry.depth();
-  const gpu::Pipeline& pipeline = pipelines.get(gpu::ComputeDesc{
-      programs::kDrawMarker, {{shared::kSamplesPerEdgeConstant, scene.samples_per_edge}}});
+  const auto program = gpu::compute(pipelines, programs::kDrawMarker,
+                                    {{shared::kSamplesPerEdgeConstant, scene.samples_per_edge}});
   graph.add_pass(
       "draw_marker",
       [&](gpu::PassBuilder& b) {
@@ -87,11 +88,10 @@ Developed MarkerPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, con
         b.read(depth, Use::kComputeSampled);
         out = b.write(out, Use::kComputeWrite);
       },
-      [&pipeline, scene, depth, out, marker](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.sampled(shared::kDepthsBinding, depth, scene.point_sampler);
-        c.storage(shared::kPictureBinding, out);
+      [program, scene, depth, out, marker](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),
+                  gpu::storage<shared::kPictureBinding>(out));
         c.push(marker);
         c.dispatch(gpu::Commands::groups(marker.end.x - marker.first.x, 8),
                    gpu::Commands::groups(marker.end.y - marker.first.y, 8), 1);

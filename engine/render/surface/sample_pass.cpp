@@ -4,11 +4,11 @@
 
 #include <bit>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/gbuffer_formats.h"
@@ -90,23 +90,21 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
         level.radiance = b.write(level.radiance, Use::kComputeWrite);
       },
       [scene, surfaces, level, tiles = on.tiles,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kChooseSamples, std::move(constants)})](
+       program = gpu::compute(pipelines, programs::kChooseSamples, std::move(constants))](
           gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        c.storage(shared::kSurfacesBinding, surfaces.words);
-        c.sampled(shared::kDepthsBinding, surfaces.depth, scene.point_sampler);
-        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        c.storage(shared::kRadianceBinding, level.radiance);
-        c.storage(shared::kCoarserSamplesBinding, level.read());
-        c.storage(shared::kOwnSamplesBinding, level.written());
-        c.storage(shared::kListedBinding, level.listed);
-        c.storage(shared::kListedPixelsBinding, level.pixels);
+        gpu::bind(
+            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+            gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::storage<shared::kRadianceBinding>(level.radiance),
+            gpu::storage<shared::kCoarserSamplesBinding>(level.read()),
+            gpu::storage<shared::kOwnSamplesBinding>(level.written()),
+            gpu::storage<shared::kListedBinding>(level.listed),
+            gpu::storage<shared::kListedPixelsBinding>(level.pixels), tiles.bindings());
         if (level.step == 1) return dispatch_tiles(c, tiles, TileKind::kCovered);
-        c.storage(shared::kTilesBinding, tiles.lists);
-        c.storage(shared::kTileDispatchesBinding, tiles.dispatches);
         c.push(std::uint32_t{0});
         const VkExtent2D size = points(scene.size, level.step);
         c.dispatch(gpu::Commands::groups(size.width, shared::kTileEdge),
@@ -114,8 +112,8 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
       });
 }
 
-const gpu::Pipeline& shading_pipeline(gpu::Pipelines& pipelines, const SceneRefs& scene,
-                                      const SampleIn& on, const SampledLight& light, bool last) {
+auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const SampleIn& on,
+                     const SampledLight& light, bool last) {
   const bool maps{on.shadows.maps()};
   std::vector<gpu::SpecConstant> constants = with_light(
       {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(light.settings.texture_taps)}},
@@ -127,15 +125,7 @@ const gpu::Pipeline& shading_pipeline(gpu::Pipelines& pipelines, const SceneRefs
     constants = WallReads(scene, light.settings, scene.corners)
                     .with_walls(light.lights->with_lights(std::move(constants)));
   }
-  return pipelines.get(gpu::ComputeDesc{programs::kShadeSamples, std::move(constants)});
-}
-
-/// Stands in for the lights of a frame that has none: what is bound is never read.
-void bind_no_lights(gpu::Commands& c, const SceneRefs& scene) {
-  c.storage(shared::kLightGridBinding, scene.frame);
-  for (const std::uint32_t binding :
-       {shared::kLightsBinding, shared::kClustersBinding, shared::kLightEntriesBinding})
-    c.storage(binding, scene.materials);
+  return gpu::compute(pipelines, programs::kShadeSamples, std::move(constants));
 }
 
 /// Works out the light of the listed pixels.
@@ -144,8 +134,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
   const SurfaceReads surfaces(on.geometry);
   const WallReads walls(scene, light.settings, scene.corners);
   const CloudRefs clouds = clouds_before_light(scene);
-  const std::optional<ClusteredLights> lights =
-      light.lights ? std::optional(*light.lights) : std::nullopt;
+  const ClusteredLights lights = light.lights ? *light.lights : ClusteredLights::none(scene);
   const gpu::ImageRef maps = on.shadows.maps();
   graph.add_pass(
       "shade_samples_" + std::to_string(level.step),
@@ -156,7 +145,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         surfaces.declare(b);
         walls.declare(b);
         clouds.declare_light(b);
-        if (lights) lights->declare(b);
+        lights.declare(b);
         if (maps) b.read(maps, Use::kComputeSampled);
         b.read(scene.block_textures, Use::kComputeSampled);
         b.read(scene.sky_lut, Use::kComputeSampled);
@@ -168,29 +157,24 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         level.radiance = b.write(level.radiance, Use::kComputeWrite);
       },
-      [&pipeline = shading_pipeline(pipelines, scene, on, light, level.step == 1), scene, surfaces,
+      [program = shading_program(pipelines, scene, on, light, level.step == 1), scene, surfaces,
        walls, clouds, lights, maps, level](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        surfaces.bind(c, scene.point_sampler);
-        walls.bind(c);
-        c.texels(shared::kIndirectBinding, scene.indirect);
-        clouds.bind_light(c);
-        if (lights) {
-          lights->bind(c);
-        } else {
-          bind_no_lights(c, scene);
-        }
-        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
-        c.storage(shared::kRadianceBinding, level.radiance);
-        c.storage(shared::kOwnSamplesBinding, level.written());
-        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
-        c.storage(shared::kListedBinding, level.listed);
-        c.storage(shared::kListedPixelsBinding, level.pixels);
+        gpu::bind(
+            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+            surfaces.bindings(scene.point_sampler), walls.bindings(),
+            gpu::texels<shared::kIndirectBinding>(scene.indirect), clouds.light_bindings(),
+            lights.bindings(),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+            gpu::storage<shared::kRadianceBinding>(level.radiance),
+            gpu::storage<shared::kOwnSamplesBinding>(level.written()),
+            gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
+                                                     scene.point_sampler),
+            gpu::storage<shared::kListedBinding>(level.listed),
+            gpu::storage<shared::kListedPixelsBinding>(level.pixels));
         c.push(level.step);
         c.dispatch_indirect(level.listed, 0);
       });

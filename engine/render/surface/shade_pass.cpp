@@ -3,6 +3,7 @@
 #include <shader_names.h>
 #include <utility>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
 #include "engine/render/scene/gbuffer_formats.h"
 #include "engine/render/scene/occupancy_reads.h"
@@ -50,15 +51,15 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const gpu::ImageRef maps = on.shadows.maps();
   const OccupancyReads occupancy(scene, scene.corners && scene.bodies != 0);
   const CloudRefs clouds = clouds_before_light(scene);
-  const gpu::Pipeline& surface_pipeline = pipelines.get(gpu::ComputeDesc{
-      programs::kShadeSurfaces,
+  const auto surface_program = gpu::compute(
+      pipelines, programs::kShadeSurfaces,
       with_target(
           clouds.with_clouds(with_corners(
               surfaces.with_store(with_light(
                   {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
                   scene, bool{maps})),
               bool{occupancy})),
-          scene, to_picture)});
+          scene, to_picture));
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
@@ -76,22 +77,22 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&surface_pipeline, scene, tiles, surfaces, occupancy, clouds, maps, target,
+      [surface_program, scene, tiles, surfaces, occupancy, clouds, maps, target,
        to_picture](gpu::Commands& c) {
-        c.bind(surface_pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kIslandsBinding, scene.islands);
-        c.storage(shared::kMaterialsBinding, scene.materials);
-        c.texels(shared::kIndirectBinding, scene.indirect);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        surfaces.bind(c, scene.point_sampler);
-        occupancy.bind(c);
-        clouds.bind_light(c);
-        c.sampled(shared::kBlockTexturesBinding, scene.block_textures, scene.block_sampler);
-        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
-        c.storage(shared::kTargetBinding, target);
-        c.sampled(shared::kShadowMapsBinding, maps_or_others(scene, maps), scene.point_sampler);
-        c.storage(shared::kExposureBinding, exposure_or_other(scene, to_picture));
+        gpu::bind(
+            c, surface_program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            gpu::texels<shared::kIndirectBinding>(scene.indirect),
+            gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+            surfaces.bindings(scene.point_sampler), occupancy.bindings(), clouds.light_bindings(),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+            gpu::storage<shared::kTargetBinding>(target),
+            gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
+                                                     scene.point_sampler),
+            gpu::storage<shared::kExposureBinding>(exposure_or_other(scene, to_picture)),
+            tiles.bindings());
         dispatch_tiles(c, tiles, TileKind::kCovered);
       });
 }
@@ -101,8 +102,8 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
                const ShadeIn& in, const SampleIn& on, Target& into) {
   gpu::ImageRef& target = into.image;
   const bool to_picture = into.to_picture;
-  const gpu::Pipeline& sky_pipeline = pipelines.get(
-      gpu::ComputeDesc{programs::kShadeSky, with_target(constants_of_sky(in), scene, to_picture)});
+  const auto sky_program = gpu::compute(pipelines, programs::kShadeSky,
+                                        with_target(constants_of_sky(in), scene, to_picture));
   const Tiles& tiles = on.tiles;
   const gpu::ImageRef words = on.geometry.surfaces();
   graph.add_pass(
@@ -116,15 +117,15 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&sky_pipeline, scene, tiles, words, target, to_picture](gpu::Commands& c) {
-        c.bind(sky_pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kSkyBinding, scene.sky);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        c.storage(shared::kSurfacesBinding, words);
-        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
-        c.storage(shared::kTargetBinding, target);
-        c.storage(shared::kExposureBinding, exposure_or_other(scene, to_picture));
+      [sky_program, scene, tiles, words, target, to_picture](gpu::Commands& c) {
+        gpu::bind(c, sky_program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::storage<shared::kSkyBinding>(scene.sky),
+                  gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+                  gpu::storage<shared::kSurfacesBinding>(words),
+                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+                  gpu::storage<shared::kTargetBinding>(target),
+                  gpu::storage<shared::kExposureBinding>(exposure_or_other(scene, to_picture)),
+                  tiles.bindings());
         dispatch_tiles(c, tiles, TileKind::kOpen);
       });
 }
@@ -149,8 +150,8 @@ gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipel
                                    bool to_picture) {
   std::vector<gpu::SpecConstant> constants = constants_of_sky(in);
   constants.push_back({shared::kSkyAloneConstant, 1});
-  const gpu::Pipeline& pipeline = pipelines.get(
-      gpu::ComputeDesc{programs::kShadeSky, with_target(std::move(constants), scene, to_picture)});
+  const auto program = gpu::compute(pipelines, programs::kShadeSky,
+                                    with_target(std::move(constants), scene, to_picture));
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
@@ -162,18 +163,17 @@ gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipel
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [&pipeline, scene, target, to_picture](gpu::Commands& c) {
-        c.bind(pipeline);
-        c.storage(shared::kFrameBinding, scene.frame);
-        c.storage(shared::kSkyBinding, scene.sky);
-        c.storage(shared::kPixelStatsBinding, scene.pixel_stats);
-        c.sampled(shared::kSkyTableBinding, scene.sky_lut, scene.lut_sampler);
-        c.storage(shared::kTargetBinding, target);
-        c.storage(shared::kExposureBinding, exposure_or_other(scene, to_picture));
-        // Neither surfaces nor tiles are read.
-        c.storage(shared::kSurfacesBinding, scene.no_words);
-        c.storage(shared::kTilesBinding, scene.materials);
-        c.storage(shared::kTileDispatchesBinding, scene.materials);
+      [program, scene, target, to_picture](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::storage<shared::kSkyBinding>(scene.sky),
+                  gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+                  gpu::storage<shared::kTargetBinding>(target),
+                  gpu::storage<shared::kExposureBinding>(exposure_or_other(scene, to_picture)),
+                  // Neither surfaces nor tiles are read.
+                  gpu::storage<shared::kSurfacesBinding>(scene.no_words),
+                  gpu::storage<shared::kTilesBinding>(scene.materials),
+                  gpu::storage<shared::kTileDispatchesBinding>(scene.materials));
         c.push(0u);
         c.dispatch(gpu::Commands::groups(scene.size.width, shared::kTileEdge),
                    gpu::Commands::groups(scene.size.height, shared::kTileEdge), 1);

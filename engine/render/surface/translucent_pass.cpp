@@ -3,6 +3,7 @@
 #include <shader_names.h>
 #include <array>
 
+#include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/tiles.h"
@@ -29,10 +30,9 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
     depth = graph.create(gpu::ImageDesc{
         .name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
     const gpu::ImageRef previous = k == 0 ? opaque_depth : out.depth[k - 1];
-    const gpu::Pipeline& pipeline = pipelines.get(
-        gpu::GraphicsDesc{.vertex = programs::kDrawQuadsVert,
-                          .fragment = programs::kWriteLayerFrag,
-                          .constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
+    const auto program = gpu::graphics(
+        pipelines, programs::kDrawQuadsVert, programs::kWriteLayerFrag,
+        gpu::GraphicsDesc{.constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
                           .color_formats = {VK_FORMAT_R32_UINT},
                           .depth_format = VK_FORMAT_D32_SFLOAT,
                           .cull = VK_CULL_MODE_NONE});
@@ -45,10 +45,11 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           words = b.color(words, gpu::Load::cleared({}));
           depth = b.depth(depth, gpu::Load::cleared({}));
         },
-        [scene, draws, opaque_depth, previous, &pipeline](gpu::Commands& c) {
-          c.bind(pipeline);
-          c.sampled(shared::kDepthsBinding, opaque_depth, scene.point_sampler);
-          c.sampled(shared::kPreviousDepthsBinding, previous, scene.point_sampler);
+        [scene, draws, opaque_depth, previous, program](gpu::Commands& c) {
+          gpu::bind(c, program,
+                    gpu::sampled<shared::kDepthsBinding>(opaque_depth, scene.point_sampler),
+                    gpu::sampled<shared::kPreviousDepthsBinding>(previous, scene.point_sampler),
+                    draw_bindings(scene, draws));
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
@@ -91,28 +92,22 @@ class LayerReads {
       b.read(ref, Use::kComputeSampled);
     if (maps_) b.read(maps_, Use::kComputeSampled);
   }
-  void bind(gpu::Commands& c) const {
-    c.storage(shared::kFrameBinding, scene_.frame);
-    c.storage(shared::kIslandsBinding, scene_.islands);
-    c.storage(shared::kMaterialsBinding, scene_.materials);
-    c.sampled(shared::kDepthsBinding, opaque_depth_, scene_.point_sampler);
-    c.sampled(shared::kSkyTableBinding, scene_.sky_lut, scene_.lut_sampler);
-    c.sampled(shared::kShadowMapsBinding, maps_or_others(scene_, maps_), scene_.point_sampler);
-    c.sampled(shared::kBlockTexturesBinding, scene_.block_textures, scene_.block_sampler);
-    clouds_.bind_light(c);
-    // Where none are known, something that is never read is bound in their place.
-    c.sampled(shared::kMirroredCloudsBinding,
-              layers_.mirrored_clouds ? layers_.mirrored_clouds : scene_.sky_lut,
-              scene_.point_sampler);
-    // Layers that are not kept are never read; they are bound to the first so that every binding
-    // is valid.
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const std::uint32_t bound = k < layers_.count ? k : 0;
-      c.storage(shared::kLayerSurfacesBinding + k, layers_.surfaces[bound]);
-      c.sampled(shared::kLayerDepthsBinding + k, layers_.depth[bound], scene_.point_sampler);
-    }
-    lights_.bind(c);
-    walls_.bind(c);
+  auto bindings() const {
+    return std::tuple{
+        gpu::storage<shared::kFrameBinding>(scene_.frame),
+        gpu::storage<shared::kIslandsBinding>(scene_.islands),
+        gpu::storage<shared::kMaterialsBinding>(scene_.materials),
+        gpu::sampled<shared::kDepthsBinding>(opaque_depth_, scene_.point_sampler),
+        gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.lut_sampler),
+        gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene_, maps_),
+                                                 scene_.point_sampler),
+        gpu::sampled<shared::kBlockTexturesBinding>(scene_.block_textures, scene_.block_sampler),
+        clouds_.light_bindings(),
+        // Where none are known, something that is never read is bound in their place.
+        gpu::sampled<shared::kMirroredCloudsBinding>(
+            layers_.mirrored_clouds ? layers_.mirrored_clouds : scene_.sky_lut,
+            scene_.point_sampler),
+        layers_.bindings(scene_.point_sampler), lights_.bindings(), walls_.bindings()};
   }
 
  private:
@@ -144,12 +139,10 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
         radiance = b.write(radiance, Use::kComputeWrite);
       },
       [reads, tiles, radiance, stats = scene.pixel_stats, inside_medium = in.inside_medium,
-       &pipeline = pipelines.get(gpu::ComputeDesc{programs::kShadeTranslucent, reads.constants()})](
+       program = gpu::compute(pipelines, programs::kShadeTranslucent, reads.constants())](
           gpu::Commands& c) {
-        c.bind(pipeline);
-        reads.bind(c);
-        c.storage(shared::kPixelStatsBinding, stats);
-        c.storage(shared::kRadianceBinding, radiance);
+        gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kPixelStatsBinding>(stats),
+                  gpu::storage<shared::kRadianceBinding>(radiance), tiles.bindings());
         dispatch_tiles(c, tiles, TileKind::kCovered);
         if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
       });

@@ -17,6 +17,20 @@ struct TranslucentPass {
     std::array<gpu::ImageRef, 4> surfaces, depth;
     std::uint32_t count = 0;
     gpu::ImageRef mirrored_clouds;  ///< CloudPass::add_mirrored(); empty: none are mirrored
+
+    /// Layers that are not kept are never read; the first one is bound in their place so that every
+    /// binding is valid.
+    auto bindings(VkSampler point) const {
+      const auto kept = [this](std::size_t k) { return k < count ? k : 0; };
+      return std::tuple{
+          gpu::each_of<shared::kLayerSurfacesBinding, 4>(
+              [&]<std::uint32_t kBinding>(std::size_t k) {
+                return gpu::storage<kBinding>(surfaces[kept(k)]);
+              }),
+          gpu::each_of<shared::kLayerDepthsBinding, 4>([&]<std::uint32_t kBinding>(std::size_t k) {
+            return gpu::sampled<kBinding>(depth[kept(k)], point);
+          })};
+    }
   };
   /// @param layers surfaces kept a pixel, 1..4: what lies behind the last one is seen as if nothing
   /// translucent followed.

@@ -107,7 +107,7 @@ TEST(LightField, GathersWhatBruteForceFinds) {
   for (std::uint32_t seed = 0; seed < 5; ++seed) {
     const MadeWorld world(seed);
     FrameLights frame;
-    field_of(world.emitters).gather({}, std::nullopt, world.islands, std::nullopt, frame);
+    field_of(world.emitters).gather({}, std::nullopt, world.islands, std::nullopt, false, frame);
     const std::vector<Expected> expected = brute_force(world);
     ASSERT_EQ(frame.lights.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i)
@@ -125,7 +125,7 @@ TEST(LightField, LeavesOutOnlyWhatCannotReachTheView) {
     const render::CameraView view =
         render::view_of({{}, turn * 15.0, turn * 5.0 - 60.0, 40.0}, 16, 9);
     FrameLights frame;
-    field.gather({}, view, world.islands, std::nullopt, frame);
+    field.gather({}, view, world.islands, std::nullopt, false, frame);
     left_out += all.size() - frame.lights.size();
     // In order, and with every light that shines on some point of the view. Points near the light
     // stand for what it shines on.
@@ -158,7 +158,7 @@ TEST(LightField, LeavesOutOnlyWhatCannotReachTheView) {
 TEST(LightField, OrderDoesNotDependOnWhatCameAndWent) {
   const MadeWorld world(3);
   FrameLights expected;
-  field_of(world.emitters).gather({}, std::nullopt, world.islands, std::nullopt, expected);
+  field_of(world.emitters).gather({}, std::nullopt, world.islands, std::nullopt, false, expected);
   std::vector<world::SectionKey> keys;
   for (const auto& [key, list] : world.emitters) keys.push_back(key);
   std::mt19937 random(5);
@@ -171,7 +171,7 @@ TEST(LightField, OrderDoesNotDependOnWhatCameAndWent) {
   }
   FrameLights frame;
   for (int again = 0; again < 2; ++again) {
-    field.gather({}, std::nullopt, world.islands, std::nullopt, frame);
+    field.gather({}, std::nullopt, world.islands, std::nullopt, false, frame);
     EXPECT_EQ(frame.islands, expected.islands);
     ASSERT_EQ(frame.lights.size(), expected.lights.size());
     for (std::size_t i = 0; i < frame.lights.size(); ++i)
@@ -183,7 +183,7 @@ TEST(LightField, NoEmittersNoLights) {
   LightField field;
   field.add({1, {0, 0, 0}, 0}, {});
   FrameLights frame;
-  field.gather({}, std::nullopt, MadeWorld(1).islands, std::nullopt, frame);
+  field.gather({}, std::nullopt, MadeWorld(1).islands, std::nullopt, false, frame);
   EXPECT_TRUE(frame.lights.empty());
   EXPECT_TRUE(frame.islands.empty());
 }
@@ -201,7 +201,7 @@ TEST(LightField, WorldLightsStayWhereTheyAreAndDirectionalOnesAreBlockedByAll) {
   lost.light.range = 1.0f;  // at the world's origin, far away
   field.set_world_lights({lamp, sun, lost});
   FrameLights frame;
-  field.gather(far, std::nullopt, world.islands, std::nullopt, frame);
+  field.gather(far, std::nullopt, world.islands, std::nullopt, false, frame);
   ASSERT_EQ(frame.lights.size(), 2u);
   EXPECT_EQ(frame.lights[0].position, glm::vec3(3.0f, -2.0f, 5.0f));
   EXPECT_EQ(frame.lights[1].island_count, world.islands.size());

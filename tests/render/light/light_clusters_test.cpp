@@ -12,6 +12,7 @@
 #include "engine/gpu/transfer/readback.h"
 #include "engine/render/frame/camera.h"
 #include "engine/render/light/lights.h"
+#include "shaders/shared/geometry.h"
 #include "tests/gpu/test_device.h"
 
 namespace skerry::render {
@@ -153,7 +154,7 @@ class LightClustersOnGpu : public gpu::GpuTest {
     SceneRefs scene;
     scene.size = view.size;
     scene.point_sampler = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
-    EXPECT_TRUE(clusters_->upload(*uploader_, lights, view.camera,
+    EXPECT_TRUE(clusters_->upload(*uploader_, lights, {}, view.camera,
                                   {view.size, view.inside_medium, view.tile}));
     std::vector<gpu::Image> images;
     images.reserve(2 + view.layers.size());
@@ -162,6 +163,8 @@ class LightClustersOnGpu : public gpu::GpuTest {
     for (const std::vector<float>& layer : view.layers)
       images.push_back(image(view, VK_FORMAT_R32_SFLOAT, layer));
     graph_->begin();
+    gpu::Buffer islands = back(sizeof(shared::IslandTransform) * shared::kMaxIslands);  // not read
+    scene.islands = graph_->import(islands);
     ClusterDepths depths;
     depths.surfaces = graph_->import(images[0]);
     depths.depth = graph_->import(images[1]);
@@ -265,9 +268,11 @@ class LightClustersOnGpu : public gpu::GpuTest {
 
  private:
   gpu::Buffer back(std::uint64_t bytes) {
-    Result<gpu::Buffer> made = device().create_buffer(
-        {"back", bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-         gpu::Memory::kDevice});
+    Result<gpu::Buffer> made = device().create_buffer({"back", bytes,
+                                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                                       gpu::Memory::kDevice});
     EXPECT_TRUE(made);
     return *std::move(made);
   }

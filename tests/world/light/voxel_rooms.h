@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "world/light/air_volume.h"
+#include "world/light/face_records.h"
 #include "world/mesh/mesh.h"
 #include "world/voxel/chunk.h"
 

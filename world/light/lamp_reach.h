@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "shaders/shared/light.h"
+#include "world/light/air_volume.h"
+
+namespace skerry::world {
+
+/// Bounds what the lamps of an island light of it, so that nobody asks for their shadows where
+/// nothing can arrive.
+///
+/// A straight line runs along each axis one way only. So it reaches a voxel from one of the at most
+/// three neighbours that lie towards the lamp, and what no chain of such steps through air reaches
+/// is dark. A face that looks away from a lamp is dark, too. The bound errs on the side of light
+/// alone: such a chain need not be straight.
+class LampReach {
+ public:
+  explicit LampReach(const LightChunks& chunks);
+
+  /// Bricks of voxels, in the lattice of the chunks' level, of which the light may arrive at a
+  /// drawn face or at a plant. Faces count for the voxels on both of their sides.
+  struct Bricks {
+    IVec3 low{}, size{};                                    ///< bricks; size 0: it arrives nowhere
+    int edge_log2 = 0;                                      ///< of a brick [voxels]
+    std::array<std::uint32_t, shared::kReachWords> bits{};  ///< z + size.z * (x + size.x * y)
+    bool operator==(const Bricks&) const = default;
+    bool empty() const { return size.x == 0; }
+    bool at(IVec3 voxel) const;
+  };
+  /// The lamp's own voxel hides nothing, leaves let light past. @pre a face is drawn of the lamp's
+  /// voxel, or a plant.
+  Bricks of(IVec3 chunk, const LampPlace& lamp) const;
+
+ private:
+  VoxelBits opaque_;
+  std::array<VoxelBits, 6> fronts_;  // voxels in front of faces, by direction
+  VoxelBits plants_;
+  VoxelBits all_round_;  // both sides of faces that light passes
+};
+
+}  // namespace skerry::world
