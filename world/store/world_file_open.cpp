@@ -306,7 +306,9 @@ bool WorldFile::State::recover() {
   std::optional<fs::path> kept;
   if (found) {
     statements.clear();
-    if (database) database->leave_log();
+    // What waits in a log is damaged with its file, and stays; without one, nothing is left beside
+    // it.
+    if (database && has_log(path)) database->leave_log();
     database = std::move(rescued);
     version = kVersion;
   }

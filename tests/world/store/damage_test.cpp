@@ -55,6 +55,28 @@ TEST(DamagedWorldFile, StrangeTablesAreLeftBehindAndTheRestIsRead) {
   }
 }
 
+TEST(DamagedWorldFile, ReadingOneLeavesTheFolderAsItWas) {
+  const Folder folder;
+  const fs::path path = folder / "w";
+  Rng rng(9);
+  {
+    auto file = WorldFile::create(path, info_of_seed_4());
+    ASSERT_TRUE(file);
+    fill(**file, rng, 3);
+  }
+  run_sql(path, "DELETE FROM value");
+  const std::string before = bytes_of(path);
+  {
+    auto file = WorldFile::open(path, Mode::kRead);
+    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_FALSE((*file)->damage().empty());
+    (*file)->read();
+  }
+  EXPECT_EQ(bytes_of(path), before);
+  for (const char* beside : {"w-wal", "w-shm", "w-journal", "w.damaged"})
+    EXPECT_FALSE(fs::exists(folder / beside)) << beside;
+}
+
 /// Opens a damaged file as often as there are ways to, and looks whether anything is amiss that is
 /// not told. @return how much of what it was given came back.
 std::size_t read_damaged(const fs::path& path, const Given& given, std::size_t at) {
