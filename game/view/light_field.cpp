@@ -89,6 +89,7 @@ shared::LightReach reach_of(const world::LampReach::Bricks& bricks, int level,
   out.low = {bricks.low.x, bricks.low.y, bricks.low.z};
   out.size = {bricks.size.x, bricks.size.y, bricks.size.z};
   out.per_block = std::ldexp(1.0f, -level - bricks.edge_log2);
+  out.edge_log2 = static_cast<std::uint32_t>(bricks.edge_log2);
   out.island = island.index;
   std::copy(bricks.bits.begin(), bricks.bits.end(), out.bits);
   return out;

@@ -28,6 +28,20 @@ float strength_of(Reflected sent) { return luminance(sent); }
 Reflected not_negative(Reflected sent) { return max(sent, vec3(0.0)); }
 #endif
 
+// If no light has one, a buffer that is never read.
+layout(scalar, binding = kLightReachBinding) readonly buffer Reaches { LightReach reaches[]; };
+
+// Whether walls let a light arrive at a surface, as far as that is known: by voxels, so that it does not depend on the tile that lists the light.
+bool arrives_at(Light light, WayStart start) {
+  if (light.reach == 0u) return true;
+  uint index = light.reach - 1u;
+  if (start.island != reaches[index].island) return true;  // then it is out of range
+  ivec3 size = reaches[index].size, brick = (start.voxel >> int(reaches[index].edge_log2)) - reaches[index].low;
+  bool inside = all(lessThan(uvec3(brick), uvec3(size)));
+  uint bit = inside ? uint(brick.z + size.z * (brick.x + size.x * brick.y)) : 0u;
+  return inside && (reaches[index].bits[bit >> 5] >> (bit & 31u) & 1u) != 0u;
+}
+
 // Walls are looked for before the strongest lights alone. What arrives of them stands for the others: those are dimmed by the same share, so
 // that a closed room stays dark.
 Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to_eye) {
@@ -36,6 +50,7 @@ Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to
   for (uint i = 0u; i < list.count; ++i) {
     uint light = light_index(list, i);
     Reflected part = sent_to_eye(lights[light], b, start, to_eye);
+    if (!arrives_at(lights[light], start)) part = Reflected(0.0);
     others += part;
     add_strength(strongest, strength_of(part), light);
   }

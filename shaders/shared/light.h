@@ -40,6 +40,7 @@ struct LightReach {
   ivec3 low;  // bricks
   ivec3 size;
   float per_block;  // bricks in a block
+  uint edge_log2;   // of a brick [voxels of the island's level]
   uint island;
   uint bits[kReachWords];
 };

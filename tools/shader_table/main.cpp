@@ -120,6 +120,7 @@ Result<void> write_text(const std::filesystem::path& path, const std::string& te
 }  // namespace
 }  // namespace skerry::gpu
 
+// NOLINTNEXTLINE(bugprone-exception-escape): out of memory ends the build.
 int main(int argc, char** argv) {
   if (argc < 4) {
     std::fputs(

@@ -12,6 +12,7 @@
 #include <limits>
 #include <span>
 #include <system_error>
+#include <utility>
 
 #include "engine/core/draft.h"
 #include "world/generate/generate.h"
@@ -309,7 +310,7 @@ bool WorldFile::State::recover() {
     // What waits in a log is damaged with its file, and stays; without one, nothing is left beside
     // it.
     if (database && has_log(path)) database->leave_log();
-    database = std::move(rescued);
+    database = std::exchange(rescued, std::nullopt);
     version = kVersion;
   }
   if (writes) {

@@ -243,13 +243,14 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
   out.oracle = oracle;
   out.grid = graph.import(grid_buffer_);
   out.lights = graph.import(lights_);
+  out.reaches = reaches_ ? graph.import(reaches_) : out.lights;
   out.tiles.dispatches = create("light tile dispatches", 2 * sizeof(shared::TileDispatch));
   out.tiles.lists = create("light tiles", std::uint64_t{small} * sizeof(std::uint32_t));
   Buffers b;
   b.grid = out.grid;
   b.lights = out.lights;
   b.islands = scene.islands;
-  b.reaches = reaches_ ? graph.import(reaches_) : out.lights;
+  b.reaches = out.reaches;
   b.small_tiles = create("tile depths", std::uint64_t{small} * sizeof(shared::TileDepths));
   work_ = {};
   add_mark(graph, pipelines, scene, depths, grid_, b);

@@ -129,13 +129,14 @@ std::vector<gpu::SpecConstant> ClusteredLights::with_lights(
 ClusteredLights ClusteredLights::none(const SceneRefs& scene) {
   ClusteredLights out;
   out.grid = scene.frame;
-  out.lights = out.clusters = out.entries = scene.materials;
+  out.lights = out.reaches = out.clusters = out.entries = scene.materials;
   return out;
 }
 
 void ClusteredLights::declare(gpu::PassBuilder& builder) const {
   builder.read(grid, Use::kComputeRead);
   builder.read(lights, Use::kComputeRead);
+  builder.read(reaches, Use::kComputeRead);
   if (oracle) return;
   builder.read(clusters, Use::kComputeRead);
   builder.read(entries, Use::kComputeRead);

@@ -47,7 +47,7 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
 
 /// A frame's lights, sorted: what a pass needs that includes shaders/include/clustered.glsl.
 struct ClusteredLights {
-  gpu::BufferRef grid, lights, clusters, entries;
+  gpu::BufferRef grid, lights, reaches, clusters, entries;
   Tiles tiles;              ///< those that some light reaches, kCovered alone
   std::uint32_t kinds = 0;  ///< bit a kind that the frame has; 0: there are none
   bool oracle = false;      ///< nothing is sorted: every pixel asks every light
@@ -64,6 +64,8 @@ struct ClusteredLights {
                       gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters),
                       gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
   }
+  /// Of a pass that includes shaders/include/blocked_lights.glsl, beside bindings().
+  auto reach_binding() const { return gpu::storage<shared::kLightReachBinding>(reaches); }
 };
 
 /// Depths of what a frame shows.

@@ -166,7 +166,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
             surfaces.bindings(scene.point_sampler), walls.bindings(),
             gpu::texels<shared::kIndirectBinding>(scene.indirect), clouds.light_bindings(),
-            lights.bindings(),
+            lights.bindings(), lights.reach_binding(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
             gpu::storage<shared::kRadianceBinding>(level.radiance),

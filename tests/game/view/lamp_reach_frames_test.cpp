@@ -19,15 +19,21 @@ class LampReachFrames : public gpu::GpuTest {
     std::vector<std::byte> picture;
     std::size_t lights = 0;
   };
-  Drawn draw(const char* seed, bool oracle, double turn_deg) {
+  struct Asked {
+    bool oracle = false;
+    std::uint32_t shadows = render::kEveryLight;
+    std::uint32_t tile = 16;
+  };
+  Drawn draw(const char* seed, const Asked& asked, double turn_deg) {
     SceneOptions options;
     options.seed_text = seed;
     options.settings.view_distance = 300;
     options.settings.view_detail = 128;
     options.settings.indirect = render::Indirect::kOff;
     options.settings.shadow_enabled = false;
-    options.settings.lights_shadows = render::kEveryLight;
-    options.settings.lights_oracle = oracle;
+    options.settings.lights_shadows = asked.shadows;
+    options.settings.lights_tile = asked.tile;
+    options.settings.lights_oracle = asked.oracle;
     options.settings.exposure_ev = 3.0;
     Result<std::unique_ptr<SceneView>> made = SceneView::create(device(), options);
     EXPECT_TRUE(made) << made.error().message;
@@ -49,12 +55,21 @@ TEST_F(LampReachFrames, EveryPixelIsThatOfAllLampsAsked) {
   std::size_t lights = 0;
   for (const char* seed : {"1", "3", "7"}) {
     for (const double turn : {0.0, 140.0}) {
-      const Drawn clusters = draw(seed, false, turn), oracle = draw(seed, true, turn);
+      const Drawn clusters = draw(seed, {}, turn), oracle = draw(seed, {.oracle = true}, turn);
       EXPECT_TRUE(clusters.picture == oracle.picture) << seed << ", turned by " << turn;
       lights += clusters.lights;
     }
   }
   EXPECT_GT(lights, 20u) << "there must be lamps to ask";
+}
+
+// Lamps behind walls would dim those before them in the tiles that list them, and not in others.
+TEST_F(LampReachFrames, TheNearestLampsDoNotDependOnTiles) {
+  for (const char* seed : {"1", "7"}) {
+    const Drawn fine = draw(seed, {.shadows = 2, .tile = 8}, 0.0),
+                coarse = draw(seed, {.shadows = 2, .tile = 64}, 0.0);
+    EXPECT_TRUE(fine.picture == coarse.picture) << seed;
+  }
 }
 
 }  // namespace

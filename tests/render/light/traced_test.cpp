@@ -363,7 +363,8 @@ class BlockedLights : public OccupancyOnGpu {
     const std::vector<shared::IslandTransform> here{Placed{}.transform()};
     return ask<glm::vec3>(kPixel, pixels,
                           {table(2, here), table(3, lights_),
-                           table(shared::kLightIslandsBinding, std::vector<std::uint32_t>{0})},
+                           table(shared::kLightIslandsBinding, std::vector<std::uint32_t>{0}),
+                           table(shared::kLightReachBinding, std::vector<shared::LightReach>(1))},
                           {{40, traced}});
   }
   /// Each light of each pixel by itself.
