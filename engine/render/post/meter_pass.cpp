@@ -36,7 +36,7 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       [&](gpu::PassBuilder& b) {
         b.read(scene.frame, Use::kComputeRead);
         b.read(radiance, Use::kComputeRead);
-        b.read(scene.exposure, Use::kComputeRead);
+        scene.exposure = b.write(scene.exposure, Use::kComputeWrite);  // by the shader's other step
         histogram = b.write(histogram, Use::kComputeWrite);
       },
       [frame = scene.frame, size = scene.size, radiance, histogram, metering,
@@ -49,7 +49,7 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
                   gpu::storage<shared::kRadianceBinding>(radiance),
                   gpu::storage<shared::kHistogramBinding>(histogram),
-                  gpu::storage<shared::kExposureBinding>(exposure));  // not read by the histogram
+                  gpu::storage<shared::kExposureBinding>(exposure));
         c.push(metering);
         c.dispatch(groups(size.width), groups(size.height), 1);
       });

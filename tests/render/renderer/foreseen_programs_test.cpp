@@ -109,6 +109,8 @@ TEST_F(ForeseenPrograms, AreThoseOfTheSettingsInForce) {
   without.leave_out.add(Feature::kMoon);
   without.leave_out.add(Feature::kWater);
   EXPECT_EQ(made_late(without, true), 0);
+  without.leave_out.add(Feature::kLights);
+  EXPECT_EQ(made_late(without, true), 0);
 }
 
 TEST_F(ForeseenPrograms, AreForeseenAnewWhenSettingsChange) {
