@@ -111,8 +111,8 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
         gpu::bind(c, program, gpu::storage<shared::kOverlayVerticesBinding>(vertices),
                   gpu::storage<shared::kOverlayClipsBinding>(clips),
                   gpu::sampled<shared::kFontBinding>(font, sampler),
-                  gpu::sampled<shared::kOverlayPicturesBinding>(pictures, sampler));
-        c.push(constants);
+                  gpu::sampled<shared::kOverlayPicturesBinding>(pictures, sampler),
+                  gpu::constants(constants));
         c.draw(count, 1);
       });
   return drawn;

@@ -2,6 +2,7 @@
 #include "engine/gpu/graph/bindings.h"
 
 #include <gtest/gtest.h>
+#include <shader_names.h>
 #include <test_paths.h>
 
 #include <array>
@@ -11,6 +12,8 @@
 #include <regex>
 #include <string>
 #include <tuple>
+
+#include "shaders/shared/marker.h"
 
 namespace skerry::gpu {
 namespace {
@@ -67,9 +70,31 @@ TEST(Bindings, OneGivenTwiceOrAsAnotherKindIsNamed) {
             7u);
 }
 
+template <class... Each>
+std::size_t pushed(const Each&... given) {
+  return pushed_bytes<decltype(std::tuple_cat(flat(given)...))>();
+}
+
+TEST(Bindings, PushConstantsAreCountedAndAreNoBinding) {
+  struct Push {
+    float scale;
+    std::uint32_t first, count;
+  };
+  const std::tuple group{storage<5>(BufferRef{}), constants(Push{})};
+  EXPECT_EQ(wrong<Vertex>(storage<2>(BufferRef{}), group), kNoBinding);
+  EXPECT_EQ(pushed(storage<2>(BufferRef{}), group), 12u);
+  EXPECT_EQ(pushed(storage<2>(BufferRef{})), 0u);
+  EXPECT_NE(pushed(group, constants(1u)), 16u) << "a second block overwrites the first";
+}
+
+TEST(Bindings, TheBuildKnowsTheSizeOfPushConstants) {
+  EXPECT_EQ(programs::DrawMarker::kPushBytes, sizeof(shared::MarkerConstants));
+  EXPECT_EQ(programs::BakeSky::kPushBytes, 0u);
+}
+
 /// bind() alone is checked: what Commands has for it is for that function and for tests.
 TEST(Bindings, NoPassGoesAroundTheCheck) {
-  const std::regex around(R"(\b(c|commands)\.(bind|storage|sampled|texels)\()");
+  const std::regex around(R"(\b(c|commands)\.(bind|storage|sampled|texels|push)\()");
   int passes = 0;
   for (const char* folder : {"engine/render", "game", "tools"})
     for (const fs::directory_entry& entry :

@@ -192,8 +192,8 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
                   gpu::storage<shared::kOccupiedClustersBinding>(b.occupied),
                   gpu::storage<shared::kLightCountsBinding>(b.counts),
                   gpu::storage<shared::kClustersBinding>(clusters),
-                  gpu::storage<shared::kLightEntriesBinding>(entries));
-        c.push(list ? 1u : 0u);
+                  gpu::storage<shared::kLightEntriesBinding>(entries),
+                  gpu::constants(list ? 1u : 0u));
         c.dispatch_indirect(b.work, 0);
       });
 }

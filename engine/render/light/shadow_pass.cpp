@@ -52,10 +52,10 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
           maps = b.depth(maps, gpu::Load::cleared({}), cascade.layer);
         },
         [scene, draws, view = cascade.view, opaque_program, cutout_program](gpu::Commands& c) {
-          gpu::bind(c, opaque_program, draw_bindings(scene, draws));
+          gpu::bind(c, opaque_program, draw_bindings(scene, draws, view));
           draw_list(c, scene, draws, view, DrawList::kOpaque);
           if (!cutout_program.pipeline) return;
-          gpu::bind(c, cutout_program, draw_bindings(scene, draws), cutout_bindings(scene));
+          gpu::bind(c, cutout_program, draw_bindings(scene, draws, view), cutout_bindings(scene));
           draw_list(c, scene, draws, view, DrawList::kCutout);
         });
   }

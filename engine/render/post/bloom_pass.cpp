@@ -55,8 +55,7 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
                         {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFineBloomBinding>(fine),
                   gpu::storage<shared::kCoarseBloomBinding>(coarse),
-                  gpu::storage<shared::kExposureBinding>(exposure));
-        c.push(step);
+                  gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(step));
         dispatch_over(c, step.coarse_size);
       });
   return coarse;
@@ -74,8 +73,7 @@ gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, gpu::Ima
       [fine, coarse, step = level.step,
        program = gpu::compute(pipelines, programs::kSpreadBloom)](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFineBloomBinding>(fine),
-                  gpu::storage<shared::kCoarseBloomBinding>(coarse));
-        c.push(step);
+                  gpu::storage<shared::kCoarseBloomBinding>(coarse), gpu::constants(step));
         dispatch_over(c, step.fine_size);
       });
   return fine;

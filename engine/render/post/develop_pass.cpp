@@ -39,8 +39,7 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
                   gpu::storage<shared::kRadianceBinding>(radiance),
                   gpu::storage<shared::kCoarseBloomBinding>(glow ? glow : radiance),
                   gpu::storage<shared::kTargetBinding>(out),
-                  gpu::storage<shared::kExposureBinding>(scene.exposure));
-        c.push(step);
+                  gpu::storage<shared::kExposureBinding>(scene.exposure), gpu::constants(step));
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),
                    gpu::Commands::groups(scene.size.height, 8), 1);
       });

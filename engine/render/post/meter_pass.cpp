@@ -49,8 +49,7 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
                   gpu::storage<shared::kRadianceBinding>(radiance),
                   gpu::storage<shared::kHistogramBinding>(histogram),
-                  gpu::storage<shared::kExposureBinding>(exposure));
-        c.push(metering);
+                  gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(metering));
         c.dispatch(groups(size.width), groups(size.height), 1);
       });
   graph.add_pass(
@@ -67,8 +66,7 @@ gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),  // neither this
                   gpu::storage<shared::kRadianceBinding>(radiance),        // nor this is read
                   gpu::storage<shared::kHistogramBinding>(histogram),
-                  gpu::storage<shared::kExposureBinding>(exposure));
-        c.push(metering);
+                  gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(metering));
         c.dispatch(1, 1, 1);
       });
   return histogram;
@@ -91,8 +89,7 @@ Developed MeterPass::show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, con
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
                   gpu::storage<shared::kHistogramBinding>(histogram),
                   gpu::storage<shared::kExposureBinding>(exposure),
-                  gpu::storage<shared::kPictureBinding>(picture));
-        c.push(metering);
+                  gpu::storage<shared::kPictureBinding>(picture), gpu::constants(metering));
         c.dispatch(gpu::Commands::groups(size.width, 8),
                    gpu::Commands::groups((size.height + 2) / 3, 8), 1);
       });

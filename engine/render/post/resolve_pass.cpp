@@ -43,8 +43,8 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
                   gpu::storage<shared::kSamplesBinding>(samples),
                   gpu::storage<shared::kRadianceBinding>(radiance),
-                  gpu::storage<shared::kTotalBinding>(total));
-        c.push(1.0f / static_cast<float>(in.parts));
+                  gpu::storage<shared::kTotalBinding>(total),
+                  gpu::constants(1.0f / static_cast<float>(in.parts)));
         c.dispatch(gpu::Commands::groups(in.picture_size.width, 8),
                    gpu::Commands::groups(in.picture_size.height, 8), 1);
       });

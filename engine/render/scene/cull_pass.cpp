@@ -47,17 +47,17 @@ void add_sections(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
       [scene, masks = culling.masks, totals = culling.totals, stats = out.stats,
        transforms = out.transforms, in = culling.in, groups = culling.groups,
        program = gpu::compute(pipelines, programs::kCullSections)](gpu::Commands& c) {
+        const struct {
+          std::uint32_t section_count, group_count, islands_per_view;
+        } push{in.section_slots, groups, scene.islands_per_view};
         gpu::bind(c, program, gpu::storage<shared::kSectionsBinding>(scene.sections),
                   gpu::storage<shared::kIslandsBinding>(scene.view_islands),
                   gpu::storage<shared::kCullViewsBinding>(scene.views),
                   gpu::storage<shared::kCullMasksBinding>(masks),
                   gpu::storage<shared::kCullTotalsBinding>(totals),
                   gpu::storage<shared::kCullStatsBinding>(stats),
-                  gpu::storage<shared::kSectionTransformsBinding>(transforms));
-        const struct {
-          std::uint32_t section_count, group_count, islands_per_view;
-        } push{in.section_slots, groups, scene.islands_per_view};
-        c.push(push);
+                  gpu::storage<shared::kSectionTransformsBinding>(transforms),
+                  gpu::constants(push));
         c.dispatch(groups, in.views, 1);
       });
 }
@@ -80,8 +80,7 @@ void add_scan(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Culling& cullin
                   gpu::storage<shared::kSectionsBinding>(totals),
                   gpu::storage<shared::kCullMasksBinding>(totals),
                   gpu::storage<shared::kCullViewsBinding>(totals),
-                  gpu::storage<shared::kDrawCommandsBinding>(totals));
-        c.push(push);
+                  gpu::storage<shared::kDrawCommandsBinding>(totals), gpu::constants(push));
         c.dispatch(lists, 1, 1);
       });
 }
@@ -106,8 +105,8 @@ void add_emit(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs
                   gpu::storage<shared::kCullTotalsBinding>(totals),
                   gpu::storage<shared::kCullViewsBinding>(scene.views),
                   gpu::storage<shared::kDrawCommandsBinding>(commands),
-                  gpu::storage<shared::kDrawCountsBinding>(commands));  // of the step before
-        c.push(push);
+                  gpu::storage<shared::kDrawCountsBinding>(commands),  // of the step before
+                  gpu::constants(push));
         c.dispatch(push.group_count, views, 1);
       });
 }
@@ -174,12 +173,6 @@ void declare_draws(gpu::PassBuilder& builder, const SceneRefs& scene, const Cull
 
 void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
                std::uint32_t view, DrawList list) {
-  const struct {
-    glm::mat4 clip_from_source;
-    std::uint32_t first_transform;
-    float edge_growth;
-  } push{scene.clip_from_source[view], view * draws.section_slots, scene.edge_growth[view]};
-  commands.push(push);
   commands.index_buffer(scene.indices, VK_INDEX_TYPE_UINT16);
   commands.draw_indirect_count(
       draws.commands, draws.first(view, list) * sizeof(shared::DrawCommand), draws.counts,

@@ -39,10 +39,17 @@ Result<void> check_draws(const DrawLimits& most, const gpu::DeviceLimits& limits
 CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const CullIn& in);
 
-/// What draw_quads.vert declares.
-inline auto draw_bindings(const SceneRefs& scene, const CulledDraws& draws) {
+/// What draw_quads.vert declares, for one view.
+inline auto draw_bindings(const SceneRefs& scene, const CulledDraws& draws, std::uint32_t view) {
+  struct Push {
+    glm::mat4 clip_from_source;
+    std::uint32_t first_transform;
+    float edge_growth;
+  };
   return std::tuple{gpu::storage<shared::kQuadsBinding>(scene.quads),
-                    gpu::storage<shared::kSectionTransformsBinding>(draws.transforms)};
+                    gpu::storage<shared::kSectionTransformsBinding>(draws.transforms),
+                    gpu::constants(Push{scene.clip_from_source[view], view * draws.section_slots,
+                                        scene.edge_growth[view]})};
 }
 
 /// What write_cutout.glsl declares.
@@ -52,7 +59,7 @@ inline auto cutout_bindings(const SceneRefs& scene) {
       gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler)};
 }
 
-/// Records one list of one view into a pass with a program bound that draws quads.
+/// Records one list of one view into a pass with a program bound for that view.
 void draw_list(gpu::Commands& commands, const SceneRefs& scene, const CulledDraws& draws,
                std::uint32_t view, DrawList list);
 

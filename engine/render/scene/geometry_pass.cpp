@@ -57,10 +57,10 @@ std::function<void(gpu::Commands&)> recording(gpu::Pipelines& pipelines, const D
                    : CutoutProgram{};
   return [scene = what.scene, draws = what.draws, stored, opaque_program,
           cutout_program](gpu::Commands& c) {
-    gpu::bind(c, opaque_program, draw_bindings(scene, draws), stored);
+    gpu::bind(c, opaque_program, draw_bindings(scene, draws, 0), stored);
     draw_list(c, scene, draws, 0, DrawList::kOpaque);
     if (!cutout_program.pipeline) return;
-    gpu::bind(c, cutout_program, draw_bindings(scene, draws), cutout_bindings(scene), stored);
+    gpu::bind(c, cutout_program, draw_bindings(scene, draws, 0), cutout_bindings(scene), stored);
     draw_list(c, scene, draws, 0, DrawList::kCutout);
   };
 }

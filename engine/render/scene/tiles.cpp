@@ -42,13 +42,12 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
       },
       [words, out, columns, rows, size,
        program = gpu::compute(pipelines, programs::kClassifyTiles)](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kSurfacesBinding>(words),
-                  gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
-                  gpu::storage<shared::kTilesBinding>(out.lists));
         const struct {
           std::uint32_t width, height, columns, rows;
         } push{size.width, size.height, columns, rows};
-        c.push(push);
+        gpu::bind(c, program, gpu::storage<shared::kSurfacesBinding>(words),
+                  gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
+                  gpu::storage<shared::kTilesBinding>(out.lists), gpu::constants(push));
         const std::uint32_t groups = gpu::Commands::groups(columns * rows, 64);
         c.dispatch(std::min(groups, shared::kTileRow),
                    gpu::Commands::groups(groups, shared::kTileRow), 1);
@@ -63,7 +62,6 @@ void declare_tiles(gpu::PassBuilder& builder, const Tiles& tiles) {
 }
 
 void dispatch_tiles(gpu::Commands& commands, const Tiles& tiles, TileKind kind) {
-  commands.push(static_cast<std::uint32_t>(kind));
   commands.dispatch_indirect(tiles.dispatches,
                              static_cast<std::uint64_t>(kind) * sizeof(shared::TileDispatch));
 }

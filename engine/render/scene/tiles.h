@@ -5,6 +5,8 @@
 
 namespace skerry::render {
 
+enum class TileKind : std::uint32_t { kCovered = 0, kOpen = 1 };
+
 /// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may
 /// be of both kinds.
 struct Tiles {
@@ -12,13 +14,12 @@ struct Tiles {
   gpu::BufferRef lists;       ///< uint[2][tile]
 
   /// What tiles.glsl declares.
-  auto bindings() const {
+  auto bindings(TileKind kind) const {
     return std::tuple{gpu::storage<shared::kTilesBinding>(lists),
-                      gpu::storage<shared::kTileDispatchesBinding>(dispatches)};
+                      gpu::storage<shared::kTileDispatchesBinding>(dispatches),
+                      gpu::constants(static_cast<std::uint32_t>(kind))};
   }
 };
-
-enum class TileKind : std::uint32_t { kCovered = 0, kOpen = 1 };
 
 /// Sorts tiles by whether any of their pixels has, or has not, a surface word.
 /// @param words R32_UINT, 0 where there is nothing. @param name of the pass.
@@ -28,7 +29,7 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
 /// Declares what dispatch_tiles() uses.
 void declare_tiles(gpu::PassBuilder& builder, const Tiles& tiles);
 
-/// Runs the bound program, one that includes tiles.glsl, on the tiles of one kind.
+/// Runs the bound program, one that includes tiles.glsl, on the tiles of the kind it is bound with.
 void dispatch_tiles(gpu::Commands& commands, const Tiles& tiles, TileKind kind);
 
 }  // namespace skerry::render

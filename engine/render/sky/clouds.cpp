@@ -205,8 +205,8 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
       },
       [noise, refs,
        program = gpu::compute(pipelines, programs::kBakeCloudNoise)](gpu::Commands& c) {
-        gpu::bind(c, program, noise_bindings(noise, refs, 0));  // the last ones are not written
-        c.push(std::uint32_t{0});
+        // What is packed is not written.
+        gpu::bind(c, program, noise_bindings(noise, refs, 0), gpu::constants(std::uint32_t{0}));
         c.dispatch(kGroups, kGroups, kNoiseEdge);
       });
   graph.add_pass(
@@ -219,8 +219,7 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
        program = gpu::compute(pipelines, programs::kBakeCloudNoise, {{shared::kPackConstant, 1}})](
           gpu::Commands& c) {
         for (std::uint32_t layer = 0; layer < shared::kCloudNoiseLayers; ++layer) {
-          gpu::bind(c, program, noise_bindings(noise, refs, layer));
-          c.push(layer);
+          gpu::bind(c, program, noise_bindings(noise, refs, layer), gpu::constants(layer));
           c.dispatch(kGroups, kGroups, 1);
         }
       });
@@ -239,8 +238,8 @@ void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, 
        program = gpu::compute(pipelines, programs::kTraceCloudLight,
                               {{shared::kCloudLayerConstant, 1}})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kCloudsBinding>(refs.constants),
-                  refs.media_bindings(), gpu::storage<shared::kTargetBinding>(refs.layer_light));
-        c.push(shared::CloudLightJob{0, body});
+                  refs.media_bindings(), gpu::storage<shared::kTargetBinding>(refs.layer_light),
+                  gpu::constants(shared::CloudLightJob{0, body}));
         const std::uint32_t groups = shared::kLayerLightEdge / kColumnGroup;
         c.dispatch(groups, groups, 1);
       });
@@ -264,10 +263,10 @@ void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       },
       [refs, jobs,
        program = gpu::compute(pipelines, programs::kTraceCloudLight)](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kCloudsBinding>(refs.constants),
-                  refs.media_bindings(), gpu::storage<shared::kTargetBinding>(refs.volume_light));
         for (const auto& [job, texels] : jobs) {
-          c.push(job);
+          gpu::bind(c, program, gpu::storage<shared::kCloudsBinding>(refs.constants),
+                    refs.media_bindings(), gpu::storage<shared::kTargetBinding>(refs.volume_light),
+                    gpu::constants(job));
           c.dispatch(gpu::Commands::groups(texels.x, kColumnGroup),
                      gpu::Commands::groups(texels.y, kColumnGroup), texels.z);
         }

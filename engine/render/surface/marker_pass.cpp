@@ -91,8 +91,7 @@ Developed MarkerPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, con
       [program, scene, depth, out, marker](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),
-                  gpu::storage<shared::kPictureBinding>(out));
-        c.push(marker);
+                  gpu::storage<shared::kPictureBinding>(out), gpu::constants(marker));
         c.dispatch(gpu::Commands::groups(marker.end.x - marker.first.x, 8),
                    gpu::Commands::groups(marker.end.y - marker.first.y, 8), 1);
       });

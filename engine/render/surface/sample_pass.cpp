@@ -103,9 +103,9 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
             gpu::storage<shared::kCoarserSamplesBinding>(level.read()),
             gpu::storage<shared::kOwnSamplesBinding>(level.written()),
             gpu::storage<shared::kListedBinding>(level.listed),
-            gpu::storage<shared::kListedPixelsBinding>(level.pixels), tiles.bindings());
+            gpu::storage<shared::kListedPixelsBinding>(level.pixels),
+            tiles.bindings(TileKind::kCovered));
         if (level.step == 1) return dispatch_tiles(c, tiles, TileKind::kCovered);
-        c.push(std::uint32_t{0});
         const VkExtent2D size = points(scene.size, level.step);
         c.dispatch(gpu::Commands::groups(size.width, shared::kTileEdge),
                    gpu::Commands::groups(size.height, shared::kTileEdge), 1);
@@ -174,8 +174,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler),
             gpu::storage<shared::kListedBinding>(level.listed),
-            gpu::storage<shared::kListedPixelsBinding>(level.pixels));
-        c.push(level.step);
+            gpu::storage<shared::kListedPixelsBinding>(level.pixels), gpu::constants(level.step));
         c.dispatch_indirect(level.listed, 0);
       });
 }

@@ -92,7 +92,7 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler),
             gpu::storage<shared::kExposureBinding>(exposure_or_other(scene, to_picture)),
-            tiles.bindings());
+            tiles.bindings(TileKind::kCovered));
         dispatch_tiles(c, tiles, TileKind::kCovered);
       });
 }
@@ -125,7 +125,7 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
                   gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
                   gpu::storage<shared::kTargetBinding>(target),
                   gpu::storage<shared::kExposureBinding>(exposure_or_other(scene, to_picture)),
-                  tiles.bindings());
+                  tiles.bindings(TileKind::kOpen));
         dispatch_tiles(c, tiles, TileKind::kOpen);
       });
 }
@@ -173,8 +173,8 @@ gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipel
                   // Neither surfaces nor tiles are read.
                   gpu::storage<shared::kSurfacesBinding>(scene.no_words),
                   gpu::storage<shared::kTilesBinding>(scene.materials),
-                  gpu::storage<shared::kTileDispatchesBinding>(scene.materials));
-        c.push(0u);
+                  gpu::storage<shared::kTileDispatchesBinding>(scene.materials),
+                  gpu::constants(0u));
         c.dispatch(gpu::Commands::groups(scene.size.width, shared::kTileEdge),
                    gpu::Commands::groups(scene.size.height, shared::kTileEdge), 1);
       });

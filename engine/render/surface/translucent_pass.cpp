@@ -49,7 +49,7 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           gpu::bind(c, program,
                     gpu::sampled<shared::kDepthsBinding>(opaque_depth, scene.point_sampler),
                     gpu::sampled<shared::kPreviousDepthsBinding>(previous, scene.point_sampler),
-                    draw_bindings(scene, draws));
+                    draw_bindings(scene, draws, 0));
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
@@ -141,10 +141,12 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
       [reads, tiles, radiance, stats = scene.pixel_stats, inside_medium = in.inside_medium,
        program = gpu::compute(pipelines, programs::kShadeTranslucent, reads.constants())](
           gpu::Commands& c) {
-        gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kPixelStatsBinding>(stats),
-                  gpu::storage<shared::kRadianceBinding>(radiance), tiles.bindings());
-        dispatch_tiles(c, tiles, TileKind::kCovered);
-        if (inside_medium) dispatch_tiles(c, tiles, TileKind::kOpen);
+        for (const TileKind kind : {TileKind::kCovered, TileKind::kOpen}) {
+          if (kind == TileKind::kOpen && !inside_medium) continue;
+          gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kPixelStatsBinding>(stats),
+                    gpu::storage<shared::kRadianceBinding>(radiance), tiles.bindings(kind));
+          dispatch_tiles(c, tiles, kind);
+        }
       });
   return Shaded(radiance);
 }
