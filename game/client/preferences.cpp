@@ -13,9 +13,9 @@ namespace {
 
 /// What the screen shows. Everything else belongs to a scene, not to a player.
 constexpr std::string_view kKept[] = {
-    "view.distance", "view.detail",   "shadow.enabled",  "shadow.size", "lights.shadows",
-    "ao.strength",   "indirect",      "bloom.intensity", "aa.samples",  "water.layers",
-    "display.peak",  "display.black", "clouds.coverage"};
+    "view.distance",  "view.detail",  "render.scale",  "shadow.enabled",  "shadow.size",
+    "lights.shadows", "ao.strength",  "indirect",      "bloom.intensity", "aa.samples",
+    "water.layers",   "display.peak", "display.black", "clouds.coverage"};
 
 bool is_kept(std::string_view assignment) {
   const std::string_view key = assignment.substr(0, assignment.find('='));

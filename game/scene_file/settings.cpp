@@ -33,10 +33,10 @@ constexpr std::array<std::string_view, 3> kRateNames{"1", "2", "4"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 
 constexpr std::array<QualityLevel, 4> kLevels{
-    {{"low", 400, 128, 1024, 0.0f, 1, 16, 2},
-     {"medium", 1000, 192, 2048, 0.0f, 4, 24, 2},
-     {"high", 2000, 320, 4096, 0.1f, 8, 48, 1},
-     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight, 96, 1}}};
+    {{"low", 400, 128, 1024, 0.0f, 1, 16, 2, 0.5},
+     {"medium", 1000, 192, 2048, 0.0f, 4, 24, 2, 1.0},
+     {"high", 2000, 320, 4096, 0.1f, 8, 48, 1, 1.0},
+     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight, 96, 1, 1.0}}};
 
 std::string listed(std::span<const std::string_view> names) {
   return fmt::format("{}", fmt::join(names, ", "));
@@ -248,6 +248,14 @@ constexpr SettingKey kKeys[] = {
      "Samples a pixel: the picture is drawn twice or four times as wide and high, and averaged. "
      "For stills; the time grows alike.",
      parse_samples, [](const Settings& s) { return std::to_string(s.aa_samples); }},
+    {"render.scale", "0.25 to 1",
+     "Edges of the picture that is drawn, as a share of those of the picture that is shown: below "
+     "1 "
+     "it is enlarged. Text keeps every pixel.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "render.scale", 0.25, 1.0), s.render_scale);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.render_scale); }},
     {"shadow.enabled", "0 or 1", "Shadows of the sun and the moon.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "shadow.enabled", kSwitchNames), s.shadow_enabled);
@@ -616,6 +624,7 @@ void set_quality(Quality quality, Settings& settings) {
   settings.view_distance = level.view_distance;
   settings.view_detail = level.view_detail;
   settings.shadow_size = level.shadow_size;
+  settings.render_scale = level.render_scale;
   settings.bloom.intensity = level.bloom_intensity;
   settings.lights_shadows = level.lights_shadows;
   settings.clouds.steps = level.cloud_steps;

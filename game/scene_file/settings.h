@@ -37,6 +37,7 @@ struct Settings {
   std::uint32_t view_distance = 1000;  ///< blocks, 32 .. 16384
   std::uint32_t view_detail = 192;     ///< blocks drawn at full detail, 32 .. 4096
   std::uint32_t aa_samples = 1;        ///< a pixel, drawn and averaged: 1, 4 or 16
+  double render_scale = 1.0;  ///< of the picture's edges, 0.25 .. 1: drawn smaller, then enlarged
   bool shadow_enabled = true;
   std::uint32_t shadow_size = 2048;   ///< texels along a cascade's edge, power of two, 256 .. 8192
   std::uint32_t shadow_cascades = 4;  ///< maps a light has, 1 .. 4
@@ -101,6 +102,7 @@ struct QualityLevel {
   float bloom_intensity;
   std::uint32_t lights_shadows;
   int cloud_steps, cloud_resolution;
+  double render_scale;
 };
 const QualityLevel& quality_level(Quality quality);
 Result<Quality> parse_quality(std::string_view text);

@@ -12,6 +12,7 @@ enum class Knob : std::uint8_t {
   kQuality,
   kViewDistance,
   kViewDetail,
+  kScale,
   kShadows,
   kLightShadows,
   kCorners,

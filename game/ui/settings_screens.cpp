@@ -104,6 +104,8 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
            [&] { return slide_blocks(settings.view_distance, kMinViewDistance, 4096); });
   rows.row("Full detail up to", Knob::kViewDetail,
            [&] { return slide_blocks(settings.view_detail, 32, 1024); });
+  rows.row("Drawn size", Knob::kScale,
+           [&] { return slide(settings.render_scale, 0.25f, 1.0f, "%.2f of the window"); });
   std::uint32_t shadows = settings.shadow_enabled ? settings.shadow_size : 0;
   constexpr std::uint32_t kShadows[] = {0, 512, 1024, 2048, 4096};
   constexpr const char* kShadowNames[] = {"off", "coarse", "fair", "fine", "finest"};

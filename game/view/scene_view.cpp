@@ -518,6 +518,7 @@ render::RenderSettings SceneView::render_settings(
       settings_.shadow_samples == 1 ? static_cast<float>(settings_.shadow_blur) : 0.0f;
   out.indirect = settings_.indirect;
   out.corner_darkening = static_cast<float>(settings_.ao_strength);
+  out.render_scale = static_cast<float>(settings_.render_scale);
   out.texture_taps = static_cast<int>(settings_.texture_taps);
   out.shading_rate = static_cast<int>(settings_.shading_rate);
   out.shading_tolerance = static_cast<float>(settings_.shading_tolerance);

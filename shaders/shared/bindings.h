@@ -101,5 +101,8 @@ SHARED_CONST uint kListedPixelsBinding = 74u;    // x in bits 0-15, y in bits 16
 // Past walls: LightReach[].
 SHARED_CONST uint kLightReachBinding = 75u;
 
+// Of a picture that is drawn smaller than it is shown.
+SHARED_CONST uint kSmallPictureBinding = 76u;
+
 SHARED_END
 #endif

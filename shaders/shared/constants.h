@@ -54,5 +54,8 @@ SHARED_CONST uint kLightListConstant = 50u;     // uint: kListClusters, kListRoo
 SHARED_CONST uint kListClusters = 0u;
 SHARED_CONST uint kListRoom = 1u;
 SHARED_CONST uint kListTiles = 2u;
+
+// How much steeper than linear an enlarged picture passes from one pixel to the next.
+SHARED_CONST float kEnlargeSlope = 1.5f;
 SHARED_END
 #endif

@@ -1,5 +1,8 @@
 #include "engine/render/frame/frame_choices.h"
 
+#include <cmath>
+#include <cstdint>
+
 namespace skerry::render {
 
 bool shows_channel(const RenderSettings& settings) {
@@ -8,6 +11,14 @@ bool shows_channel(const RenderSettings& settings) {
 
 int samples_per_edge(const RenderSettings& settings) {
   return shows_channel(settings) ? 1 : settings.samples_per_edge;
+}
+
+VkExtent2D picture_size(VkExtent2D shown, const RenderSettings& settings) {
+  if (shows_channel(settings) || settings.render_scale >= 1.0f) return shown;
+  const auto scaled = [&](std::uint32_t edge) {
+    return static_cast<std::uint32_t>(std::ceil(static_cast<double>(edge) * settings.render_scale));
+  };
+  return {scaled(shown.width), scaled(shown.height)};
 }
 
 bool meters(const FrameInput& input, const RenderSettings& settings) {

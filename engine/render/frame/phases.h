@@ -74,6 +74,7 @@ class Developed {
   friend struct MeterPass;
   friend struct MarkerPass;
   friend struct ShadePass;
+  friend struct EnlargePass;
   explicit Developed(gpu::ImageRef picture) : picture_(picture) {}
   gpu::ImageRef picture_;
 };

@@ -94,6 +94,9 @@ struct RenderSettings {
       1000.0;                ///< all that is drawn lies within; the last cascade reaches as far
   int samples_per_edge = 1;  ///< of a pixel: the picture is drawn so many times as wide and high
                              ///< and averaged; 1, 2 or 4
+  /// Of the edges of the picture that is shown, 0.25..1: below 1 the scene is drawn smaller, and
+  /// the picture is enlarged.
+  float render_scale = 1.0f;
   bool shadows = true;
   int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
   int shadow_cascades = 4;     ///< maps a light has, 1..4; however few reach as far

@@ -16,7 +16,8 @@ Result<void> Picture::remake(gpu::Image& image, const gpu::ImageDesc& desc) {
   return {};
 }
 
-Result<void> Picture::resize(VkExtent2D size, int samples, std::uint32_t parts) {
+Result<void> Picture::resize(const Sizes& sizes, int samples, std::uint32_t parts) {
+  const VkExtent2D size = sizes.shown;
   const std::uint32_t limit = device_->limits().max_image_edge;
   const std::uint32_t most = limit / static_cast<std::uint32_t>(samples);
   if (size.width == 0 || size.height == 0 || size.width > most || size.height > most)
@@ -29,12 +30,17 @@ Result<void> Picture::resize(VkExtent2D size, int samples, std::uint32_t parts) 
                           "takes 1 to {} samples along an edge; choose fewer samples or another "
                           "--size",
                           size.width, size.height, samples * samples, limit)};
-  if (Result<void> ok =
-          remake(image_, {.name = "picture",
-                          .format = VK_FORMAT_R8G8B8A8_UNORM,
-                          .extent = size,
-                          .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-      !ok)
+  gpu::ImageDesc desc{.name = "picture",
+                      .format = VK_FORMAT_R8G8B8A8_UNORM,
+                      .extent = sizes.drawn,
+                      .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                               VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+  if (Result<void> ok = remake(image_, desc); !ok) return ok;
+  desc.name = "enlarged picture";
+  desc.extent = sizes.shown;
+  if (sizes.drawn.width == size.width && sizes.drawn.height == size.height)
+    enlarged_ = {};
+  else if (Result<void> ok = remake(enlarged_, desc); !ok)
     return ok;
   if (parts == 1) {
     total_ = {};
@@ -42,7 +48,7 @@ Result<void> Picture::resize(VkExtent2D size, int samples, std::uint32_t parts) 
   }
   return remake(total_, {.name = "total of parts",
                          .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                         .extent = size,
+                         .extent = sizes.drawn,
                          .usage = VK_IMAGE_USAGE_STORAGE_BIT});
 }
 

@@ -6,16 +6,22 @@
 
 namespace skerry::render {
 
-/// The picture that frames are made for, and the sum of its parts.
+/// The picture that frames are made for, at the sizes at which it is drawn and shown, and the sum
+/// of its parts.
 class Picture {
  public:
   explicit Picture(gpu::Device& device) : device_(&device) {}
 
+  struct Sizes {
+    VkExtent2D shown, drawn;  ///< [pixels]; equal, or `drawn` is smaller
+  };
   /// Makes room for a picture, and for the sum of its parts if there are several.
   /// Errors: a size that the device cannot draw; out of memory.
-  Result<void> resize(VkExtent2D size, int samples_per_edge, std::uint32_t parts);
-  /// RGBA8. @pre resize()
+  Result<void> resize(const Sizes& sizes, int samples_per_edge, std::uint32_t parts);
+  /// RGBA8, as drawn. @pre resize()
   gpu::Image& image() { return image_; }
+  /// RGBA8, as shown: the same image unless it is enlarged. @pre resize()
+  gpu::Image& shown() { return enlarged_ ? enlarged_ : image_; }
   /// RGBA32F, where parts add up; null for a picture in one part.
   gpu::Image* total() { return total_ ? &total_ : nullptr; }
 
@@ -24,7 +30,8 @@ class Picture {
 
   gpu::Device* device_;
   gpu::Image image_;
-  gpu::Image total_;  // of a picture's parts; empty when it has one
+  gpu::Image enlarged_;  // empty: the picture is shown as it is drawn
+  gpu::Image total_;     // of a picture's parts; empty when it has one
 };
 
 }  // namespace skerry::render

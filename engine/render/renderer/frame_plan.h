@@ -20,12 +20,14 @@ namespace skerry::render {
 struct FramePlan {
   FrameInput input;               ///< as drawn: without what is left out, with the sky of its part
   RenderSettings settings;        ///< as asked
-  VkExtent2D picture{}, drawn{};  ///< `drawn` has aa.samples times as many pixels
-  bool geometry = false;          ///< sections are resident
-  shared::SkyConstants sky{};     ///< of the whole picture, not of its part
-  bool bake_sky = false;          ///< else the sky table of an earlier frame is kept
-  bool corners = false;           ///< they darken
-  bool indirect = false;          ///< the sky lights surfaces
+  VkExtent2D shown{};             ///< size of the picture that was asked for [pixels]
+  VkExtent2D picture{}, drawn{};  ///< `picture` is enlarged to `shown`; `drawn` has aa.samples
+                                  ///< times as many pixels
+  bool geometry = false;                ///< sections are resident
+  shared::SkyConstants sky{};           ///< of the whole picture, not of its part
+  bool bake_sky = false;                ///< else the sky table of an earlier frame is kept
+  bool corners = false;                 ///< they darken
+  bool indirect = false;                ///< the sky lights surfaces
   std::vector<glm::uvec4> sky_light{};  ///< what it sends to them, see sky_irradiance()
   bool direct = false;                  ///< shading writes the picture itself
   ShadowPlan shadows{};
@@ -39,6 +41,7 @@ struct FramePlan {
   std::vector<gpu::LeftOut> left_out{};  ///< passes and features it lacks, with reasons
   FrameHistory next{};                   ///< without generations of images, which are not made yet
 
+  bool enlarged() const { return picture.width != shown.width || picture.height != shown.height; }
   bool shows_channel() const;  ///< a debug view takes the place of the lit scene
   bool last_part() const { return input.part + 1 == input.parts; }
   bool lights() const;   ///< the frame's lights are sorted

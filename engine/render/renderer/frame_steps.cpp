@@ -8,6 +8,7 @@
 #include "engine/render/light/light_pass.h"
 #include "engine/render/light/shadow_pass.h"
 #include "engine/render/post/develop_pass.h"
+#include "engine/render/post/enlarge_pass.h"
 #include "engine/render/post/meter_pass.h"
 #include "engine/render/post/resolve_pass.h"
 #include "engine/render/scene/gbuffer_formats.h"
@@ -104,6 +105,12 @@ const char* needs_bloom(const FramePlan& plan) {
   if (const char* why = needs_lit_scene(plan)) return why;
   if (plan.settings.bloom.intensity <= 0.0f) return "bloom.intensity=0";
   return needs_whole_radiance(plan);
+}
+
+const char* needs_enlarging(const FramePlan& plan) {
+  if (const char* why = needs_lit_scene(plan)) return why;
+  if (!plan.enlarged()) return "render.scale=1";
+  return plan.last_part() ? nullptr : "the picture has parts to come";
 }
 
 template <Fault::In in>
@@ -267,8 +274,13 @@ void show_exposure(FrameAssembly& f) {
 }
 
 void draw_marker(FrameAssembly& f) {
-  (void)MarkerPass::add(f.graph, f.pipelines, f.scene, *f.geometry, *std::move(f.developed),
-                        *f.plan.marker);
+  f.developed = MarkerPass::add(f.graph, f.pipelines, f.scene, *f.geometry, *std::move(f.developed),
+                                *f.plan.marker);
+}
+
+void enlarge(FrameAssembly& f) {
+  f.developed = EnlargePass::add(f.graph, f.pipelines, f.scene, *std::move(f.developed),
+                                 f.owners.picture.shown());
 }
 
 void capture_geometry(FrameAssembly& f) {
@@ -298,6 +310,7 @@ constexpr std::array kPartNames{Names("accumulate_part")};
 constexpr std::array kMeterNames{Names("meter_radiance"), Names("choose_exposure")};
 constexpr std::array kBloomNames{Names("shrink_bloom"), Names("spread_bloom")};
 constexpr std::array kDevelopNames{Names("develop")};
+constexpr std::array kEnlargeNames{Names("enlarge_picture")};
 
 /// A row that adds nothing says why passes are absent that another row adds.
 void nothing(FrameAssembly&) {}
@@ -345,6 +358,7 @@ constexpr std::array kSteps{
               },
               show_exposure},
     FrameStep{{}, [](const FramePlan& p) { return needs(p.marker && p.last_part()); }, draw_marker},
+    FrameStep{kEnlargeNames, needs_enlarging, enlarge},
     FrameStep{{},
               [](const FramePlan& p) { return needs(p.input.capture && p.geometry); },
               capture_geometry},

@@ -112,10 +112,11 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   const RenderSettings& settings = request.settings;
   FramePlan plan{.input = drawn_input(request.input, settings),
                  .settings = settings,
-                 .picture = request.size,
+                 .shown = request.size,
+                 .picture = picture_size(request.size, settings),
                  .contents = {FrameFeatures(settings.leave_out), {}, {}}};
   const auto samples = static_cast<std::uint32_t>(samples_per_edge(settings));
-  plan.drawn = {request.size.width * samples, request.size.height * samples};
+  plan.drawn = {plan.picture.width * samples, plan.picture.height * samples};
   plan.geometry = facts.has_geometry();
   plan.indirect = settings.indirect != Indirect::kOff && facts.indirect && plan.geometry &&
                   !shows_channel(settings);
@@ -125,7 +126,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
     plan.shadows = plan_shadows(plan.input, settings, *facts.changes, history.shadows,
                                 facts.shadow_generation);
   plan.tables = build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades);
-  plan.tables.constants.picture_size = {request.size.width, request.size.height};
+  plan.tables.constants.picture_size = {plan.picture.width, plan.picture.height};
   plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky, facts);
   plan.corners = facts.occupancy && settings.corner_darkening > 0.0f && !settings.flat_shading;
   plan.marked_slices = marked_slices(plan.input, plan.contents);

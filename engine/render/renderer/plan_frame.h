@@ -7,7 +7,7 @@ namespace skerry::render {
 struct PictureRequest {
   const FrameInput& input;
   const RenderSettings& settings;
-  VkExtent2D size{};  ///< of the picture [pixels]
+  VkExtent2D size{};  ///< of the picture that is shown [pixels]
 };
 
 /// Decides a frame. A function of its arguments alone: the same request, facts and history give the

@@ -134,8 +134,8 @@ Result<void> Renderer::State::check(const FramePlan& plan) const {
 /// Makes what the frame's passes write to and what outlives them. May fail half-way: what has been
 /// made stays, and the history is about what was there before (see generations).
 Result<void> Renderer::State::make_room(const FramePlan& plan) {
-  if (Result<void> ok =
-          picture.resize(plan.picture, samples_per_edge(plan.settings), plan.input.parts);
+  if (Result<void> ok = picture.resize({plan.shown, plan.picture}, samples_per_edge(plan.settings),
+                                       plan.input.parts);
       !ok)
     return ok;
   if (plan.geometry)
@@ -310,7 +310,7 @@ Result<std::uint64_t> Renderer::draw(
   slot.programs_made = s.pipelines.late() - late;
   slot.allocations = s.device.allocations() - allocations;
   slot.memory_bytes = s.device.memory_total();
-  if (after) after(frame.commands, s.picture.image());
+  if (after) after(frame.commands, s.picture.shown());
   slot.value = s.ring.submit(waits, signals);
   s.last_slot = frame.slot;
   s.foresee(plan);
@@ -411,7 +411,7 @@ void Renderer::wait_for_programs() {
   state_->pipelines.wait();
 }
 gpu::Image& Renderer::picture() {
-  return state_->picture.image();
+  return state_->picture.shown();
 }
 Captured Renderer::captured(Capture what) {
   finish();

@@ -88,6 +88,9 @@ constexpr TopicPoint kShadingRates[] = {{"4, 0.3", "shading.rate=4 shading.toler
                                         {"2, 0.1", "shading.rate=2 shading.tolerance=0.1"},
                                         {"2, 0.03", "shading.rate=2 shading.tolerance=0.03"},
                                         {"1", "shading.rate=1"}};
+constexpr TopicPoint kScales[] = {{"0.25", "render.scale=0.25"}, {"0.33", "render.scale=0.33"},
+                                  {"0.5", "render.scale=0.5"},   {"0.67", "render.scale=0.67"},
+                                  {"0.75", "render.scale=0.75"}, {"1", "render.scale=1"}};
 constexpr TopicPoint kCorners[] = {
     {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
@@ -176,6 +179,9 @@ constexpr Topic kTopics[] = {
      Judge::kReference, CostOf::kFrame, true},
     {"shading_rate", "pixels that share light where it is alike, and how much it may differ",
      kShadingRates, kLitScenes, Judge::kLimit, CostOf::kShading},
+    {"render_scale",
+     "edges of the picture that is drawn, as a share of those of the one that is shown", kScales,
+     kLitScenes, Judge::kLimit, CostOf::kFrame},
     {"ao", "how much light a closed corner of blocks takes", kCorners, kShadowScenes,
      Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,

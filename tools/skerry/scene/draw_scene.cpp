@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.h"
 #include "engine/gpu/transfer/readback.h"
+#include "shaders/shared/constants.h"
 #include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
@@ -22,6 +26,40 @@ measure::Picture picture_of(const render::Captured& radiance) {
     std::uint64_t halves;
     std::memcpy(&halves, radiance.texels.data() + i * sizeof(halves), sizeof(halves));
     out.pixels[i] = glm::vec3(glm::unpackHalf4x16(halves));
+  }
+  return out;
+}
+
+/// Radiance of a picture that is drawn smaller, as enlarge_picture.comp enlarges the picture.
+measure::Picture enlarged(measure::Picture drawn, VkExtent2D size) {
+  if (drawn.width == size.width && drawn.height == size.height) return drawn;
+  struct Between {
+    std::uint32_t first, second;
+    float share;  // of the second
+  };
+  const auto between = [](std::uint32_t pixel, std::uint32_t shown, std::uint32_t pixels) {
+    const float at = (static_cast<float>(pixel) + 0.5f) * static_cast<float>(pixels) /
+                         static_cast<float>(shown) -
+                     0.5f;
+    const float first = std::floor(at);
+    const auto inside = [&](float place) {
+      return static_cast<std::uint32_t>(std::clamp(place, 0.0f, static_cast<float>(pixels - 1)));
+    };
+    return Between{inside(first), inside(first + 1.0f),
+                   std::clamp((at - first - 0.5f) * shared::kEnlargeSlope + 0.5f, 0.0f, 1.0f)};
+  };
+  measure::Picture out{size.width, size.height, {}};
+  out.pixels.reserve(std::size_t{size.width} * size.height);
+  for (std::uint32_t row = 0; row < size.height; ++row) {
+    const Between y = between(row, size.height, drawn.height);
+    for (std::uint32_t column = 0; column < size.width; ++column) {
+      const Between x = between(column, size.width, drawn.width);
+      const auto in_row = [&](std::uint32_t r) {
+        const glm::vec3* pixels = &drawn.pixels[std::size_t{r} * drawn.width];
+        return glm::mix(pixels[x.first], pixels[x.second], x.share);
+      };
+      out.pixels.push_back(glm::mix(in_row(y.first), in_row(y.second), y.share));
+    }
   }
   return out;
 }
@@ -72,7 +110,8 @@ Result<Drawn> SceneDrawer::draw(bool with_radiance) {
   if (!bytes) return bytes.error();
   out.rgba.resize(bytes->size());
   std::memcpy(out.rgba.data(), bytes->data(), bytes->size());
-  if (with_radiance) out.radiance = picture_of(renderer.captured(render::Capture::kRadiance));
+  if (with_radiance)
+    out.radiance = enlarged(picture_of(renderer.captured(render::Capture::kRadiance)), out.size);
   return out;
 }
 

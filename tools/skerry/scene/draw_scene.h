@@ -17,7 +17,7 @@ struct Drawn {
   VkExtent2D size{};
   std::vector<std::uint8_t> rgba;  ///< sRGB-encoded, rows from the top
   render::FrameReport report;
-  std::optional<measure::Picture> radiance;  ///< before exposure, if asked for
+  std::optional<measure::Picture> radiance;  ///< before exposure, of `size`, if asked for
 };
 
 /// Lower-case hexadecimal SHA-256.
