@@ -118,6 +118,7 @@ Result<bool> PlayLoop::draw(const Layout& layout) {
     recorded =
         presenter_.record(commands, picture, *frame, overlay.vertices.empty() ? nullptr : &overlay);
   };
+  view_->renderer().time_passes(overlay_shown_);
   // A command meters what it draws and adapts to nothing, so F2 names the exposure; and its picture
   // is drawn by the way that a command with an exposure takes.
   Settings& settings = view_->settings();

@@ -98,6 +98,17 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
     EXPECT_GE(time.ms, 0.0);
     EXPECT_LT(time.ms, 1000.0);
   }
+
+  graph.time_passes(false);
+  graph.begin();
+  BufferRef cleared = graph.import(result);
+  graph.add_pass(
+      "clear", [&](PassBuilder& b) { cleared = b.write(cleared, Use::kTransferWrite); },
+      [&cleared](Commands& c) { c.fill(cleared, 0, VK_WHOLE_SIZE, 7); });
+  run(graph);
+  ASSERT_EQ(graph.times(0).size(), 1u);
+  EXPECT_EQ(graph.times(0)[0].name, "frame");
+  EXPECT_LT(graph.times(0)[0].ms, 1000.0);
 }
 
 // A triangle on the plane z = -1, seen from the origin along -z; the projection is

@@ -190,7 +190,11 @@ class FrameGraph {
   std::vector<MemoryUse> transient_memory() const;  ///< images and buffers made for this frame
   /// Of this frame: what is planned once compiled, what is recorded once executed.
   FrameCounts counts() const;
-  /// GPU times of the frame last executed in this slot. @pre that frame has completed.
+  /// Whether frames to come time each of their passes, as they do to begin with, or themselves as a
+  /// whole. A driver may wait for the work so far at each timestamp: lavapipe does.
+  void time_passes(bool each);
+  /// GPU times of the frame last executed in this slot, or one of the whole frame. @pre that frame
+  /// has completed.
   std::vector<PassTime> times(std::uint32_t frame_slot);
 
  private:

@@ -50,8 +50,9 @@ void FrameGraph::execute(VkCommandBuffer commands, std::uint32_t frame_slot) {
     if (rendering) vkCmdEndRendering(commands);
     state.record_barriers(commands, pass.behind);
     if (real) end_label(commands);
-    stamp(++done);
+    if (state.time_passes) stamp(++done);
   }
+  if (!state.time_passes) stamp(++done);
   state.carry_states();
 }
 
@@ -141,8 +142,9 @@ bool FrameGraph::State::begin_rendering(VkCommandBuffer commands, const Pass& pa
 void FrameGraph::State::prepare_timers(VkCommandBuffer commands, std::uint32_t slot) {
   Timers& slot_timers = timers[slot];
   slot_timers.names.clear();
+  if (!time_passes) slot_timers.names.emplace_back("frame");
   for (const Pass& pass : passes) {
-    if (pass.alive) slot_timers.names.push_back(pass.name);
+    if (pass.alive && time_passes) slot_timers.names.push_back(pass.name);
   }
   const auto wanted = static_cast<std::uint32_t>(slot_timers.names.size() + 1);
   if (device->limits().timestamp_period_ns <= 0.0f) return;  // this queue cannot measure
@@ -160,6 +162,10 @@ void FrameGraph::State::prepare_timers(VkCommandBuffer commands, std::uint32_t s
                      "pass timers");
   }
   vkCmdResetQueryPool(commands, slot_timers.pool, 0, wanted);
+}
+
+void FrameGraph::time_passes(bool each) {
+  state_->time_passes = each;
 }
 
 std::vector<PassTime> FrameGraph::times(std::uint32_t frame_slot) {

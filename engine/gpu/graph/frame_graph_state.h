@@ -75,6 +75,8 @@ struct FrameGraph::State {
     std::vector<Barrier> before, behind;
   };
 
+  bool time_passes = true;  // else the frame as a whole
+
   struct Timers {
     VkQueryPool pool{};
     std::uint32_t capacity = 0;

@@ -398,6 +398,9 @@ const gpu::FrameGraph& Renderer::graph() const {
 int Renderer::pipelines_created() const {
   return state_->pipelines.used();
 }
+void Renderer::time_passes(bool each) {
+  state_->graph.time_passes(each);
+}
 void Renderer::foresee_programs() {
   state_->foresees = true;
 }

@@ -65,6 +65,9 @@ class Renderer {
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);
   const gpu::FrameGraph& graph() const;  ///< of the last frame, for --explain
+  /// Whether reports name the time of each pass, as they do to begin with, or of the whole frame,
+  /// which costs less on some drivers: see FrameGraph::time_passes.
+  void time_passes(bool each);
   /// From now on each frame asks for the programs that later ones can need as settings and world
   /// are, and worker threads make them: docs/frame.md. Until then a frame asks for its own alone.
   void foresee_programs();
