@@ -18,8 +18,8 @@ layout(binding = kLayerDepthsBinding + 2u) uniform sampler2D layer_depths_2;
 layout(binding = kLayerDepthsBinding + 3u) uniform sampler2D layer_depths_3;
 layout(scalar, binding = kTileDepthsBinding) writeonly buffer TilesOut { TileDepths tiles[]; };
 
-layout(constant_id = kLayersConstant) const uint kLayers = 0u;       // of translucent surfaces, 0..4
-layout(constant_id = kDepth16Constant) const bool kDepth16 = false;  // what lies farthest then has depth 0, and only its word tells it from the sky
+layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 0u;       // of translucent surfaces, 0..4
+layout(constant_id = kDepth16Constant) const bool kDepth16 = false;  // what lies farthest then has depth 0, and only its word distinguishes it from the sky
 
 #include "include/clusters.glsl"
 
@@ -44,10 +44,10 @@ void main() {
       float depth = texelFetch(depths, pixel, 0).r;
       if (kDepth16 && imageLoad(surfaces, pixel).r != 0u) depth = max(depth, 0.5 / 65535.0);
       if (depth > 0.0) take(t, depth);
-      if (kLayers > 0u && (depth = texelFetch(layer_depths_0, pixel, 0).r) > 0.0) take(t, depth);
-      if (kLayers > 1u && (depth = texelFetch(layer_depths_1, pixel, 0).r) > 0.0) take(t, depth);
-      if (kLayers > 2u && (depth = texelFetch(layer_depths_2, pixel, 0).r) > 0.0) take(t, depth);
-      if (kLayers > 3u && (depth = texelFetch(layer_depths_3, pixel, 0).r) > 0.0) take(t, depth);
+      if (kWaterLayers > 0u && (depth = texelFetch(layer_depths_0, pixel, 0).r) > 0.0) take(t, depth);
+      if (kWaterLayers > 1u && (depth = texelFetch(layer_depths_1, pixel, 0).r) > 0.0) take(t, depth);
+      if (kWaterLayers > 2u && (depth = texelFetch(layer_depths_2, pixel, 0).r) > 0.0) take(t, depth);
+      if (kWaterLayers > 3u && (depth = texelFetch(layer_depths_3, pixel, 0).r) > 0.0) take(t, depth);
     }
   }
   tiles[tile] = t;

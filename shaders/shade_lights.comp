@@ -39,8 +39,8 @@ void main() {
   Surface s = resolve_surface(word, ivec2(pixel), depth, pixel_ray(pixel), kTextureTaps);
   vec3 to_eye = -normalize(s.position);
   Brdf b = surface_brdf(s, to_eye);
-  s.openness = surface_openness(s, word);
-  vec3 light = lights_reflected(list, b, way_start(s, word), to_eye) * s.openness;
+  s.ao = surface_ao(s, word);
+  vec3 light = lights_reflected(list, b, way_start(s, word), to_eye) * s.ao;
   vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb + light * clear_air(s.position);
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
   if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));

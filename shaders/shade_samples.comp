@@ -76,7 +76,7 @@ mat2x3 light_sent(Surface s, uint word, uvec2 pixel, float z, bool here) {
     if (!here) list.count = 0u;
     sent += lights_reflected(list, b, way_start(s, word), to_eye);
   }
-  return sent * s.openness;
+  return sent * s.ao;
 }
 
 void main() {
@@ -88,7 +88,7 @@ void main() {
   float depth = surface_depth(texelFetch(depths, ivec2(pixel), 0).r), z = view_distance(depth, frame.near_plane);
   vec3 ray = pixel_ray(pixel);
   Surface s = surface_without_texture(word, ivec2(pixel), depth, ray);
-  s.openness = surface_openness(s, word);
+  s.ao = surface_ao(s, word);
   mat2x3 sent = light_sent(s, word, pixel, z, here);
   SkyLight sky = light_of_sky(s, word);
   sent[1] += kInvPi * sky.irradiance + unpackHalf2x16(materials[surface_block(word)].emission).x;

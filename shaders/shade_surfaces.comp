@@ -38,7 +38,7 @@ void main() {
   float depth = surface_depth(texelFetch(depths, ivec2(pixel), 0).r);
   // Pixels of sky go along as some surface near the eye; they are not stored.
   Surface surface = resolve_surface(word, ivec2(pixel), word != 0u ? depth : 1.0, pixel_ray(pixel), kTextureTaps);
-  surface.openness = surface_openness(surface, word);
+  surface.ao = surface_ao(surface, word);
   SkyLight sky = light_of_sky(surface, word);
   vec3 lit = shade_surface(surface) + surface.albedo * kInvPi * sky.irradiance;
   vec3 colour = seen_through_air(lit, surface.position, sky.seen);

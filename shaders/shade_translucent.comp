@@ -41,7 +41,7 @@ float layer_depth(uint k, ivec2 pixel) {
 layout(binding = kMirroredCloudsBinding) uniform sampler2D mirrored_clouds;
 layout(constant_id = kMirroredCloudsConstant) const bool kMirroredClouds = false;  // whether they are known
 
-layout(constant_id = kLayersConstant) const uint kLayers = 3u;
+layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
 
 #include "include/tiles.glsl"
 #include "include/surface.glsl"

@@ -78,7 +78,7 @@ vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
   if (kChannel == 4u) return hashed_colour(surface_block(word) | (surface_island(word) << 16));
   if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * exp2(-exposure.ev)));
   if (kChannel == 6u) return vec3(fract(log2(view_distance(depth, frame.near_plane))));
-  if (kChannel == 9u) return vec3(surface_openness(s, word));
+  if (kChannel == 9u) return vec3(surface_ao(s, word));
   if (kChannel >= kClustersChannel) return vec3(0.0);  // lights, of which there are none
   Body body = frame.bodies[(kBodies & 1u) != 0u ? 0 : 1];
   if (kChannel == 7u) return hashed_colour(cascade_at(body, length(s.position)) + 3u) * 0.6 + 0.4 * s.albedo;

@@ -19,6 +19,6 @@ void main() {
   float z = gl_FragCoord.z;  // reverse-Z: nearer is greater
   if (z <= texelFetch(opaque_depth, pixel, 0).r) discard;
   if (!kFirstLayer && z >= texelFetch(previous_depth, pixel, 0).r) discard;
-  // A block's back is told from its front by which side faces the camera.
+  // Which side faces the camera distinguishes a block's back from its front.
   out_surface = gl_FrontFacing ? in_surface : in_surface ^ kOppositeFace;
 }

@@ -27,7 +27,7 @@ constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 // The handler's, and so lock-free: a child process has the handler, too, but not the thread.
 std::atomic<pid_t> owner{0};
-std::atomic<int> told{-1};
+std::atomic<int> signal_pipe{-1};
 
 constexpr std::chrono::seconds kMostWork{2};
 
@@ -57,7 +57,7 @@ void end_by(int signal_number) {
 void on_signal(int signal_number) {
   const int before = errno;
   const auto byte = static_cast<unsigned char>(signal_number);
-  if (::getpid() != owner || ::write(told, &byte, 1) != 1) ::raise(signal_number);
+  if (::getpid() != owner || ::write(signal_pipe, &byte, 1) != 1) ::raise(signal_number);
   errno = before;
 }
 
@@ -106,7 +106,7 @@ void listen() {
 
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return;  // then only an interruption leaves something behind
-  told = ends[1];
+  signal_pipe = ends[1];
   owner = ::getpid();
   std::thread(wait_for_signal, ends[0]).detach();
   for (const int signal_number : kSignals) {

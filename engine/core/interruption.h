@@ -4,7 +4,7 @@
 
 namespace skerry {
 
-/// While this lives, being told to end (SIGINT, SIGTERM, SIGHUP) removes a file or folder first;
+/// While this lives, a signal to end (SIGINT, SIGTERM, SIGHUP) removes a file or folder first;
 /// the process then ends by that signal, as without. A second signal ends it at once. Source: the
 /// self-pipe trick (D. J. Bernstein): the handler writes a byte, a thread does the rest.
 class RemovedWhenInterrupted {
@@ -20,7 +20,7 @@ class RemovedWhenInterrupted {
   std::filesystem::path path_;
 };
 
-/// While this lives, being told to end first does `work` on a thread of its own, whatever the other
+/// While this lives, a signal to end first does `work` on a thread of its own, whatever the other
 /// threads are at. The process then ends by the signal, or, when `work` says that it failed or
 /// takes more than two seconds, with status 1. What is put down in the midst of that is never
 /// removed: the work must not make or drop one of these or a RemovedWhenInterrupted.

@@ -20,7 +20,7 @@ extern "C" void __tsan_release(void* place);
 namespace skerry {
 namespace {
 
-// What TBB orders, told to the thread sanitizer: the library is not built with it. This file is
+// What TBB orders, declared to the thread sanitizer: the library is not built with it. This file is
 // not either (CMakeLists.txt), or it would accuse TBB's headers.
 void hand_over([[maybe_unused]] void* place) {
 #if defined(SKERRY_THREAD_SANITIZER)

@@ -88,7 +88,8 @@ Result<OutputPlace> find_output(const fs::path& name) {
   if (const int code = follow_links(place.path)) return output_error(code);
   if (!place.path.has_filename() && !(exists && S_ISDIR(info.st_mode))) return output_error(EISDIR);
   if (!exists) return place;
-  // A link below /proc leads to an open file, whether or not that still has the name it tells.
+  // A link below /proc leads to an open file, whether or not that still has the name the link
+  // holds.
   struct stat found {};
   if (::lstat(place.path.c_str(), &found) != 0)
     return Error{"the file that it leads to has been deleted; give another path"};

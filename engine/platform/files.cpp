@@ -92,12 +92,6 @@ Result<std::string> read_text(const fs::path& path, std::uint64_t max_bytes) {
   }
 }
 
-fs::path executable_dir() {
-  std::error_code code;
-  const fs::path self = fs::read_symlink("/proc/self/exe", code);
-  return code ? fs::path(".") : self.parent_path();
-}
-
 fs::path cache_dir() {
   return xdg_dir("XDG_CACHE_HOME", ".cache");
 }

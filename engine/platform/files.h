@@ -11,9 +11,6 @@ namespace skerry::platform {
 /// ten seconds. Errors: missing, a folder, a socket, unreadable, larger, slower.
 Result<std::string> read_text(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-/// The folder the running program is in.
-std::filesystem::path executable_dir();
-
 /// The user's folders for Skerry, by the XDG base directory rules: variable, else the default below
 /// $HOME. Not created; make_dirs does that. Empty when
 /// neither the variable nor $HOME is set.

@@ -114,7 +114,7 @@ void Input::lose_focus() {
   frame_.down_.reset();
   frame_.axes_.fill(0.0f);
   frame_.text.clear();
-  forget_pointer();
+  reset_pointer();
 }
 
 void HeldBack::hold(const InputFrame& frame) {

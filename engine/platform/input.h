@@ -86,9 +86,9 @@ class InputFrame {
 class Input {
  public:
   void set_key(Key key, bool down);
-  /// The pointer is at (x, y). The first place after forget_pointer() is no motion.
+  /// The pointer is at (x, y). The first place after reset_pointer() is no motion.
   void move_pointer(glm::dvec2 place);
-  void forget_pointer() { pointer_known_ = false; }
+  void reset_pointer() { pointer_known_ = false; }
   void add_scroll(double notches);
   void type(char32_t character);
   /// How the gamepad is now; none: nothing is plugged in, and whatever was held goes up.

@@ -270,7 +270,7 @@ void Window::capture_pointer(bool captured) {
   captured_ = captured;
   glfwSetInputMode(handle_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   if (glfwRawMouseMotionSupported()) glfwSetInputMode(handle_, GLFW_RAW_MOUSE_MOTION, captured);
-  input_.forget_pointer();
+  input_.reset_pointer();
 }
 
 void Window::toggle_fullscreen() {

@@ -138,7 +138,7 @@ Result<void> App::play(const SceneOptions& options, std::unique_ptr<SessionClien
   (*view)->renderer().foresee_programs();
   world_path_ = options.world;
   world_name_ = session->joined().world.name;
-  world_ = std::make_unique<PlayLoop>(window_, device_, *presenter_, bindings_, options,
+  world_ = std::make_unique<PlayLoop>(Machine{window_, device_, *presenter_}, bindings_, options,
                                       std::move(session), *std::move(view));
   costs_ = {};
   screens_.stack.clear();

@@ -12,7 +12,7 @@
 namespace skerry::game {
 
 /// The main loop: plays in a window until it is closed. Keys: docs/controls.md.
-/// @param notes told to the player on the screen to begin with, each in one line.
+/// @param notes shown to the player on the screen to begin with, each in one line.
 /// @param at_title begins with the title, else in the options' world.
 /// @param surface of the window, made with the device's instance; the caller destroys it
 /// afterwards. Errors: the device cannot present to the window, or runs out of memory.

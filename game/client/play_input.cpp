@@ -66,9 +66,9 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
   if (actions.pressed(Action::kFreezeCulling)) culling_frozen_ = !culling_frozen_;
   using platform::Key;
   if (calibrating_)
-    settings.display =
-        stepped_display(settings.display, input.pressed(Key::kRight) - input.pressed(Key::kLeft),
-                        input.pressed(Key::kUp) - input.pressed(Key::kDown));
+    settings.render.display = stepped_display(
+        settings.render.display, input.pressed(Key::kRight) - input.pressed(Key::kLeft),
+        input.pressed(Key::kUp) - input.pressed(Key::kDown));
   const auto steps = [&](Action more, Action less) {
     return actions.presses(more) - actions.presses(less);
   };
@@ -135,7 +135,8 @@ void PlayLoop::go_on(double seconds, const Intent& intent) {
   player_.advance(session_->time_s() - before_s, intent, around_);
   if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
   scene_.camera = player_.eye(around_);
-  tell_session();  // before the hands want anything: what they reach is told by where they are now
+  tell_session();  // before edits are asked for: the session decides their reach by where the
+                   // player is now
 }
 
 /// Where the player is, and all else that a saved play keeps.

@@ -31,7 +31,7 @@ std::optional<Footing> home_of(const world::World& world) {
   (void)world.islands_near(spawn.feet, 0.0, 0.0);  // makes its island known
   const std::optional<world::IslandSpec> spec = world.island(spawn.island);
   if (!spec) return std::nullopt;
-  // Where the spawn is told for: of an island that has left its course, too.
+  // Of the spawn's island, even if it has left its course.
   const std::optional<world::Pose> now = world.pose(spawn.island, 0.0);
   const world::Pose pose = world.desc().generated || !now ? world::pose_at(*spec, 0.0) : *now;
   const glm::dvec3 feet =
@@ -41,12 +41,11 @@ std::optional<Footing> home_of(const world::World& world) {
 
 }  // namespace
 
-PlayLoop::PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
-                   const Bindings& bindings, const SceneOptions& options,
+PlayLoop::PlayLoop(const Machine& machine, const Bindings& bindings, const SceneOptions& options,
                    std::unique_ptr<SessionClient> session, std::unique_ptr<SceneView> view)
-    : window_(window),
-      device_(device),
-      presenter_(presenter),
+    : window_(machine.window),
+      device_(machine.device),
+      presenter_(machine.presenter),
       bindings_(&bindings),
       scene_(options),
       session_(std::move(session)),
@@ -77,7 +76,7 @@ Result<void> PlayLoop::save() {
 
 void PlayLoop::want_screenshot() {
   screenshot_wanted_ = true;
-  view_->renderer().forget_shadows();  // so that the command draws the same shadows again
+  view_->renderer().invalidate_shadows();  // so that the command draws the same shadows again
 }
 
 SceneView::Moment PlayLoop::moment() const {
@@ -94,7 +93,7 @@ SceneView::Moment PlayLoop::moment() const {
     moment.time_of_day_s = photo_->time_of_day_s;
     if (photo_->exposure_ev) moment.exposure_ev = photo_->exposure_ev;
   }
-  // A screenshot's command knows of no hands.
+  // A screenshot's command has no hands to mark a block with.
   if (const std::optional<Pick>& pick = hands_.pick(); pick && !screenshot_wanted_ && !photo_) {
     const VoxelBox box = pick_box(pick->block);
     const glm::dvec3 corner{pick->voxel.x, pick->voxel.y, pick->voxel.z};

@@ -35,13 +35,19 @@ struct PhotoView {
   std::optional<double> exposure_ev;  ///< none: what the eye has adapted to
 };
 
+/// What the game is shown on.
+struct Machine {
+  platform::Window& window;
+  gpu::Device& device;
+  Presenter& presenter;
+};
+
 /// A world while it is played. Private to game/app* and game/play*: input is in play_input.cpp,
 /// what the overlay, the title and the display say in play_overlay.cpp.
 class PlayLoop {
  public:
   /// All but the options, the session and its view outlive this.
-  PlayLoop(platform::Window& window, gpu::Device& device, Presenter& presenter,
-           const Bindings& bindings, const SceneOptions& options,
+  PlayLoop(const Machine& machine, const Bindings& bindings, const SceneOptions& options,
            std::unique_ptr<SessionClient> session, std::unique_ptr<SceneView> view);
 
   /// A frame's input, and what it does to the world.

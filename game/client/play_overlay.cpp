@@ -71,7 +71,7 @@ void PlayLoop::show_numbers() const {
   const std::vector<gpu::MemoryUse> memory = device_.memory_use();
   facts.memory = memory;
   facts.numbers = overlay_shown_;
-  if (calibrating_) facts.calibration = view_->settings().display;
+  if (calibrating_) facts.calibration = view_->settings().render.display;
   show_overlay(facts);
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "game/scene_file/setting_keys.h"
 
 namespace skerry::game {
 namespace {

@@ -7,8 +7,8 @@
 
 namespace skerry::game {
 
-/// The client's end of a session that runs in this process: asks by messages, keeps what it is
-/// told, and lets the session's time go on. One thread.
+/// The client's end of a session that runs in this process: asks by messages, keeps the
+/// answers, and lets the session's time go on. One thread.
 class SessionClient : public BlockEditor {
  public:
   /// Joins as the one player of the world.
@@ -17,11 +17,11 @@ class SessionClient : public BlockEditor {
   const Joined& joined() const { return joined_; }
   /// As the session said last.
   double time_s() const { return time_s_; }
-  /// Session::world(): what messages tell of islands has come true there already.
+  /// Session::world(): what messages say of islands is applied there already.
   std::shared_ptr<world::World> world() const { return session_->world(); }
 
   void send(Request request) { session_->send(id_, std::move(request)); }
-  /// Asks for an edit and hears the answer at once, so that this frame's picture can show it.
+  /// Asks for an edit and receives the answer at once, so that this frame's picture can show it.
   bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) override;
   /// See Session.
   void advance(double seconds);
@@ -29,7 +29,7 @@ class SessionClient : public BlockEditor {
   void save_next() { session_->save_next(); }
   Result<void> save() { return session_->save(); }
 
-  /// What was told since the last call, besides what the members above say.
+  /// Messages since the last call, besides what the members above say.
   std::vector<Answer> hear();
 
  private:

@@ -70,7 +70,7 @@ enum class Action : std::uint8_t {
 
 inline constexpr std::size_t kActions = static_cast<std::size_t>(Action::kCount);
 
-/// What the program knows of an action.
+/// The properties of an action.
 struct ActionType {
   std::string_view name;      ///< as files write it
   std::string_view label;     ///< as people read it

@@ -61,7 +61,7 @@ void read_actions(const json& root, ReadBindings& read) {
   for (const auto& [name, entry] : actions->items()) {
     const std::optional<Action> action = action_named(name);
     if (!action) {
-      complain(read, fmt::format("controls.json knows an action {} that this build does not",
+      complain(read, fmt::format("controls.json has an action {} that this build does not have",
                                  quote_text(name.substr(0, 40))));
       continue;
     }

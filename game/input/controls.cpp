@@ -33,7 +33,7 @@ Intent intent_of(const ActionFrame& actions) {
 
 HandIntent hand_intent_of(const ActionFrame& actions) {
   HandIntent intent;
-  // What was pressed and let go of within a frame still counts for that frame.
+  // What was pressed and released within a frame still counts for that frame.
   intent.dig = actions.down(Action::kDig) || actions.pressed(Action::kDig);
   intent.place = actions.down(Action::kPlace) || actions.pressed(Action::kPlace);
   intent.take_block = actions.pressed(Action::kPick);

@@ -43,19 +43,18 @@ enum class Replay : std::uint8_t {
 /// The last acts of a player, to take back and to do again.
 class EditHistory {
  public:
-  static constexpr std::size_t kMaxActs = 256;  ///< older ones are forgotten
+  static constexpr std::size_t kMaxActs = 256;  ///< older ones are dropped
 
-  /// Does an act and remembers it; what had been taken back cannot be done again any more.
+  /// Does an act and records it; what had been undone cannot be redone any more.
   /// @return whether its first change was accepted; else nothing has changed.
   bool perform(const EditAct& act, BlockEditor& blocks);
   /// Puts back what the last act changed, or does again what was taken back last. A voxel that is
   /// no longer as this history left it stays as it is, and so does one that `free` denies. An act
   /// of which nothing could be done stays the next in line; one of which nothing is left, because
-  /// something else has changed all its voxels, is forgotten for the one before it.
+  /// something else has changed all its voxels, is dropped for the one before it.
   Replay undo(const Surroundings& around, BlockEditor& blocks, const VoxelFree& free);
   Replay redo(const Surroundings& around, BlockEditor& blocks, const VoxelFree& free);
   std::size_t undoable() const { return done_.size(); }
-  std::size_t redoable() const { return undone_.size(); }
 
  private:
   std::deque<EditAct> done_, undone_;

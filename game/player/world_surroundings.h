@@ -20,7 +20,7 @@ class ChunkLoader {
  public:
   /// @param world outlives this.
   explicit ChunkLoader(world::World& world);
-  ~ChunkLoader();  ///< finishes the chunk at hand, forgets the others
+  ~ChunkLoader();  ///< finishes the chunk at hand, drops the others
   ChunkLoader(const ChunkLoader&) = delete;
   ChunkLoader& operator=(const ChunkLoader&) = delete;
 
@@ -44,8 +44,9 @@ class ChunkLoader {
   std::thread thread_;
 };
 
-/// A world as the player meets it. The islands around are looked up once a frame; the chunks next
-/// to the player are loaded, so that there is ground even where nothing has been meshed yet.
+/// A world as the player collides with it. The islands around are looked up once a frame; the
+/// chunks next to the player are loaded, so that there is ground even where nothing has been meshed
+/// yet.
 class WorldSurroundings : public Surroundings {
  public:
   /// @param world outlives this.

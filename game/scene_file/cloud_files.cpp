@@ -148,10 +148,10 @@ std::vector<std::size_t> drawn_grids(std::span<const std::string> names) {
   const auto named_density = [](const std::string& name) {
     return lower_case(name).find("density") != std::string::npos;
   };
-  const bool told = std::any_of(names.begin(), names.end(), named_density);
+  const bool named = std::any_of(names.begin(), names.end(), named_density);
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (!told || named_density(names[i]) || cloud_role(names[i]) == render::CloudRole::kEmission)
+    if (!named || named_density(names[i]) || cloud_role(names[i]) == render::CloudRole::kEmission)
       out.push_back(i);
   return out;
 }

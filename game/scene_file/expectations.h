@@ -39,7 +39,7 @@ struct Expectations {
   std::string description;  ///< what the scene is there to show
 };
 
-/// The fields of a scene file that read_expectation knows.
+/// The fields of a scene file that read_expectation reads.
 inline constexpr std::string_view kExpectationFields[] = {"tolerance", "expects_dark", "masks",
                                                           "description"};
 

@@ -8,6 +8,7 @@
 
 #include "game/scene_file/json_text.h"
 #include "game/scene_file/scene_files.h"
+#include "game/scene_file/setting_keys.h"
 #include "game/scene_file/vdb_options.h"
 
 namespace skerry::game {

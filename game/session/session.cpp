@@ -48,7 +48,7 @@ Session::State::~State() {
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 Session::~Session() {
-  // What cannot be saved now has been told before, or there is nobody left to tell.
+  // What cannot be saved now has been reported before, or no client is left to receive it.
   static_cast<void>(save());
   saved_when_interrupted_.reset();
 }
@@ -208,21 +208,21 @@ void Session::State::join(Client& client, const Join& join) {
   }
   client.player = join.player;
   if (const auto saved = plays.find(join.player); saved != plays.end()) client.play = saved->second;
-  // Nothing breaks between what is listed here and what is told from now on.
+  // Nothing breaks between what is listed here and what is sent from now on.
   const std::lock_guard lock(breaking);
   client.joined = true;
-  client.voxels_told = !join.shares_world;
-  Joined told;
-  told.play = client.play;
-  told.read_only = read_only;
-  if (file) told.world = file->info();
-  if (!file) told.world.desc = world->desc();
+  client.gets_voxels = !join.shares_world;
+  Joined answer;
+  answer.play = client.play;
+  answer.read_only = read_only;
+  if (file) answer.world = file->info();
+  if (!file) answer.world.desc = world->desc();
   const std::vector<std::uint64_t> islands = world->changed_islands();
   for (const std::uint64_t id : islands)
     for (const world::IVec3& chunk :
          world->is_added(id) ? world->chunks(id, 0) : world->edited_chunks(id))
-      told.changed.push_back({id, chunk});
-  client.answers.put(std::move(told));
+      answer.changed.push_back({id, chunk});
+  client.answers.put(std::move(answer));
   client.answers.put(TimeIs{time_s});
   for (const std::uint64_t id : islands) introduce(client, id);
   client.answers.put(IslandsMoved{motion.states()});
@@ -236,12 +236,12 @@ void Session::State::introduce(Client& client, std::uint64_t island) {
 }
 
 void Session::State::tell_moves() {
-  const IslandsMoved told{std::exchange(moves, {})};
-  if (told.moves.empty()) return;
+  const IslandsMoved answer{std::exchange(moves, {})};
+  if (answer.moves.empty()) return;
   const std::lock_guard lock(breaking);
   for (const std::shared_ptr<Client>& client : joined()) {
-    for (const world::MovingIsland& move : told.moves) introduce(*client, move.island);
-    client->answers.put(told);
+    for (const world::MovingIsland& move : answer.moves) introduce(*client, move.island);
+    client->answers.put(answer);
   }
 }
 
@@ -305,7 +305,7 @@ void Session::State::edit(Client& client, const Edit& edit) {
 void Session::State::forward(const Client& from, const Edit& edit) {
   const auto index = static_cast<std::uint32_t>(world::index_in_chunk(edit.voxel));
   for (const std::shared_ptr<Client>& client : joined()) {
-    if (client.get() == &from || !client->voxels_told) continue;
+    if (client.get() == &from || !client->gets_voxels) continue;
     introduce(*client, edit.island);
     client->answers.put(
         ChunkChanges{edit.island, world::chunk_of(edit.voxel), {{index, edit.block}}});

@@ -88,8 +88,8 @@ struct EditAnswer {
   EditVerdict verdict = EditVerdict::kDone;
   world::BlockId was = world::kAir;  ///< what stood there
 };
-/// An island that is not as the seed makes it. Told before anything else of it that a client could
-/// not know.
+/// An island that is not as the seed makes it. Sent before anything else of it that a client does
+/// not have.
 struct IslandIs {
   world::IslandSpec spec;
   bool added = false;            ///< no seed made it

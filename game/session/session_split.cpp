@@ -8,7 +8,7 @@
 namespace skerry::game {
 namespace {
 
-// Beyond so many voxels a shape is made anew rather than told of each.
+// Beyond so many voxels a shape is made anew rather than updated voxel by voxel.
 constexpr std::uint64_t kNamedVoxels = 4096;
 
 std::vector<world::IVec3> voxels_of(const world::Fragment& fragment) {
@@ -101,7 +101,7 @@ void Session::State::tell_break(std::uint64_t island, const world::LoosePiece& l
   for (const std::shared_ptr<Client>& client : joined()) {
     client->introduced.insert(off.island);
     client->answers.put(IslandIs{*world->island(off.island), true, island, off.mass.blocks});
-    if (!client->voxels_told) continue;
+    if (!client->gets_voxels) continue;
     introduce(*client, island);
     for (const ChunkChanges& change : changes) client->answers.put(change);
   }

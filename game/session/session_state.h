@@ -46,7 +46,7 @@ struct Session::Client {
 
   // The session thread writes these with `breaking` held, and reads the first without.
   bool joined = false;
-  bool voxels_told = false;
+  bool gets_voxels = false;
   std::set<std::uint64_t> introduced;  // islands that an IslandIs has named
 };
 
@@ -102,7 +102,7 @@ struct Session::State {
   // Session thread, with `running` held: a signal to end saves from a thread of its own.
   std::mutex running;
   world::IslandMotion motion;
-  std::vector<world::MovingIsland> moves;  // since they were told
+  std::vector<world::MovingIsland> moves;  // since they were sent
   std::map<std::string, SavedPlay> plays;  // by player: as said last, else as it was saved
   double time_s = 0.0;
   struct ShapeOnItsWay {

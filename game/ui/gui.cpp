@@ -78,7 +78,7 @@ Gui::Gui(Clipboard clipboard) : context_(make_context()), clipboard_(std::move(c
   io.ClipboardUserData = this;
   io.GetClipboardTextFn = ClipboardCalls::read;
   io.SetClipboardTextFn = ClipboardCalls::write;
-  release_all();  // ImGui wants to know its keys before the first frame
+  release_all();  // ImGui needs the state of its keys before the first frame
 }
 
 Gui::~Gui() {

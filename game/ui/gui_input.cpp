@@ -13,7 +13,7 @@ namespace {
 using platform::InputFrame;
 using platform::Key;
 
-/// Keys that text fields and navigation know.
+/// Keys of text fields and navigation.
 struct GuiKey {
   Key ours;
   ImGuiKey theirs;

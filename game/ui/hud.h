@@ -23,7 +23,7 @@ struct HudFacts {
     double speed = 0.0;  ///< blocks/s
   };
   std::optional<Steering> steering;
-  bool numbers = false;             ///< the overlay is on, which tells time and place, too
+  bool numbers = false;             ///< the overlay is on, which shows time and place, too
   bool choosing = false;            ///< the palette lies over the name of what is held
   double hidden = 0.0;              ///< how much of the world black covers, 0 .. 1: after a fall
   std::size_t islands_to_come = 0;  ///< tasks left until the neighbourhood is there

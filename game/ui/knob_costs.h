@@ -15,7 +15,7 @@ enum class Knob : std::uint8_t {
   kScale,
   kShadows,
   kLightShadows,
-  kCorners,
+  kAo,
   kIndirect,
   kBloom,
   kAntialiasing,

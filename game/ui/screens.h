@@ -87,7 +87,7 @@ struct ScreenFacts {
   double adapted_ev = 0.0;                       ///< what photo mode's exposure begins at
   platform::Key pressed = platform::Key::kNone;  ///< first key that went down in this frame
   bool control = false;     ///< while the key that makes chords was held (control_of)
-  bool control_up = false;  ///< that one was let go of
+  bool control_up = false;  ///< that one was released
   bool back = false;        ///< Escape, or its like on a gamepad, went down
   std::string_view version;
 };

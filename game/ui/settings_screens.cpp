@@ -105,44 +105,46 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
   rows.row("Full detail up to", Knob::kViewDetail,
            [&] { return slide_blocks(settings.view_detail, 32, 1024); });
   rows.row("Drawn size", Knob::kScale,
-           [&] { return slide(settings.render_scale, 0.25f, 1.0f, "%.2f of the window"); });
-  std::uint32_t shadows = settings.shadow_enabled ? settings.shadow_size : 0;
-  constexpr std::uint32_t kShadows[] = {0, 512, 1024, 2048, 4096};
+           [&] { return slide(settings.render.render_scale, 0.25f, 1.0f, "%.2f of the window"); });
+  int shadows = settings.render.shadow_enabled ? settings.render.shadow_size : 0;
+  constexpr int kShadows[] = {0, 512, 1024, 2048, 4096};
   constexpr const char* kShadowNames[] = {"off", "coarse", "fair", "fine", "finest"};
-  const std::uint32_t shadows_before = shadows;
+  const int shadows_before = shadows;
   rows.choice("Shadows", Knob::kShadows, shadows, kShadows, kShadowNames);
   if (shadows != shadows_before) {
-    settings.shadow_enabled = shadows != 0;
-    if (shadows != 0) settings.shadow_size = shadows;
+    settings.render.shadow_enabled = shadows != 0;
+    if (shadows != 0) settings.render.shadow_size = shadows;
   }
   constexpr std::uint32_t kWalls[] = {0, 1, 2, 4, 8, render::kEveryLight};
   constexpr const char* kWallNames[] = {"none",      "1 a pixel", "2 a pixel",
                                         "4 a pixel", "8 a pixel", "all"};
-  rows.choice("Lights that walls stop", Knob::kLightShadows, settings.lights_shadows, kWalls,
+  rows.choice("Lights that walls stop", Knob::kLightShadows, settings.render.lights_shadows, kWalls,
               kWallNames);
-  rows.row("Dark corners", Knob::kCorners,
-           [&] { return slide(settings.ao_strength, 0.0f, 0.9f, "%.2f"); });
+  rows.row("Dark corners", Knob::kAo,
+           [&] { return slide(settings.render.ao_strength, 0.0f, 0.9f, "%.2f"); });
   constexpr render::Indirect kIndirect[] = {render::Indirect::kOff, render::Indirect::kSky,
                                             render::Indirect::kFull};
   constexpr const char* kIndirectNames[] = {"off", "of the sky", "of sky and glow"};
-  rows.choice("Light in the shade", Knob::kIndirect, settings.indirect, kIndirect, kIndirectNames);
+  rows.choice("Light in the shade", Knob::kIndirect, settings.render.indirect, kIndirect,
+              kIndirectNames);
   rows.row("Glow of bright things", Knob::kBloom,
-           [&] { return slide(settings.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
-  constexpr std::uint32_t kSamples[] = {1, 4, 16};
+           [&] { return slide(settings.render.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
+  constexpr int kSamples[] = {1, 4, 16};
   constexpr const char* kSampleNames[] = {"off", "4 samples", "16 samples"};
-  rows.choice("Smooth edges", Knob::kAntialiasing, settings.aa_samples, kSamples, kSampleNames);
-  constexpr std::uint32_t kLayers[] = {1, 2, 3, 4};
+  rows.choice("Smooth edges", Knob::kAntialiasing, settings.render.aa_samples, kSamples,
+              kSampleNames);
+  constexpr int kLayers[] = {1, 2, 3, 4};
   constexpr const char* kLayerNames[] = {"1 layer", "2 layers", "3 layers", "4 layers"};
-  rows.choice("Water and glass", Knob::kWater, settings.water_layers, kLayers, kLayerNames);
+  rows.choice("Water and glass", Knob::kWater, settings.render.water_layers, kLayers, kLayerNames);
   rows.row("Clouds", Knob::kClouds,
-           [&] { return slide(settings.clouds.coverage, 0.0f, 1.0f, "%.2f of the sky"); });
+           [&] { return slide(settings.render.clouds.coverage, 0.0f, 1.0f, "%.2f of the sky"); });
   rows.row("Field of view", std::nullopt,
            [&] { return slide(*facts.fov_deg, 40.0f, 110.0f, "%.0f degrees"); });
-  rows.row("Display: white", std::nullopt, [&] {
-    return slide(settings.display.peak, static_cast<float>(kMinDisplayPeak), 1.0f, "%.2f");
-  });
+  render::DisplaySettings& display = settings.render.display;
+  rows.row("Display: white", std::nullopt,
+           [&] { return slide(display.peak, static_cast<float>(kMinDisplayPeak), 1.0f, "%.2f"); });
   rows.row("Display: black", std::nullopt, [&] {
-    return slide(settings.display.black, 0.0f, static_cast<float>(kMaxDisplayBlack), "%.3f");
+    return slide(display.black, 0.0f, static_cast<float>(kMaxDisplayBlack), "%.3f");
   });
 }
 

@@ -24,9 +24,9 @@ class IslandLight {
   /// Takes in a chunk. An island's chunks are of one level at a time. One that takes the place of
   /// another has a guess (world::inherit_faces) until its island has been looked at again.
   void add(const world::SectionKey& key, world::LightChunk chunk);
-  /// Forgets it. A chunk that was not added is no concern.
+  /// Removes it. A chunk that was not added is ignored.
   void remove(const world::SectionKey& key);
-  /// Forgets an island and what is known of its light.
+  /// Removes an island and its light.
   void end_island(std::uint64_t island) { islands_.erase(island); }
   /// Looks at islands that have changed and whose chunks have all come: what is not there yet would
   /// let light into rooms that it closes.

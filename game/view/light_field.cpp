@@ -139,7 +139,7 @@ void LightField::set_reach(const world::SectionKey& key,
     group->second.bricks = std::move(reach);
 }
 
-void LightField::forget_reach(std::uint64_t island) {
+void LightField::invalidate_reach(std::uint64_t island) {
   for (auto group = emitted_.lower_bound({island, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
        group != emitted_.end() && group->first.island == island; ++group)
     group->second.bricks.clear();

@@ -56,10 +56,10 @@ class LightField {
   }
   void add_lights(const world::SectionKey& key, std::vector<LatticeLight> lights);
   /// Says where on their own island a section's lights can arrive, in their order. Holds until
-  /// forget_reach() of the island, or until the section is removed.
+  /// invalidate_reach() of the island, or until the section is removed.
   void set_reach(const world::SectionKey& key, std::vector<world::LampReach::Bricks> reach);
   /// To be called whenever a voxel of the island changes.
-  void forget_reach(std::uint64_t island);
+  void invalidate_reach(std::uint64_t island);
   /// Forgets them. A section without lights is no concern.
   void remove(const world::SectionKey& key) { emitted_.erase(key); }
   /// Forgets all that add() took in.

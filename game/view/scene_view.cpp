@@ -160,7 +160,7 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
     view->cloud_volumes_ = true;
     if (Result<void> ok = view->renderer_->set_clouds(
             clouds->volumes,
-            static_cast<render::CloudPrecision>(options.settings.clouds.precision));
+            static_cast<render::CloudPrecision>(options.settings.render.clouds.precision));
         !ok)
       return ok.error();
   }
@@ -253,18 +253,19 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
 }
 
 bool SceneView::occupancy_wanted() const {
-  return (settings_.ao_strength > 0.0 && settings_.shading != Shading::kFlat) ||
-         settings_.lights_shadows != 0;
+  return (settings_.render.ao_strength > 0.0 &&
+          settings_.render.shading != render::Shading::kFlat) ||
+         settings_.render.lights_shadows != 0;
 }
 
 // Occupancy and light are made of what comes along with the meshes, so that all of them are made
 // again when one is wanted for the first time, or weak lamps change sides.
 Result<void> SceneView::follow_settings() {
-  const bool full = settings_.indirect == render::Indirect::kFull;
+  const bool full = settings_.render.indirect == render::Indirect::kFull;
   const bool store = !occupancy_ && occupancy_wanted();
-  const bool sky = settings_.indirect != render::Indirect::kOff;
-  const bool light =
-      island_light_ ? sky && !island_light_->finds_sky() : sky || settings_.lights_shadows != 0;
+  const bool sky = settings_.render.indirect != render::Indirect::kOff;
+  const bool light = island_light_ ? sky && !island_light_->finds_sky()
+                                   : sky || settings_.render.lights_shadows != 0;
   if (!store && !light && full == weak_lamps_kept_) return {};
   while (!sections_.empty()) remove_section(sections_.begin()->first);
   waiting_.clear();
@@ -356,7 +357,7 @@ void SceneView::remove_section(const world::SectionKey& key) {
   SKERRY_ASSERT(found != sections_.end());
   gpu::Uploader& uploader = renderer_->mesh_uploader();
   light_field_.remove(key);
-  light_field_.forget_reach(key.island);
+  light_field_.invalidate_reach(key.island);
   if (island_light_) island_light_->remove(key);
   const auto slot = island_slots_.find(key.island);
   if (found->second) renderer_->geometry().remove(uploader, *found->second);
@@ -408,7 +409,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   if (island_light_)
     island_light_->add(ready.key, {ready.occupancy, ready.leaves, ready.mesh.quads, std::move(weak),
                                    places_of(lights, ready.key.level)});
-  light_field_.forget_reach(ready.key.island);
+  light_field_.invalidate_reach(ready.key.island);
   light_field_.add_lights(ready.key, std::move(lights));
   return {};
 }
@@ -434,7 +435,7 @@ Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
   return slot;
 }
 
-// A slot without sections may name an island that the world has forgotten.
+// A slot without sections may name an island that the world has dropped.
 world::Pose SceneView::pose_of(const IslandEntry& entry, double world_time_s) const {
   const std::optional<world::Pose> pose =
       entry.sections == 0 ? std::nullopt : world_->pose(entry.spec.id, world_time_s);
@@ -461,10 +462,10 @@ std::vector<PlacedIsland> SceneView::placed_islands(
   return out;
 }
 
-/// Whether lamps count where no surface is, or behind walls; the oracle takes nothing on trust.
+/// Whether lamps count where no surface is, or behind walls; the oracle asks every light.
 bool SceneView::lights_count_in_the_open(std::uint32_t medium) const {
-  return settings_.lights_shadows == 0 || settings_.lights_oracle ||
-         settings_.clouds.coverage > 0.0 || cloud_volumes_ || medium != world::kAir;
+  return settings_.render.lights_shadows == 0 || settings_.render.lights_oracle ||
+         settings_.render.clouds.coverage > 0.0 || cloud_volumes_ || medium != world::kAir;
 }
 
 void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
@@ -495,8 +496,8 @@ world::BlockId SceneView::medium_at(const render::Camera& camera, double world_t
   return world::kAir;
 }
 
-render::RenderSettings SceneView::render_settings(
-    const render::FixedPos& camera, std::span<const render::IslandPlacement> islands) const {
+double SceneView::reach(const render::FixedPos& camera,
+                        std::span<const render::IslandPlacement> islands) const {
   // An island is in as a whole once any of it is within view distance; shadows must reach its far
   // side. In steps, because every step draws all shadow maps anew.
   double reach = settings_.view_distance;
@@ -505,38 +506,7 @@ render::RenderSettings SceneView::render_settings(
     const glm::dvec3 offset = world::difference_blocks(place(islands[i].origin), place(camera));
     reach = std::max(reach, glm::length(offset) + islands[i].bounding_radius);
   }
-  render::RenderSettings out;
-  out.view_distance_blocks = std::ceil(reach / kReachStep) * kReachStep;
-  out.samples_per_edge = settings_.aa_samples == 16 ? 4 : settings_.aa_samples == 4 ? 2 : 1;
-  out.shadows = settings_.shadow_enabled;
-  out.shadow_map_size = static_cast<int>(settings_.shadow_size);
-  out.shadow_cascades = static_cast<int>(settings_.shadow_cascades);
-  out.shadow_taps = static_cast<int>(settings_.shadow_taps);
-  out.shadow_split = settings_.shadow_split;
-  // Many samples blur edges exactly.
-  out.shadow_penumbra_blocks =
-      settings_.shadow_samples == 1 ? static_cast<float>(settings_.shadow_blur) : 0.0f;
-  out.indirect = settings_.indirect;
-  out.corner_darkening = static_cast<float>(settings_.ao_strength);
-  out.render_scale = static_cast<float>(settings_.render_scale);
-  out.texture_taps = static_cast<int>(settings_.texture_taps);
-  out.shading_rate = static_cast<int>(settings_.shading_rate);
-  out.shading_tolerance = static_cast<float>(settings_.shading_tolerance);
-  out.flat_shading = settings_.shading == Shading::kFlat;
-  out.translucent_layers = static_cast<int>(settings_.water_layers);
-  out.gbuffer = settings_.gbuffer;
-  out.meter = settings_.meter;
-  out.tone = settings_.tone;
-  out.display = settings_.display;
-  out.bloom = settings_.bloom;
-  out.clouds = settings_.clouds;
-  out.leave_out = settings_.leave_out;
-  out.debug_view = settings_.debug_view;
-  out.traced_lights = settings_.lights_shadows;
-  out.light_tile = settings_.lights_tile;
-  out.light_samples = static_cast<int>(settings_.lights_softness);
-  out.lights_oracle = settings_.lights_oracle;
-  return out;
+  return std::ceil(reach / kReachStep) * kReachStep;
 }
 
 /// None if nothing of the island is drawn.
@@ -557,6 +527,7 @@ Result<std::uint64_t> SceneView::draw(
   input.camera = moment.camera;
   input.anchor = fixed(world_->origin());
   input.islands = islands;
+  input.reach_blocks = reach(moment.camera.position, islands);
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
   input.camera_medium = medium_at(moment.camera, moment.world_time_s);
   gather_lights(moment, size, islands, lights_count_in_the_open(input.camera_medium));
@@ -572,7 +543,7 @@ Result<std::uint64_t> SceneView::draw(
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
   input.marker = marker_of(moment);
-  const render::RenderSettings settings = render_settings(moment.camera.position, islands);
+  const render::RenderSettings& settings = settings_.render;
   input.parts = settings_.shadow_samples;
   for (; input.part + 1 < input.parts; ++input.part)
     if (Result<std::uint64_t> part = renderer_->draw(input, settings, size); !part) return part;

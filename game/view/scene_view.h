@@ -115,8 +115,8 @@ class SceneView {
   /// Id of the translucent block the camera is in, or air.
   world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
   std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
-  render::RenderSettings render_settings(const render::FixedPos& camera,
-                                         std::span<const render::IslandPlacement> islands) const;
+  double reach(const render::FixedPos& camera,
+               std::span<const render::IslandPlacement> islands) const;
 
   Settings settings_;
   std::unique_ptr<Jobs> jobs_;

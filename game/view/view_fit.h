@@ -7,7 +7,7 @@
 namespace skerry::game {
 
 /// How far and how finely the world is shown when memory does not hold all that the settings ask
-/// for: the finest level gives way first, then the distance. A function of what it is told; there
+/// for: the finest level gives way first, then the distance. A function of its calls; there
 /// is no clock in it.
 class ViewFit {
  public:

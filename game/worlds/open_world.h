@@ -12,9 +12,10 @@
 namespace skerry::game {
 
 /// The world that a scene shows: of its file, if it names one, else of its seed. Nothing is
-/// written. Errors: a file that cannot be read, and why. What is damaged in it is told on stderr.
+/// written. Errors: a file that cannot be read, and why. What is damaged in it is reported on
+/// stderr.
 Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options);
-/// The same. @param damage gets a line for each thing that is damaged; nothing is told.
+/// The same. @param damage gets a line for each thing that is damaged; nothing is printed.
 Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options,
                                                  std::vector<std::string>& damage);
 

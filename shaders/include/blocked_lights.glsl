@@ -56,7 +56,7 @@ Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to
   }
   Reflected arrived = Reflected(0.0);
   float asked = 0.0, through = 0.0;
-  for (uint k = 0u; k < min(kTracedLights, kMostTraced); ++k) {
+  for (uint k = 0u; k < min(kLightsShadows, kMostLightsShadows); ++k) {
     if (strongest.strengths[k] <= 0.0) continue;
     Light light = lights[strongest.lights[k]];
     Reflected part = sent_to_eye(light, b, start, to_eye);
@@ -72,13 +72,13 @@ Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to
 Reflected light_past_walls(Light light, Reflectance b, WayStart start, vec3 to_eye) {
   if (out_of_range(light, start.position)) return Reflected(0.0);
   Reflected part = sent_to_eye(light, b, start, to_eye);
-  if (kTracedLights != 0u && part != Reflected(0.0)) part *= traced_visibility(start, light);
+  if (kLightsShadows != 0u && part != Reflected(0.0)) part *= traced_visibility(start, light);
   return part;
 }
 
 // Radiance that a surface sends to the eye. Nothing is marched for lights that do not light it.
 Reflected lights_reflected(Cluster list, Reflectance b, WayStart start, vec3 to_eye) {
-  if (kTracedLights != 0u && kTracedLights != kEveryLight) return strongest_blocked(list, b, start, to_eye);
+  if (kLightsShadows != 0u && kLightsShadows != kEveryLight) return strongest_blocked(list, b, start, to_eye);
   Reflected sum = Reflected(0.0);
   // Two a round for the oracle: lavapipe ends loops after 65,535 rounds.
   for (uint i = 0u; i < list.count; ++i) {

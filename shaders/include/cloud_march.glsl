@@ -107,13 +107,13 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
   // In other slices no light reaches anything, and nobody has written the clusters that show no surface.
   if (!kOracle && ((grid.marked_slices >> slice_at(z)) & 1u) == 0u) list.count = 0u;
   WayStart start = way_from(dir * middle);
-  bool some = kTracedLights != 0u && kTracedLights != kEveryLight;
+  bool some = kLightsShadows != 0u && kLightsShadows != kEveryLight;
   Strongest strongest = no_lights();
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < list.count; ++i) {
     uint index = light_index(list, i);
     vec3 part = lit_by_light(lights[index], dir, t, length_blocks, extinction);
-    if (kTracedLights == kEveryLight && part != vec3(0.0)) part *= traced_visibility(start, lights[index]);
+    if (kLightsShadows == kEveryLight && part != vec3(0.0)) part *= traced_visibility(start, lights[index]);
     if (some) add_strength(strongest, luminance(part), index);
     sum += part;
   }
@@ -121,7 +121,7 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
   // What arrives of the strongest stands for the others, as on surfaces.
   vec3 arrived = vec3(0.0);
   float asked = 0.0, through = 0.0;
-  for (uint k = 0u; k < min(kTracedLights, kMostTraced); ++k) {
+  for (uint k = 0u; k < min(kLightsShadows, kMostLightsShadows); ++k) {
     if (strongest.strengths[k] <= 0.0) continue;
     Light light = lights[strongest.lights[k]];
     vec3 part = lit_by_light(light, dir, t, length_blocks, extinction);
@@ -155,96 +155,140 @@ float clear_enough(vec3 dir) {
   return off_disc > kDiscCosine ? kDiscHidden : kHidden;
 }
 
-// @param origin of the ray: the eye, 0, or where its view is mirrored; @param dir unit; @param begin, end blocks along it; @param jitter over 0, up to 1: how much of the first step is taken.
-Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end, float jitter) {
-  vec2 in_layer = kCloudLayer ? layer_range(origin, dir, begin, end) : vec2(1.0, 0.0);
-  float growth = pow((kLayerStepGrowth + in_layer.y) / (kLayerStepGrowth + in_layer.x), 1.0 / clouds.steps) - 1.0;
+struct CloudRay {
+  uvec2 pixel;
+  vec3 origin;  // the eye, 0, or where its view is mirrored
+  vec3 dir;     // unit
+};
+
+// Where the ray is in the layer and in each file's box: from x to y, if y is greater.
+vec2 in_layer, in_volume[kMaxCloudVolumes];
+
+// Sets them. @param begin, end blocks along the ray. @return from where to where it may be in any.
+vec2 find_ranges(CloudRay ray, float begin, float end) {
+  in_layer = kCloudLayer ? layer_range(ray.origin, ray.dir, begin, end) : vec2(1.0, 0.0);
   float stop = in_layer.y > in_layer.x ? in_layer.y : 0.0, t = in_layer.y > in_layer.x ? in_layer.x : 1e30;
-  vec2 in_volume[kMaxCloudVolumes];
-  bool glows = false;
   for (uint v = 0u; v < kCloudVolumes; ++v) {
-    vec2 range = box_range(v, index_from_world(v, origin), index_from_world_vector(v, dir));
+    vec2 range = box_range(v, index_from_world(v, ray.origin), index_from_world_vector(v, ray.dir));
     in_volume[v] = vec2(max(range.x, begin), min(range.y, end));
     bool met = in_volume[v].y > in_volume[v].x;
     stop = met ? max(stop, in_volume[v].y) : stop;
     t = met ? min(t, in_volume[v].x) : t;
-    glows = glows || (met && clouds.volumes[v].extinction == 0.0);
   }
-  t = min(t, stop);
-  float enough = glows ? kDiscHidden : clear_enough(dir);
+  return vec2(min(t, stop), stop);
+}
+
+// Whether the ray passes a file's box that glows and takes nothing.
+bool passes_glow() {
+  bool glows = false;
+  for (uint v = 0u; v < kCloudVolumes; ++v)
+    glows = glows || (in_volume[v].y > in_volume[v].x && clouds.volumes[v].extinction == 0.0);
+  return glows;
+}
+
+struct CloudsHere {
+  bool layer;
+  float whole;   // step: the shortest of what is here; 1e30: nothing is
+  float change;  // where something here ends or anything begins
+  float begins;  // where anything begins
+};
+
+// @param growth of the layer's steps, @param stop where the last range ends.
+CloudsHere clouds_here(float t, float growth, float stop) {
+  CloudsHere here = CloudsHere(kCloudLayer && t >= in_layer.x && t < in_layer.y, 1e30, stop, stop);
+  if (here.layer) {
+    here.whole = (kLayerStepGrowth + t) * growth;
+    here.change = min(here.change, in_layer.y);
+  } else if (kCloudLayer && t < in_layer.x && in_layer.x < in_layer.y) {
+    here.begins = min(here.begins, in_layer.x);
+  }
+  for (uint v = 0u; v < kCloudVolumes; ++v) {
+    if (t >= in_volume[v].y || in_volume[v].y <= in_volume[v].x) continue;
+    bool inside = t >= in_volume[v].x;
+    here.whole = inside ? min(here.whole, clouds.volumes[v].step_blocks) : here.whole;
+    here.change = inside ? min(here.change, in_volume[v].y) : here.change;
+    here.begins = inside ? here.begins : min(here.begins, in_volume[v].x);
+  }
+  here.change = min(here.change, here.begins);
+  return here;
+}
+
+struct CloudStep {
+  float clear;               // of the view, after the step
+  float seen_share, seen_at; // opacity as seen, and its sum of places
+  float empty_until;         // so far along the ray there is nothing for certain; 0: there may be something
+  vec3 sent;                 // by what glows and by lamps
+};
+
+// @param clear of the view before the step.
+CloudStep march_step(CloudRay ray, float t, float length_blocks, bool layer, float clear) {
+  float part_blocks = length_blocks / float(kParts);
+  CloudStep seen = CloudStep(clear, 0.0, 0.0, 1e30, vec3(0.0));
+  float cover = layer ? layer_cover(ray.origin + ray.dir * (t + 0.5 * length_blocks), clouds.layer) : 0.0;
+  for (uint part = 0u; part < kParts; ++part) {
+    float from = t + float(part) * part_blocks;
+    vec3 p = ray.origin + ray.dir * (from + 0.5 * part_blocks);
+    Medium m = Medium(0.0, vec3(0.0), 1e30);
+    if (layer) {
+      m.extinction = layer_extinction(p, cover, clouds.layer);
+      m.empty = 0.0;
+    }
+    for (uint v = 0u; v < kCloudVolumes; ++v)
+      if (t >= in_volume[v].x && t < in_volume[v].y) add_volume(v, p, ray.dir, m);
+    seen.empty_until = m.empty > 0.0 && seen.empty_until > 0.0 ? from + 0.5 * part_blocks + m.empty : 0.0;
+    if (kCloudVolumes != 0u && seen.empty_until >= t + length_blocks) break;
+    float depth = m.extinction * part_blocks;
+    float opacity = opacity_of(depth);
+    // In a dense part what is seen is what lies in front.
+    float free_path = min(part_blocks, 1.0 / max(m.extinction, 1e-6));
+    float middle = from + min(0.5 * part_blocks, free_path);
+    if (kCloudVolumes != 0u)
+      seen.sent += m.emitted * (clear * clear_air(ray.dir * middle) * (depth > 1e-4 ? opacity / m.extinction : part_blocks));
+#ifdef SKERRY_LIGHTS
+    if (kLit && opacity > 0.0 && clear > kHidden)
+      seen.sent += lit_by_lights(ray.pixel, ray.dir, from, free_path, m.extinction) * (clear * opacity * clear_air(ray.dir * middle));
+#endif
+    seen.seen_share += clear * opacity;
+    seen.seen_at += clear * opacity * middle;
+    clear *= 1.0 - opacity;
+  }
+  seen.clear = clear;
+  return seen;
+}
+
+// @param origin, dir see CloudRay; @param begin, end blocks along it; @param jitter over 0, up to 1: how much of the first step is taken.
+Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end, float jitter) {
+  CloudRay ray = CloudRay(pixel, origin, dir);
+  vec2 range = find_ranges(ray, begin, end);
+  float t = range.x, stop = range.y;
+  float growth = pow((kLayerStepGrowth + in_layer.y) / (kLayerStepGrowth + in_layer.x), 1.0 / clouds.steps) - 1.0;
+  float enough = passes_glow() ? kDiscHidden : clear_enough(dir);
   Clouded seen = Clouded(vec3(0.0), 1.0);
   vec4 sun_phases = term_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = term_phases(dot(dir, clouds.lights[1].to_light));
   vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir) : vec3(0.0);
   for (uint i = 0u; i < kMostIterations && t < stop && seen.clear > enough; ++i) {
-    float whole = 1e30;  // step: the shortest of what is here
-    float change = stop, begins = stop;  // where something here ends or anything begins; where anything begins
-    bool in_here = kCloudLayer && t >= in_layer.x && t < in_layer.y;
-    if (in_here) {
-      whole = (kLayerStepGrowth + t) * growth;
-      change = min(change, in_layer.y);
-    } else if (kCloudLayer && t < in_layer.x && in_layer.x < in_layer.y) {
-      begins = min(begins, in_layer.x);
-    }
-    for (uint v = 0u; v < kCloudVolumes; ++v) {
-      if (t >= in_volume[v].y || in_volume[v].y <= in_volume[v].x) continue;
-      bool here = t >= in_volume[v].x;
-      whole = here ? min(whole, clouds.volumes[v].step_blocks) : whole;
-      change = here ? min(change, in_volume[v].y) : change;
-      begins = here ? begins : min(begins, in_volume[v].x);
-    }
-    change = min(change, begins);
-    if (whole == 1e30) {
-      t = max(change, t * 1.000001);
+    CloudsHere here = clouds_here(t, growth, stop);
+    if (here.whole == 1e30) {
+      t = max(here.change, t * 1.000001);
       continue;
     }
-    change = min(change, lights_change_at(dir, t));
+    float change = min(here.change, lights_change_at(dir, t));
     // The step is not lost in the distance's last digits.
     float least = max(t * 1e-6, 1e-4);
-    float length_blocks = max(min(whole * jitter, change - t), least);
-    float part_blocks = length_blocks / float(kParts);
-    float clear = seen.clear, seen_share = 0.0, seen_at = 0.0;
-    float empty_until = 1e30;  // so far along the ray there is nothing for certain; 0: there may be something
-    vec3 sent = vec3(0.0);
-    float cover = in_here ? layer_cover(origin + dir * (t + 0.5 * length_blocks), clouds.layer) : 0.0;
-    for (uint part = 0u; part < kParts; ++part) {
-      float from = t + float(part) * part_blocks;
-      vec3 p = origin + dir * (from + 0.5 * part_blocks);
-      Medium m = Medium(0.0, vec3(0.0), 1e30);
-      if (in_here) {
-        m.extinction = layer_extinction(p, cover, clouds.layer);
-        m.empty = 0.0;
-      }
-      for (uint v = 0u; v < kCloudVolumes; ++v)
-        if (t >= in_volume[v].x && t < in_volume[v].y) add_volume(v, p, dir, m);
-      empty_until = m.empty > 0.0 && empty_until > 0.0 ? from + 0.5 * part_blocks + m.empty : 0.0;
-      if (kCloudVolumes != 0u && empty_until >= t + length_blocks) break;
-      float depth = m.extinction * part_blocks;
-      float opacity = opacity_of(depth);
-      // In a dense part what is seen is what lies in front.
-      float free_path = min(part_blocks, 1.0 / max(m.extinction, 1e-6));
-      float middle = from + min(0.5 * part_blocks, free_path);
-      if (kCloudVolumes != 0u)
-        sent += m.emitted * (clear * clear_air(dir * middle) * (depth > 1e-4 ? opacity / m.extinction : part_blocks));
-#ifdef SKERRY_LIGHTS
-      if (kLit && opacity > 0.0 && clear > kHidden)
-        sent += lit_by_lights(pixel, dir, from, free_path, m.extinction) * (clear * opacity * clear_air(dir * middle));
-#endif
-      seen_share += clear * opacity;
-      seen_at += clear * opacity * middle;
-      clear *= 1.0 - opacity;
-    }
+    float length_blocks = max(min(here.whole * jitter, change - t), least);
+    CloudStep one = march_step(ray, t, length_blocks, here.layer, seen.clear);
     jitter = 1.0;
-    if (seen_share > 0.0 && seen.clear > kHidden) {
+    if (one.seen_share > 0.0 && seen.clear > kHidden) {
       // Sun, moon and sky are looked up once, where the step is seen from in the mean.
-      vec3 way = dir * (seen_at / seen_share);
-      sent += source_at(origin + way, sun_phases, moon_phases, clear_air(way), sky) * seen_share;
+      vec3 way = dir * (one.seen_at / one.seen_share);
+      one.sent += source_at(origin + way, sun_phases, moon_phases, clear_air(way), sky) * one.seen_share;
     }
-    seen.light += sent;
-    seen.clear = clear;
+    seen.light += one.sent;
+    seen.clear = one.clear;
     // Whole steps only, so that where samples lie does not show where bricks do; and none over what begins.
     float passed = t + length_blocks;
-    float skipped = (min(empty_until, begins) - passed) / max(whole, least);
-    t = passed + clamp(floor(skipped), 0.0, 1e6) * whole;
+    float skipped = (min(one.empty_until, here.begins) - passed) / max(here.whole, least);
+    t = passed + clamp(floor(skipped), 0.0, 1e6) * here.whole;
   }
   if (seen.clear <= enough) seen.clear = 0.0;
   return seen;

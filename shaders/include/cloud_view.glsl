@@ -17,7 +17,7 @@ layout(constant_id = kBehindConstant) const bool kBehind = false;       // march
 vec2 open_way(uvec2 pixel) {
   if (kSkyAlone) return vec2(0.0, kSkyDistance);
   float depth = texelFetch(depths, ivec2(pixel), 0).r;
-  // With 16 bits what lies farthest has depth 0, and only its word tells it from the sky.
+  // With 16 bits what lies farthest has depth 0, and only its word distinguishes it from the sky.
   if (kDepth16 && imageLoad(surfaces, ivec2(pixel)).r != 0u) depth = max(depth, 0.5 / 65535.0);
   float surface = depth > 0.0 ? view_distance(depth, frame.near_plane) : kSkyDistance;
   if (!kTranslucent) return vec2(0.0, surface);

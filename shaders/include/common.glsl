@@ -30,7 +30,7 @@ vec3 world_from_lattice(IslandTransform t, vec3 p) { return world_from_lattice_v
 vec3 lattice_from_world_vector(IslandTransform t, vec3 v) { return vec3(dot(t.axis_x, v), dot(t.axis_y, v), dot(t.axis_z, v)); }
 vec3 lattice_from_world(IslandTransform t, vec3 p) { return lattice_from_world_vector(t, p - t.translation); }
 
-// What light meets at a pixel.
+// The surface at a pixel.
 struct Surface {
   vec3 position;  // world
   vec3 normal;    // world, unit, exact: it comes from the island's axes
@@ -43,7 +43,7 @@ struct Surface {
   vec3 axis_x;    // island axes in the world
   vec3 axis_y;
   vec3 axis_z;
-  float openness;  // share of light that the corners of its face leave to it, 0..1
+  float ao;  // share of light that the corners of its face leave to it, 0..1
 };
 
 // Ray through a pixel's centre, scaled to one block along the view axis.

@@ -23,6 +23,6 @@ vec3 shade_surface(Surface s) {
   vec3 radiance = vec3(0.0);
   if ((kBodies & 1u) != 0u) radiance += reflected(s, b, to_eye, 0u, 0u);
   if ((kBodies & 2u) != 0u) radiance += reflected(s, b, to_eye, 1u, kMoonCascade);
-  return radiance * s.openness + s.emitted;
+  return radiance * s.ao + s.emitted;
 }
 #endif

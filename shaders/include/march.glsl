@@ -42,7 +42,7 @@ bool marched_into(VoxelGrid grid, vec3 from, ivec3 voxel, vec3 to, ivec3 spared)
     if (opaque && voxel != spared) return true;
     ivec3 cube = voxel & ~(edge - 1);
     vec3 plane = vec3(cube + mix(ivec3(0), ivec3(edge), up));
-    // Only planes before the end, which rounding does not tell.
+    // Only planes before the end, which rounding does not decide.
     bvec3 before = mix(greaterThan(plane, to), lessThan(plane, to), up);
     vec3 next = mix(vec3(kNever), (plane - from) * per_way + never, before);
     float t = min(next.x, min(next.y, next.z));

@@ -136,10 +136,10 @@ float corner_of(uint beside_u, uint beside_v, uint across) {
 
 // Share of light that the eight voxels about the one in front of a face leave to a point of it, 0..1: bilinear between the face's corners,
 // whatever quads it was merged into. @param face 0..5. @param lattice the point [blocks].
-float corner_openness(uint island, uint face, vec3 lattice) {
+float corner_ao(uint island, uint face, vec3 lattice) {
   VoxelGrid grid = voxel_grid(island);
   FacePlace at = face_place(face, lattice * grid.per_block);
-  float openness = 1.0;
+  float ao = 1.0;
   // The second round is only for points rounded off their face.
   for (uint round = 0u; round < 2u; ++round) {
     int n = at.axis == 0u ? at.voxel.x : at.axis == 1u ? at.voxel.y : at.voxel.z;
@@ -169,9 +169,9 @@ float corner_openness(uint island, uint face, vec3 lattice) {
     float c10 = corner_of(right, below, (w10 >> (u1.bit + v0.bit)) & 1u);
     float c01 = corner_of(left, above, (w01 >> (u0.bit + v1.bit)) & 1u);
     float c11 = corner_of(right, above, (w11 >> (u1.bit + v1.bit)) & 1u);
-    openness = mix(mix(c00, c10, at.in_face.x), mix(c01, c11, at.in_face.x), at.in_face.y);
+    ao = mix(mix(c00, c10, at.in_face.x), mix(c01, c11, at.in_face.x), at.in_face.y);
     break;
   }
-  return openness;
+  return ao;
 }
 #endif

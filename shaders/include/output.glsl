@@ -7,7 +7,7 @@
 
 layout(constant_id = kToPictureConstant) const bool kToPicture = false;  // if not, something is bound in place of the exposure
 
-// Every invocation calls this once; `here` tells which have a pixel. What is stored is finite.
+// Every invocation calls this once; `here` says which have a pixel. What is stored is finite.
 void put_pixel(uvec2 pixel, vec3 colour, bool here) {
   if (kToPicture) {
     put_in_picture(pixel, colour, vec3(0.0), here);

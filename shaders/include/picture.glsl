@@ -18,7 +18,7 @@ vec4 developed(vec3 exposed, uvec2 pixel) {
   return vec4(dithered(encoded, pixel), 1.0);
 }
 
-// Every invocation calls this once; `here` tells which have a pixel. What is stored is finite.
+// Every invocation calls this once; `here` says which have a pixel. What is stored is finite.
 // @param glow exposed light that the lens adds.
 void put_in_picture(uvec2 pixel, vec3 colour, vec3 glow, bool here) {
   uint black = subgroupAdd(here && colour == vec3(0.0) ? 1u : 0u);

@@ -1,4 +1,4 @@
-// What every light meets: how a surface reflects, and what clear air leaves of it. Needs before the include: `frame`.
+// What every light needs: how a surface reflects, and what clear air leaves of it. Needs before the include: `frame`.
 #ifndef SKERRY_REFLECTION_GLSL
 #define SKERRY_REFLECTION_GLSL
 #include "shared/constants.h"

@@ -5,7 +5,7 @@
 #include "shared/constants.h"
 
 layout(constant_id = kShadowTapsConstant) const uint kShadowTaps = 8u;             // 1, 4, 8, 16 or 32
-layout(constant_id = kPenumbraeConstant) const bool kPenumbrae = true;  // the filter follows what casts the shadow
+layout(constant_id = kShadowBlurConstant) const bool kShadowBlur = true;  // the filter follows what casts the shadow
 layout(constant_id = kSamplesPerEdgeConstant) const uint kSamplesPerEdge = 1u;       // of a pixel; each sample turns the taps its own way
 layout(constant_id = kCascadesConstant) const uint kCascades = kCascadeCount;  // a body has, 1 to kCascadeCount
 
@@ -88,8 +88,8 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
   r.layer = cascade.layer;
   float allowed = (r.most - r.bias - 0.5 * (abs(r.slope.x) + abs(r.slope.y))) / max(length(r.slope), 1e-12);
   float least = clamp(allowed, 0.0, 1.0);  // texels
-  if (!kPenumbrae) return filtered(least, r);
-  float widest = clamp(allowed, least, max(frame.penumbra_blocks / texel, 1.0));
+  if (!kShadowBlur) return filtered(least, r);
+  float widest = clamp(allowed, least, max(frame.shadow_blur / texel, 1.0));
   const vec2 kNear = vec2(0.924, 0.383), kMid = vec2(0.240, 0.320), kFar = vec2(0.0, 0.8);
   vec2 found = found_around(kNear * least, r) + found_around(kMid * widest, r) + found_around(kFar * widest, r);
   if (found.x == 0.0) return 1.0;

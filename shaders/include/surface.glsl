@@ -31,15 +31,20 @@ vec2 crisp_uv(vec2 uv, vec2 texels_per_pixel) {
   return (border + clamp((t - border) / max(texels_per_pixel, 1e-6), -0.5, 0.5)) / kTextureEdge;
 }
 
+struct PlaneView {  // how a pixel sees a plane, in its island's lattice
+  vec3 ray, right, up;  // the pixel's ray, and what is added to it for the pixels beside and above
+  vec3 normal;
+  float t;  // blocks along the view axis
+};
+
 // Block texture at a point of a plane. The footprint is worked out from neighbouring rays, since compute has no derivatives; along its
 // long side it is covered by up to `max_taps` samples.
-vec4 plane_texel(uint layer, uint face, vec2 uv, vec3 ray_lattice, vec3 right_lattice, vec3 up_lattice, vec3 normal_lattice, float t,
-                 uint max_taps) {
-  float facing = dot(normal_lattice, ray_lattice);
+vec4 plane_texel(uint layer, uint face, vec2 uv, PlaneView view, uint max_taps) {
+  float facing = dot(view.normal, view.ray);
   facing = abs(facing) < 1e-6 ? 1e-6 : facing;
   // d(ray * t) along one pixel while staying on the plane.
-  vec3 dx = t * (right_lattice - ray_lattice * (dot(normal_lattice, right_lattice) / facing));
-  vec3 dy = t * (up_lattice - ray_lattice * (dot(normal_lattice, up_lattice) / facing));
+  vec3 dx = view.t * (view.right - view.ray * (dot(view.normal, view.right) / facing));
+  vec3 dy = view.t * (view.up - view.ray * (dot(view.normal, view.up) / facing));
   vec2 uv_dx = face_uv(face, dx), uv_dy = face_uv(face, dy);
   float x2 = dot(uv_dx, uv_dx), y2 = dot(uv_dy, uv_dy);
   vec2 major = x2 > y2 ? uv_dx : uv_dy;
@@ -65,7 +70,7 @@ vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.pixel_to_ndc.y;
   vec3 lattice = lattice_from_world(island, ray * t);
   vec2 uv = face >= 6u ? plant_uv(face_uv(face, place_in_voxel(lattice))) : face_uv(face, lattice);
-  return plane_texel(layer, face, uv, lattice_from_world_vector(island, ray), right, up, normal, t, max_taps);
+  return plane_texel(layer, face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
 }
 
 // Depth of a surface. What 16 bits round to 0 lies half a step before infinity.
@@ -89,7 +94,7 @@ Surface surface_without_texture(uint word, ivec2 pixel, float depth, vec3 ray) {
   s.axis_x = island.axis_x;
   s.axis_y = island.axis_y;
   s.axis_z = island.axis_z;
-  s.openness = 1.0;
+  s.ao = 1.0;
   s.albedo = vec3(0.0);
   s.emitted = vec3(0.0);
   s.roughness = materials[surface_block(word)].roughness;

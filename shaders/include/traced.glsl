@@ -8,30 +8,30 @@
 
 layout(scalar, binding = kLightIslandsBinding) readonly buffer LightIslands { uint light_islands[]; };
 
-// For how many lights of a pixel walls are looked for: none, all (kEveryLight), or those that send the most light to the eye, at most kMostTraced.
-layout(constant_id = kTracedLightsConstant) const uint kTracedLights = 0u;
+// For how many lights of a pixel walls are looked for: none, all (kEveryLight), or those that send the most light to the eye, at most kMostLightsShadows.
+layout(constant_id = kLightsShadowsConstant) const uint kLightsShadows = 0u;
 const uint kEveryLight = 0xffffffffu;
-const uint kMostTraced = 8u;
+const uint kMostLightsShadows = 8u;
 
-layout(constant_id = kLightSamplesConstant) const uint kLightSamples = 1u;  // ways to a light that has a size
+layout(constant_id = kLightsSoftnessConstant) const uint kLightsSoftness = 1u;  // ways to a light that has a size
 
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 // The lights of a list before which walls are looked for, the strongest first; of equally strong ones, the first of the list.
 struct Strongest {
-  float strengths[kMostTraced];  // 0: there is none
-  uint lights[kMostTraced];
+  float strengths[kMostLightsShadows];  // 0: there is none
+  uint lights[kMostLightsShadows];
 };
 Strongest no_lights() {
   Strongest s;
-  for (uint k = 0u; k < kMostTraced; ++k) {
+  for (uint k = 0u; k < kMostLightsShadows; ++k) {
     s.strengths[k] = 0.0;
     s.lights[k] = 0u;
   }
   return s;
 }
 void add_strength(inout Strongest s, float strength, uint light) {
-  for (uint k = 0u; k < min(kTracedLights, kMostTraced); ++k) {
+  for (uint k = 0u; k < min(kLightsShadows, kMostLightsShadows); ++k) {
     bool stronger = strength > s.strengths[k];
     float weaker = stronger ? s.strengths[k] : strength;
     uint weaker_light = stronger ? s.lights[k] : light;
@@ -82,7 +82,7 @@ WayStart way_start(Surface s, uint word) {
   start.island = surface_island(word);
   start.voxel = ivec3(0);
   start.from = vec3(0.0);
-  if (kTracedLights == 0u) return start;
+  if (kLightsShadows == 0u) return start;
   VoxelGrid grid = voxel_grid(start.island);
   vec3 p = lattice_from_world(islands[start.island], s.position) * grid.per_block;
   uint face = min(surface_face(word), 5u);
@@ -115,7 +115,7 @@ bool way_is_open(WayStart start, Light light, vec3 to, vec3 light_middle) {
 // tube, of the part before the surface.
 vec3 light_point(WayStart start, Light light, uint sample_index) {
   uint kind = light.kind & kLightKindMask;
-  float share = (float(sample_index) + 0.5) / float(kLightSamples);
+  float share = (float(sample_index) + 0.5) / float(kLightsSoftness);
   if (kind == kLightTube) {
     float at_middle = dot(start.normal, light.position - start.position), along = dot(start.normal, light.axis) * light.size;
     // Where the line goes behind the surface, of -1..1.
@@ -123,7 +123,7 @@ vec3 light_point(WayStart start, Light light, uint sample_index) {
     float low = along > 0.0 ? cut : -1.0, high = along < 0.0 && abs(along) > 1e-6 ? cut : 1.0;
     return light.position + light.axis * (light.size * mix(low, high, share));
   }
-  if (kind != kLightSphere || kLightSamples == 1u) return light.position;
+  if (kind != kLightSphere || kLightsSoftness == 1u) return light.position;
   vec3 to_surface = normalize(start.position - light.position + vec3(0.0, 1e-6, 0.0));
   vec3 side = normalize(abs(to_surface.y) < 0.9 ? vec3(to_surface.z, 0.0, -to_surface.x) : vec3(0.0, -to_surface.z, to_surface.y));
   const float kGoldenAngle = 2.39996323;  // Vogel, A better way to construct the sunflower head, 1979
@@ -138,7 +138,7 @@ float traced_visibility(WayStart start, Light light) {
     vec3 to = start.position - light.axis * light.range;
     return way_is_open(start, light, to, to) ? 1.0 : 0.0;
   }
-  uint samples = light.size > 0.0 ? kLightSamples : 1u;
+  uint samples = light.size > 0.0 ? kLightsSoftness : 1u;
   uint open = 0u;
   for (uint i = 0u; i < samples; ++i) open += way_is_open(start, light, light_point(start, light, i), light.position) ? 1u : 0u;
   return float(open) / float(samples);

@@ -33,49 +33,57 @@ struct Reach {   // what lights bring to a point of a surface
   float any;     // largest visibility of sun and moon: where neither is seen, the sky is not taken for granted either
 };
 
-void add_light(inout Reach r, const uint index, const uint first_cascade, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+struct LitPoint {       // a point of a surface, or in the open
+  vec3 p, n;            // place relative to the camera, normal of the face
+  vec3 shading_normal;  // with ripples
+  vec3 to_eye;
+  float roughness;
+  uint word;            // of the surface; 0 in the open
+};
+
+void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoint at) {
   Body body = frame.bodies[index];
-  float n_dot_l = dot(n, body.to_light);
-  float visibility = n_dot_l > 0.0 ? body_visibility(first_cascade, p, n, n_dot_l) : 0.0;
-  vec3 irradiance = body.irradiance * (visibility * light_through_clouds(index, p));
+  float n_dot_l = dot(at.n, body.to_light);
+  float visibility = n_dot_l > 0.0 ? body_visibility(first_cascade, at.p, at.n, n_dot_l) : 0.0;
+  vec3 irradiance = body.irradiance * (visibility * light_through_clouds(index, at.p));
   r.light += irradiance * max(n_dot_l, 0.0);
-  r.mirrored += glitter(irradiance, body.to_light, shading_normal, to_eye, roughness);
+  r.mirrored += glitter(irradiance, body.to_light, at.shading_normal, at.to_eye, at.roughness);
   r.any = max(r.any, visibility);
 }
 
 layout(constant_id = kLitConstant) const bool kLit = false;  // lamps are; if not, their lists are not read
 
-// Walls are looked for before every light. @param word of the surface; 0: a place in the open.
-WayStart layer_start(uint word, vec3 p, vec3 n) {
-  if (word == 0u) return WayStart(p, n, ~0u, ivec3(0), vec3(0.0));
+// Walls are looked for before every light.
+WayStart layer_start(LitPoint at) {
+  if (at.word == 0u) return WayStart(at.p, at.n, ~0u, ivec3(0), vec3(0.0));
   Surface s;
-  s.position = p;
-  s.normal = n;
+  s.position = at.p;
+  s.normal = at.n;
   s.plant = false;
-  return way_start(s, word);
+  return way_start(s, at.word);
 }
 
-void add_lights(inout Reach r, uvec2 pixel, float z, uint word, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+void add_lights(inout Reach r, uvec2 pixel, float z, LitPoint at) {
   Cluster list = lights_at(pixel, z);
-  WayStart start = layer_start(word, p, n);
-  vec3 mirror = reflect(-to_eye, shading_normal);
+  WayStart start = layer_start(at);
+  vec3 mirror = reflect(-at.to_eye, at.shading_normal);
   for (uint i = 0u; i < list.count; ++i) {
     Light light = lights[light_index(list, i)];
-    Arrival a = arrive(light, p, n, mirror, roughness * roughness);
+    Arrival a = arrive(light, at.p, at.n, mirror, at.roughness * at.roughness);
     if (a.facing <= 0.0) continue;
     vec3 arrives = light.intensity;
-    if (kTracedLights != 0u) arrives *= traced_visibility(start, light);
+    if (kLightsShadows != 0u) arrives *= traced_visibility(start, light);
     r.light += arrives * a.facing;
-    r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, shading_normal, to_eye, roughness);
+    r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, at.shading_normal, at.to_eye, at.roughness);
   }
 }
 
-// @param z of p along the view axis, as the depth of the pixel says; @param word of its surface, 0 in the open.
-Reach light_at(uvec2 pixel, float z, uint word, vec3 p, vec3 n, vec3 shading_normal, vec3 to_eye, float roughness) {
+// @param z of the point along the view axis, as the depth of the pixel says.
+Reach light_at(uvec2 pixel, float z, LitPoint at) {
   Reach r = Reach(vec3(0.0), vec3(0.0), 0.0);
-  if ((kBodies & 1u) != 0u) add_light(r, 0u, 0u, p, n, shading_normal, to_eye, roughness);
-  if ((kBodies & 2u) != 0u) add_light(r, 1u, kMoonCascade, p, n, shading_normal, to_eye, roughness);
-  if (kLit) add_lights(r, pixel, z, word, p, n, shading_normal, to_eye, roughness);
+  if ((kBodies & 1u) != 0u) add_light(r, 0u, 0u, at);
+  if ((kBodies & 2u) != 0u) add_light(r, 1u, kMoonCascade, at);
+  if (kLit) add_lights(r, pixel, z, at);
   return r;
 }
 
@@ -101,8 +109,11 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
   vec3 colour = vec3(0.0), through = vec3(1.0), light_in = vec3(0.0);
   uint medium = frame.camera_medium;
   float at = 0.0;  // blocks along the ray
-  if (medium != 0u) light_in = light_at(pixel, 0.5 / ray_length, 0u, ray / ray_length * 0.5, vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0), to_eye, 0.1).light;
-  for (uint k = 0u; k < kLayers; ++k) {
+  if (medium != 0u) {
+    const vec3 up = vec3(0.0, 1.0, 0.0);
+    light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.1, 0u)).light;
+  }
+  for (uint k = 0u; k < kWaterLayers; ++k) {
     uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
     float t = view_distance(layer_depth(k, ivec2(pixel)), frame.near_plane);
@@ -121,7 +132,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = reflect(-to_eye, shading);
-    Reach reach = light_at(pixel, t, word, ray * t, n, shading, to_eye, max(m.roughness, 0.06));
+    Reach reach = light_at(pixel, t, LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word));
     vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror) : scattered(m, light_in, 1e3);
     if (kMirroredClouds && entering && k == 0u) mirrored_sky = past_mirrored_clouds(mirrored_clouds, mirrored_sky, pixel);
     colour += through * (reach.mirrored + reflected * mirrored_sky * (entering ? reach.any : 1.0));

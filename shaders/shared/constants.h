@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 SHARED_CONST uint kTextureTapsConstant = 0u;      // uint: most samples of a texture
-SHARED_CONST uint kLayersConstant = 1u;           // uint: translucent layers, 0..4
+SHARED_CONST uint kWaterLayersConstant = 1u;      // uint: translucent layers, 0..4
 SHARED_CONST uint kFirstConstant = 2u;            // bool: the first of several
 SHARED_CONST uint kTexturedConstant = 3u;         // bool: vertices have texture coordinates
 SHARED_CONST uint kNormalCodeConstant = 4u;       // uint: how normals are kept
@@ -18,9 +18,9 @@ SHARED_CONST uint kShadowTapsConstant = 9u;       // uint
 SHARED_CONST uint kCascadesConstant = 10u;        // uint: of a body
 SHARED_CONST uint kHazeConstant = 11u;            // bool
 SHARED_CONST uint kLightKindsConstant = 12u;      // uint: bits of the kinds that there are
-SHARED_CONST uint kPenumbraeConstant = 13u;       // bool
+SHARED_CONST uint kShadowBlurConstant = 13u;      // bool
 SHARED_CONST uint kSamplesPerEdgeConstant = 14u;  // uint: of a pixel
-SHARED_CONST uint kCornersConstant = 15u;         // bool: corners darken
+SHARED_CONST uint kAoConstant = 15u;              // bool: corners darken
 SHARED_CONST uint kOracleConstant = 16u;          // bool: every light may reach every pixel
 SHARED_CONST uint kFinestCoverageConstant = 17u;  // bool: coverage by the finest texels
 SHARED_CONST uint kChannelConstant = 19u;         // uint: render::DebugView
@@ -40,16 +40,16 @@ SHARED_CONST uint kToPictureConstant = 34u;       // bool: to the picture at onc
 SHARED_CONST uint kSkyAloneConstant = 35u;        // bool: there is no geometry
 SHARED_CONST uint kBloomConstant = 36u;           // bool
 SHARED_CONST uint kAccumulateConstant = 37u;      // bool: adds to the parts before
-SHARED_CONST uint kIndirectConstant = 38u;      // uint: kIndirectOff, kIndirectSky or kIndirectFull
-SHARED_CONST uint kTracedLightsConstant = 40u;  // uint: lights whose walls are looked for
-SHARED_CONST uint kLightSamplesConstant = 41u;  // uint: ways to a light that has a size
-SHARED_CONST uint kStepConstant = 42u;          // uint: pixels between a level's points
-SHARED_CONST uint kEveryPixelConstant = 43u;    // bool: the level is the picture itself
-SHARED_CONST uint kToleranceConstant = 44u;     // float: how much shared light may differ
-SHARED_CONST uint kChooseConstant = 46u;        // bool: an exposure is chosen from the histogram
-SHARED_CONST uint kPackConstant = 47u;          // bool: noise that is there is packed
-SHARED_CONST uint kScanConstant = 49u;          // bool: totals are summed, nothing is emitted
-SHARED_CONST uint kLightListConstant = 50u;     // uint: kListClusters, kListRoom or kListTiles
+SHARED_CONST uint kIndirectConstant = 38u;  // uint: kIndirectOff, kIndirectSky or kIndirectFull
+SHARED_CONST uint kLightsShadowsConstant = 40u;   // uint: lights whose walls are looked for
+SHARED_CONST uint kLightsSoftnessConstant = 41u;  // uint: ways to a light that has a size
+SHARED_CONST uint kStepConstant = 42u;            // uint: pixels between a level's points
+SHARED_CONST uint kEveryPixelConstant = 43u;      // bool: the level is the picture itself
+SHARED_CONST uint kToleranceConstant = 44u;       // float: how much shared light may differ
+SHARED_CONST uint kChooseConstant = 46u;          // bool: an exposure is chosen from the histogram
+SHARED_CONST uint kPackConstant = 47u;            // bool: noise that is there is packed
+SHARED_CONST uint kScanConstant = 49u;            // bool: totals are summed, nothing is emitted
+SHARED_CONST uint kLightListConstant = 50u;       // uint: kListClusters, kListRoom or kListTiles
 
 SHARED_CONST uint kListClusters = 0u;
 SHARED_CONST uint kListRoom = 1u;

@@ -1,4 +1,4 @@
-// What the meter tells the passes that make a picture of scene radiance: docs/exposure.md.
+// What the meter hands to the passes that make a picture of scene radiance: docs/exposure.md.
 #ifndef SKERRY_SHARED_EXPOSURE_H
 #define SKERRY_SHARED_EXPOSURE_H
 #include "types.h"

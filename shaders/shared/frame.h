@@ -1,4 +1,4 @@
-// What one frame tells the GPU. Spaces and units: docs/conventions.md ("world" is relative to the
+// The constants of one frame. Spaces and units: docs/conventions.md ("world" is relative to the
 // camera, in blocks).
 #ifndef SKERRY_SHARED_FRAME_H
 #define SKERRY_SHARED_FRAME_H
@@ -42,19 +42,19 @@ struct FrameConstants {
                    // of view
   vec3 ray_up;
   vec3 ray_forward;
-  vec2 pixel_to_ndc;       // 2 / image size
-  uvec2 size;              // of the images that are drawn [pixels]
-  uvec2 picture_size;      // smaller by the samples along a pixel's edge [pixels]
-  float near_plane;        // blocks
-  float display_peak;      // brightest value of the picture, sRGB-encoded, 0..1
-  float display_black;     // darkest value that the display shows apart from 0, sRGB-encoded
-  float time_s;            // seconds of play, reduced to one hour, for water ripples
-  uint shading_flat;       // 1: shadow result times light colour, no N.L
-  uint camera_medium;      // block id the camera is in: 0 air, else a translucent block
-  float penumbra_blocks;   // largest radius of the shadow filter [blocks]
-  float haze_per_block;    // extinction of clear air [1/block]
-  float body_in_air;       // where the sky lights the air: how much of it sun or moon lights first
-  float corner_darkening;  // share of light that a closed corner takes, 0..1
+  vec2 pixel_to_ndc;     // 2 / image size
+  uvec2 size;            // of the images that are drawn [pixels]
+  uvec2 picture_size;    // smaller by the samples along a pixel's edge [pixels]
+  float near_plane;      // blocks
+  float display_peak;    // brightest value of the picture, sRGB-encoded, 0..1
+  float display_black;   // darkest value that the display shows apart from 0, sRGB-encoded
+  float time_s;          // seconds of play, reduced to one hour, for water ripples
+  uint shading_flat;     // 1: shadow result times light colour, no N.L
+  uint camera_medium;    // block id the camera is in: 0 air, else a translucent block
+  float shadow_blur;     // largest radius of the shadow filter [blocks]
+  float haze_per_block;  // extinction of clear air [1/block]
+  float body_in_air;     // where the sky lights the air: how much of it sun or moon lights first
+  float ao_strength;     // share of light that a closed corner takes, 0..1
   Body bodies[kBodyCount];
   Cascade cascades[8];
 };

@@ -1,4 +1,4 @@
-// What the sky's shaders need to know of one moment. Filled by engine/render/sky/sky_model.h.
+// One moment, for the sky's shaders. Filled by engine/render/sky/sky_model.h.
 #ifndef SKERRY_SHARED_SKY_H
 #define SKERRY_SHARED_SKY_H
 #include "types.h"

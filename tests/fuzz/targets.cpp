@@ -15,6 +15,7 @@
 #include "engine/platform/image_file.h"
 #include "game/input/actions.h"
 #include "game/scene_file/options.h"
+#include "game/scene_file/setting_keys.h"
 #include "world/store/bytes.h"
 #include "world/store/chunk_blob.h"
 #include "world/store/pages.h"

@@ -174,7 +174,6 @@ TEST_F(GraphTest, CascadesDrawLayersOfOneImageAndAreReadTogether) {
   GraphicsDesc desc;
   desc.vertex = "triangle.vert";
   desc.depth_format = VK_FORMAT_D32_SFLOAT;
-  desc.depth_bias = true;
   desc.depth_clamp = true;
   Buffer result = buffer("result", kLayers * sizeof(float), kStorage);
   Image map =
@@ -196,7 +195,6 @@ TEST_F(GraphTest, CascadesDrawLayersOfOneImageAndAreReadTogether) {
           [&](PassBuilder& b) { ref = b.depth(ref, Load::cleared({}), layer); },
           [&, layer, frame](Commands& c) {
             c.bind(pipelines.get(desc));
-            c.set_depth_bias(0.0f, 0.0f);
             c.push(TrianglePush{0, frame == 0 ? 0.25f * static_cast<float>(layer + 1) : 0.125f});
             c.draw(3, 1);
           });

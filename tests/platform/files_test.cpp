@@ -43,10 +43,6 @@ TEST(Files, APipeIsReadToItsEndAndNotWaitedForWithoutEnd) {
   EXPECT_NE(nothing.error().message.find("within 10 s"), std::string::npos);
 }
 
-TEST(Files, TheProgramsOwnFolderHoldsTheProgram) {
-  EXPECT_TRUE(fs::exists(executable_dir() / "skerry_tests"));
-}
-
 TEST(Files, XdgVariablesWinOverHomeUnlessRelative) {
   ::setenv("HOME", "/someone", 1);
   ::setenv("XDG_CACHE_HOME", "/cache", 1);

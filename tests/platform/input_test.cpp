@@ -44,7 +44,7 @@ TEST(Input, PointerMotionAddsUpAndJumpsDoNotCount) {
   input.move_pointer({103.0, 99.0});
   input.move_pointer({104.0, 95.0});
   EXPECT_EQ(input.take().mouse_delta, glm::dvec2(4.0, -5.0));
-  input.forget_pointer();
+  input.reset_pointer();
   input.move_pointer({500.0, 500.0});
   EXPECT_EQ(input.take().mouse_delta, glm::dvec2(0.0));
   input.add_scroll(1.0);

@@ -73,30 +73,30 @@ TEST(ReferenceBrdf, CornersAreAsOpenAsTheBlocksAboutThemLeaveThem) {
   //  index: 0 1 2 low v, 3 4 5, 6 7 8 high v
   const bool open[9] = {};
   for (const glm::dvec2 place : {glm::dvec2(0.0), glm::dvec2(0.3, 0.8), glm::dvec2(1.0)})
-    EXPECT_EQ(corner_openness(place, open), 1.0);
+    EXPECT_EQ(corner_ao(place, open), 1.0);
 
   const bool middle[9] = {false, false, false, false, true};
-  EXPECT_EQ(corner_openness({0.0, 0.0}, middle), 1.0);
+  EXPECT_EQ(corner_ao({0.0, 0.0}, middle), 1.0);
 
   const bool across[9] = {true};
-  EXPECT_DOUBLE_EQ(corner_openness({0.0, 0.0}, across), 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(corner_openness({1.0, 0.0}, across), 1.0);
-  EXPECT_DOUBLE_EQ(corner_openness({0.5, 0.5}, across), 1.0 - 1.0 / 12.0);
+  EXPECT_DOUBLE_EQ(corner_ao({0.0, 0.0}, across), 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(corner_ao({1.0, 0.0}, across), 1.0);
+  EXPECT_DOUBLE_EQ(corner_ao({0.5, 0.5}, across), 1.0 - 1.0 / 12.0);
 
   const bool side_u[9] = {false, false, false, true};
-  EXPECT_DOUBLE_EQ(corner_openness({0.0, 0.0}, side_u), 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(corner_openness({0.0, 1.0}, side_u), 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(corner_openness({1.0, 1.0}, side_u), 1.0);
+  EXPECT_DOUBLE_EQ(corner_ao({0.0, 0.0}, side_u), 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(corner_ao({0.0, 1.0}, side_u), 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(corner_ao({1.0, 1.0}, side_u), 1.0);
 
   const bool side_and_across[9] = {true, false, false, true};
-  EXPECT_DOUBLE_EQ(corner_openness({0.0, 0.0}, side_and_across), 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(corner_ao({0.0, 0.0}, side_and_across), 1.0 / 3.0);
 
   // Two sides close the corner, whether or not the block across stands.
   const bool both[9] = {false, true, false, true};
   const bool all[9] = {true, true, false, true};
-  EXPECT_EQ(corner_openness({0.0, 0.0}, both), 0.0);
-  EXPECT_EQ(corner_openness({0.0, 0.0}, all), 0.0);
-  EXPECT_DOUBLE_EQ(corner_openness({1.0, 0.0}, both), 2.0 / 3.0);
+  EXPECT_EQ(corner_ao({0.0, 0.0}, both), 0.0);
+  EXPECT_EQ(corner_ao({0.0, 0.0}, all), 0.0);
+  EXPECT_DOUBLE_EQ(corner_ao({1.0, 0.0}, both), 2.0 / 3.0);
 }
 
 TEST(ReferenceBrdf, ASurfaceIsReciprocalAndSendsOutNoMoreThanItGets) {

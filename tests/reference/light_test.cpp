@@ -416,11 +416,10 @@ TEST(ReferenceLight, CornersDarkenAFaceByTheirStrength) {
   for (const double strength : {0.0, 0.5, 1.0}) {
     Scene scene = seen_from({0.25, 4.0, 0.5}, {0.0, -1.0, 0.0}, {step}, 1, 1e-6);
     scene.bodies = {{{0.0, 1.0, 0.0}, glm::dvec3(kPi), 0.0}};
-    scene.corner_occlusion = strength;
-    // At the wall both corners have it beside and across: openness 1/3, a block away 1.
-    const double openness = 1.0 / 3.0 + 0.25 * 2.0 / 3.0;
-    EXPECT_NEAR(render(scene, samples(1)).radiance.pixels[0].x, 1.0 - strength * (1.0 - openness),
-                1e-5);
+    scene.ao_strength = strength;
+    // At the wall both corners have it beside and across: ao 1/3, a block away 1.
+    const double ao = 1.0 / 3.0 + 0.25 * 2.0 / 3.0;
+    EXPECT_NEAR(render(scene, samples(1)).radiance.pixels[0].x, 1.0 - strength * (1.0 - ao), 1e-5);
   }
 }
 

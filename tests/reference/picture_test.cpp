@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "game/scene_file/setting_keys.h"
 #include "tests/reference/made_scenes.h"
 #include "tools/reference/sampler.h"
 #include "tools/reference/textures.h"
@@ -141,7 +142,7 @@ TEST(ReferenceDevelop, BlackStaysBlackAndGreyTakesTheCurve) {
 
 TEST(ReferenceScene, ADebugViewHasNoReference) {
   game::SceneOptions options;
-  options.settings.debug_view = game::DebugView::kNormal;
+  options.settings.render.debug_view = render::DebugView::kNormal;
   const auto refused = render_reference(options, {});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("debug.view"), std::string::npos);

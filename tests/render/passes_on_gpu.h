@@ -71,7 +71,7 @@ class PassesOnGpu : public gpu::GpuTest {
     shadow_history_.generation = shadows_->generation();
     return std::move(plan.cascades);
   }
-  void forget_shadows() { shadow_history_ = {}; }
+  void invalidate_shadows() { shadow_history_ = {}; }
 
   struct Drawn {
     std::vector<std::uint32_t> words;  ///< G-buffer words, rows from the top
@@ -171,7 +171,7 @@ class PassesOnGpu : public gpu::GpuTest {
     const gpu::ImageRef array =
         shadows_->maps() ? graph_->import(*shadows_->maps()) : gpu::ImageRef{};
     const Shadows maps = ShadowPass::add(*graph_, *pipelines_, scene, draws, array, redraw);
-    const auto edge = static_cast<std::uint32_t>(settings.shadow_map_size);
+    const auto edge = static_cast<std::uint32_t>(settings.shadow_size);
     const auto layers = static_cast<std::uint32_t>(out.redrawn.size());
     gpu::Buffer texels = back("texels", std::uint64_t{edge} * edge * layers * 4);
     gpu::BufferRef to = graph_->import(texels);

@@ -76,7 +76,7 @@ def check_test(run, folder):
 
 def check_report(run, folder):
     out = folder / "report"
-    run("report", "water_layers", "light_lists", "--size", "24x16", "--set",
+    run("report", "water_layers", "lights_oracle", "--size", "24x16", "--set",
         "reference.samples=1", "--out", out)
     check_page(out, 2)
 

@@ -86,7 +86,7 @@ glm::dvec3 by_cosine(glm::dvec2 pair) {
   return {sine * std::cos(turn), sine * std::sin(turn), std::sqrt(1.0 - pair.x)};
 }
 
-double corner_openness(glm::dvec2 place, const bool (&stands)[9]) {
+double corner_ao(glm::dvec2 place, const bool (&stands)[9]) {
   const auto corner = [&](int u, int v) {  // each -1 or 1
     const bool side_u = stands[3 + u + 1], side_v = stands[3 * (v + 1) + 1];
     if (side_u && side_v) return 0.0;

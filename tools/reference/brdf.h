@@ -51,6 +51,6 @@ glm::dvec3 by_cosine(glm::dvec2 pair);
 /// the two and the one across; between the corners bilinear.
 /// @param place on the face, 0..1 along u and v. @param stands whether the eight blocks about the
 /// one in front of the face are opaque: index 3 * (dv + 1) + (du + 1), the middle is not looked at.
-double corner_openness(glm::dvec2 place, const bool (&stands)[9]);
+double corner_ao(glm::dvec2 place, const bool (&stands)[9]);
 
 }  // namespace skerry::reference

@@ -33,8 +33,8 @@ double lobe(double cosine, double g) {
 /// Calls visit(t, length) for the steps of a way that may hold something, until it says no.
 /// @param offset 0..1: where in a step t is.
 template <class Visit>
-void march(const Clouds& clouds, glm::dvec3 origin, glm::dvec3 direction, double begin, double end,
-           double offset, Visit&& visit) {
+void march(const Clouds& clouds, const CloudWay& way, double offset, Visit&& visit) {
+  const auto& [origin, direction, begin, end] = way;
   const bool in_cells = clouds.layer && clouds.grids.empty();
   for (const Stretch& stretch : clouds.stretches(origin, direction)) {
     const double from = std::max(stretch.from, begin), length = std::min(stretch.to, end) - from;
@@ -182,19 +182,18 @@ std::vector<Stretch> Clouds::stretches(glm::dvec3 origin, glm::dvec3 direction) 
 double Clouds::depth(glm::dvec3 origin, glm::dvec3 direction, double offset,
                      double distance) const {
   double sum = 0.0;
-  march(*this, origin, direction, 0.0, distance, offset, [&](double t, double step) {
+  march(*this, {origin, direction, 0.0, distance}, offset, [&](double t, double step) {
     sum += extinction_at(origin + direction * t) * step;
     return true;
   });
   return sum;
 }
 
-CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 origin, glm::dvec3 direction,
-                         double begin, double end, double air, double offset) {
+CloudMeeting meet_clouds(const Clouds& clouds, const CloudWay& way, double air, double offset) {
   CloudMeeting out;
   double depth = 0.0;
-  march(clouds, origin, direction, begin, end, offset, [&](double t, double step) {
-    const glm::dvec3 p = origin + direction * t;
+  march(clouds, way, offset, [&](double t, double step) {
+    const glm::dvec3 p = way.origin + way.direction * t;
     const double tau = clouds.extinction_at(p) * step;
     out.emitted += clouds.emission_at(p) * (std::exp(-depth - air * t) * step *
                                             (tau > 1e-9 ? -std::expm1(-tau) / tau : 1.0));

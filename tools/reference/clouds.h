@@ -93,11 +93,14 @@ struct CloudMeeting {
   /// [1/block].
   double weight_at(double t) const;
 };
-/// @param origin of the ray: the eye, or where its view is mirrored. @param begin, end of the way
-/// [blocks]. @param air extinction of clear air [1/block]. @param offset 0..1: where in its steps a
-/// march looks.
-CloudMeeting meet_clouds(const Clouds& clouds, glm::dvec3 origin, glm::dvec3 direction,
-                         double begin, double end, double air, double offset);
+/// A stretch of a ray.
+struct CloudWay {
+  glm::dvec3 origin, direction;   ///< the eye, or where its view is mirrored; unit
+  double begin = 0.0, end = 0.0;  ///< [blocks]
+};
+/// @param air extinction of clear air [1/block]. @param offset 0..1: where in its steps a march
+/// looks.
+CloudMeeting meet_clouds(const Clouds& clouds, const CloudWay& way, double air, double offset);
 
 /// Share of irradiance that a cloud sends on in a direction, over extinction [1/sr], with light
 /// scattered more than once. @param cosine of the angle that light is turned by. @param depth

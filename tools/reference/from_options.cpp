@@ -133,14 +133,14 @@ void add_sky(const game::SceneOptions& options, const render::Celestial& sky, do
     scene.bodies.push_back({sky.to_sun, glm::dvec3(sky.sun_irradiance), body_radius});
   if (sky.moon_casts)
     scene.bodies.push_back({sky.to_moon, glm::dvec3(sky.moon_irradiance), body_radius});
-  scene.sky_lights = options.settings.indirect != render::Indirect::kOff;
+  scene.sky_lights = options.settings.render.indirect != render::Indirect::kOff;
   scene.air_light = light_in_air(sky);
   // What the sky lights stays as thick when sun and moon have set.
   scene.haze_per_block = 0.0005 * (scene.sky_lights ? 1.0 : scene.air_light);
   scene.body_in_air = scene.sky_lights ? scene.air_light : 1.0;
-  scene.shadows = options.settings.shadow_enabled;
-  scene.flat_shading = options.settings.shading == game::Shading::kFlat;
-  scene.corner_occlusion = scene.flat_shading ? 0.0 : options.settings.ao_strength;
+  scene.shadows = options.settings.render.shadow_enabled;
+  scene.flat_shading = options.settings.render.shading == render::Shading::kFlat;
+  scene.ao_strength = scene.flat_shading ? 0.0 : options.settings.render.ao_strength;
 }
 
 /// The layer as docs/clouds.md has it. What it repeats with is taken off in integers.
@@ -215,7 +215,7 @@ Result<CloudGrid> cloud_grid(const render::CloudVolumeDesc& volume,
 
 Result<void> add_clouds(const game::SceneOptions& options, world::WorldPos camera,
                         world::WorldPos origin, Scene& scene) {
-  const render::CloudSettings& settings = options.settings.clouds;
+  const render::CloudSettings& settings = options.settings.render.clouds;
   if (settings.coverage > 0.0f)
     scene.clouds.layer = cloud_layer(settings, camera, origin, options.settings.world_time_s);
   const Result<game::LoadedClouds> loaded = game::load_clouds(options.clouds);
@@ -239,15 +239,15 @@ ReferenceSettings settings_from(const game::SceneOptions& options) {
 }
 
 Darkroom darkroom_from(const game::Settings& settings) {
-  return {settings.tone, settings.display, settings.bloom};
+  return {settings.render.tone, settings.render.display, settings.render.bloom};
 }
 
 Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const ReferenceSettings& settings,
                                           const Progress& progress) {
-  if (options.settings.debug_view != game::DebugView::kNone)
+  if (options.settings.render.debug_view != render::DebugView::kNone)
     return Error{"debug.view has no reference picture: use debug.view=none or renderer=deferred"};
-  if (options.settings.leave_out != render::FeatureSet{})
+  if (options.settings.render.leave_out != render::FeatureSet{})
     return Error{"leave.out has no reference picture: use leave.out=none or renderer=deferred"};
   if (std::uint64_t{options.size.width} * options.size.height > kMaxPixels)
     return Error{fmt::format("--size {}x{} is too large: a reference picture has at most {} pixels",
@@ -271,7 +271,7 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   ReferencePicture picture = render(scene, settings, progress);
   picture.ev = options.settings.exposure_ev
                    ? *options.settings.exposure_ev
-                   : metered_ev(picture.radiance, options.settings.meter).value_or(0.0);
+                   : metered_ev(picture.radiance, options.settings.render.meter).value_or(0.0);
   return picture;
 }
 

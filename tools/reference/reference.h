@@ -31,7 +31,7 @@ ReferenceSettings settings_from(const game::SceneOptions& options);
 struct ReferencePicture {
   measure::Picture radiance;
   /// Standard error of the mean of each pixel and channel, from independent batches of samples.
-  /// Empty with one sample, which tells nothing about its error.
+  /// Empty with one sample, which says nothing about its error.
   std::vector<glm::vec3> standard_error;
   std::optional<double> mean_error;  ///< of all pixels and channels of standard_error
   double ev = 0.0;                   ///< stops to be developed at

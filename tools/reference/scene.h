@@ -63,7 +63,7 @@ struct Scene {
   bool shadows = true;               ///< whether bodies are hidden by voxels
   bool flat_shading = false;         ///< bodies: shadow times light, without the angle to the light
   bool matt = false;                 ///< surfaces are diffuse alone, as with flat shading
-  double corner_occlusion = 0.0;     ///< strength of the darkening in corners, 0..1
+  double ao_strength = 0.0;          ///< strength of the darkening in corners, 0..1
   std::optional<glm::dvec3> albedo;  ///< of every surface, in place of the textures'
 };
 

@@ -140,9 +140,9 @@ glm::dvec3 Shader::behind_voxels(glm::dvec3 direction) const {
 
 // --- Surfaces and air
 
-double Shader::openness(const Meeting& hit) const {
+double Shader::ao(const Meeting& hit) const {
   const int axis = axis_of_face(hit.face);
-  if (scene_.corner_occlusion == 0.0 || axis == 3) return 1.0;
+  if (scene_.ao_strength == 0.0 || axis == 3) return 1.0;
   const int u = axis == 0 ? 2 : 0, v = axis == 1 ? 2 : 1;
   const glm::ivec3 front(hit.voxel.x, hit.voxel.y, hit.voxel.z);
   bool stands[9];
@@ -155,7 +155,7 @@ double Shader::openness(const Meeting& hit) const {
                 world::BlockKind::kOpaque;
   }
   const glm::dvec3 inside = hit.lattice - glm::dvec3(front);
-  return 1.0 - scene_.corner_occlusion * (1.0 - corner_openness({inside[u], inside[v]}, stands));
+  return 1.0 - scene_.ao_strength * (1.0 - corner_ao({inside[u], inside[v]}, stands));
 }
 
 glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,
@@ -182,7 +182,7 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 
                                 : surface_brdf(normal, around.to_light, -direction, albedo,
                                                type.roughness, type.metalness);
   // Corners darken what has no other shadow in them; what comes from around has passed all voxels.
-  return reflected * openness(hit) + kPi * around.radiance * share +
+  return reflected * ao(hit) + kPi * around.radiance * share +
          albedo * static_cast<double>(type.emission);
 }
 
@@ -319,7 +319,7 @@ Seen Shader::through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction
   if (!scene_.clouds.layer && scene_.clouds.grids.empty()) return behind;
   const double air = scene_.bodies.empty() && !scene_.sky_lights ? 0.0 : scene_.haze_per_block;
   const CloudMeeting met =
-      meet_clouds(scene_.clouds, origin, direction, begin, end, air, sampler.next().x);
+      meet_clouds(scene_.clouds, {origin, direction, begin, end}, air, sampler.next().x);
   if (met.clear == 1.0) return {behind.radiance + met.emitted, behind.open};
   const glm::dvec3 lamps = lamps_along(met, origin, direction, air, sampler);
   const double at = met.place(sampler.next().x);

@@ -59,7 +59,7 @@ class Shader {
 
   glm::dvec3 surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,
                      Sampler& sampler) const;
-  double openness(const Meeting& hit) const;
+  double ao(const Meeting& hit) const;
   glm::dvec3 through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,
                          Sampler& sampler) const;
 

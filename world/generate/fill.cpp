@@ -10,11 +10,11 @@ namespace {
 
 constexpr int kPadded = kChunkEdge + 2;
 constexpr int kLayer = kPadded * kPadded;
-// Layers read above the chunk, so that it knows how deep below the turf it starts.
+// Layers read above the chunk: they say how deep below the turf it starts.
 constexpr int kLookAbove = 6;
-constexpr int kLookBelow = 1;      // the lowest layer's plants need to know what they stand on
-constexpr int kLedgeTurf = 4;      // blocks under the top that may still bear turf
-constexpr int kFinestShifted = 1;  // coarser voxels are larger than the sideways shift
+constexpr int kLookBelow = 1;              // what the lowest layer's plants stand on
+constexpr int kLedgeTurf = 4;              // blocks under the top that may still bear turf
+constexpr int kFinestShifted = 1;          // coarser voxels are larger than the sideways shift
 constexpr std::int16_t kUnderground = 64;  // depth of rock below a cave: no turf there
 
 constexpr std::int16_t kDeepest = 2 * kUnderground;

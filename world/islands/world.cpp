@@ -14,7 +14,7 @@ namespace skerry::world {
 namespace {
 
 constexpr std::uint32_t kMaxIslandLimit = 100'000;
-// Above this many known islands, those that hold nothing are forgotten.
+// Above this many islands, those that hold nothing are dropped.
 constexpr std::size_t kMaxKnownIslands = 32'768;
 // An island that moved so far since it was last noted may have come near someone.
 constexpr double kNotedBlocks = 24.0;
@@ -147,11 +147,11 @@ std::vector<IslandSpec> World::islands_near(WorldPos centre, double radius_block
   std::vector<IslandSpec> specs;
   specs.reserve(found.size());
   for (const Found& f : found) specs.push_back(f.spec);
-  know(specs);
+  remember(specs);
   return specs;
 }
 
-void World::know(const std::vector<IslandSpec>& specs) const {
+void World::remember(const std::vector<IslandSpec>& specs) const {
   const std::lock_guard lock(islands_mutex_);
   for (const IslandSpec& spec : specs) {
     auto& island = islands_[spec.id];
@@ -227,7 +227,7 @@ std::vector<std::uint64_t> World::changed_islands() const {
 std::uint64_t World::unused_id() const {
   const std::lock_guard lock(islands_mutex_);
   for (std::uint64_t count = special_.size() + 1;; ++count) {
-    // Ids of a seed's islands are hashes, too: to meet one that nobody has come near yet takes the
+    // Ids of a seed's islands are hashes, too: to hit one that nobody has come near yet takes the
     // luck of one in 2^64.
     const std::uint64_t id = mix64(mix64(desc_.seed ^ 0x69736c616e647321u) + count);
     if (!islands_.contains(id)) return id;
@@ -241,7 +241,7 @@ bool World::meet(std::uint64_t id, WorldPos place) {
   std::vector<IslandSpec> specs = islands_within(desc_.seed, place - origin(), kSamePlaceBlocks);
   std::erase_if(specs, [&](const IslandSpec& spec) { return spec.id != id; });
   for (IslandSpec& spec : specs) spec.origin = spec.origin + origin();
-  know(specs);
+  remember(specs);
   return !specs.empty();
 }
 

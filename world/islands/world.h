@@ -78,10 +78,10 @@ class World {
   std::uint64_t revision() const { return revision_.load(std::memory_order_acquire); }
 
   /// Islands whose bounding spheres come within `radius_blocks` of `centre` at a time, nearest
-  /// centre first, ties by id. Origins include the offset; where a moved island is, pose tells.
+  /// centre first, ties by id. Origins include the offset; pose() is where a moved island is.
   std::vector<IslandSpec> islands_near(WorldPos centre, double radius_blocks, double time_s) const;
   /// Its box and radius grow when blocks are put beyond them. None: no such island is known.
-  /// Islands without voxels or edits may be forgotten when thousands are known; islands_near makes
+  /// Islands without voxels or edits may be dropped when thousands are held; islands_near makes
   /// them known again.
   std::optional<IslandSpec> island(std::uint64_t id) const;
   std::optional<Pose> pose(std::uint64_t id, double time_s) const;
@@ -127,7 +127,7 @@ class World {
   struct Island;
   using IslandMap = std::map<std::uint64_t, std::shared_ptr<Island>>;
   std::shared_ptr<Island> find(std::uint64_t id) const;
-  void know(const std::vector<IslandSpec>& specs) const;
+  void remember(const std::vector<IslandSpec>& specs) const;
   IslandMap special() const;
   Spawn spawn_on_added() const;
 
@@ -136,7 +136,7 @@ class World {
   std::atomic<std::uint64_t> revision_ = 0;
   mutable std::mutex islands_mutex_;
   mutable std::unordered_map<std::uint64_t, std::shared_ptr<Island>> islands_;
-  IslandMap special_;  // added, or moved from where pose_at has them; never forgotten
+  IslandMap special_;  // added, or moved from where pose_at has them; never dropped
   std::mutex edits_mutex_;
   std::vector<EditedBox> edits_;
 };

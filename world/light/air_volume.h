@@ -29,7 +29,7 @@ struct LampPlace {
   float range = 0.0f;  ///< voxels
 };
 
-/// What light needs to know of one chunk. Immutable once shared.
+/// One chunk as light sees it. Immutable once shared.
 struct LightChunk {
   ChunkOccupancy opaque;
   ChunkOccupancy leaves;            ///< cut-out blocks: they let about half of the light past

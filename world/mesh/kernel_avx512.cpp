@@ -113,11 +113,15 @@ SKERRY_MESH_TARGET inline __m512i block_ids(__m512i byte, const ByteTable& table
   return _mm512_and_si512(_mm512_cvtepu32_epi64(words), _mm512_set1_epi64(0xffff));
 }
 
+// Of each quad: its first voxel's three indices, and its byte of the table.
+struct PackedLists {
+  __m512i a, b, c, byte;
+};
+
 // Writes the quads of packed lists, eight at a time. It may write up to seven more, which the next
 // ones replace; QuadSink keeps room.
 SKERRY_MESH_TARGET inline unsigned emit_lists(shared::Quad* out, const Emission& emission,
-                                              unsigned count, __m512i a, __m512i b, __m512i c,
-                                              __m512i byte) {
+                                              unsigned count, PackedLists lists) {
   const __m512i mul_a = _mm512_set1_epi32(static_cast<int>(emission.mul_a));
   const __m512i mul_b = _mm512_set1_epi32(static_cast<int>(emission.mul_b));
   const __m512i mul_c = _mm512_set1_epi32(static_cast<int>(emission.mul_c));
@@ -126,19 +130,19 @@ SKERRY_MESH_TARGET inline unsigned emit_lists(shared::Quad* out, const Emission&
       static_cast<long long>(std::uint64_t{emission.face_bits} << 32 | emission.base));
   for (unsigned done = 0;;) {
     // The high halves of the products are 0, so 32-bit sums never touch the material.
-    const __m512i from_a = _mm512_mullo_epi32(widen(a), mul_a);
-    const __m512i from_b = _mm512_mullo_epi32(widen(b), mul_b);
-    const __m512i from_c = _mm512_mullo_epi32(widen(c), mul_c);
-    const __m512i id = _mm512_slli_epi64(block_ids(widen(byte), emission.table), 32);
+    const __m512i from_a = _mm512_mullo_epi32(widen(lists.a), mul_a);
+    const __m512i from_b = _mm512_mullo_epi32(widen(lists.b), mul_b);
+    const __m512i from_c = _mm512_mullo_epi32(widen(lists.c), mul_c);
+    const __m512i id = _mm512_slli_epi64(block_ids(widen(lists.byte), emission.table), 32);
     const __m512i sum = _mm512_add_epi32(_mm512_add_epi32(from_a, from_b),
                                          _mm512_add_epi32(from_c, _mm512_add_epi32(id, base)));
     _mm512_storeu_si512(out + done, sum);
     done += 8;
     if (done >= count) return count;
-    a = _mm512_alignr_epi64(a, a, 1);
-    b = _mm512_alignr_epi64(b, b, 1);
-    c = _mm512_alignr_epi64(c, c, 1);
-    byte = _mm512_alignr_epi64(byte, byte, 1);
+    lists.a = _mm512_alignr_epi64(lists.a, lists.a, 1);
+    lists.b = _mm512_alignr_epi64(lists.b, lists.b, 1);
+    lists.c = _mm512_alignr_epi64(lists.c, lists.c, 1);
+    lists.byte = _mm512_alignr_epi64(lists.byte, lists.byte, 1);
   }
 }
 
@@ -148,20 +152,20 @@ SKERRY_MESH_TARGET inline unsigned emit_runs(shared::Quad* out, const Emission& 
   // The n-th end belongs to the n-th start.
   const std::uint64_t begins = _pdep_u64(_pext_u64(finished, ends), starts);
   return emit_lists(out, emission, static_cast<unsigned>(__builtin_popcountll(finished)),
-                    _mm512_maskz_compress_epi8(finished, load(first)),
-                    _mm512_maskz_compress_epi8(begins, indices()),
-                    _mm512_maskz_compress_epi8(finished, indices()),
-                    _mm512_maskz_compress_epi8(finished, load(emission.bytes)));
+                    {_mm512_maskz_compress_epi8(finished, load(first)),
+                     _mm512_maskz_compress_epi8(begins, indices()),
+                     _mm512_maskz_compress_epi8(finished, indices()),
+                     _mm512_maskz_compress_epi8(finished, load(emission.bytes))});
 }
 
 SKERRY_MESH_TARGET inline unsigned emit_columns(shared::Quad* out, const Emission& emission,
                                                 std::uint64_t finished, const std::uint8_t* first_x,
                                                 const std::uint8_t* first_y) {
   return emit_lists(out, emission, static_cast<unsigned>(__builtin_popcountll(finished)),
-                    _mm512_maskz_compress_epi8(finished, load(first_x)),
-                    _mm512_maskz_compress_epi8(finished, load(first_y)),
-                    _mm512_maskz_compress_epi8(finished, indices()),
-                    _mm512_maskz_compress_epi8(finished, load(emission.bytes)));
+                    {_mm512_maskz_compress_epi8(finished, load(first_x)),
+                     _mm512_maskz_compress_epi8(finished, load(first_y)),
+                     _mm512_maskz_compress_epi8(finished, indices()),
+                     _mm512_maskz_compress_epi8(finished, load(emission.bytes))});
 }
 
 }  // namespace

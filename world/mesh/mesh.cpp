@@ -150,7 +150,7 @@ void build_wide_planes(std::span<const BlockId> voxels, Planes& planes) {
   }
 }
 
-// Emission only knows bytes: gives each quad the id of its lowest voxel.
+// Emission writes bytes: gives each quad the id of its lowest voxel.
 void set_wide_ids(std::span<const BlockId> voxels, ChunkMesh& out) {
   for (shared::Quad& quad : out.quads) {
     const std::size_t x = quad.geometry & 63, y = quad.geometry >> 6 & 63,

@@ -20,7 +20,7 @@ namespace skerry::world {
 void mesh_chunk(std::span<const BlockId> voxels, MeshScratch& scratch, ChunkMesh& out);
 
 /// Same, for chunks with at most 256 different ids: `voxels` index `palette`. Reads half the
-/// memory, and takes no time when the palette tells that nothing can be seen (all of it opaque, or
+/// memory, and takes no time when the palette shows that nothing can be seen (all of it opaque, or
 /// one id that is no plant).
 /// @param palette distinct ids; @pre every index is below its size.
 void mesh_chunk(std::span<const std::uint8_t> voxels, std::span<const BlockId> palette,

@@ -75,8 +75,8 @@ void IslandMotion::start(double time_s) {
   tick_ = static_cast<std::int64_t>(std::floor(time_s * kMotionTicksPerSecond + kRounding));
   for (auto& [id, body] : bodies_) {
     body->now.tick = tick_;
-    body->told = false;
-    tell(*body);
+    body->reported = false;
+    report(*body);
   }
 }
 
@@ -109,7 +109,7 @@ void IslandMotion::drop_shape(Body& body) {
   body.shape.reset();
 }
 
-/// Islands that meet others now and then keep their shapes meanwhile, the last kShelf of them.
+/// Islands that touch others now and then keep their shapes meanwhile, the last kShelf of them.
 void IslandMotion::to_shelf(Body& body) {
   if (!body.shape) return;
   shelf_.emplace_front(body.id, std::move(body.shape));
@@ -137,7 +137,7 @@ bool IslandMotion::disturb(std::uint64_t island) {
   want_shape(*body);
   body->next = body->now.pose;
   courses_.erase(island);
-  tell(*body);
+  report(*body);
   bodies_.emplace(island, std::move(body));
   return true;
 }
@@ -153,7 +153,7 @@ void IslandMotion::add(std::uint64_t island, const MotionState& state,
   body->shape = std::move(shape);
   want_shape(*body);
   courses_.erase(island);
-  tell(*body);
+  report(*body);
   bodies_.insert_or_assign(island, std::move(body));
 }
 
@@ -212,7 +212,7 @@ void IslandMotion::drive(Body& body) const {
   body.next = moved_pose(now.pose, body.centre(), now.velocity, now.spin, kDt);
 }
 
-/// Islands on their courses that a disturbed one may meet in this tick.
+/// Islands on their courses that a disturbed one may touch in this tick.
 void IslandMotion::meet_courses(Body& body) {
   const WorldPos place = body.place(body.now.pose);
   const glm::dvec3 since =
@@ -333,7 +333,7 @@ bool IslandMotion::leave_courses(std::vector<Pair>& pairs) {
         pair.touch.contacts.front().depth < kDeepContact)
       continue;
     course.on_course = false;
-    course.told = false;
+    course.reported = false;
     any = true;
     const auto found = courses_.find(course.id);
     bodies_.emplace(course.id, std::move(found->second));
@@ -357,7 +357,7 @@ void IslandMotion::step() {
   hold(pairs);
   while (leave_courses(pairs)) {
     for (auto& [id, body] : bodies_)
-      if (!body->told)
+      if (!body->reported)
         body->next =
             moved_pose(body->now.pose, body->centre(), body->now.velocity, body->now.spin, kDt);
     for (Pair& pair : pairs) pair.a->held = pair.b->held = false;
@@ -377,27 +377,29 @@ void IslandMotion::step() {
     counts_.held += body->held;
     body->now.pose = body->pose();
     body->now.tick = tick_;
-    tell(*body);
+    report(*body);
   }
 }
 
-/// One that stands still is where the world knows it to be; when it goes on, the world learns since
+/// One that stands still is where the world has it; when it goes on, the world is given since
 /// when, so that it does not jump there.
-void IslandMotion::tell(Body& body) {
+void IslandMotion::report(Body& body) {
   const std::optional<Pose> known = world_.pose(body.id, static_cast<double>(tick_) * kDt);
   const bool still =
       known && known->origin == body.now.pose.origin && known->rotation == body.now.pose.rotation;
-  const bool alike = body.now.velocity == body.told_velocity && body.now.spin == body.told_spin;
-  if (body.told && still && alike) return;
-  if (body.told && known && body.told_tick < tick_ - 1) tell_world(body, tick_ - 1, *known);
-  tell_world(body, tick_, body.now.pose);
-  body.told = true;
-  body.told_tick = tick_;
-  body.told_velocity = body.now.velocity;
-  body.told_spin = body.now.spin;
+  const bool alike =
+      body.now.velocity == body.reported_velocity && body.now.spin == body.reported_spin;
+  if (body.reported && still && alike) return;
+  if (body.reported && known && body.reported_tick < tick_ - 1)
+    report_to_world(body, tick_ - 1, *known);
+  report_to_world(body, tick_, body.now.pose);
+  body.reported = true;
+  body.reported_tick = tick_;
+  body.reported_velocity = body.now.velocity;
+  body.reported_spin = body.now.spin;
 }
 
-void IslandMotion::tell_world(Body& body, std::int64_t tick, const Pose& pose) {
+void IslandMotion::report_to_world(Body& body, std::int64_t tick, const Pose& pose) {
   world_.move_island(body.id, tick, pose);
   if (!moves_) return;
   moves_->push_back({body.id, body.now});

@@ -59,16 +59,16 @@ class IslandMotion {
   /// The same for more than is worth naming: the shape is asked for anew.
   void reshape(std::uint64_t island);
 
-  /// One tick. The world is told all poses.
+  /// One tick. The world receives all poses.
   void step();
   /// Ticks until the world's poses reach a time, kMaxTicks at most; the clock then jumps. It jumps
   /// back, too, if the time is that far behind it.
   void advance_to(double time_s);
   static constexpr std::int64_t kMaxTicks = 30;
 
-  /// From now on every pose that the world is told, with the motion of that tick, is appended to
-  /// `moves`, which outlives this. Whoever tells another world the same, in this order, has the
-  /// same poses there at any time.
+  /// From now on every pose that the world receives, with the motion of that tick, is appended to
+  /// `moves`, which outlives this. Whoever applies the same to another world, in this order, has
+  /// the same poses there at any time.
   void report_to(std::vector<MovingIsland>* moves) { moves_ = moves; }
   /// States of all disturbed islands, ascending ids.
   std::vector<MovingIsland> states() const;
@@ -103,8 +103,8 @@ class IslandMotion {
   void hold(std::vector<Pair>& pairs);
   bool leave_courses(std::vector<Pair>& pairs);
   static void exchange_impulses(std::vector<Pair>& pairs);
-  void tell(Body& body);
-  void tell_world(Body& body, std::int64_t tick, const Pose& pose);
+  void report(Body& body);
+  void report_to_world(Body& body, std::int64_t tick, const Pose& pose);
 
   World& world_;
   Shapes shapes_;

@@ -8,7 +8,7 @@
 
 namespace skerry::world {
 
-/// What physics knows of an island's voxels.
+/// An island's voxels as physics has them.
 class Shape {
  public:
   explicit Shape(SolidGrid grid);

@@ -21,8 +21,9 @@ struct LogPages {
 ///
 /// SQLite takes a log up to the first frame whose checksum or salt is wrong: that is how it finds
 /// the end, and so damage looks to it like an end. Here a frame behind that place that carries the
-/// log's salt is proof that the log once went on. The last commit of a log cannot be told so from
-/// one that a kill cut short; write_mark() puts one without content behind each that counts.
+/// log's salt is proof that the log once went on. The last commit of a log cannot be distinguished
+/// so from one that a kill cut short; write_mark() puts one without content behind each that
+/// counts.
 ///
 /// The checksum of a frame continues that of the frame before, which stands in its header: from
 /// there a frame behind a damaged one is proved, too.

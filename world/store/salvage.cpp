@@ -21,7 +21,7 @@ using Blob = std::vector<std::byte>;
 
 /// Rows of one table. Two that differ under one key: the page of one has lost its last version, and
 /// the row has moved since. What a later commit wrote counts. Of one age, one was there before the
-/// other, and nobody can tell which: none is left.
+/// other, and nothing decides which: none is left.
 template <class Key>
 class Found {
  public:

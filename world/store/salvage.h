@@ -13,7 +13,7 @@ namespace skerry::world {
 /// the tables of this version and nothing in them. Source for the layout of pages and logs:
 /// https://www.sqlite.org/fileformat2.html.
 /// Of two rows that differ the one from the later commit is taken.
-/// @param doubts told: rows of which there are two that differ and are of one age; neither is
+/// @param doubts reported: rows of which there are two that differ and are of one age; neither is
 /// taken.
 /// @return whether that makes a world: what it is called and what seed it has is there. Errors of
 /// `into` count as nothing found.

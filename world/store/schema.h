@@ -45,7 +45,7 @@ int write_spare(Database& file, std::uint64_t key, std::span<const std::byte> by
 std::optional<std::vector<std::byte>> read_spare(Database& file, std::uint64_t key);
 /// Names a chunk in a statement's first four places.
 void bind_name(Statement& statement, const ChunkName& name);
-/// Under which a value's checksum knows its name.
+/// The name of a value, as its checksum covers it.
 std::uint64_t name_key(std::string_view name);
 /// A name for SQLite to read a file as one that nobody writes.
 std::string immutable_uri(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// What a world file tells of its world besides voxels.
+// What a world file holds of its world besides voxels.
 #pragma once
 #include <optional>
 #include <string>

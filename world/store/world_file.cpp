@@ -39,7 +39,7 @@ const std::vector<std::string>& WorldFile::damage() const {
 }
 
 void WorldFile::note_damage(std::string line) {
-  state_->tell(std::move(line));
+  state_->report(std::move(line));
 }
 
 std::optional<std::vector<std::byte>> WorldFile::value(std::string_view name) {
@@ -61,13 +61,13 @@ std::optional<std::vector<std::byte>> WorldFile::State::value(std::string_view n
   select.reset();
   if (is_damage(code) && recover()) return value(name);
   if (auto spare = version >= 3 ? read_spare(*database, name_key(name)) : std::nullopt) {
-    tell(fmt::format("the world {} is damaged: its '{}' was read from a second copy", quoted(path),
-                     name));
+    report(fmt::format("the world {} is damaged: its '{}' was read from a second copy",
+                       quoted(path), name));
     return spare;
   }
   if (lost || code != SQLITE_DONE)
-    tell(fmt::format("the world {} has lost one of its values, perhaps its '{}': it is damaged",
-                     quoted(path), name));
+    report(fmt::format("the world {} has lost one of its values, perhaps its '{}': it is damaged",
+                       quoted(path), name));
   return std::nullopt;
 }
 

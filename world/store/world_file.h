@@ -23,8 +23,8 @@ namespace skerry::world {
 /// A saved world. One process at a time has it open for writing; any number read.
 ///
 /// What is in the file is not trusted: lengths, indices, block ids, numbers and checksums are
-/// looked at before use, and what is damaged is left out and told while the rest is read. A damaged
-/// file is never written: the rest moves into a new one, the damaged one stays beside it.
+/// looked at before use, and what is damaged is left out and reported while the rest is read. A
+/// damaged file is never written: the rest moves into a new one, the damaged one stays beside it.
 /// One thread at a time.
 class WorldFile {
  public:
@@ -67,7 +67,7 @@ class WorldFile {
     /// Anything else, by name: player, time, settings. At most kMaxValueBytes.
     void put_value(std::string_view name, std::span<const std::byte> bytes);
     /// When it returns without an error, the changes outlive the process and the machine's power,
-    /// and damage to them can be told.
+    /// and damage to them can be detected.
     Result<void> commit();
 
    private:

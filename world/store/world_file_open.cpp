@@ -37,7 +37,7 @@ struct Trouble {
 Trouble newer_than_this(const fs::path& path, std::int64_t version) {
   return {
       {fmt::format("cannot open the world {}: a newer Skerry wrote it (its version is {}, this "
-                   "one knows {}); update Skerry",
+                   "one reads {}); update Skerry",
                    quoted(path), version, WorldFile::kVersion)}};
 }
 
@@ -250,7 +250,7 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const fs::path& named, Mode m
   if (auto of_log = check_log(path, mode == Mode::kWrite)) {
     trouble = std::move(of_log);
     if (trouble->damage)
-      state->tell(fmt::format(
+      state->report(fmt::format(
           "the log of the world {} is damaged: what was saved last may be missing", quoted(path)));
   }
   if (!trouble) trouble = look();
@@ -265,7 +265,7 @@ Result<void> WorldFile::check_free(const fs::path& path) {
   return {};
 }
 
-/// @param newer it is of a version that this program does not know, and not looked at further.
+/// @param newer it is of a later version than this program's, and not read further.
 /// @return SQLITE_OK or an error.
 int WorldFile::State::open_database(bool& newer) {
   int code = SQLITE_OK;
@@ -322,12 +322,12 @@ bool WorldFile::State::recover() {
     int reason = 0;
     bool newer = false;
     found = found && (lock = WriterLock::take(path, reason)) && open_database(newer) == SQLITE_OK;
-    // One that has nothing and takes nothing, so that who asks or saves is told.
+    // An empty one that takes nothing: who reads or saves receives an error.
     if (!database) database = Database::open(":memory:", SQLITE_OPEN_READONLY, code);
   }
   if (!found) return false;
-  tell(fmt::format("the world {} is damaged: all that could be found of it was read{}",
-                   quoted(path), kept ? "; the damaged file is kept as " + quoted(*kept) : ""));
+  report(fmt::format("the world {} is damaged: all that could be found of it was read{}",
+                     quoted(path), kept ? "; the damaged file is kept as " + quoted(*kept) : ""));
   return true;
 }
 

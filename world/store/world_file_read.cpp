@@ -62,7 +62,7 @@ void WorldFile::State::put_blob(std::optional<Error>& error, const ChunkName& na
       });
 }
 
-void WorldFile::State::tell(std::string what) {
+void WorldFile::State::report(std::string what) {
   if (std::find(damage.begin(), damage.end(), what) == damage.end())
     damage.push_back(std::move(what));
 }
@@ -89,7 +89,7 @@ WorldFile::Contents WorldFile::read() {
       if (!decoded) why = decoded.error().message;
     }
     if (!why.empty())
-      s.tell(
+      s.report(
           fmt::format("the world {} has lost what was done in chunk {},{},{} of island {:016x}: {}",
                       quoted(s.path), name.chunk.x, name.chunk.y, name.chunk.z, name.island, why));
   };
@@ -103,7 +103,7 @@ WorldFile::Contents WorldFile::read() {
 }
 
 void WorldFile::State::lost(std::string_view what) {
-  tell(fmt::format("the world {} has lost {}: it is damaged", quoted(path), what));
+  report(fmt::format("the world {} has lost {}: it is damaged", quoted(path), what));
 }
 
 /// All islands, from their spares where their rows are damaged, and how they move.
@@ -126,8 +126,8 @@ std::map<std::uint64_t, IslandRow> WorldFile::State::read_islands() {
       const std::optional<IslandRow> spare = bytes ? decode_spare(id, *bytes) : std::nullopt;
       if (!spare || !islands.try_emplace(id, *spare).second) return;
       damaged.erase(id);
-      tell(fmt::format("the world {} is damaged: island {:016x} was read from a second copy",
-                       quoted(path), id));
+      report(fmt::format("the world {} is damaged: island {:016x} was read from a second copy",
+                         quoted(path), id));
     });
   for (const std::uint64_t id : damaged) lost(fmt::format("island {:016x}", id));
   if (version >= 2 && scan(*database, "SELECT island, data FROM motion", [&](Statement& row) {
@@ -160,7 +160,7 @@ LoadedWorld load_world(WorldFile& file) {
     const std::uint64_t id = row.spec.id;
     if (row.added) {
       const auto stored = std::make_shared<const StoredVoxels>(std::move(voxels[id]));
-      if (stored->stored().empty()) continue;  // all of it was dug away, or told as lost
+      if (stored->stored().empty()) continue;  // all of it was dug away, or reported as lost
       world.add_island(fitted(row.spec, *stored), stored);
     } else if (!world.meet(id, row.spec.origin)) {
       file.note_damage(

@@ -51,7 +51,7 @@ struct WorldFile::State {
   std::map<std::uint64_t, IslandRow> read_islands();
   void lost(std::string_view what);
   /// Notes damage, once.
-  void tell(std::string what);
+  void report(std::string what);
 };
 
 }  // namespace skerry::world

@@ -35,7 +35,7 @@ struct StreamSlot {
 /// An island at one level.
 struct StreamLevel {
   int level = 0;
-  std::uint64_t serial = 0;  // tells results of cancelled work from those wanted
+  std::uint64_t serial = 0;  // distinguishes results of cancelled work from those wanted
   bool planned = false;      // `slots` holds every chunk
   std::size_t unmade = 0;    // slots queued or running
   std::size_t made = 0;      // slots in phase kMade

@@ -34,7 +34,7 @@ class Frame {
   }
 
   enum class Part : std::uint8_t { kNone, kSome, kAll };
-  /// How many voxels of a chunk lie in the box. A few that have none may be told to have some.
+  /// How many voxels of a chunk lie in the box. A few that have none may be counted as having some.
   Part part_of(IVec3 origin) const {
     constexpr int kLast = kChunkEdge - 1;
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;

@@ -78,7 +78,7 @@ void confine(const Arguments& arguments) {
   // SIGXCPU comes first, so that SIGKILL is left to mean that the system ran out of memory.
   limit(RLIMIT_CPU, arguments.cpu_s, 2);
   if (kAddressesAreScarce) limit(RLIMIT_AS, address_space() + arguments.memory_bytes);
-  ::signal(SIGXFSZ, SIG_IGN);  // a full answer is an error that can be told
+  ::signal(SIGXFSZ, SIG_IGN);  // a full answer is an error that can be reported
   if (arguments.job == "read") limit(RLIMIT_FSIZE, arguments.answer_bytes);
   // Each thread of the allocator's or TBB's own would reserve address space by the gigabyte.
   ::mallopt(M_ARENA_MAX, 1);
@@ -122,8 +122,8 @@ int main(int count, char** words) {
   const skerry::Result<void> done = run(arguments);
   if (done) return 0;
   // What was written so far is no whole answer; the message takes its place.
-  const bool told = ::ftruncate(STDOUT_FILENO, 0) == 0 &&
+  const bool sent = ::ftruncate(STDOUT_FILENO, 0) == 0 &&
                     ::lseek(STDOUT_FILENO, 0, SEEK_SET) == 0 &&
                     encode_error(done.error().message, write_all);
-  return told ? 0 : 1;
+  return sent ? 0 : 1;
 }

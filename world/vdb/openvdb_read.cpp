@@ -22,7 +22,8 @@ namespace {
 
 using UInt8Grid = openvdb::Grid<openvdb::tree::Tree4<std::uint8_t, 5, 4, 3>::Type>;
 
-/// Reads a descriptor whose offset others watch, in order. It can tell and skip, not go back.
+/// Reads a descriptor whose offset others watch, in order. It can report its place and skip, not go
+/// back.
 class ForwardBuffer : public std::streambuf {
  public:
   explicit ForwardBuffer(int fd) : fd_(fd) {}

@@ -53,7 +53,7 @@ struct VolumeBox {
 /// the value is `background`. Bricks and tiles do not overlap, are sorted by origin, and all values
 /// are finite. The sample of index (i, j, k) lies at world_from_index * (i, j, k, 1); its voxel, if
 /// one wants it to have an extent, reaches half an index to each side. Inactive voxels read as the
-/// background, but for level sets, whose inactive values tell inside from outside.
+/// background, but for level sets, whose inactive values distinguish inside from outside.
 struct VolumeGrid {
   std::string name;        ///< unique in the file: grids of one name get [0], [1] ...
   std::string value_type;  ///< "float", "bool", "int32", "vec3s" ..., of OpenVDB

@@ -30,8 +30,8 @@ Result<void> write(const std::vector<VolumeGrid>& grids, const std::filesystem::
   if (!ran) return ran.error();
   const Result<std::span<const std::byte>> bytes = answer->seal();
   if (!bytes) return bytes.error();
-  const Result<std::vector<VolumeGrid>> told = decode_answer(*bytes);
-  if (!told) return told.error();
+  const Result<std::vector<VolumeGrid>> decoded = decode_answer(*bytes);
+  if (!decoded) return decoded.error();
   return {};
 }
 

@@ -9,7 +9,7 @@
 namespace skerry::world {
 namespace {
 
-/// Whether this program knows the block of an id above air's.
+/// Whether this program has a block of that id, which is above air's.
 bool is_known(float id) {
   return id < static_cast<float>(block::kBuiltInCount) - 0.5f;
 }
@@ -37,7 +37,7 @@ class Reader {
   }
 
  private:
-  /// The id of all voxels of a cube where bounds of the values tell it, 0 for air.
+  /// The id of all voxels of a cube where bounds of the values decide it, 0 for air.
   std::optional<float> id_of_all(IVec3 low, int edge) {
     out_.looks += kBoundsLooks;
     const VolumeField::Range seen =

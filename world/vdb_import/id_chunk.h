@@ -11,7 +11,7 @@ namespace skerry::world {
 /// A chunk of a grid of block ids.
 struct IdChunk {
   Chunk chunk = Chunk(kAir);
-  std::uint64_t unknown = 0;  ///< blocks of ids that this program does not know; now stone
+  std::uint64_t unknown = 0;  ///< blocks of unknown ids; now stone
   std::uint64_t looks = 0;    ///< into the grid, in units of import_cost.h
 };
 

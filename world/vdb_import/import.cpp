@@ -33,7 +33,7 @@ double blocks_per_unit_of(const std::vector<IslandSource>& sources, const Import
     all.add(placed.low);
     all.add(placed.high);
   }
-  if (all.empty()) return 1.0;  // then nothing is solid, which the builder tells
+  if (all.empty()) return 1.0;  // then nothing is solid, which the builder reports
   const glm::dvec3 extent = all.high - all.low;
   return static_cast<double>(*options.size_blocks) / std::max({extent.x, extent.y, extent.z});
 }

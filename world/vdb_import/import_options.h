@@ -42,7 +42,7 @@ struct ImportedIsland {
   /// block or a cube of blocks, else half a block's diagonal, for a block is solid where its centre
   /// is.
   double error_blocks = 0.0;
-  std::uint64_t unknown_ids = 0;  ///< blocks whose id this program does not know; now stone
+  std::uint64_t unknown_ids = 0;  ///< blocks of unknown ids; now stone
 };
 
 }  // namespace skerry::world

@@ -72,7 +72,7 @@ Result<void> IslandBuilder::prepare(const ReadProgress& progress) {
   const Result<std::set<IVec3>> chunks = chunks_of(grid, rule, placement_, cost_);
   if (!chunks) return chunks.error();
   Result<SolidMasks> masks =
-      solid_masks(source_.field, rule, placement_, *chunks, cost_, jobs_, progress);
+      solid_masks(source_.field, rule, placement_, *chunks, {cost_, jobs_, progress});
   if (!masks) return masks.error();
   masks_ = std::move(*masks);
   if (masks_.empty())

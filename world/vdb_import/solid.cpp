@@ -199,7 +199,7 @@ Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,
 
 Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
                                const Placement& placement, const std::set<IVec3>& chunks,
-                               ImportCost& cost, Jobs& jobs, const ReadProgress& progress) {
+                               const ImportRun& run) {
   const std::vector<IVec3> list(chunks.begin(), chunks.end());
   constexpr std::size_t kChunkBatch =
       256;  // between two looks at the limits and two steps of progress
@@ -213,7 +213,7 @@ Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
     const std::size_t count = std::min(kChunkBatch, list.size() - first);
     made.clear();
     made.resize(count);
-    jobs.parallel_for(static_cast<int>(count), [&](int i) {
+    run.jobs.parallel_for(static_cast<int>(count), [&](int i) {
       const auto at = static_cast<std::size_t>(i);
       Sampler sampler(field, rule, placement, list[first + at]);
       made[at].mask = sampler.run();
@@ -221,19 +221,20 @@ Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
     });
     for (std::size_t i = 0; i < count; ++i) {
       const ChunkMask::Fill fill = made[i].mask.fill;
-      cost.looks += made[i].looks;
-      cost.mixed_chunks += fill == ChunkMask::Fill::kMixed ? 1 : 0;
+      run.cost.looks += made[i].looks;
+      run.cost.mixed_chunks += fill == ChunkMask::Fill::kMixed ? 1 : 0;
       if (fill != ChunkMask::Fill::kEmpty)
         masks.emplace_hint(masks.end(), list[first + i], std::move(made[i].mask));
     }
-    if (cost.mixed_chunks > kMaxDetailedChunks) {
+    if (run.cost.mixed_chunks > kMaxDetailedChunks) {
       return Error{
           fmt::format("its surface would pass through more than {} chunks of 64^3 blocks; "
                       "give a smaller --scale or --size",
                       kMaxDetailedChunks)};
     }
-    if (cost.looks > cost.most_looks) return too_many_looks(cost);
-    if (progress) progress(static_cast<double>(first + count) / static_cast<double>(list.size()));
+    if (run.cost.looks > run.cost.most_looks) return too_many_looks(run.cost);
+    if (run.progress)
+      run.progress(static_cast<double>(first + count) / static_cast<double>(list.size()));
   }
   return masks;
 }

@@ -42,12 +42,19 @@ VolumeField::Range values_in_cube(const VolumeField& field, const Placement& pla
 Result<std::set<IVec3>> chunks_of(const VolumeGrid& grid, const SolidRule& rule,
                                   const Placement& placement, ImportCost& cost);
 
+/// What an import counts, works on and reports to.
+struct ImportRun {
+  ImportCost& cost;
+  Jobs& jobs;
+  const ReadProgress& progress;
+};
+
 /// Asks at each block's centre whether it is solid. Whole cubes of blocks are settled at once where
 /// bounds of the values allow it.
-/// Errors: more than kMaxDetailedChunks are mixed; more than cost.most_looks.
+/// Errors: more than kMaxDetailedChunks are mixed; more than run.cost.most_looks.
 Result<SolidMasks> solid_masks(const VolumeField& field, const SolidRule& rule,
                                const Placement& placement, const std::set<IVec3>& chunks,
-                               ImportCost& cost, Jobs& jobs, const ReadProgress& progress);
+                               const ImportRun& run);
 
 /// That an import looks more often than it may.
 Error too_many_looks(const ImportCost& cost);

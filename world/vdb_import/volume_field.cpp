@@ -66,7 +66,7 @@ VolumeField::VolumeField(const VolumeGrid& grid) : grid_(grid), nodes_(kTopLevel
                               [level](const TileLevel& t) { return t.level == level; });
     if (found == tile_levels_.end()) found = tile_levels_.insert(tile_levels_.end(), {level, {}});
     found->values.emplace(shifted(tile.origin, log2), tile.value);
-    // Its own cube needs no node: where there is none, beside_bricks knows the value.
+    // Its own cube needs no node: where there is none, beside_bricks has the value.
     widen_above(level, tile.origin, {tile.value, tile.value});
   }
 }

@@ -8,7 +8,7 @@ namespace skerry::world {
 
 using BlockId = std::uint16_t;
 
-/// How a block meets light and the mesher.
+/// How light and the mesher treat a block.
 enum class BlockKind : std::uint8_t {
   kAir,     ///< nothing to draw
   kOpaque,  ///< hides the neighbour's face
@@ -99,7 +99,7 @@ enum class Texture : std::uint8_t {
   kCount
 };
 
-/// What the program knows of a block id. World data, mesher, renderer and player all read this
+/// The properties of a block id. World data, mesher, renderer and player all read this
 /// table.
 struct BlockType {
   std::string_view name;  ///< lower-case words joined by '_', unique

@@ -97,6 +97,7 @@ class Device final : public ResourceOwner {
  private:
   Device();
   void open();
+  Result<void> check_buffer(const BufferDesc& desc) const;
   Result<void> check_image(const VkImageCreateInfo& info, const std::string& name) const;
   std::uint64_t memory_left() const;
   void account(const std::string& name, std::uint64_t bytes);

@@ -94,7 +94,7 @@ Error out_of_memory(const std::string& name, std::uint64_t wanted, std::uint64_t
 
 }  // namespace
 
-Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
+Result<void> Device::check_buffer(const BufferDesc& desc) const {
   if (desc.size_bytes == 0)
     return Error{"cannot create the buffer '" + desc.name + "': its size is zero"};
   if ((desc.usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) &&
@@ -111,6 +111,11 @@ Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
   if (desc.size_bytes > limits_.max_buffer_bytes)
     return out_of_memory(desc.name, desc.size_bytes, state_->memory_total,
                          VK_ERROR_OUT_OF_DEVICE_MEMORY);
+  return {};
+}
+
+Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
+  if (Result<void> ok = check_buffer(desc); !ok) return ok.error();
   Buffer buffer;
   auto info = vk_struct<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = desc.size_bytes;

@@ -5,8 +5,8 @@
 
 namespace skerry::gpu {
 
-/// The enumerator's name, e.g. "VK_ERROR_DEVICE_LOST"; "VkResult(n)" for one this build does not
-/// know.
+/// The enumerator's name, e.g. "VK_ERROR_DEVICE_LOST"; "VkResult(n)" for one that is not
+/// listed.
 std::string result_name(VkResult result);
 
 /// Prints expression, result name, file and line on stderr, then aborts.

@@ -92,7 +92,7 @@ class PassBuilder {
 /// each binding is set.
 class Commands {
  public:
-  void bind(const Pipeline& pipeline);  ///< waits for it; forgets all bindings
+  void bind(const Pipeline& pipeline);  ///< waits for it; clears all bindings
   void storage(std::uint32_t binding,
                BufferRef buffer);  ///< a storage or a uniform buffer, as the shader declares it
   /// A buffer made with BufferDesc::texels, declared as one that is read.
@@ -115,7 +115,6 @@ class Commands {
   /// vkCmdDrawIndexedIndirectCount over shared::DrawCommand.
   void draw_indirect_count(BufferRef commands, std::uint64_t offset_bytes, BufferRef count,
                            std::uint64_t count_offset_bytes, std::uint32_t max_draws);
-  void set_depth_bias(float constant, float slope);
   void fill(BufferRef buffer, std::uint64_t offset, std::uint64_t size, std::uint32_t value);
   void copy(BufferRef from, BufferRef to, std::uint64_t from_offset, std::uint64_t to_offset,
             std::uint64_t size);

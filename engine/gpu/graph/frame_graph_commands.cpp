@@ -186,10 +186,6 @@ void Commands::draw_indirect_count(BufferRef commands, std::uint64_t offset_byte
                                 sizeof(VkDrawIndexedIndirectCommand));
 }
 
-void Commands::set_depth_bias(float constant, float slope) {
-  vkCmdSetDepthBias(commands_, constant, 0.0f, slope);
-}
-
 void Commands::fill(BufferRef ref, std::uint64_t offset, std::uint64_t size, std::uint32_t value) {
   require(ref.id, ref.version, VK_ACCESS_2_TRANSFER_WRITE_BIT);
   ++counted().copies;

@@ -42,7 +42,6 @@ struct GraphicsDesc {
                                                  ///< world; the y flip is accounted for
   bool depth_write = true;                       ///< test is GREATER_OR_EQUAL (reverse-Z)
   bool depth_clamp = false;
-  bool depth_bias = false;  ///< dynamic: Commands::set_depth_bias
   bool blend =
       false;  ///< colours are laid over what is there by their straight alpha; else they replace it
   auto operator<=>(const GraphicsDesc&) const = default;

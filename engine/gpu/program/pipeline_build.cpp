@@ -83,7 +83,6 @@ VkPipelineRasterizationStateCreateInfo rasterization(const GraphicsDesc& desc) {
   // VK_FRONT_FACE_COUNTER_CLOCKWISE (specification, 28.10 "Basic Polygon Rasterization": a = -1/2
   // sum(x_i y_i+1 - x_i+1 y_i)).
   info.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-  info.depthBiasEnable = desc.depth_bias ? VK_TRUE : VK_FALSE;
   info.lineWidth = 1.0f;
   return info;
 }
@@ -110,14 +109,12 @@ VkPipelineColorBlendAttachmentState attachment_state(const GraphicsDesc& desc) {
   return state;
 }
 
-/// The last one where a depth bias is set.
-constexpr std::array kDynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                    VK_DYNAMIC_STATE_DEPTH_BIAS};
+constexpr std::array kDynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
 
-VkPipelineDynamicStateCreateInfo dynamic_state(const GraphicsDesc& desc) {
+VkPipelineDynamicStateCreateInfo dynamic_state() {
   auto info = vk_struct<VkPipelineDynamicStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
-  info.dynamicStateCount = desc.depth_bias ? 3 : 2;
+  info.dynamicStateCount = kDynamicStates.size();
   info.pDynamicStates = kDynamicStates.data();
   return info;
 }
@@ -178,7 +175,7 @@ void compile_graphics(Device& device, Pipeline& pipeline, std::span<const Shader
       VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
   blend.pAttachments = attachments.data();
-  const auto dynamic = dynamic_state(desc);
+  const auto dynamic = dynamic_state();
   auto rendering = targets(desc);
 
   auto info = vk_struct<VkGraphicsPipelineCreateInfo>(

@@ -141,9 +141,4 @@ Celestial celestial_at(double time_of_day_s, double moon_phase) {
   return sky;
 }
 
-double quantised_time(double time_of_day_s) {
-  constexpr double kStepSeconds = 12.0;
-  return std::floor(reduced(time_of_day_s, kDaySeconds) / kStepSeconds) * kStepSeconds;
-}
-
 }  // namespace skerry::render

@@ -58,11 +58,4 @@ glm::dvec3 transmittance_to_zenith(double sine);
 /// ends at -18 degrees, 0 beyond. Smooth through the horizon.
 double zenith_radiance(double sun_altitude_sine);
 
-/// The time rounded down to a step of 12 s (0.05 degrees of the sun), reduced to one day, for a sun
-/// whose shadow maps are kept between frames. A step is a tenth of the sun's disc (0.53 degrees),
-/// so it moves the edge of a shadow by less than a tenth of the edge's natural blur; the shadow of
-/// something 64 blocks up moves 0.056 blocks, below one texel of the nearest cascade at 2048 texels
-/// and 1000 blocks of view.
-double quantised_time(double time_of_day_s);
-
 }  // namespace skerry::render

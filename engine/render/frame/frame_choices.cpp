@@ -10,7 +10,12 @@ bool shows_channel(const RenderSettings& settings) {
 }
 
 int samples_per_edge(const RenderSettings& settings) {
-  return shows_channel(settings) ? 1 : settings.samples_per_edge;
+  if (shows_channel(settings)) return 1;
+  return settings.aa_samples == 16 ? 4 : settings.aa_samples == 4 ? 2 : 1;
+}
+
+float shadow_blur(const FrameInput& input, const RenderSettings& settings) {
+  return input.parts == 1 ? settings.shadow_blur : 0.0f;
 }
 
 VkExtent2D picture_size(VkExtent2D shown, const RenderSettings& settings) {

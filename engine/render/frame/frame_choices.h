@@ -12,6 +12,8 @@ int samples_per_edge(const RenderSettings& settings);
 /// Pixels of the picture that is drawn where `shown` are shown, 1 an edge at least. A debug view is
 /// drawn as large as it is shown.
 VkExtent2D picture_size(VkExtent2D shown, const RenderSettings& settings);
+/// shadow.blur of this frame: many parts blur edges exactly.
+float shadow_blur(const FrameInput& input, const RenderSettings& settings);
 /// Whether the frame's radiance is metered.
 bool meters(const FrameInput& input, const RenderSettings& settings);
 /// Whether the picture takes the way over a radiance image though no pass comes between.

@@ -32,10 +32,12 @@ struct BlockMarker {
 
 /// What a frame can be asked to copy out for measuring, besides the picture.
 enum class Capture : std::uint8_t {
-  kRadiance,   ///< RGBA16F, before exposure
-  kDepth,      ///< D32, reverse-Z; absent from a frame without geometry, or with another depth
-  kSurfaces,   ///< R32_UINT, the G-buffer's words; absent likewise
-  kShadowMaps  ///< D32 layers, all cascades of the sun, then of the moon; absent when nothing casts
+  kRadiance,  ///< RGBA16F, before exposure
+  kDepth,     ///< D32, reverse-Z; absent from a frame without geometry, or with another depth
+  kSurfaces,  ///< R32_UINT, the G-buffer's words; absent likewise
+  /// D32 layers, all cascades of the sun, then of the moon; after them layers of a body that has
+  /// set. Absent when nothing casts.
+  kShadowMaps
 };
 
 /// An image copied out of a frame: texels of its own format, rows from the top, layer by layer.
@@ -63,6 +65,7 @@ struct FrameInput {
   Camera camera;
   FixedPos anchor{};  ///< moves with the world's offset; pictures depend on differences to it alone
   std::span<const IslandPlacement> islands;  ///< at most shared::kMaxIslands
+  double reach_blocks = 1000.0;  ///< all islands in view end within; shadow maps reach as far
   Celestial sky{};
   std::span<const shared::Light> lights;  ///< finite, in an order that does not depend on threads
   std::span<const std::uint32_t> light_islands;       ///< indices of `islands`, see shared::Light

@@ -43,12 +43,12 @@ struct SceneRefs {
   std::uint32_t bodies = 0;  ///< that give light: bit 0 the sun, bit 1 the moon
   std::uint32_t shadow_taps = 0, shadow_cascades = 0;  ///< of each body, see RenderSettings
   std::uint32_t samples_per_edge = 1;                  ///< of a pixel, see RenderSettings
-  bool penumbrae = true;                               ///< whether shadow_penumbra_blocks is not 0
+  bool shadow_blur = true;                             ///< whether shadow_blur is not 0
   bool haze = true;
   Indirect indirect_light = Indirect::kOff;
   ToneCurve tone = ToneCurve::kAces;
-  bool calibrated = false;          ///< whether the display takes other than 0 to 1
-  bool corners = false;             ///< whether they darken; then there is an occupancy store
+  bool calibrated = false;  ///< whether the display takes other than 0 to 1
+  bool ao = false;          ///< whether corners take light; then there is an occupancy store
   std::optional<CloudRefs> clouds;  ///< none: the frame has no clouds
   VkExtent2D size{};
 };

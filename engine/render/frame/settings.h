@@ -16,7 +16,7 @@ enum class DebugView : std::uint8_t {
   kDepth,
   kCascades,
   kShadow,
-  kCorners,
+  kAo,
   kClusters,
   kLightCount,
   kExposure  ///< the lit scene, and the meter's histogram over it
@@ -57,7 +57,6 @@ struct MeterSettings {
   bool operator==(const MeterSettings&) const = default;
 };
 
-inline constexpr std::uint32_t kEveryLight = ~0u;
 /// Glow of what is too bright. docs/exposure.md.
 struct BloomSettings {
   float intensity = 0.0f;  ///< of the light over the threshold, what is added; 0: no bloom at all
@@ -88,32 +87,35 @@ enum class Indirect : std::uint8_t {
   kFull  ///< also of weak lamps, which then are no lights of the frame
 };
 
-/// Knobs of the picture. Defaults are the medium quality level's.
+/// From a surface and its lights to radiance. kFlat: shadow result times light colour, without the
+/// angle to the light and without corners.
+enum class Shading : std::uint8_t { kPbr, kFlat };
+
+inline constexpr std::uint32_t kEveryLight = ~0u;  ///< of RenderSettings::lights_shadows
+
+/// Knobs of the picture, named as the keys of docs/settings.md. Defaults are those of quality
+/// medium.
 struct RenderSettings {
-  double view_distance_blocks =
-      1000.0;                ///< all that is drawn lies within; the last cascade reaches as far
-  int samples_per_edge = 1;  ///< of a pixel: the picture is drawn so many times as wide and high
-                             ///< and averaged; 1, 2 or 4
+  int aa_samples = 1;  ///< of a pixel, drawn and averaged: 1, 4 or 16
   /// Of the edges of the picture that is shown, 0.25..1: below 1 the scene is drawn smaller, and
   /// the picture is enlarged.
   float render_scale = 1.0f;
-  bool shadows = true;
-  int shadow_map_size = 2048;  ///< texels along an edge of each cascade, 64..16384
+  bool shadow_enabled = true;
+  int shadow_size = 2048;      ///< texels along an edge of each cascade, 64..16384
   int shadow_cascades = 4;     ///< maps a light has, 1..4; however few reach as far
   double shadow_split = 0.98;  ///< 0 evenly spaced cascades .. 1 each a multiple of the last
   int shadow_taps = 8;         ///< of the shadow filter: 1, 4, 8, 16 or 32
-  /// Largest radius of the shadow filter, which is as wide as the edge that the sun's disc casts,
-  /// and a texel at least. 0: a texel everywhere.
-  float shadow_penumbra_blocks = 0.15f;
-  bool flat_shading = false;  ///< shadow result times light colour, no N.L and no corners
-  float corner_darkening =
-      0.5f;  ///< share of light that a closed corner takes, 0..1; 0: no corners
+  /// Largest radius of the shadow filter [blocks]. The filter is as wide as the edge that the sun's
+  /// disc casts, and a texel at least. 0: a texel everywhere.
+  float shadow_blur = 0.15f;
+  Shading shading = Shading::kPbr;
+  float ao_strength = 0.5f;  ///< share of light that a closed corner takes, 0..1; 0: no corners
   Indirect indirect = Indirect::kFull;
   /// Pixels along a block whose light is worked out once where its neighbours agree: 1, 2 or 4.
   int shading_rate = 1;
   float shading_tolerance = 0.1f;  ///< how much light may differ between them, of the brightest
   int texture_taps = 2;            ///< samples along the long side of a texture footprint, 1..16
-  int translucent_layers = 3;      ///< nearest surfaces of water and glass kept a pixel, 1..4
+  int water_layers = 2;            ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;
   MeterSettings meter;
   BloomSettings bloom;
@@ -122,11 +124,11 @@ struct RenderSettings {
   CloudSettings clouds;
   /// For how many lights of a pixel walls are looked for: none, kEveryLight, or those that send the
   /// most light to the eye, 1..8; the others are dimmed by the same share.
-  std::uint32_t traced_lights = 4;
-  std::uint32_t light_tile = 16;  ///< pixels along a light cluster's tile: 8, 16, 32 or 64
-  int light_samples = 1;          ///< ways to a light that has a size, 1..16
-  bool lights_oracle = false;     ///< every pixel asks every light: slow, to hold clusters against
-  FeatureSet leave_out;           ///< absent even where the scene has them
+  std::uint32_t lights_shadows = 4;
+  std::uint32_t lights_tile = 16;  ///< pixels along a light cluster's tile: 8, 16, 32 or 64
+  int lights_softness = 1;         ///< ways to a light that has a size, 1..16
+  bool lights_oracle = false;      ///< every pixel asks every light: slow, to hold clusters against
+  FeatureSet leave_out;            ///< absent even where the scene has them
   DebugView debug_view = DebugView::kNone;
   bool operator==(const RenderSettings&) const = default;
 };

@@ -30,7 +30,7 @@ struct ChunkSkyLight {
   bool changed = true;  ///< since it was last handed over, to an island that has kept its grid
 };
 
-/// What surfaces need to know of the light of the sky, on the GPU: one buffer of texels. Writes go
+/// The light of the sky on surfaces, on the GPU: one buffer of texels. Writes go
 /// through the uploader's queue, records before the tables that name them.
 class IndirectStore {
  public:
@@ -47,7 +47,7 @@ class IndirectStore {
   void end_island(gpu::Uploader& uploader, std::uint32_t island);
   /// What the sky sends to the faces of the first islands of the table now (sky_irradiance()).
   void set_sky(gpu::Uploader& uploader, std::span<const glm::uvec4> irradiance);
-  /// Once a frame, before recording: reclaims what the GPU has let go of.
+  /// Once a frame, before recording: reclaims what the GPU has finished with.
   void collect();
 
   gpu::Buffer& texels() { return texels_; }

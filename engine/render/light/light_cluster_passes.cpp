@@ -44,7 +44,7 @@ std::uint32_t small_tile_count(const shared::ClusterGrid& grid) {
 
 void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
               const ClusterDepths& depths, const shared::ClusterGrid& grid, Buffers& b) {
-  std::vector<gpu::SpecConstant> constants{{shared::kLayersConstant, depths.layer_count}};
+  std::vector<gpu::SpecConstant> constants{{shared::kWaterLayersConstant, depths.layer_count}};
   if (depths.depth16) constants.push_back({shared::kDepth16Constant, 1});
   const auto program = gpu::compute(pipelines, programs::kMarkLightTiles, std::move(constants));
   graph.add_pass(

@@ -16,7 +16,7 @@ std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
     own.push_back({shared::kCascadesConstant, scene.shadow_cascades});
     if (scene.samples_per_edge > 1)
       own.push_back({shared::kSamplesPerEdgeConstant, scene.samples_per_edge});
-    if (!scene.penumbrae) own.push_back({shared::kPenumbraeConstant, 0});
+    if (!scene.shadow_blur) own.push_back({shared::kShadowBlurConstant, 0});
   }
   return own;
 }

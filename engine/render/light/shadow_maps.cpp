@@ -1,5 +1,6 @@
 #include "engine/render/light/shadow_maps.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/gpu/device/device.h"
@@ -7,8 +8,24 @@
 
 namespace skerry::render {
 
+namespace {
+
+std::uint32_t layers_a_body(const ShadowLayout& layout) {
+  const auto bodies = std::count(layout.casting.begin(), layout.casting.end(), true);
+  return bodies == 0 ? 0 : layout.layers / static_cast<std::uint32_t>(bodies);
+}
+
+/// Whether an array made for one layout serves another. At sunset the sun's layers stay for the
+/// next twilight.
+bool serves(const ShadowLayout& made, const ShadowLayout& wanted) {
+  return wanted.edge == made.edge && layers_a_body(wanted) == layers_a_body(made) &&
+         wanted.layers <= made.layers;
+}
+
+}  // namespace
+
 Result<void> ShadowMaps::ensure(const ShadowLayout& layout) {
-  if (layout == layout_ && (maps_ || layout.layers == 0)) return {};
+  if (layout.layers == 0 ? !maps_ : maps_ && serves(layout_, layout)) return {};
   maps_ = {};
   layout_ = layout;
   ++generation_;

@@ -16,8 +16,8 @@ class ShadowMaps {
  public:
   explicit ShadowMaps(gpu::Device& device) : device_(&device) {}
 
-  /// Makes the array as a frame needs it, or frees it if nothing casts. Errors: out of memory, and
-  /// then there is no array.
+  /// Makes the array as a frame needs it, or frees it if nothing casts. An array with room for sun
+  /// and moon stays when one of them sets. Errors: out of memory, and then there is no array.
   Result<void> ensure(const ShadowLayout& layout);
   /// Null when nothing casts.
   gpu::Image* maps() { return maps_ ? &maps_ : nullptr; }
@@ -27,7 +27,7 @@ class ShadowMaps {
  private:
   gpu::Device* device_;
   gpu::Image maps_;
-  ShadowLayout layout_;
+  ShadowLayout layout_;  // that maps_ was made for
   std::uint64_t generation_ = 0;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "engine/render/frame/frame_choices.h"
+
 namespace skerry::render {
 namespace {
 
@@ -48,8 +50,8 @@ bool may_touch(const shared::Section& section, const IslandPlacement& island,
 
 /// Casters further than this above a cascade are flattened onto the map's near side by depth
 /// clamping, so nothing is lost.
-double caster_reach(const RenderSettings& settings) {
-  return 2.0 * settings.view_distance_blocks + 512.0;
+double caster_reach(const FrameInput& input) {
+  return 2.0 * input.reach_blocks + 512.0;
 }
 
 /// Whether a kept map shows what `cascade` asks for. Notes, in `kept`, changes that do not touch
@@ -78,11 +80,11 @@ CascadeInput cascade_input(const FrameInput& input, const RenderSettings& settin
   in.camera = input.camera.position;
   in.anchor = input.anchor;
   in.near_blocks = 1.0;
-  in.far_blocks = settings.view_distance_blocks;
-  in.caster_reach_blocks = caster_reach(settings);
-  in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_penumbra_blocks) +
-                     8.0 * settings.view_distance_blocks / settings.shadow_map_size;
-  in.map_size = settings.shadow_map_size;
+  in.far_blocks = input.reach_blocks;
+  in.caster_reach_blocks = caster_reach(input);
+  in.filter_blocks = 2.0 * static_cast<double>(shadow_blur(input, settings)) +
+                     8.0 * input.reach_blocks / settings.shadow_size;
+  in.map_size = settings.shadow_size;
   in.count = settings.shadow_cascades;
   in.split = settings.shadow_split;
   return in;
@@ -90,10 +92,11 @@ CascadeInput cascade_input(const FrameInput& input, const RenderSettings& settin
 
 ShadowLayout layout_of(const FrameInput& input, const RenderSettings& settings) {
   ShadowLayout out;
-  out.casting = {settings.shadows && input.sky.sun_casts, settings.shadows && input.sky.moon_casts};
+  out.casting = {settings.shadow_enabled && input.sky.sun_casts,
+                 settings.shadow_enabled && input.sky.moon_casts};
   const auto bodies = static_cast<std::uint32_t>(out.casting[0]) + (out.casting[1] ? 1u : 0u);
   out.layers = bodies * static_cast<std::uint32_t>(settings.shadow_cascades);
-  if (out.layers != 0) out.edge = static_cast<std::uint32_t>(settings.shadow_map_size);
+  if (out.layers != 0) out.edge = static_cast<std::uint32_t>(settings.shadow_size);
   return out;
 }
 

@@ -5,17 +5,17 @@
 
 namespace skerry::render {
 
-WallReads::WallReads(const SceneRefs& scene, const RenderSettings& settings, bool corners)
-    : traced_(settings.traced_lights != 0 && scene.light_islands),
-      lights_(settings.traced_lights),
-      samples_(static_cast<std::uint32_t>(settings.light_samples)),
-      occupancy_(scene, corners || traced_),
+WallReads::WallReads(const SceneRefs& scene, const RenderSettings& settings, bool ao)
+    : traced_(settings.lights_shadows != 0 && scene.light_islands),
+      lights_(settings.lights_shadows),
+      samples_(static_cast<std::uint32_t>(settings.lights_softness)),
+      occupancy_(scene, ao || traced_),
       islands_(traced_ ? scene.light_islands : scene.materials) {}
 
 std::vector<gpu::SpecConstant> WallReads::with_walls(std::vector<gpu::SpecConstant> own) const {
   if (!traced_) return own;
-  own.push_back({shared::kTracedLightsConstant, lights_});
-  own.push_back({shared::kLightSamplesConstant, samples_});
+  own.push_back({shared::kLightsShadowsConstant, lights_});
+  own.push_back({shared::kLightsSoftnessConstant, samples_});
   return own;
 }
 

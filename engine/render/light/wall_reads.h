@@ -16,7 +16,7 @@ namespace skerry::render {
 class WallReads {
  public:
   /// @param corners the shader looks corners up besides (corners.glsl).
-  WallReads(const SceneRefs& scene, const RenderSettings& settings, bool corners);
+  WallReads(const SceneRefs& scene, const RenderSettings& settings, bool ao);
   std::vector<gpu::SpecConstant> with_walls(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
   auto bindings() const {

@@ -61,14 +61,14 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
   const ClusteredLights clusters = lit ? *in.lights : ClusteredLights::none(scene);
   const SurfaceReads surfaces(in.geometry);
   const gpu::ImageRef maps = in.shadows.maps();
-  const OccupancyReads occupancy(scene, scene.corners && in.view == DebugView::kCorners);
+  const OccupancyReads occupancy(scene, scene.ao && in.view == DebugView::kAo);
   const auto program = gpu::compute(
       pipelines, programs::kShowChannel,
       clusters.with_lights(with_picture(
-          with_corners(surfaces.with_store(with_light(
-                           {{shared::kChannelConstant, static_cast<std::uint32_t>(in.view)}}, scene,
-                           bool{maps})),
-                       bool{occupancy}),
+          with_ao(surfaces.with_store(
+                      with_light({{shared::kChannelConstant, static_cast<std::uint32_t>(in.view)}},
+                                 scene, bool{maps})),
+                  bool{occupancy}),
           scene)));
   graph.add_pass(
       lit ? "show_lights" : "show_channel",

@@ -44,8 +44,8 @@ FramePlan common_of(const FramePlan& now, const ProgramNeeds& needs) {
   plan.input.light_islands = kSomeIsland;
   plan.indirect =
       needs.indirect && plan.settings.indirect != Indirect::kOff && !plan.shows_channel();
-  plan.corners =
-      needs.occupancy && plan.settings.corner_darkening > 0.0f && !plan.settings.flat_shading;
+  plan.ao = needs.occupancy && plan.settings.ao_strength > 0.0f &&
+            plan.settings.shading != Shading::kFlat;
   plan.bake_sky = true;
   if (!plan.shows_channel()) plan.marker.emplace();
   if (plan.clouds) plan.clouds->bake_noise = plan.clouds->layer;
@@ -59,7 +59,7 @@ void suppose_bodies(FramePlan& plan, const ProgramNeeds& needs, std::uint32_t bo
   for (std::uint32_t body = 0; body < shared::kBodyCount; ++body) {
     const bool shines = (bodies & 1u << body) != 0;
     plan.tables.constants.bodies[body].irradiance = glm::vec3(shines ? 1.0f : 0.0f);
-    plan.shadows.layout.casting[body] = shines && plan.settings.shadows;
+    plan.shadows.layout.casting[body] = shines && plan.settings.shadow_enabled;
     if (plan.shadows.layout.casting[body])
       plan.shadows.cascades.push_back({static_cast<int>(body), 0, 0, true, {}});
   }
@@ -97,16 +97,14 @@ void suppose(FramePlan& plan, const ProgramNeeds& needs, const Supposed& what) {
 }  // namespace
 
 ProgramNeeds program_needs(const FramePlan& plan, const SceneFacts& facts) {
-  ProgramNeeds needs{.settings = plan.settings,
-                     .metered = plan.input.meter,
-                     .given_exposure = plan.input.exposure_ev.has_value(),
-                     .parts = plan.input.parts > 1,
-                     .occupancy = facts.occupancy,
-                     .indirect = facts.indirect,
-                     .volumes = !facts.clouds.volumes.empty(),
-                     .light_kinds = light_kinds(plan.input.lights) | kTorches};
-  needs.settings.view_distance_blocks = 0.0;
-  return needs;
+  return {.settings = plan.settings,
+          .metered = plan.input.meter,
+          .given_exposure = plan.input.exposure_ev.has_value(),
+          .parts = plan.input.parts > 1,
+          .occupancy = facts.occupancy,
+          .indirect = facts.indirect,
+          .volumes = !facts.clouds.volumes.empty(),
+          .light_kinds = light_kinds(plan.input.lights) | kTorches};
 }
 
 void each_foreseen(const FramePlan& now, const ProgramNeeds& needs,

@@ -23,11 +23,11 @@ struct FramePlan {
   VkExtent2D shown{};             ///< size of the picture that was asked for [pixels]
   VkExtent2D picture{}, drawn{};  ///< `picture` is enlarged to `shown`; `drawn` has aa.samples
                                   ///< times as many pixels
-  bool geometry = false;                ///< sections are resident
-  shared::SkyConstants sky{};           ///< of the whole picture, not of its part
-  bool bake_sky = false;                ///< else the sky table of an earlier frame is kept
-  bool corners = false;                 ///< they darken
-  bool indirect = false;                ///< the sky lights surfaces
+  bool geometry = false;          ///< sections are resident
+  shared::SkyConstants sky{};     ///< of the whole picture, not of its part
+  bool bake_sky = false;          ///< else the sky table of an earlier frame is kept
+  bool ao = false;                ///< corners take light
+  bool indirect = false;          ///< the sky lights surfaces
   std::vector<glm::uvec4> sky_light{};  ///< what it sends to them, see sky_irradiance()
   bool direct = false;                  ///< shading writes the picture itself
   ShadowPlan shadows{};

@@ -176,7 +176,7 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.shadow_taps = static_cast<std::uint32_t>(settings.shadow_taps);
   s.shadow_cascades = static_cast<std::uint32_t>(settings.shadow_cascades);
   s.samples_per_edge = static_cast<std::uint32_t>(samples_per_edge(settings));
-  s.penumbrae = settings.shadow_penumbra_blocks > 0.0f;
+  s.shadow_blur = shadow_blur(input, settings) > 0.0f;
   for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
     if (tables.constants.bodies[body].irradiance != glm::vec3(0.0f)) s.bodies |= 1u << body;
   return s;

@@ -157,7 +157,7 @@ void draw_shadows(FrameAssembly& f) {
 
 void draw_translucent(FrameAssembly& f) {
   f.layers = TranslucentPass::draw(f.graph, f.pipelines, f.scene, *f.draws, *f.geometry,
-                                   f.plan.settings.translucent_layers);
+                                   f.plan.settings.water_layers);
 }
 
 void sort_lights(FrameAssembly& f) {

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/render/frame/display.h"
+#include "engine/render/frame/frame_choices.h"
 #include "engine/render/sky/sky_model.h"
 #include "shaders/shared/light.h"
 #include "shaders/shared/sky.h"
@@ -78,13 +79,13 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.display_peak = static_cast<float>(srgb_encoded(settings.display.peak));
   f.display_black = settings.display.black;
   f.time_s = static_cast<float>(std::fmod(input.time_s, 3600.0));
-  f.shading_flat = settings.flat_shading ? 1u : 0u;
+  f.shading_flat = settings.shading == Shading::kFlat ? 1u : 0u;
   f.camera_medium = input.camera_medium;
-  f.penumbra_blocks = settings.shadow_penumbra_blocks;
+  f.shadow_blur = shadow_blur(input, settings);
   f.bodies[0] = shader_body(input.sky.to_sun, input.sky.sun_irradiance, 0, cascades);
   f.bodies[1] = shader_body(input.sky.to_moon, input.sky.moon_irradiance, 1, cascades);
 
-  f.corner_darkening = settings.corner_darkening;
+  f.ao_strength = settings.ao_strength;
   f.haze_per_block = kClearAir * air_light(input.sky);
 
   shared::CullView view{};
@@ -96,7 +97,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   append_islands(out.islands, input.islands, input.camera.position);
 
   for (const ActiveCascade& active : cascades) {
-    f.cascades[active.layer] = shader_cascade(active, settings.shadow_map_size);
+    f.cascades[active.layer] = shader_cascade(active, settings.shadow_size);
     if (!active.redraw) continue;
     shared::CullView light{};
     for (std::size_t i = 0; i < active.cascade.planes.size(); ++i)

@@ -71,9 +71,9 @@ void explain_contents(FramePlan& plan) {
   for (std::size_t i = 0; i < kFeatureNames.size(); ++i)
     if (const char* why = features.why_not(static_cast<Feature>(i)))
       plan.left_out.push_back({std::string(kFeatureNames[i]), why});
-  if (!plan.corners)
+  if (!plan.ao)
     plan.left_out.push_back(
-        {"corners", plan.settings.flat_shading ? "shading=flat" : "ao.strength=0"});
+        {"ao", plan.settings.shading == Shading::kFlat ? "shading=flat" : "ao.strength=0"});
   for (const ActiveCascade& cascade : plan.shadows.cascades)
     if (!cascade.redraw)
       plan.left_out.push_back(
@@ -82,7 +82,7 @@ void explain_contents(FramePlan& plan) {
   if (!plan.geometry) return;
   for (const Feature body : {Feature::kSun, Feature::kMoon}) {
     const char* why = features.why_not(body);
-    if (!why && !plan.settings.shadows) why = "shadow.enabled=0";
+    if (!why && !plan.settings.shadow_enabled) why = "shadow.enabled=0";
     if (why)
       plan.left_out.push_back(
           {body == Feature::kSun ? "draw_shadow_sun" : "draw_shadow_moon", why});
@@ -128,7 +128,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.tables = build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades);
   plan.tables.constants.picture_size = {plan.picture.width, plan.picture.height};
   plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky, facts);
-  plan.corners = facts.occupancy && settings.corner_darkening > 0.0f && !settings.flat_shading;
+  plan.ao = facts.occupancy && settings.ao_strength > 0.0f && settings.shading != Shading::kFlat;
   plan.marked_slices = marked_slices(plan.input, plan.contents);
   plan.next.shadows = plan.geometry ? plan.shadows.next : history.shadows;
   plan.next.clouds = history.clouds;

@@ -154,13 +154,13 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
     if (Result<void> ok =
             light_clusters.upload(frame_uploader, plan.contents.lights, input.light_reaches,
                                   view_of(input.camera, plan.drawn.width, plan.drawn.height),
-                                  {plan.drawn, plan.marked_slices, plan.settings.light_tile});
+                                  {plan.drawn, plan.marked_slices, plan.settings.lights_tile});
         !ok)
       return ok;
   if (plan.indirect) indirect->set_sky(frame_uploader, plan.sky_light);
   if (plan.clouds)
     if (Result<void> ok = clouds.prepare(frame_uploader, *plan.clouds); !ok) return ok;
-  if (occupancy && plan.settings.traced_lights != 0 && !input.light_islands.empty())
+  if (occupancy && plan.settings.lights_shadows != 0 && !input.light_islands.empty())
     return resources.upload_light_islands(frame_uploader, input);
   return {};
 }
@@ -172,14 +172,14 @@ SceneRefs Renderer::State::import_scene(gpu::FrameGraph& to, const FramePlan& pl
   s.section_slots = geometry->section_slots();
   s.most_draws = geometry->most_draws();
   s.haze = plan.contents.features.has(Feature::kHaze);
-  s.corners = plan.corners;
+  s.ao = plan.ao;
   if (plan.indirect) s.indirect_light = plan.settings.indirect;
   s.indirect = to.import(plan.indirect && indirect ? indirect->texels() : resources.no_texels());
   if (!occupancy) return s;
   s.occupancy_grids = to.import(occupancy->grids());
   s.occupancy_tables = to.import(occupancy->tables());
   s.occupancy_words = to.import(occupancy->words());
-  if (plan.settings.traced_lights != 0 && !plan.input.light_islands.empty())
+  if (plan.settings.lights_shadows != 0 && !plan.input.light_islands.empty())
     s.light_islands = resources.import_light_islands(to);
   return s;
 }
@@ -423,7 +423,7 @@ Captured Renderer::captured(Capture what) {
 const std::optional<FrameReport>& Renderer::report() const {
   return state_->report;
 }
-void Renderer::forget_shadows() {
+void Renderer::invalidate_shadows() {
   state_->history.shadows = {};
 }
 

@@ -98,7 +98,7 @@ class Renderer {
   /// Waits for all frames and takes in their numbers.
   void finish();
   /// Shadow maps are drawn afresh in the next frame, whatever has been kept.
-  void forget_shadows();
+  void invalidate_shadows();
 
  private:
   struct State;

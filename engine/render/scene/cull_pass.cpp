@@ -19,7 +19,7 @@ std::uint32_t list_index(std::uint32_t view, DrawList list) {
   return view * shared::kListCount + static_cast<std::uint32_t>(list);
 }
 
-/// What cull_emit.comp is told, in both of its steps.
+/// Push constants of cull_emit.comp, in both of its steps.
 struct EmitPush {
   std::uint32_t section_count, group_count;
   DrawLimits most;

@@ -44,7 +44,7 @@ class GeometryStore {
                         std::span<const shared::Quad> quads);
   /// Its quads may be overwritten once the GPU has finished everything submitted so far.
   void remove(gpu::Uploader& uploader, SectionId id);
-  /// Once a frame, before recording: reclaims what the GPU has let go of.
+  /// Once a frame, before recording: reclaims what the GPU has finished with.
   void collect();
 
   gpu::Buffer& quads() { return quads_; }
@@ -65,7 +65,7 @@ class GeometryStore {
   std::uint64_t translucent_quads() const { return translucent_quads_; }
   std::uint64_t cutout_quads() const { return cutout_quads_; }
   std::span<const shared::Section> records() const { return records_; }
-  /// For kept shadow maps, which must know when they are out of date.
+  /// For kept shadow maps: what invalidates them.
   const GeometryChanges& changes() const { return changes_; }
 
  private:

@@ -18,8 +18,8 @@ void OccupancyReads::declare(gpu::PassBuilder& builder) const {
   builder.read(words_, gpu::Use::kComputeRead);
 }
 
-std::vector<gpu::SpecConstant> with_corners(std::vector<gpu::SpecConstant> own, bool corners) {
-  if (corners) own.push_back({shared::kCornersConstant, 1});
+std::vector<gpu::SpecConstant> with_ao(std::vector<gpu::SpecConstant> own, bool ao) {
+  if (ao) own.push_back({shared::kAoConstant, 1});
   return own;
 }
 

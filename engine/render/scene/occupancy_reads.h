@@ -30,6 +30,6 @@ class OccupancyReads {
 };
 
 /// A shader's constants with that of corners.glsl.
-std::vector<gpu::SpecConstant> with_corners(std::vector<gpu::SpecConstant> own, bool corners);
+std::vector<gpu::SpecConstant> with_ao(std::vector<gpu::SpecConstant> own, bool ao);
 
 }  // namespace skerry::render

@@ -57,9 +57,9 @@ class OccupancyStore {
   /// Empties a chunk. What it took may be overwritten once the GPU has finished everything
   /// submitted so far. A chunk that is empty is no error.
   void remove(gpu::Uploader& uploader, std::uint32_t island, glm::ivec3 chunk);
-  /// Empties all chunks of an island and forgets it.
+  /// Removes an island and all its chunks.
   void end_island(gpu::Uploader& uploader, std::uint32_t island);
-  /// Once a frame, before recording: reclaims what the GPU has let go of.
+  /// Once a frame, before recording: reclaims what the GPU has finished with.
   void collect();
 
   gpu::Buffer& grids() { return grids_; }                       ///< OccupancyGrid[kMaxIslands]

@@ -97,10 +97,6 @@ CloudFacts Clouds::facts() const {
   return {volumes_, packed_, noise_generation_, light_generation_};
 }
 
-std::uint64_t Clouds::atlas_bytes() const {
-  return (bricks_ ? bricks_.allocated_bytes() : 0) + (cells_ ? cells_.allocated_bytes() : 0);
-}
-
 Result<void> Clouds::make_noise() {
   if (billows_) return {};
   ++noise_generation_;

@@ -22,9 +22,8 @@ class Clouds {
   /// the device cannot filter this precision.
   Result<void> set_volumes(gpu::Uploader& uploader, std::span<const CloudVolumeDesc> volumes,
                            CloudPrecision precision);
-  /// Of the volumes: bricks in the atlas, and bytes of atlas and cells.
+  /// Of the volumes: bricks in the atlas.
   std::uint32_t brick_count() const { return brick_count_; }
-  std::uint64_t atlas_bytes() const;
 
   /// What there is now, for plan_clouds().
   CloudFacts facts() const;

@@ -11,7 +11,7 @@
 
 namespace skerry::render {
 
-/// What the pass is told of a marked block. None: no pixel of it is in view.
+/// The pass's constants for a marked block. None: no pixel of it is in view.
 std::optional<shared::MarkerConstants> marker_constants(const BlockMarker& marker,
                                                         const IslandPlacement& island,
                                                         const Camera& camera, VkExtent2D picture);

@@ -120,9 +120,9 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
       scene, maps);
   if (last) constants.push_back({shared::kEveryPixelConstant, 1});
   constants = clouds_before_light(scene).with_clouds(
-      with_corners(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.corners));
+      with_ao(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.ao));
   if (light.lights) {
-    constants = WallReads(scene, light.settings, scene.corners)
+    constants = WallReads(scene, light.settings, scene.ao)
                     .with_walls(light.lights->with_lights(std::move(constants)));
   }
   return gpu::compute(pipelines, programs::kShadeSamples, std::move(constants));
@@ -132,7 +132,7 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
 void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                  const SampleIn& on, const SampledLight& light, SampleLevel& level) {
   const SurfaceReads surfaces(on.geometry);
-  const WallReads walls(scene, light.settings, scene.corners);
+  const WallReads walls(scene, light.settings, scene.ao);
   const CloudRefs clouds = clouds_before_light(scene);
   const ClusteredLights lights = light.lights ? *light.lights : ClusteredLights::none(scene);
   const gpu::ImageRef maps = on.shadows.maps();

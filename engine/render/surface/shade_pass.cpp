@@ -49,12 +49,12 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const bool to_picture = into.to_picture;
   const SurfaceReads surfaces(on.geometry);
   const gpu::ImageRef maps = on.shadows.maps();
-  const OccupancyReads occupancy(scene, scene.corners && scene.bodies != 0);
+  const OccupancyReads occupancy(scene, scene.ao && scene.bodies != 0);
   const CloudRefs clouds = clouds_before_light(scene);
   const auto surface_program = gpu::compute(
       pipelines, programs::kShadeSurfaces,
       with_target(
-          clouds.with_clouds(with_corners(
+          clouds.with_clouds(with_ao(
               surfaces.with_store(with_light(
                   {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
                   scene, bool{maps})),

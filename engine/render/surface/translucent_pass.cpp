@@ -73,7 +73,7 @@ class LayerReads {
 
   std::vector<gpu::SpecConstant> constants() const {
     std::vector<gpu::SpecConstant> own = clouds_.with_clouds(
-        with_light({{shared::kLayersConstant, layers_.count}}, scene_, bool{maps_}));
+        with_light({{shared::kWaterLayersConstant, layers_.count}}, scene_, bool{maps_}));
     if (layers_.mirrored_clouds) own.push_back({shared::kMirroredCloudsConstant, 1});
     return lit_ ? walls_.with_walls(lights_.with_lights(std::move(own))) : own;
   }

@@ -15,7 +15,7 @@ TEST(Preferences, ComeBackFromAFile) {
   scene.quality = Quality::kHigh;
   scene.settings = settings_of(Quality::kHigh);
   scene.settings.view_distance = 444;
-  scene.settings.display.black = 0.05f;
+  scene.settings.render.display.black = 0.05f;
   scene.settings.world_offset[0] = 7;  // of a scene, not of a player
   scene.fov_deg = 85.0;
   ASSERT_TRUE(save_preferences(folder / "settings.json", scene));

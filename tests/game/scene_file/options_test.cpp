@@ -32,7 +32,7 @@ TEST(Scene, EveryFieldOfAFileArrives) {
   EXPECT_EQ(scene->size, (PictureSize{320, 180}));
   EXPECT_EQ(scene->quality, Quality::kLow);
   EXPECT_EQ(scene->settings.view_distance, 123u);
-  EXPECT_EQ(scene->settings.shadow_size, 1024u);
+  EXPECT_EQ(scene->settings.render.shadow_size, 1024);
 }
 
 TEST(Scene, ImportOptionsOfAFileAndOfTheCommandLineArriveAndAreSaidAgain) {

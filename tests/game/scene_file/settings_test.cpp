@@ -1,4 +1,4 @@
-#include "game/scene_file/settings.h"
+#include "game/scene_file/setting_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -213,9 +213,9 @@ TEST(Screens, KnobsTurnByArrowsAndEnterAlone) {
     sitting.tap(Key::kRight);
     sitting.tap(Key::kEnter);
   }
-  EXPECT_NE(sitting.settings.shadow_size, before.shadow_size);
-  EXPECT_NE(sitting.settings.water_layers, before.water_layers);
-  EXPECT_NE(sitting.settings.clouds.coverage, before.clouds.coverage);
+  EXPECT_NE(sitting.settings.render.shadow_size, before.render.shadow_size);
+  EXPECT_NE(sitting.settings.render.water_layers, before.render.water_layers);
+  EXPECT_NE(sitting.settings.render.clouds.coverage, before.render.clouds.coverage);
   EXPECT_TRUE(sitting.wishes.settings_changed);
 }
 

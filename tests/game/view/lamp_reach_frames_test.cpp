@@ -29,11 +29,11 @@ class LampReachFrames : public gpu::GpuTest {
     options.seed_text = seed;
     options.settings.view_distance = 300;
     options.settings.view_detail = 128;
-    options.settings.indirect = render::Indirect::kOff;
-    options.settings.shadow_enabled = false;
-    options.settings.lights_shadows = asked.shadows;
-    options.settings.lights_tile = asked.tile;
-    options.settings.lights_oracle = asked.oracle;
+    options.settings.render.indirect = render::Indirect::kOff;
+    options.settings.render.shadow_enabled = false;
+    options.settings.render.lights_shadows = asked.shadows;
+    options.settings.render.lights_tile = asked.tile;
+    options.settings.render.lights_oracle = asked.oracle;
     options.settings.exposure_ev = 3.0;
     Result<std::unique_ptr<SceneView>> made = SceneView::create(device(), options);
     EXPECT_TRUE(made) << made.error().message;

@@ -151,21 +151,5 @@ TEST(Celestial, ZenithRadianceIsSmoothMonotoneAndEndsBelowTheHorizon) {
   EXPECT_LT(last, 0.3);
 }
 
-TEST(QuantisedTime, TurnsTheSunBySmallEqualSteps) {
-  EXPECT_EQ(quantised_time(86400.0 + 25.0), 24.0);
-  EXPECT_EQ(quantised_time(-1.0), 86388.0);
-  double last = quantised_time(0.0);
-  for (double t = 0.0; t < kDaySeconds; t += 0.5) {
-    const double q = quantised_time(t);
-    EXPECT_LE(q, t);
-    EXPECT_GT(q, t - 12.0 - 1e-9);
-    if (q != last) {
-      const double cosine = glm::dot(celestial_at(q, 0.0).to_sun, celestial_at(last, 0.0).to_sun);
-      EXPECT_LT(std::acos(std::min(1.0, cosine)), 0.0501 * kDegree);
-    }
-    last = q;
-  }
-}
-
 }  // namespace
 }  // namespace skerry::render

@@ -45,7 +45,7 @@ TEST_F(Features, ANightWithoutMoonHasNoShadowPassMapOrPipeline) {
   restart();
   add(ground, {0, -1, 0}, {1, 0, 1});
   RenderSettings off;
-  off.shadows = false;
+  off.shadow_enabled = false;
   drawn(input(celestial_at(kNoon, 0.0)), off, kSize);
   EXPECT_FALSE(has_pass("shadow"));
   EXPECT_FALSE(has_memory("shadow maps"));
@@ -140,7 +140,7 @@ TEST_F(Features, WhateverDoesNotRunIsExplained) {
   EXPECT_NE(why("draw_shadow_sun_0"), "");
   EXPECT_NE(why("bake_sky"), "");
   RenderSettings off;
-  off.shadows = false;
+  off.shadow_enabled = false;
   drawn(noon, off, kSize);
   expect_explained("a day without shadows");
   off.debug_view = DebugView::kNormal;
@@ -196,7 +196,7 @@ TEST_F(Features, OnlyAsManyLayersArePeeledAsAskedFor) {
   add(pond, {0, -1, 0}, {1, 0, 1});
   for (int layers = 1; layers <= 4; ++layers) {
     RenderSettings settings;
-    settings.translucent_layers = layers;
+    settings.water_layers = layers;
     drawn(input(celestial_at(kNoon, 0.0)), settings, kSize);
     for (int k = 0; k < 4; ++k)
       EXPECT_EQ(has_pass("draw_translucent_" + std::to_string(k)), k < layers) << layers;

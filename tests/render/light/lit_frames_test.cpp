@@ -125,7 +125,7 @@ TEST_F(LitFrames, UnderWaterAndByDayAndWithCoarseDepthsToo) {
   RenderSettings settings;
   settings.gbuffer.depth = DepthStore::kD16;
   settings.gbuffer.normal = NormalStore::kOct16;
-  settings.flat_shading = true;
+  settings.shading = Shading::kFlat;
   expect_as_oracle(input, settings);
 }
 

@@ -47,7 +47,7 @@ TEST_F(KeptShadowMaps, AreDrawnAfreshWhenAnyPointOfAnIslandMovedByAQuarterTexel)
   input_.sky = afternoon();
   int kept = 0, redrawn = 0;
   for (int round = 0; round < 300; ++round) {
-    forget_shadows();
+    invalidate_shadows();
     const double radius = random.uniform(10.0, 3000.0);
     islands_ = {{fixed_at(random.in_box(500.0)), random.turn(), radius}};
     const IslandPlacement before = islands_[0];
@@ -170,7 +170,7 @@ TEST_F(KeptShadowMaps, ACameraThatMovesLessThanATexelChangesNoTexel) {
   input_.islands = islands_;
   input_.sky = afternoon();
   RenderSettings settings;
-  settings.shadow_map_size = 512;
+  settings.shadow_size = 512;
   const DrawnMaps first = shadow_maps(input_, settings);
   EXPECT_EQ(first.redrawn, std::vector<bool>(4, true));
   // The scene is in the maps at all.
@@ -183,7 +183,7 @@ TEST_F(KeptShadowMaps, ACameraThatMovesLessThanATexelChangesNoTexel) {
     input_.camera.position = fixed_at(random.in_box(0.05));
     const DrawnMaps kept = shadow_maps(input_, settings);
     EXPECT_EQ(kept.texels, first.texels);
-    forget_shadows();
+    invalidate_shadows();
     const DrawnMaps fresh = shadow_maps(input_, settings);
     EXPECT_EQ(fresh.redrawn, std::vector<bool>(4, true));
     EXPECT_EQ(fresh.texels, first.texels) << "drawn again in the same window, step " << i;
@@ -196,7 +196,7 @@ TEST_F(KeptShadowMaps, AreTheSameToTheLastBitAnywhereInTheWorld) {
                                glm::angleAxis(0.4, glm::dvec3(0, 1, 0)), 120.0};
   input_.sky = afternoon();
   RenderSettings settings;
-  settings.shadow_map_size = 256;
+  settings.shadow_size = 256;
   std::vector<float> first;
   for (const int bits : {0, 24, 40}) {
     const FixedPos offset{bits ? kUnits << bits : 0, bits ? -(kUnits << bits) + 7 : 0, 0};
@@ -205,7 +205,7 @@ TEST_F(KeptShadowMaps, AreTheSameToTheLastBitAnywhereInTheWorld) {
     input_.islands = islands_;
     input_.camera.position = offset;
     input_.anchor = offset;
-    forget_shadows();
+    invalidate_shadows();
     const DrawnMaps maps = shadow_maps(input_, settings);
     if (bits == 0) first = maps.texels;
     EXPECT_EQ(maps.texels, first) << bits;

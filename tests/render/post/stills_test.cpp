@@ -30,12 +30,12 @@ TEST_F(Stills, ASampledPixelIsTheMeanOfTheSamplesOfALargerPicture) {
   input.sky = sun_at(50.0, 30.0);
   input.camera = camera_at({2.0, 5.0, -9.0}, -10.0, -20.0, 60.0);
   RenderSettings settings;
-  settings.shadows = false;  // the samples of a pixel take their taps at places of their own
-  settings.view_distance_blocks = 200.0;
+  settings.shadow_enabled = false;  // the samples of a pixel take their taps at places of their own
+  input.reach_blocks = 200.0;
   for (const int edge : {2, 4}) {
-    settings.samples_per_edge = edge;
+    settings.aa_samples = edge * edge;
     const std::vector<glm::vec4> averaged = radiance(input, settings, kSize);
-    settings.samples_per_edge = 1;
+    settings.aa_samples = 1;
     const auto n = static_cast<std::uint32_t>(edge);
     const std::vector<glm::vec4> samples =
         radiance(input, settings, {kSize.width * n, kSize.height * n});
@@ -64,12 +64,12 @@ TEST_F(Stills, ManySunsAreOneDisc) {
   const double radius = 0.00465 * 60.0 / sine;  // of the penumbra, across the light
   input.camera = camera_at({edge, 2.5, -2.0}, 0.0, -70.0, 50.0);
   RenderSettings settings;
-  settings.view_distance_blocks = 200.0;
-  settings.shadow_penumbra_blocks = 0.0f;
+  input.reach_blocks = 200.0;
+  settings.shadow_blur = 0.0f;
   const glm::dvec3 eye = blocks_at(input.camera.position);
-  settings.shadows = false;
+  settings.shadow_enabled = false;
   const std::vector<glm::vec4> full = radiance(input, settings, kSize);
-  settings.shadows = true;
+  settings.shadow_enabled = true;
   double last = 1.0;
   for (const std::uint32_t parts : {1u, 4u, 16u, 64u}) {
     input.parts = parts;

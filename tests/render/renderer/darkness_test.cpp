@@ -24,6 +24,8 @@ BlockAt room(int low, int high, int wall, int water_below) {
 
 class Darkness : public RendererOnGpu {
  protected:
+  double reach_blocks_ = FrameInput{}.reach_blocks;
+
   /// Every pixel of views in six directions under several suns is black before tone mapping, and
   /// so is the picture.
   void expect_black(glm::dvec3 eye, std::uint32_t medium, const RenderSettings& settings,
@@ -32,6 +34,7 @@ class Darkness : public RendererOnGpu {
         {{}, glm::angleAxis(0.3, glm::dvec3(0.0, 1.0, 0.0)), 300.0}};
     FrameInput input;
     input.islands = islands;
+    input.reach_blocks = reach_blocks_;
     input.camera_medium = medium;
     const glm::dvec3 place = islands[0].rotation * eye;
     for (const auto& [altitude, azimuth] : suns) {
@@ -83,8 +86,8 @@ TEST_F(Darkness, WaterInASealedRoomIsBlackFromAboveAndBelow) {
 TEST_F(Darkness, ASealedRoomStaysBlackAtLowQuality) {
   add(room(20, 30, 2, 0), {0, 0, 0}, {1, 1, 1});
   RenderSettings settings;
-  settings.view_distance_blocks = 400.0;
-  settings.shadow_map_size = 1024;
+  reach_blocks_ = 400.0;
+  settings.shadow_size = 1024;
   expect_black({25.3, 24.1, 26.2}, 0, settings);
 }
 

@@ -31,7 +31,7 @@ class FailedFrames : public RendererOnGpu {
     lamp.range = 30.0f;
     lamp.position = {30.0f, 8.0f, 30.0f};
     lights_ = {lamp};
-    settings_.shadow_map_size = 256;
+    settings_.shadow_size = 256;
     settings_.clouds.coverage = 0.5f;
     settings_.bloom.intensity = 0.2f;
   }

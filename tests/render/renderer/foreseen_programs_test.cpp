@@ -97,10 +97,10 @@ TEST_F(ForeseenPrograms, AreThoseOfTheSettingsInForce) {
   cloudy.bloom.intensity = 0.2f;
   EXPECT_EQ(made_late(cloudy, true), 0);
   RenderSettings plain;
-  plain.shadows = false;
-  plain.traced_lights = 0;
+  plain.shadow_enabled = false;
+  plain.lights_shadows = 0;
   plain.indirect = Indirect::kOff;
-  plain.corner_darkening = 0.0f;
+  plain.ao_strength = 0.0f;
   EXPECT_EQ(made_late(plain, true), 0);
   RenderSettings shared_light;
   shared_light.shading_rate = 4;

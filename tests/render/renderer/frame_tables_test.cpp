@@ -17,8 +17,8 @@ std::vector<ActiveCascade> cascades_of(const FrameInput& input, const RenderSett
   in.to_light = input.sky.to_sun;
   in.camera = input.camera.position;
   in.anchor = input.anchor;
-  in.far_blocks = settings.view_distance_blocks;
-  in.map_size = settings.shadow_map_size;
+  in.far_blocks = input.reach_blocks;
+  in.map_size = settings.shadow_size;
   std::vector<ActiveCascade> out;
   for (const Cascade& cascade : make_cascades(in)) {
     const auto index = static_cast<std::uint32_t>(out.size());
@@ -174,7 +174,7 @@ TEST(FrameTables, ShadersFindAPointWhereItWasDrawn) {
       const glm::dvec3 from_centre =
           p + blocks_at(input.camera.position) - blocks_at(cascades[layer].cascade.centre);
       const glm::dvec4 clip = glm::dmat4(tables.matrices[view]) * glm::dvec4(from_centre, 1.0);
-      const double size = settings.shadow_map_size;
+      const double size = settings.shadow_size;
       EXPECT_NEAR(glm::dot(glm::dvec4(c.map_from_world_x), glm::dvec4(p, 1.0)),
                   (clip.x * 0.5 + 0.5) * size, 0.02);
       EXPECT_NEAR(glm::dot(glm::dvec4(c.map_from_world_y), glm::dvec4(p, 1.0)),

@@ -46,8 +46,8 @@ TEST_F(Knobs, MoreShadowTapsComeNearerToTheSunsDisc) {
   input.camera = camera_at({edge, 2.5, -2.0}, 0.0, -70.0, 50.0);
   RenderSettings settings;
   settings.debug_view = DebugView::kShadow;
-  settings.view_distance_blocks = 200.0;
-  settings.shadow_penumbra_blocks = 0.5f;
+  input.reach_blocks = 200.0;
+  settings.shadow_blur = 0.5f;
   const glm::dvec3 eye = blocks_at(input.camera.position);
   double last = 1.0;
   for (const int taps : {1, 4, 8, 16, 32}) {
@@ -80,7 +80,7 @@ TEST_F(Knobs, EveryNumberOfShadowCascadesCoversTheView) {
   input.sky = sun_at(60.0, 90.0);
   input.camera = camera_at({-40.0, 30.0, -20.0}, 20.0, -45.0, 60.0);
   RenderSettings settings;
-  settings.view_distance_blocks = 120.0;
+  input.reach_blocks = 120.0;
   const std::vector<std::uint8_t> four = pixels(input, settings);
   const std::uint64_t bytes = bytes_of("shadow maps");
   for (int count = 1; count <= 4; ++count) {
@@ -107,7 +107,7 @@ TEST_F(Knobs, ASealedRoomIsBlackWithEveryNumberOfCascades) {
   FrameInput input;
   input.islands = islands_;
   RenderSettings settings;
-  settings.view_distance_blocks = 200.0;
+  input.reach_blocks = 200.0;
   for (int count = 1; count <= 4; ++count) {
     settings.shadow_cascades = count;
     for (const double altitude : {60.0, 20.0}) {

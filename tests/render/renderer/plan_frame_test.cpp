@@ -123,7 +123,7 @@ TEST(PlanFrame, EachStepIsTakenOrSaysWhyNot) {
 
 TEST(PlanFrame, LeavesShadowsOutWithTheirSetting) {
   Planned scene;
-  scene.settings.shadows = false;
+  scene.settings.shadow_enabled = false;
   const FramePlan plan = scene.plan();
   EXPECT_TRUE(plan.shadows.cascades.empty());
   EXPECT_EQ(plan.shadows.layout.layers, 0u);

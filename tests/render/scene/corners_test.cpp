@@ -12,8 +12,8 @@ namespace {
 
 constexpr const char* kOpenness = R"(
   struct Question { vec3 lattice; uint face; uint island; };
-  struct Answer { float openness; };
-  Answer answer_to(Question q) { return Answer(corner_openness(q.island, q.face, q.lattice)); })";
+  struct Answer { float ao; };
+  Answer answer_to(Question q) { return Answer(corner_ao(q.island, q.face, q.lattice)); })";
 
 /// A third of the voxels stand, without a pattern; some chunks are empty or full.
 bool rubble(int x, int y, int z) {
@@ -63,7 +63,7 @@ class Corners : public OccupancyOnGpu {
       at[place.along_v()] += i / 3 - 1;
       stands[i] = opaque(at.x, at.y, at.z);
     }
-    return reference::corner_openness({place.u, place.v}, stands);
+    return reference::corner_ao({place.u, place.v}, stands);
   }
   /// Faces that are drawn: something stands, and nothing in front of it.
   static std::vector<Place> places(const OpaqueAt& opaque, glm::ivec3 low, glm::ivec3 size,
@@ -101,7 +101,7 @@ class Corners : public OccupancyOnGpu {
   }
 };
 
-// Places within 200 blocks are floats to 1.6e-5 block; openness changes by at most 1 along a block
+// Places within 200 blocks are floats to 1.6e-5 block; ao changes by at most 1 along a block
 // in u and in v.
 TEST_F(Corners, AreTheClosedFormAtEveryPointOfEveryFace) {
   add_island(0, rubble, {{-1, -1, -1}, {3, 2, 2}, 0});

@@ -17,7 +17,7 @@ TEST_F(Leaves, ShowNoBacksWhateverElseStandsInTheirChunk) {
   input.islands = islands;
   input.sky = sun_at(60.0, 200.0);
   RenderSettings settings;
-  settings.shadows = false;
+  settings.shadow_enabled = false;
   const auto pictured = [&](bool leaf, bool block_behind) {
     restart();
     add(

@@ -122,11 +122,11 @@ TEST_F(CloudsJudged, NoLightOfALampBehindAWallIsInTheFogBeforeIt) {
   input_.sky = night();
   fog({-20.0, -20.0, 4.0}, {40.0, 40.0, 9.5}, 0.02);
   lamp({2.0, 1.0, 17.5}, 40.0f);
-  settings_.traced_lights = 0;
+  settings_.lights_shadows = 0;
   for (const glm::vec4& pixel : seen()) EXPECT_GT(pixel.y, 0.0f);
   for (const std::uint32_t traced : {1u, 4u, kEveryLight})
     for (const int resolution : {1, 2}) {
-      settings_.traced_lights = traced;
+      settings_.lights_shadows = traced;
       settings_.clouds.resolution = resolution;
       for (const glm::vec4& pixel : seen()) EXPECT_EQ(glm::vec3(pixel), glm::vec3(0.0f)) << traced;
     }
@@ -139,7 +139,7 @@ TEST_F(CloudsJudged, LightThroughAWindowMakesTheBeamThatTheReferenceHas) {
   // Thin: the GPU dims light as if all of its way were in fog.
   fog({-20.0, -20.0, 4.0}, {40.0, 40.0, 9.5}, 0.001);
   lamp({3.5, 1.5, 20.0}, 4000.0f);
-  settings_.traced_lights = kEveryLight;
+  settings_.lights_shadows = kEveryLight;
   settings_.clouds.resolution = 1;
   settings_.clouds.steps = 96;
   const std::vector<glm::vec4> gpu = seen();
@@ -169,7 +169,7 @@ TEST_F(CloudsJudged, WaterMirrorsTheCloudsThatTheReferenceHas) {
   scene_.bodies = {{input_.sky.to_sun, glm::dvec3(input_.sky.sun_irradiance), 0.00465}};
   scene_.air_light = 1.0;
   settings_.leave_out.add(Feature::kHaze);
-  settings_.shadows = false;
+  settings_.shadow_enabled = false;
   scene_.shadows = false;
   const std::vector<glm::vec4> clear = seen();
   const std::vector<glm::vec3> clear_truth = exact(64);

@@ -128,7 +128,7 @@ TEST_F(CloudsOnGpu, WhatStandsBeforeACloudIsSeenUnchangedAndWhatStandsBehindIsHi
   input.sky = sun_at(40.0, 180.0);
   input.camera = camera_at({0.5, 0.5, 0.5}, 0.0, 0.0, 60.0);
   RenderSettings settings;
-  settings.shadows = false;
+  settings.shadow_enabled = false;
   settings.clouds.file_density = 1.0f;
   for (const int resolution : {1, 2}) {
     settings.clouds.resolution = resolution;
@@ -156,7 +156,7 @@ TEST_F(CloudsOnGpu, ACloudShadesTheGroundByWhatItLeavesOfTheLight) {
   input.sky = sun_at(89.0, 0.0);
   input.camera = camera_at({0.0, 6.0, 0.0}, 0.0, -89.0, 20.0);
   RenderSettings settings;
-  settings.shadows = false;
+  settings.shadow_enabled = false;
   settings.leave_out.add(Feature::kHaze);
   settings.clouds.file_density = 1.0f;
   const std::vector<glm::vec4> lit = radiance(input, settings);

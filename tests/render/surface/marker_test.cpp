@@ -127,7 +127,7 @@ TEST_F(MarkerTest, EveryWayToAPictureHasItAndTwiceTheSame) {
   add(ground_and_pillar, {0, -1, 0}, {1, 1, 1});
   RenderSettings plain, bloom, samples;
   bloom.bloom.intensity = 0.2f;
-  samples.samples_per_edge = 2;
+  samples.aa_samples = 4;
   for (const RenderSettings& settings : {plain, bloom, samples}) {
     FrameInput in = input();
     const auto without = picture_of(in, settings);

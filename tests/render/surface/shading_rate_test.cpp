@@ -62,6 +62,7 @@ class ShadingRate : public RendererOnGpu {
   FrameInput view() const {
     FrameInput in;
     in.islands = islands_;
+    in.reach_blocks = 200.0;
     in.sky = sun_at(35.0, 60.0);
     in.camera = camera_at(kEye, 20.0, -25.0, 80.0);
     in.lights = lamps_;
@@ -70,7 +71,6 @@ class ShadingRate : public RendererOnGpu {
   }
   static RenderSettings settings(int rate, float tolerance) {
     RenderSettings out;
-    out.view_distance_blocks = 200.0;
     out.shading_rate = rate;
     out.shading_tolerance = tolerance;
     return out;
@@ -103,8 +103,8 @@ TEST_F(ShadingRate, WithoutToleranceItIsThePictureOfEveryPixel) {
   for (const FrameInput& input : {view(), night, unlit}) {
     for (const bool shadows : {true, false}) {
       RenderSettings every = settings(1, 0.0f);
-      every.shadows = shadows;
-      every.traced_lights = kEveryLight;
+      every.shadow_enabled = shadows;
+      every.lights_shadows = kEveryLight;
       const std::vector<glm::vec4> truth = radiance(input, every, kSize);
       for (const int rate : {2, 4}) {
         SCOPED_TRACE(rate);
@@ -147,7 +147,7 @@ TEST_F(ShadingRate, StillsAndStoredNormalsAreLitAtEveryPixel) {
   EXPECT_TRUE(has_pass("shade_samples"));
   EXPECT_FALSE(has_pass("shade_surfaces"));
   EXPECT_FALSE(has_pass("shade_lights"));
-  still.samples_per_edge = 2;
+  still.aa_samples = 4;
   drawn(view(), still, kSize);
   EXPECT_FALSE(has_pass("shade_samples"));
   RenderSettings stored = settings(4, 0.1f);

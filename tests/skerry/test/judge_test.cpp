@@ -183,7 +183,7 @@ TEST(Hashes, SurviveTheirFileAndAreForgottenByOthers) {
   for (const char* driver : {"mine", "theirs", "older"})
     ASSERT_TRUE(write_hashes(hash_file(folder.path(), driver), mine));
   EXPECT_EQ(*read_hashes(hash_file(folder.path(), "mine")), mine);
-  ASSERT_TRUE(forget_others(folder.path(), "mine", "a"));
+  ASSERT_TRUE(remove_others(folder.path(), "mine", "a"));
   EXPECT_EQ(*read_hashes(hash_file(folder.path(), "mine")), mine);
   const Hashes left{{"b", std::string(64, '0')}};
   EXPECT_EQ(*read_hashes(hash_file(folder.path(), "theirs")), left);

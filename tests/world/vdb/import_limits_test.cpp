@@ -82,7 +82,7 @@ TEST(VdbImportLimits, LooksOfChunksThatTurnOutEmptyCountToo) {
   const Result<std::set<IVec3>> chunks = chunks_of(grid, rule, placement, cost);
   ASSERT_TRUE(chunks);
   EXPECT_EQ(cost.chunks, chunks->size());
-  const auto masks = solid_masks(field, rule, placement, *chunks, cost, jobs, {});
+  const auto masks = solid_masks(field, rule, placement, *chunks, {cost, jobs, {}});
   ASSERT_TRUE(masks) << masks.error().message;
   EXPECT_TRUE(masks->empty());
   EXPECT_EQ(cost.mixed_chunks, 0u);
@@ -90,7 +90,7 @@ TEST(VdbImportLimits, LooksOfChunksThatTurnOutEmptyCountToo) {
 
   const std::uint64_t looks = cost.looks;
   cost.looks = kMaxImportLooks - looks + 1;
-  const auto refused = solid_masks(field, rule, placement, *chunks, cost, jobs, {});
+  const auto refused = solid_masks(field, rule, placement, *chunks, {cost, jobs, {}});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("slanted"), std::string::npos);
 }

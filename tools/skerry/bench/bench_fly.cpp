@@ -26,7 +26,7 @@ constexpr double kAboveStart = 32.0;              // blocks
 constexpr double kPitchDeg = -12.0;
 constexpr double kLongestStart = 120.0;  // s; what has no geometry in view is never playable
 constexpr double kDayRate = 24.0;        // seconds of day a second, as in play
-constexpr std::size_t kWorst = 8;        // frames that are told one by one
+constexpr std::size_t kWorst = 8;        // frames that are listed one by one
 
 /// What a frame took, and where.
 struct Frame {

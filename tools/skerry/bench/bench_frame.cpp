@@ -105,7 +105,7 @@ nlohmann::ordered_json row_of(const game::SceneOptions& scene, const gpu::Device
           {"device", device.info().name},
           {"size", {scene.size.width, scene.size.height}},
           {"distance", settings.view_distance},
-          {"shadows", settings.shadow_enabled ? settings.shadow_size : 0},
+          {"shadows", settings.render.shadow_enabled ? settings.render.shadow_size : 0},
           {"frames", timings.frames.size()},
           {"ms_median", ms.median},
           {"ms_p10", ms.p10},

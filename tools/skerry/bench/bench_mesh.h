@@ -16,7 +16,8 @@ struct BenchMeshOptions {
 /// shell. A smaller edge is padded: all of it is meshed, from the chunk's corner, and the outermost
 /// voxels are repeated to fill what is left. Every id but 0 counts as opaque.
 /// Chunks are visited in turn, so that each comes from the last-level cache. The rows `empty` and
-/// `solid` are told so by their palette, as stored chunks are; `empty_ids` and `solid_ids` are not.
+/// `solid` are marked so by their palette, as stored chunks are; `empty_ids` and `solid_ids` are
+/// not.
 /// @return exit status.
 int bench_mesh(const BenchMeshOptions& options);
 

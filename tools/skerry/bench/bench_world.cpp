@@ -155,7 +155,7 @@ void bench_split(Rows& rows) {
   add_row(rows, "move half of them out", move_ms, {{"blocks", blocks}});
 }
 
-/// 1,024 islands of some 500 blocks that fly about in a room where they meet all the time.
+/// 1,024 islands of some 500 blocks that fly about in a room where they collide all the time.
 void bench_motion(Rows& rows) {
   WorldDesc desc;
   desc.generated = false;

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <memory>
 
+#include "game/scene_file/setting_keys.h"
+
 namespace skerry::tools {
 namespace {
 
@@ -53,7 +55,7 @@ LeftOutSide Side::numbers() const {
 }
 
 Result<Side> draw_once(gpu::Device& device, const game::SceneOptions& scene) {
-  // What other renderers have let go of must not count.
+  // What other renderers have retired must not count.
   device.run_now([](VkCommandBuffer) {});
   device.collect();
   const std::uint64_t others = device.memory_total();
@@ -106,7 +108,7 @@ Result<std::vector<LackingScene>> lacking_scenes() {
       {"lights", "leave.out=lights", scene("1", "00:00", "0", "0,-160,0,0,26", "4")},
       {"clouds", "leave.out=clouds", scene("1", "12:00", "0")},
       {"indirect", "indirect=off", with("world.islands=0", scene("1", "12:00", "0"))},
-      {"corners", "ao.strength=0", with("shading=flat", scene("1", "12:00", "0"))},
+      {"ao", "ao.strength=0", with("shading=flat", scene("1", "12:00", "0"))},
   };
   std::vector<LackingScene> out;
   for (const Listed& one : listed) {

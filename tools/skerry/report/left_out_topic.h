@@ -17,7 +17,7 @@ namespace skerry::tools {
 inline constexpr std::string_view kLeftOutTopic = "left_out";
 inline constexpr std::string_view kLeftOutMeaning = "what a scene does not have must cost nothing";
 
-/// @param progress told 0..1 and what is being done.
+/// @param progress receives 0..1 and what is being done.
 Result<std::vector<LeftOutRow>> measure_left_out_topic(
     gpu::Device& device, const std::function<void(double, std::string_view)>& progress);
 

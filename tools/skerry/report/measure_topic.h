@@ -60,7 +60,7 @@ struct TopicResult {
 };
 
 /// Draws every point of a topic in every scene, times them in turns, so that what else the machine
-/// does hits all alike, and compares. @param progress told 0..1 and what is being done.
+/// does hits all alike, and compares. @param progress receives 0..1 and what is being done.
 Result<TopicResult> measure_topic(ReportSession& session, const Topic& topic,
                                   const std::function<void(double, std::string_view)>& progress);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/core/check.h"
+#include "game/scene_file/setting_keys.h"
 #include "tools/reference/reference.h"
 #include "world/vdb/worker.h"
 

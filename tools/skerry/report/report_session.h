@@ -51,7 +51,7 @@ class ReportSession {
   std::optional<std::string> why_not(const Topic& topic) const;
   /// A scene by such a name, with the size and the settings of this run.
   Result<game::SceneOptions> scene(const std::string& name) const;
-  /// @param progress told 0..1. Errors: those of reference::render_reference.
+  /// @param progress receives 0..1. Errors: those of reference::render_reference.
   Result<const Judged*> reference(const game::SceneOptions& scene,
                                   const std::function<void(double)>& progress);
 

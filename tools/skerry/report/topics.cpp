@@ -91,7 +91,7 @@ constexpr TopicPoint kShadingRates[] = {{"4, 0.3", "shading.rate=4 shading.toler
 constexpr TopicPoint kScales[] = {{"0.25", "render.scale=0.25"}, {"0.33", "render.scale=0.33"},
                                   {"0.5", "render.scale=0.5"},   {"0.67", "render.scale=0.67"},
                                   {"0.75", "render.scale=0.75"}, {"1", "render.scale=1"}};
-constexpr TopicPoint kCorners[] = {
+constexpr TopicPoint kAoStrengths[] = {
     {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
@@ -182,7 +182,7 @@ constexpr Topic kTopics[] = {
     {"render_scale",
      "edges of the picture that is drawn, as a share of those of the one that is shown", kScales,
      kLitScenes, Judge::kLimit, CostOf::kFrame},
-    {"ao", "how much light a closed corner of blocks takes", kCorners, kShadowScenes,
+    {"ao_strength", "how much light a closed corner of blocks takes", kAoStrengths, kShadowScenes,
      Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,
      Judge::kReference, CostOf::kShading},
@@ -207,13 +207,13 @@ constexpr Topic kTopics[] = {
      kCloudResolutions, kClouds, Judge::kLimitAndReference, CostOf::kShading},
     {"clouds_precision", "bits of a density of a file's cloud", kCloudPrecisions, kPuff,
      Judge::kLimitAndReference, CostOf::kShading, true},
-    {"light_lists", "lights that a pixel asks: those of its cluster, or all", kLightLists, kTorches,
-     Judge::kEqual, CostOf::kShading},
-    {"light_tiles", "pixels along the tiles that lights are sorted into", kLightTiles, kTorches,
+    {"lights_oracle", "lights that a pixel asks: those of its cluster, or all", kLightLists,
+     kTorches, Judge::kEqual, CostOf::kShading},
+    {"lights_tile", "pixels along the tiles that lights are sorted into", kLightTiles, kTorches,
      Judge::kEqual},
-    {"light_shadows", "lights of a pixel that walls are looked for before", kLightShadows, kTorches,
-     Judge::kReference, CostOf::kShading},
-    {"light_softness", "ways looked along to a light that has a size", kLightSoftness, kGallery,
+    {"lights_shadows", "lights of a pixel that walls are looked for before", kLightShadows,
+     kTorches, Judge::kReference, CostOf::kShading},
+    {"lights_softness", "ways looked along to a light that has a size", kLightSoftness, kGallery,
      Judge::kReference, CostOf::kShading},
     {"upload_path", "how meshes travel to the GPU", kUploadPaths, kDay, Judge::kEqual,
      CostOf::kUpload, true},

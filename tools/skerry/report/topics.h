@@ -23,7 +23,7 @@ struct TopicPoint {
 enum class Judge : std::uint8_t {
   kReference,          ///< the CPU reference
   kLimit,              ///< the last point, the most exact of the sweep
-  kLimitAndReference,  ///< the last point; how far each is from the CPU reference is told, too
+  kLimitAndReference,  ///< the last point; how far each is from the CPU reference is reported, too
   kEqual,              ///< the last point, which every other must equal in each byte
 };
 

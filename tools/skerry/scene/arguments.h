@@ -39,7 +39,7 @@ std::optional<Refusal> check_draws_frames(const game::SceneOptions& scene);
 std::optional<Refusal> parse_device(const std::optional<std::string>& text,
                                     std::optional<std::uint32_t>& index);
 
-/// Checks that a command was given nothing it does not know; names the nearest option.
+/// Rejects unknown arguments of a command; names the nearest option.
 std::optional<Refusal> check_leftovers(const CLI::App& command);
 
 /// Checks early that a file can be written, so that no work is done in vain.

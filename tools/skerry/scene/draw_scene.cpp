@@ -118,7 +118,7 @@ Result<Drawn> SceneDrawer::draw(bool with_radiance) {
 Result<std::vector<render::FrameReport>> SceneDrawer::time(int count, bool keep_shadows) {
   std::vector<render::FrameReport> out;
   for (int i = 0; i < count; ++i) {
-    if (!keep_shadows) view_->renderer().forget_shadows();
+    if (!keep_shadows) view_->renderer().invalidate_shadows();
     if (Result<std::uint64_t> drawn = draw_frame(false); !drawn) return drawn.error();
     view_->renderer().finish();
     out.push_back(view_->renderer().report().value());

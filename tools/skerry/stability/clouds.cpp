@@ -110,7 +110,7 @@ Result<Rows> faint(gpu::Device& device) {
   in.sky = moon_above(1e3f);
   in.capture = true;
   render::RenderSettings settings;
-  settings.shadows = false;
+  settings.shadow_enabled = false;
   settings.leave_out.add(render::Feature::kHaze);
   settings.clouds.resolution = 1;
   settings.clouds.steps = kSteps;

@@ -114,7 +114,7 @@ Result<Frame> glow(gpu::Device& device, double absorption, float irradiance) {
   in.camera_medium = kGlass;
   in.capture = true;
   render::RenderSettings settings;
-  settings.shadows = false;
+  settings.shadow_enabled = false;
   settings.leave_out.add(render::Feature::kHaze);
   return (*stage)->draw(in, settings, kSize);
 }

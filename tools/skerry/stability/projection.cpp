@@ -1,4 +1,4 @@
-// Fields of view, picture sizes and distances at their ends: depth must still tell where things
+// Fields of view, picture sizes and distances at their ends: depth must still say where things
 // are.
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ FrameInput input_of(const Camera& camera, std::span<const IslandPlacement> islan
 /// Without shadow maps, which far things would stretch for nothing.
 render::RenderSettings settings() {
   render::RenderSettings out;
-  out.shadows = false;
+  out.shadow_enabled = false;
   return out;
 }
 

@@ -94,8 +94,8 @@ class View {
     in.light_islands = {&island, 1};
     in.capture = true;
     render::RenderSettings settings;
-    settings.traced_lights = render::kEveryLight;
-    settings.light_samples = 4;
+    settings.lights_shadows = render::kEveryLight;
+    settings.lights_softness = 4;
     const auto frame = stage_->draw(in, settings, kSize);
     if (!frame) return frame.error();
     Seen seen;

@@ -118,6 +118,7 @@ render::FrameInput input_of(const render::Celestial& sky) {
   in.camera = camera_at({1.3, 4.2, -7.7}, 30.0, -10.0);
   in.islands = one_island();
   in.sky = sky;
+  in.reach_blocks = 200.0;
   in.capture = true;
   return in;
 }
@@ -126,8 +127,7 @@ constexpr VkExtent2D kSize{96, 54};
 
 render::RenderSettings settings() {
   render::RenderSettings out;
-  out.view_distance_blocks = 200.0;
-  out.shadow_map_size = 512;
+  out.shadow_size = 512;
   return out;
 }
 
@@ -175,7 +175,7 @@ Result<Change> change_over(Stage& stage, int frames, bool afresh,
   Change change;
   std::vector<float> first;
   for (int i = 0; i < frames; ++i) {
-    if (afresh) stage.renderer().forget_shadows();
+    if (afresh) stage.renderer().invalidate_shadows();
     const auto frame = stage.draw(input(i), settings(), kSize);
     if (!frame) return frame.error();
     if (i == 0) first = frame->shadow_maps;
@@ -198,8 +198,8 @@ Result<Rows> camera_motion(gpu::Device& device) {
   const auto shown = shadows_show(**stage);
   if (!shown) return shown.error();
   CascadeInput in;
-  in.far_blocks = settings().view_distance_blocks;
-  in.map_size = settings().shadow_map_size;
+  in.far_blocks = input_of(sky).reach_blocks;
+  in.map_size = settings().shadow_size;
   const double texel = static_cast<double>(render::make_cascades(in)[0].texel_blocks);
   const auto input = [&](int frame) {
     render::FrameInput moved_input = input_of(sky);

@@ -184,7 +184,7 @@ Result<Sunlight> sunlight_of(Stage& stage, const render::FrameInput& input,
   const auto dark = stage.draw(changed, settings, size);
   if (!dark) return dark.error();
   render::RenderSettings open = settings;
-  open.shadows = false;
+  open.shadow_enabled = false;
   const auto unshadowed = stage.draw(input, open, size);
   if (!unshadowed) return unshadowed.error();
   Sunlight out;

@@ -146,12 +146,12 @@ Result<Rows> full_arena(gpu::Device& device) {
   render::FrameInput in = input_of(one_island());
   in.camera = camera_at({32.5, 80.0, -10.0}, 0.0, -60.0);
   render::RenderSettings settings;
-  settings.shadows = false;
+  settings.shadow_enabled = false;
   const auto frame = (*stage)->draw(in, settings, kSize);
   if (!frame) return frame.error();
   double shown = 0.0;
   for (const std::uint32_t word : frame->words) shown += (word & 0xffffu) == kStone;
-  // Room that a removed chunk leaves must be found again once the GPU has let go of it.
+  // Room that a removed chunk leaves must be found again once the GPU has finished with it.
   store.remove((*stage)->renderer().mesh_uploader(), added.back());
   for (int i = 0; i < 3; ++i)
     if (const auto again = (*stage)->draw(in, settings, kSize); !again) return again.error();
@@ -191,7 +191,7 @@ Result<Rows> many_islands(gpu::Device& device) {
   render::FrameInput in = input_of(islands);
   in.camera = camera_at({48.0, 48.0, 20.0}, 0.0, 0.0);
   render::RenderSettings settings;
-  settings.shadow_map_size = 512;
+  settings.shadow_size = 512;
   const auto frame = (*stage)->draw(in, settings, {480, 320});
   if (!frame) return frame.error();
   std::set<std::uint32_t> seen;

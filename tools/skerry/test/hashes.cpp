@@ -57,7 +57,7 @@ std::string cpu_vendor() {
 
 std::string driver_key(const gpu::DeviceInfo& device) {
   if (device.type != VK_PHYSICAL_DEVICE_TYPE_CPU) return file_name_part(device.driver);
-  // lavapipe's name tells the vector width, which its driver text leaves out.
+  // lavapipe's name has the vector width, which its driver text leaves out.
   const std::size_t bits = device.name.find(" bits");
   const std::size_t comma = device.name.rfind(' ', bits == std::string::npos ? 0 : bits - 1);
   const std::string width = bits == std::string::npos || comma == std::string::npos
@@ -96,7 +96,7 @@ Result<void> write_hashes(const fs::path& file, const Hashes& hashes) {
   return write_text(file, nlohmann::json(hashes).dump(2, ' ', false, replace) + "\n");
 }
 
-Result<void> forget_others(const fs::path& scenes, std::string_view driver,
+Result<void> remove_others(const fs::path& scenes, std::string_view driver,
                            const std::string& scene) {
   std::error_code code;
   const fs::path kept = hash_file(scenes, driver);

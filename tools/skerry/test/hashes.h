@@ -30,7 +30,7 @@ Result<void> write_hashes(const std::filesystem::path& file, const Hashes& hashe
 
 /// Takes a scene's hash out of the files of all drivers but one: their pictures belong to a
 /// reference that is no more.
-Result<void> forget_others(const std::filesystem::path& scenes, std::string_view driver,
+Result<void> remove_others(const std::filesystem::path& scenes, std::string_view driver,
                            const std::string& scene);
 
 }  // namespace skerry::tools

@@ -166,7 +166,7 @@ void Pool::take_line(Worker& worker, const std::string& line) {
   }
 }
 
-/// The first greeting tells whether more processes are worth it.
+/// The first greeting decides whether more processes are worth it.
 void Pool::greet(const Greeting& greeting) {
   if (!greeting.error.empty()) {
     result_.refusal = Refusal{kNoDevice, {greeting.error}};

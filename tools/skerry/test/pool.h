@@ -18,7 +18,7 @@ struct PoolResult {
 
 /// Draws and judges every scene. Each process keeps one device and its pipelines for all of its
 /// scenes. A process that dies fails its scene; another takes its place.
-/// @param done is told each outcome as it comes, with the scene's index. The order is the scenes'
+/// @param done receives each outcome as it comes, with the scene's index. The order is the scenes'
 /// with one process, else any.
 /// @pre this process has no thread but its main one: the others are forked from it.
 PoolResult run_pool(std::span<const TestScene> scenes, const PoolOptions& options,

@@ -225,7 +225,7 @@ Result<void> TestCommand::approve(const std::vector<TestScene>& scenes,
     (*hashes)[scenes[i].name] = outcome.hash;
     if (const auto written = write_hashes(file, *hashes); !written) return written;
     if (!outcome.replaced) continue;
-    if (const auto done = forget_others(folder, outcome.row.driver, scenes[i].name); !done)
+    if (const auto done = remove_others(folder, outcome.row.driver, scenes[i].name); !done)
       return done;
   }
   return {};
