@@ -73,7 +73,7 @@ bool do_works() {
   const auto done = std::make_shared<std::promise<bool>>();
   std::future<bool> result = done->get_future();
   std::thread([done] {
-    // Never given back: nobody may drop what is at work.
+    // Never unlocked: work in progress must not be dropped.
     registry().works_mutex.lock();
     bool all = true;
     for (const auto& [owner_of_work, work] : registry().works) all = work() && all;
@@ -90,7 +90,7 @@ void wait_for_signal(int descriptor) {
   while (::read(descriptor, &byte, 1) < 0 && errno == EINTR) {
   }
   const bool done = do_works();
-  // Never given back: nobody may go on with what is removed now.
+  // Never unlocked: no thread may use what is removed now.
   registry().mutex.lock();
   for (const std::filesystem::path& path : registry().paths) remove_all_of(path);
   if (!done) ::_exit(1);

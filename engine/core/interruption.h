@@ -22,7 +22,7 @@ class RemovedWhenInterrupted {
 
 /// While this lives, a signal to end first does `work` on a thread of its own, whatever the other
 /// threads are at. The process then ends by the signal, or, when `work` says that it failed or
-/// takes more than two seconds, with status 1. What is put down in the midst of that is never
+/// takes more than two seconds, with status 1. What is interrupted during that is never
 /// removed: the work must not make or drop one of these or a RemovedWhenInterrupted.
 class DoneWhenInterrupted {
  public:
@@ -33,7 +33,7 @@ class DoneWhenInterrupted {
   DoneWhenInterrupted& operator=(const DoneWhenInterrupted&) = delete;
 };
 
-/// Does something that no removal may begin in the midst of; when one has begun, this does not
+/// Does something during which no removal may begin; when one has begun, this does not
 /// return. The work makes and drops no RemovedWhenInterrupted.
 void uninterrupted(const std::function<void()>& work);
 

@@ -93,7 +93,7 @@ class Input {
   void type(char32_t character);
   /// How the gamepad is now; none: nothing is plugged in, and whatever was held goes up.
   void set_pad(const std::optional<PadState>& pad);
-  /// Everything held goes up: whoever has the focus now sees the releases, we would not.
+  /// Everything held goes up: the window that has the focus now receives the releases.
   void lose_focus();
   /// @return what was gathered; gathering starts anew, held keys stay down.
   InputFrame take();

@@ -42,7 +42,7 @@ class Window {
   InputFrame poll(double wait_s = 0.0);
   bool should_close() const;
   void close();
-  /// Takes close(), or the wish of whoever pressed the window's button for it, back.
+  /// Cancels close(), or the user's press of the window's close button.
   void stay_open();
   FramebufferSize framebuffer_size() const;
   bool focused() const;

@@ -122,7 +122,7 @@ std::vector<Action> conflicts_of(const Bindings& bindings, Action action);
 /// else, so that no bindings lock anybody in.
 class ActionFrame {
  public:
-  ActionFrame() = default;  ///< nobody does anything
+  ActionFrame() = default;  ///< no action is pressed
   ActionFrame(const platform::InputFrame& input, const Bindings& bindings);
 
   bool down(Action action) const { return states_[index(action)].down; }

@@ -27,7 +27,7 @@ class BlockEditor {
   virtual bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) = 0;
 };
 
-/// Whether a solid may come to be in a voxel: nobody stands there.
+/// Whether a solid may be placed in a voxel: no player stands there.
 using VoxelFree = std::function<bool(std::uint64_t island, world::IVec3 voxel)>;
 
 /// What one press of a button changed: the block itself and what came down with it.

@@ -36,7 +36,7 @@ void Interaction::advance(double seconds, const HandIntent& intent, const Player
                       player.world_time_s());
   };
   const std::optional<Pick> before = std::exchange(pick_, point());
-  // Whoever looks at another block, or lets go, begins anew.
+  // Looking at another block, or releasing, restarts.
   const bool same = pick_ && before && pick_->island == before->island &&
                     pick_->voxel == before->voxel && pick_->block == before->block;
   if (!same || !intent.dig) dig_progress_ = 0.0;

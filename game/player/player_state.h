@@ -25,7 +25,7 @@ struct PlayerState {
   double pitch_deg = 0.0;
   std::uint8_t mode = 0;             ///< of MoveMode
   double fly_speed = 12.0;           ///< blocks/s
-  std::optional<Footing> safe = {};  ///< where they stood last; whoever falls comes back there
+  std::optional<Footing> safe = {};  ///< where they stood last; a fall ends there
   bool operator==(const PlayerState&) const = default;
 };
 

@@ -20,7 +20,7 @@ class ChunkLoader {
  public:
   /// @param world outlives this.
   explicit ChunkLoader(world::World& world);
-  ~ChunkLoader();  ///< finishes the chunk at hand, drops the others
+  ~ChunkLoader();  ///< finishes the current chunk, drops the others
   ChunkLoader(const ChunkLoader&) = delete;
   ChunkLoader& operator=(const ChunkLoader&) = delete;
 
@@ -39,7 +39,7 @@ class ChunkLoader {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Task> queue_;
-  std::set<Task> waiting_;  // queued or at hand
+  std::set<Task> waiting_;  // queued or current
   bool stop_ = false;
   std::thread thread_;
 };

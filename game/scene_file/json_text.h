@@ -7,7 +7,7 @@
 namespace skerry::game {
 
 /// A JSON text from outside. Errors, to follow what names the text ("the scene ..."): it is not
-/// JSON; an object has a key twice, of which most readers would take the last in silence.
+/// JSON; an object has a key twice, of which most readers would silently take the last.
 Result<nlohmann::json> parse_json(std::string_view text);
 
 }  // namespace skerry::game

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::string_view kName = "play";
 constexpr std::string_view kPlayers = "players";  // all who have a name
-constexpr std::string_view kHabits = "habits";  // what whoever only wants a place may leave unread
-constexpr double kMaxTime = 1e9;                // as the setting world.time has it
+constexpr std::string_view kHabits = "habits";    // not read where only a place is wanted
+constexpr double kMaxTime = 1e9;                  // as the setting world.time has it
 constexpr std::int64_t kMaxLattice = std::int64_t{1} << 52;  // 2^20 blocks of 2^32 units
 constexpr double kMaxYaw = 3600.0;
 

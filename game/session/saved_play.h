@@ -16,7 +16,7 @@ inline constexpr std::size_t kMaxPlayers = 4096;  ///< whose places one world ke
 
 struct SavedPlay {
   PlayerState player;
-  CameraPlace eye;                 ///< for who only wants to look
+  CameraPlace eye;                 ///< where a picture is taken from
   double time_of_day_s = 43200.0;  ///< 0 .. 86400
   double world_time_s = 0.0;       ///< how long the islands have drifted
   Hotbar hotbar;

@@ -119,7 +119,7 @@ struct Session::State {
   // in the order in which the voxels changed.
   std::mutex breaking;  // held while voxels go from one island to another, for a moment
   std::atomic<std::uint64_t> edits_made = 0;  // grows with `breaking` held
-  std::atomic<bool> leaving = false;          // nobody waits for shapes any more
+  std::atomic<bool> leaving = false;          // no one waits for shapes any more
   std::mutex saving;                          // held while a state of the world is taken down
   std::mutex unsaved_mutex;
   Unsaved unsaved;

@@ -1,4 +1,4 @@
-// What the options say about lights, for whoever draws a scene: the program and the reference.
+// Lights as the options set them, for the renderer and the reference.
 #pragma once
 #include <optional>
 

@@ -34,7 +34,7 @@ Result<std::unique_ptr<world::World>> open_world(const SceneOptions& options,
 }
 
 Result<SceneText> scene_of_world(const std::filesystem::path& path) {
-  if (is_vdb(path)) return SceneText();  // nobody has been there yet
+  if (is_vdb(path)) return SceneText();  // it has no player yet
   auto file = world::WorldFile::open(path, world::WorldFile::Mode::kRead);
   if (!file) return file.error();
   SceneText scene;

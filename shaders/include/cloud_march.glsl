@@ -104,7 +104,7 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
   float middle = t + 0.5 * length_blocks;
   float z = middle * dot(dir, frame.ray_forward);
   Cluster list = lights_at(pixel, z);
-  // In other slices no light reaches anything, and nobody has written the clusters that show no surface.
+  // In other slices no light reaches anything, and the clusters that show no surface are not written.
   if (!kOracle && ((grid.marked_slices >> slice_at(z)) & 1u) == 0u) list.count = 0u;
   WayStart start = way_from(dir * middle);
   bool some = kLightsShadows != 0u && kLightsShadows != kEveryLight;

@@ -191,7 +191,7 @@ class Drawing {
     }
   }
 
-  /// Where a label of this size is in nobody's way: tries rings of places about the point.
+  /// Where a label of this size overlaps nothing: tries rings of places about the point.
   Box place_label(double x, double y, double width, double height) const {
     Box best{};
     double least = 1e30;

@@ -8,7 +8,7 @@
 
 namespace skerry::world {
 
-/// Bounds what the lamps of an island light of it, so that nobody asks for their shadows where
+/// Bounds what the lamps of an island light of it, so that no shadow ray is traced where
 /// nothing can arrive.
 ///
 /// A straight line runs along each axis one way only. So it reaches a voxel from one of the at most

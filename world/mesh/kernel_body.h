@@ -12,7 +12,7 @@
 
 #include "world/mesh/kernel.h"
 
-// Vectors are returned by value: the calling convention it warns of matters to nobody, because all
+// Vectors are returned by value: the calling convention it warns of does not matter, because all
 // of this is internal to one file.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
@@ -84,7 +84,7 @@ SKERRY_MESH_TARGET inline void build_kinds(const Voxels& voxels, Planes& planes)
   planes.any_see_through = any_see_through;
 }
 
-// Same-id bits, for rows with an opaque face only: nobody asks for the others. In an island five
+// Same-id bits, for rows with an opaque face only: the others are not used. In an island five
 // rows of six lie in the air or in the ground.
 SKERRY_MESH_TARGET inline void build_same(const Voxels& voxels, Planes& planes) {
   for (int y = 0; y < kEdge; ++y) {

@@ -13,8 +13,8 @@ struct Emission {
   const ByteTable& table;
   std::uint32_t face_bits;  // of the material word
   std::uint32_t mul_a, mul_b, mul_c;
-  std::uint32_t base = 0;               // of the row at hand
-  const std::uint8_t* bytes = nullptr;  // voxels of the row at hand
+  std::uint32_t base = 0;               // of the current row
+  const std::uint8_t* bytes = nullptr;  // voxels of the current row
 
   Emission(const ByteTable& byte_table, unsigned face, std::uint32_t a, std::uint32_t b,
            std::uint32_t c)

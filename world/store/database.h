@@ -27,7 +27,7 @@ class Statement {
   /// @return SQLITE_ROW, SQLITE_DONE or an error, extended.
   int step();
   void reset();
-  /// Of the row at hand. Blobs and texts last until the next step or reset.
+  /// Of the current row. Blobs and texts last until the next step or reset.
   std::int64_t integer(int column) const;
   std::span<const std::byte> blob(int column) const;
   std::string_view text(int column) const;

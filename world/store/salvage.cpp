@@ -59,7 +59,7 @@ struct Rows {
   Found<std::pair<std::int64_t, bool>> islands;
   Found<std::int64_t> motions, spares;
   Found<ChunkName> chunks;
-  std::uint64_t age = 0;  ///< of the page at hand
+  std::uint64_t age = 0;  ///< of the current page
 
   void take(std::int64_t rowid, std::span<const Field> row);
 

@@ -47,7 +47,7 @@ std::optional<std::vector<std::byte>> read_spare(Database& file, std::uint64_t k
 void bind_name(Statement& statement, const ChunkName& name);
 /// The name of a value, as its checksum covers it.
 std::uint64_t name_key(std::string_view name);
-/// A name for SQLite to read a file as one that nobody writes.
+/// A name for SQLite to read a file as an immutable one.
 std::string immutable_uri(const std::filesystem::path& path);
 
 }  // namespace skerry::world

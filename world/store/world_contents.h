@@ -19,7 +19,7 @@ struct WorldInfo {
   bool operator==(const WorldInfo&) const;
 };
 
-/// An island as its file has it. Generated islands that nobody touched have no row.
+/// An island as its file has it. Generated islands without edits have no row.
 struct IslandRow {
   IslandSpec spec;
   bool added = false;                      ///< no seed made it: all its chunks are in the file

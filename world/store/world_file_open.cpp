@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 /// Why a file cannot be used as it is.
 struct Trouble {
   Error error;
-  bool damage = false;  ///< it may be a world all the same
+  bool damage = false;  ///< it may be a world nevertheless
 };
 
 /// Says of a file that it is newer than this program; it stays as it is.

@@ -174,7 +174,7 @@ LoadedWorld load_world(WorldFile& file) {
   }
   for (const WorldFile::Contents::Edits& edits : contents.edits)
     world.set_blocks(edits.island, edits.chunk, edits.edits);
-  world.take_edits();  // nobody has seen the world yet
+  world.take_edits();  // no client has the world yet
   return loaded;
 }
 

@@ -223,7 +223,7 @@ class Painter {
   }
 
   const Land& land_;
-  // Rock that nobody comes to see is plain, which keeps chunks small, and exports of them.
+  // Rock that is never seen is plain, which keeps chunks small, and exports of them.
   std::array<bool, kCells * kCells * kCells> deep_{};
   ColumnNoise noise_;
   Surroundings around_;

@@ -78,7 +78,7 @@ class PassBuilder {
   /// extent.
   [[nodiscard]] ImageRef color(ImageRef image, Load load);
   [[nodiscard]] ImageRef depth(ImageRef image, Load load, std::uint32_t layer = 0);
-  /// The pass runs even when nobody reads what it writes.
+  /// The pass runs even when no pass reads what it writes.
   void keep();
 
  private:

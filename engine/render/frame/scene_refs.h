@@ -36,7 +36,7 @@ struct SceneRefs {
   gpu::BufferRef pixel_stats;    ///< shared::PixelStats
   gpu::BufferRef exposure;       ///< shared::Exposure
   gpu::ImageRef block_textures, sky_lut;
-  /// One texel each that nobody writes: bound where a program's choices leave a binding unread.
+  /// One texel each, never written: bound where a program's choices leave a binding unread.
   gpu::ImageRef no_volume, no_words;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::uint32_t islands_per_view = 0;

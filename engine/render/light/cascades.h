@@ -19,7 +19,7 @@ struct CascadeInput {
   FixedPos
       anchor{};  ///< moves with the world (its offset): cascades depend on camera - anchor alone
   double near_blocks =
-      1.0;  ///< where the practical split begins; cascade 0 covers from 0 all the same
+      1.0;  ///< where the practical split begins; cascade 0 covers from 0 nevertheless
   double far_blocks = 1000.0;           ///< radius of the last cascade: the view distance
   double caster_reach_blocks = 2512.0;  ///< how far towards the light beyond a cascade's sphere
                                         ///< something may stand and still cast

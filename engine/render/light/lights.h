@@ -10,7 +10,7 @@ inline constexpr float kMaxLightIntensity = 1e8f;  ///< a channel of Light::inte
 inline constexpr float kMaxLightSize = 1e3f;       ///< blocks
 inline constexpr float kMaxLightDistance = 1e7f;   ///< from the camera, along an axis [blocks]
 
-/// The one way for a light into a frame, whoever makes it: FrameInput::lights holds only what this
+/// The one way for a light into a frame: FrameInput::lights holds only what this
 /// has returned.
 /// @param asked any bits. Its islands (first_island, island_count) are taken as they are.
 /// @return the light as shaders take it: axis unit, cone cosines apart, fields that its kind does

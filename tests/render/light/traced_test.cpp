@@ -30,7 +30,7 @@ constexpr const char* kVisibility =
     return Answer(traced_visibility(way_start(s, q.word), q.light));
   })";
 
-constexpr std::uint32_t kOff = 0, kEvery = ~0u;  // of kTracedLights
+constexpr std::uint32_t kOff = 0, kEvery = ~0u;  // of kLightsShadows
 
 struct Question {
   glm::vec3 position;

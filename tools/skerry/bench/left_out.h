@@ -25,7 +25,7 @@ struct LeftOutSide {
   int pipelines_created = 0;
   std::uint64_t memory_bytes = 0;  ///< of the device, that this renderer takes
   double ms = 0.0;                 ///< GPU, median of the frames timed
-  double start_ms = 0.0;  ///< from nothing to the first picture, compiled pipelines at hand
+  double start_ms = 0.0;           ///< from nothing to the first picture, with compiled pipelines
 };
 
 /// A scene without a feature, drawn by the renderer as it is, and by one that has none of the

@@ -114,7 +114,7 @@ void Pool::start_worker() {
 
 void Pool::become_worker(int jobs, int results) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // A sibling sees the end of its jobs only when nobody else holds its pipe.
+  // A sibling sees the end of its jobs only when no other process holds its pipe.
   for (const Worker& sibling : workers_) {
     ::close(sibling.jobs);
     ::close(sibling.results);
