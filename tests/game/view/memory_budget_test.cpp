@@ -21,8 +21,8 @@ class SceneMemory : public gpu::GpuTest {
     options.seed_text = "1";
     options.settings.view_distance = 1100;
     options.settings.view_detail = 1100;
-    options.settings.shadow_size = 256;
-    options.settings.indirect = render::Indirect::kOff;  // it has a limit of its own
+    options.settings.render.shadow_size = 256;
+    options.settings.render.indirect = render::Indirect::kOff;  // it has a limit of its own
     options.settings.memory_budget_mib = budget_mib;
     Result<std::unique_ptr<SceneView>> made = SceneView::create(device(), options);
     EXPECT_TRUE(made) << made.error().message;
