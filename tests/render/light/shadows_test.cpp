@@ -112,7 +112,7 @@ TEST_F(SunShadows, ACubesShadowLiesWhereTheGeometrySaysAndTouchesItsBase) {
   add(cube_on_plane, {-1, -1, -1}, {1, 1, 1});
   const RenderSettings settings = shadow_view();
   const double texel = 0.08;  // of the first cascade, checked below
-  const double radius = std::max(static_cast<double>(settings.shadow_penumbra_blocks), 1.0 * texel);
+  const double radius = std::max(static_cast<double>(settings.shadow_blur), 1.0 * texel);
   int dark_seen = 0, at_base = 0;
   for (const double island_yaw : {0.0, 27.0}) {
     const std::vector<IslandPlacement> islands = turned(island_yaw);
@@ -157,8 +157,8 @@ TEST_F(SunShadows, ACubesShadowLiesWhereTheGeometrySaysAndTouchesItsBase) {
   EXPECT_GT(dark_seen, 20000);
   EXPECT_GT(at_base, 300) << "pixels within a tenth of a block of the cube's foot were looked at";
   CascadeInput in;
-  in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_penumbra_blocks) +
-                     8.0 * settings.view_distance_blocks / settings.shadow_map_size;
+  in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_blur) +
+                     8.0 * FrameInput{}.reach_blocks / settings.shadow_size;
   EXPECT_LE(static_cast<double>(make_cascades(in)[0].texel_blocks), texel);
 }
 

@@ -118,7 +118,7 @@ TEST_F(Enlarged, IsMadeOfEveryKindOfFrame) {
   FrameInput parts = view();
   parts.parts = 3;
   RenderSettings half = scaled(0.5f), samples = half;
-  samples.samples_per_edge = 2;
+  samples.aa_samples = 4;
   for (const auto& [input, settings] :
        {std::pair(view(), half), std::pair(metered, half), std::pair(view(), samples)})
     EXPECT_FALSE(shown(input, settings, kSize).empty());
