@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // A picture that was drawn smaller, at the size at which it is shown: linear between pixel centres, but steeper, so that edges stay sharper.
-// docs/decisions/0034.
+// docs/decisions/0035.
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/bindings.h"
 #include "shared/constants.h"

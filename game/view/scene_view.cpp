@@ -185,10 +185,10 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
     update_streamer(camera, world_time_s);
     streamer_->wait_until_complete();
     while (!streamer_->complete()) take_in(streamer_->poll(kMaxPolledQuads));
-    add_waiting();
+    add_waiting(UINT64_MAX);
     if (waiting_.empty()) break;
     renderer_->reclaim();
-    add_waiting();
+    add_waiting(UINT64_MAX);
   } while (!waiting_.empty() && show_less(camera));
   renderer_->set_upload_budget(UINT64_MAX);
   find_light();
@@ -206,13 +206,13 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
   // What was taken in must be on the GPU before more is: memory stays bounded, and an island's slot
   // is not handed on while sections that name it can still be drawn.
   if (renderer_->mesh_uploader().pending_bytes() != 0) return {};
-  take_in(streamer_->poll(kMaxPolledQuads));
-  add_waiting();
+  if (!more_next_frame_) take_in(streamer_->poll(kMaxPolledQuads));
+  add_waiting(settings_.upload_budget_bytes);
   if (waiting_.empty() && streamer_->complete()) {
     const render::Renderer::WorldMemory memory = renderer_->world_memory();
     fit_.settled(static_cast<double>(memory.used) / static_cast<double>(memory.limit), asked(),
                  place(camera.position));
-  } else if (!waiting_.empty() && frames_since_lowered_ > kFramesToLetGo) {
+  } else if (!waiting_.empty() && !more_next_frame_ && frames_since_lowered_ > kFramesToLetGo) {
     show_less(camera);
   }
   find_light();
@@ -304,8 +304,15 @@ void SceneView::take_in(world::StreamUpdate update) {
   for (const std::uint64_t island : held) release_island(island);
 }
 
-void SceneView::add_waiting() {
-  while (!waiting_.empty() && !is_full() && add_section(waiting_.front())) waiting_.pop_front();
+/// An island that comes at once, as when its level of detail changes, is copied over several
+/// frames: all of it would be tens of milliseconds of one.
+void SceneView::add_waiting(std::uint64_t most_bytes) {
+  more_next_frame_ = false;
+  while (!waiting_.empty() && !is_full()) {
+    more_next_frame_ = renderer_->mesh_uploader().pending_bytes() >= most_bytes;
+    if (more_next_frame_ || !add_section(waiting_.front())) return;
+    waiting_.pop_front();
+  }
 }
 
 /// Whether what is left is for edits.

@@ -95,7 +95,7 @@ class SceneView {
   ViewFit::Distances asked() const;
   void update_streamer(const render::Camera& camera, double world_time_s);
   void take_in(world::StreamUpdate update);
-  void add_waiting();
+  void add_waiting(std::uint64_t most_bytes);
   bool is_full() const;
   bool show_less(const render::Camera& camera);
   Result<void> restart_with_less(const render::Camera& camera, const std::string& why);
@@ -128,7 +128,8 @@ class SceneView {
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
   std::map<world::SectionKey, std::optional<render::SectionId>> sections_;
-  std::deque<world::ReadySection> waiting_;  // for memory; nearest islands first
+  std::deque<world::ReadySection> waiting_;  // for memory or the next frame; nearest islands first
+  bool more_next_frame_ = false;             // what waits was enough for one frame
   ViewFit fit_;
   ViewFit::Distances asked_before_;
   int frames_since_lowered_ = 0;

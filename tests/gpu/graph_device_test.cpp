@@ -111,6 +111,77 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
   EXPECT_LT(graph.times(0)[0].ms, 1000.0);
 }
 
+// Water that leaves the view and comes back, a list that grows, a window that changes its size.
+TEST_F(GraphTest, WhatComesBackIsNotAllocatedAgain) {
+  FrameGraph graph(&device());
+  const auto frame = [&](std::uint32_t edge, std::uint64_t list_bytes, bool water) {
+    const std::uint64_t before = device().allocations();
+    graph.begin();
+    const auto clear = [&](ImageRef image) {
+      graph.add_pass(
+          "clear",
+          [&](PassBuilder& b) {
+            image = b.color(image, Load::cleared({}));
+            b.keep();
+          },
+          [](Commands&) {});
+    };
+    const auto image = [&](const char* name) {
+      return graph.create(
+          ImageDesc{.name = name, .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {edge, edge}});
+    };
+    clear(image("radiance"));
+    if (water) clear(image("water"));
+    BufferRef list = graph.create(BufferDesc{"list", list_bytes});
+    graph.add_pass(
+        "fill",
+        [&](PassBuilder& b) {
+          list = b.write(list, Use::kTransferWrite);
+          b.keep();
+        },
+        [&](Commands& c) { c.fill(list, 0, VK_WHOLE_SIZE, 0); });
+    run(graph);
+    return device().allocations() - before;
+  };
+  const auto bytes_of = [&](const std::string& name) {
+    std::uint64_t bytes = 0;
+    for (const MemoryUse& use : device().memory_use())
+      if (use.name == name) bytes += use.bytes;
+    return bytes;
+  };
+  EXPECT_EQ(frame(64, 100, true), 3u);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(frame(64, 100, false), 0u);
+  EXPECT_EQ(frame(64, 100, true), 0u) << "it was away for a hundred frames";
+  EXPECT_EQ(frame(64, 100'000, false), 1u);
+  const std::uint64_t both = bytes_of("list");
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(frame(64, i % 2 ? 100 : 90'000, false), 0u);
+  EXPECT_LT(bytes_of("list"), both) << "the smaller list is given back";
+  // Each size supersedes the one before; nothing of them adds up.
+  const std::uint64_t small = bytes_of("radiance");
+  for (std::uint32_t edge = 65; edge < 100; ++edge) (void)frame(edge, 100, edge % 2 == 0);
+  for (int i = 0; i < 20; ++i) (void)frame(64, 100, true);
+  EXPECT_EQ(bytes_of("radiance"), small);
+  EXPECT_EQ(bytes_of("water"), small);
+  // A frame that needs more than all others have does not keep it from them.
+  const auto large = [&] {
+    graph.begin();
+    ImageRef once = graph.create(
+        ImageDesc{.name = "once", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1024, 1024}});
+    graph.add_pass(
+        "clear",
+        [&](PassBuilder& b) {
+          once = b.color(once, Load::cleared({}));
+          b.keep();
+        },
+        [](Commands&) {});
+    run(graph);
+  };
+  large();
+  EXPECT_GT(bytes_of("once"), 0u);
+  for (int i = 0; i < 20; ++i) (void)frame(64, 100, true);
+  EXPECT_EQ(bytes_of("once"), 0u);
+}
+
 // A triangle on the plane z = -1, seen from the origin along -z; the projection is
 // docs/conventions.md's, with its y flip.
 constexpr const char* kTriangle = R"(

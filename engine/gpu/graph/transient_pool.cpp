@@ -1,12 +1,13 @@
 #include "engine/gpu/graph/transient_pool.h"
 
+#include <algorithm>
+
 #include "engine/gpu/device/gpu_check.h"
 
 namespace skerry::gpu {
 namespace {
 
-/// Frames an unused entry survives: a pass that comes and goes (a menu, dusk) should not allocate
-/// each time.
+/// Frames that an unused entry survives at least.
 constexpr int kIdleFrames = 8;
 
 Result<Image> create(Device& device, const ImageDesc& desc) {
@@ -33,15 +34,43 @@ bool serves(const BufferDesc& kept, const BufferDesc& wanted) {
          kept.size_bytes >= wanted.size_bytes;
 }
 
+/// Whether frames that take `taken` have no use for `idle` any more.
+bool supersedes(const ImageDesc& taken, const ImageDesc& idle) {
+  return taken.name == idle.name && !(taken == idle);
+}
+bool supersedes(const BufferDesc& taken, const BufferDesc& idle) {
+  return taken.name == idle.name && taken.size_bytes > idle.size_bytes;
+}
+
+/// Drops what has been superseded for a while. What frames only do without for the time being, as
+/// where water leaves the view and comes back, stays while all of that takes no more memory than
+/// what is in use: then no frame allocates for it anew. The longest idle goes first.
 template <class Entries>
 void release(Entries& entries) {
-  std::erase_if(entries, [](const auto& entry) {
-    return !entry->taken && entry->idle_frames >= kIdleFrames;
-  });
+  std::uint64_t taken_bytes = 0, idle_bytes = 0;
   for (auto& entry : entries) {
     entry->idle_frames = entry->taken ? 0 : entry->idle_frames + 1;
-    entry->taken = false;
+    (entry->taken ? taken_bytes : idle_bytes) += entry->object.allocated_bytes();
   }
+  Entries superseded;
+  for (auto& entry : entries) {
+    if (entry->idle_frames <= kIdleFrames) continue;
+    for (const auto& other : entries)
+      if (other && other->idle_frames == 0 && supersedes(other->desc, entry->desc)) {
+        idle_bytes -= entry->object.allocated_bytes();
+        superseded.push_back(std::move(entry));
+        break;
+      }
+  }
+  std::erase(entries, nullptr);
+  while (idle_bytes > taken_bytes) {
+    const auto oldest =
+        std::ranges::max_element(entries, {}, [](const auto& entry) { return entry->idle_frames; });
+    if ((*oldest)->idle_frames <= kIdleFrames) break;
+    idle_bytes -= (*oldest)->object.allocated_bytes();
+    entries.erase(oldest);
+  }
+  for (auto& entry : entries) entry->taken = false;
 }
 
 }  // namespace
@@ -66,13 +95,16 @@ auto& TransientPool::take_from(Entries& entries, const Desc& desc) {
   entry->taken = true;
   if (device_) {
     auto made = create(*device_, desc);
-    if (made)
+    if (made) {
       entry->object = *std::move(made);
-    else
+    } else {
       failure_ = made.error();
+      // The next frame finds their memory free.
+      std::erase_if(entries, [](const auto& other) { return !other->taken; });
+    }
   }
-  entries.push_back(std::move(entry));
-  return entries.back()->object;
+  // In front of smaller ones, which then are no longer taken.
+  return (*entries.insert(entries.begin(), std::move(entry)))->object;
 }
 
 Image& TransientPool::take(const ImageDesc& desc) {

@@ -15,7 +15,7 @@ namespace skerry::gpu {
 class TransientPool {
  public:
   explicit TransientPool(Device* device) : device_(device) {}
-  /// Everything is free again; what no frame took for a while is destroyed.
+  /// Everything is free again; what no frame will take any more is destroyed.
   void begin_frame();
   /// One with exactly this description, until the next begin_frame(). failure() says if it could
   /// not be made.

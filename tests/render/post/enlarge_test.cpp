@@ -1,4 +1,4 @@
-// A picture that is drawn smaller than it is shown. docs/decisions/0034.
+// A picture that is drawn smaller than it is shown. docs/decisions/0035.
 #include "engine/render/post/enlarge_pass.h"
 
 #include <gtest/gtest.h>
