@@ -66,10 +66,34 @@ TEST_P(UploaderTest, ALaterWriteToTheSamePlaceWins) {
   for (std::uint32_t i = 0; i < 200; ++i) {
     const std::vector<std::byte> piece = noise((random() % 2000 + 1) * 4, i);
     const std::uint64_t offset = random() % ((to.size_bytes() - piece.size()) / 4 + 1) * 4;
-    std::copy(piece.begin(), piece.end(), expected.begin() + static_cast<std::ptrdiff_t>(offset));
+    const auto place = expected.begin() + static_cast<std::ptrdiff_t>(offset);
+    if (i % 5 == 0) {
+      const std::byte byte = piece[0];
+      uploader.fill(to, offset, piece.size(), static_cast<std::uint32_t>(byte) * 0x01010101u);
+      std::fill_n(place, piece.size(), byte);
+      continue;
+    }
+    std::copy(piece.begin(), piece.end(), place);
     uploader.write<std::byte>(to, offset, piece);
   }
   send(uploader);
+  EXPECT_EQ(contents(to), expected);
+}
+
+TEST_P(UploaderTest, FillsKeepTheirTurnAndCountForNoBytes) {
+  Buffer to = target(1 << 20);
+  Uploader uploader(device(), GetParam());
+  uploader.fill(to, 0, to.size_bytes(), 0x01020304u);
+  EXPECT_EQ(uploader.pending_bytes(), 0u);
+  uploader.write<std::byte>(to, 8, noise(1000, 1));
+  uploader.fill(to, 500, 100, 0u);
+  EXPECT_EQ(send(uploader, 16), 1000u) << "what comes in front of a write goes with it";
+  send(uploader);
+  std::vector<std::byte> expected(to.size_bytes());
+  for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = static_cast<std::byte>(4 - i % 4);
+  const std::vector<std::byte> written = noise(1000, 1);
+  std::copy(written.begin(), written.end(), expected.begin() + 8);
+  std::fill_n(expected.begin() + 500, 100, std::byte{0});
   EXPECT_EQ(contents(to), expected);
 }
 

@@ -67,6 +67,9 @@ struct Uploader::State {
     Buffer* to;
     std::uint64_t offset;
     std::vector<std::byte> bytes;
+    std::uint64_t filled_bytes = 0;  ///< with `word`; then there are no `bytes`
+    std::uint32_t word = 0;
+    std::uint64_t end() const { return offset + bytes.size() + filled_bytes; }
   };
   /// A piece of the staging ring: reused once the submit that read it last has completed.
   struct Block {
@@ -76,6 +79,7 @@ struct Uploader::State {
   };
 
   void record_writes(VkCommandBuffer commands, std::span<const Write> batch);
+  void write_mapped(const Write& write);
   void record_transfer(VkCommandBuffer commands, const Write& write);
   void update(VkCommandBuffer commands, const Write& write);
   Block* staging_block(std::uint64_t bytes);
@@ -105,6 +109,13 @@ void Uploader::write(Buffer& to, std::uint64_t offset_bytes, std::span<const std
   state_->pending += bytes.size();
 }
 
+void Uploader::fill(Buffer& to, std::uint64_t offset_bytes, std::uint64_t size_bytes,
+                    std::uint32_t word) {
+  SKERRY_ASSERT(offset_bytes % 4 == 0 && size_bytes % 4 == 0);
+  SKERRY_ASSERT(offset_bytes <= to.size_bytes() && size_bytes <= to.size_bytes() - offset_bytes);
+  if (size_bytes != 0) state_->queue.push_back({&to, offset_bytes, {}, size_bytes, word});
+}
+
 void Uploader::discard() {
   state_->queue.clear();
   state_->pending = 0;
@@ -122,7 +133,7 @@ std::uint64_t Uploader::record(VkCommandBuffer commands, std::uint64_t budget_by
   std::vector<State::Write> batch;
   std::uint64_t bytes = 0;
   while (!state_->queue.empty() &&
-         (batch.empty() || bytes + state_->queue.front().bytes.size() <= budget_bytes)) {
+         (bytes == 0 || bytes + state_->queue.front().bytes.size() <= budget_bytes)) {
     bytes += state_->queue.front().bytes.size();
     batch.push_back(std::move(state_->queue.front()));
     state_->queue.pop_front();
@@ -158,15 +169,13 @@ void Uploader::State::record_writes(VkCommandBuffer commands, std::span<const Wr
   for (const Write& write : batch) {
     if (mapped[write.to]) {
       // Visible to the GPU without a barrier: a submit orders host writes made before it.
-      std::memcpy(write.to->mapped() + write.offset, write.bytes.data(), write.bytes.size());
-      sent.by_mapping += write.bytes.size();
+      write_mapped(write);
       continue;
     }
-    const std::uint64_t end = write.offset + write.bytes.size();
-    if (!written.add(write.to, write.offset, end)) {
+    if (!written.add(write.to, write.offset, write.end())) {
       memory_barrier(commands, again);
       written.clear();
-      written.add(write.to, write.offset, end);
+      written.add(write.to, write.offset, write.end());
     }
     record_transfer(commands, write);
     transfers = true;
@@ -181,7 +190,19 @@ void Uploader::State::record_writes(VkCommandBuffer commands, std::span<const Wr
   }
 }
 
+void Uploader::State::write_mapped(const Write& write) {
+  std::byte* to = write.to->mapped() + write.offset;
+  if (!write.bytes.empty()) std::memcpy(to, write.bytes.data(), write.bytes.size());
+  for (std::uint64_t at = 0; at < write.filled_bytes; at += sizeof write.word)
+    std::memcpy(to + at, &write.word, sizeof write.word);
+  sent.by_mapping += write.bytes.size();
+}
+
 void Uploader::State::record_transfer(VkCommandBuffer commands, const Write& write) {
+  if (write.filled_bytes != 0) {
+    vkCmdFillBuffer(commands, write.to->handle(), write.offset, write.filled_bytes, write.word);
+    return;
+  }
   Block* block = path == UploadPath::kStaging ? staging_block(write.bytes.size()) : nullptr;
   if (!block) {
     update(commands, write);

@@ -38,6 +38,9 @@ class Uploader {
   /// which must stay where it is until recorded and have the usage TRANSFER_DST. Keeps order: a
   /// later write to the same place wins.
   void write(Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes);
+  /// Writes one word over and over, in order with the other writes. The GPU does it: it counts for
+  /// no bytes. @param offset_bytes, size_bytes multiples of 4.
+  void fill(Buffer& to, std::uint64_t offset_bytes, std::uint64_t size_bytes, std::uint32_t word);
   template <class T>
   void write(Buffer& to, std::uint64_t offset_bytes, std::span<const T> values) {
     write(to, offset_bytes, std::as_bytes(values));

@@ -158,7 +158,7 @@ Result<void> IndirectStore::set_island(gpu::Uploader& uploader, std::uint32_t is
   if (!tables) return tables.error();
   made.tables = *tables;
   const std::uint32_t first = shared::kIndirectFirst + tables->first;
-  write(uploader, first, std::vector<glm::uvec4>(tables->count, glm::uvec4(0)));
+  uploader.fill(texels_, first * kTexelBytes, tables->count * kTexelBytes, 0);
   if (Result<void> put = put_chunks(uploader, made, chunks, true); !put) {
     free(made.tables);
     for (const auto& [key, range] : made.chunks) free(range);

@@ -114,9 +114,9 @@ Result<void> OccupancyStore::place(gpu::Uploader& uploader, std::uint32_t island
   table_arena_.free(grid.tables, device_->next_value());
   grid.box = box;
   grid.tables = *tables;
-  const std::vector<std::uint32_t> empty(tables->count * std::size_t{shared::kBricksPerChunk},
-                                         shared::kChunkEmpty);
-  write_table(uploader, tables->first, empty);
+  // The box of a giant has megabytes of them.
+  uploader.fill(tables_, tables->first * kTableBytes, tables->count * kTableBytes,
+                shared::kChunkEmpty);
   for (const auto& [at, chunk] : grid.chunks)
     write_table(uploader, grid.table_of({at[0], at[1], at[2]}), chunk.table);
   const shared::OccupancyGrid written = record(box, tables->first);
