@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <test_paths.h>
+#include "engine/gpu/program/shader_table.h"
 #include "shaders/shared/bloom.h"
 #include "shaders/shared/clouds.h"
 #include "shaders/shared/clusters.h"
@@ -330,9 +331,9 @@ TEST(SharedStructs, ThisTestKnowsAllOfThem) {
 
 TEST(SharedStructs, EveryShaderOfTheProgramLaysThemOutAsCppDoes) {
   std::set<std::string> seen;
-  for (const auto& entry : fs::directory_iterator(fs::path(SKERRY_BINARY_DIR) / "shaders")) {
-    const std::string name = entry.path().filename().string();
-    if (name.ends_with(".full.spv")) seen.merge(compare(name, read_words(entry.path())));
+  for (const gpu::EmbeddedShader& shader : gpu::embedded_shaders()) {
+    const std::string name = std::string(shader.name) + ".full.spv";
+    seen.merge(compare(name, read_words(fs::path(SKERRY_BINARY_DIR) / "shaders" / name)));
   }
   // A quad is read as one uvec2 and a body of the sky as a part of its constants; the test below
   // has them all by name.

@@ -81,7 +81,7 @@ MUTANTS = (
            "cloud_on_fire cloud_of_a_file"),
     # Corners
     Mutant("corners_lost", "corners are as bright as faces", "shaders/include/corners.glsl",
-           "1.0 - frame.corner_darkening * (1.0 - openness)", "1.0 - 1e-6 * frame.corner_darkening * (1.0 - openness)", "mesa tropical"),
+           "1.0 - frame.ao_strength * (1.0 - ao)", "1.0 - 1e-6 * frame.ao_strength * (1.0 - ao)", "mesa tropical"),
     Mutant("corners_turned", "a face's corners are taken crosswise", "shaders/include/occupancy.glsl",
            "mix(c01, c11, at.in_face.x), at.in_face.y)", "mix(c01, c11, at.in_face.x), 1.0 - at.in_face.y)",
            "mesa tropical"),
