@@ -78,8 +78,10 @@ Result<gpu::ArenaRange> IndirectStore::allocate(std::uint32_t texels) {
   if (texels == 0) return gpu::ArenaRange{};
   if (Result<gpu::ArenaRange> range = arena_.allocate(texels); range) return range;
   const std::uint64_t now = arena_.capacity();
-  const std::uint64_t next = std::min<std::uint64_t>(kMostTexels - shared::kIndirectFirst,
-                                                     std::max(now * 2, now + texels));
+  // Twice as much, or what the budget affords.
+  const std::uint64_t affordable = now + budget_->left() / kTexelBytes;
+  const std::uint64_t next = std::min<std::uint64_t>(
+      kMostTexels - shared::kIndirectFirst, std::max(std::min(now * 2, affordable), now + texels));
   if (next < now + texels)
     return Error{
         fmt::format("the light of the sky needs {} bytes more, {} are in use and {} are "

@@ -162,5 +162,34 @@ TEST_F(SunShadows, ACubesShadowLiesWhereTheGeometrySaysAndTouchesItsBase) {
   EXPECT_LE(static_cast<double>(make_cascades(in)[0].texel_blocks), texel);
 }
 
+// At sunset the maps become those of the moon alone, at sunrise those of both, within one array.
+TEST_F(SunShadows, ADayThatFollowsAnotherAllocatesNoMemory) {
+  add(plane, {-1, -1, -1}, {1, 0, 1}, 0, 0);
+  const std::vector<IslandPlacement> islands = turned(27.0);
+  FrameInput input;
+  input.islands = islands;
+  input.camera = camera_at({0.3, 10.0, 0.7}, 33.0, -60.0, 50.0);
+  RenderSettings settings;
+  settings.shadow_size = 256;
+  int changes = 0;
+  std::uint64_t for_both = 0;
+  for (int day = 0; day < 2; ++day)
+    for (double hour = 0.0; hour < 24.0; hour += 0.25) {
+      const Celestial before = input.sky;
+      input.sky = celestial_at(hour * 3600.0, 0.5);
+      ASSERT_TRUE(input.sky.sun_casts || input.sky.moon_casts) << hour;
+      const FrameReport report = drawn(input, settings, kSize);
+      if (day == 0) {
+        if (hour > 0.0) for_both += report.allocations;
+        continue;
+      }
+      changes += before.sun_casts != input.sky.sun_casts;
+      changes += before.moon_casts != input.sky.moon_casts;
+      EXPECT_EQ(report.allocations, 0u) << hour;
+    }
+  EXPECT_GT(for_both, 0u) << "of the array for both, at the first twilight";
+  EXPECT_EQ(changes, 4) << "each of the two rises and sets";
+}
+
 }  // namespace
 }  // namespace skerry::render
