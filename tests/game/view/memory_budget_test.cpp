@@ -157,7 +157,9 @@ TEST_F(SceneMemory, AFlightWith32MiBKeepsWhatIsNearInFullDetail) {
   // a limit keep their state.
   std::size_t near_islands = 0, far_islands = 0;
   for (const Around& island : islands_around(*tight, moment)) {
-    if (island.blocks < 0.95 * view_blocks) EXPECT_TRUE(island.resident) << island.blocks;
+    if (island.blocks < 0.95 * view_blocks) {
+      EXPECT_TRUE(island.resident) << island.blocks;
+    }
     near_islands += island.resident && island.blocks < 0.95 * detail_blocks;
     far_islands += island.resident && island.blocks > 1.05 * detail_blocks;
   }
