@@ -61,21 +61,23 @@ class View {
     if (Result<void> added = view.stage_->add(blocks, kLow, kHigh); !added) return added.error();
     if (Result<void> added = view.stage_->add_walls(blocks, kLow, kHigh); !added)
       return added.error();
+    const auto unlit = view.draw({}, 0.0);
+    if (!unlit) return unlit.error();
+    view.unlit_ = unlit->radiance;
     return view;
   }
 
-  /// @param place of the light in the lattice [blocks]. @return pixels that are not black, and
-  /// whatever is not finite.
+  /// @param place of the light in the lattice [blocks]. @return pixels that are not black, those
+  /// that the light has made brighter, which tells it from the night sky and what mirrors that (if
+  /// the island is not turned), and whatever is not finite.
   struct Seen {
-    double lit = 0.0, non_finite = 0.0;
+    double lit = 0.0, brightened = 0.0, non_finite = 0.0;
   };
   Result<Seen> look(const glm::dvec3& place, float range, std::uint32_t kind, double turn) {
-    const glm::dquat rotation = glm::angleAxis(turn, glm::normalize(glm::dvec3{0.3, 1.0, -0.2}));
-    const std::vector<render::IslandPlacement> islands{{{}, rotation, 200.0}};
-    const glm::dvec3 eye = rotation * kMiddle;
+    const glm::dquat rotation = turned(turn);
     shared::Light asked{};
     asked.kind = kind;
-    asked.position = glm::vec3(rotation * place - eye);
+    asked.position = glm::vec3(rotation * place - rotation * kMiddle);
     asked.range = range;
     asked.intensity = glm::vec3(1e6f);
     asked.axis = {0.0f, 1.0f, 0.0f};
@@ -85,27 +87,42 @@ class View {
     asked.island_count = 1;
     const Result<shared::Light> light = render::checked_light(asked);
     if (!light) return light.error();
-    const std::uint32_t island = 0;
-    render::FrameInput in;
-    in.camera = camera_at(eye, 20.0, -10.0, 120.0);
-    in.islands = islands;
-    in.sky = darkness();
-    in.lights = {&*light, 1};
-    in.light_islands = {&island, 1};
-    in.capture = true;
-    render::RenderSettings settings;
-    settings.lights_shadows = render::kEveryLight;
-    settings.lights_softness = 4;
-    const auto frame = stage_->draw(in, settings, kSize);
+    const auto frame = draw({&*light, 1}, turn);
     if (!frame) return frame.error();
     Seen seen;
     seen.non_finite = non_finite_channels(frame->radiance) + frame->report.pixels.non_finite;
-    for (const glm::vec3& pixel : frame->radiance) seen.lit += pixel != glm::vec3(0.0f);
+    for (std::size_t i = 0; i < frame->radiance.size(); ++i) {
+      seen.lit += frame->radiance[i] != glm::vec3(0.0f);
+      seen.brightened += frame->radiance[i].x > 2.0f * unlit_[i].x;
+    }
     return seen;
   }
 
  private:
+  static glm::dquat turned(double turn) {
+    return glm::angleAxis(turn, glm::normalize(glm::dvec3{0.3, 1.0, -0.2}));
+  }
+
+  /// @param lights one or none.
+  Result<Frame> draw(std::span<const shared::Light> lights, double turn) {
+    const glm::dquat rotation = turned(turn);
+    const std::vector<render::IslandPlacement> islands{{{}, rotation, 200.0}};
+    const std::uint32_t island = 0;
+    render::FrameInput in;
+    in.camera = camera_at(rotation * kMiddle, 20.0, -10.0, 120.0);
+    in.islands = islands;
+    in.sky = darkness();
+    in.lights = lights;
+    in.light_islands = {&island, lights.size()};
+    in.capture = true;
+    render::RenderSettings settings;
+    settings.lights_shadows = render::kEveryLight;
+    settings.lights_softness = 4;
+    return stage_->draw(in, settings, kSize);
+  }
+
   std::unique_ptr<Stage> stage_;
+  std::vector<glm::vec3> unlit_;  // radiance without a light, the island not turned
 };
 
 /// Pixels that a light high above lights in the room without a roof: all that a sealed room holds
@@ -116,7 +133,7 @@ Result<double> lit_from_above(gpu::Device& device, const BlockAt& without_roof) 
   const auto seen =
       open->look(kMiddle + glm::dvec3{0.0, 9.0, 0.0}, 40.0f, shared::kLightPoint, 0.0);
   if (!seen) return seen.error();
-  return seen->lit;
+  return seen->brightened;
 }
 
 constexpr std::uint32_t kKinds[] = {shared::kLightPoint, shared::kLightSphere};
@@ -139,7 +156,7 @@ Result<Rows> lengths(gpu::Device& device) {
       if (distance >= 1e6) continue;  // a light's range ends there
       const auto seen = open->look(kMiddle + glm::dvec3{0.0, distance, 0.0}, range, kind, 0.0);
       if (!seen) return seen.error();
-      dark += seen->lit == 0.0;
+      dark += seen->brightened == 0.0;
       non_finite += seen->non_finite;
     }
   return Rows{
@@ -219,7 +236,7 @@ Result<Rows> pools(gpu::Device& device) {
     const auto above =
         open->look(kMiddle + glm::dvec3{0.0, 5.0 + i, 0.0}, 60.0f, kKinds[i % 2], 0.0);
     if (!above) return above.error();
-    dark += above->lit == 0.0;
+    dark += above->brightened == 0.0;
     non_finite += seen->non_finite + above->non_finite;
   }
   return Rows{

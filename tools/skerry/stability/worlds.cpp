@@ -152,7 +152,7 @@ Result<Rows> full_arena(gpu::Device& device) {
   double shown = 0.0;
   for (const std::uint32_t word : frame->words) shown += (word & 0xffffu) == kStone;
   // Room that a removed chunk leaves must be found again once the GPU has finished with it.
-  store.remove((*stage)->renderer().mesh_uploader(), added.back());
+  if (!added.empty()) store.remove((*stage)->renderer().mesh_uploader(), added.back());
   for (int i = 0; i < 3; ++i)
     if (const auto again = (*stage)->draw(in, settings, kSize); !again) return again.error();
   const auto refilled = store.add((*stage)->renderer().mesh_uploader(), chunk.section, chunk.quads);
