@@ -181,7 +181,8 @@ Result<Rows> many_islands(gpu::Device& device) {
       {0, 0, 0});
   std::vector<IslandPlacement> islands;
   for (std::uint32_t i = 0; i < kCount; ++i) {
-    const glm::dvec3 at{3.0 * (i % kEdge), 3.0 * (i / kEdge), 120.0 + i % 7};
+    const int row = i / kEdge;
+    const glm::dvec3 at{3.0 * (i % kEdge), 3.0 * row, 120.0 + i % 7};
     islands.push_back({fixed_at(at), glm::angleAxis(0.1 * i, glm::dvec3(0.0, 1.0, 0.0)), 2.0});
     block.section.island = i;
     const auto added = (*stage)->renderer().geometry().add((*stage)->renderer().mesh_uploader(),
