@@ -81,12 +81,16 @@ WorldFile::Contents WorldFile::read() {
     if (island == islands.end()) why = "its island is gone";
     if (why.empty() && island->second.added) {
       Result<Chunk> chunk = decode_chunk(name, row.blob(4));
-      if (chunk) chunks.try_emplace(name, *std::move(chunk));
-      if (!chunk) why = chunk.error().message;
+      if (chunk)
+        chunks.try_emplace(name, *std::move(chunk));
+      else
+        why = chunk.error().message;
     } else if (why.empty()) {
       Result<ChunkEdits> decoded = decode_edits(name, row.blob(4));
-      if (decoded) edits.try_emplace(name, *std::move(decoded));
-      if (!decoded) why = decoded.error().message;
+      if (decoded)
+        edits.try_emplace(name, *std::move(decoded));
+      else
+        why = decoded.error().message;
     }
     if (!why.empty())
       s.report(

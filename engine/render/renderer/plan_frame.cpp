@@ -36,8 +36,9 @@ void plan_culling(FramePlan& plan, const FrameHistory& history) {
 }
 
 void plan_sky(FramePlan& plan, const FrameHistory& history) {
-  plan.bake_sky =
-      !history.baked_sky || std::memcmp(&*history.baked_sky, &plan.sky, sizeof(plan.sky)) != 0;
+  // Equal bytes are enough: other bytes of equal values make the table once more than is needed.
+  plan.bake_sky = !history.baked_sky ||  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+                  std::memcmp(&*history.baked_sky, &plan.sky, sizeof(plan.sky)) != 0;
   plan.next.baked_sky = plan.sky;
   // A table that is broken on purpose is made again by the next frame.
   if (plan.input.fault && plan.input.fault->in == Fault::In::kSkyTable) plan.next.baked_sky.reset();
