@@ -25,9 +25,7 @@ Presenter::Presenter(gpu::Device& device, std::unique_ptr<gpu::Swapchain> swapch
       overlay_pass_(std::move(overlay_pass)) {}
 
 Result<void> Presenter::fit_canvas(VkExtent2D size) {
-  if (canvas_ && canvas_.desc().extent.width == size.width &&
-      canvas_.desc().extent.height == size.height)
-    return {};
+  if (canvas_ && gpu::same_size(canvas_.desc().extent, size)) return {};
   Result<gpu::Image> canvas = device_.create_image({.name = "window_canvas",
                                                     .format = VK_FORMAT_R8G8B8A8_UNORM,
                                                     .extent = size,

@@ -28,27 +28,17 @@ Result<void> parse_shadow_size(std::string_view text, Settings& s) {
   return {};
 }
 
-Result<void> parse_shadow_taps(std::string_view text, Settings& s) {
-  const auto name = parse_name(text, "shadow.taps", kTapNames);
-  if (!name) return name.error();
-  return into(parse_integer(kTapNames[*name], "shadow.taps", 1, 32), s.render.shadow_taps);
-}
-
-Result<void> parse_samples(std::string_view text, Settings& s) {
-  const auto name = parse_name(text, "aa.samples", kSampleNames);
-  if (!name) return name.error();
-  return into(parse_integer(kSampleNames[*name], "aa.samples", 1, 16), s.render.aa_samples);
-}
-
 constexpr SettingKey kLightKeys[] = {
     {"aa.samples", "1, 4 or 16",
      "Samples a pixel: the picture is drawn twice or four times as wide and high, and averaged. "
      "For stills; the time grows alike.",
-     parse_samples, [](const Settings& s) { return std::to_string(s.render.aa_samples); }},
+     [](std::string_view t, Settings& s) {
+       return into_listed(t, "aa.samples", kSampleNames, s.render.aa_samples);
+     },
+     [](const Settings& s) { return std::to_string(s.render.aa_samples); }},
     {"render.scale", "0.25 to 1",
      "Edges of the picture that is drawn, as a share of those of the picture that is shown: below "
-     "1 "
-     "it is enlarged. Text keeps every pixel.",
+     "1 it is enlarged. Text keeps every pixel.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "render.scale", 0.25, 1.0), s.render.render_scale);
      },
@@ -57,7 +47,7 @@ constexpr SettingKey kLightKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "shadow.enabled", kSwitchNames), s.render.shadow_enabled);
      },
-     [](const Settings& s) { return std::string(s.render.shadow_enabled ? "1" : "0"); }},
+     [](const Settings& s) { return name_of(kSwitchNames, s.render.shadow_enabled); }},
     {"shadow.size", "a power of two, 256 to 8192", "Texels along the edge of one shadow map.",
      parse_shadow_size, [](const Settings& s) { return std::to_string(s.render.shadow_size); }},
     {"shadow.cascades", "1 to 4",
@@ -67,11 +57,13 @@ constexpr SettingKey kLightKeys[] = {
      },
      [](const Settings& s) { return std::to_string(s.render.shadow_cascades); }},
     {"shadow.taps", "1, 4, 8, 16 or 32", "Texels of the shadow map that a pixel compares with.",
-     parse_shadow_taps, [](const Settings& s) { return std::to_string(s.render.shadow_taps); }},
+     [](std::string_view t, Settings& s) {
+       return into_listed(t, "shadow.taps", kTapNames, s.render.shadow_taps);
+     },
+     [](const Settings& s) { return std::to_string(s.render.shadow_taps); }},
     {"shadow.samples", "1 to 1024",
      "Places on the discs of sun and moon that light comes from: so many whole frames are "
-     "averaged, "
-     "each with shadows of its own. For stills.",
+     "averaged, each with shadows of its own. For stills.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "shadow.samples", 1, 1024), s.shadow_samples);
      },
@@ -84,8 +76,7 @@ constexpr SettingKey kLightKeys[] = {
      [](const Settings& s) { return fmt::format("{}", s.render.shadow_split); }},
     {"shadow.blur", "blocks, 0 to 1",
      "Largest radius of the shadow filter. It is as wide as the sun's disc blurs a shadow's edge, "
-     "one "
-     "texel at least; 0: one texel everywhere.",
+     "one texel at least; 0: one texel everywhere.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "shadow.blur", 0.0, 1.0), s.render.shadow_blur);
      },
@@ -100,26 +91,20 @@ constexpr SettingKey kLightKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "gbuffer.normal", kNormalNames), s.render.gbuffer.normal);
      },
-     [](const Settings& s) {
-       return std::string(kNormalNames[static_cast<std::size_t>(s.render.gbuffer.normal)]);
-     }},
+     [](const Settings& s) { return name_of(kNormalNames, s.render.gbuffer.normal); }},
     {"gbuffer.position", "depth, rgba16f or rgba32f",
      "For measuring: where shading takes positions from.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "gbuffer.position", kPositionNames),
                         s.render.gbuffer.position);
      },
-     [](const Settings& s) {
-       return std::string(kPositionNames[static_cast<std::size_t>(s.render.gbuffer.position)]);
-     }},
+     [](const Settings& s) { return name_of(kPositionNames, s.render.gbuffer.position); }},
     {"gbuffer.depth", "d32 or d16",
      "For measuring: bits of a depth. With 16, positions are wrong by blocks in the distance.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "gbuffer.depth", kDepthNames), s.render.gbuffer.depth);
      },
-     [](const Settings& s) {
-       return std::string(kDepthNames[static_cast<std::size_t>(s.render.gbuffer.depth)]);
-     }},
+     [](const Settings& s) { return name_of(kDepthNames, s.render.gbuffer.depth); }},
     {"lights.random", "0 to 1000000",
      "For measuring: so many torches on the surfaces that the first view sees.",
      [](std::string_view t, Settings& s) {
@@ -130,7 +115,7 @@ constexpr SettingKey kLightKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "lights.held", kSwitchNames), s.lights_held);
      },
-     [](const Settings& s) { return std::string(s.lights_held ? "1" : "0"); }},
+     [](const Settings& s) { return name_of(kSwitchNames, s.lights_held); }},
     {"ao.strength", "0 to 0.9",
      "How much light a closed corner of blocks takes; 0: corners are as bright as faces.",
      [](std::string_view t, Settings& s) {
@@ -143,9 +128,7 @@ constexpr SettingKey kLightKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "indirect", kIndirectNames), s.render.indirect);
      },
-     [](const Settings& s) {
-       return std::string(kIndirectNames[static_cast<std::size_t>(s.render.indirect)]);
-     }},
+     [](const Settings& s) { return name_of(kIndirectNames, s.render.indirect); }},
 };
 
 }  // namespace

@@ -14,15 +14,11 @@ constexpr std::array<std::string_view, 2> kResolutionNames{"full", "half"};
 constexpr std::array<std::string_view, 3> kPrecisionNames{"8", "16", "32"};
 
 Result<void> parse_exposure(std::string_view text, Settings& s) {
-  if (text == "auto") {
-    s.exposure_ev.reset();
-    return {};
-  }
-  double stops = 0.0;
-  const Result<void> done =
-      into_number(parse_number(text, "exposure ('auto' or stops)", -20.0, 20.0), stops);
-  if (done) s.exposure_ev = stops;
-  return done;
+  if (text != "auto")
+    return into_number(parse_number(text, "exposure ('auto' or stops)", -20.0, 20.0),
+                       s.exposure_ev);
+  s.exposure_ev.reset();
+  return {};
 }
 
 Result<void> parse_cloud_resolution(std::string_view text, Settings& s) {
@@ -132,10 +128,7 @@ constexpr SettingKey kPictureKeys[] = {
     {"clouds.resolution", "full or half",
      "A ray through clouds for every pixel, or for every second one each way and along edges.",
      parse_cloud_resolution,
-     [](const Settings& s) {
-       return std::string(
-           kResolutionNames[static_cast<std::size_t>(s.render.clouds.resolution - 1)]);
-     }},
+     [](const Settings& s) { return name_of(kResolutionNames, s.render.clouds.resolution - 1); }},
     {"clouds.precision", "8, 16 or 32", "Bits that a density of a file's cloud is kept in.",
      parse_cloud_precision,
      [](const Settings& s) { return std::to_string(s.render.clouds.precision); }},
@@ -143,9 +136,7 @@ constexpr SettingKey kPictureKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "tone", kToneNames), s.render.tone);
      },
-     [](const Settings& s) {
-       return std::string(kToneNames[static_cast<std::size_t>(s.render.tone)]);
-     }},
+     [](const Settings& s) { return name_of(kToneNames, s.render.tone); }},
     {"display.peak", "0.1 to 1",
      "Brightest light of the picture, as a share of the display's white.",
      [](std::string_view t, Settings& s) {

@@ -20,15 +20,11 @@ constexpr std::array<std::string_view, 3> kRateNames{"1", "2", "4"};
 constexpr std::array<std::string_view, 4> kTileNames{"8", "16", "32", "64"};
 
 Result<void> parse_memory_budget(std::string_view text, Settings& s) {
-  if (text == "auto") {
-    s.memory_budget_mib.reset();
-    return {};
-  }
-  std::uint32_t mib = 0;
-  const Result<void> done =
-      into(parse_integer(text, "memory.budget ('auto' or MiB)", 8, 1 << 20), mib);
-  if (done) s.memory_budget_mib = mib;
-  return done;
+  if (text != "auto")
+    return into(parse_integer(text, "memory.budget ('auto' or MiB)", 8, 1 << 20),
+                s.memory_budget_mib);
+  s.memory_budget_mib.reset();
+  return {};
 }
 
 Result<void> parse_lights_shadows(std::string_view text, Settings& s) {
@@ -85,25 +81,18 @@ constexpr SettingKey kProgramKeys[] = {
     {"renderer", "deferred, auto or reference",
      "How the picture is made: on the GPU, or exactly on the CPU (screenshots only). auto is "
      "deferred.",
-     parse_renderer,
-     [](const Settings& s) {
-       return std::string(kRendererNames[static_cast<std::size_t>(s.renderer)]);
-     }},
+     parse_renderer, [](const Settings& s) { return name_of(kRendererNames, s.renderer); }},
     {"shading", "pbr or flat",
      "flat: light colour times shadow, without the surface's angle to the light.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "shading", kShadingNames), s.render.shading);
      },
-     [](const Settings& s) {
-       return std::string(kShadingNames[static_cast<std::size_t>(s.render.shading)]);
-     }},
+     [](const Settings& s) { return name_of(kShadingNames, s.render.shading); }},
     {"shading.rate", "1, 2 or 4",
      "Pixels along a block whose light is worked out once where its neighbours agree; textures and "
      "edges keep every pixel.",
      [](std::string_view t, Settings& s) {
-       const auto name = parse_name(t, "shading.rate", kRateNames);
-       if (!name) return Result<void>(name.error());
-       return into(parse_integer(kRateNames[*name], "shading.rate", 1, 4), s.render.shading_rate);
+       return into_listed(t, "shading.rate", kRateNames, s.render.shading_rate);
      },
      [](const Settings& s) { return std::to_string(s.render.shading_rate); }},
     {"shading.tolerance", "0 to 1",
@@ -121,9 +110,7 @@ constexpr SettingKey kProgramKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "debug.view", kDebugViewNames), s.render.debug_view);
      },
-     [](const Settings& s) {
-       return std::string(kDebugViewNames[static_cast<std::size_t>(s.render.debug_view)]);
-     }},
+     [](const Settings& s) { return name_of(kDebugViewNames, s.render.debug_view); }},
     {"lights.shadows", "off, nearest:1 to nearest:8, or all",
      "Walls block lights: none, those that light a pixel most, or all. With nearest:N, the others "
      "are dimmed by as much.",
@@ -137,9 +124,7 @@ constexpr SettingKey kProgramKeys[] = {
     {"lights.tile", "8, 16, 32 or 64",
      "Pixels along the tiles that lights are sorted into; changes no picture, only its cost.",
      [](std::string_view t, Settings& s) {
-       const auto name = parse_name(t, "lights.tile", kTileNames);
-       if (!name) return Result<void>(name.error());
-       return into(parse_integer(kTileNames[*name], "lights.tile", 8, 64), s.render.lights_tile);
+       return into_listed(t, "lights.tile", kTileNames, s.render.lights_tile);
      },
      [](const Settings& s) { return std::to_string(s.render.lights_tile); }},
     {"lights.oracle", "0 or 1",
@@ -147,7 +132,7 @@ constexpr SettingKey kProgramKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "lights.oracle", kSwitchNames), s.render.lights_oracle);
      },
-     [](const Settings& s) { return std::string(s.render.lights_oracle ? "1" : "0"); }},
+     [](const Settings& s) { return name_of(kSwitchNames, s.render.lights_oracle); }},
     {"leave.out",
      "none, or of sun, moon, water, cutouts, stars, discs, haze, lights, clouds, joined by +",
      "Draws as if the scene had none of these.", parse_leave_out, print_leave_out},
@@ -156,9 +141,7 @@ constexpr SettingKey kProgramKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "upload.path", kUploadNames), s.upload_path);
      },
-     [](const Settings& s) {
-       return std::string(kUploadNames[static_cast<std::size_t>(s.upload_path)]);
-     }},
+     [](const Settings& s) { return name_of(kUploadNames, s.upload_path); }},
     {"upload.budget", "bytes, 65536 to 1073741824", "The most that travels in one frame.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "upload.budget", 65536, 1 << 30), s.upload_budget_bytes);
@@ -194,9 +177,7 @@ constexpr SettingKey kProgramKeys[] = {
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "reference.filter", kFilterNames), s.reference_filter);
      },
-     [](const Settings& s) {
-       return std::string(kFilterNames[static_cast<std::size_t>(s.reference_filter)]);
-     }},
+     [](const Settings& s) { return name_of(kFilterNames, s.reference_filter); }},
 };
 
 }  // namespace

@@ -28,15 +28,11 @@ Result<void> parse_offset(std::string_view text, Settings& s) {
 }
 
 Result<void> parse_islands(std::string_view text, Settings& s) {
-  if (text == "all") {
-    s.world_islands.reset();
-    return {};
-  }
-  std::uint32_t count = 0;
-  const Result<void> done =
-      into(parse_integer(text, "world.islands ('all' or a count)", 0, 100000), count);
-  if (done) s.world_islands = count;
-  return done;
+  if (text != "all")
+    return into(parse_integer(text, "world.islands ('all' or a count)", 0, 100000),
+                s.world_islands);
+  s.world_islands.reset();
+  return {};
 }
 
 constexpr SettingKey kWorldKeys[] = {

@@ -114,24 +114,22 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
 // Water that leaves the view and comes back, a list that grows, a window that changes its size.
 TEST_F(GraphTest, WhatComesBackIsNotAllocatedAgain) {
   FrameGraph graph(&device());
+  const auto clear = [&](const char* name, std::uint32_t edge) {
+    ImageRef image = graph.create(
+        ImageDesc{.name = name, .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {edge, edge}});
+    graph.add_pass(
+        "clear",
+        [&](PassBuilder& b) {
+          image = b.color(image, Load::cleared({}));
+          b.keep();
+        },
+        [](Commands&) {});
+  };
   const auto frame = [&](std::uint32_t edge, std::uint64_t list_bytes, bool water) {
     const std::uint64_t before = device().allocations();
     graph.begin();
-    const auto clear = [&](ImageRef image) {
-      graph.add_pass(
-          "clear",
-          [&](PassBuilder& b) {
-            image = b.color(image, Load::cleared({}));
-            b.keep();
-          },
-          [](Commands&) {});
-    };
-    const auto image = [&](const char* name) {
-      return graph.create(
-          ImageDesc{.name = name, .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {edge, edge}});
-    };
-    clear(image("radiance"));
-    if (water) clear(image("water"));
+    clear("radiance", edge);
+    if (water) clear("water", edge);
     BufferRef list = graph.create(BufferDesc{"list", list_bytes});
     graph.add_pass(
         "fill",
@@ -163,20 +161,9 @@ TEST_F(GraphTest, WhatComesBackIsNotAllocatedAgain) {
   EXPECT_EQ(bytes_of("radiance"), small);
   EXPECT_EQ(bytes_of("water"), small);
   // A frame that needs more than all others have does not keep it from them.
-  const auto large = [&] {
-    graph.begin();
-    ImageRef once = graph.create(
-        ImageDesc{.name = "once", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1024, 1024}});
-    graph.add_pass(
-        "clear",
-        [&](PassBuilder& b) {
-          once = b.color(once, Load::cleared({}));
-          b.keep();
-        },
-        [](Commands&) {});
-    run(graph);
-  };
-  large();
+  graph.begin();
+  clear("once", 1024);
+  run(graph);
   EXPECT_GT(bytes_of("once"), 0u);
   for (int i = 0; i < 20; ++i) (void)frame(64, 100, true);
   EXPECT_EQ(bytes_of("once"), 0u);

@@ -22,6 +22,10 @@ struct BufferDesc {
   bool operator==(const BufferDesc&) const = default;
 };
 
+constexpr bool same_size(VkExtent2D a, VkExtent2D b) {
+  return a.width == b.width && a.height == b.height;
+}
+
 struct ImageDesc {
   std::string name;
   VkFormat format = VK_FORMAT_UNDEFINED;
@@ -32,9 +36,9 @@ struct ImageDesc {
   bool array = false;       ///< view as an array even with one layer
   std::uint32_t depth = 0;  ///< texels; not 0: a 3D image, of one layer
   bool operator==(const ImageDesc& other) const {
-    return name == other.name && format == other.format && extent.width == other.extent.width &&
-           extent.height == other.extent.height && mips == other.mips && layers == other.layers &&
-           usage == other.usage && array == other.array && depth == other.depth;
+    return name == other.name && format == other.format && same_size(extent, other.extent) &&
+           mips == other.mips && layers == other.layers && usage == other.usage &&
+           array == other.array && depth == other.depth;
   }
 };
 

@@ -52,13 +52,12 @@ void release(Entries& entries) {
     entry->idle_frames = entry->taken ? 0 : entry->idle_frames + 1;
     (entry->taken ? taken_bytes : idle_bytes) += entry->object.allocated_bytes();
   }
-  Entries superseded;
   for (auto& entry : entries) {
     if (entry->idle_frames <= kIdleFrames) continue;
     for (const auto& other : entries)
       if (other && other->idle_frames == 0 && supersedes(other->desc, entry->desc)) {
         idle_bytes -= entry->object.allocated_bytes();
-        superseded.push_back(std::move(entry));
+        entry.reset();
         break;
       }
   }

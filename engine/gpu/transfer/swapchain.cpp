@@ -234,10 +234,9 @@ void Swapchain::show(VkCommandBuffer commands, Image& picture, const SwapchainFr
   region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.srcOffsets[1] = corner(from);
   region.dstOffsets[1] = corner(extent_);
-  const bool same = from.width == extent_.width && from.height == extent_.height;
   vkCmdBlitImage(commands, picture.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target,
                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
-                 same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+                 same_size(from, extent_) ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
   transition(commands, target,
              {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
               VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,

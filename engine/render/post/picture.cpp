@@ -6,9 +6,7 @@ namespace skerry::render {
 
 /// Makes an image anew unless it has its size already.
 Result<void> Picture::remake(gpu::Image& image, const gpu::ImageDesc& desc) {
-  if (image && image.desc().extent.width == desc.extent.width &&
-      image.desc().extent.height == desc.extent.height)
-    return {};
+  if (image && gpu::same_size(image.desc().extent, desc.extent)) return {};
   image = {};
   Result<gpu::Image> made = device_->create_image(desc);
   if (!made) return made.error();
@@ -38,7 +36,7 @@ Result<void> Picture::resize(const Sizes& sizes, int samples, std::uint32_t part
   if (Result<void> ok = remake(image_, desc); !ok) return ok;
   desc.name = "enlarged picture";
   desc.extent = sizes.shown;
-  if (sizes.drawn.width == size.width && sizes.drawn.height == size.height)
+  if (gpu::same_size(sizes.drawn, size))
     enlarged_ = {};
   else if (Result<void> ok = remake(enlarged_, desc); !ok)
     return ok;

@@ -41,7 +41,7 @@ struct FramePlan {
   std::vector<gpu::LeftOut> left_out{};  ///< passes and features it lacks, with reasons
   FrameHistory next{};                   ///< without generations of images, which are not made yet
 
-  bool enlarged() const { return picture.width != shown.width || picture.height != shown.height; }
+  bool enlarged() const { return !gpu::same_size(picture, shown); }
   bool shows_channel() const;  ///< a debug view takes the place of the lit scene
   bool last_part() const { return input.part + 1 == input.parts; }
   bool lights() const;   ///< the frame's lights are sorted
