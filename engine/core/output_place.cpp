@@ -93,7 +93,7 @@ Result<OutputPlace> find_output(const fs::path& name) {
   struct stat found {};
   if (::lstat(place.path.c_str(), &found) != 0)
     return Error{"the file that it leads to has been deleted; give another path"};
-  place.kind = S_ISDIR(info.st_mode) ? OutputPlace::Kind::kFolder : Kind::kFile;
+  place.kind = S_ISDIR(info.st_mode) ? OutputPlace::Kind::kFolder : OutputPlace::Kind::kFile;
   return place;
 }
 

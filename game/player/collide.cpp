@@ -11,6 +11,7 @@ namespace {
 constexpr std::int64_t kMaxStep = kLatticeBlock / 2;
 
 constexpr std::int64_t units(double blocks) {
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): a length, and floor is not constexpr
   return static_cast<std::int64_t>(blocks * static_cast<double>(kLatticeBlock) + 0.5);
 }
 constexpr std::int64_t kHalfWidth = units(kPlayerHalfWidth), kHeight = units(kPlayerHeight);

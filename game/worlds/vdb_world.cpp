@@ -50,14 +50,14 @@ Result<VdbIslands> islands_of_vdb(const std::filesystem::path& path,
   if (!grids) return grids.error();
   Jobs jobs;
   auto islands = world::import_islands(*grids, options, jobs, part(kReading, 1.0 - kReading));
-  VdbIslands out;
+  if (!islands)
+    return Error{
+        fmt::format("cannot import {}: {}", quote_text(path.string()), islands.error().message)};
+  VdbIslands out{*std::move(islands), {}};
   for (const std::string& line :
        {world::metadata_doubt(*grids), world::choice_line(*grids, options)})
     if (!line.empty()) out.notes.push_back(fmt::format("{}: {}", quote_text(path.string()), line));
-  if (islands) out.islands = *std::move(islands);
-  if (islands) return out;
-  return Error{
-      fmt::format("cannot import {}: {}", quote_text(path.string()), islands.error().message)};
+  return out;
 }
 
 Result<std::unique_ptr<world::World>> world_of_vdb(const std::filesystem::path& path,

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <exception>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -177,6 +179,10 @@ int main(int count, char** arguments) {
     status = run({arguments + 1, arguments + count});
   } catch (const std::system_error& error) {
     return fail(kFailed, {std::string(error.what()) + "; check the disk and the standard output"});
+  } catch (const std::bad_alloc&) {
+    return fail(kFailed, {"out of memory; give it a smaller picture, file or view.distance"});
+  } catch (const std::exception& error) {
+    return fail(kFailed, {std::string("unexpected: ") + error.what() + "; please report it"});
   }
   if (std::fflush(stdout) == 0 || status != kDone) return status;
   return fail(kFailed, {"cannot write to the standard output; check where it leads"});

@@ -1,6 +1,7 @@
 #include "tools/textures/color.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace skerry::textures {
 namespace {
@@ -60,7 +61,7 @@ std::uint8_t srgb_from_linear(float linear) {
 }
 
 std::uint8_t quantize(float coded) {
-  return static_cast<std::uint8_t>(std::clamp(coded, 0.0f, 1.0f) * 255.0f + 0.5f);
+  return static_cast<std::uint8_t>(std::floor(std::clamp(coded, 0.0f, 1.0f) * 255.0f + 0.5f));
 }
 
 }  // namespace skerry::textures

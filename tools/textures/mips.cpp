@@ -1,6 +1,7 @@
 #include "tools/textures/mips.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace skerry::textures {
@@ -59,7 +60,7 @@ float rank_key(const Image& image, int x, int y) {
 // others less.
 std::vector<std::uint8_t> scaled_alpha(const Image& image, float share) {
   const int count = image.edge * image.edge;
-  const int covered = static_cast<int>(share * static_cast<float>(count) + 0.5f);
+  const int covered = static_cast<int>(std::floor(share * static_cast<float>(count) + 0.5f));
   std::vector<float> keys;
   for (int y = 0; y < image.edge; ++y)
     for (int x = 0; x < image.edge; ++x) keys.push_back(rank_key(image, x, y));

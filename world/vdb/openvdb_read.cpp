@@ -177,10 +177,10 @@ void check_metadata(const openvdb::GridBase& grid, const VolumeGrid& out) {
   using openvdb::GridBase;
   const auto voxels = grid.getMetadata<openvdb::Int64Metadata>(GridBase::META_FILE_VOXEL_COUNT);
   if (voxels && static_cast<std::uint64_t>(voxels->value()) != out.active_voxels) {
-    throw Damaged(
+    throw Damaged{
         fmt::format("grid '{}' is damaged: it states {} active voxels and holds {}; "
                     "copy it again",
-                    out.name, voxels->value(), out.active_voxels));
+                    out.name, voxels->value(), out.active_voxels)};
   }
   const auto low = grid.getMetadata<openvdb::Vec3IMetadata>(GridBase::META_FILE_BBOX_MIN);
   const auto high = grid.getMetadata<openvdb::Vec3IMetadata>(GridBase::META_FILE_BBOX_MAX);
@@ -188,9 +188,9 @@ void check_metadata(const openvdb::GridBase& grid, const VolumeGrid& out) {
   const openvdb::Vec3i a = low->value(), b = high->value();
   const VolumeBox& box = out.active_box;
   if (IVec3{a.x(), a.y(), a.z()} != box.min || IVec3{b.x(), b.y(), b.z()} != box.max) {
-    throw Damaged(fmt::format(
+    throw Damaged{fmt::format(
         "grid '{}' is damaged: its active voxels are not where it states; copy it again",
-        out.name));
+        out.name)};
   }
 }
 

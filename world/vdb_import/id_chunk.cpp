@@ -1,5 +1,6 @@
 #include "world/vdb_import/id_chunk.h"
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -15,7 +16,7 @@ bool is_known(float id) {
 }
 
 BlockId block_of(float id) {
-  return is_known(id) ? static_cast<BlockId>(id + 0.5f) : BlockId{block::kStone};
+  return is_known(id) ? static_cast<BlockId>(std::floor(id + 0.5f)) : BlockId{block::kStone};
 }
 
 class Reader {

@@ -160,7 +160,7 @@ std::uint32_t Bricks::add(const std::array<float, kBrickSize>& values, float ran
     const float share = values[i] / range;
     std::byte* to = texels_.data() + begin + i * texel_bytes();
     if (precision_ == CloudPrecision::k8) {
-      *to = static_cast<std::byte>(static_cast<std::uint8_t>(share * 255.0f + 0.5f));
+      *to = static_cast<std::byte>(static_cast<std::uint8_t>(std::floor(share * 255.0f + 0.5f)));
     } else if (precision_ == CloudPrecision::k16) {
       const std::uint16_t half = glm::packHalf1x16(share);
       std::memcpy(to, &half, sizeof(half));

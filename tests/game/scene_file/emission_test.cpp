@@ -29,7 +29,8 @@ glm::dvec3 mean_albedo(world::BlockId block, int face) {
 TEST(Emission, ABlocksFaceSendsOutItsLambertianFlux) {
   const std::vector<BlockEmission> table = emission_table();
   ASSERT_EQ(table.size(), world::block_types().size());
-  for (world::BlockId id = 0; id < table.size(); ++id) {
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto id = static_cast<world::BlockId>(i);
     const world::BlockType& type = world::block_types()[id];
     if (type.emission == 0.0f) {
       EXPECT_EQ(table[id].face_intensity, glm::vec3(0.0f)) << type.name;

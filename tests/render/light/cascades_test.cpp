@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <random>
 #include <vector>
 
 #include "engine/render/frame/celestial.h"
+#include "tests/same_bits.h"
 
 namespace skerry::render {
 namespace {
@@ -49,10 +49,6 @@ glm::dvec3 clip(const glm::mat4& m, glm::dvec3 p) {
 glm::dvec2 texel_of(const Cascade& c, glm::dvec3 p) {
   const glm::dvec3 q = clip(c.clip_from_world, p);
   return (glm::dvec2(q.x, q.y) * 0.5 + 0.5) * static_cast<double>(c.key.map_size);
-}
-
-bool same_bits(const glm::mat4& a, const glm::mat4& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 std::vector<glm::dvec3> special_directions() {
@@ -260,7 +256,7 @@ TEST(Cascades, MovingWorldAndCameraTogetherChangesNoBit) {
     for (std::size_t k = 0; k < here.size(); ++k) {
       EXPECT_TRUE(same_bits(here[k].clip_from_world, there[k].clip_from_world));
       EXPECT_TRUE(same_bits(here[k].clip_from_centre, there[k].clip_from_centre));
-      EXPECT_EQ(std::memcmp(&here[k].planes, &there[k].planes, sizeof here[k].planes), 0);
+      EXPECT_TRUE(same_bits(here[k].planes, there[k].planes));
       EXPECT_TRUE(here[k].key == there[k].key);
       for (std::size_t i = 0; i < 3; ++i)
         EXPECT_EQ(there[k].centre[i] - here[k].centre[i], offset[i]);

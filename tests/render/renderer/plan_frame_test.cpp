@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 #include "engine/render/renderer/frame_steps.h"
+#include "tests/same_bits.h"
 
 namespace skerry::render {
 namespace {
@@ -59,7 +59,7 @@ TEST(PlanFrame, IsAFunctionOfItsArgumentsAlone) {
   const FramePlan a = scene.plan(), b = scene.plan();
   EXPECT_EQ(a.steps, b.steps);
   EXPECT_EQ(a.left_out.size(), b.left_out.size());
-  EXPECT_EQ(std::memcmp(&a.tables.constants, &b.tables.constants, sizeof(a.tables.constants)), 0);
+  EXPECT_TRUE(same_bits(a.tables.constants, b.tables.constants));
   EXPECT_EQ(redrawn(a), redrawn(b));
 }
 

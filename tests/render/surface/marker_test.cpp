@@ -1,9 +1,9 @@
 // The outline and the cracks of a picked block in whole pictures.
 #include <algorithm>
-#include <cstring>
 
 #include "engine/render/surface/marker_pass.h"
 #include "tests/render/renderer_on_gpu.h"
+#include "tests/same_bits.h"
 
 namespace skerry::render {
 namespace {
@@ -158,7 +158,7 @@ TEST(MarkerConstants, FitBesideTheEyeAndOnEitherSideOfTheWorld) {
   };
   const auto middle = at(0), edge = at(std::int64_t{1} << 55);
   ASSERT_TRUE(middle && edge);
-  EXPECT_EQ(std::memcmp(&*middle, &*edge, sizeof(*middle)), 0);
+  EXPECT_TRUE(same_bits(*middle, *edge));
   EXPECT_LE(sizeof(shared::MarkerConstants), 128u);  // push constants
 }
 

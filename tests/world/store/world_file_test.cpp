@@ -152,7 +152,7 @@ TEST(WorldFile, TheLockOfAnotherProcessEndsWithIt) {
 TEST(WorldFile, WhatIsNoWorldIsRefusedAndLeftAlone) {
   const Folder folder;
   std::ofstream(folder / "text") << std::string(5000, 'x');
-  std::ofstream(folder / "empty");
+  const std::ofstream empty(folder / "empty");
   run_sql(folder / "foreign", "CREATE TABLE t(x); PRAGMA user_version = 1");
   for (const Mode mode : {Mode::kRead, Mode::kWrite}) {
     expect_refused(folder / "none", mode, "does not exist");

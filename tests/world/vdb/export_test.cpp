@@ -146,7 +146,8 @@ TEST(VdbExport, ImportsBackToTheSameBlocksForAnyWorldAndBox) {
     const auto islands = import_islands(*back, {}, jobs);
     ASSERT_TRUE(islands) << islands.error().message;
     ASSERT_EQ(islands->size(), expected.size()) << seed;
-    for (const auto& [id, blocks] : expected) {
+    for (const auto& [id, made] : expected) {
+      const auto& blocks = made;
       const IslandSpec spec = *random_world.world.island(id);
       EXPECT_EQ(std::count_if(islands->begin(), islands->end(),
                               [&](const auto& island) { return equal(island, spec, blocks); }),
