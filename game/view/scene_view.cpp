@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kMaxPolledQuads = 200'000;  // taken from the workers in one frame
 constexpr float kWeakLampRange = 10.0f;           // blocks: lamps that reach no further are weak
 constexpr double kReachStep = 128.0;              // blocks
-constexpr std::uint32_t kFirstArenaQuads = 1u << 19;
+constexpr std::uint32_t kFirstArenaQuads = 1u << 21;  // 16 MiB
 constexpr std::uint64_t kBytesPerMiB = std::uint64_t{1} << 20;
 // What is new leaves this share of the memory to what is built anew after an edit.
 constexpr double kForEdits = 1.0 / 16.0;
@@ -195,6 +195,12 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
   if (!island_light_) return {};
   island_light_->wait();
   find_light();
+  while (hand_over_light(camera, world_time_s, UINT64_MAX)) renderer_->reclaim();
+  if (sky_light_.idle()) return {};
+  // Which islands have light must not depend on what was lit before.
+  if (indirect_) sky_light_.take_back(*indirect_, renderer_->mesh_uploader());
+  renderer_->reclaim();
+  while (hand_over_light(camera, world_time_s, UINT64_MAX)) renderer_->reclaim();
   return {};
 }
 
@@ -216,6 +222,7 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
     show_less(camera);
   }
   find_light();
+  hand_over_light(camera, world_time_s, settings_.upload_budget_bytes);
   return {};
 }
 
@@ -246,6 +253,7 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
   if (Result<void> ok = renderer_->restart_world(less); !ok) return ok;
   occupancy_ = nullptr;
   indirect_ = nullptr;
+  sky_light_.clear();
   weak_lamps_kept_ = false;
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
   show_less(camera);
@@ -321,42 +329,47 @@ bool SceneView::is_full() const {
   return static_cast<double>(memory.used) >= (1.0 - kForEdits) * static_cast<double>(memory.limit);
 }
 
-/// Has workers look for light where something has changed, and hands what they have found to the
-/// renderer. An island that there is no memory for keeps none.
+/// Has workers look for light where something has changed, and takes in what they have found.
 void SceneView::find_light() {
   if (!island_light_) return;
   // What waits for memory would let light in.
   if (waiting_.empty()) island_light_->start(*streamer_);
   for (IslandLight::FoundReach& found : island_light_->poll_reach())
     light_field_.set_reach(found.section, std::move(found.reach));
-  for (const IslandLight::Found& found : island_light_->poll()) {
-    const auto slot = island_slots_.find(found.island);
-    if (slot == island_slots_.end() || found.chunks.empty()) continue;
-    const Result<void> taken = take_in_light(found, slot->second);
-    if (taken) continue;
-    if (indirect_) indirect_->end_island(renderer_->mesh_uploader(), slot->second);
-    if (!std::exchange(light_refused_, true)) {
-      notices_.push_back("some islands have no light of the sky: " + taken.error().message);
-      log_warning(notices_.back());
-    }
-  }
+  for (IslandLight::Found& found : island_light_->poll())
+    if (island_slots_.contains(found.island)) sky_light_.add(std::move(found));
 }
 
-Result<void> SceneView::take_in_light(const IslandLight::Found& found, std::uint32_t slot) {
+/// Hands light of the sky to the renderer until `most_bytes` wait to be copied. @return whether
+/// there is more to hand over.
+bool SceneView::hand_over_light(const render::Camera& camera, double world_time_s,
+                                std::uint64_t most_bytes) {
+  if (sky_light_.idle()) return false;
   if (!indirect_) {
     Result<render::IndirectStore*> made = renderer_->indirect();
-    if (!made) return made.error();
+    if (!made) {
+      refuse_light(made.error().message);
+      return false;
+    }
     indirect_ = *made;
   }
-  std::vector<render::ChunkSkyLight> chunks;
-  glm::ivec3 low(INT32_MAX), high(INT32_MIN);
-  for (const IslandLight::FoundChunk& chunk : found.chunks) {
-    const glm::ivec3 at{chunk.at.x, chunk.at.y, chunk.at.z};
-    chunks.push_back({at, chunk.sky->table, chunk.sky->texels, chunk.changed});
-    low = glm::min(low, at), high = glm::max(high, at);
+  std::map<std::uint64_t, SkyLightFeed::NearIsland> islands;
+  for (const auto& [id, slot] : island_slots_) {
+    const world::Pose pose = pose_of(islands_[slot], world_time_s);
+    const double centre =
+        glm::length(world::difference_blocks(place(camera.position), pose.origin));
+    islands[id] = {slot, std::max(0.0, centre - islands_[slot].spec.bounding_radius)};
   }
-  const render::IslandChunks box{low, high - low + 1, static_cast<std::uint32_t>(found.level)};
-  return indirect_->set_island(renderer_->mesh_uploader(), slot, box, chunks);
+  const bool more =
+      sky_light_.hand_over(*indirect_, renderer_->mesh_uploader(), islands, most_bytes);
+  if (const std::optional<std::string> why = sky_light_.refusal()) refuse_light(*why);
+  return more;
+}
+
+void SceneView::refuse_light(const std::string& why) {
+  if (std::exchange(light_refused_, true)) return;
+  notices_.push_back("some islands have no light of the sky: " + why);
+  log_warning(notices_.back());
 }
 
 void SceneView::remove_section(const world::SectionKey& key) {
@@ -380,6 +393,7 @@ void SceneView::release_island(std::uint64_t island) {
   if (--islands_[slot->second].sections != 0) return;
   if (occupancy_) occupancy_->end_island(uploader, slot->second);
   if (indirect_) indirect_->end_island(uploader, slot->second);
+  sky_light_.remove(island);
   if (island_light_) island_light_->end_island(island);
   island_slots_.erase(slot);
 }

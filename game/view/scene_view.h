@@ -18,6 +18,7 @@
 #include "game/scene_file/options.h"
 #include "game/view/island_light.h"
 #include "game/view/light_field.h"
+#include "game/view/sky_light_feed.h"
 #include "game/view/view_fit.h"
 #include "world/islands/world.h"
 #include "world/stream/stream.h"
@@ -102,7 +103,8 @@ class SceneView {
   Result<void> add_section(const world::ReadySection& ready);
   void release_island(std::uint64_t island);
   void find_light();
-  Result<void> take_in_light(const IslandLight::Found& found, std::uint32_t slot);
+  bool hand_over_light(const render::Camera& camera, double world_time_s, std::uint64_t most_bytes);
+  void refuse_light(const std::string& why);
   void remove_section(const world::SectionKey& key);
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
   world::Pose pose_of(const IslandEntry& entry, double world_time_s) const;
@@ -137,6 +139,7 @@ class SceneView {
   render::OccupancyStore* occupancy_ = nullptr;  // the renderer's; null: not wanted so far
   render::IndirectStore* indirect_ = nullptr;    // the renderer's; null: no light so far
   std::unique_ptr<IslandLight> island_light_;    // none: not wanted so far
+  SkyLightFeed sky_light_;                       // what island_light_ has found
   bool light_refused_ = false;                   // for want of memory, and that has been said
   bool weak_lamps_kept_ = false;                 // by island_light_, not by light_field_
   bool cloud_volumes_ = false;                   // what lamps light in the air, too

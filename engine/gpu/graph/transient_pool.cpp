@@ -17,10 +17,11 @@ Result<Buffer> create(Device& device, const BufferDesc& desc) {
   return device.create_buffer(desc);
 }
 
-/// Sizes of buffers grow in steps of a quarter to a half, so that a count that goes up and down
-/// between frames makes nothing anew.
+/// Sizes of buffers grow in large steps while they are small, then by a quarter to a half, so that
+/// counts that change from frame to frame rarely make one anew.
 std::uint64_t roomy(std::uint64_t bytes, std::uint64_t most) {
-  std::uint64_t step = std::uint64_t{1} << 12;
+  std::uint64_t step = std::uint64_t{1} << 16;
+  while (bytes > step && step < std::uint64_t{1} << 19) step *= 8;
   while (step * 4 < bytes) step *= 2;
   const std::uint64_t rounded = (bytes + step - 1) / step * step;
   return rounded <= most ? rounded : bytes;

@@ -1,7 +1,5 @@
 #include "engine/render/light/indirect_store.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -18,8 +16,12 @@ static_assert(shared::kIndirectSkies == shared::kMaxIslands);
 static_assert(shared::kIndirectFirst == shared::kMaxIslands * (1 + 6 * shared::kIndirectSkyTexels));
 
 constexpr std::uint64_t kTexelBytes = sizeof(glm::uvec4);
-constexpr std::uint32_t kFirstTexels = 1u << 17;          // 2 MiB
-constexpr std::uint32_t kMostTexels = (48u << 20) / 16u;  // of the buffer: 48 MiB
+constexpr std::uint32_t kUsualTexels = (48u << 20) / kTexelBytes;  // 48 MiB
+constexpr std::uint64_t kShareOfBudget = 2;                        // most of it that light takes
+
+std::uint64_t most_texels(const gpu::Device& device, const MemoryBudget& budget) {
+  return std::min(device.limits().max_texels, budget.limit() / kShareOfBudget / kTexelBytes);
+}
 
 std::uint32_t volume(glm::ivec3 size) {
   return static_cast<std::uint32_t>(size.x * size.y * size.z);
@@ -53,8 +55,8 @@ glm::uvec4 header(const IslandChunks& box, std::uint32_t first) {
 
 }  // namespace
 
-IndirectStore::IndirectStore(gpu::Device& device, MemoryBudget& budget)
-    : device_(&device), budget_(&budget), arena_(kFirstTexels) {}
+IndirectStore::IndirectStore(gpu::Device& device, MemoryBudget& budget, std::uint32_t texels)
+    : device_(&device), budget_(&budget), arena_(texels) {}
 
 IndirectStore::~IndirectStore() {
   budget_->give_back(texels_.size_bytes());
@@ -62,41 +64,50 @@ IndirectStore::~IndirectStore() {
 
 Result<std::unique_ptr<IndirectStore>> IndirectStore::create(gpu::Device& device,
                                                              MemoryBudget& budget) {
-  std::unique_ptr<IndirectStore> store(new IndirectStore(device, budget));
+  const std::uint32_t texels =
+      budget.first_elements(kTexelBytes, 2 * shared::kIndirectFirst, kUsualTexels);
+  std::unique_ptr<IndirectStore> store(new IndirectStore(device, budget, texels));
   Result<gpu::Buffer> made =
-      make_table(device, budget, "light of the sky",
-                 (shared::kIndirectFirst + kFirstTexels) * kTexelBytes, true);
+      make_table(device, budget, "light of the sky", texels * kTexelBytes, true);
   if (!made) return made.error();
   store->texels_ = *std::move(made);
+  const Result<gpu::ArenaRange> head = store->allocate(shared::kIndirectFirst);
+  SKERRY_ASSERT(head && head->first == 0);
   device.run_now([&](VkCommandBuffer commands) {
-    vkCmdFillBuffer(commands, store->texels_.handle(), 0, VK_WHOLE_SIZE, 0);
+    vkCmdFillBuffer(commands, store->texels_.handle(), 0, bytes_of(head->count), 0);
   });
   return store;
 }
 
 Result<gpu::ArenaRange> IndirectStore::allocate(std::uint32_t texels) {
   if (texels == 0) return gpu::ArenaRange{};
-  if (Result<gpu::ArenaRange> range = arena_.allocate(texels); range) return range;
-  const std::uint64_t now = arena_.capacity();
-  // Twice as much, or what the budget affords.
-  const std::uint64_t affordable = now + budget_->left() / kTexelBytes;
-  const std::uint64_t next = std::min<std::uint64_t>(
-      kMostTexels - shared::kIndirectFirst, std::max(std::min(now * 2, affordable), now + texels));
-  if (next < now + texels)
-    return Error{
-        fmt::format("the light of the sky needs {} bytes more, {} are in use and {} are "
-                    "allowed; lower view.distance or view.detail, or set indirect=off",
-                    texels * kTexelBytes, bytes_in_use(), kMostTexels * kTexelBytes)};
-  if (Result<void> grew =
-          grow_buffer(*device_, *budget_, texels_, (shared::kIndirectFirst + next) * kTexelBytes);
-      !grew)
-    return grew.error();
-  arena_.grow(static_cast<std::uint32_t>(next));
-  return arena_.allocate(texels);
+  return render::allocate(*device_, *budget_,
+                          {arena_, texels_, kTexelBytes, most_texels(*device_, *budget_)}, texels);
 }
 
 void IndirectStore::free(gpu::ArenaRange range) {
   if (range.count != 0) arena_.free(range, device_->next_value());
+}
+
+void IndirectStore::free(std::optional<Grid>& grid) {
+  if (!grid) return;
+  free(grid->tables);
+  for (const auto& [key, chunk] : grid->chunks) free(chunk.range);
+  grid.reset();
+}
+
+std::uint64_t IndirectStore::bytes_left() const {
+  const std::uint64_t affordable = arena_.capacity() + budget_->left() / kTexelBytes;
+  const std::uint64_t most = std::min(most_texels(*device_, *budget_), affordable);
+  const std::uint64_t taken = std::uint64_t{arena_.used()} + arena_.waiting();
+  return bytes_of(most - std::min(most, taken));
+}
+
+std::uint64_t IndirectStore::bytes_for(const IslandChunks& box,
+                                       std::span<const ChunkSkyLight> chunks) {
+  std::uint64_t texels = volume(box.size) * std::uint64_t{shared::kIndirectTableTexels};
+  for (const ChunkSkyLight& chunk : chunks) texels += chunk.texels.size();
+  return bytes_of(texels);
 }
 
 void IndirectStore::write(gpu::Uploader& uploader, std::uint32_t texel,
@@ -104,77 +115,72 @@ void IndirectStore::write(gpu::Uploader& uploader, std::uint32_t texel,
   if (!values.empty()) uploader.write(texels_, texel * kTexelBytes, values);
 }
 
-/// Writes chunks and their tables. @param all also those that have not changed.
-Result<void> IndirectStore::put_chunks(gpu::Uploader& uploader, Island& island,
-                                       std::span<const ChunkSkyLight> chunks, bool all) {
-  std::vector<glm::uvec4> texels, table(shared::kIndirectTableTexels);
-  for (const ChunkSkyLight& chunk : chunks) {
-    if (!fits(island.box, chunk.chunk)) continue;
-    const Key key{chunk.chunk.x, chunk.chunk.y, chunk.chunk.z};
-    if (!all && !chunk.changed && island.chunks.contains(key)) continue;
-    SKERRY_ASSERT(chunk.table.size() == shared::kIndirectTableTexels * 4);
-    const Result<gpu::ArenaRange> range = allocate(static_cast<std::uint32_t>(chunk.texels.size()));
-    if (!range) return range.error();
-    if (const auto old = island.chunks.find(key); old != island.chunks.end()) free(old->second);
-    island.chunks[key] = *range;
-    const std::uint32_t first = shared::kIndirectFirst + range->first;
-    texels.assign(chunk.texels.begin(), chunk.texels.end());
-    std::uint32_t bricks = 0;
-    for (std::size_t i = 0; i < chunk.table.size(); ++i) {
-      const std::uint32_t brick = chunk.table[i];
-      bricks = std::max(bricks, brick);
-      table[i / 4][static_cast<int>(i % 4)] =
-          brick == 0 ? 0 : first + (brick - 1) * shared::kIndirectBrickTexels;
-    }
-    SKERRY_ASSERT(std::size_t{bricks} * shared::kIndirectBrickTexels <= texels.size());
-    for (std::size_t i = 0; i < bricks * shared::kIndirectBrickTexels; ++i)
-      texels[i].z += first, texels[i].w += first;
-    write(uploader, first, texels);
-    write(uploader,
-          table_texel(island.box, shared::kIndirectFirst + island.tables.first, chunk.chunk),
-          table);
+Result<void> IndirectStore::begin(gpu::Uploader& uploader, std::uint32_t island,
+                                  const IslandChunks& box) {
+  SKERRY_ASSERT(island < shared::kMaxIslands);
+  Island& entry = islands_[island];
+  if (entry.shown && same_grid(entry.shown->box, box)) {
+    free(entry.made);
+  } else if (!entry.made || !same_grid(entry.made->box, box)) {
+    free(entry.made);
+    const Result<gpu::ArenaRange> tables =
+        allocate(volume(box.size) * shared::kIndirectTableTexels);
+    if (!tables) return tables.error();
+    uploader.fill(texels_, tables->first * kTexelBytes, tables->count * kTexelBytes, 0);
+    entry.made = Grid{box, *tables, {}};
   }
+  for (auto& [key, chunk] : entry.target().chunks) chunk.put = false;
   return {};
 }
 
-Result<void> IndirectStore::set_island(gpu::Uploader& uploader, std::uint32_t island,
-                                       const IslandChunks& box,
-                                       std::span<const ChunkSkyLight> chunks) {
-  SKERRY_ASSERT(island < shared::kMaxIslands);
-  if (const auto found = islands_.find(island);
-      found != islands_.end() && same_grid(found->second.box, box)) {
-    Island& kept = found->second;
-    const std::vector<glm::uvec4> empty(shared::kIndirectTableTexels, glm::uvec4(0));
-    std::erase_if(kept.chunks, [&](const auto& entry) {
-      const glm::ivec3 at{entry.first[0], entry.first[1], entry.first[2]};
-      if (std::ranges::any_of(chunks, [&](const ChunkSkyLight& c) { return c.chunk == at; }))
-        return false;
-      free(entry.second);
-      write(uploader, table_texel(box, shared::kIndirectFirst + kept.tables.first, at), empty);
-      return true;
-    });
-    return put_chunks(uploader, kept, chunks, false);
+Result<void> IndirectStore::put(gpu::Uploader& uploader, std::uint32_t island,
+                                const ChunkSkyLight& chunk) {
+  Grid& grid = islands_.at(island).target();
+  SKERRY_ASSERT(fits(grid.box, chunk.chunk));
+  SKERRY_ASSERT(chunk.table.size() == shared::kIndirectTableTexels * 4);
+  const Key key{chunk.chunk.x, chunk.chunk.y, chunk.chunk.z};
+  const auto old = grid.chunks.find(key);
+  if (old != grid.chunks.end()) {
+    old->second.put = true;
+    if (!chunk.changed) return {};
   }
-  Island made{box, {}, {}};
-  const Result<gpu::ArenaRange> tables = allocate(volume(box.size) * shared::kIndirectTableTexels);
-  if (!tables) return tables.error();
-  made.tables = *tables;
-  const std::uint32_t first = shared::kIndirectFirst + tables->first;
-  uploader.fill(texels_, first * kTexelBytes, tables->count * kTexelBytes, 0);
-  if (Result<void> put = put_chunks(uploader, made, chunks, true); !put) {
-    free(made.tables);
-    for (const auto& [key, range] : made.chunks) free(range);
-    end_island(uploader, island);
-    return put;
+  const Result<gpu::ArenaRange> range = allocate(static_cast<std::uint32_t>(chunk.texels.size()));
+  if (!range) return range.error();
+  if (old != grid.chunks.end()) free(old->second.range);
+  grid.chunks[key] = {*range};
+  std::vector<glm::uvec4> texels(chunk.texels.begin(), chunk.texels.end());
+  std::vector<glm::uvec4> table(shared::kIndirectTableTexels);
+  std::uint32_t bricks = 0;
+  for (std::size_t i = 0; i < chunk.table.size(); ++i) {
+    const std::uint32_t brick = chunk.table[i];
+    bricks = std::max(bricks, brick);
+    table[i / 4][static_cast<int>(i % 4)] =
+        brick == 0 ? 0 : range->first + (brick - 1) * shared::kIndirectBrickTexels;
   }
-  const glm::uvec4 written = header(box, first);
-  write(uploader, island, std::span<const glm::uvec4>(&written, 1));
-  if (const auto old = islands_.find(island); old != islands_.end()) {
-    free(old->second.tables);
-    for (const auto& [key, range] : old->second.chunks) free(range);
-  }
-  islands_[island] = std::move(made);
+  SKERRY_ASSERT(std::size_t{bricks} * shared::kIndirectBrickTexels <= texels.size());
+  for (std::size_t i = 0; i < bricks * shared::kIndirectBrickTexels; ++i)
+    texels[i].z += range->first, texels[i].w += range->first;
+  write(uploader, range->first, texels);
+  write(uploader, table_texel(grid.box, grid.tables.first, chunk.chunk), table);
   return {};
+}
+
+void IndirectStore::finish(gpu::Uploader& uploader, std::uint32_t island) {
+  Island& entry = islands_.at(island);
+  Grid& grid = entry.target();
+  const std::vector<glm::uvec4> empty(shared::kIndirectTableTexels, glm::uvec4(0));
+  std::erase_if(grid.chunks, [&](const auto& at) {
+    const auto& [key, chunk] = at;
+    if (chunk.put) return false;
+    free(chunk.range);
+    write(uploader, table_texel(grid.box, grid.tables.first, {key[0], key[1], key[2]}), empty);
+    return true;
+  });
+  if (!entry.made) return;
+  const glm::uvec4 head = header(grid.box, grid.tables.first);
+  write(uploader, island, std::span<const glm::uvec4>(&head, 1));
+  free(entry.shown);
+  entry.shown = std::exchange(entry.made, std::nullopt);
 }
 
 void IndirectStore::end_island(gpu::Uploader& uploader, std::uint32_t island) {
@@ -182,8 +188,8 @@ void IndirectStore::end_island(gpu::Uploader& uploader, std::uint32_t island) {
   if (found == islands_.end()) return;
   const glm::uvec4 nowhere(0);
   write(uploader, island, std::span<const glm::uvec4>(&nowhere, 1));
-  free(found->second.tables);
-  for (const auto& [key, range] : found->second.chunks) free(range);
+  free(found->second.shown);
+  free(found->second.made);
   islands_.erase(found);
 }
 

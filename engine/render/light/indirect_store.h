@@ -4,6 +4,7 @@
 #include <glm/vec4.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct ChunkSkyLight {
   std::span<const std::uint32_t> table;  ///< kBricksPerChunk: 0, or 1 + which stored brick it is
   /// kIndirectBrickTexels of masks for each stored brick, then records, counted from 0.
   std::span<const glm::uvec4> texels;
-  bool changed = true;  ///< since it was last handed over, to an island that has kept its grid
+  bool changed = true;  ///< since it was last put
 };
 
 /// The light of the sky on surfaces, on the GPU: one buffer of texels. Writes go
@@ -38,12 +39,17 @@ class IndirectStore {
   static Result<std::unique_ptr<IndirectStore>> create(gpu::Device& device, MemoryBudget& budget);
   ~IndirectStore();
 
-  /// Replaces all that is known of an island. @param island index into the island table. @param
-  /// chunks ascending; those that were there and are no more are dropped. Errors: the budget is
-  /// spent or the device has no more; then the island has no light of the sky.
-  Result<void> set_island(gpu::Uploader& uploader, std::uint32_t island, const IslandChunks& box,
-                          std::span<const ChunkSkyLight> chunks);
-  /// An island without is no error.
+  /// Begins to replace what is known of an island: begin(), then put() for each of its chunks, over
+  /// as many frames as it takes, then finish(). With the grid that the island has, chunks are
+  /// replaced where they are; with another one, the old grid is shown until the new one is whole.
+  /// To begin once more drops nothing of a grid that stays the same. @param island index into the
+  /// island table. Errors: the budget is spent or the device has no more.
+  Result<void> begin(gpu::Uploader& uploader, std::uint32_t island, const IslandChunks& box);
+  /// Writes a chunk of the box, unless it is there and has not changed. Errors: as begin().
+  Result<void> put(gpu::Uploader& uploader, std::uint32_t island, const ChunkSkyLight& chunk);
+  /// Drops the chunks that were not put since begin(), and shows the island with the others.
+  void finish(gpu::Uploader& uploader, std::uint32_t island);
+  /// The island has no light of the sky from now on. An island without is no error.
   void end_island(gpu::Uploader& uploader, std::uint32_t island);
   /// What the sky sends to the faces of the first islands of the table now (sky_irradiance()).
   void set_sky(gpu::Uploader& uploader, std::span<const glm::uvec4> irradiance);
@@ -52,27 +58,39 @@ class IndirectStore {
 
   gpu::Buffer& texels() { return texels_; }
   /// In use, or still to be read by the GPU.
-  std::uint64_t bytes_in_use() const {
-    return (std::uint64_t{arena_.used()} + arena_.waiting()) * sizeof(glm::uvec4);
-  }
+  std::uint64_t bytes_in_use() const { return bytes_of(arena_.used()) + bytes_waiting(); }
+  /// Freed, still to be read by the GPU.
+  std::uint64_t bytes_waiting() const { return bytes_of(arena_.waiting()); }
+  /// What more can be put, apart from fragmentation.
+  std::uint64_t bytes_left() const;
+  /// What the chunks of a box take.
+  static std::uint64_t bytes_for(const IslandChunks& box, std::span<const ChunkSkyLight> chunks);
 
  private:
   using Key = std::array<int, 3>;
-  struct Island {
+  struct Chunk {
+    gpu::ArenaRange range;
+    bool put = true;  ///< since begin()
+  };
+  struct Grid {
     IslandChunks box{};
     gpu::ArenaRange tables;
-    std::map<Key, gpu::ArenaRange> chunks;
+    std::map<Key, Chunk> chunks;
   };
-  IndirectStore(gpu::Device& device, MemoryBudget& budget);
+  struct Island {
+    std::optional<Grid> shown, made;  ///< made: not yet whole
+    Grid& target() { return made ? *made : *shown; }
+  };
+  IndirectStore(gpu::Device& device, MemoryBudget& budget, std::uint32_t texels);
   Result<gpu::ArenaRange> allocate(std::uint32_t texels);
   void free(gpu::ArenaRange range);
-  Result<void> put_chunks(gpu::Uploader& uploader, Island& island,
-                          std::span<const ChunkSkyLight> chunks, bool all);
+  void free(std::optional<Grid>& grid);
   void write(gpu::Uploader& uploader, std::uint32_t texel, std::span<const glm::uvec4> values);
+  static std::uint64_t bytes_of(std::uint64_t texels) { return texels * sizeof(glm::uvec4); }
 
   gpu::Device* device_;
   MemoryBudget* budget_;
-  gpu::OffsetArena arena_;
+  gpu::OffsetArena arena_;  ///< of texels
   gpu::Buffer texels_;
   std::map<std::uint32_t, Island> islands_;
 };

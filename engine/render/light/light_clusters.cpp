@@ -22,7 +22,7 @@ constexpr VkBufferUsageFlags kTable =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 /// Room for lists to begin with. What a frame wants beyond is made for later ones.
-constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 14, kFirstEntries = 1u << 22;
+constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 17, kFirstEntries = 1u << 22;
 /// 256 lights are looked through at a stretch: more would leave a GPU idle, and lavapipe ends an
 /// invocation after 65,535 rounds of its loops, without a word.
 constexpr std::uint32_t kLeastChunkWords = 8, kMostChunks = 16;
@@ -152,10 +152,10 @@ Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
   return {};
 }
 
-/// Lights come and go: a power of two is not outgrown by each that comes.
+/// Lights come and go: a power of four is not outgrown by each that comes.
 std::uint64_t LightClusters::roomy(std::uint64_t size_bytes) const {
-  std::uint64_t bytes = 4096;
-  while (bytes < size_bytes) bytes *= 2;
+  std::uint64_t bytes = std::uint64_t{1} << 16;
+  while (bytes < size_bytes) bytes *= 4;
   return std::max<std::uint64_t>(std::min(bytes, device_.limits().max_storage_range), size_bytes);
 }
 

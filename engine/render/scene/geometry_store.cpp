@@ -11,7 +11,8 @@
 namespace skerry::render {
 namespace {
 
-constexpr std::uint32_t kFirstSections = 1024;
+constexpr std::uint32_t kLeastSections = 1024, kUsualSections = 8192;
+constexpr std::uint32_t kLeastQuads = 1u << 19;
 constexpr std::uint64_t kMostQuads = std::uint64_t{1} << 29;
 constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
 
@@ -35,16 +36,20 @@ std::uint32_t most_runs(const shared::Section& section, std::uint32_t first, std
 Result<std::unique_ptr<GeometryStore>> GeometryStore::create(gpu::Device& device,
                                                              MemoryBudget& budget,
                                                              std::uint32_t arena_quads) {
+  arena_quads =
+      budget.first_elements(sizeof(shared::Quad), std::min(arena_quads, kLeastQuads), arena_quads);
+  const std::uint32_t sections_first =
+      budget.first_elements(sizeof(shared::Section), kLeastSections, kUsualSections);
   std::unique_ptr<GeometryStore> store(new GeometryStore(device, budget, arena_quads));
   Result<gpu::Buffer> quads =
       make_table(device, budget, "quad arena", std::uint64_t{arena_quads} * sizeof(shared::Quad));
   if (!quads) return quads.error();
   store->quads_ = *std::move(quads);
   Result<gpu::Buffer> sections =
-      make_table(device, budget, "section table", kFirstSections * sizeof(shared::Section));
+      make_table(device, budget, "section table", sections_first * sizeof(shared::Section));
   if (!sections) return sections.error();
   store->sections_ = *std::move(sections);
-  store->section_capacity_ = kFirstSections;
+  store->section_capacity_ = sections_first;
   return store;
 }
 

@@ -31,8 +31,8 @@ struct SectionId {
 class GeometryStore {
  public:
   /// @param budget must outlive the store.
-  /// @param arena_quads capacity to begin with; it doubles when full, up to the device's largest
-  /// storage buffer and what the budget has left.
+  /// @param arena_quads capacity to begin with, less if that is much of the budget; it doubles when
+  /// full, up to the device's largest storage buffer and what the budget has left.
   static Result<std::unique_ptr<GeometryStore>> create(gpu::Device& device, MemoryBudget& budget,
                                                        std::uint32_t arena_quads);
   ~GeometryStore();

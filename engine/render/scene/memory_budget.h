@@ -18,6 +18,15 @@ class MemoryBudget {
     taken_ += bytes;
     return true;
   }
+  /// What a table begins with: `usual` elements, as many as a flight at medium quality needs, so
+  /// that it does not grow within a frame; with a small budget fewer, but at least `least`.
+  std::uint32_t first_elements(std::uint64_t element_bytes, std::uint32_t least,
+                               std::uint32_t usual) const {
+    constexpr std::uint64_t kShare = 16;  // of the limit, or half of what is left
+    const std::uint64_t bytes = std::min(limit_ / kShare, left() / 2);
+    return static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(bytes / element_bytes, least, usual));
+  }
   void give_back(std::uint64_t bytes) { taken_ -= std::min(bytes, taken_); }
 
  private:

@@ -15,7 +15,8 @@
 namespace skerry::render {
 namespace {
 
-constexpr std::uint32_t kFirstTables = 256, kFirstBricks = 8192;
+constexpr std::uint32_t kLeastTables = 256, kUsualTables = 2048;       // 8 MiB
+constexpr std::uint32_t kLeastBricks = 8192, kUsualBricks = 1u << 16;  // 4 MiB
 constexpr std::uint64_t kMostTables = 1u << 21;
 constexpr std::uint64_t kTableBytes = shared::kBricksPerChunk * sizeof(std::uint32_t);
 constexpr std::uint64_t kBrickBytes = shared::kBrickWords * sizeof(std::uint32_t);
@@ -64,15 +65,18 @@ std::uint32_t OccupancyStore::Grid::table_of(glm::ivec3 chunk) const {
 }
 
 OccupancyStore::OccupancyStore(gpu::Device& device, MemoryBudget& budget)
-    : device_(&device), budget_(&budget), table_arena_(kFirstTables), brick_arena_(kFirstBricks) {}
+    : device_(&device),
+      budget_(&budget),
+      table_arena_(budget.first_elements(kTableBytes, kLeastTables, kUsualTables)),
+      brick_arena_(budget.first_elements(kBrickBytes, kLeastBricks, kUsualBricks)) {}
 
 Result<std::unique_ptr<OccupancyStore>> OccupancyStore::create(gpu::Device& device,
                                                                MemoryBudget& budget) {
   std::unique_ptr<OccupancyStore> store(new OccupancyStore(device, budget));
   const std::array<std::tuple<gpu::Buffer*, const char*, std::uint64_t>, 3> wanted{{
       {&store->grids_, "occupancy grids", shared::kMaxIslands * sizeof(shared::OccupancyGrid)},
-      {&store->tables_, "occupancy tables", kFirstTables * kTableBytes},
-      {&store->words_, "occupancy bricks", kFirstBricks * kBrickBytes},
+      {&store->tables_, "occupancy tables", store->table_arena_.capacity() * kTableBytes},
+      {&store->words_, "occupancy bricks", store->brick_arena_.capacity() * kBrickBytes},
   }};
   for (const auto& [buffer, name, bytes] : wanted) {
     Result<gpu::Buffer> made = make_table(device, budget, name, bytes);
