@@ -1,13 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The lists of occupied clusters, in two runs of the same instructions with reserve_light_lists between them: first each invocation counts the
-// lights of its chunk of the bin that reach the cluster, then it lists them in their order. docs/conventions.md.
+// Which lights reach what, in two steps. Bins: of coarse bins of tiles, a bit a light; one invocation asks 32 lights about one bin and writes one
+// word: the result has the lights' order, without atomics, barriers or anything to clear. Lists of occupied clusters: two runs of the same
+// instructions with reserve_light_lists between them: first each invocation counts the lights of its chunk of the bin that reach the cluster,
+// then it lists them in their order. docs/conventions.md.
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/clusters.h"
 #include "shared/frame.h"
 #include "shared/geometry.h"
 #include "shared/light.h"
 #include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = 64) in;
 
@@ -16,13 +19,15 @@ layout(scalar, binding = kLightsBinding) readonly buffer Lights { Light lights[]
 layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
 layout(scalar, binding = kLightReachBinding) readonly buffer Reaches { LightReach reaches[]; };  // if no light has one, a buffer that is never read
 layout(scalar, binding = kGridTilesBinding) readonly buffer Large { TileDepths tiles[]; };
-layout(scalar, binding = kLightBinsBinding) readonly buffer Bins { uint bins[]; };
+layout(scalar, binding = kLightBinsBinding) buffer Bins { uint bins[]; };  // [bin][word]
 layout(scalar, binding = kClusterWorkBinding) readonly buffer Work { ClusterWork work; };
 layout(scalar, binding = kOccupiedClustersBinding) readonly buffer Occupied { uint occupied[]; };
 layout(scalar, binding = kLightCountsBinding) buffer Counts { uint counts[]; };  // [slot][chunk]; in the second run where the chunk's part of the list begins
 layout(scalar, binding = kClustersBinding) readonly buffer Clusters { Cluster clusters[]; };
 layout(scalar, binding = kLightEntriesBinding) writeonly buffer Entries { uint entries[]; };
 layout(push_constant) uniform Push { uint list; } push;  // 0: count, 1: list
+
+layout(constant_id = kBinConstant) const bool kBin = false;  // the first step
 
 #include "include/clusters.glsl"
 
@@ -47,7 +52,30 @@ bool arrives_in(uint index, vec3 middle, vec3 half_size) {
   return false;
 }
 
-void main() {
+void fill_bin() {
+  uint bin = gl_GlobalInvocationID.x, word = gl_WorkGroupID.y;
+  if (bin >= grid.bins_x * grid.bins_y) return;
+  uvec2 at = uvec2(bin % grid.bins_x, bin / grid.bins_x);
+  float nearest = 1e30, farthest = 0.0;
+  for (uint i = 0u; i < kBinClusters * kBinClusters; ++i) {
+    uvec2 tile = min(at * kBinClusters + uvec2(i % kBinClusters, i / kBinClusters), uvec2(grid.tiles_x, grid.tiles_y) - 1u);
+    TileDepths t = tiles[tile.y * grid.tiles_x + tile.x];
+    nearest = min(nearest, t.nearest);
+    farthest = max(farthest, t.farthest);
+  }
+  uint bits = 0u;
+  if (nearest <= farthest) {
+    uint edge = kBinClusters << grid.edge_log2;  // pixels
+    Cell cell = cell_of(at * edge, min((at + 1u) * edge, grid.size), nearest, farthest);
+    uint end = min(word * 32u + 32u, grid.light_count);
+    // A wider margin than a cluster's: what reaches a cluster must reach its bin.
+    for (uint i = word * 32u; i < end; ++i)
+      if (light_reaches(lights[i], cell, 1e-4)) bits |= 1u << (i & 31u);
+  }
+  bins[bin * grid.light_words + word] = bits;
+}
+
+void list_lights() {
   uint slot = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * kClusterGroup + gl_LocalInvocationIndex, chunk = gl_WorkGroupID.z;
   if (slot >= work.clusters) return;
   uint id = occupied[slot], tile = id / kClusterSlices, slice = id % kClusterSlices;
@@ -73,4 +101,11 @@ void main() {
     }
   }
   if (!write) counts[place] = count;
+}
+
+void main() {
+  if (kBin)
+    fill_bin();
+  else
+    list_lights();
 }

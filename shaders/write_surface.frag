@@ -1,6 +1,4 @@
 #version 460
-// Opaque geometry: what surface is here. Everything else about it is worked out in compute, once a pixel. docs/conventions.md.
-layout(location = 0) flat in uint in_surface;
-layout(location = 0) out uint out_surface;
-
-void main() { out_surface = in_surface; }
+#extension GL_GOOGLE_include_directive : require
+// Opaque blocks, leaves and plants: what surface is here. Everything else about it is worked out in compute, once a pixel. docs/conventions.md.
+#include "include/write_surface.glsl"

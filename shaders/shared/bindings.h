@@ -104,5 +104,7 @@ SHARED_CONST uint kLightReachBinding = 75u;
 // Of a picture that is drawn smaller than it is shown.
 SHARED_CONST uint kSmallPictureBinding = 76u;
 
+SHARED_CONST uint kMadeBloomBinding = 77u;  // the level that a step of bloom makes
+
 SHARED_END
 #endif

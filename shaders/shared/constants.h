@@ -49,11 +49,15 @@ SHARED_CONST uint kToleranceConstant = 44u;       // float: how much shared ligh
 SHARED_CONST uint kChooseConstant = 46u;          // bool: an exposure is chosen from the histogram
 SHARED_CONST uint kPackConstant = 47u;            // bool: noise that is there is packed
 SHARED_CONST uint kScanConstant = 49u;            // bool: totals are summed, nothing is emitted
-SHARED_CONST uint kLightListConstant = 50u;       // uint: kListClusters, kListRoom or kListTiles
+SHARED_CONST uint kBinConstant = 48u;             // bool: lights of bins, not of clusters
+SHARED_CONST uint kLightListConstant = 50u;       // uint: kListDepths, kListClusters, kListRoom, kListTiles
+SHARED_CONST uint kShowConstant = 51u;            // bool: the meter's histogram is drawn
+SHARED_CONST uint kSpreadConstant = 52u;          // bool: a coarser level of bloom is mixed into a finer one
 
 SHARED_CONST uint kListClusters = 0u;
 SHARED_CONST uint kListRoom = 1u;
 SHARED_CONST uint kListTiles = 2u;
+SHARED_CONST uint kListDepths = 3u;
 
 // How much steeper than linear an enlarged picture passes from one pixel to the next.
 SHARED_CONST float kEnlargeSlope = 1.5f;

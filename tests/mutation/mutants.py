@@ -36,7 +36,7 @@ MUTANTS = (
     Mutant("light_slices_shifted", "clusters are bounded a slice too near", "shaders/include/clusters.glsl",
            "uintBitsToFloat((kFirstSlice + slice - 1u)", "uintBitsToFloat((kFirstSlice + slice - 2u)",
            "village_night cave_torches"),
-    Mutant("light_bins_short", "one light of 32 is never asked", "shaders/bin_lights.comp",
+    Mutant("light_bins_short", "one light of 32 is never asked", "shaders/assign_lights.comp",
            "word * 32u + 32u, grid.light_count", "word * 32u + 31u, grid.light_count", "village_night"),
     # Shadows
     Mutant("cascade_shifted_a_texel", "the second cascade is read a texel beside", "shaders/include/shadow.glsl",
@@ -164,7 +164,7 @@ MUTANTS = (
            "view.tan_half_x = static_cast<float>(tan_x);", "view.tan_half_x = static_cast<float>(tan_x * 1.01);",
            "overhead day"),
     # Textures
-    Mutant("alpha_threshold", "leaves and plants are thinner", "shaders/include/write_cutout.glsl",
+    Mutant("alpha_threshold", "leaves and plants are thinner", "shaders/include/cutout.glsl",
            "alpha < 0.5", "alpha < 0.8",
            "closeup quality_low blossom"),
     Mutant("mip_off_by_one", "textures are one level too coarse", "shaders/include/surface.glsl",
@@ -189,7 +189,7 @@ MUTANTS = (
            "atomicAdd(here[counts_as_light(y) ? bin_of(y) : 0u], 1u);", "cave_mouth underneath water"),
     Mutant("bloom_reaches_too_far", "more of the glow goes to the coarse levels", "shaders/shared/bloom.h",
            "kBloomShare = 0.7f", "kBloomShare = 0.9f", "bloom quality_high"),
-    Mutant("bloom_takes_all", "everything glows", "shaders/shrink_bloom.comp",
+    Mutant("bloom_takes_all", "everything glows", "shaders/filter_bloom.comp",
            "return kFirst ? too_bright(value) : value;",
            "return kFirst ? sanitised(value) * exp2(-exposure.ev) : value;", "bloom quality_high"),
     Mutant("bloom_mirrored_weights", "glow is shifted", "shaders/include/bloom.glsl",

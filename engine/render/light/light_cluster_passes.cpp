@@ -35,6 +35,8 @@ struct Buffers {
   gpu::BufferRef grid, lights, islands, reaches;
   gpu::BufferRef small_tiles, tiles;  ///< shared::TileDepths
   gpu::BufferRef bins, occupied, counts, work;
+  ClusterDepths pixels;  ///< what the picture shows
+  VkSampler point;
 };
 
 std::uint32_t small_tile_count(const shared::ClusterGrid& grid) {
@@ -42,58 +44,69 @@ std::uint32_t small_tile_count(const shared::ClusterGrid& grid) {
          gpu::Commands::groups(grid.size.y, shared::kTileEdge);
 }
 
-void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-              const ClusterDepths& depths, const shared::ClusterGrid& grid, Buffers& b) {
-  std::vector<gpu::SpecConstant> constants{{shared::kWaterLayersConstant, depths.layer_count}};
-  if (depths.depth16) constants.push_back({shared::kDepth16Constant, 1});
-  const auto program = gpu::compute(pipelines, programs::kMarkLightTiles, std::move(constants));
+/// What list_lights.comp works on besides Buffers; what a step does not use is bound to another of
+/// its buffers.
+struct Lists {
+  gpu::BufferRef tiles, work, occupied, counts, clusters, dispatches, listed;
+
+  auto bindings(const Buffers& b) const {
+    const ClusterDepths& pixels = b.pixels;
+    return std::tuple{
+        gpu::storage<shared::kLightGridBinding>(b.grid),
+        gpu::sampled<shared::kDepthsBinding>(pixels.depth, b.point),
+        gpu::storage<shared::kSurfacesBinding>(pixels.surfaces),
+        // Layers that are not there are never read; depth is bound in their place.
+        gpu::each_of<shared::kLayerDepthsBinding, 4>([&]<std::uint32_t kBinding>(std::size_t k) {
+          return gpu::sampled<kBinding>(k < pixels.layer_count ? pixels.layers[k] : pixels.depth,
+                                        b.point);
+        }),
+        gpu::storage<shared::kTileDepthsBinding>(b.small_tiles),
+        gpu::storage<shared::kGridTilesBinding>(tiles),
+        gpu::storage<shared::kClusterWorkBinding>(work),
+        gpu::storage<shared::kOccupiedClustersBinding>(occupied),
+        gpu::storage<shared::kLightCountsBinding>(counts),
+        gpu::storage<shared::kClustersBinding>(clusters),
+        gpu::storage<shared::kTileDispatchesBinding>(dispatches),
+        gpu::storage<shared::kTilesBinding>(listed)};
+  }
+};
+
+/// What every step of list_lights.comp declares, whether it looks at it or not.
+void declare_pixels(gpu::PassBuilder& p, Buffers& b) {
+  p.read(b.pixels.surfaces, Use::kComputeRead);
+  p.read(b.pixels.depth, Use::kComputeSampled);
+  for (std::uint32_t k = 0; k < b.pixels.layer_count; ++k)
+    p.read(b.pixels.layers[k], Use::kComputeSampled);
+  b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
+}
+
+auto list_program(gpu::Pipelines& pipelines, std::uint32_t list, const ClusterDepths& pixels,
+                  bool oracle = false) {
+  std::vector<gpu::SpecConstant> constants{{shared::kLightListConstant, list}};
+  if (oracle) constants.push_back({shared::kOracleConstant, 1});
+  if (list == shared::kListDepths) {
+    constants.push_back({shared::kWaterLayersConstant, pixels.layer_count});
+    if (pixels.depth16) constants.push_back({shared::kDepth16Constant, 1});
+  }
+  return gpu::compute(pipelines, programs::kListLights, std::move(constants));
+}
+
+/// Finds what depths each tile of 8x8 pixels shows.
+void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::ClusterGrid& grid,
+              Buffers& b) {
   graph.add_pass(
       "mark_light_tiles",
       [&](gpu::PassBuilder& p) {
         p.read(b.grid, Use::kComputeRead);
-        p.read(depths.surfaces, Use::kComputeRead);
-        p.read(depths.depth, Use::kComputeSampled);
-        for (std::uint32_t k = 0; k < depths.layer_count; ++k)
-          p.read(depths.layers[k], Use::kComputeSampled);
-        b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
+        declare_pixels(p, b);
       },
-      [program, b, depths, point = scene.point_sampler,
+      [b, program = list_program(pipelines, shared::kListDepths, b.pixels),
        count = small_tile_count(grid)](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
-                  gpu::sampled<shared::kDepthsBinding>(depths.depth, point),
-                  gpu::storage<shared::kSurfacesBinding>(depths.surfaces),
-                  // Layers that are not there are never read; depth is bound in their place.
-                  gpu::each_of<shared::kLayerDepthsBinding, 4>(
-                      [&]<std::uint32_t kBinding>(std::size_t k) {
-                        return gpu::sampled<kBinding>(
-                            k < depths.layer_count ? depths.layers[k] : depths.depth, point);
-                      }),
-                  gpu::storage<shared::kTileDepthsBinding>(b.small_tiles));
+        const gpu::BufferRef& unused = b.small_tiles;
+        const Lists lists{unused, unused, unused, unused, unused, unused, unused};
+        gpu::bind(c, program, lists.bindings(b));
         dispatch_items(c, count);
       });
-}
-
-/// What list_lights.comp works on; what a step does not use is bound to another of its buffers.
-struct Lists {
-  gpu::BufferRef grid, small_tiles, tiles, work, occupied, counts, clusters, dispatches, listed;
-
-  auto bindings() const {
-    return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
-                      gpu::storage<shared::kTileDepthsBinding>(small_tiles),
-                      gpu::storage<shared::kGridTilesBinding>(tiles),
-                      gpu::storage<shared::kClusterWorkBinding>(work),
-                      gpu::storage<shared::kOccupiedClustersBinding>(occupied),
-                      gpu::storage<shared::kLightCountsBinding>(counts),
-                      gpu::storage<shared::kClustersBinding>(clusters),
-                      gpu::storage<shared::kTileDispatchesBinding>(dispatches),
-                      gpu::storage<shared::kTilesBinding>(listed)};
-  }
-};
-
-auto list_program(gpu::Pipelines& pipelines, std::uint32_t list, bool oracle) {
-  std::vector<gpu::SpecConstant> constants{{shared::kLightListConstant, list}};
-  if (oracle) constants.push_back({shared::kOracleConstant, 1});
-  return gpu::compute(pipelines, programs::kListLights, std::move(constants));
 }
 
 void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
@@ -108,36 +121,55 @@ void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       "list_light_clusters",
       [&](gpu::PassBuilder& p) {
         p.read(b.grid, Use::kComputeRead);
-        p.read(b.small_tiles, Use::kComputeRead);
+        declare_pixels(p, b);
         b.tiles = p.write(b.tiles, Use::kComputeWrite);
         b.work = p.write(b.work, Use::kComputeWrite);
         b.occupied = p.write(b.occupied, Use::kComputeWrite);
       },
       [b, count = grid.tiles_x * grid.tiles_y,
-       program = list_program(pipelines, shared::kListClusters, false)](gpu::Commands& c) {
-        const Lists lists{b.grid,     b.small_tiles, b.tiles,    b.work,    b.occupied,
-                          b.occupied, b.occupied,    b.occupied, b.occupied};
-        gpu::bind(c, program, lists.bindings());
+       program = list_program(pipelines, shared::kListClusters, b.pixels)](gpu::Commands& c) {
+        const Lists lists{b.tiles,    b.work,     b.occupied, b.occupied,
+                          b.occupied, b.occupied, b.occupied};
+        gpu::bind(c, program, lists.bindings(b));
         dispatch_items(c, count);
       });
 }
+
+/// What assign_lights.comp works on besides Buffers; what a step does not use is bound to another.
+struct Assigned {
+  gpu::BufferRef work, occupied, counts, clusters, entries;
+
+  auto bindings(const Buffers& b) const {
+    return std::tuple{gpu::storage<shared::kLightGridBinding>(b.grid),
+                      gpu::storage<shared::kLightsBinding>(b.lights),
+                      gpu::storage<shared::kIslandsBinding>(b.islands),
+                      gpu::storage<shared::kLightReachBinding>(b.reaches),
+                      gpu::storage<shared::kGridTilesBinding>(b.tiles),
+                      gpu::storage<shared::kLightBinsBinding>(b.bins),
+                      gpu::storage<shared::kClusterWorkBinding>(work),
+                      gpu::storage<shared::kOccupiedClustersBinding>(occupied),
+                      gpu::storage<shared::kLightCountsBinding>(counts),
+                      gpu::storage<shared::kClustersBinding>(clusters),
+                      gpu::storage<shared::kLightEntriesBinding>(entries)};
+  }
+};
 
 void add_bin(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::ClusterGrid& grid,
              std::uint32_t kinds, Buffers& b) {
   graph.add_pass(
       "bin_lights",
       [&](gpu::PassBuilder& p) {
-        for (const gpu::BufferRef ref : {b.grid, b.lights, b.tiles}) p.read(ref, Use::kComputeRead);
+        for (const gpu::BufferRef ref : {b.grid, b.lights, b.islands, b.reaches, b.tiles})
+          p.read(ref, Use::kComputeRead);
         b.bins = p.write(b.bins, Use::kComputeWrite);
       },
       [b, groups = gpu::Commands::groups(grid.bins_x * grid.bins_y, shared::kClusterGroup),
        words = grid.light_words,
-       program = gpu::compute(pipelines, programs::kBinLights,
-                              {{shared::kLightKindsConstant, kinds}})](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
-                  gpu::storage<shared::kLightsBinding>(b.lights),
-                  gpu::storage<shared::kGridTilesBinding>(b.tiles),
-                  gpu::storage<shared::kLightBinsBinding>(b.bins));
+       program = gpu::compute(pipelines, programs::kAssignLights,
+                              {{shared::kLightKindsConstant, kinds}, {shared::kBinConstant, 1}})](
+          gpu::Commands& c) {
+        const Assigned in{b.bins, b.bins, b.bins, b.bins, b.bins};
+        gpu::bind(c, program, in.bindings(b), gpu::constants(0u));
         c.dispatch(groups, words, 1);
       });
 }
@@ -149,6 +181,7 @@ void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
       [&](gpu::PassBuilder& p) {
         p.read(b.grid, Use::kComputeRead);
         p.read(b.work, Use::kIndirect);
+        declare_pixels(p, b);
         b.work = p.write(b.work, Use::kComputeWrite);
         // Read alone by this step, but the shader may write it.
         b.occupied = p.write(b.occupied, Use::kComputeWrite);
@@ -156,10 +189,9 @@ void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
         out.clusters = p.write(out.clusters, Use::kComputeWrite);
       },
       [b, clusters = out.clusters,
-       program = list_program(pipelines, shared::kListRoom, false)](gpu::Commands& c) {
-        const Lists lists{b.grid,   b.counts, b.counts, b.work,  b.occupied,
-                          b.counts, clusters, b.counts, b.counts};
-        gpu::bind(c, program, lists.bindings());
+       program = list_program(pipelines, shared::kListRoom, b.pixels)](gpu::Commands& c) {
+        const Lists lists{b.counts, b.work, b.occupied, b.counts, clusters, b.counts, b.counts};
+        gpu::bind(c, program, lists.bindings(b));
         c.dispatch_indirect(b.work, 0);
       });
 }
@@ -172,8 +204,9 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
       list ? "assign_lights" : "count_lights",
       [&](gpu::PassBuilder& p) {
         for (const gpu::BufferRef ref :
-             {b.grid, b.lights, b.islands, b.reaches, b.tiles, b.bins, b.occupied, b.work})
+             {b.grid, b.lights, b.islands, b.reaches, b.tiles, b.occupied, b.work})
           p.read(ref, Use::kComputeRead);
+        b.bins = p.write(b.bins, Use::kComputeWrite);  // by the shader's other step
         p.read(b.work, Use::kIndirect);
         if (list) p.read(out.clusters, Use::kComputeRead);
         b.counts = p.write(b.counts, Use::kComputeWrite);
@@ -182,24 +215,14 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
       [b, list, clusters = list ? out.clusters : b.counts, entries = list ? out.entries : b.counts,
        program = gpu::compute(pipelines, programs::kAssignLights,
                               {{shared::kLightKindsConstant, out.kinds}})](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kLightGridBinding>(b.grid),
-                  gpu::storage<shared::kLightsBinding>(b.lights),
-                  gpu::storage<shared::kIslandsBinding>(b.islands),
-                  gpu::storage<shared::kLightReachBinding>(b.reaches),
-                  gpu::storage<shared::kGridTilesBinding>(b.tiles),
-                  gpu::storage<shared::kLightBinsBinding>(b.bins),
-                  gpu::storage<shared::kClusterWorkBinding>(b.work),
-                  gpu::storage<shared::kOccupiedClustersBinding>(b.occupied),
-                  gpu::storage<shared::kLightCountsBinding>(b.counts),
-                  gpu::storage<shared::kClustersBinding>(clusters),
-                  gpu::storage<shared::kLightEntriesBinding>(entries),
-                  gpu::constants(list ? 1u : 0u));
+        const Assigned in{b.work, b.occupied, b.counts, clusters, entries};
+        gpu::bind(c, program, in.bindings(b), gpu::constants(list ? 1u : 0u));
         c.dispatch_indirect(b.work, 0);
       });
 }
 
 void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                    const shared::ClusterGrid& grid, const Buffers& b, ClusteredLights& out) {
+                    const shared::ClusterGrid& grid, Buffers& b, ClusteredLights& out) {
   graph.add_pass(
       "list_light_tiles_clear",
       [&](gpu::PassBuilder& p) {
@@ -213,17 +236,18 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       "list_light_tiles",
       [&](gpu::PassBuilder& p) {
         p.read(b.grid, Use::kComputeRead);
-        p.read(b.small_tiles, Use::kComputeRead);
+        declare_pixels(p, b);
         // Read alone by this step, but the shader may write them.
         if (!out.oracle) out.clusters = p.write(out.clusters, Use::kComputeWrite);
         out.tiles.dispatches = p.write(out.tiles.dispatches, Use::kComputeWrite);
         out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
       },
       [b, clusters, tiles = out.tiles, count = small_tile_count(grid),
-       program = list_program(pipelines, shared::kListTiles, out.oracle)](gpu::Commands& c) {
-        const Lists lists{b.grid,      b.small_tiles, tiles.lists,      tiles.lists, tiles.lists,
-                          tiles.lists, clusters,      tiles.dispatches, tiles.lists};
-        gpu::bind(c, program, lists.bindings());
+       program =
+           list_program(pipelines, shared::kListTiles, b.pixels, out.oracle)](gpu::Commands& c) {
+        const Lists lists{tiles.lists, tiles.lists,      tiles.lists, tiles.lists,
+                          clusters,    tiles.dispatches, tiles.lists};
+        gpu::bind(c, program, lists.bindings(b));
         dispatch_items(c, count);
       });
 }
@@ -252,8 +276,10 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
   b.islands = scene.islands;
   b.reaches = out.reaches;
   b.small_tiles = create("tile depths", std::uint64_t{small} * sizeof(shared::TileDepths));
+  b.pixels = depths;
+  b.point = scene.point_sampler;
   work_ = {};
-  add_mark(graph, pipelines, scene, depths, grid_, b);
+  add_mark(graph, pipelines, grid_, b);
   if (!oracle) {
     b.tiles = create("cluster depths", std::uint64_t{tiles} * sizeof(shared::TileDepths));
     b.work = create("cluster work", sizeof(shared::ClusterWork));

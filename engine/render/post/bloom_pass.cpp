@@ -51,10 +51,11 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
       },
       [fine, coarse, step, exposure = scene.exposure,
        program =
-           gpu::compute(pipelines, programs::kShrinkBloom,
+           gpu::compute(pipelines, programs::kFilterBloom,
                         {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFineBloomBinding>(fine),
-                  gpu::storage<shared::kCoarseBloomBinding>(coarse),
+                  gpu::storage<shared::kCoarseBloomBinding>(fine),  // not read
+                  gpu::storage<shared::kMadeBloomBinding>(coarse),
                   gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(step));
         dispatch_over(c, step.coarse_size);
       });
@@ -62,18 +63,22 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
 }
 
 /// @return the finer level, with the coarser ones in it.
-gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, gpu::ImageRef fine,
-                     gpu::ImageRef coarse, const Level& level) {
+gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                     gpu::ImageRef fine, gpu::ImageRef coarse, const Level& level) {
   graph.add_pass(
       "spread_bloom_" + std::to_string(level.index),
       [&](gpu::PassBuilder& b) {
         b.read(coarse, Use::kComputeRead);
+        b.read(scene.exposure, Use::kComputeRead);
         fine = b.write(fine, Use::kComputeWrite);
       },
-      [fine, coarse, step = level.step,
-       program = gpu::compute(pipelines, programs::kSpreadBloom)](gpu::Commands& c) {
+      [fine, coarse, exposure = scene.exposure, step = level.step,
+       program = gpu::compute(pipelines, programs::kFilterBloom, {{shared::kSpreadConstant, 1}})](
+          gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFineBloomBinding>(fine),
-                  gpu::storage<shared::kCoarseBloomBinding>(coarse), gpu::constants(step));
+                  gpu::storage<shared::kCoarseBloomBinding>(coarse),
+                  gpu::storage<shared::kMadeBloomBinding>(fine),
+                  gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(step));
         dispatch_over(c, step.fine_size);
       });
   return fine;
@@ -102,7 +107,7 @@ Bloom BloomPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
   }
   for (std::uint32_t level = levels - 1; level >= 1; --level)
     images[level] =
-        spread(graph, pipelines, images[level], images[level + 1], {steps[level], level});
+        spread(graph, pipelines, scene, images[level], images[level + 1], {steps[level], level});
   return {images[1], steps[0]};
 }
 

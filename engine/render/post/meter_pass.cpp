@@ -1,6 +1,7 @@
 #include "engine/render/post/meter_pass.h"
 
 #include <shader_names.h>
+#include <tuple>
 
 #include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
@@ -20,80 +21,82 @@ shared::Metering metering_of(const MeterSettings& settings, bool decides) {
           static_cast<std::uint32_t>(settings.stride), decides ? 1u : 0u};
 }
 
+/// What meter_radiance.comp works on; a step that has no use for an image has one texel instead.
+struct MeterStep {
+  gpu::BufferRef frame, histogram, exposure;
+  gpu::ImageRef radiance, picture;
+  shared::Metering metering;
+
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kFrameBinding>(frame),
+                      gpu::storage<shared::kRadianceBinding>(radiance),
+                      gpu::storage<shared::kHistogramBinding>(histogram),
+                      gpu::storage<shared::kExposureBinding>(exposure),
+                      gpu::storage<shared::kPictureBinding>(picture),
+                      gpu::constants(metering)};
+  }
+};
+
+/// What each step declares, whether it reads and writes it or not.
+void declare(gpu::PassBuilder& b, MeterStep& in) {
+  b.read(in.frame, Use::kComputeRead);
+  b.read(in.radiance, Use::kComputeRead);
+  in.histogram = b.write(in.histogram, Use::kComputeWrite);
+  in.exposure = b.write(in.exposure, Use::kComputeWrite);
+  in.picture = b.write(in.picture, Use::kComputeWrite);
+}
+
 }  // namespace
 
-gpu::BufferRef MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                              gpu::ImageRef radiance, const MeterSettings& settings, bool decides) {
-  const shared::Metering metering = metering_of(settings, decides);
-  gpu::BufferRef histogram =
+Metered MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                       gpu::ImageRef radiance, const MeterSettings& settings, bool decides) {
+  MeterStep m{scene.frame, {}, scene.exposure, radiance, {}, metering_of(settings, decides)};
+  m.histogram =
       graph.create(gpu::BufferDesc{"histogram", shared::kHistogramBins * sizeof(std::uint32_t)});
+  m.picture = graph.create(
+      gpu::ImageDesc{.name = "no picture", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1, 1}});
   graph.add_pass(
       "clear_histogram",
-      [&](gpu::PassBuilder& b) { histogram = b.write(histogram, Use::kTransferWrite); },
-      [histogram](gpu::Commands& c) { c.fill(histogram, 0, VK_WHOLE_SIZE, 0); });
+      [&](gpu::PassBuilder& b) { m.histogram = b.write(m.histogram, Use::kTransferWrite); },
+      [histogram = m.histogram](gpu::Commands& c) { c.fill(histogram, 0, VK_WHOLE_SIZE, 0); });
   graph.add_pass(
-      "meter_radiance",
-      [&](gpu::PassBuilder& b) {
-        b.read(scene.frame, Use::kComputeRead);
-        b.read(radiance, Use::kComputeRead);
-        scene.exposure = b.write(scene.exposure, Use::kComputeWrite);  // by the shader's other step
-        histogram = b.write(histogram, Use::kComputeWrite);
-      },
-      [frame = scene.frame, size = scene.size, radiance, histogram, metering,
-       exposure = scene.exposure,
+      "meter_radiance", [&](gpu::PassBuilder& b) { declare(b, m); },
+      [m, size = scene.size,
        program = gpu::compute(pipelines, programs::kMeterRadiance)](gpu::Commands& c) {
         const auto groups = [&](std::uint32_t pixels) {
-          return gpu::Commands::groups(gpu::Commands::groups(pixels, metering.stride),
+          return gpu::Commands::groups(gpu::Commands::groups(pixels, m.metering.stride),
                                        shared::kMeterGroup);
         };
-        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
-                  gpu::storage<shared::kRadianceBinding>(radiance),
-                  gpu::storage<shared::kHistogramBinding>(histogram),
-                  gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(metering));
+        gpu::bind(c, program, m.bindings());
         c.dispatch(groups(size.width), groups(size.height), 1);
       });
   graph.add_pass(
-      "choose_exposure",
-      [&](gpu::PassBuilder& b) {
-        b.read(scene.frame, Use::kComputeRead);
-        b.read(radiance, Use::kComputeRead);
-        b.read(histogram, Use::kComputeRead);
-        scene.exposure = b.write(scene.exposure, Use::kComputeWrite);
-      },
-      [frame = scene.frame, radiance, histogram, exposure = scene.exposure, metering,
-       program = gpu::compute(pipelines, programs::kMeterRadiance, {{shared::kChooseConstant, 1}})](
-          gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),  // neither this
-                  gpu::storage<shared::kRadianceBinding>(radiance),        // nor this is read
-                  gpu::storage<shared::kHistogramBinding>(histogram),
-                  gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(metering));
+      "choose_exposure", [&](gpu::PassBuilder& b) { declare(b, m); },
+      [m, program = gpu::compute(pipelines, programs::kMeterRadiance,
+                                 {{shared::kChooseConstant, 1}})](gpu::Commands& c) {
+        gpu::bind(c, program, m.bindings());
         c.dispatch(1, 1, 1);
       });
-  return histogram;
+  scene.exposure = m.exposure;
+  return {m.histogram, radiance};
 }
 
-Developed MeterPass::show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                          Developed developed, gpu::BufferRef histogram,
+Developed MeterPass::show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                          Developed developed, const Metered& metered,
                           const MeterSettings& settings) {
-  gpu::ImageRef picture = developed.picture();
+  MeterStep m{scene.frame,      metered.histogram,   scene.exposure,
+              metered.radiance, developed.picture(), metering_of(settings, false)};
   graph.add_pass(
-      "show_exposure",
-      [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.frame, histogram, scene.exposure})
-          b.read(ref, Use::kComputeRead);
-        picture = b.write(picture, Use::kComputeWrite);
-      },
-      [picture, histogram, frame = scene.frame, exposure = scene.exposure, size = scene.size,
-       metering = metering_of(settings, false),
-       program = gpu::compute(pipelines, programs::kShowExposure)](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
-                  gpu::storage<shared::kHistogramBinding>(histogram),
-                  gpu::storage<shared::kExposureBinding>(exposure),
-                  gpu::storage<shared::kPictureBinding>(picture), gpu::constants(metering));
-        c.dispatch(gpu::Commands::groups(size.width, 8),
-                   gpu::Commands::groups((size.height + 2) / 3, 8), 1);
+      "show_exposure", [&](gpu::PassBuilder& b) { declare(b, m); },
+      [m, size = scene.size,
+       program = gpu::compute(pipelines, programs::kMeterRadiance, {{shared::kShowConstant, 1}})](
+          gpu::Commands& c) {
+        gpu::bind(c, program, m.bindings());
+        c.dispatch(gpu::Commands::groups(size.width, shared::kMeterGroup),
+                   gpu::Commands::groups((size.height + 2) / 3, shared::kMeterGroup), 1);
       });
-  return Developed(picture);
+  scene.exposure = m.exposure;
+  return Developed(m.picture);
 }
 
 }  // namespace skerry::render

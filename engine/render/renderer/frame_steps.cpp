@@ -254,8 +254,8 @@ void capture_radiance(FrameAssembly& f) {
 }
 
 void meter(FrameAssembly& f) {
-  f.histogram = MeterPass::add(f.graph, f.pipelines, f.scene, f.shaded->radiance(),
-                               f.plan.settings.meter, !f.plan.input.exposure_ev);
+  f.metered = MeterPass::add(f.graph, f.pipelines, f.scene, f.shaded->radiance(),
+                             f.plan.settings.meter, !f.plan.input.exposure_ev);
 }
 
 void bloom(FrameAssembly& f) {
@@ -269,7 +269,7 @@ void develop(FrameAssembly& f) {
 }
 
 void show_exposure(FrameAssembly& f) {
-  f.developed = MeterPass::show(f.graph, f.pipelines, f.scene, *std::move(f.developed), f.histogram,
+  f.developed = MeterPass::show(f.graph, f.pipelines, f.scene, *std::move(f.developed), f.metered,
                                 f.plan.settings.meter);
 }
 

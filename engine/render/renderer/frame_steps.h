@@ -7,6 +7,7 @@
 #include "engine/render/light/light_clusters.h"
 #include "engine/render/post/bloom_pass.h"
 #include "engine/render/post/capture.h"
+#include "engine/render/post/meter_pass.h"
 #include "engine/render/post/picture.h"
 #include "engine/render/renderer/frame_plan.h"
 #include "engine/render/scene/cull_pass.h"
@@ -38,7 +39,7 @@ struct FrameAssembly {
   TranslucentPass::Layers layers{};
   std::optional<ClusteredLights> lights{};
   std::optional<Shaded> shaded{};
-  gpu::BufferRef histogram{};
+  Metered metered{};
   std::optional<Bloom> bloom{};
   std::optional<Developed> developed{};
 

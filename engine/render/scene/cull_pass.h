@@ -52,7 +52,7 @@ inline auto draw_bindings(const SceneRefs& scene, const CulledDraws& draws, std:
                                         scene.edge_growth[view]})};
 }
 
-/// What write_cutout.glsl declares.
+/// What cutout.glsl declares.
 inline auto cutout_bindings(const SceneRefs& scene) {
   return std::tuple{
       gpu::storage<shared::kMaterialsBinding>(scene.materials),

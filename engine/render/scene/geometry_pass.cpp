@@ -44,23 +44,21 @@ struct Drawing {
   bool cutouts;
 };
 
-/// What the pass records. @param stored what its fragment shaders declare besides.
-template <class Surface, class Cutout, class Stored>
+/// What the pass records. @param stored what its fragment shader declares besides.
+template <class Surface, class Stored>
 std::function<void(gpu::Commands&)> recording(gpu::Pipelines& pipelines, const Drawing& what,
-                                              Surface surface, Cutout cutout,
-                                              const Stored& stored) {
-  const auto opaque_program =
-      gpu::graphics(pipelines, programs::kDrawQuadsVert, surface, what.descs[0]);
-  using CutoutProgram = gpu::Program<programs::DrawQuadsVert, Cutout>;
-  const CutoutProgram cutout_program =
-      what.cutouts ? gpu::graphics(pipelines, programs::kDrawQuadsVert, cutout, what.descs[1])
-                   : CutoutProgram{};
-  return [scene = what.scene, draws = what.draws, stored, opaque_program,
-          cutout_program](gpu::Commands& c) {
-    gpu::bind(c, opaque_program, draw_bindings(scene, draws, 0), stored);
+                                              Surface surface, const Stored& stored) {
+  using Program = gpu::Program<programs::DrawQuadsVert, Surface>;
+  const Program opaque = gpu::graphics(pipelines, programs::kDrawQuadsVert, surface, what.descs[0]);
+  const Program cutout =
+      what.cutouts ? gpu::graphics(pipelines, programs::kDrawQuadsVert, surface, what.descs[1])
+                   : Program{};
+  return [scene = what.scene, draws = what.draws, stored, opaque, cutout](gpu::Commands& c) {
+    const std::tuple bindings{draw_bindings(scene, draws, 0), cutout_bindings(scene), stored};
+    gpu::bind(c, opaque, bindings);
     draw_list(c, scene, draws, 0, DrawList::kOpaque);
-    if (!cutout_program.pipeline) return;
-    gpu::bind(c, cutout_program, draw_bindings(scene, draws, 0), cutout_bindings(scene), stored);
+    if (!cutout.pipeline) return;
+    gpu::bind(c, cutout, bindings);
     draw_list(c, scene, draws, 0, DrawList::kCutout);
   };
 }
@@ -77,8 +75,8 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   out.normals_ = target(graph, "normals", normal_format(store.normal), scene.size);
   out.positions_ = target(graph, "positions", position_format(store.position), scene.size);
   const Drawing drawing{program_descs(store, in.finest_coverage), scene, draws, in.cutouts};
-  const auto record = [&](auto surface, auto cutout, const auto& stored) {
-    return recording(pipelines, drawing, surface, cutout, stored);
+  const auto record = [&](auto surface, const auto& stored) {
+    return recording(pipelines, drawing, surface, stored);
   };
   const std::tuple stored{gpu::storage<shared::kFrameBinding>(scene.frame),
                           gpu::storage<shared::kIslandsBinding>(scene.islands)};
@@ -87,10 +85,8 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       "draw_geometry",
       [&](gpu::PassBuilder& b) {
         declare_draws(b, scene, draws);
-        if (in.cutouts) {
-          b.read(scene.materials, Use::kFragmentRead);
-          b.read(scene.block_textures, Use::kFragmentRead);
-        }
+        b.read(scene.materials, Use::kFragmentRead);
+        b.read(scene.block_textures, Use::kFragmentRead);
         if (out.stored())
           for (const gpu::BufferRef ref : {scene.frame, scene.islands})
             b.read(ref, Use::kFragmentRead);
@@ -98,11 +94,9 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
           if (*image) *image = b.color(*image, gpu::Load::cleared({}));
         out.depth_ = b.depth(out.depth_, gpu::Load::cleared({}));
       },
-      out.normals_ && out.positions_
-          ? record(programs::kWriteSurfaceBothFrag, programs::kWriteCutoutBothFrag, stored)
-      : out.stored()
-          ? record(programs::kWriteSurfaceStoredFrag, programs::kWriteCutoutStoredFrag, stored)
-          : record(programs::kWriteSurfaceFrag, programs::kWriteCutoutFrag, std::tuple<>{}));
+      out.normals_ && out.positions_ ? record(programs::kWriteSurfaceBothFrag, stored)
+      : out.stored()                 ? record(programs::kWriteSurfaceStoredFrag, stored)
+                                     : record(programs::kWriteSurfaceFrag, std::tuple<>{}));
   return out;
 }
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One level of bloom's pyramid from the finer one: 13 taps of 2x2 texels (J. Jimenez, Next Generation Post Processing in Call of Duty, 2014),
-// on the texel grid, with nothing but black beyond the edges, so that no light is made. docs/exposure.md.
+// A step of bloom's pyramid. Down: a level from the finer one by 13 taps of 2x2 texels (J. Jimenez, Next Generation Post Processing in Call of
+// Duty, 2014), on the texel grid, with nothing but black beyond the edges, so that no light is made. Up: the coarser levels mixed into a finer
+// one, in place: the same image is then both `fine` and `made`. docs/exposure.md, docs/conventions.md.
 #include "include/common.glsl"
 #include "shared/bloom.h"
 #include "shared/exposure.h"
@@ -11,11 +12,16 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = kFineBloomBinding, rgba16f) readonly uniform image2D fine;
-layout(binding = kCoarseBloomBinding, rgba16f) writeonly uniform image2D coarse;
+layout(binding = kCoarseBloomBinding, rgba16f) readonly uniform image2D coarse;  // on the way up
+layout(binding = kMadeBloomBinding, rgba16f) writeonly uniform image2D made;
 layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; };
 layout(push_constant) uniform Push { BloomStep step; } push;
 
+layout(constant_id = kSpreadConstant) const bool kSpread = false;  // up
 layout(constant_id = kFirstConstant) const bool kFirst = false;  // from radiance: exposes it and takes what is too bright
+
+uvec2 coarse_size() { return push.step.coarse_size; }
+#include "include/bloom.glsl"
 
 const int kTile = 20;  // texels that 8x8 coarser ones look at, along an edge
 shared vec3 tile[kTile * kTile];
@@ -67,7 +73,7 @@ vec3 shrunk(ivec2 at) {
   return min(plain, sum / (16.0 * weights));
 }
 
-void main() {
+void shrink() {
   uint thread = gl_LocalInvocationIndex;
   if (thread == 0u) lit = 0u;
   barrier();
@@ -82,5 +88,19 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, ivec2(push.step.coarse_size)))) return;
   vec3 sum = lit != 0u ? shrunk(2 * ivec2(gl_LocalInvocationID.xy)) : vec3(0.0);
-  imageStore(coarse, at, vec4(sum, 1.0));
+  imageStore(made, at, vec4(sum, 1.0));
+}
+
+void spread() {
+  vec3 glow = spread_from_coarser();
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, ivec2(push.step.fine_size)))) return;
+  imageStore(made, at, vec4(mix(imageLoad(fine, at).rgb, glow, kBloomShare), 1.0));
+}
+
+void main() {
+  if (kSpread)
+    spread();
+  else
+    shrink();
 }

@@ -1,6 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// Leaves and plants of a G-buffer that also keeps normals and positions, for measuring. docs/conventions.md.
-#define SKERRY_STORED
-#define SKERRY_STORED_BOTH
-#include "include/write_cutout.glsl"
