@@ -14,6 +14,7 @@
 #include "engine/core/log.h"
 #include "engine/platform/heap.h"
 #include "game/client/preferences.h"
+#include "game/pace/quality_front.h"
 #include "game/scene_file/parse.h"
 #include "tools/skerry/bench/bench_commands.h"
 #include "tools/skerry/devices.h"
@@ -28,6 +29,8 @@
 
 namespace skerry::tools {
 namespace {
+
+constexpr std::string_view kAuto = "auto";  // of --quality
 
 int refuse(const Refusal& refusal) {
   return fail(refusal.status, refusal.error);
@@ -92,9 +95,18 @@ int CommandLine::run_play() {
   game::ReadPreferences read = game::load_preferences(game::preferences_path());
   for (const std::string& problem : read.problems) log_warning(problem);
   scene.usual = std::move(read.scene);
-  if (scene.text.quality) scene.usual.settings.clear();  // they are changes of another level
+  const bool usually_auto = !scene.usual.quality || scene.usual.quality == kAuto;
+  const bool asked_auto = scene.text.quality == kAuto;
+  // They are changes of another level.
+  if (scene.text.quality && !(asked_auto && usually_auto)) scene.usual.settings.clear();
+  if (asked_auto || usually_auto) scene.usual.quality.reset();
+  if (asked_auto) scene.text.quality.reset();
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
+  options.quality_auto = asked_auto || !options.quality_named;
+  for (const std::string& assignment : options.assigned)
+    if (game::is_chosen_by_front(assignment.substr(0, assignment.find('='))))
+      options.pinned.push_back(assignment);
   if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
   const bool asked_for =
       scene.text.seed || scene.text.world || scene.text.camera || scene.scene_file;

@@ -62,7 +62,9 @@ void add_scene_options(CLI::App& command, SceneArguments& a) {
   command.add_option("--time", a.text.time, "Time of day (default 12:00)")->type_name("HH:MM[:SS]");
   command.add_option("--size", a.text.size, "Picture or window size (default 1280x720)")
       ->type_name("WxH");
-  command.add_option("--quality", a.text.quality, "low, medium, high or ultra (default medium)")
+  command
+      .add_option("--quality", a.text.quality,
+                  "low, medium, high or ultra (default medium); of play also auto, its default")
       ->type_name("LEVEL");
   command.add_option("--set", a.text.settings, "One setting (docs/settings.md); may be repeated")
       ->type_name("KEY=VALUE")
