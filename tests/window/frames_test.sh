@@ -69,30 +69,35 @@ wait_for_frames
 wait_until_quick
 case $(screenshot; echo "$command") in *'--quality low'*) ;; *) fail "low is not low: $command" ;; esac
 
-# Frames come as fast as they can, seldom without the focus, and not at all without a window.
-playing=$(spent_in 5)
+# Waits until the game takes less than a share of what playing takes; programs that no view has needed yet may still be compiled.
+takes_less() {
+  local took
+  for _ in $(seq 12); do
+    took=$(spent_in 4)
+    awk -v a="$playing" -v b="$took" -v s="$1" 'BEGIN { exit !(b < s * a) }' && return
+  done
+  fail "it takes $took s of 4 $2, $playing s while it is played"
+}
+
+# Frames come as fast as they can, seldom without the focus, and not at all without a window or behind a screen.
+playing=$(spent_in 4)
 display -size 40x40 xc:red &
 other=$!
-sleep 3
-unfocused=$(spent_in 5)
-awk -v a="$playing" -v b="$unfocused" 'BEGIN { exit !(b < 0.4 * a) }' || fail "it takes $unfocused s of 5 without the focus, $playing s with it"
+sleep 2
+takes_less 0.4 "without the focus"
 kill "$other"
 other=
 xdotool windowactivate "$window"
 sleep 2
 xdotool windowminimize "$window"
-sleep 2
-minimised=$(spent_in 5)
-awk -v a="$playing" -v b="$minimised" 'BEGIN { exit !(b < 0.4 * a) }' || fail "it takes $minimised s of 5 while minimised, $playing s before"
+takes_less 0.4 minimised
 xdotool windowactivate "$window"
 sleep 2
 xdotool windowfocus "$window"
-xdotool key Escape
-sleep 3
-paused=$(spent_in 5)
-awk -v a="$playing" -v b="$paused" 'BEGIN { exit !(b < 0.7 * a) }' || fail "it takes $paused s of 5 while paused, $playing s before"
-xdotool key Escape
-sleep 1
+playing=$(spent_in 4)
+key Escape 1
+takes_less 0.7 paused
+key Escape 1
 
 # Islands have moved on by the time that has passed, though a frame took more than a second.
 world_time() { sed 's/.*world.time=\([0-9.]*\).*/\1/' <<<"$command"; }
@@ -119,4 +124,4 @@ for sync in on adaptive; do
   quit
 done
 [ ! -s "$work/err" ] || fail "it complained"
-echo "passed: $playing s of 5 playing, $unfocused unfocused, $minimised minimised, $paused paused"
+echo "passed"
