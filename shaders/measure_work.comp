@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// What one kind of work costs on a device: `skerry bench device`, docs/lavapipe.md.
+// What one kind of work costs on a device: `skerry bench device`, docs/lavapipe.md, docs/conventions.md.
 #include "shared/measure.h"
 
 layout(local_size_x_id = kGroupXConstant, local_size_y_id = kGroupYConstant, local_size_z_id = kGroupZConstant) in;

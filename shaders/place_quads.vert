@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Small quads in rows over the whole picture, of six vertices each: `skerry bench device`.
+// Small quads in rows over the whole picture, of six vertices each: `skerry bench device`. docs/conventions.md.
 #include "shared/measure.h"
 
 layout(location = 0) flat out uint out_word;

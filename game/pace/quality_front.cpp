@@ -103,6 +103,13 @@ bool is_chosen_by_front(std::string_view key) {
   return std::find(std::begin(kChosenKeys), std::end(kChosenKeys), key) != std::end(kChosenKeys);
 }
 
+std::vector<std::string> pins_among(std::span<const std::string> assignments) {
+  std::vector<std::string> pins;
+  for (const std::string& assignment : assignments)
+    if (is_chosen_by_front(assignment.substr(0, assignment.find('=')))) pins.push_back(assignment);
+  return pins;
+}
+
 void apply_front_point(const FrontPoint& point, std::span<const std::string> pinned,
                        Settings& settings) {
   set_quality(point.level, settings);

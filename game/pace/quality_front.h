@@ -43,6 +43,8 @@ std::size_t find_point(Quality level, float render_scale);
 
 /// Whether a key of `--set` is among those that a point decides.
 bool is_chosen_by_front(std::string_view key);
+/// Those of some "KEY=VALUE" whose keys a point decides.
+std::vector<std::string> pins_among(std::span<const std::string> assignments);
 /// Makes the settings those of a point; others stay. @param pinned "KEY=VALUE", valid, applied
 /// afterwards: what was asked for by name.
 void apply_front_point(const FrontPoint& point, std::span<const std::string> pinned,

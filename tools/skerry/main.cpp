@@ -104,9 +104,7 @@ int CommandLine::run_play() {
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
   options.quality_auto = asked_auto || !options.quality_named;
-  for (const std::string& assignment : options.assigned)
-    if (game::is_chosen_by_front(assignment.substr(0, assignment.find('='))))
-      options.pinned.push_back(assignment);
+  options.pinned = game::pins_among(options.assigned);
   if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
   const bool asked_for =
       scene.text.seed || scene.text.world || scene.text.camera || scene.scene_file;
