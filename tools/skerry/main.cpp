@@ -30,8 +30,6 @@
 namespace skerry::tools {
 namespace {
 
-constexpr std::string_view kAuto = "auto";  // of --quality
-
 int refuse(const Refusal& refusal) {
   return fail(refusal.status, refusal.error);
 }
@@ -95,12 +93,7 @@ int CommandLine::run_play() {
   game::ReadPreferences read = game::load_preferences(game::preferences_path());
   for (const std::string& problem : read.problems) log_warning(problem);
   scene.usual = std::move(read.scene);
-  const bool usually_auto = !scene.usual.quality || scene.usual.quality == kAuto;
-  const bool asked_auto = scene.text.quality == kAuto;
-  // They are changes of another level.
-  if (scene.text.quality && !(asked_auto && usually_auto)) scene.usual.settings.clear();
-  if (asked_auto || usually_auto) scene.usual.quality.reset();
-  if (asked_auto) scene.text.quality.reset();
+  const bool asked_auto = take_auto(scene);
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
   options.quality_auto = asked_auto || !options.quality_named;

@@ -118,6 +118,17 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
   return parse_device(a.device, scene.device);
 }
 
+bool take_auto(SceneArguments& arguments) {
+  constexpr const char* kAuto = "auto";
+  game::SceneText& usual = arguments.usual;
+  const bool usually_auto = !usual.quality || *usual.quality == kAuto;
+  const bool typed_auto = arguments.text.quality && *arguments.text.quality == kAuto;
+  if (arguments.text.quality && !(typed_auto && usually_auto)) usual.settings.clear();
+  if (typed_auto || usually_auto) usual.quality.reset();
+  if (typed_auto) arguments.text.quality.reset();
+  return typed_auto;
+}
+
 std::optional<Refusal> check_draws_frames(const game::SceneOptions& scene) {
   if (scene.settings.renderer != game::RendererKind::kReference) return std::nullopt;
   return usage({"renderer=reference draws screenshots only: use skerry shot, or deferred"});
