@@ -76,6 +76,9 @@ set_tests_properties(window.dig PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_S
 add_test(NAME window.end COMMAND ${CMAKE_SOURCE_DIR}/tests/window/end_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.end PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 
+add_test(NAME window.frames COMMAND ${CMAKE_SOURCE_DIR}/tests/window/frames_test.sh $<TARGET_FILE:skerry>)
+set_tests_properties(window.frames PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
+
 # Pictures: tests/scenes against their references, in processes of its own; and what must not change a byte. build/image keeps what was drawn.
 add_test(NAME image.scenes COMMAND skerry test ${CMAKE_SOURCE_DIR}/tests/scenes --validate
   --html ${CMAKE_BINARY_DIR}/image/scenes_report --junit ${CMAKE_BINARY_DIR}/image/scenes.xml)

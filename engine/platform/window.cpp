@@ -265,6 +265,13 @@ bool Window::focused() const {
   return glfwGetWindowAttrib(handle_, GLFW_FOCUSED) != 0;
 }
 
+double Window::refresh_hz() const {
+  constexpr double kUsual = 60.0;
+  GLFWmonitor* monitor = monitor_of(handle_);
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  return mode && mode->refreshRate > 0 ? mode->refreshRate : kUsual;
+}
+
 void Window::capture_pointer(bool captured) {
   if (captured == captured_) return;
   captured_ = captured;

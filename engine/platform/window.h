@@ -46,6 +46,8 @@ class Window {
   void stay_open();
   FramebufferSize framebuffer_size() const;
   bool focused() const;
+  /// Refreshes a second of the monitor that shows most of the window; 60 where none says so.
+  double refresh_hz() const;
 
   /// A captured pointer is hidden and only moves the view, unaccelerated where the display can.
   void capture_pointer(bool captured);

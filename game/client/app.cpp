@@ -3,22 +3,23 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <chrono>
 #include <ctime>
+#include <utility>
 
 #include "engine/core/log.h"
 #include "game/client/preferences.h"
+#include "game/pace/learnt_costs.h"
 
 namespace skerry::game {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using ui::Screen;
 
 constexpr double kIdleWait = 0.05;  // seconds between looks at a window that shows nothing
 constexpr double kScreensShare =
     5.0;  // times what the world behind takes, for the screen before it
-constexpr double kStillWait = 1.0 / 60.0;  // seconds between frames in which only a screen is drawn
+constexpr double kBehindScreens = 1.0 / 30.0;  // seconds, the fewest, between frames of the world
+                                               // behind a screen
 
 ui::Clipboard clipboard_of(platform::Window& window) {
   return {[&window] { return window.clipboard(); },
@@ -34,7 +35,12 @@ bool world_goes_on(const ui::ScreenStack& stack) {
 
 App::App(platform::Window& window, gpu::Device& device, const SceneOptions& options,
          const std::vector<std::string>& notes)
-    : window_(window), device_(device), base_(options), gui_(clipboard_of(window)) {
+    : window_(window),
+      device_(device),
+      base_(options),
+      gui_(clipboard_of(window)),
+      auto_quality_(device.info(), learnt_costs_path()),
+      auto_before_(options.quality_auto) {
   for (const std::string& note : notes) messages_.say(note);
   ReadBindings read = load_bindings(bindings_path());
   for (std::string& problem : read.problems) say(std::move(problem));
@@ -47,6 +53,7 @@ Result<void> App::start(VkSurfaceKHR surface, bool at_title) {
   if (!presenter) return presenter.error();
   presenter_ = *std::move(presenter);
   pictures_shown_ = pictures_.version();
+  begin_quality(base_, base_.settings);
   if (!at_title) return play_as_asked();
   list_again();
   open(Screen::kTitle);
@@ -54,7 +61,7 @@ Result<void> App::start(VkSurfaceKHR surface, bool at_title) {
 }
 
 Result<void> App::run() {
-  Clock::time_point before = Clock::now();
+  began_s_ = clock_.seconds();
   bool drawn = true;
   for (;;) {
     if (window_.should_close()) {
@@ -62,15 +69,16 @@ Result<void> App::run() {
       if (save_world()) break;
       window_.stay_open();
     }
+    if (drawn && !still_) wait_until_due();
     const platform::InputFrame input = held_back_.filtered(window_.poll(!drawn   ? kIdleWait
-                                                                        : still_ ? kStillWait
+                                                                        : still_ ? still_wait_s()
                                                                                  : 0.0));
-    const Clock::time_point now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - before).count();
-    before = now;
-    const Result<bool> done = frame(input, seconds);
+    const double before_s = std::exchange(began_s_, clock_.seconds());
+    began_thread_s_ = thread_seconds();
+    const Result<bool> done = frame(input, began_s_ - before_s);
     if (!done) return done.error();
     drawn = *done;
+    choose_quality(drawn);
   }
   leave_world();
   return {};
@@ -181,7 +189,7 @@ bool App::world_is_due(double seconds) {
   const bool resized = drawn.width != window.width || drawn.height != window.height;
   if (!report || resized || fresh_frames_ > 0 || costs_.measuring()) return true;
   if (world_ && view.complete()) return false;
-  return since_drawn_s_ * 1000.0 > kScreensShare * report->gpu_ms;
+  return since_drawn_s_ > std::max(kBehindScreens, kScreensShare * report->gpu_ms * 1e-3);
 }
 
 Result<bool> App::draw(double seconds, const PlayLoop::Layout& layout) {
@@ -258,6 +266,7 @@ ui::ScreenFacts App::screen_facts(const platform::InputFrame& input) {
   if (world_) facts.world = world_name_;
   SceneOptions& scene = world_ ? world_->scene() : base_;
   facts.quality = &scene.quality;
+  facts.quality_auto = &scene.quality_auto;
   facts.fov_deg = &scene.fov_deg;
   facts.settings = world_ ? &world_->settings() : &base_.settings;
   facts.bindings = &bindings_;

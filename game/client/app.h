@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/clock.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device/device.h"
 #include "engine/platform/window.h"
+#include "game/client/auto_quality.h"
 #include "game/client/backdrop.h"
 #include "game/client/play_loop.h"
 #include "game/client/presenter.h"
@@ -51,11 +53,20 @@ class App {
   ui::ScreenFacts screen_facts(const platform::InputFrame& input);
   void open(ui::Screen screen);
 
+  // app_frames.cpp: when frames are drawn, and how well.
+  const FrameSettings& frame_settings();
+  double frame_rate();
+  void wait_until_due();
+  double still_wait_s();
+  double budget_ms();
+  void choose_quality(bool drawn);
+  void begin_quality(SceneOptions& scene, Settings& settings);
+
   // app_wishes.cpp: what was asked for on a screen.
   Result<void> fulfil(const ui::Wishes& wishes);
   Result<void> play_as_asked();
   Result<void> play_as_left(const std::string& path, Result<std::unique_ptr<Session>> session);
-  Result<void> play(const SceneOptions& options, std::unique_ptr<SessionClient> session);
+  Result<void> play(const SceneOptions& asked, std::unique_ptr<SessionClient> session);
   Result<void> create_world(const ui::Wishes::NewWorld& wanted);
   bool save_world();
   void leave_world();
@@ -83,6 +94,11 @@ class App {
   ui::ScreenState screens_;
   ui::Wishes wishes_;
   ui::KnobCosts costs_;
+  AutoQuality auto_quality_;
+  Stopwatch clock_;                                           // since the program began
+  double due_s_ = 0.0, began_s_ = 0.0, world_began_s_ = 0.0;  // by that clock
+  double began_thread_s_ = 0.0;                               // see thread_seconds
+  bool auto_before_ = false;  // the settings had the quality chosen when they changed last
   ui::Messages messages_;
   std::vector<ui::WorldCard> cards_;
   std::optional<double> preview_due_s_;  // until the new world's seed is shown

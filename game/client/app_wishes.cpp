@@ -131,8 +131,10 @@ Result<void> App::play_as_left(const std::string& path, Result<std::unique_ptr<S
   return play(options, std::move(client));
 }
 
-Result<void> App::play(const SceneOptions& options, std::unique_ptr<SessionClient> session) {
+Result<void> App::play(const SceneOptions& asked, std::unique_ptr<SessionClient> session) {
   backdrop_.reset();
+  SceneOptions options = asked;
+  begin_quality(options, options.settings);
   auto view = SceneView::create(device_, options, session->world());
   if (!view) return view.error();
   (*view)->renderer().foresee_programs();
@@ -141,6 +143,7 @@ Result<void> App::play(const SceneOptions& options, std::unique_ptr<SessionClien
   world_ = std::make_unique<PlayLoop>(Machine{window_, device_, *presenter_}, bindings_, options,
                                       std::move(session), *std::move(view));
   costs_ = {};
+  world_began_s_ = clock_.seconds();
   screens_.stack.clear();
   return {};
 }
@@ -162,6 +165,7 @@ bool App::save_world() {
 void App::leave_world() {
   if (!world_) return;
   keep_picture();
+  if (const auto kept = auto_quality_.keep(); !kept) say(kept.error().message);
   world_.reset();
   world_path_.reset();
   costs_ = {};
@@ -186,11 +190,20 @@ void App::keep_picture() {
 
 /// What the player has set is of every world from now on.
 void App::follow_settings() {
+  SceneOptions& scene = world_ ? world_->scene() : base_;
+  Settings& settings = world_ ? world_->settings() : base_.settings;
+  if (!std::exchange(auto_before_, scene.quality_auto) && scene.quality_auto) {
+    scene.pinned.clear();
+    begin_quality(scene, settings);
+  }
+  auto_quality_.pin(settings, scene);
   if (!world_) {
     backdrop_->view().settings() = base_.settings;
     return;
   }
   base_.quality = world_->scene().quality;
+  base_.quality_auto = world_->scene().quality_auto;
+  base_.pinned = world_->scene().pinned;
   base_.fov_deg = world_->scene().fov_deg;
   take_preferences(world_->settings(), base_.settings);
 }

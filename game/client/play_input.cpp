@@ -76,6 +76,7 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
   if (farther != 0) settings.view_distance = stepped_view_distance(settings.view_distance, farther);
   const int better = steps(Action::kBetterQuality, Action::kWorseQuality);
   if (better != 0) {
+    scene_.quality_auto = false;
     scene_.quality = stepped_quality(scene_.quality, better);
     set_quality(scene_.quality, settings);
   }

@@ -24,8 +24,9 @@
 
 namespace skerry::game {
 
-/// Seconds of play in one frame, however long it took.
-inline constexpr double kLongestFrame = 0.25;
+/// Most seconds of play in one frame: a machine that slept does not play on. Any frame that was
+/// drawn is shorter, so that play keeps up with the clock however late frames are.
+inline constexpr double kLongestFrame = 2.0;
 
 /// Where photo mode looks from, and how.
 struct PhotoView {
@@ -78,6 +79,8 @@ class PlayLoop {
   std::vector<std::string> take_messages() { return std::exchange(said_, {}); }
 
   void note_frame(double seconds);
+  /// What the overlay says of how the quality was chosen; empty: it was named.
+  void set_quality_line(std::string line) { quality_line_ = std::move(line); }
   /// F3 and F9, if they are on; between ui::Gui::begin and end.
   void show_numbers() const;
   /// Good until the next frame.
@@ -120,6 +123,7 @@ class PlayLoop {
   bool rests_ = false;  // the last frame did
   bool screenshot_wanted_ = false;
   std::vector<std::string> said_;
+  std::string quality_line_;
   std::vector<float> frame_ms_;
   double since_title_s_ = 0.0;
 };

@@ -28,25 +28,28 @@ void PlayLoop::note_frame(double seconds) {
 std::vector<std::string> PlayLoop::overlay_lines() const {
   const CameraPlace& eye = *scene_.camera;
   const world::Streamer::Stats stream = view_->streamer().stats();
-  return {fmt::format("seed {}   {}x{}   {}", scene_.seed_text, presenter_.extent().width,
-                      presenter_.extent().height, device_.info().name),
-          fmt::format("x {} y {} z {}", format_blocks(eye.position.x),
-                      format_blocks(eye.position.y), format_blocks(eye.position.z)),
-          fmt::format("yaw {:.1f} pitch {:.1f}   {} {:.1f} blocks/s", eye.yaw_deg, eye.pitch_deg,
-                      player_.mode() == MoveMode::kNoclip ? "flying through walls"
-                      : player_.mode() == MoveMode::kFly  ? "flying"
-                      : player_.in_water()                ? "swimming"
-                      : player_.crouching()               ? "crouching"
-                                                          : "walking",
-                      glm::length(player_.velocity())),
-          fmt::format("time {}   islands at {:.1f} s", format_time_of_day(day_.time_of_day_s()),
-                      player_.world_time_s()),
-          fmt::format("quality {}   view {} blocks, detail {}{}",
-                      quality_level(scene_.quality).name, view_->settings().view_distance,
-                      view_->settings().view_detail, culling_frozen_ ? "   culling frozen" : ""),
-          fmt::format("exposure {:.2f} stops",
-                      view_->renderer().report().value_or(render::FrameReport{}).exposure_ev),
-          fmt::format("streaming: {} islands, {} tasks left", stream.islands, stream.tasks_left)};
+  std::vector<std::string> lines{
+      fmt::format("seed {}   {}x{}   {}", scene_.seed_text, presenter_.extent().width,
+                  presenter_.extent().height, device_.info().name),
+      fmt::format("x {} y {} z {}", format_blocks(eye.position.x), format_blocks(eye.position.y),
+                  format_blocks(eye.position.z)),
+      fmt::format("yaw {:.1f} pitch {:.1f}   {} {:.1f} blocks/s", eye.yaw_deg, eye.pitch_deg,
+                  player_.mode() == MoveMode::kNoclip ? "flying through walls"
+                  : player_.mode() == MoveMode::kFly  ? "flying"
+                  : player_.in_water()                ? "swimming"
+                  : player_.crouching()               ? "crouching"
+                                                      : "walking",
+                  glm::length(player_.velocity())),
+      fmt::format("time {}   islands at {:.1f} s", format_time_of_day(day_.time_of_day_s()),
+                  player_.world_time_s()),
+      fmt::format("quality {}   view {} blocks, detail {}{}", quality_level(scene_.quality).name,
+                  view_->settings().view_distance, view_->settings().view_detail,
+                  culling_frozen_ ? "   culling frozen" : ""),
+      fmt::format("exposure {:.2f} stops",
+                  view_->renderer().report().value_or(render::FrameReport{}).exposure_ev),
+      fmt::format("streaming: {} islands, {} tasks left", stream.islands, stream.tasks_left)};
+  if (!quality_line_.empty()) lines.push_back(quality_line_);
+  return lines;
 }
 
 void PlayLoop::show_numbers() const {

@@ -7,6 +7,7 @@
 
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "game/pace/quality_front.h"
 #include "game/scene_file/setting_keys.h"
 
 namespace skerry::game {
@@ -14,9 +15,12 @@ namespace {
 
 /// What the screen shows. Everything else belongs to a scene, not to a player.
 constexpr std::string_view kKept[] = {
-    "view.distance",  "view.detail",  "render.scale",  "shadow.enabled",  "shadow.size",
-    "lights.shadows", "ao.strength",  "indirect",      "bloom.intensity", "aa.samples",
-    "water.layers",   "display.peak", "display.black", "clouds.coverage"};
+    "view.distance",  "view.detail",      "render.scale",  "shadow.enabled",  "shadow.size",
+    "lights.shadows", "ao.strength",      "indirect",      "bloom.intensity", "aa.samples",
+    "water.layers",   "display.peak",     "display.black", "clouds.coverage", "frames.wanted",
+    "frames.cap",     "frames.unfocused", "frames.sync"};
+
+constexpr std::string_view kAuto = "auto";  // as a quality: play chooses
 
 bool is_kept(std::string_view assignment) {
   const std::string_view key = assignment.substr(0, assignment.find('='));
@@ -42,7 +46,7 @@ ReadPreferences read_preferences(std::string_view json_text) {
   SceneText quality, fov;
   quality.quality = scene->quality;
   fov.fov = scene->fov;
-  if (holds(quality, read)) read.scene.quality = scene->quality;
+  if (scene->quality == kAuto || holds(quality, read)) read.scene.quality = scene->quality;
   if (holds(fov, read)) read.scene.fov = scene->fov;
   for (const std::string& assignment : scene->settings) {
     SceneText one;
@@ -59,14 +63,18 @@ void take_preferences(const Settings& from, Settings& into) {
 
 std::string print_preferences(const SceneOptions& scene) {
   nlohmann::json root;
-  root["quality"] = std::string(quality_level(scene.quality).name);
+  root["quality"] = std::string(scene.quality_auto ? kAuto : quality_level(scene.quality).name);
   root["fov"] = scene.fov_deg;
   root["settings"] = nlohmann::json::object();
-  for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
+  const auto keep = [&root](const std::string& assignment) {
     const std::size_t sign = assignment.find('=');
     if (is_kept(assignment))
       root["settings"][assignment.substr(0, sign)] = assignment.substr(sign + 1);
-  }
+  };
+  for (const std::string& assignment : assignments_from(scene.quality, scene.settings))
+    if (!scene.quality_auto || !is_chosen_by_front(assignment.substr(0, assignment.find('='))))
+      keep(assignment);
+  if (scene.quality_auto) std::for_each(scene.pinned.begin(), scene.pinned.end(), keep);
   return root.dump(2) + "\n";
 }
 

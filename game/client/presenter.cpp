@@ -2,12 +2,13 @@
 
 #include <utility>
 
+#include "engine/core/clock.h"
+
 namespace skerry::game {
 
 Result<std::unique_ptr<Presenter>> Presenter::create(gpu::Device& device, VkSurfaceKHR surface,
                                                      const ui::OverlayImages& images) {
-  constexpr bool kMailbox = true;  // newest frame first: shortest way from the mouse to the eye
-  auto swapchain = gpu::Swapchain::create(device, surface, kMailbox);
+  auto swapchain = gpu::Swapchain::create(device, surface, gpu::Sync::kOff);
   if (!swapchain) return swapchain.error();
   auto overlay_pass = OverlayPass::create(device, images);
   if (!overlay_pass) return overlay_pass.error();
@@ -23,6 +24,17 @@ Presenter::Presenter(gpu::Device& device, std::unique_ptr<gpu::Swapchain> swapch
       ring_(device, OverlayPass::kSlots),
       swapchain_(std::move(swapchain)),
       overlay_pass_(std::move(overlay_pass)) {}
+
+void Presenter::set_sync(gpu::Sync sync) {
+  if (std::exchange(sync_, sync) != sync) swapchain_->set_sync(sync);
+}
+
+std::optional<gpu::SwapchainFrame> Presenter::acquire(VkExtent2D window_px) {
+  const Stopwatch watch;
+  const std::optional<gpu::SwapchainFrame> frame = swapchain_->acquire(window_px);
+  waited_s_ += watch.seconds();
+  return frame;
+}
 
 Result<void> Presenter::fit_canvas(VkExtent2D size) {
   if (canvas_ && gpu::same_size(canvas_.desc().extent, size)) return {};

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "engine/core/result.h"
 #include "engine/gpu/device/device.h"
@@ -22,10 +23,14 @@ class Presenter {
   static Result<std::unique_ptr<Presenter>> create(gpu::Device& device, VkSurfaceKHR surface,
                                                    const ui::OverlayImages& images);
 
+  /// See gpu::Swapchain::set_sync; to begin with it is off.
+  void set_sync(gpu::Sync sync);
+  bool waits_for_display() const { return swapchain_->waits_for_display(); }
+
   /// The window's next image; none while the window has no area.
-  std::optional<gpu::SwapchainFrame> acquire(VkExtent2D window_px) {
-    return swapchain_->acquire(window_px);
-  }
+  std::optional<gpu::SwapchainFrame> acquire(VkExtent2D window_px);
+  /// Seconds that acquire() has waited since the last call.
+  double take_waited_s() { return std::exchange(waited_s_, 0.0); }
   VkExtent2D extent() const { return swapchain_->extent(); }
 
   /// Records the way from a finished picture to the window's image. The picture stays without
@@ -61,6 +66,8 @@ class Presenter {
   std::array<std::uint64_t, OverlayPass::kSlots>
       slot_values_{};  // timeline values of the frames that used the slots last
   std::uint32_t slot_ = 0;
+  gpu::Sync sync_ = gpu::Sync::kOff;
+  double waited_s_ = 0.0;
 };
 
 }  // namespace skerry::game

@@ -207,6 +207,7 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
     const auto quality = parse_quality(*text);
     if (!quality) return quality.error();
     scene.quality = *quality;
+    scene.quality_named = true;
   }
   scene.lights = under.lights;
   scene.lights.insert(scene.lights.end(), over.lights.begin(), over.lights.end());
@@ -214,6 +215,8 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
   scene.clouds.insert(scene.clouds.end(), over.clouds.begin(), over.clouds.end());
   scene.settings = settings_of(scene.quality);
   if (const auto done = apply_settings(under, over, scene.settings); !done) return done.error();
+  scene.assigned = under.settings;
+  scene.assigned.insert(scene.assigned.end(), over.settings.begin(), over.settings.end());
   return scene;
 }
 
@@ -233,6 +236,7 @@ std::string shot_command(const SceneOptions& scene) {
                          format_time_of_day(scene.time_of_day_s), scene.size.width,
                          scene.size.height, quality_level(scene.quality).name);
   for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
+    if (assignment.starts_with("frames.")) continue;  // of play alone
     command += " --set " + shell_word(assignment);
   }
   for (const CloudFile& cloud : scene.clouds)

@@ -26,7 +26,11 @@ struct SceneOptions {
   int time_of_day_s = 12 * 3600;      ///< since midnight
   PictureSize size;
   Quality quality = Quality::kMedium;
+  bool quality_named = false;  ///< it was asked for, not taken for want of a name
+  bool quality_auto = false;   ///< play chooses it, and what hangs on it (game/pace)
   Settings settings;
+  std::vector<std::string> assigned;      ///< KEY=VALUE that were asked for, later ones win
+  std::vector<std::string> pinned;        ///< those of them that quality_auto must keep
   std::vector<WorldLight> lights;         ///< of the scene file
   std::vector<CloudFile> clouds;          ///< of the scene file, then of the command line
   std::optional<std::string> scene_file;  ///< where the lights are from

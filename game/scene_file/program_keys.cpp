@@ -13,6 +13,7 @@ constexpr std::array<std::string_view, 2> kShadingNames{"pbr", "flat"};
 constexpr std::array<std::string_view, 13> kDebugViewNames{
     "none",     "albedo", "normal", "position", "metadata",    "emissive", "depth",
     "cascades", "shadow", "ao",     "clusters", "light_count", "exposure"};
+constexpr std::array<std::string_view, 3> kSyncNames{"off", "on", "adaptive"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
@@ -25,6 +26,33 @@ Result<void> parse_memory_budget(std::string_view text, Settings& s) {
                 s.memory_budget_mib);
   s.memory_budget_mib.reset();
   return {};
+}
+
+Result<void> parse_wanted_rate(std::string_view text, Settings& s) {
+  using F = FrameSettings;
+  if (text != "auto")
+    return into(parse_integer(text, "frames.wanted ('auto' or frames a second)", F::kLeastRate,
+                              F::kMostRate),
+                s.frames.wanted);
+  s.frames.wanted.reset();
+  return {};
+}
+
+Result<void> parse_frame_cap(std::string_view text, Settings& s) {
+  using F = FrameSettings;
+  if (text == "off" || text == "display") {
+    s.frames.cap = text == "off" ? F::kNoCap : F::kDisplayCap;
+    return {};
+  }
+  return into(parse_integer(text, "frames.cap ('display', 'off' or frames a second)", F::kLeastRate,
+                            F::kMostRate),
+              s.frames.cap);
+}
+
+std::string print_frame_cap(const Settings& s) {
+  if (s.frames.cap == FrameSettings::kNoCap) return "off";
+  if (s.frames.cap == FrameSettings::kDisplayCap) return "display";
+  return std::to_string(s.frames.cap);
 }
 
 Result<void> parse_lights_shadows(std::string_view text, Settings& s) {
@@ -160,6 +188,29 @@ constexpr SettingKey kProgramKeys[] = {
        return into(parse_integer(t, "jobs.threads", 0, 256), s.jobs_threads);
      },
      [](const Settings& s) { return std::to_string(s.jobs_threads); }},
+    {"frames.wanted", "auto, or frames a second from 5 to 1000",
+     "What quality auto aims at; auto: 30 on a CPU, as often as the display refreshes on a GPU.",
+     parse_wanted_rate,
+     [](const Settings& s) {
+       return s.frames.wanted ? std::to_string(*s.frames.wanted) : std::string("auto");
+     }},
+    {"frames.cap", "display, off, or frames a second from 5 to 1000",
+     "Most frames that play draws; display: as often as it refreshes.", parse_frame_cap,
+     print_frame_cap},
+    {"frames.unfocused", "frames a second, 1 to 1000",
+     "Most frames that play draws while another window has the focus.",
+     [](std::string_view t, Settings& s) {
+       return into(parse_integer(t, "frames.unfocused", 1, FrameSettings::kMostRate),
+                   s.frames.unfocused);
+     },
+     [](const Settings& s) { return std::to_string(s.frames.unfocused); }},
+    {"frames.sync", "off, on or adaptive",
+     "Vertical sync. off: frames never wait for the display; on: always; adaptive: late ones do "
+     "not.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "frames.sync", kSyncNames), s.frames.sync);
+     },
+     [](const Settings& s) { return name_of(kSyncNames, s.frames.sync); }},
     {"water.layers", "1 to 4",
      "How many water and glass surfaces one behind another a pixel shows.",
      [](std::string_view t, Settings& s) {

@@ -19,7 +19,20 @@ enum class RendererKind : std::uint8_t { kDeferred, kAuto, kReference };
 /// kPixel: everything averaged over the pixel. kCentre: geometry through the pixel's centre alone,
 /// as the GPU samples it, light and textures still averaged.
 enum class ReferenceFilter : std::uint8_t { kPixel, kCentre };
+/// Whether frames wait for the display: gpu::Sync.
+enum class VerticalSync : std::uint8_t { kOff, kOn, kAdaptive };
 enum class UploadMode : std::uint8_t { kUpdate, kStaging, kMapped };
+
+/// How often play draws, and when. Rates are frames a second.
+struct FrameSettings {
+  static constexpr std::uint32_t kLeastRate = 5, kMostRate = 1000;
+  static constexpr std::uint32_t kNoCap = 0, kDisplayCap = 1;
+  std::optional<std::uint32_t> wanted;  ///< what quality auto aims at; none: by device and display
+  std::uint32_t cap = kDisplayCap;      ///< the most, kNoCap, or as often as the display refreshes
+  std::uint32_t unfocused = 10;         ///< the most while another window has the focus
+  VerticalSync sync = VerticalSync::kOff;
+  bool operator==(const FrameSettings&) const = default;
+};
 
 /// Everything `--set` reaches, with the defaults of quality `medium`. docs/settings.md says what
 /// each means to a player.
@@ -41,7 +54,8 @@ struct Settings {
   std::uint64_t upload_budget_bytes = 8u << 20;    ///< a frame, 65536 .. 2^30
   std::optional<std::uint32_t> memory_budget_mib;  ///< for the world, 8 .. 2^20; none: by device
   std::uint32_t jobs_threads = 0;                  ///< 0: one a core; .. 256
-  std::uint32_t reference_samples = 64;            ///< a pixel, 1 .. 65536
+  FrameSettings frames;
+  std::uint32_t reference_samples = 64;  ///< a pixel, 1 .. 65536
   ReferenceFilter reference_filter = ReferenceFilter::kPixel;
   bool operator==(const Settings&) const = default;
 };

@@ -79,6 +79,7 @@ struct ScreenFacts {
   std::int64_t now_s = 0;            ///< Unix time
   std::optional<std::string> world;  ///< name of the one being played
   Quality* quality = nullptr;
+  bool* quality_auto = nullptr;  ///< whether play chooses the quality
   Settings* settings = nullptr;
   double* fov_deg = nullptr;
   Bindings* bindings = nullptr;

@@ -93,13 +93,45 @@ bool slide(double& value, float least, float most, const char* format) {
   return true;
 }
 
+/// How often, and when, frames are drawn.
+void show_frame_knobs(FrameSettings& frames, Rows& rows) {
+  constexpr std::uint32_t kRates[] = {0, 20, 30, 40, 50, 60, 75, 90, 120, 144, 240};
+  constexpr const char* kRateNames[] = {"as suits the machine", "20 a second", "30 a second",
+                                        "40 a second",          "50 a second", "60 a second",
+                                        "75 a second",          "90 a second", "120 a second",
+                                        "144 a second",         "240 a second"};
+  std::uint32_t wanted = frames.wanted.value_or(0);
+  rows.choice("Frames wanted by auto", std::nullopt, wanted, kRates, kRateNames);
+  frames.wanted.reset();
+  if (wanted != 0) frames.wanted = wanted;
+  constexpr std::uint32_t kCaps[] = {
+      FrameSettings::kNoCap, FrameSettings::kDisplayCap, 20, 30, 60, 90, 120, 144, 240};
+  constexpr const char* kCapNames[] = {"no limit",     "as the display", "20 a second",
+                                       "30 a second",  "60 a second",    "90 a second",
+                                       "120 a second", "144 a second",   "240 a second"};
+  rows.choice("Most frames", std::nullopt, frames.cap, kCaps, kCapNames);
+  constexpr std::uint32_t kUnfocused[] = {1, 5, 10, 30, 60, FrameSettings::kMostRate};
+  constexpr const char* kUnfocusedNames[] = {"1 a second",  "5 a second",  "10 a second",
+                                             "30 a second", "60 a second", "as with it"};
+  rows.choice("Most without focus", std::nullopt, frames.unfocused, kUnfocused, kUnfocusedNames);
+  constexpr VerticalSync kSyncs[] = {VerticalSync::kOff, VerticalSync::kOn,
+                                     VerticalSync::kAdaptive};
+  constexpr const char* kSyncNames[] = {"off", "on", "adaptive"};
+  rows.choice("Vertical sync", std::nullopt, frames.sync, kSyncs, kSyncNames);
+}
+
 void show_knobs(const ScreenFacts& facts, Rows& rows) {
   Settings& settings = *facts.settings;
-  constexpr Quality kLevels[] = {Quality::kLow, Quality::kMedium, Quality::kHigh, Quality::kUltra};
-  constexpr const char* kLevelNames[] = {"low", "medium", "high", "ultra"};
-  const Quality before = *facts.quality;
-  rows.choice("Quality", Knob::kQuality, *facts.quality, kLevels, kLevelNames);
-  if (*facts.quality != before) set_quality(*facts.quality, settings);
+  constexpr int kLevels[] = {-1, 0, 1, 2, 3};
+  constexpr const char* kLevelNames[] = {"auto", "low", "medium", "high", "ultra"};
+  const int before = *facts.quality_auto ? -1 : static_cast<int>(*facts.quality);
+  int level = before;
+  rows.choice("Quality", Knob::kQuality, level, kLevels, kLevelNames);
+  *facts.quality_auto = level < 0;
+  if (level != before && level >= 0) {
+    *facts.quality = static_cast<Quality>(level);
+    set_quality(*facts.quality, settings);
+  }
   rows.row("View distance", Knob::kViewDistance,
            [&] { return slide_blocks(settings.view_distance, kMinViewDistance, 4096); });
   rows.row("Full detail up to", Knob::kViewDetail,
@@ -140,6 +172,7 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
            [&] { return slide(settings.render.clouds.coverage, 0.0f, 1.0f, "%.2f of the sky"); });
   rows.row("Field of view", std::nullopt,
            [&] { return slide(*facts.fov_deg, 40.0f, 110.0f, "%.0f degrees"); });
+  show_frame_knobs(settings.frames, rows);
   render::DisplaySettings& display = settings.render.display;
   rows.row("Display: white", std::nullopt,
            [&] { return slide(display.peak, static_cast<float>(kMinDisplayPeak), 1.0f, "%.2f"); });

@@ -36,6 +36,7 @@ TEST(CommandLine, HelpIsThereOnEveryLevel) {
                                                     {"bench", "generate", "--help"},
                                                     {"bench", "upload", "--help"},
                                                     {"bench", "cull", "--help"},
+                                                    {"bench", "device", "--help"},
                                                     {"bench", "frame", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0) << joined(arguments) << outcome.err;
@@ -87,7 +88,8 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"test", "x.json", "--repeat", "-1"}, {"--repeat"}},
       {{"test", "x.json", "--approve", "--repeat", "2"}, {"--repeat"}},
       {{"test", "x.json", "--merge", "--validate"}, {"--merge"}},
-      {{"bench"}, {"mesh, generate, world, upload, cull, lights, frame, edit, fly or start"}},
+      {{"bench"},
+       {"mesh, generate, world, upload, cull, device, lights, frame, edit, fly or start"}},
       {{"bench", "mehs"}, {"'mesh'"}},
       {{"bench", "mesh", "--inptu", "x"}, {"'--input'"}},
       {{"bench", "cull", "--device", "-1"}, {"--device"}},

@@ -31,7 +31,7 @@ class SwapchainTest : public testing::Test {
     VkSurfaceKHR surface{};
     ASSERT_EQ(glfwCreateWindowSurface(device_->instance(), window_, nullptr, &surface), VK_SUCCESS);
     surface_ = surface;
-    Result<std::unique_ptr<Swapchain>> swapchain = Swapchain::create(*device_, surface_, false);
+    Result<std::unique_ptr<Swapchain>> swapchain = Swapchain::create(*device_, surface_, Sync::kOn);
     ASSERT_TRUE(swapchain) << swapchain.error().message;
     swapchain_ = *std::move(swapchain);
     ImageDesc desc;

@@ -253,4 +253,16 @@ MUTANTS = (
     Mutant("nothing_is_culled_in", "no section is drawn", "shaders/cull_sections.comp",
            "uint mask = visible_ranges(s, views[view]);", "uint mask = 0u;",
            "worlds shadows.pictures projection"),
+    # Pace
+    Mutant("pace_by_one_frame", "one late frame lowers the quality", "game/pace/quality_control.cpp",
+           "if (ms <= kLateShare * budget_ms) return false;",
+           "if (recent.back().ms <= kLateShare * budget_ms) return false;", "pace"),
+    Mutant("pace_looks_seldom", "late frames are looked at every four seconds", "game/pace/quality_control.cpp",
+           "if (ms <= kLateShare * budget_ms) return false;",
+           "if (ms <= kLateShare * budget_ms || std::fmod(now_s, 4.0) < 3.5) return false;", "pace"),
+    Mutant("pace_hopes", "the quality is raised to points that take twice what fits",
+           "game/pace/quality_control.cpp",
+           "const std::size_t to = fitting(control, ms, budget_ms).value_or(0);\n  if (to <= control.point) return;",
+           "const std::size_t to = fitting(control, 0.5 * ms, budget_ms).value_or(0);\n  if (to <= control.point) return;",
+           "pace"),
 )

@@ -36,8 +36,9 @@ start_display() {
 }
 
 # play OPTION...: under the validation layer; waits for the window and gives it the focus.
+quality=(--quality low)
 play() {
-  "$skerry" play --size 320x180 --quality low --validate "$@" >"$work/out" 2>"$work/err" &
+  "$skerry" play --size 320x180 "${quality[@]}" --validate "$@" >"$work/out" 2>"$work/err" &
   game=$!
   for _ in $(seq 300); do
     alive "while opening its window"

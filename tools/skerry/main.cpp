@@ -16,6 +16,7 @@
 #include "engine/core/log.h"
 #include "engine/platform/heap.h"
 #include "game/client/preferences.h"
+#include "game/pace/quality_front.h"
 #include "game/scene_file/parse.h"
 #include "tools/skerry/bench/bench_commands.h"
 #include "tools/skerry/devices.h"
@@ -94,9 +95,11 @@ int CommandLine::run_play() {
   game::ReadPreferences read = game::load_preferences(game::preferences_path());
   for (const std::string& problem : read.problems) log_warning(problem);
   scene.usual = std::move(read.scene);
-  if (scene.text.quality) scene.usual.settings.clear();  // they are changes of another level
+  const bool asked_auto = take_auto(scene);
   game::SceneOptions options;
   if (const auto refusal = resolve(scene, false, options)) return refuse(*refusal);
+  options.quality_auto = asked_auto || !options.quality_named;
+  options.pinned = game::pins_among(options.assigned);
   if (const auto refusal = check_draws_frames(options)) return refuse(*refusal);
   const bool asked_for =
       scene.text.seed || scene.text.world || scene.text.camera || scene.scene_file;

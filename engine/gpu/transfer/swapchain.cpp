@@ -45,13 +45,22 @@ std::optional<VkSurfaceFormatKHR> choose_format(const Device& device, VkSurfaceK
   return std::nullopt;
 }
 
-bool has_mode(const Device& device, VkSurfaceKHR surface, VkPresentModeKHR wanted) {
+/// The nearest mode to what is wanted; every device has first in, first out.
+VkPresentModeKHR choose_mode(const Device& device, VkSurfaceKHR surface, Sync sync) {
   std::uint32_t count = 0;
   GPU_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr));
   std::vector<VkPresentModeKHR> modes(count);
   GPU_CHECK(
       vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()));
-  return std::find(modes.begin(), modes.end(), wanted) != modes.end();
+  const auto has = [&modes](VkPresentModeKHR mode) {
+    return std::find(modes.begin(), modes.end(), mode) != modes.end();
+  };
+  if (sync == Sync::kOff)
+    for (const VkPresentModeKHR mode : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR})
+      if (has(mode)) return mode;
+  if (sync == Sync::kAdaptive && has(VK_PRESENT_MODE_FIFO_RELAXED_KHR))
+    return VK_PRESENT_MODE_FIFO_RELAXED_KHR;
+  return VK_PRESENT_MODE_FIFO_KHR;
 }
 
 VkExtent2D choose_extent(const VkSurfaceCapabilitiesKHR& caps, VkExtent2D window_px) {
@@ -82,7 +91,7 @@ void transition(VkCommandBuffer commands, VkImage image, const Scopes& scopes, V
 }  // namespace
 
 Result<std::unique_ptr<Swapchain>> Swapchain::create(Device& device, VkSurfaceKHR surface,
-                                                     bool mailbox) {
+                                                     Sync sync) {
   const std::string who = "cannot present to this window with " + device.info().name + ": ";
   VkBool32 supported = VK_FALSE;
   GPU_CHECK(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queue_family(), surface,
@@ -100,9 +109,14 @@ Result<std::unique_ptr<Swapchain>> Swapchain::create(Device& device, VkSurfaceKH
   }
   std::unique_ptr<Swapchain> swapchain(new Swapchain(device, surface));
   swapchain->format_ = *format;
-  if (mailbox && has_mode(device, surface, VK_PRESENT_MODE_MAILBOX_KHR))
-    swapchain->mode_ = VK_PRESENT_MODE_MAILBOX_KHR;
+  swapchain->mode_ = choose_mode(device, surface, sync);
   return swapchain;
+}
+
+void Swapchain::set_sync(Sync sync) {
+  const VkPresentModeKHR mode = choose_mode(device_, surface_, sync);
+  stale_ |= mode != mode_;
+  mode_ = mode;
 }
 
 Swapchain::~Swapchain() {

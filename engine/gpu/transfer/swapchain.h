@@ -14,6 +14,13 @@ namespace skerry::gpu {
 
 class Device;
 
+/// What presenting does with a frame that comes between two refreshes of the display.
+enum class Sync : std::uint8_t {
+  kOff,       ///< never waits: the newest frame wins, without tearing where the device can
+  kOn,        ///< waits for the next refresh
+  kAdaptive,  ///< as kOn, but a frame that missed its refresh is shown at once, torn
+};
+
 /// One image of the window, from acquire() to present().
 struct SwapchainFrame {
   std::uint32_t index = 0;         ///< of the image
@@ -25,14 +32,19 @@ struct SwapchainFrame {
 /// semaphores, present().
 class Swapchain {
  public:
-  /// @param surface of the device's instance; the caller destroys it after this. @param mailbox
-  /// newest frame wins, without tearing, where the device has it; else first in, first out. Errors:
-  /// this device cannot present to the surface.
-  static Result<std::unique_ptr<Swapchain>> create(Device& device, VkSurfaceKHR surface,
-                                                   bool mailbox);
+  /// @param surface of the device's instance; the caller destroys it after this. @param sync of
+  /// what the device lacks the nearest is taken. Errors: this device cannot present to the surface.
+  static Result<std::unique_ptr<Swapchain>> create(Device& device, VkSurfaceKHR surface, Sync sync);
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
   ~Swapchain();  ///< waits for the GPU
+
+  /// From the next acquire() on.
+  void set_sync(Sync sync);
+  /// Whether acquire(), and what is submitted for its frame, may wait for the display's refresh.
+  bool waits_for_display() const {
+    return mode_ == VK_PRESENT_MODE_FIFO_KHR || mode_ == VK_PRESENT_MODE_FIFO_RELAXED_KHR;
+  }
 
   /// The next image to draw, waiting until there is one. Makes the images anew when the window has
   /// another size or they are out of date. @param window_px size of the window's framebuffer now.

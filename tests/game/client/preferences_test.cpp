@@ -29,6 +29,21 @@ TEST(Preferences, ComeBackFromAFile) {
   EXPECT_EQ(made->settings, scene.settings);
 }
 
+TEST(Preferences, AChosenQualityKeepsWhatIsPinnedAndNotWhatWasChosen) {
+  SceneOptions scene;
+  scene.quality = Quality::kHigh;
+  scene.settings = settings_of(Quality::kHigh);
+  scene.settings.render.render_scale = 0.5f;
+  scene.settings.view_distance = 444;
+  scene.settings.frames.cap = 50;
+  scene.quality_auto = true;
+  scene.pinned = {"view.distance=444"};
+  const ReadPreferences read = read_preferences(print_preferences(scene));
+  EXPECT_TRUE(read.problems.empty());
+  EXPECT_EQ(read.scene.quality, "auto");
+  EXPECT_EQ(read.scene.settings, (std::vector<std::string>{"frames.cap=50", "view.distance=444"}));
+}
+
 TEST(Preferences, NonsenseIsToldInOneLineAndTheRestHolds) {
   for (const char* text : {"", "[", "3", R"({"quality": []})", R"({"colour": "red"})",
                            R"({"settings": 1})", R"({"fov": true})"}) {

@@ -34,6 +34,7 @@ class Sitting {
     facts.worlds = worlds;
     facts.now_s = 1'000'000;
     facts.quality = &quality;
+    facts.quality_auto = &quality_auto;
     facts.settings = &settings;
     facts.fov_deg = &fov_deg;
     facts.bindings = &bindings;
@@ -88,6 +89,7 @@ class Sitting {
   Wishes wishes;
   Input input;
   Quality quality = Quality::kMedium;
+  bool quality_auto = false;
   Settings settings;
   double fov_deg = 70.0;
   Bindings bindings = default_bindings();

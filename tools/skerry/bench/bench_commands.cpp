@@ -7,6 +7,7 @@
 
 #include "game/scene_file/parse.h"
 #include "tools/skerry/bench/bench_cull.h"
+#include "tools/skerry/bench/bench_device.h"
 #include "tools/skerry/bench/bench_edit.h"
 #include "tools/skerry/bench/bench_fly.h"
 #include "tools/skerry/bench/bench_frame.h"
@@ -44,6 +45,8 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_device_options(*upload_);
   cull_ = add("cull", "Time culling on the GPU");
   add_device_options(*cull_);
+  costs_ = add("device", "Time loads, branches, loops, textures, quads and passes on the GPU");
+  add_device_options(*costs_);
   lights_ = add("lights", "Time sorting and shading of 64 to 16,384 lights in a scene");
   add_scene_options(*lights_, scene_);
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
@@ -90,14 +93,14 @@ int BenchCommands::run() {
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh",   "generate", "world", "upload", "cull",
+  constexpr std::string_view kNames[] = {"mesh",   "generate", "world", "upload", "cull", "device",
                                          "lights", "frame",    "edit",  "fly",    "start"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
     return fail(
         kUsage,
-        {"bench does not say what: give mesh, generate, world, upload, cull, lights, frame, "
-         "edit, fly or start"});
+        {"bench does not say what: give mesh, generate, world, upload, cull, device, lights, "
+         "frame, edit, fly or start"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
@@ -118,6 +121,7 @@ int BenchCommands::run_on_device(const CLI::App& chosen) {
   std::optional<std::uint32_t> device;
   if (const auto refusal = parse_device(device_, device)) return refuse(*refusal);
   if (&chosen == upload_) return bench_upload({device, validate_, path_of(json_)});
+  if (&chosen == costs_) return bench_device({device, validate_, path_of(json_)});
   return bench_cull({device, validate_, path_of(json_)});
 }
 

@@ -7,8 +7,8 @@
 
 namespace skerry::tools {
 
-/// `skerry bench mesh|generate|world|upload|cull|lights|frame|edit|fly|start`: options, and which
-/// function each calls.
+/// `skerry bench mesh|generate|world|upload|cull|device|lights|frame|edit|fly|start`: options, and
+/// which function each calls.
 class BenchCommands {
  public:
   /// Adds `bench` and its sub-commands.
@@ -37,6 +37,7 @@ class BenchCommands {
   CLI::App* world_;
   CLI::App* upload_;
   CLI::App* cull_;
+  CLI::App* costs_;
   CLI::App* lights_;
   CLI::App* frame_;
   CLI::App* edit_;

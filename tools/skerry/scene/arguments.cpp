@@ -62,7 +62,9 @@ void add_scene_options(CLI::App& command, SceneArguments& a) {
   command.add_option("--time", a.text.time, "Time of day (default 12:00)")->type_name("HH:MM[:SS]");
   command.add_option("--size", a.text.size, "Picture or window size (default 1280x720)")
       ->type_name("WxH");
-  command.add_option("--quality", a.text.quality, "low, medium, high or ultra (default medium)")
+  command
+      .add_option("--quality", a.text.quality,
+                  "low, medium, high or ultra (default medium); of play also auto, its default")
       ->type_name("LEVEL");
   command.add_option("--set", a.text.settings, "One setting (docs/settings.md); may be repeated")
       ->type_name("KEY=VALUE")
@@ -114,6 +116,17 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
   scene.validate = a.validate;
   scene.scene_file = a.scene_file;
   return parse_device(a.device, scene.device);
+}
+
+bool take_auto(SceneArguments& arguments) {
+  constexpr const char* kAuto = "auto";
+  game::SceneText& usual = arguments.usual;
+  const bool usually_auto = !usual.quality || *usual.quality == kAuto;
+  const bool typed_auto = arguments.text.quality && *arguments.text.quality == kAuto;
+  if (arguments.text.quality && !(typed_auto && usually_auto)) usual.settings.clear();
+  if (typed_auto || usually_auto) usual.quality.reset();
+  if (typed_auto) arguments.text.quality.reset();
+  return typed_auto;
 }
 
 std::optional<Refusal> check_draws_frames(const game::SceneOptions& scene) {

@@ -33,6 +33,10 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments);
 std::optional<Refusal> resolve(const SceneArguments& arguments, bool needs_source,
                                game::SceneOptions& scene);
 
+/// Takes quality `auto`, which play alone has, out of what was typed and what is usual, and drops
+/// usual settings that are changes of another level. @return whether it was typed.
+bool take_auto(SceneArguments& arguments);
+
 /// Checks that a command's frames can be drawn: the reference renderer draws screenshots only.
 std::optional<Refusal> check_draws_frames(const game::SceneOptions& scene);
 /// Reads --device, if given, into `index`.

@@ -54,6 +54,7 @@ std::span<const Case> exposure_cases();
 std::span<const Case> physics_cases();
 std::span<const Case> time_cases();
 std::span<const Case> worlds_cases();
+std::span<const Case> pace_cases();
 
 /// Every case of the program.
 std::vector<Case> all_cases();

@@ -1,0 +1,127 @@
+#!/usr/bin/env bash
+# How often frames are drawn and how well, in a window under Xvfb and a window manager: quality is chosen and kept, caps hold, and time played
+# is time passed.
+# usage: frames_test.sh SKERRY_PROGRAM     exit: 0 passed, 1 failed, 77 no Xvfb, xdotool, openbox or ImageMagick here
+source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
+skerry=$1
+key_pause=0.5
+start_display openbox display python3
+openbox >/dev/null 2>&1 &
+manager=$!
+other=
+trap 'kill "$manager" ${other:+"$other"} 2>/dev/null || true; cleanup' EXIT
+learnt=$work/cache/skerry/quality.json
+
+quit() {
+  key Escape 1
+  for _ in 1 2 3 4 5 6 7; do key Down 0.2; done
+  xdotool key Return
+  expect_end
+}
+commands() { grep -c '^skerry shot' "$work/out" || true; }
+# Sets `command` to that of a new screenshot.
+screenshot() {
+  local before
+  before=$(commands)
+  xdotool key --window 0 F2
+  for _ in $(seq 200); do [ "$(commands)" -gt "$before" ] && break; sleep 0.1; alive "while taking a screenshot"; done
+  command=$(grep '^skerry shot' "$work/out" | tail -n 1)
+}
+# Processor seconds that the game takes in so many seconds.
+spent() { awk '{ print ($14 + $15) / 100 }' "/proc/$game/stat"; }
+spent_in() {
+  local before
+  before=$(spent)
+  sleep "$1"
+  alive "while its time was measured"
+  awk -v a="$before" -v b="$(spent)" 'BEGIN { print b - a }'
+}
+
+fps() { xdotool getwindowname "$window" | sed 's/.* \([0-9]*\) fps/\1/'; }
+# Shaders are compiled and the world is there: until then frames are few.
+wait_until_quick() {
+  for _ in $(seq 300); do [ "$(fps)" -ge 5 ] && break; sleep 0.3; alive "before it was quick"; done
+  sleep 2
+}
+
+# Quality is chosen, what it was chosen by is kept, and what was asked for by name stays.
+mkdir -p "$work/cache/skerry"
+echo '{"version": 1, "machines": [' >"$learnt"
+quality=()
+play --seed 1 --set view.distance=100
+wait_for_frames
+sleep 40
+screenshot
+case $command in *view.distance=100*) ;; *) fail "the view distance that was named is gone: $command" ;; esac
+quit
+[ "$(grep -c . "$work/err")" = 1 ] && grep -q 'quality.json is damaged' "$work/err" || fail "it did not tell of the damaged file alone"
+python3 - "$learnt" <<'P' || fail "what was learnt was not kept: $(cat "$learnt")"
+import json, sys
+machine, = json.load(open(sys.argv[1]))["machines"]
+assert machine["machine"].endswith("320x180") and len(machine["costs_ms"]) >= 2, machine
+P
+cp "$learnt" "$work/learnt_before"
+
+# A named level learns nothing.
+quality=(--quality low)
+play --seed 1 --set view.distance=100 --set frames.cap=off --set frames.unfocused=1
+wait_for_frames
+wait_until_quick
+case $(screenshot; echo "$command") in *'--quality low'*) ;; *) fail "low is not low: $command" ;; esac
+
+# Waits until the game takes less than a share of what playing takes; programs that no view has needed yet may still be compiled.
+takes_less() {
+  local took
+  for _ in $(seq 12); do
+    took=$(spent_in 4)
+    awk -v a="$playing" -v b="$took" -v s="$1" 'BEGIN { exit !(b < s * a) }' && return
+  done
+  fail "it takes $took s of 4 $2, $playing s while it is played"
+}
+
+# Frames come as fast as they can, seldom without the focus, and not at all without a window or behind a screen.
+playing=$(spent_in 4)
+display -size 40x40 xc:red &
+other=$!
+sleep 2
+takes_less 0.4 "without the focus"
+kill "$other"
+other=
+xdotool windowactivate "$window"
+sleep 2
+xdotool windowminimize "$window"
+takes_less 0.4 minimised
+xdotool windowactivate "$window"
+sleep 2
+xdotool windowfocus "$window"
+playing=$(spent_in 4)
+key Escape 1
+takes_less 0.7 paused
+key Escape 1
+
+# Islands have moved on by the time that has passed, though a frame took more than a second.
+world_time() { sed 's/.*world.time=\([0-9.]*\).*/\1/' <<<"$command"; }
+screenshot
+began=$(date +%s.%N) first=$(world_time)
+sleep 1
+kill -STOP "$game"
+sleep 1.3
+kill -CONT "$game"
+sleep 1
+screenshot
+awk -v a="$first" -v b="$(world_time)" -v s="$began" -v e="$(date +%s.%N)" \
+  'BEGIN { played = b - a; passed = e - s; exit !(played > 3 && played < passed + 0.5 && played > passed - 1) }' ||
+  fail "from world time $first to $(world_time) in $(awk -v s="$began" -v e="$(date +%s.%N)" 'BEGIN { print e - s }') s"
+quit
+cmp -s "$learnt" "$work/learnt_before" || fail "a named level changed what was learnt"
+
+# A cap holds, and every way to wait for the display starts.
+for sync in on adaptive; do
+  play --seed 1 --set view.distance=100 --set frames.cap=10 --set frames.sync=$sync
+  wait_for_frames
+  wait_until_quick
+  [ "$(fps)" -le 10 ] || fail "capped at 10 it draws $(fps) frames a second"
+  quit
+done
+[ ! -s "$work/err" ] || fail "it complained"
+echo "passed"
