@@ -131,15 +131,20 @@ ActionFrame::State ActionFrame::state_of(Chord chord, const InputFrame& input,
   if (chord.key == Key::kNone) return state;
   // A key that went up does so for every chord it is in: nothing is left held.
   state.released = input.released(chord.key);
-  // Held at some moment of the frame: a quick chord may end within the frame in which it is seen.
   const Key with = control_of(chord.key);
-  const bool control = input.down(with) || input.pressed(with) || input.released(with);
   // A key alone means nothing while it may be one of a chord.
-  if (chord.control ? !control : control && is_bound(bindings, {chord.key, true})) return state;
+  const bool has_chord = !chord.control && is_bound(bindings, {chord.key, true});
+  const auto meant = [&](bool control) { return chord.control ? control : !control || !has_chord; };
+  bool control = input.was_down(with);
+  double notches = 0.0;
+  for (const platform::InputEvent& event : input.events) {
+    if (event.key == with) control = event.down;
+    if (event.key == chord.key && event.down && meant(control)) notches += event.amount;
+  }
+  if (notches > 0.0) state.presses = std::max(1, static_cast<int>(std::lround(notches)));
+  if (!meant(input.down(with))) return state;
   state.down = input.down(chord.key);
-  const double value = input.value(chord.key);
-  if (input.pressed(chord.key)) state.presses = std::max(1, static_cast<int>(std::lround(value)));
-  state.value = std::min(value, 1.0);
+  state.value = std::min(double{input.value(chord.key)}, 1.0);
   return state;
 }
 
