@@ -41,8 +41,10 @@ class App {
   Result<bool> frame(const platform::InputFrame& input, double seconds);
   void act(const platform::InputFrame& input, double seconds);
   void act_on_screens(const platform::InputFrame& input, const ActionFrame& actions);
+  void pause_unattended(double seconds);
   void fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
                         double seconds);
+  Result<void> show_new_images(const platform::InputFrame& input);
   Result<bool> draw(double seconds, const PlayLoop::Layout& layout);
   Result<bool> draw_backdrop(const PlayLoop::Layout& layout);
   Result<bool> show_again(const PlayLoop::Layout& layout);
@@ -99,7 +101,9 @@ class App {
   bool still_ = false;                                        // the last frame drew a screen alone
   bool settings_changed_ = false, bindings_changed_ = false;  // since they were saved
   bool hud_hidden_ = false;
-  bool back_ = false;  // this frame's input closes what is topmost
+  bool attended_ = false;  // the window has had the focus since the last pause that losing it made
+  double unfocused_s_ = 0.0;  // for so long it has not had it
+  bool back_ = false;         // this frame's input closes what is topmost
 };
 
 }  // namespace skerry::game

@@ -137,7 +137,10 @@ Result<void> App::play(const SceneOptions& options, std::unique_ptr<SessionClien
   if (!view) return view.error();
   (*view)->renderer().foresee_programs();
   world_path_ = options.world;
-  world_name_ = session->joined().world.name;
+  const world::WorldInfo& info = session->joined().world;
+  world_name_ = info.name;
+  for (const std::string* shown : {&info.name, &info.seed_text, &options.seed_text})
+    gui_.expect(*shown);
   world_ = std::make_unique<PlayLoop>(Machine{window_, device_, *presenter_}, bindings_, options,
                                       std::move(session), *std::move(view));
   costs_ = {};
@@ -229,6 +232,8 @@ void App::list_again() {
         card.thumbnail = slot++;
       }
     }
+    for (const std::string* shown : {&card.name, &card.seed_text, &card.problem})
+      gui_.expect(*shown);
     cards_.push_back(std::move(card));
   }
 }

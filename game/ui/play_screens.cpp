@@ -101,11 +101,9 @@ void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   begin_panel("photo", Place::kLeft, 360, 496);
   heading("Photo mode");
   text_in(colour::kFaint, "Time of day");
-  ImGui::SetNextItemWidth(-1.0f);
   int ten_minutes = photo.time_of_day_s / 600;
   const std::string time = format_time_of_day(photo.time_of_day_s);
-  if (ImGui::SliderInt("##time", &ten_minutes, 0, 143, time.c_str(), kSlide))
-    photo.time_of_day_s = ten_minutes * 600;
+  if (slide("##time", ten_minutes, 0, 143, time.c_str())) photo.time_of_day_s = ten_minutes * 600;
   text_in(colour::kFaint, "Exposure");
   bool adapts = !photo.exposure_ev;
   if (ImGui::Checkbox("as the eye adapts", &adapts)) {
@@ -114,14 +112,12 @@ void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   }
   ImGui::BeginDisabled(adapts);
   auto stops = static_cast<float>(photo.exposure_ev.value_or(facts.adapted_ev));
-  ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::SliderFloat("##exposure", &stops, -12.0f, 18.0f, "%.1f stops", kSlide))
+  if (slide("##exposure", stops, -12.0f, 18.0f, 0.5f, "%.1f stops"))
     photo.exposure_ev = std::round(double{stops} * 10.0) / 10.0;
   ImGui::EndDisabled();
   text_in(colour::kFaint, "Field of view");
-  ImGui::SetNextItemWidth(-1.0f);
   auto fov = static_cast<float>(photo.fov_deg);
-  if (ImGui::SliderFloat("##fov", &fov, 5.0f, 120.0f, "%.0f degrees", kSlide))
+  if (slide("##fov", fov, 5.0f, 120.0f, 5.0f, "%.0f degrees"))
     photo.fov_deg = std::round(double{fov});
   gap(8);
   if (first_button("Take the picture")) wishes.photograph = true;

@@ -120,9 +120,8 @@ bool goes_back(const ScreenState& state, const platform::InputFrame& input);
 /// Fills in which keys went down and up, as a binding that waits for one wants them.
 void take_keys(const ScreenState& state, const platform::InputFrame& input, ScreenFacts& facts);
 
-/// Escape, or its like on a gamepad: closes what is topmost. @param typing into a text field, which
-/// the key leaves first; but for the palette's, which is always typed into.
-void go_back(ScreenState& state, bool typing);
+/// Escape, or its like on a gamepad: closes what is topmost, also from within a text field.
+void go_back(ScreenState& state);
 
 /// A seed for who has none in mind, short enough to be told to a friend.
 std::string seed_from(std::uint64_t entropy);

@@ -72,6 +72,13 @@ bool world_row(ScreenState& state, const ScreenFacts& facts, const WorldCard& wo
   return again || ImGui::IsMouseDoubleClicked(0);
 }
 
+/// Why the world that is chosen cannot be played, in whole: its row shows the beginning.
+std::string problem_of_chosen(const ScreenState& state, const ScreenFacts& facts) {
+  for (const WorldCard& world : facts.worlds)
+    if (state.chosen_world == world.path) return world.problem;
+  return {};
+}
+
 void ask_to_delete(ScreenState& state, const WorldCard& world, bool back, Wishes& wishes) {
   if (state.asks_to_delete) ImGui::OpenPopup("delete");
   state.asks_to_delete = false;
@@ -137,7 +144,12 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();
   begin_panel("worlds", Place::kMiddle, 900, 620);
   heading("Worlds");
-  const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
+  const std::string problem = problem_of_chosen(state, facts);
+  float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
+  if (!problem.empty())
+    foot +=
+        ImGui::GetStyle().ItemSpacing.y +
+        ImGui::CalcTextSize(problem.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y;
   begin_scroll("list", -foot);
   if (facts.worlds.empty()) text_in(colour::kFaint, "None yet. Make one.");
   const WorldCard* chosen = nullptr;
@@ -151,6 +163,7 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
     if (state.chosen_world == world.path) chosen = &world;
   }
   end_scroll();
+  if (!problem.empty()) text_wrapped(colour::kWarning, problem);
   gap(0);
   ImGui::BeginDisabled(!chosen || !chosen->problem.empty());
   if (first_button("Play", 190) && chosen) wishes.play = chosen->path;
