@@ -41,6 +41,7 @@ App::App(platform::Window& window, gpu::Device& device, const SceneOptions& opti
   ReadBindings read = load_bindings(bindings_path());
   for (std::string& problem : read.problems) say(std::move(problem));
   bindings_ = std::move(read.bindings);
+  hints_ = load_hints(hints_path());
 }
 
 Result<void> App::start(VkSurfaceKHR surface, bool at_title) {
@@ -127,6 +128,7 @@ Result<void> App::show_new_images(const platform::InputFrame& input) {
 void App::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, bindings_);
   if (actions.pressed(Action::kFullscreen) && !gui_.typing()) window_.toggle_fullscreen();
+  if (world_ && screens_.stack.empty()) hints_.note(actions);
   act_on_screens(input, actions);
   pause_unattended(seconds);
   messages_.pass(seconds);
@@ -267,6 +269,7 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
   gui_.begin({size.width, size.height, seconds, fed ? &input : nullptr});
   if (world_ && !hud_hidden_ && world_goes_on(screens_.stack)) {
     ui::HudFacts facts = world_->hud();
+    facts.hint = hints_.line(bindings_, input.pad);
     facts.choosing = screens_.stack.top() == Screen::kPalette;
     ui::show_hud(facts, pictures_);
   }

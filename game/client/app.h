@@ -14,6 +14,7 @@
 #include "game/client/play_loop.h"
 #include "game/client/presenter.h"
 #include "game/input/actions.h"
+#include "game/input/hints.h"
 #include "game/input/photo_camera.h"
 #include "game/scene_file/options.h"
 #include "game/ui/gui.h"
@@ -74,6 +75,7 @@ class App {
   gpu::Device& device_;
   SceneOptions base_;  // of what is played next; settings follow the player's choice
   Bindings bindings_;
+  Hints hints_;
   ui::Gui gui_;
   ui::Pictures pictures_;
   std::uint64_t pictures_shown_ = 0;  // their version on the device

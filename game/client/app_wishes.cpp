@@ -202,6 +202,8 @@ void App::keep_settings() {
   if (std::exchange(settings_changed_, false))
     if (const auto saved = save_preferences(preferences_path(), base_); !saved)
       say(saved.error().message);
+  if (hints_.take_changed())
+    if (const auto saved = save_hints(hints_path(), hints_); !saved) say(saved.error().message);
   if (std::exchange(bindings_changed_, false))
     if (const auto saved = save_bindings(bindings_path(), bindings_); !saved)
       say(saved.error().message);

@@ -1,6 +1,7 @@
 #include "game/input/actions.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 
@@ -103,6 +104,16 @@ std::optional<Chord> parse_chord(std::string_view text) {
   if (!fits) return std::nullopt;
   chord.key = *key;
   return chord;
+}
+
+std::string chord_label(Chord chord) {
+  if (chord.key == Key::kNone) return "-";
+  std::string label = print_chord(chord);
+  constexpr std::string_view kPad = "pad_";
+  for (std::size_t at; (at = label.find(kPad)) != std::string::npos;) label.erase(at, kPad.size());
+  std::replace(label.begin(), label.end(), '_', ' ');
+  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
 }
 
 Bindings default_bindings() {

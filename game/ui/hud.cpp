@@ -192,6 +192,8 @@ void show_hud(const HudFacts& facts, const Pictures& pictures) {
   else if (facts.shaders_to_come != 0)
     write_on_glass(list, news, colour::kFaint,
                    fmt::format("Shaders are compiled: {} left", facts.shaders_to_come));
+  if (facts.hint && !facts.choosing)
+    write_on_glass(list, ImVec2(news.x, news.y + 34 * unit()), colour::kText, *facts.hint);
   pop_size();
 }
 

@@ -24,6 +24,7 @@ struct HudFacts {
     bool held = false;   ///< it is driven, and something holds it
   };
   std::optional<Steering> steering;
+  std::optional<std::string> hint;  ///< a key that a new player may want to know
   bool torch = false;               ///< one is in the hand
   bool numbers = false;             ///< the overlay is on, which shows time and place, too
   bool choosing = false;            ///< the palette lies over the name of what is held

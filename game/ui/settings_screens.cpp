@@ -153,16 +153,6 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
 
 // Controls.
 
-std::string chord_label(Chord chord) {
-  if (chord.key == platform::Key::kNone) return "-";
-  std::string label = print_chord(chord);
-  constexpr std::string_view kPad = "pad_";
-  for (std::size_t at; (at = label.find(kPad)) != std::string::npos;) label.erase(at, kPad.size());
-  std::replace(label.begin(), label.end(), '_', ' ');
-  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  return label;
-}
-
 /// Takes the key that was pressed for the binding that waits for one. Delete clears it; Ctrl, or a
 /// gamepad's Back, begins a chord, unless it goes up again alone.
 void listen(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
