@@ -139,6 +139,48 @@ bool text_field(const char* id, char* text, std::size_t bytes, const char* hint)
 
 namespace {
 
+void append(char* text, std::size_t bytes, char character) {
+  const std::size_t length = std::strlen(text);
+  if (length + 1 >= bytes) return;
+  text[length] = character;
+  text[length + 1] = '\0';
+}
+
+/// The last character of UTF-8 goes as a whole.
+void take_last(char* text) {
+  std::size_t length = std::strlen(text);
+  while (length > 0 && (static_cast<unsigned char>(text[length - 1]) & 0xc0) == 0x80) --length;
+  if (length > 0) text[length - 1] = '\0';
+}
+
+}  // namespace
+
+void letter_buttons(char* text, std::size_t bytes, bool& upper) {
+  constexpr std::string_view kRows[] = {"1234567890", "qwertyuiop", "asdfghjkl'", "zxcvbnm-.,"};
+  const float between = 4 * unit();
+  const float all = ImGui::GetContentRegionAvail().x;
+  const ImVec2 size(std::max(1.0f, (all - 9 * between) / 10), 30 * unit());
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(between, between));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 2 * unit()));
+  for (const std::string_view row : kRows) {
+    for (const char& letter : row) {
+      if (&letter != row.data()) ImGui::SameLine();
+      const bool letters = letter >= 'a' && letter <= 'z';
+      const char shown[] = {upper && letters ? static_cast<char>(letter - 'a' + 'A') : letter, 0};
+      if (ImGui::Button(shown, size)) append(text, bytes, shown[0]);
+    }
+  }
+  const ImVec2 third(std::max(1.0f, (all - 2 * between) / 3), size.y);
+  if (ImGui::Button(upper ? "small letters" : "CAPITALS", third)) upper = !upper;
+  ImGui::SameLine();
+  if (ImGui::Button("space", third)) append(text, bytes, ' ');
+  ImGui::SameLine();
+  if (ImGui::Button("delete", third)) take_last(text);
+  ImGui::PopStyleVar(2);
+}
+
+namespace {
+
 /// Left -1, right 1, if such a key was pressed while the last item has the focus. ImGui would go to
 /// another item with it.
 int key_steps() {

@@ -46,6 +46,14 @@ template <std::size_t kBytes>
 bool text_field(const char* id, std::array<char, kBytes>& text, const char* hint = "") {
   return text_field(id, text.data(), kBytes, hint);
 }
+/// Letters as buttons, for who types with a gamepad: each appends to a text of `bytes` with the
+/// zero at its end, if there is room. @param upper whether the letters are capitals; Shift turns it
+/// over.
+void letter_buttons(char* text, std::size_t bytes, bool& upper);
+template <std::size_t kBytes>
+void letter_buttons(std::array<char, kBytes>& text, bool& upper) {
+  letter_buttons(text.data(), kBytes, upper);
+}
 /// Bytes that the field being shown has room for; for the clipboard.
 std::size_t paste_room();
 

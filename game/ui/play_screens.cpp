@@ -59,11 +59,12 @@ void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
 }
 
 void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
-  begin_panel("palette", Place::kMiddle, 840, 560);
+  begin_panel("palette", Place::kMiddle, 840, facts.pad ? 688 : 560);
   heading("Blocks");
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
   const bool entered = text_field("##search", state.palette_search, "Search");
+  if (facts.pad) letter_buttons(state.palette_search, state.capitals);
   const std::vector<world::BlockId> found = find_blocks(state.palette_search.data());
   if (entered && !found.empty()) wishes.take = found.front();
   gap(2);

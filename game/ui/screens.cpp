@@ -21,7 +21,7 @@ void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
       show_worlds(state, facts, wishes);
       break;
     case Screen::kNewWorld:
-      show_new_world(state, wishes);
+      show_new_world(state, facts, wishes);
       break;
     case Screen::kSettings:
       show_settings(state, facts, wishes);
@@ -52,6 +52,7 @@ void take_keys(const ScreenState& state, const platform::InputFrame& input, Scre
   using platform::Key;
   const bool takes_pad = state.listening && state.listening->pad;
   const Key control = control_of(takes_pad ? Key::kPadA : Key::kA);
+  facts.pad = input.pad;
   facts.pressed = Key::kNone;
   facts.control_up = false;
   facts.control = input.was_down(control);

@@ -180,20 +180,21 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   end_panel();
 }
 
-void show_new_world(ScreenState& state, Wishes& wishes) {
-  begin_panel("new_world", Place::kLeft, 440, 464);
+void show_new_world(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  begin_panel("new_world", Place::kLeft, 440, facts.pad ? 650 : 464);
   heading("New world");
   text_in(colour::kFaint, "Name");
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
   const bool entered = text_field("##name", state.new_name);
+  if (ImGui::IsItemFocused()) state.types_seed = false;
   if (button("Another name", 184)) wishes.draw_name = true;
   gap(4);
   text_in(colour::kFaint, "Seed");
   ImGui::SetNextItemWidth(-1.0f);
   const std::string before = state.new_seed.data();
   const bool seed_entered = text_field("##seed", state.new_seed);
-  wishes.preview |= before != state.new_seed.data();
+  if (ImGui::IsItemFocused()) state.types_seed = true;
   if (button("Another seed", 184)) wishes.draw_lots = true;
   text_wrapped(colour::kFaint,
                "Any text or number. The same seed makes the same islands; to the right is what you "
@@ -203,6 +204,12 @@ void show_new_world(ScreenState& state, Wishes& wishes) {
     wishes.create = Wishes::NewWorld{state.new_name.data(), state.new_seed.data()};
   ImGui::SameLine();
   if (button("Back", 184)) state.stack.back();
+  if (facts.pad) {
+    gap(4);
+    state.types_seed ? letter_buttons(state.new_seed, state.capitals)
+                     : letter_buttons(state.new_name, state.capitals);
+  }
+  wishes.preview |= before != state.new_seed.data();
   end_panel();
 }
 

@@ -438,6 +438,7 @@ TEST(Pause, SaysThatSavingFailedAndLeavesAnywayOnlyIfTold) {
 TEST(NewWorld, HasANameAndASeedWithoutAKeyboard) {
   constexpr std::size_t kA = 0, kDown = 13;
   Sitting sitting(Screen::kNewWorld);
+  sitting.tap_pad(14);  // plugged in
   sitting.settle();
   sitting.tap_pad(kDown);
   sitting.tap_pad(kA);
@@ -448,6 +449,64 @@ TEST(NewWorld, HasANameAndASeedWithoutAKeyboard) {
   sitting.tap_pad(kDown);
   sitting.tap_pad(kA);
   EXPECT_TRUE(sitting.wishes.create);
+}
+
+TEST(NewWorld, IsNamedWithAGamepadsLetters) {
+  constexpr std::size_t kA = 0, kRight = 12, kDown = 13, kUp = 11;
+  Sitting sitting(Screen::kNewWorld);
+  sitting.tap_pad(14);  // plugged in
+  sitting.settle();
+  for (int i = 0; i < 4; ++i) sitting.tap_pad(kDown);  // over the seed's field, to Create
+  sitting.tap_pad(kDown);                              // the digits
+  sitting.tap_pad(kDown);                              // the letters
+  const std::size_t before = std::string_view(sitting.state.new_seed.data()).size();
+  sitting.tap_pad(kA);
+  sitting.tap_pad(kRight);
+  sitting.tap_pad(kA);
+  const std::string seed = sitting.state.new_seed.data();
+  ASSERT_EQ(seed.size(), before + 2);  // the seed's field had the focus last
+  const std::string_view row = "qwertyuiop";
+  const std::size_t first = row.find(seed[before]);
+  ASSERT_NE(first, std::string_view::npos) << seed;
+  EXPECT_EQ(seed[before + 1], row[first + 1]);
+  EXPECT_TRUE(sitting.wishes.preview);
+  EXPECT_STREQ(sitting.state.new_name.data(), "");
+  sitting.tap_pad(kUp);
+  EXPECT_FALSE(sitting.wishes.create);
+}
+
+TEST(LetterButtons, KeepToTheirRoomAndDeleteWholeCharacters) {
+  Gui gui;
+  Field<6> text{};
+  set_field(text, "ab\xe2\x82\xac");
+  bool upper = false;
+  Input input;
+  const auto frame = [&] {
+    const platform::InputFrame taken = input.take();
+    gui.begin({1280, 720, 0.05, &taken});
+    begin_panel("letters", Place::kMiddle, 440, 300);
+    letter_buttons(text, upper);
+    end_panel();
+    gui.end();
+  };
+  const auto tap = [&](Key key) {
+    for (const bool down : {true, false}) {
+      input.set_key(key, down);
+      frame();
+    }
+    frame();
+  };
+  frame();
+  tap(Key::kDown);  // from the first button to the one below
+  tap(Key::kSpace);
+  tap(Key::kSpace);  // no room any more
+  EXPECT_STREQ(text.data(), "ab\xe2\x82\xacq");
+  for (int i = 0; i < 8; ++i) tap(Key::kDown);
+  for (int i = 0; i < 4; ++i) tap(Key::kRight);
+  tap(Key::kSpace);
+  EXPECT_STREQ(text.data(), "ab\xe2\x82\xac");
+  tap(Key::kSpace);
+  EXPECT_STREQ(text.data(), "ab");
 }
 
 TEST(Palette, FindsBlocksByAllWordsInAnyCase) {
