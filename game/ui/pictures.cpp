@@ -186,15 +186,17 @@ Pictures::Pictures()
 }
 
 PicturePart Pictures::block(world::BlockId block) const {
+  const int row = block / kBlocksPerRow;
   const auto x = static_cast<float>(block % kBlocksPerRow * kBlockPictureEdge);
-  const auto y = static_cast<float>(block / kBlocksPerRow * kBlockPictureEdge);
+  const auto y = static_cast<float>(row * kBlockPictureEdge);
   return {{x / kWidth, y / kHeight},
           {(x + kBlockPictureEdge) / kWidth, (y + kBlockPictureEdge) / kHeight}};
 }
 
 PicturePart Pictures::thumbnail(int slot) const {
+  const int row = slot / kThumbnailsPerRow;
   const auto x = static_cast<float>(slot % kThumbnailsPerRow * kThumbnailWidth);
-  const auto y = static_cast<float>(kThumbnailsTop + slot / kThumbnailsPerRow * kThumbnailHeight);
+  const auto y = static_cast<float>(kThumbnailsTop + row * kThumbnailHeight);
   return {{x / kWidth, y / kHeight},
           {(x + kThumbnailWidth) / kWidth, (y + kThumbnailHeight) / kHeight}};
 }

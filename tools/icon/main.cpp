@@ -1,5 +1,6 @@
 // Paints the program's icon from its own blocks: a small island, seen from above a corner.
 //   skerry_icon FILE.png
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -35,8 +36,8 @@ void blend(std::uint8_t* under, const std::uint8_t* over) {
   const double a = over[3] / 255.0, b = under[3] / 255.0 * (1.0 - a);
   if (a + b <= 0.0) return;
   for (int c = 0; c < 3; ++c)
-    under[c] = static_cast<std::uint8_t>((over[c] * a + under[c] * b) / (a + b) + 0.5);
-  under[3] = static_cast<std::uint8_t>((a + b) * 255.0 + 0.5);
+    under[c] = static_cast<std::uint8_t>(std::lround((over[c] * a + under[c] * b) / (a + b)));
+  under[3] = static_cast<std::uint8_t>(std::lround((a + b) * 255.0));
 }
 
 void paint(std::vector<std::uint8_t>& canvas, const Cell& cell) {
