@@ -73,6 +73,15 @@ add_test(NAME window.screens COMMAND ${CMAKE_SOURCE_DIR}/tests/window/screens_te
 set_tests_properties(window.screens PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_test(NAME window.dig COMMAND ${CMAKE_SOURCE_DIR}/tests/window/dig_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.dig PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
+add_test(NAME window.view COMMAND ${CMAKE_SOURCE_DIR}/tests/window/view_test.sh $<TARGET_FILE:skerry>)
+set_tests_properties(window.view PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
+add_library(skerry_virtual_pad MODULE EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/window/virtual_pad.cpp)
+target_link_libraries(skerry_virtual_pad PRIVATE skerry_options glfw)
+if(test_sources)
+  add_dependencies(skerry_tests skerry_virtual_pad)
+endif()
+add_test(NAME window.pad COMMAND ${CMAKE_SOURCE_DIR}/tests/window/pad_test.sh $<TARGET_FILE:skerry> $<TARGET_FILE:skerry_virtual_pad>)
+set_tests_properties(window.pad PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_test(NAME window.end COMMAND ${CMAKE_SOURCE_DIR}/tests/window/end_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.end PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 
@@ -94,6 +103,10 @@ endif()
 add_test(NAME image.same_bytes COMMAND ${CMAKE_SOURCE_DIR}/tests/image/same_bytes_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/image/same_bytes)
 set_tests_properties(image.same_bytes PROPERTIES TIMEOUT 300)
+
+# The package, made and unpacked.
+add_test(NAME package.deb COMMAND ${CMAKE_SOURCE_DIR}/tests/package/package_test.sh ${CMAKE_BINARY_DIR})
+set_tests_properties(package.deb PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 
 # Extremes against their bounds, as the program itself runs them.
 add_test(NAME stability.all COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/stability_test.py

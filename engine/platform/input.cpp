@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace skerry::platform {
 namespace {
@@ -59,10 +60,15 @@ float InputFrame::value(Key key) const {
   return down(key) ? 1.0f : 0.0f;
 }
 
-Key InputFrame::any_pressed() const {
-  for (std::size_t i = 1; i < pressed_.size(); ++i)
-    if (pressed_[i]) return static_cast<Key>(i);
-  return Key::kNone;
+int InputFrame::presses(Key key) const {
+  return static_cast<int>(
+      std::count_if(events.begin(), events.end(),
+                    [key](const InputEvent& event) { return event.key == key && event.down; }));
+}
+
+void Input::note(InputEvent event) {
+  event.pointer = frame_.pointer;
+  if (frame_.events.size() < InputFrame::kMaxEvents) frame_.events.push_back(event);
 }
 
 void Input::set_key(Key key, bool down) {
@@ -70,23 +76,32 @@ void Input::set_key(Key key, bool down) {
   if (down == frame_.down_[i]) return;  // key repeat
   frame_.down_[i] = down;
   (down ? frame_.pressed_ : frame_.released_)[i] = true;
+  note({key, down});
 }
 
-void Input::move_pointer(glm::dvec2 place) {
-  if (pointer_known_) frame_.mouse_delta += place - pointer_;
+glm::dvec2 Input::move_pointer(glm::dvec2 place) {
+  const glm::dvec2 delta = pointer_known_ ? place - pointer_ : glm::dvec2(0.0);
+  frame_.mouse_delta += delta;
+  place_pointer(place);
+  return delta;
+}
+
+void Input::place_pointer(glm::dvec2 place) {
   pointer_ = place;
   frame_.pointer = place;
   pointer_known_ = true;
 }
 
 void Input::add_scroll(double notches) {
+  if (notches == 0.0) return;
   frame_.scroll += notches;
-  const auto way = InputFrame::index(notches > 0.0 ? Key::kWheelUp : Key::kWheelDown);
-  if (notches != 0.0) frame_.pressed_[way] = frame_.released_[way] = true;
+  const Key way = notches > 0.0 ? Key::kWheelUp : Key::kWheelDown;
+  frame_.pressed_[InputFrame::index(way)] = frame_.released_[InputFrame::index(way)] = true;
+  note({way, true, static_cast<float>(std::abs(notches))});
 }
 
 void Input::type(char32_t character) {
-  if (frame_.text.size() < InputFrame::kMaxTyped) frame_.text.push_back(character);
+  note({Key::kNone, false, 1.0f, character});
 }
 
 void Input::set_axis(std::size_t axis, float value) {
@@ -110,10 +125,10 @@ void Input::set_pad(const std::optional<PadState>& pad) {
 }
 
 void Input::lose_focus() {
-  frame_.released_ |= frame_.down_;
-  frame_.down_.reset();
+  for (std::size_t i = 0; i < frame_.down_.size(); ++i)
+    if (frame_.down_[i]) set_key(static_cast<Key>(i), false);
   frame_.axes_.fill(0.0f);
-  frame_.text.clear();
+  std::erase_if(frame_.events, [](const InputEvent& event) { return event.key == Key::kNone; });
   reset_pointer();
 }
 
@@ -125,13 +140,17 @@ void HeldBack::hold(const InputFrame& frame) {
 InputFrame HeldBack::filtered(InputFrame frame) {
   const InputFrame::Keys hidden = keys_;
   keys_ &= frame.down_;
+  frame.was_down_ &= ~hidden;
   frame.down_ &= ~hidden;
   frame.pressed_ &= ~hidden;
   frame.released_ &= ~hidden;
   for (std::size_t i = 0; i < frame.axes_.size(); ++i)
     if (hidden[InputFrame::kFirstAxis + i]) frame.axes_[i] = 0.0f;
   // A key that is held goes on typing.
-  if (text_ || hidden.any()) frame.text.clear();
+  const bool types = !text_ && hidden.none();
+  std::erase_if(frame.events, [&](const InputEvent& event) {
+    return event.key == Key::kNone ? !types : hidden[InputFrame::index(event.key)];
+  });
   if (text_) {
     frame.scroll = 0.0;
     frame.mouse_delta = {};
@@ -141,9 +160,8 @@ InputFrame HeldBack::filtered(InputFrame frame) {
 }
 
 InputFrame Input::take() {
-  const InputFrame taken = frame_;
-  frame_ = {};
-  frame_.down_ = taken.down_;
+  InputFrame taken = std::exchange(frame_, {});
+  frame_.was_down_ = frame_.down_ = taken.down_;
   frame_.axes_ = taken.axes_;
   frame_.pointer = taken.pointer;
   frame_.pad = taken.pad;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace skerry::platform {
 
@@ -49,6 +50,15 @@ struct PadState {
   std::array<float, 6> axes{};  ///< left x, y, right x, y: -1 left or up .. 1; triggers: -1 .. 1
 };
 
+/// One thing that happened, in a frame's order.
+struct InputEvent {
+  Key key = Key::kNone;    ///< that went down or up; kNone: a character was typed
+  bool down = false;       ///< or up; the wheel's ways only go down
+  float amount = 1.0f;     ///< notches of the wheel; 1 for all else
+  char32_t character = 0;  ///< typed
+  glm::dvec2 pointer{};    ///< where the pointer was then, as InputFrame::pointer
+};
+
 /// What happened since the frame before.
 class InputFrame {
  public:
@@ -57,19 +67,21 @@ class InputFrame {
     return pressed_[index(key)];
   }  ///< went down during it, even if it is up again
   bool released(Key key) const { return released_[index(key)]; }  ///< went up during it
+  int presses(Key key) const;  ///< how often it went down during it
+  bool was_down(Key key) const { return was_down_[index(key)]; }  ///< held when it began
   /// How far: 0 .. 1 for sticks (beyond their dead zone) and triggers, notches of the wheel, 0 or 1
   /// for all else.
   float value(Key key) const;
-  /// The first, in the enumeration's order, that went down during the frame; none: kNone.
-  Key any_pressed() const;
 
   glm::dvec2 mouse_delta{};  ///< pixels, right and down
   glm::dvec2 pointer{};      ///< from the picture's upper left corner [pixels]
   double scroll = 0.0;       ///< notches, up is positive
-  std::u32string text;       ///< characters typed, at most kMaxTyped
   bool pad = false;          ///< a gamepad is plugged in
+  /// In order, at most kMaxEvents; more change what is held at the end of the frame, but were not
+  /// seen to happen.
+  std::vector<InputEvent> events;
 
-  static constexpr std::size_t kMaxTyped = 256;
+  static constexpr std::size_t kMaxEvents = 1024;
 
  private:
   friend class Input;
@@ -78,7 +90,7 @@ class InputFrame {
   static constexpr std::size_t kFirstAxis = static_cast<std::size_t>(Key::kPadLeftStickLeft);
   static constexpr std::size_t kAxes = static_cast<std::size_t>(Key::kCount) - kFirstAxis;
   static std::size_t index(Key key) { return static_cast<std::size_t>(key); }
-  Keys down_, pressed_, released_;
+  Keys was_down_, down_, pressed_, released_;
   std::array<float, kAxes> axes_{};
 };
 
@@ -87,7 +99,12 @@ class Input {
  public:
   void set_key(Key key, bool down);
   /// The pointer is at (x, y). The first place after reset_pointer() is no motion.
-  void move_pointer(glm::dvec2 place);
+  /// @return how far it moved.
+  glm::dvec2 move_pointer(glm::dvec2 place);
+  /// So much of what moved was no motion after all.
+  void take_back_motion(glm::dvec2 delta) { frame_.mouse_delta -= delta; }
+  /// It was put there by somebody else than the player's hand: no motion.
+  void place_pointer(glm::dvec2 place);
   void reset_pointer() { pointer_known_ = false; }
   void add_scroll(double notches);
   void type(char32_t character);
@@ -100,6 +117,7 @@ class Input {
 
  private:
   void set_axis(std::size_t axis, float value);
+  void note(InputEvent event);
   InputFrame frame_;
   glm::dvec2 pointer_{};
   bool pointer_known_ = false;

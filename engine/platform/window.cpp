@@ -86,8 +86,17 @@ std::optional<KeyPair> key_of(int glfw_key) {
   return std::nullopt;
 }
 
+WindowEvents& events_of(GLFWwindow* handle) {
+  return *static_cast<WindowEvents*>(glfwGetWindowUserPointer(handle));
+}
 Input& input_of(GLFWwindow* handle) {
-  return *static_cast<Input*>(glfwGetWindowUserPointer(handle));
+  return events_of(handle).input;
+}
+void on_disturbance(GLFWwindow* handle, int) {
+  events_of(handle).disturb(glfwGetTime());
+}
+void on_displacement(GLFWwindow* handle, int, int) {
+  events_of(handle).disturb(glfwGetTime());
 }
 
 void on_key(GLFWwindow* handle, int key, int, int action, int) {
@@ -109,13 +118,14 @@ void on_character(GLFWwindow* handle, unsigned character) {
 }
 
 void on_pointer(GLFWwindow* handle, double x, double y) {
-  input_of(handle).move_pointer({x, y});
+  events_of(handle).move_pointer({x, y}, glfwGetTime());
 }
 void on_scroll(GLFWwindow* handle, double, double y) {
   input_of(handle).add_scroll(y);
 }
 void on_focus(GLFWwindow* handle, int focused) {
   if (!focused) input_of(handle).lose_focus();
+  on_disturbance(handle, focused);
 }
 
 /// The first gamepad that has a known layout.
@@ -166,6 +176,27 @@ void look_for_named_displays() {
 
 }  // namespace
 
+void WindowEvents::disturb(double now_s) {
+  polls_left_ = kPolls;
+  settled_s_ = now_s + kSettling;
+  for (const Motion& motion : recent_) input.take_back_motion(motion.delta);
+  recent_.clear();
+}
+
+void WindowEvents::move_pointer(glm::dvec2 place, double now_s) {
+  const bool settled = polls_left_ == 0 && now_s >= settled_s_;
+  if (!settled) return input.place_pointer(place);
+  recent_.push_back({input.move_pointer(place), now_s});
+}
+
+void WindowEvents::end_poll(double now_s) {
+  polls_left_ = std::max(0, polls_left_ - 1);
+  for (Motion& motion : recent_) ++motion.polls;
+  while (!recent_.empty() && recent_.front().polls >= kPolls &&
+         now_s - recent_.front().at_s > kSettling)
+    recent_.pop_front();
+}
+
 Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
   look_for_named_displays();
   if (!glfwInit()) {
@@ -197,13 +228,17 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
 }
 
 Window::Window(GLFWwindow* handle) : handle_(handle) {
-  glfwSetWindowUserPointer(handle_, &input_);
+  glfwSetWindowUserPointer(handle_, &events_);
   glfwSetKeyCallback(handle_, on_key);
   glfwSetCharCallback(handle_, on_character);
   glfwSetMouseButtonCallback(handle_, on_button);
   glfwSetCursorPosCallback(handle_, on_pointer);
   glfwSetScrollCallback(handle_, on_scroll);
   glfwSetWindowFocusCallback(handle_, on_focus);
+  glfwSetWindowIconifyCallback(handle_, on_disturbance);
+  glfwSetWindowMaximizeCallback(handle_, on_disturbance);
+  glfwSetWindowPosCallback(handle_, on_displacement);
+  glfwSetWindowSizeCallback(handle_, on_displacement);
 }
 
 Window::~Window() {
@@ -232,13 +267,17 @@ InputFrame Window::poll(double wait_s) {
     glfwPollEvents();
   }
   // A pad's owner may be busy in another window.
-  if (focused()) input_.set_pad(pad_state());
-  InputFrame frame = input_.take();
+  if (focused()) events_.input.set_pad(pad_state());
+  events_.end_poll(glfwGetTime());
+  InputFrame frame = events_.input.take();
   int width = 0, height = 0;
   glfwGetWindowSize(handle_, &width, &height);
   const FramebufferSize pixels = framebuffer_size();
-  if (width > 0 && height > 0)
-    frame.pointer *= glm::dvec2(pixels.width, pixels.height) / glm::dvec2(width, height);
+  if (width > 0 && height > 0) {
+    const glm::dvec2 scale = glm::dvec2(pixels.width, pixels.height) / glm::dvec2(width, height);
+    frame.pointer *= scale;
+    for (InputEvent& event : frame.events) event.pointer *= scale;
+  }
   return frame;
 }
 
@@ -277,7 +316,7 @@ void Window::capture_pointer(bool captured) {
   captured_ = captured;
   glfwSetInputMode(handle_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   if (glfwRawMouseMotionSupported()) glfwSetInputMode(handle_, GLFW_RAW_MOUSE_MOTION, captured);
-  input_.reset_pointer();
+  events_.disturb(glfwGetTime());
 }
 
 void Window::toggle_fullscreen() {

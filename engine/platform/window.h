@@ -2,6 +2,7 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +22,35 @@ struct WindowOptions {
 struct FramebufferSize {
   std::uint32_t width = 0, height = 0;  ///< pixels; 0 while minimised
   bool operator==(const FramebufferSize&) const = default;
+};
+
+/// What GLFW's callbacks gather for a window.
+class WindowEvents {
+ public:
+  Input input;
+
+  /// The window moved, changed its size, came, went or captured the pointer. About that time GLFW,
+  /// the window manager and the server put the pointer to other places (a warp to the window's
+  /// middle, a constraint to its contents), and nothing distinguishes their events from a hand's.
+  /// They come before this is told, or after: what moved the pointer just now is taken back.
+  void disturb(double now_s);
+  /// The pointer is at a place of the window.
+  void move_pointer(glm::dvec2 place, double now_s);
+  /// All events of a poll have been taken in.
+  void end_poll(double now_s);
+
+ private:
+  // The shortest time, and the fewest polls, this one included, to either side of a disturbance.
+  static constexpr int kPolls = 2;
+  static constexpr double kSettling = 0.1;  // seconds
+  int polls_left_ = 0;
+  double settled_s_ = 0.0;
+  struct Motion {
+    glm::dvec2 delta{};
+    double at_s = 0.0;
+    int polls = 0;  // that have ended since
+  };
+  std::deque<Motion> recent_;  // oldest first
 };
 
 /// The program's one window. Main thread only.
@@ -66,7 +96,7 @@ class Window {
     int x = 0, y = 0, width = 0, height = 0;
   };
   GLFWwindow* handle_;
-  Input input_;
+  WindowEvents events_;
   bool captured_ = false;
   Placement windowed_;
 };

@@ -9,6 +9,7 @@
 #include "engine/core/log.h"
 #include "game/client/preferences.h"
 #include "game/pace/learnt_costs.h"
+#include "game/ui/look.h"
 
 namespace skerry::game {
 namespace {
@@ -20,6 +21,7 @@ constexpr double kScreensShare =
     5.0;  // times what the world behind takes, for the screen before it
 constexpr double kBehindScreens = 1.0 / 30.0;  // seconds, the fewest, between frames of the world
                                                // behind a screen
+constexpr double kUnfocusedUntilPause = 0.3;  // seconds
 
 ui::Clipboard clipboard_of(platform::Window& window) {
   return {[&window] { return window.clipboard(); },
@@ -45,6 +47,7 @@ App::App(platform::Window& window, gpu::Device& device, const SceneOptions& opti
   ReadBindings read = load_bindings(bindings_path());
   for (std::string& problem : read.problems) say(std::move(problem));
   bindings_ = std::move(read.bindings);
+  hints_ = load_hints(hints_path());
 }
 
 Result<void> App::start(VkSurfaceKHR surface, bool at_title) {
@@ -95,11 +98,7 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   if (world_) world_->note_frame(seconds);
   act(input, std::min(seconds, kLongestFrame));
   const auto layout = [&](VkExtent2D size) { return lay_out(size, input, seconds); };
-  if (pictures_shown_ != pictures_.version()) {
-    const ui::PictureView view{ui::Pictures::kWidth, ui::Pictures::kHeight, pictures_.pixels()};
-    if (const auto done = presenter_->set_pictures(view); !done) return done.error();
-    pictures_shown_ = pictures_.version();
-  }
+  if (const auto done = show_new_images(input); !done) return done.error();
   wishes_ = {};
   const Result<bool> drawn = draw(seconds, layout);
   if (!drawn) return drawn;
@@ -120,10 +119,26 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   return drawn;
 }
 
+/// Brings pictures and glyphs to the device that it does not have yet.
+Result<void> App::show_new_images(const platform::InputFrame& input) {
+  gui_.expect(input);
+  for (const ui::Messages::Line& message : messages_.lines()) gui_.expect(message.text);
+  if (gui_.fit_font())
+    if (const auto done = presenter_->set_font(gui_.font()); !done) return done;
+  if (pictures_shown_ != pictures_.version()) {
+    const ui::PictureView view{ui::Pictures::kWidth, ui::Pictures::kHeight, pictures_.pixels()};
+    if (const auto done = presenter_->set_pictures(view); !done) return done.error();
+    pictures_shown_ = pictures_.version();
+  }
+  return {};
+}
+
 void App::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, bindings_);
   if (actions.pressed(Action::kFullscreen) && !gui_.typing()) window_.toggle_fullscreen();
+  if (world_ && screens_.stack.empty()) hints_.note(actions);
   act_on_screens(input, actions);
+  pause_unattended(seconds);
   messages_.pass(seconds);
   const bool flies = screens_.stack.top() == Screen::kPhoto && photo_settings_.bare;
   window_.capture_pointer(world_ && (screens_.stack.empty() || flies) && window_.focused());
@@ -145,6 +160,9 @@ void App::act(const platform::InputFrame& input, double seconds) {
   else
     world_->set_photo(std::nullopt);
   for (std::string& line : world_->take_messages()) messages_.say(std::move(line));
+  if (!world_->take_settings_changed()) return;
+  settings_changed_ = true;
+  follow_settings();
 }
 
 void App::act_on_screens(const platform::InputFrame& input, const ActionFrame& actions) {
@@ -160,7 +178,17 @@ void App::act_on_screens(const platform::InputFrame& input, const ActionFrame& a
   back_ = ui::goes_back(screens_, input);
   if (!back_) return;
   if (std::exchange(photo_settings_.bare, false)) return;
-  ui::go_back(screens_, gui_.typing());
+  ui::go_back(screens_);
+}
+
+/// Who works in another window does not play in this one. A change of the window itself may take
+/// the focus away for a moment.
+void App::pause_unattended(double seconds) {
+  attended_ |= window_.focused();
+  unfocused_s_ = window_.focused() ? 0.0 : unfocused_s_ + seconds;
+  if (!attended_ || unfocused_s_ < kUnfocusedUntilPause) return;
+  attended_ = false;
+  if (world_ && world_goes_on(screens_.stack)) open(Screen::kPause);
 }
 
 void App::fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
@@ -249,12 +277,15 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
   gui_.begin({size.width, size.height, seconds, fed ? &input : nullptr});
   if (world_ && !hud_hidden_ && world_goes_on(screens_.stack)) {
     ui::HudFacts facts = world_->hud();
+    facts.hint = hints_.line(bindings_, input.pad);
     facts.choosing = screens_.stack.top() == Screen::kPalette;
     ui::show_hud(facts, pictures_);
   }
   if (world_ && screens_.stack.empty()) world_->show_numbers();
+  if (!bare) ui::keep_foot_clear(ui::show_messages(messages_, !world_goes_on(screens_.stack)));
   ui::show_screens(screens_, screen_facts(input), wishes_);
-  if (!bare) ui::show_messages(messages_);
+  if (std::string refusal = gui_.take_refusal(); !refusal.empty())
+    messages_.say(std::move(refusal));
   return gui_.end();
 }
 

@@ -16,6 +16,7 @@
 #include "game/client/play_loop.h"
 #include "game/client/presenter.h"
 #include "game/input/actions.h"
+#include "game/input/hints.h"
 #include "game/input/photo_camera.h"
 #include "game/scene_file/options.h"
 #include "game/ui/gui.h"
@@ -43,8 +44,10 @@ class App {
   Result<bool> frame(const platform::InputFrame& input, double seconds);
   void act(const platform::InputFrame& input, double seconds);
   void act_on_screens(const platform::InputFrame& input, const ActionFrame& actions);
+  void pause_unattended(double seconds);
   void fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
                         double seconds);
+  Result<void> show_new_images(const platform::InputFrame& input);
   Result<bool> draw(double seconds, const PlayLoop::Layout& layout);
   Result<bool> draw_backdrop(const PlayLoop::Layout& layout);
   Result<bool> show_again(const PlayLoop::Layout& layout);
@@ -83,6 +86,7 @@ class App {
   gpu::Device& device_;
   SceneOptions base_;  // of what is played next; settings follow the player's choice
   Bindings bindings_;
+  Hints hints_;
   ui::Gui gui_;
   ui::Pictures pictures_;
   std::uint64_t pictures_shown_ = 0;  // their version on the device
@@ -115,7 +119,9 @@ class App {
   bool still_ = false;                                        // the last frame drew a screen alone
   bool settings_changed_ = false, bindings_changed_ = false;  // since they were saved
   bool hud_hidden_ = false;
-  bool back_ = false;  // this frame's input closes what is topmost
+  bool attended_ = false;  // the window has had the focus since the last pause that losing it made
+  double unfocused_s_ = 0.0;  // for so long it has not had it
+  bool back_ = false;         // this frame's input closes what is topmost
 };
 
 }  // namespace skerry::game

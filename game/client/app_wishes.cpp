@@ -139,7 +139,10 @@ Result<void> App::play(const SceneOptions& asked, std::unique_ptr<SessionClient>
   if (!view) return view.error();
   (*view)->renderer().foresee_programs();
   world_path_ = options.world;
-  world_name_ = session->joined().world.name;
+  const world::WorldInfo& info = session->joined().world;
+  world_name_ = info.name;
+  for (const std::string* shown : {&info.name, &info.seed_text, &asked.seed_text})
+    gui_.expect(*shown);
   world_ = std::make_unique<PlayLoop>(Machine{window_, device_, *presenter_}, bindings_, options,
                                       std::move(session), *std::move(view));
   costs_ = {};
@@ -212,6 +215,8 @@ void App::keep_settings() {
   if (std::exchange(settings_changed_, false))
     if (const auto saved = save_preferences(preferences_path(), base_); !saved)
       say(saved.error().message);
+  if (hints_.take_changed())
+    if (const auto saved = save_hints(hints_path(), hints_); !saved) say(saved.error().message);
   if (std::exchange(bindings_changed_, false))
     if (const auto saved = save_bindings(bindings_path(), bindings_); !saved)
       say(saved.error().message);
@@ -242,6 +247,8 @@ void App::list_again() {
         card.thumbnail = slot++;
       }
     }
+    for (const std::string* shown : {&card.name, &card.seed_text, &card.problem})
+      gui_.expect(*shown);
     cards_.push_back(std::move(card));
   }
 }

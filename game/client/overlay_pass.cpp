@@ -41,20 +41,25 @@ Result<gpu::Image> make_image(gpu::Device& device, const char* name, VkFormat fo
        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
 }
 
+Result<gpu::Image> upload_font(gpu::Device& device, const ui::FontAtlas& font) {
+  Result<gpu::Image> glyphs =
+      make_image(device, "overlay_font", VK_FORMAT_R8_UNORM, font.width, font.height);
+  if (!glyphs) return glyphs;
+  gpu::Uploader uploader(device, gpu::UploadPath::kUpdateBuffer);
+  if (const auto done = uploader.fill_image(*glyphs, std::as_bytes(font.texels)); !done)
+    return done.error();
+  return glyphs;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<OverlayPass>> OverlayPass::create(gpu::Device& device,
                                                          const ui::OverlayImages& images) {
-  const ui::FontAtlas& font = images.font;
-  Result<gpu::Image> glyphs =
-      make_image(device, "overlay_font", VK_FORMAT_R8_UNORM, font.width, font.height);
+  Result<gpu::Image> glyphs = upload_font(device, images.font);
   if (!glyphs) return glyphs.error();
   Result<gpu::Image> pictures = make_image(device, "overlay_pictures", VK_FORMAT_R8G8B8A8_UNORM,
                                            images.pictures.width, images.pictures.height);
   if (!pictures) return pictures.error();
-  gpu::Uploader uploader(device, gpu::UploadPath::kUpdateBuffer);
-  if (const auto done = uploader.fill_image(*glyphs, std::as_bytes(font.texels)); !done)
-    return done.error();
   const Result<VkSampler> sampler = device.sampler({});
   if (!sampler) return sampler.error();
   std::unique_ptr<OverlayPass> pass(
@@ -72,6 +77,13 @@ Result<void> OverlayPass::set_pictures(const ui::PictureView& pictures) {
                 static_cast<std::uint32_t>(pictures.height) == pictures_.desc().extent.height);
   gpu::Uploader uploader(device_, gpu::UploadPath::kUpdateBuffer);
   return uploader.fill_image(pictures_, std::as_bytes(pictures.pixels));
+}
+
+Result<void> OverlayPass::set_font(const ui::FontAtlas& font) {
+  Result<gpu::Image> glyphs = upload_font(device_, font);
+  if (!glyphs) return glyphs.error();
+  font_ = *std::move(glyphs);
+  return {};
 }
 
 Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,

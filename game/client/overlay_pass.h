@@ -25,6 +25,9 @@ class OverlayPass {
   /// Others in place of the pictures, of the same size; waits for the GPU. Errors: no memory.
   Result<void> set_pictures(const ui::PictureView& pictures);
 
+  /// Another font, of any size; waits for the GPU. Errors: no memory; the old one stays.
+  Result<void> set_font(const ui::FontAtlas& font);
+
   /// Adds the pass "overlay". @param picture drawn over, format VK_FORMAT_R8G8B8A8_UNORM. @param
   /// slot 0 .. kSlots - 1; the frame that used it last must have completed. @return the picture's
   /// new version. Errors: no memory.

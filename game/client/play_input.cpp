@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <utility>
 
 #include "engine/core/log.h"
 #include "engine/render/frame/exposure.h"
+#include "game/client/island_name.h"
 #include "game/client/play_loop.h"
 
 namespace skerry::game {
@@ -16,7 +18,11 @@ namespace {
 constexpr double kDayTurn = 1800.0;  // seconds of day a second that T or Y is held
 constexpr double kDayRate =
     24.0;  // seconds of day a second when it is left alone: a day is an hour
-constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
+// An island that is driven and slower than these is held; engines bring it beyond them in 0.1 s.
+constexpr double kHeldSpeed = 0.05;                   // blocks/s
+constexpr double kHeldTurn = 1e-12;                   // 1 - cos of half the angle of a frame
+constexpr double kHeldAfter = 0.6, kBumpSpeed = 1.5;  // seconds; blocks/s
+constexpr double kFlySpeedNotch = 1.25;               // factor a notch of the wheel
 
 }  // namespace
 
@@ -65,10 +71,11 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
   if (actions.pressed(Action::kCalibrate)) calibrating_ = !calibrating_;
   if (actions.pressed(Action::kFreezeCulling)) culling_frozen_ = !culling_frozen_;
   using platform::Key;
+  const render::DisplaySettings display = settings.render.display;
   if (calibrating_)
-    settings.render.display = stepped_display(
-        settings.render.display, input.pressed(Key::kRight) - input.pressed(Key::kLeft),
-        input.pressed(Key::kUp) - input.pressed(Key::kDown));
+    settings.render.display =
+        stepped_display(display, input.presses(Key::kRight) - input.presses(Key::kLeft),
+                        input.presses(Key::kUp) - input.presses(Key::kDown));
   const auto steps = [&](Action more, Action less) {
     return actions.presses(more) - actions.presses(less);
   };
@@ -79,7 +86,9 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
     scene_.quality_auto = false;
     scene_.quality = stepped_quality(scene_.quality, better);
     set_quality(scene_.quality, settings);
+    said_.push_back(fmt::format("Quality: {}", quality_level(scene_.quality).name));
   }
+  settings_changed_ |= farther != 0 || better != 0 || settings.render.display != display;
   const double later = actions.value(Action::kLater) - actions.value(Action::kEarlier);
   if (actions.pressed(Action::kStopDay)) day_stands_ = !day_stands_;
   if (later != 0.0) day_.turn(later * kDayTurn * seconds);
@@ -107,7 +116,7 @@ Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
       helm_.reset();
     } else if (player_.frame_island()) {
       helm_ = player_.frame_island();
-      helm_speed_ = 0.0;
+      helm_speed_ = helm_held_s_ = 0.0;
       said_.emplace_back("At the helm: forward and back drive, left and right turn");
     } else {
       said_.emplace_back("Stand on an island to take its helm");
@@ -116,6 +125,7 @@ Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
   if (!helm_) return intent;
   const double yaw = glm::radians(player_.state().yaw_deg);  // in the island's axes
   const glm::dvec3 ahead{std::sin(yaw), 0.0, std::cos(yaw)};
+  helm_driven_ = intent.move != glm::dvec2(0.0) || intent.rise != 0.0;
   session_->send(
       Steer{*helm_, ahead * intent.move.y + glm::dvec3{0.0, intent.rise, 0.0}, -intent.move.x});
   if (player_.frame_island() != helm_) {  // fell off, or was taken off
@@ -130,14 +140,39 @@ void PlayLoop::go_on(double seconds, const Intent& intent) {
   // First the islands, then the player by the time that has passed for them: their ticks ask where
   // islands are at their ends.
   const double before_s = session_->time_s();
+  const auto helm_before = helm_ ? view_->world().pose(*helm_, before_s) : std::nullopt;
   session_->advance(seconds);
   hear_session();
+  watch_helm(helm_before, session_->time_s() - before_s);
   const int returns = player_.returns();
   player_.advance(session_->time_s() - before_s, intent, around_);
   if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
   scene_.camera = player_.eye(around_);
   tell_session();  // before edits are asked for: the session decides their reach by where the
                    // player is now
+}
+
+bool PlayLoop::held_fast() const {
+  return helm_held_s_ >= kHeldAfter;
+}
+
+/// What an island that is steered does, told by its place: one that another bars the way keeps the
+/// speed that its engines gave it, and stays where it is.
+void PlayLoop::watch_helm(const std::optional<world::Pose>& before, double seconds) {
+  const auto now = helm_ ? view_->world().pose(*helm_, session_->time_s()) : std::nullopt;
+  if (!before || !now || seconds <= 0.0) return;
+  const double speed = glm::length(world::difference_blocks(now->origin, before->origin)) / seconds;
+  const double turned = 1.0 - std::abs(glm::dot(now->rotation, before->rotation));
+  const bool stands = speed < kHeldSpeed && turned < kHeldTurn;
+  if (helm_speed_ > kBumpSpeed && speed < 0.25 * helm_speed_)
+    said_.push_back(fmt::format("{} bumped into something at {:.0f} blocks/s", island_name(*helm_),
+                                helm_speed_));
+  helm_speed_ = speed;
+  const bool was_held = held_fast();
+  helm_held_s_ = stands && helm_driven_ ? helm_held_s_ + seconds : 0.0;
+  if (held_fast() && !was_held)
+    said_.push_back(fmt::format("{} is held fast by another island: back off, rise or turn",
+                                island_name(*helm_)));
 }
 
 /// Where the player is, and all else that a saved play keeps.
@@ -158,12 +193,9 @@ void PlayLoop::hear_session() {
       log_warning(notice->text);
       said_.push_back(notice->text);
     }
-    if (const auto* moved = std::get_if<IslandsMoved>(&answer)) {
-      for (const world::MovingIsland& move : moved->moves)
-        if (move.island == helm_) helm_speed_ = glm::length(move.state.velocity);
-    }
     if (const auto* island = std::get_if<IslandIs>(&answer); island && island->blocks > 1)
-      said_.push_back(fmt::format("{} blocks broke off", island->blocks));
+      said_.push_back(fmt::format("{} blocks broke off and drift away: {}, an island of its own",
+                                  island->blocks, island_name(island->spec.id)));
   }
 }
 

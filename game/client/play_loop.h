@@ -75,6 +75,8 @@ class PlayLoop {
   const DayClock& day() const { return day_; }
   std::optional<double> exposure_ev() const { return exposure_ev_; }
 
+  /// Whether keys have changed settings since the last call.
+  bool take_settings_changed() { return std::exchange(settings_changed_, false); }
   /// Lines for the player since the last call.
   std::vector<std::string> take_messages() { return std::exchange(said_, {}); }
 
@@ -93,10 +95,14 @@ class PlayLoop {
   void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
   Intent steer(const ActionFrame& actions, const Intent& intent);
   void go_on(double seconds, const Intent& intent);
+  bool held_fast() const;
+  void watch_helm(const std::optional<world::Pose>& before, double seconds);
   void hear_session();
   void use_hands(const ActionFrame& actions, double seconds);
   void tell_session();
   void take_screenshot();
+  /// The world's name and seed, short enough for a title.
+  std::string world_label() const;
   std::vector<std::string> overlay_lines() const;
   SceneView::Moment moment() const;
 
@@ -110,7 +116,9 @@ class PlayLoop {
   Player player_;
   WorldSurroundings around_;
   std::optional<std::uint64_t> helm_;  // the island that is steered
-  double helm_speed_ = 0.0;            // of it [blocks/s]
+  bool helm_driven_ = false;           // by what is pressed now
+  double helm_speed_ = 0.0;            // of it, as its place changes [blocks/s]
+  double helm_held_s_ = 0.0;           // for so long it has been driven and not moved
   Interaction hands_;
   bool hands_free_ = false;  // captured, and no button held from before that
   DayClock day_;
@@ -122,6 +130,7 @@ class PlayLoop {
   bool day_stands_ = false;
   bool rests_ = false;  // the last frame did
   bool screenshot_wanted_ = false;
+  bool settings_changed_ = false;
   std::vector<std::string> said_;
   std::string quality_line_;
   std::vector<float> frame_ms_;

@@ -2,18 +2,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "game/client/island_name.h"
 #include "game/client/play_loop.h"
+#include "game/ui/gui.h"
 
 namespace skerry::game {
 namespace {
 
 constexpr double kTitlePeriod = 0.5;      // seconds
 constexpr std::size_t kFramesKept = 240;  // for the overlay's graph
+constexpr std::size_t kLabelBytes = 40;   // of a name or a seed, where there is little room
+
+std::string brief(const std::string& text) {
+  std::string out = ui::pasted_text(text, kLabelBytes);
+  return out.size() == text.size() ? out : out + "...";
+}
 
 }  // namespace
+
+std::string PlayLoop::world_label() const {
+  const world::WorldInfo& info = session_->joined().world;
+  const bool saved = !info.name.empty();
+  if (!saved && scene_.world) return brief(std::filesystem::path(*scene_.world).filename());
+  const std::string& seed = saved ? info.seed_text : scene_.seed_text;
+  std::string label = brief(info.name);
+  if (!seed.empty()) label += (saved ? ", seed " : "seed ") + brief(seed);
+  return label;
+}
 
 void PlayLoop::note_frame(double seconds) {
   if (frame_ms_.size() == kFramesKept) frame_ms_.erase(frame_ms_.begin());
@@ -22,15 +40,16 @@ void PlayLoop::note_frame(double seconds) {
   if (since_title_s_ < kTitlePeriod) return;
   since_title_s_ = 0.0;
   const double fps = 1000.0 / std::max(spread_of_frames(frame_ms_).median, 1e-3f);
-  window_.set_title(fmt::format("Skerry - seed {} - {:.0f} fps", scene_.seed_text, fps));
+  window_.set_title(fmt::format("Skerry - {} - {:.0f} fps", world_label(), fps));
 }
 
 std::vector<std::string> PlayLoop::overlay_lines() const {
   const CameraPlace& eye = *scene_.camera;
   const world::Streamer::Stats stream = view_->streamer().stats();
   std::vector<std::string> lines{
-      fmt::format("seed {}   {}x{}   {}", scene_.seed_text, presenter_.extent().width,
-                  presenter_.extent().height, device_.info().name),
+      world_label(),
+      fmt::format("{}x{}   {}", presenter_.extent().width, presenter_.extent().height,
+                  device_.info().name),
       fmt::format("x {} y {} z {}", format_blocks(eye.position.x), format_blocks(eye.position.y),
                   format_blocks(eye.position.z)),
       fmt::format("yaw {:.1f} pitch {:.1f}   {} {:.1f} blocks/s", eye.yaw_deg, eye.pitch_deg,
@@ -92,7 +111,8 @@ ui::HudFacts PlayLoop::hud() const {
   facts.time_of_day_s = day_.time_of_day_s();
   facts.place = fmt::format("{}  {}  {}", whole(feet.x), whole(feet.y), whole(feet.z));
   facts.numbers = overlay_shown_;
-  if (helm_) facts.steering = ui::HudFacts::Steering{island_name(*helm_), helm_speed_};
+  if (helm_) facts.steering = ui::HudFacts::Steering{island_name(*helm_), helm_speed_, held_fast()};
+  facts.torch = view_->settings().lights_held;
   if (!view_->complete()) facts.islands_to_come = view_->streamer().stats().tasks_left;
   facts.shaders_to_come = view_->renderer().programs_to_come();
   return facts;

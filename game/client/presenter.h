@@ -42,6 +42,8 @@ class Presenter {
   Result<void> set_pictures(const ui::PictureView& pictures) {
     return overlay_pass_->set_pictures(pictures);
   }
+  /// See OverlayPass::set_font.
+  Result<void> set_font(const ui::FontAtlas& font) { return overlay_pass_->set_font(font); }
   /// Brings a picture that is finished to the window once more, with another overlay, and presents
   /// it. Errors: no memory.
   Result<void> show_again(gpu::Image& picture, const gpu::SwapchainFrame& frame,

@@ -1,6 +1,7 @@
 #include "game/input/actions.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 
@@ -105,6 +106,16 @@ std::optional<Chord> parse_chord(std::string_view text) {
   return chord;
 }
 
+std::string chord_label(Chord chord) {
+  if (chord.key == Key::kNone) return "-";
+  std::string label = print_chord(chord);
+  constexpr std::string_view kPad = "pad_";
+  for (std::size_t at; (at = label.find(kPad)) != std::string::npos;) label.erase(at, kPad.size());
+  std::replace(label.begin(), label.end(), '_', ' ');
+  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
+}
+
 Bindings default_bindings() {
   Bindings bindings;
   for (std::size_t i = 0; i < kActions; ++i)
@@ -131,15 +142,20 @@ ActionFrame::State ActionFrame::state_of(Chord chord, const InputFrame& input,
   if (chord.key == Key::kNone) return state;
   // A key that went up does so for every chord it is in: nothing is left held.
   state.released = input.released(chord.key);
-  // Held at some moment of the frame: a quick chord may end within the frame in which it is seen.
   const Key with = control_of(chord.key);
-  const bool control = input.down(with) || input.pressed(with) || input.released(with);
   // A key alone means nothing while it may be one of a chord.
-  if (chord.control ? !control : control && is_bound(bindings, {chord.key, true})) return state;
+  const bool has_chord = !chord.control && is_bound(bindings, {chord.key, true});
+  const auto meant = [&](bool control) { return chord.control ? control : !control || !has_chord; };
+  bool control = input.was_down(with);
+  double notches = 0.0;
+  for (const platform::InputEvent& event : input.events) {
+    if (event.key == with) control = event.down;
+    if (event.key == chord.key && event.down && meant(control)) notches += event.amount;
+  }
+  if (notches > 0.0) state.presses = std::max(1, static_cast<int>(std::lround(notches)));
+  if (!meant(input.down(with))) return state;
   state.down = input.down(chord.key);
-  const double value = input.value(chord.key);
-  if (input.pressed(chord.key)) state.presses = std::max(1, static_cast<int>(std::lround(value)));
-  state.value = std::min(value, 1.0);
+  state.value = std::min(double{input.value(chord.key)}, 1.0);
   return state;
 }
 

@@ -90,6 +90,8 @@ struct Chord {
 platform::Key control_of(platform::Key key);
 std::string print_chord(Chord chord);
 std::optional<Chord> parse_chord(std::string_view text);
+/// As people read it: "Ctrl+z", "Left stick up"; "-" for none.
+std::string chord_label(Chord chord);
 
 /// How one action is reached.
 struct Binding {

@@ -1,6 +1,7 @@
 // Islands that break, and shapes of islands that move: worked out beside the frame.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 #include "game/session/session_state.h"
@@ -10,6 +11,8 @@ namespace {
 
 // Beyond so many voxels a shape is made anew rather than updated voxel by voxel.
 constexpr std::uint64_t kNamedVoxels = 4096;
+// The air stops a piece after eight times that, in blocks (world::kAirDrag).
+constexpr double kPartingSpeed = 0.4;  // blocks/s
 
 std::vector<world::IVec3> voxels_of(const world::Fragment& fragment) {
   std::vector<world::IVec3> out;
@@ -23,6 +26,14 @@ std::vector<world::IVec3> voxels_of(const world::Fragment& fragment) {
     }
   }
   return out;
+}
+
+/// What parts a piece from what it broke off: away from the middle of the old island, so that it is
+/// seen to be an island of its own. @param place in the old island's lattice.
+glm::dvec3 parting(const world::Pose& pose, glm::dvec3 place) {
+  const double far = std::sqrt(place.x * place.x + place.y * place.y + place.z * place.z);
+  const glm::dvec3 away = far > 1.0 ? place / far : glm::dvec3(0.0, 1.0, 0.0);
+  return kPartingSpeed * world::Turn::of(pose.rotation)(away);
 }
 
 }  // namespace
@@ -107,7 +118,7 @@ void Session::State::tell_break(std::uint64_t island, const world::LoosePiece& l
   }
 }
 
-/// Session thread: pieces fly on as their voxels did.
+/// Session thread: pieces fly on as their voxels did, and a little apart.
 void Session::State::take_in_pieces() {
   for (BrokenPiece& piece : pieces.take()) waiting_pieces.push_back(std::move(piece));
   for (BrokenPiece& piece : std::exchange(waiting_pieces, {})) {
@@ -119,7 +130,7 @@ void Session::State::take_in_pieces() {
     world::MotionState state;
     state.pose = {world::moved(was->pose.origin, was->pose.rotation * piece.shift),
                   was->pose.rotation};
-    state.velocity = was->velocity;
+    state.velocity = was->velocity + parting(was->pose, piece.mass.centre);
     state.spin = was->spin;
     motion.add(piece.island, state, std::move(piece.shape));
     if (const auto way = shapes.find(piece.broken_off); way != shapes.end()) {

@@ -1,9 +1,11 @@
 #include "game/ui/gui.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cfloat>
+#include <utility>
 
 #include "game/ui/look.h"
 #include "game/ui/pictures.h"
@@ -15,8 +17,10 @@ struct ClipboardCalls {
   static const char* read(void* user) {
     Gui& gui = *static_cast<Gui*>(user);
     if (gui.clipboard_.read) gui.clipboard_text_ = gui.clipboard_.read();
-    gui.clipboard_text_ = pasted_text(gui.clipboard_text_, paste_room());
-    return gui.clipboard_text_.c_str();
+    gui.clipboard_text_ = pasted_text(gui.clipboard_text_, std::string::npos);
+    gui.fonts_.want(gui.clipboard_text_.substr(0, paste_room()));
+    gui.refused_ = gui.clipboard_text_.size() > paste_room();
+    return gui.refused_ ? "" : gui.clipboard_text_.c_str();
   }
   static void write(void* user, const char* text) {
     Gui& gui = *static_cast<Gui*>(user);
@@ -95,6 +99,15 @@ FontAtlas Gui::font() const {
   return atlas;
 }
 
+void Gui::expect(const platform::InputFrame& input) {
+  for (const platform::InputEvent& event : input.events) fonts_.want(event.character);
+}
+
+bool Gui::fit_font() {
+  ImGui::SetCurrentContext(context_);
+  return fonts_.fit();
+}
+
 void Gui::begin(const GuiFrame& frame) {
   (void)font();  // NewFrame wants the atlas built
   ImGuiIO& io = ImGui::GetIO();
@@ -112,6 +125,11 @@ void Gui::begin(const GuiFrame& frame) {
 OverlayTriangles Gui::end() {
   ImGui::Render();
   return flatten(*ImGui::GetDrawData());
+}
+
+std::string Gui::take_refusal() {
+  if (!std::exchange(refused_, false)) return {};
+  return fmt::format("Not pasted: a text of {} bytes is too long here", clipboard_text_.size());
 }
 
 bool Gui::typing() const {

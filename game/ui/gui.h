@@ -1,11 +1,13 @@
 // Dear ImGui, fed with our input and drawn by our pass.
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/platform/input.h"
@@ -45,8 +47,17 @@ class Gui {
   Gui& operator=(const Gui&) = delete;
 
   FontAtlas font() const;
+  /// Text that will be shown, or is typed, and may have characters beyond Latin. What is pasted is
+  /// known.
+  void expect(std::string_view text) { fonts_.want(text); }
+  void expect(const platform::InputFrame& input);
+  /// Gives font() the characters that are expected; between frames. @return whether it is another
+  /// now.
+  bool fit_font();
   void begin(const GuiFrame& frame);
   OverlayTriangles end();
+  /// Why nothing was pasted since the last call, for the player; empty: nothing was refused.
+  std::string take_refusal();
   /// Whether the keys go into a text field, as of the last frame.
   bool typing() const;
 
@@ -57,7 +68,10 @@ class Gui {
 
   ImGuiContext* context_;
   Clipboard clipboard_;
-  std::string clipboard_text_;  // what ImGui was handed last
+  std::string clipboard_text_;  // what was asked for or copied last
+  bool refused_ = false;        // it was too long for its field
+  std::deque<platform::InputEvent>
+      queue_;  // that no frame of an ImGui without a queue has read yet
   Fonts fonts_;
   bool fed_ = true;  // in the last frame; before the first, so that keys are mapped whatever comes
 };

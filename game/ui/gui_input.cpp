@@ -1,8 +1,10 @@
 // Our input as ImGui takes it.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cfloat>
 #include <iterator>
+#include <optional>
 
 #include "game/ui/gui.h"
 #include "game/ui/look.h"
@@ -10,6 +12,7 @@
 namespace skerry::game::ui {
 namespace {
 
+using platform::InputEvent;
 using platform::InputFrame;
 using platform::Key;
 
@@ -43,9 +46,17 @@ constexpr GuiKey kGuiKeys[] = {
 };
 constexpr Key kButtons[] = {Key::kMouseLeft, Key::kMouseRight, Key::kMouseMiddle};
 
-/// Down, or tapped between two frames.
-bool held(const InputFrame& input, Key key) {
-  return input.down(key) || input.pressed(key);
+std::optional<ImGuiKey> gui_key(Key key) {
+  const auto found = std::find_if(std::begin(kGuiKeys), std::end(kGuiKeys),
+                                  [key](const GuiKey& known) { return known.ours == key; });
+  if (found == std::end(kGuiKeys)) return std::nullopt;
+  return found->theirs;
+}
+
+std::optional<int> mouse_button(Key key) {
+  const auto found = std::find(std::begin(kButtons), std::end(kButtons), key);
+  if (found == std::end(kButtons)) return std::nullopt;
+  return static_cast<int>(found - std::begin(kButtons));
 }
 
 }  // namespace
@@ -73,20 +84,28 @@ constexpr GuiKey kPadKeys[] = {
 
 }  // namespace
 
+/// ImGui has a queue of its own, and shows a frame no more of it than a frame can tell apart.
 void Gui::feed(const InputFrame& input) {
   ImGuiIO& io = ImGui::GetIO();
-  io.AddMousePosEvent(static_cast<float>(input.pointer.x), static_cast<float>(input.pointer.y));
-  for (int i = 0; i < static_cast<int>(std::size(kButtons)); ++i)
-    io.AddMouseButtonEvent(i, held(input, kButtons[i]));
+  const auto point = [&](glm::dvec2 at) {
+    io.AddMousePosEvent(static_cast<float>(at.x), static_cast<float>(at.y));
+  };
+  for (const InputEvent& event : input.events) {
+    if (event.key == Key::kNone) io.AddInputCharacter(static_cast<unsigned>(event.character));
+    if (event.key == Key::kControl) io.AddKeyEvent(ImGuiMod_Ctrl, event.down);
+    if (event.key == Key::kShift) io.AddKeyEvent(ImGuiMod_Shift, event.down);
+    if (event.key == Key::kAlt) io.AddKeyEvent(ImGuiMod_Alt, event.down);
+    if (const auto key = gui_key(event.key)) io.AddKeyEvent(*key, event.down);
+    if (const auto button = mouse_button(event.key)) {
+      point(event.pointer);
+      io.AddMouseButtonEvent(*button, event.down);
+    }
+  }
+  point(input.pointer);
   io.AddMouseWheelEvent(0.0f, static_cast<float>(input.scroll));
-  io.AddKeyEvent(ImGuiMod_Ctrl, input.down(Key::kControl));
-  io.AddKeyEvent(ImGuiMod_Shift, input.down(Key::kShift));
-  io.AddKeyEvent(ImGuiMod_Alt, input.down(Key::kAlt));
-  for (const GuiKey& key : kGuiKeys) io.AddKeyEvent(key.theirs, held(input, key.ours));
   for (const GuiKey& key : kPadKeys)
-    io.AddKeyAnalogEvent(key.theirs, held(input, key.ours), input.value(key.ours));
-  for (const char32_t character : input.text)
-    io.AddInputCharacter(static_cast<unsigned>(character));
+    io.AddKeyAnalogEvent(key.theirs, input.down(key.ours) || input.pressed(key.ours),
+                         input.value(key.ours));
 }
 
 bool confirmed() {
@@ -95,8 +114,13 @@ bool confirmed() {
 }
 
 void Gui::release_all() {
+  ImGuiIO& io = ImGui::GetIO();
+  for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt})
+    io.AddKeyEvent(modifier, false);
+  for (const GuiKey& key : kGuiKeys) io.AddKeyEvent(key.theirs, false);
+  for (int i = 0; i < static_cast<int>(std::size(kButtons)); ++i) io.AddMouseButtonEvent(i, false);
   feed({});
-  ImGui::GetIO().AddMousePosEvent(-FLT_MAX, -FLT_MAX);
+  io.AddMousePosEvent(-FLT_MAX, -FLT_MAX);
 }
 
 #else  // ImGui of Debian 12
@@ -124,24 +148,76 @@ constexpr struct {
 
 }  // namespace
 
+namespace {
+
+bool is_modifier(Key key) {
+  return key == Key::kControl || key == Key::kShift || key == Key::kAlt;
+}
+
+/// What a frame of this ImGui has taken in already. It keeps no queue: in a frame it reads first
+/// the characters, then the keys, all with the modifiers that are down at the frame's beginning,
+/// and a key that goes down and up within the frame was never pressed.
+struct TakenIn {
+  bool characters = false, press = false, click = false;
+
+  /// Whether the frame would read the event as if it had come before, or never.
+  bool has_room_for(const InputEvent& event, const ImGuiIO& io) const {
+    if (event.key == Key::kNone) return !press && !click;
+    if (is_modifier(event.key)) return !characters && !press;
+    if (mouse_button(event.key)) return !click && !press;
+    if (const auto key = gui_key(event.key))
+      return event.down ? !press && !click : !press || !io.KeysDown[*key];
+    return true;
+  }
+  void note(const InputEvent& event) {
+    characters |= event.key == Key::kNone;
+    press |= event.down && gui_key(event.key).has_value();
+    click |= mouse_button(event.key).has_value();
+  }
+};
+
+void take_in(const InputEvent& event, ImGuiIO& io) {
+  if (event.key == Key::kNone) io.AddInputCharacter(static_cast<unsigned>(event.character));
+  if (event.key == Key::kControl) io.KeyCtrl = event.down;
+  if (event.key == Key::kShift) io.KeyShift = event.down;
+  if (event.key == Key::kAlt) io.KeyAlt = event.down;
+  if (const auto key = gui_key(event.key)) {
+    io.KeysDown[*key] = event.down;
+    // Later versions do so themselves.
+    if (event.key == Key::kEnter && event.down && !io.WantTextInput)
+      io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
+  }
+  if (const auto button = mouse_button(event.key)) {
+    io.MouseDown[*button] = event.down;
+    io.MousePos = ImVec2(static_cast<float>(event.pointer.x), static_cast<float>(event.pointer.y));
+  }
+}
+
+/// Letters are keys to ImGui as parts of chords only.
+bool means_nothing(const InputEvent& event, bool control) {
+  return event.key >= Key::kA && event.key <= Key::kZ && event.down && !control;
+}
+
+}  // namespace
+
 void Gui::feed(const InputFrame& input) {
   ImGuiIO& io = ImGui::GetIO();
   io.MousePos = ImVec2(static_cast<float>(input.pointer.x), static_cast<float>(input.pointer.y));
-  for (std::size_t i = 0; i < std::size(kButtons); ++i) io.MouseDown[i] = held(input, kButtons[i]);
   io.MouseWheel += static_cast<float>(input.scroll);
-  io.KeyCtrl = input.down(Key::kControl);
-  io.KeyShift = input.down(Key::kShift);
-  io.KeyAlt = input.down(Key::kAlt);
-  for (const GuiKey& key : kGuiKeys) {
-    io.KeyMap[key.theirs] = key.theirs;
-    io.KeysDown[key.theirs] = held(input, key.ours);
-  }
+  for (const GuiKey& key : kGuiKeys) io.KeyMap[key.theirs] = key.theirs;
   for (const auto& pad : kPadInputs)
-    if (held(input, pad.ours)) io.NavInputs[pad.theirs] = 1.0f;
-  // Later versions do so themselves.
-  if (input.pressed(Key::kEnter) && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
-  for (const char32_t character : input.text)
-    io.AddInputCharacter(static_cast<unsigned>(character));
+    if (input.down(pad.ours) || input.pressed(pad.ours)) io.NavInputs[pad.theirs] = 1.0f;
+  queue_.insert(queue_.end(), input.events.begin(), input.events.end());
+  TakenIn taken;
+  while (!queue_.empty()) {
+    const InputEvent event = queue_.front();
+    const bool skipped = means_nothing(event, io.KeyCtrl);
+    if (!skipped && !taken.has_room_for(event, io)) break;
+    queue_.pop_front();
+    if (skipped) continue;
+    take_in(event, io);
+    taken.note(event);
+  }
 }
 
 bool confirmed() {
@@ -149,8 +225,13 @@ bool confirmed() {
 }
 
 void Gui::release_all() {
+  ImGuiIO& io = ImGui::GetIO();
+  queue_.clear();
+  io.KeyCtrl = io.KeyShift = io.KeyAlt = false;
+  std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+  std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
   feed({});
-  ImGui::GetIO().MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
+  io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
 }
 
 #endif

@@ -13,6 +13,7 @@ namespace skerry::game::ui {
 namespace {
 
 constexpr ImU32 kGlass = IM_COL32(8, 14, 18, 120);
+constexpr float kMostOfScreens = 0.3f;  // of the window, that messages take from screens
 constexpr ImU32 kShadow = IM_COL32(0, 0, 0, 150);
 
 ImU32 faded(ImU32 colour, double strength) {
@@ -29,6 +30,48 @@ void write(ImDrawList& list, ImVec2 at, float across, ImU32 colour, const std::s
   const float offset = std::max(1.0f, unit());
   list.AddText(ImVec2(low.x + offset, low.y + offset), faded(kShadow, strength), line.c_str());
   list.AddText(low, faded(colour, strength), line.c_str());
+}
+
+/// About a place, on glass of its own.
+void write_on_glass(ImDrawList& list, ImVec2 top_middle, ImU32 colour, const std::string& line) {
+  const ImVec2 size = ImGui::CalcTextSize(line.c_str());
+  const float side = 10 * unit(), above = 3 * unit();
+  list.AddRectFilled(ImVec2(top_middle.x - 0.5f * size.x - side, top_middle.y - above),
+                     ImVec2(top_middle.x + 0.5f * size.x + side, top_middle.y + size.y + above),
+                     IM_COL32(8, 14, 18, 190), 5 * unit());
+  write(list, top_middle, 0.5f, colour, line);
+}
+
+ImU32 shaded(ImU32 colour, float light) {
+  ImVec4 value = ImGui::ColorConvertU32ToFloat4(colour);
+  value.x *= light;
+  value.y *= light;
+  value.z *= light;
+  return ImGui::ColorConvertFloat4ToU32(value);
+}
+
+/// A torch in the right hand: its texture's texels, thick, leaning inwards.
+void draw_torch(ImDrawList& list, std::span<const HeldTexel> texels, ImVec2 window) {
+  if (texels.empty()) return;
+  const float texel = 0.40f * window.y / static_cast<float>(texels.back().y + 1);
+  const ImVec2 right(0.985f * texel, 0.17f * texel), up(-0.17f * texel, -0.985f * texel);
+  const ImVec2 into(1.1f * texel, -0.5f * texel);
+  const ImVec2 foot(0.86f * window.x, 1.01f * window.y);
+  const auto at = [&](float x, float y, float deep) {
+    return ImVec2(foot.x + x * right.x + y * up.x + deep * into.x,
+                  foot.y + x * right.y + y * up.y + deep * into.y);
+  };
+  for (const HeldTexel& t : texels) {
+    const auto x = static_cast<float>(t.x), y = static_cast<float>(t.y);
+    if (t.open_right)
+      list.AddQuadFilled(at(x + 1, y, 0), at(x + 1, y, 1), at(x + 1, y + 1, 1), at(x + 1, y + 1, 0),
+                         shaded(t.colour, 0.6f));
+    if (t.open_top)
+      list.AddQuadFilled(at(x, y + 1, 0), at(x + 1, y + 1, 0), at(x + 1, y + 1, 1), at(x, y + 1, 1),
+                         shaded(t.colour, 0.85f));
+    list.AddQuadFilled(at(x, y, 0), at(x + 1, y, 0), at(x + 1, y + 1, 0), at(x, y + 1, 0),
+                       t.colour);
+  }
 }
 
 void draw_crosshair(ImDrawList& list, ImVec2 middle) {
@@ -125,6 +168,7 @@ void show_hud(const HudFacts& facts, const Pictures& pictures) {
     list.AddRectFilled(ImVec2(0, 0), window,
                        ImColor(0.0f, 0.0f, 0.0f, static_cast<float>(facts.hidden)));
   push_size(TextSize::kSmall);
+  if (facts.torch) draw_torch(list, pictures.torch(), window);
   draw_crosshair(list, ImVec2(0.5f * window.x, 0.5f * window.y));
   draw_hotbar(list, facts, pictures, window);
   draw_compass(list, facts.yaw_deg, 0.5f * window.x);
@@ -134,28 +178,36 @@ void show_hud(const HudFacts& facts, const Pictures& pictures) {
           format_time_of_day(facts.time_of_day_s).substr(0, 5));
     write(list, ImVec2(window.x - edge, edge + line), 0.0f, colour::kText, facts.place);
   }
-  if (facts.steering)
-    write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kAccent,
-          fmt::format("At the helm of {}   {:.1f} blocks/s", facts.steering->island,
-                      facts.steering->speed));
+  const ImVec2 news(0.5f * window.x, 50 * unit());
+  if (facts.steering && facts.steering->held)
+    write_on_glass(list, news, colour::kWarning,
+                   fmt::format("At the helm of {}   held fast", facts.steering->island));
+  else if (facts.steering)
+    write_on_glass(list, news, colour::kAccent,
+                   fmt::format("At the helm of {}   {:.1f} blocks/s", facts.steering->island,
+                               facts.steering->speed));
   else if (facts.islands_to_come != 0)
-    write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kFaint,
-          fmt::format("Islands come into view: {} parts left", facts.islands_to_come));
+    write_on_glass(list, news, colour::kFaint,
+                   fmt::format("Islands come into view: {} parts left", facts.islands_to_come));
   else if (facts.shaders_to_come != 0)
-    write(list, ImVec2(0.5f * window.x, 48 * unit()), 0.5f, colour::kFaint,
-          fmt::format("Shaders are compiled: {} left", facts.shaders_to_come));
+    write_on_glass(list, news, colour::kFaint,
+                   fmt::format("Shaders are compiled: {} left", facts.shaders_to_come));
+  if (facts.hint && !facts.choosing)
+    write_on_glass(list, ImVec2(news.x, news.y + 34 * unit()), colour::kText, *facts.hint);
   pop_size();
 }
 
-void show_messages(const Messages& messages) {
+float show_messages(const Messages& messages, bool over_screens) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImDrawList& list = *ImGui::GetForegroundDrawList();
   push_size(TextSize::kSmall);
   const float inset = 10 * unit(), room = std::max(1.0f, window.x - 6 * inset);
-  float bottom = window.y - 94 * unit();
+  float bottom = window.y - (over_screens ? 12 : 94) * unit();
+  const float highest = window.y * (over_screens ? 1.0f - kMostOfScreens : 0.0f);
   for (std::size_t i = messages.lines().size(); i-- > 0;) {
     const Messages::Line& message = messages.lines()[i];
     const ImVec2 size = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, room);
+    if (bottom - size.y < highest && i + 1 < messages.lines().size()) break;  // the newest is shown
     const ImVec2 at(0.5f * (window.x - size.x), bottom - size.y);
     list.AddRectFilled(ImVec2(at.x - inset, at.y - 4 * unit()),
                        ImVec2(at.x + size.x + inset, bottom + 4 * unit()),
@@ -165,6 +217,7 @@ void show_messages(const Messages& messages) {
     bottom = at.y - 10 * unit();
   }
   pop_size();
+  return over_screens && !messages.lines().empty() ? window.y - bottom : 0.0f;
 }
 
 }  // namespace skerry::game::ui

@@ -21,8 +21,11 @@ struct HudFacts {
   struct Steering {
     std::string island;
     double speed = 0.0;  ///< blocks/s
+    bool held = false;   ///< it is driven, and something holds it
   };
   std::optional<Steering> steering;
+  std::optional<std::string> hint;  ///< a key that a new player may want to know
+  bool torch = false;               ///< one is in the hand
   bool numbers = false;             ///< the overlay is on, which shows time and place, too
   bool choosing = false;            ///< the palette lies over the name of what is held
   double hidden = 0.0;              ///< how much of the world black covers, 0 .. 1: after a fall
@@ -54,7 +57,8 @@ class Messages {
 double bearing_deg(double yaw_deg);
 
 void show_hud(const HudFacts& facts, const Pictures& pictures);
-/// Above the hotbar's place; over screens, too.
-void show_messages(const Messages& messages);
+/// Above the hotbar's place, or at the window's foot where screens are. @return the height that
+/// they take from the foot, for screens to keep clear of [pixels]; 0 while the world is played.
+float show_messages(const Messages& messages, bool over_screens);
 
 }  // namespace skerry::game::ui

@@ -1,7 +1,10 @@
 #include "game/ui/look.h"
 
+#include <imgui_internal.h>  // which way the keys go
+
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace skerry::game::ui {
 namespace {
@@ -12,6 +15,7 @@ struct Look {
   const Fonts* fonts = nullptr;
   float unit = 1.0f;
   std::size_t paste_room = 0;
+  float foot = 0.0f;  // pixels that panels keep clear
 };
 Look look;  // ImGui's context is as global, and there is one of either
 
@@ -41,9 +45,9 @@ void set_colours(ImGuiStyle& style) {
   set(ImGuiCol_Header, with_alpha(colour::kAccent, 0.20f));
   for (const ImGuiCol which : {ImGuiCol_CheckMark, ImGuiCol_PlotLines})
     set(which, with_alpha(colour::kAccent, 1.0f));
-  // The value is written over the grab.
-  set(ImGuiCol_SliderGrab, with_alpha(colour::kAccent, 0.42f));
-  set(ImGuiCol_SliderGrabActive, with_alpha(colour::kAccent, 0.70f));
+  // The value is written over the grab, and must read there.
+  set(ImGuiCol_SliderGrab, ImVec4(0.13f, 0.33f, 0.31f, 1.0f));
+  set(ImGuiCol_SliderGrabActive, ImVec4(0.17f, 0.42f, 0.39f, 1.0f));
   set(ImGuiCol_NavHighlight, with_alpha(colour::kAccent, 1.0f));
   set(ImGuiCol_TextSelectedBg, with_alpha(colour::kAccent, 0.40f));
   set(ImGuiCol_ScrollbarBg, ImVec4(0, 0, 0, 0));
@@ -79,7 +83,8 @@ float unit() {
 }
 
 void begin_look(const Fonts& fonts, float width, float height) {
-  look = {&fonts, std::clamp(std::min(width / 1280.0f, height / 720.0f), kLeastUnit, kMostUnit), 0};
+  look = {&fonts, std::clamp(std::min(width / 1280.0f, height / 720.0f), kLeastUnit, kMostUnit), 0,
+          0.0f};
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
   set_colours(style);
@@ -132,6 +137,93 @@ bool text_field(const char* id, char* text, std::size_t bytes, const char* hint)
   return ImGui::InputTextWithHint(id, hint, text, bytes, ImGuiInputTextFlags_EnterReturnsTrue);
 }
 
+namespace {
+
+void append(char* text, std::size_t bytes, char character) {
+  const std::size_t length = std::strlen(text);
+  if (length + 1 >= bytes) return;
+  text[length] = character;
+  text[length + 1] = '\0';
+}
+
+/// The last character of UTF-8 goes as a whole.
+void take_last(char* text) {
+  std::size_t length = std::strlen(text);
+  while (length > 0 && (static_cast<unsigned char>(text[length - 1]) & 0xc0) == 0x80) --length;
+  if (length > 0) text[length - 1] = '\0';
+}
+
+}  // namespace
+
+void letter_buttons(char* text, std::size_t bytes, bool& upper) {
+  constexpr std::string_view kRows[] = {"1234567890", "qwertyuiop", "asdfghjkl'", "zxcvbnm-.,"};
+  const float between = 4 * unit();
+  const float all = ImGui::GetContentRegionAvail().x;
+  const ImVec2 size(std::max(1.0f, (all - 9 * between) / 10), 30 * unit());
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(between, between));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 2 * unit()));
+  for (const std::string_view row : kRows) {
+    for (const char& letter : row) {
+      if (&letter != row.data()) ImGui::SameLine();
+      const bool letters = letter >= 'a' && letter <= 'z';
+      const char shown[] = {upper && letters ? static_cast<char>(letter - 'a' + 'A') : letter, 0};
+      if (ImGui::Button(shown, size)) append(text, bytes, shown[0]);
+    }
+  }
+  const ImVec2 third(std::max(1.0f, (all - 2 * between) / 3), size.y);
+  if (ImGui::Button(upper ? "small letters" : "CAPITALS", third)) upper = !upper;
+  ImGui::SameLine();
+  if (ImGui::Button("space", third)) append(text, bytes, ' ');
+  ImGui::SameLine();
+  if (ImGui::Button("delete", third)) take_last(text);
+  ImGui::PopStyleVar(2);
+}
+
+namespace {
+
+/// Left -1, right 1, if such a key was pressed while the last item has the focus. ImGui would go to
+/// another item with it.
+int key_steps() {
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (!ImGui::IsItemFocused() || ImGui::IsItemActive()) return 0;
+  if (!context.NavMoveSubmitted) return 0;
+  const int steps = (context.NavMoveDir == ImGuiDir_Right) - (context.NavMoveDir == ImGuiDir_Left);
+  if (steps != 0) ImGui::NavMoveRequestCancel();
+  return steps;
+}
+
+constexpr ImGuiSliderFlags kSlide = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
+
+bool slide_stepped(const char* id, int& value, int least, int most, int step, const char* format,
+                   ImGuiSliderFlags flags) {
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool slid = ImGui::SliderInt(id, &value, least, most, format, kSlide | flags);
+  const int stepped = std::clamp(value + key_steps() * step, least, most);
+  return std::exchange(value, stepped) != stepped || slid;
+}
+
+}  // namespace
+
+bool by_keys() {
+  return ImGui::GetIO().NavVisible;
+}
+
+bool slide(const char* id, int& value, int least, int most, const char* format) {
+  return slide_stepped(id, value, least, most, 1, format, ImGuiSliderFlags_None);
+}
+
+bool slide_by_eighths(const char* id, int& value, int least, int most, const char* format) {
+  return slide_stepped(id, value, least, most, std::max(1, value / 8), format,
+                       ImGuiSliderFlags_Logarithmic);
+}
+
+bool slide(const char* id, float& value, float least, float most, float step, const char* format) {
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool slid = ImGui::SliderFloat(id, &value, least, most, format, kSlide);
+  const float stepped = std::clamp(value + static_cast<float>(key_steps()) * step, least, most);
+  return std::exchange(value, stepped) != stepped || slid;
+}
+
 bool button(const char* label, float width) {
   const float pixels = width > 0.0f ? width * unit() : -1.0f;
   return ImGui::Button(label, ImVec2(pixels, 40 * unit()));
@@ -158,8 +250,13 @@ bool danger_button(const char* label, float width) {
   return pressed;
 }
 
+void keep_foot_clear(float pixels) {
+  look.foot = pixels;
+}
+
 void begin_panel(const char* id, Place place, float width, float height) {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const ImVec2 whole = ImGui::GetIO().DisplaySize;
+  const ImVec2 window(whole.x, whole.y - std::min(look.foot, 0.5f * whole.y));
   const float edge = 16 * unit();
   const ImVec2 size(std::max(1.0f, std::min(width * unit(), window.x - 2 * edge)),
                     std::max(1.0f, std::min(height * unit(), window.y - 2 * edge)));

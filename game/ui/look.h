@@ -38,12 +38,21 @@ void text_wrapped(ImU32 colour, std::string_view lines);
 void heading(std::string_view line);
 void gap(float units);
 
-/// A line to type into, of `bytes` with the zero at its end. What is pasted is cut to what fits.
+/// A line to type into, of `bytes` with the zero at its end. What is pasted and does not fit is
+/// refused.
 /// @return whether Enter was pressed in it.
 bool text_field(const char* id, char* text, std::size_t bytes, const char* hint);
 template <std::size_t kBytes>
 bool text_field(const char* id, std::array<char, kBytes>& text, const char* hint = "") {
   return text_field(id, text.data(), kBytes, hint);
+}
+/// Letters as buttons, for who types with a gamepad: each appends to a text of `bytes` with the
+/// zero at its end, if there is room. @param upper whether the letters are capitals; Shift turns it
+/// over.
+void letter_buttons(char* text, std::size_t bytes, bool& upper);
+template <std::size_t kBytes>
+void letter_buttons(std::array<char, kBytes>& text, bool& upper) {
+  letter_buttons(text.data(), kBytes, upper);
 }
 /// Bytes that the field being shown has room for; for the clipboard.
 std::size_t paste_room();
@@ -54,11 +63,21 @@ bool button(const char* label, float width = 0.0f);
 bool first_button(const char* label, float width = 0.0f);
 bool danger_button(const char* label, float width = 0.0f);
 
-/// Of all our sliders: no number is typed into one, so that Enter takes hold of it as Space does.
-inline constexpr ImGuiSliderFlags kSlide = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
+/// Sliders as wide as what is left. The keys that go left and right turn the one that has the
+/// focus, without pressing it first. No number is typed into one. @param format of the value, as
+/// printf takes it. @param step of a key. @return whether the value changed.
+bool slide(const char* id, int& value, int least, int most, const char* format);
+bool slide(const char* id, float& value, float least, float most, float step, const char* format);
+/// For values of many sizes: a key goes by an eighth of the value.
+bool slide_by_eighths(const char* id, int& value, int least, int most, const char* format);
+/// Whether keys go through the widgets, so that hints about keys help.
+bool by_keys();
 
 /// Whether Enter, or its like on a gamepad, went down in this frame; between Gui::begin and end.
 bool confirmed();
+
+/// Panels of this frame keep so many pixels of the window's foot clear.
+void keep_foot_clear(float pixels);
 
 /// Where a panel stands.
 enum class Place { kLeft, kMiddle };

@@ -82,17 +82,21 @@ void show_memory(std::span<const gpu::MemoryUse> memory) {
   });
 }
 
-/// A translucent panel in the upper left or right corner, as high as its contents or the picture.
+constexpr float kPanelShare = 0.3f;  // of the picture's width at most: the middle stays to look at
+constexpr float kFootHeight = 100.0f;  // of the hotbar's and its label, units
+
+/// A translucent panel in the upper left or right corner, as high as its contents, or down to the
+/// hotbar.
 template <class F>
 void panel(const char* id, bool right, const ImVec2& picture, const F& contents) {
   const float gap = 8.0f * ui::unit();
-  const float width =
-      std::max(1.0f, std::min(kPanelWidth * ui::unit(), 0.5f * picture.x - 1.5f * gap));
+  const float width = std::max(1.0f, std::min(kPanelWidth * ui::unit(), kPanelShare * picture.x));
   const float pivot = right ? 1.0f : 0.0f;
   ImGui::SetNextWindowPos(ImVec2(right ? picture.x - gap : gap, gap), ImGuiCond_Always,
                           ImVec2(pivot, 0.0f));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f),
-                                      ImVec2(width, std::max(32.0f, picture.y - 2.0f * gap)));
+  ImGui::SetNextWindowSizeConstraints(
+      ImVec2(width, 0.0f),
+      ImVec2(width, std::max(32.0f, picture.y - gap - kFootHeight * ui::unit())));
   ImGui::SetNextWindowBgAlpha(0.6f);
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration |
                                       ImGuiWindowFlags_AlwaysAutoResize |

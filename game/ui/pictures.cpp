@@ -83,6 +83,31 @@ Texel picture_at(const render::BlockTextures& textures, const world::BlockType& 
   return within(u) && within(v) ? sample(textures, type.side, u, v) : Texel{};
 }
 
+/// The texels of a plant's texture that are there.
+std::vector<HeldTexel> held_texels(world::BlockId plant) {
+  const render::BlockTextures textures = render::block_textures();
+  const int edge = textures.edge;
+  const auto texel = [&](int x, int y) {
+    if (x >= edge || y >= edge) return Texel{};
+    const auto middle = [&](int t) {
+      return (static_cast<float>(t) + 0.5f) / static_cast<float>(edge);
+    };
+    return sample(textures, world::block_types()[plant].side, middle(x), middle(edge - 1 - y));
+  };
+  const auto there = [](const Texel& t) { return t[3] >= 128.0f; };
+  std::vector<HeldTexel> out;
+  for (int y = 0; y < edge; ++y) {
+    for (int x = 0; x < edge; ++x) {
+      const Texel t = texel(x, y);
+      if (!there(t)) continue;
+      const auto byte = [](float v) { return static_cast<int>(v); };
+      out.push_back({x - edge / 2, y, IM_COL32(byte(t[0]), byte(t[1]), byte(t[2]), 255),
+                     !there(texel(x + 1, y)), !there(texel(x, y + 1))});
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 Rgba block_picture(world::BlockId block) {
@@ -153,22 +178,25 @@ Rgba thumbnail_of(int width, int height, std::span<const std::uint8_t> pixels) {
   return out;
 }
 
-Pictures::Pictures() : pixels_(std::size_t{kWidth} * kHeight * 4) {
+Pictures::Pictures()
+    : pixels_(std::size_t{kWidth} * kHeight * 4), torch_(held_texels(world::block::kTorch)) {
   for (world::BlockId block = 0; block < world::block::kBuiltInCount; ++block)
     put(block % kBlocksPerRow * kBlockPictureEdge, block / kBlocksPerRow * kBlockPictureEdge,
         block_picture(block));
 }
 
 PicturePart Pictures::block(world::BlockId block) const {
+  const int row = block / kBlocksPerRow;
   const auto x = static_cast<float>(block % kBlocksPerRow * kBlockPictureEdge);
-  const auto y = static_cast<float>(block / kBlocksPerRow * kBlockPictureEdge);
+  const auto y = static_cast<float>(row * kBlockPictureEdge);
   return {{x / kWidth, y / kHeight},
           {(x + kBlockPictureEdge) / kWidth, (y + kBlockPictureEdge) / kHeight}};
 }
 
 PicturePart Pictures::thumbnail(int slot) const {
+  const int row = slot / kThumbnailsPerRow;
   const auto x = static_cast<float>(slot % kThumbnailsPerRow * kThumbnailWidth);
-  const auto y = static_cast<float>(kThumbnailsTop + slot / kThumbnailsPerRow * kThumbnailHeight);
+  const auto y = static_cast<float>(kThumbnailsTop + row * kThumbnailHeight);
   return {{x / kWidth, y / kHeight},
           {(x + kThumbnailWidth) / kWidth, (y + kThumbnailHeight) / kHeight}};
 }

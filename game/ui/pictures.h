@@ -36,6 +36,13 @@ Rgba block_picture(world::BlockId block);
 /// width * height * 4 bytes. An empty picture gives none.
 Rgba thumbnail_of(int width, int height, std::span<const std::uint8_t> pixels);
 
+/// One texel of what is held, as large as a step of x and y.
+struct HeldTexel {
+  int x = 0, y = 0;                           ///< right of the middle, above the foot
+  std::uint32_t colour = 0;                   ///< as ImGui packs it
+  bool open_right = false, open_top = false;  ///< no texel is there
+};
+
 /// Both kinds, in one image.
 class Pictures {
  public:
@@ -49,6 +56,9 @@ class Pictures {
   /// @param slot 0 .. kThumbnails - 1. @param picture of a thumbnail's size.
   void set_thumbnail(int slot, const Rgba& picture);
 
+  /// A torch, texel by texel.
+  std::span<const HeldTexel> torch() const { return torch_; }
+
   std::span<const std::uint8_t> pixels() const { return pixels_; }
   /// Grows with every change.
   std::uint64_t version() const { return version_; }
@@ -57,6 +67,7 @@ class Pictures {
   void put(int x, int y, const Rgba& picture);
   std::vector<std::uint8_t> pixels_;
   std::uint64_t version_ = 0;
+  std::vector<HeldTexel> torch_;
 };
 
 }  // namespace skerry::game::ui

@@ -59,11 +59,12 @@ void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
 }
 
 void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
-  begin_panel("palette", Place::kMiddle, 840, 560);
+  begin_panel("palette", Place::kMiddle, 840, facts.pad ? 688 : 560);
   heading("Blocks");
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
   const bool entered = text_field("##search", state.palette_search, "Search");
+  if (facts.pad) letter_buttons(state.palette_search, state.capitals);
   const std::vector<world::BlockId> found = find_blocks(state.palette_search.data());
   if (entered && !found.empty()) wishes.take = found.front();
   gap(2);
@@ -101,11 +102,9 @@ void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   begin_panel("photo", Place::kLeft, 360, 496);
   heading("Photo mode");
   text_in(colour::kFaint, "Time of day");
-  ImGui::SetNextItemWidth(-1.0f);
   int ten_minutes = photo.time_of_day_s / 600;
   const std::string time = format_time_of_day(photo.time_of_day_s);
-  if (ImGui::SliderInt("##time", &ten_minutes, 0, 143, time.c_str(), kSlide))
-    photo.time_of_day_s = ten_minutes * 600;
+  if (slide("##time", ten_minutes, 0, 143, time.c_str())) photo.time_of_day_s = ten_minutes * 600;
   text_in(colour::kFaint, "Exposure");
   bool adapts = !photo.exposure_ev;
   if (ImGui::Checkbox("as the eye adapts", &adapts)) {
@@ -114,14 +113,12 @@ void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   }
   ImGui::BeginDisabled(adapts);
   auto stops = static_cast<float>(photo.exposure_ev.value_or(facts.adapted_ev));
-  ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::SliderFloat("##exposure", &stops, -12.0f, 18.0f, "%.1f stops", kSlide))
+  if (slide("##exposure", stops, -12.0f, 18.0f, 0.5f, "%.1f stops"))
     photo.exposure_ev = std::round(double{stops} * 10.0) / 10.0;
   ImGui::EndDisabled();
   text_in(colour::kFaint, "Field of view");
-  ImGui::SetNextItemWidth(-1.0f);
   auto fov = static_cast<float>(photo.fov_deg);
-  if (ImGui::SliderFloat("##fov", &fov, 5.0f, 120.0f, "%.0f degrees", kSlide))
+  if (slide("##fov", fov, 5.0f, 120.0f, 5.0f, "%.0f degrees"))
     photo.fov_deg = std::round(double{fov});
   gap(8);
   if (first_button("Take the picture")) wishes.photograph = true;

@@ -21,7 +21,7 @@ void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
       show_worlds(state, facts, wishes);
       break;
     case Screen::kNewWorld:
-      show_new_world(state, wishes);
+      show_new_world(state, facts, wishes);
       break;
     case Screen::kSettings:
       show_settings(state, facts, wishes);
@@ -52,19 +52,27 @@ void take_keys(const ScreenState& state, const platform::InputFrame& input, Scre
   using platform::Key;
   const bool takes_pad = state.listening && state.listening->pad;
   const Key control = control_of(takes_pad ? Key::kPadA : Key::kA);
-  facts.pressed = input.any_pressed();
+  facts.pad = input.pad;
+  facts.pressed = Key::kNone;
+  facts.control_up = false;
+  facts.control = input.was_down(control);
+  for (const platform::InputEvent& event : input.events) {
+    if (event.key == control) facts.control = event.down;
+    if (event.key == control || event.key == Key::kNone || !event.down) continue;
+    facts.pressed = event.key;
+    return;
+  }
   facts.control = input.down(control);
   facts.control_up = input.released(control);
 }
 
-void go_back(ScreenState& state, bool typing) {
+void go_back(ScreenState& state) {
   if (state.listening) {
     state.listening.reset();
     return;
   }
   const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
-  const bool field_first = typing && state.stack.top() != Screen::kPalette;
-  if (field_first || popup) return;
+  if (popup) return;
   state.stack.back();
   state.fresh = true;
 }

@@ -48,6 +48,8 @@ struct ScreenState {
 
   Field<kMaxNameBytes> new_name{};
   Field<kMaxSeedBytes> new_seed{};
+  bool types_seed = false;  ///< a gamepad's letters go there, not into the name
+  bool capitals = false;    ///< of a gamepad's letters
 
   /// Which binding waits for a key.
   struct Listening {
@@ -89,6 +91,7 @@ struct ScreenFacts {
   platform::Key pressed = platform::Key::kNone;  ///< first key that went down in this frame
   bool control = false;     ///< while the key that makes chords was held (control_of)
   bool control_up = false;  ///< that one was released
+  bool pad = false;         ///< a gamepad is plugged in
   bool back = false;        ///< Escape, or its like on a gamepad, went down
   std::string_view version;
 };
@@ -121,9 +124,8 @@ bool goes_back(const ScreenState& state, const platform::InputFrame& input);
 /// Fills in which keys went down and up, as a binding that waits for one wants them.
 void take_keys(const ScreenState& state, const platform::InputFrame& input, ScreenFacts& facts);
 
-/// Escape, or its like on a gamepad: closes what is topmost. @param typing into a text field, which
-/// the key leaves first; but for the palette's, which is always typed into.
-void go_back(ScreenState& state, bool typing);
+/// Escape, or its like on a gamepad: closes what is topmost, also from within a text field.
+void go_back(ScreenState& state);
 
 /// A seed for who has none in mind, short enough to be told to a friend.
 std::string seed_from(std::uint64_t entropy);
@@ -140,7 +142,7 @@ std::string block_label(world::BlockId block);
 // One function a screen.
 void show_title(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
-void show_new_world(ScreenState& state, Wishes& wishes);
+void show_new_world(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);

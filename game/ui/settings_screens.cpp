@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "game/ui/look.h"
 #include "game/ui/screens.h"
@@ -26,8 +27,8 @@ class Rows {
     text(label);
     ImGui::TableNextColumn();
     ImGui::PushID(label);
-    ImGui::SetNextItemWidth(-1.0f);
     const bool changed = control();
+    if (std::exchange(first_, false)) ImGui::SetItemDefaultFocus();
     ImGui::PopID();
     ImGui::TableNextColumn();
     if (!knob) {
@@ -49,8 +50,7 @@ class Rows {
       // What is between two of them shows as the lower.
       const auto above = std::upper_bound(std::begin(values), std::end(values), value);
       int at = std::max(0, static_cast<int>(above - std::begin(values)) - 1);
-      if (!ImGui::SliderInt("##", &at, 0, static_cast<int>(kCount) - 1, names[at], kSlide))
-        return false;
+      if (!slide("##", at, 0, static_cast<int>(kCount) - 1, names[at])) return false;
       value = values[at];
       return true;
     });
@@ -62,33 +62,33 @@ class Rows {
       text_in(colour::kFaint, "measuring");
       return;
     }
-    const std::optional<double> cost = facts_.costs->cost_ms(knob);
+    const std::optional<KnobCosts::Cost> cost = facts_.costs->cost(knob);
     if (!cost) return;
-    text_in(*cost > 0.05    ? colour::kWarning
-            : *cost < -0.05 ? colour::kAccent
-                            : colour::kFaint,
-            fmt::format("{:+.1f} ms", *cost));
+    if (!cost->certain()) return text_in(colour::kFaint, "alike");
+    text_in(cost->ms > 0.0 ? colour::kWarning : colour::kAccent,
+            fmt::format("{:+.1f} ms", cost->ms));
   }
   const ScreenFacts& facts_;
   Wishes& wishes_;
+  bool first_ = true;  // no row was shown yet
 };
 
 bool slide_blocks(std::uint32_t& blocks, int least, int most) {
   int value = static_cast<int>(blocks);
-  if (!ImGui::SliderInt("##", &value, least, most, "%d blocks",
-                        kSlide | ImGuiSliderFlags_Logarithmic))
-    return false;
+  if (!slide_by_eighths("##", value, least, most, "%d blocks")) return false;
   blocks = static_cast<std::uint32_t>(value);
   return true;
 }
 
-bool slide(float& value, float least, float most, const char* format) {
-  return ImGui::SliderFloat("##", &value, least, most, format, kSlide);
+constexpr float kKeySteps = 20.0f;  // from one end of a slider to the other
+
+bool slide_part(float& value, float least, float most, const char* format) {
+  return slide("##", value, least, most, (most - least) / kKeySteps, format);
 }
 
-bool slide(double& value, float least, float most, const char* format) {
+bool slide_part(double& value, float least, float most, const char* format) {
   auto narrow = static_cast<float>(value);
-  if (!slide(narrow, least, most, format)) return false;
+  if (!slide_part(narrow, least, most, format)) return false;
   value = std::round(double{narrow} * 100.0) / 100.0;
   return true;
 }
@@ -136,8 +136,9 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
            [&] { return slide_blocks(settings.view_distance, kMinViewDistance, 4096); });
   rows.row("Full detail up to", Knob::kViewDetail,
            [&] { return slide_blocks(settings.view_detail, 32, 1024); });
-  rows.row("Drawn size", Knob::kScale,
-           [&] { return slide(settings.render.render_scale, 0.25f, 1.0f, "%.2f of the window"); });
+  rows.row("Drawn size", Knob::kScale, [&] {
+    return slide_part(settings.render.render_scale, 0.25f, 1.0f, "%.2f of the window");
+  });
   int shadows = settings.render.shadow_enabled ? settings.render.shadow_size : 0;
   constexpr int kShadows[] = {0, 512, 1024, 2048, 4096};
   constexpr const char* kShadowNames[] = {"off", "coarse", "fair", "fine", "finest"};
@@ -153,14 +154,14 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
   rows.choice("Lights that walls stop", Knob::kLightShadows, settings.render.lights_shadows, kWalls,
               kWallNames);
   rows.row("Dark corners", Knob::kAo,
-           [&] { return slide(settings.render.ao_strength, 0.0f, 0.9f, "%.2f"); });
+           [&] { return slide_part(settings.render.ao_strength, 0.0f, 0.9f, "%.2f"); });
   constexpr render::Indirect kIndirect[] = {render::Indirect::kOff, render::Indirect::kSky,
                                             render::Indirect::kFull};
   constexpr const char* kIndirectNames[] = {"off", "of the sky", "of sky and glow"};
   rows.choice("Light in the shade", Knob::kIndirect, settings.render.indirect, kIndirect,
               kIndirectNames);
   rows.row("Glow of bright things", Knob::kBloom,
-           [&] { return slide(settings.render.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
+           [&] { return slide_part(settings.render.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
   constexpr int kSamples[] = {1, 4, 16};
   constexpr const char* kSampleNames[] = {"off", "4 samples", "16 samples"};
   rows.choice("Smooth edges", Knob::kAntialiasing, settings.render.aa_samples, kSamples,
@@ -168,30 +169,22 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
   constexpr int kLayers[] = {1, 2, 3, 4};
   constexpr const char* kLayerNames[] = {"1 layer", "2 layers", "3 layers", "4 layers"};
   rows.choice("Water and glass", Knob::kWater, settings.render.water_layers, kLayers, kLayerNames);
-  rows.row("Clouds", Knob::kClouds,
-           [&] { return slide(settings.render.clouds.coverage, 0.0f, 1.0f, "%.2f of the sky"); });
+  rows.row("Clouds", Knob::kClouds, [&] {
+    return slide_part(settings.render.clouds.coverage, 0.0f, 1.0f, "%.2f of the sky");
+  });
   rows.row("Field of view", std::nullopt,
-           [&] { return slide(*facts.fov_deg, 40.0f, 110.0f, "%.0f degrees"); });
+           [&] { return slide_part(*facts.fov_deg, 40.0f, 110.0f, "%.0f degrees"); });
   show_frame_knobs(settings.frames, rows);
   render::DisplaySettings& display = settings.render.display;
-  rows.row("Display: white", std::nullopt,
-           [&] { return slide(display.peak, static_cast<float>(kMinDisplayPeak), 1.0f, "%.2f"); });
+  rows.row("Display: white", std::nullopt, [&] {
+    return slide_part(display.peak, static_cast<float>(kMinDisplayPeak), 1.0f, "%.2f");
+  });
   rows.row("Display: black", std::nullopt, [&] {
-    return slide(display.black, 0.0f, static_cast<float>(kMaxDisplayBlack), "%.3f");
+    return slide_part(display.black, 0.0f, static_cast<float>(kMaxDisplayBlack), "%.3f");
   });
 }
 
 // Controls.
-
-std::string chord_label(Chord chord) {
-  if (chord.key == platform::Key::kNone) return "-";
-  std::string label = print_chord(chord);
-  constexpr std::string_view kPad = "pad_";
-  for (std::size_t at; (at = label.find(kPad)) != std::string::npos;) label.erase(at, kPad.size());
-  std::replace(label.begin(), label.end(), '_', ' ');
-  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  return label;
-}
 
 /// Takes the key that was pressed for the binding that waits for one. Delete clears it; Ctrl, or a
 /// gamepad's Back, begins a chord, unless it goes up again alone.
@@ -260,10 +253,11 @@ void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
   }
   end_scroll();
   gap(0);
-  if (first_button("Back", 150)) state.stack.back();
+  if (button("Back", 150)) state.stack.back();
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  text_in(colour::kFaint, fmt::format("GPU {:.1f} ms a frame", facts.costs->now_ms()));
+  text_in(colour::kFaint, fmt::format("GPU {:.1f} ms a frame{}", facts.costs->now_ms(),
+                                      by_keys() ? "   left, right: change" : ""));
   end_panel();
 }
 
@@ -285,9 +279,8 @@ void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
       text(label);
       ImGui::TableNextColumn();
       ImGui::PushID(label);
-      ImGui::SetNextItemWidth(-1.0f);
-      wishes.bindings_changed |= slide(value, static_cast<float>(kMinTurnSpeed),
-                                       static_cast<float>(kMaxTurnSpeed), "%.2f");
+      wishes.bindings_changed |= slide_part(value, static_cast<float>(kMinTurnSpeed),
+                                            static_cast<float>(kMaxTurnSpeed), "%.2f");
       ImGui::PopID();
     };
     speed("Mouse speed", bindings.mouse_speed);

@@ -72,6 +72,13 @@ bool world_row(ScreenState& state, const ScreenFacts& facts, const WorldCard& wo
   return again || ImGui::IsMouseDoubleClicked(0);
 }
 
+/// Why the world that is chosen cannot be played, in whole: its row shows the beginning.
+std::string problem_of_chosen(const ScreenState& state, const ScreenFacts& facts) {
+  for (const WorldCard& world : facts.worlds)
+    if (state.chosen_world == world.path) return world.problem;
+  return {};
+}
+
 void ask_to_delete(ScreenState& state, const WorldCard& world, bool back, Wishes& wishes) {
   if (state.asks_to_delete) ImGui::OpenPopup("delete");
   state.asks_to_delete = false;
@@ -137,7 +144,12 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();
   begin_panel("worlds", Place::kMiddle, 900, 620);
   heading("Worlds");
-  const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
+  const std::string problem = problem_of_chosen(state, facts);
+  float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
+  if (!problem.empty())
+    foot +=
+        ImGui::GetStyle().ItemSpacing.y +
+        ImGui::CalcTextSize(problem.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y;
   begin_scroll("list", -foot);
   if (facts.worlds.empty()) text_in(colour::kFaint, "None yet. Make one.");
   const WorldCard* chosen = nullptr;
@@ -151,6 +163,7 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
     if (state.chosen_world == world.path) chosen = &world;
   }
   end_scroll();
+  if (!problem.empty()) text_wrapped(colour::kWarning, problem);
   gap(0);
   ImGui::BeginDisabled(!chosen || !chosen->problem.empty());
   if (first_button("Play", 190) && chosen) wishes.play = chosen->path;
@@ -167,20 +180,21 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   end_panel();
 }
 
-void show_new_world(ScreenState& state, Wishes& wishes) {
-  begin_panel("new_world", Place::kLeft, 440, 464);
+void show_new_world(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
+  begin_panel("new_world", Place::kLeft, 440, facts.pad ? 650 : 464);
   heading("New world");
   text_in(colour::kFaint, "Name");
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
   const bool entered = text_field("##name", state.new_name);
+  if (ImGui::IsItemFocused()) state.types_seed = false;
   if (button("Another name", 184)) wishes.draw_name = true;
   gap(4);
   text_in(colour::kFaint, "Seed");
   ImGui::SetNextItemWidth(-1.0f);
   const std::string before = state.new_seed.data();
   const bool seed_entered = text_field("##seed", state.new_seed);
-  wishes.preview |= before != state.new_seed.data();
+  if (ImGui::IsItemFocused()) state.types_seed = true;
   if (button("Another seed", 184)) wishes.draw_lots = true;
   text_wrapped(colour::kFaint,
                "Any text or number. The same seed makes the same islands; to the right is what you "
@@ -190,6 +204,12 @@ void show_new_world(ScreenState& state, Wishes& wishes) {
     wishes.create = Wishes::NewWorld{state.new_name.data(), state.new_seed.data()};
   ImGui::SameLine();
   if (button("Back", 184)) state.stack.back();
+  if (facts.pad) {
+    gap(4);
+    state.types_seed ? letter_buttons(state.new_seed, state.capitals)
+                     : letter_buttons(state.new_name, state.capitals);
+  }
+  wishes.preview |= before != state.new_seed.data();
   end_panel();
 }
 

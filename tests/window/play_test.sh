@@ -86,6 +86,7 @@ alive "while hidden"
 xdotool windowmap "$window"
 sleep 1
 xdotool windowfocus "$window"
+key Escape 1  # it paused when it lost the focus
 
 for k in F8 F8 f bracketleft bracketright minus equal; do key "$k"; done
 xdotool keydown w keydown t; sleep 3; xdotool keyup w keyup t

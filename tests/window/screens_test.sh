@@ -38,8 +38,16 @@ screenshot() {
   until_true "a screenshot is saved" has_shots $((before + 1))
 }
 
+# Its first frames may wait for shaders, and what is typed meanwhile comes all at once.
+moves() {
+  grab "$work/then.png"
+  sleep 1
+  grab "$work/now.png"
+  [ "$(compare -metric AE -fuzz 2% "$work/then.png" "$work/now.png" null: 2>&1 || true)" -gt 200 ]
+}
 until_true "the title is shown" shown
-sleep 2
+until_true "the island behind it turns" moves
+until_true "the island behind it goes on" moves
 key Return 8  # new world: there is none yet
 xdotool type --delay 200 Harbour
 sleep 3

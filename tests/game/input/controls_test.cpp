@@ -69,6 +69,26 @@ TEST(Controls, HandsDigPlaceChooseAndTakeBack) {
   EXPECT_TRUE(hands().redo);
 }
 
+TEST(Controls, ChordsAreToldByTheOrderOfTheirKeysWithinAFrame) {
+  Input input;
+  const auto tap = [&](Key key) {
+    for (const bool down : {true, false}) input.set_key(key, down);
+  };
+  const auto actions = [&] { return ActionFrame(input.take(), default_bindings()); };
+  tap(Key::kY);
+  tap(Key::kControl);
+  const ActionFrame apart = actions();
+  EXPECT_TRUE(apart.pressed(Action::kEarlier) && !apart.pressed(Action::kRedo));
+  input.set_key(Key::kControl, true);
+  for (int i = 0; i < 3; ++i) tap(Key::kZ);
+  input.set_key(Key::kControl, false);
+  tap(Key::kMinus);
+  tap(Key::kMinus);
+  const ActionFrame chords = actions();
+  EXPECT_EQ(chords.presses(Action::kUndo), 3);
+  EXPECT_EQ(chords.presses(Action::kWorseQuality), 2);
+}
+
 TEST(Controls, ShiftCrouches) {
   Input input;
   input.set_key(Key::kShift, true);

@@ -18,6 +18,7 @@
 #include "tests/folder.h"
 #include "tests/game/session/seat.h"
 #include "tests/world/made_islands.h"
+#include "world/motion/motion.h"
 #include "world/store/database.h"
 #include "world/store/world_file.h"
 
@@ -311,6 +312,36 @@ TEST(Session, CuttingANeckMakesAnIslandThatIsSaved) {
   EXPECT_EQ(all_blocks(*session->world()), blocks - 1);
   EXPECT_TRUE(session->world()->island(piece));
   EXPECT_TRUE(session->receive().empty()) << "nothing is damaged";
+}
+
+TEST(Session, APartThatIsCutOffDriftsAwayUntilTheAirStopsIt) {
+  const Saved saved;
+  const auto session = saved.open(Join{"me", true});
+  session->send(PlayerMoved{at({101.5, 5.0, 1.5})});
+  double now_s = 1.0;
+  session->advance(now_s);
+  ASSERT_EQ(verdict_of(*session, saved.island, saved.neck, world::kAir), EditVerdict::kDone);
+  ASSERT_TRUE(session->save());
+  std::uint64_t piece = 0;
+  for (const Answer& answer : session->receive())
+    if (const auto* added = std::get_if<IslandIs>(&answer)) piece = added->spec.id;
+  ASSERT_NE(piece, 0u);
+  const auto apart = [&] {
+    const auto old = session->world()->pose(saved.island, now_s);
+    const auto now = session->world()->pose(piece, now_s);
+    return glm::length(world::difference_blocks(now->origin, old->origin));
+  };
+  const double at_first = apart();
+  const auto advance = [&](double seconds) {
+    for (double s = 0.0; s < seconds; s += 0.25, now_s += 0.25) {
+      session->advance(0.25);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // shapes come from another thread
+    }
+  };
+  advance(5.0);
+  EXPECT_GT(std::abs(apart() - at_first), 0.8);
+  advance(60.0);
+  EXPECT_LT(std::abs(apart() - at_first), 0.4 / world::kAirDrag + 0.1);
 }
 
 TEST(Session, AFullDiskIsToldAndLosesNothing) {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "game/ui/gui.h"
+#include "game/ui/look.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -27,7 +30,7 @@ TEST(Hud, DrawsWithinThePicture) {
     Gui gui;
     gui.begin({width, height, 0.02, nullptr});
     show_hud(facts, pictures);
-    show_messages(messages);
+    show_messages(messages, false);
     const OverlayTriangles triangles = gui.end();
     ASSERT_GT(triangles.vertices.size(), 100u);
     bool pictured = false;
@@ -41,6 +44,116 @@ TEST(Hud, DrawsWithinThePicture) {
     }
     EXPECT_TRUE(pictured);
   }
+}
+
+/// Where a HUD draws in one colour: lowest and highest x and y; nothing: infinities.
+struct Extent {
+  float left = 1e9f, top = 1e9f, right = -1e9f, bottom = -1e9f;
+};
+Extent drawn_in(const OverlayTriangles& triangles, ImU32 colour) {
+  Extent e;
+  for (const shared::OverlayVertex& vertex : triangles.vertices) {
+    if (vertex.color != colour) continue;
+    e.left = std::min(e.left, vertex.position.x);
+    e.right = std::max(e.right, vertex.position.x);
+    e.top = std::min(e.top, vertex.position.y);
+    e.bottom = std::max(e.bottom, vertex.position.y);
+  }
+  return e;
+}
+
+TEST(Hud, ATorchInTheHandIsSeenAndKeepsClearOfTheHotbar) {
+  const Pictures pictures;
+  ASSERT_GT(pictures.torch().size(), 10u);
+  for (const bool torch : {false, true}) {
+    Gui gui;
+    gui.begin({1280, 720, 0.02, nullptr});
+    HudFacts facts;
+    facts.torch = torch;
+    show_hud(facts, pictures);
+    const OverlayTriangles triangles = gui.end();
+    const Extent seen = drawn_in(triangles, pictures.torch().back().colour);
+    EXPECT_EQ(seen.right > seen.left, torch);
+    if (!torch) continue;
+    EXPECT_GT(seen.left, 900.0f);  // the hotbar ends at 892
+    EXPECT_LT(seen.right, 1280.0f);
+    EXPECT_GT(seen.top, 360.0f);  // the upper half stays to look at
+  }
+}
+
+TEST(Hud, TheHelmSaysWhetherItsIslandMoves) {
+  const Pictures pictures;
+  for (const bool held : {false, true}) {
+    Gui gui;
+    gui.begin({1280, 720, 0.02, nullptr});
+    HudFacts facts;
+    facts.steering = HudFacts::Steering{"Skarholm", 0.0, held};
+    show_hud(facts, pictures);
+    const OverlayTriangles triangles = gui.end();
+    const Extent words = drawn_in(triangles, held ? colour::kWarning : colour::kAccent);
+    const Extent glass = drawn_in(triangles, IM_COL32(8, 14, 18, 190));
+    ASSERT_GT(words.right, words.left);
+    // Words on glass of their own read over sky and grass.
+    EXPECT_LT(glass.left, 640.0f - 100.0f);
+    EXPECT_GT(glass.right, 640.0f + 100.0f);
+    EXPECT_LT(glass.top, 50.0f);
+    EXPECT_EQ(drawn_in(triangles, colour::kWarning).right > 0.0f, held);
+  }
+}
+
+TEST(Messages, OverScreensTheyTakeTheFootAndPanelsKeepClearOfIt) {
+  Messages messages;
+  messages.say(std::string(200, 'm'));
+  messages.say("cannot save the world: the disk is full");
+  for (const auto& [width, height] : {std::pair(640u, 360u), {1280u, 720u}}) {
+    Gui gui;
+    float foot = 0.0f, panel_end = 0.0f;
+    for (int i = 0; i < 2; ++i) {
+      gui.begin({width, height, 0.02, nullptr});
+      foot = show_messages(messages, true);
+      keep_foot_clear(foot);
+      begin_panel("panel", Place::kMiddle, 900, 700);
+      text("above");
+      panel_end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
+      end_panel();
+      gui.end();
+    }
+    EXPECT_GT(foot, 30.0f);
+    EXPECT_LE(panel_end, static_cast<float>(height) - foot);
+  }
+  Gui gui;
+  gui.begin({640, 360, 0.02, nullptr});
+  EXPECT_EQ(show_messages({}, true), 0.0f);
+  EXPECT_EQ(show_messages(messages, false), 0.0f);
+  gui.end();
+}
+
+TEST(Fonts, CyrillicGreekAndChineseComeWithTheTextThatHasThem) {
+  if (!find_typeface() || !find_fallback_typeface()) GTEST_SKIP() << "no such fonts here";
+  Gui gui;
+  const std::u32string characters = U"\u0416\u03a9\u5c9b\u3057\ud55c";
+  const auto has = [&](char32_t character) {
+    gui.begin({1280, 720, 0.02, nullptr});
+    const bool found =
+        ImGui::GetFont()->FindGlyphNoFallback(static_cast<ImWchar>(character)) != nullptr;
+    gui.end();
+    return found;
+  };
+  for (const char32_t c : characters) EXPECT_FALSE(has(c)) << std::hex << std::uint32_t{c};
+  EXPECT_FALSE(gui.fit_font());
+  gui.expect("\u041e\u0441\u0442\u0440\u043e\u0432 \u5c9b \u03c9 \u3057\u307e \ud55c \xff\xfe");
+  EXPECT_TRUE(gui.fit_font());
+  EXPECT_FALSE(gui.fit_font());  // nothing new
+  for (const char32_t c : characters) EXPECT_TRUE(has(c)) << std::hex << std::uint32_t{c};
+  EXPECT_TRUE(has(U'A'));
+  // A text of all there is takes no more than a device can hold.
+  for (char32_t c = 0x180; c < 0x10000; ++c) {
+    platform::Input input;
+    input.type(c);
+    gui.expect(input.take());
+  }
+  gui.fit_font();
+  EXPECT_LE(gui.font().height, 16384);
 }
 
 TEST(Messages, FadeAndRepeatInOneLine) {

@@ -46,6 +46,22 @@ TEST(Overlay, LaysTrianglesOutWithinTheirClipsAndThePicture) {
   }
 }
 
+TEST(Overlay, LeavesTheViewAndTheHotbarClearInASmallWindow) {
+  ui::Gui gui;
+  OverlayFacts facts = some_facts();
+  static const std::vector<gpu::PassTime> passes(60, {"some_pass", 0.1});
+  facts.passes = passes;
+  ui::OverlayTriangles triangles;
+  for (int frame = 0; frame < 3; ++frame) triangles = lay_out(gui, facts, 640, 360);
+  for (const shared::OverlayVertex& vertex : triangles.vertices) {
+    const glm::vec4 clip = triangles.clips[vertex.clip];
+    const float x = std::clamp(vertex.position.x, clip.x, clip.z);
+    const float y = std::clamp(vertex.position.y, clip.y, clip.w);
+    ASSERT_TRUE(x <= 210.0f || x >= 430.0f) << x;  // a third of the width stays clear
+    ASSERT_LE(y, 300.0f);                          // the hotbar's label begins at 304
+  }
+}
+
 TEST(Overlay, ShowsSquaresOfTheDisplaysOwnValuesWhileCalibrating) {
   ui::Gui gui;
   const auto colours = [&](const render::DisplaySettings& display) {

@@ -5,6 +5,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "game/ui/gui.h"
@@ -47,7 +48,7 @@ class Sitting {
   OverlayTriangles frame() {
     const platform::InputFrame taken = input.take();
     facts.back = goes_back(state, taken);
-    if (facts.back) go_back(state, gui.typing());
+    if (facts.back) go_back(state);
     take_keys(state, taken, facts);
     const bool fed = !state.listening;
     gui.begin({size_.width, size_.height, 0.05, fed ? &taken : nullptr});
@@ -204,21 +205,61 @@ TEST(Screens, TheFirstWorldChosenIsOneThatCanBePlayed) {
   EXPECT_EQ(sitting.state.chosen_world, "/b.skerry");
 }
 
-TEST(Screens, KnobsTurnByArrowsAndEnterAlone) {
+TEST(Screens, KnobsTurnByArrowsAloneFromTheFirstOnDown) {
   Sitting sitting(Screen::kSettings);
   sitting.settle();
+  sitting.tap(Key::kRight);
+  EXPECT_EQ(sitting.quality, Quality::kHigh);
+  sitting.tap(Key::kLeft);
+  sitting.tap(Key::kLeft);
+  EXPECT_EQ(sitting.quality, Quality::kLow);
+  sitting.tap(Key::kLeft);
+  EXPECT_EQ(sitting.quality, Quality::kLow);
+  sitting.tap(Key::kRight);
+  EXPECT_EQ(sitting.quality, Quality::kMedium);
   const Settings before = sitting.settings;
-  for (int row = 0; row < 13; ++row) {
-    sitting.tap(Key::kUp);
-    sitting.tap(Key::kEnter);
+  for (int row = 1; row < 15; ++row) {
+    sitting.tap(Key::kDown);
+    sitting.tap(Key::kLeft);
     EXPECT_FALSE(sitting.gui.typing()) << row;
-    sitting.tap(Key::kRight);
-    sitting.tap(Key::kEnter);
   }
-  EXPECT_NE(sitting.settings.render.shadow_size, before.render.shadow_size);
-  EXPECT_NE(sitting.settings.render.water_layers, before.render.water_layers);
-  EXPECT_NE(sitting.settings.render.clouds.coverage, before.render.clouds.coverage);
+  EXPECT_LT(sitting.settings.view_distance, before.view_distance);
+  EXPECT_LT(sitting.settings.render.render_scale, before.render.render_scale);
+  EXPECT_LT(sitting.settings.render.shadow_size, before.render.shadow_size);
+  EXPECT_LT(sitting.settings.render.water_layers, before.render.water_layers);
+  EXPECT_LT(sitting.fov_deg, 70.0);
+  EXPECT_LT(sitting.settings.render.display.peak, before.render.display.peak);
   EXPECT_TRUE(sitting.wishes.settings_changed);
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kSettings);
+}
+
+TEST(Screens, EscapeLeavesAFieldAndItsScreenAtOnce) {
+  Sitting sitting(Screen::kTitle);
+  sitting.state.stack.open(Screen::kNewWorld);
+  sitting.settle();
+  EXPECT_TRUE(sitting.gui.typing());
+  sitting.tap(Key::kEscape);
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kTitle);
+}
+
+/// Relative luminance of WCAG 2.
+double luminance(const ImVec4& colour) {
+  const auto linear = [](float v) {
+    return v <= 0.04045f ? double{v} / 12.92 : std::pow((double{v} + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(colour.x) + 0.7152 * linear(colour.y) + 0.0722 * linear(colour.z);
+}
+
+TEST(Screens, ASlidersValueReadsOnItsHandle) {
+  Sitting sitting(Screen::kSettings);
+  sitting.settle();
+  const auto* colours = ImGui::GetStyle().Colors;
+  for (const ImGuiCol handle : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) {
+    ASSERT_EQ(colours[handle].w, 1.0f);
+    const double ratio =
+        (luminance(colours[ImGuiCol_Text]) + 0.05) / (luminance(colours[handle]) + 0.05);
+    EXPECT_GE(ratio, 4.5);  // WCAG 2, AA
+  }
 }
 
 TEST(Screens, AWorldIsDeletedOnlyAfterASecondQuestion) {
@@ -240,31 +281,80 @@ TEST(Screens, AWorldIsDeletedOnlyAfterASecondQuestion) {
   EXPECT_EQ(sitting.wishes.remove, "/a.skerry");
 }
 
-TEST(Screens, AMegabyteOfPastedTextBecomesAShortSeed) {
-  std::string huge(1 << 20, 'a');
-  huge.replace(0, 3, "\xe2\x82\xac");  // a character of three bytes
-  Clipboard clipboard{[&] { return huge; }, [](const std::string&) {}};
-  Gui gui(clipboard);
-  Field<kMaxSeedBytes> field{};
-  Input input;
-  const auto frame = [&] {
+/// A field with the focus, and what a person types into it in frames of their own choice.
+class Typing {
+ public:
+  explicit Typing(std::string in_clipboard = {})
+      : clipboard(std::move(in_clipboard)),
+        gui({[this] { return clipboard; }, [this](const std::string& text) { clipboard = text; }}) {
+    for (int i = 0; i < 3; ++i) frame();
+  }
+  void frame() {
     const platform::InputFrame taken = input.take();
     gui.begin({640, 360, 0.05, &taken});
     ImGui::Begin("seed");
-    ImGui::SetKeyboardFocusHere();
+    if (!shown_) ImGui::SetKeyboardFocusHere();
+    shown_ = true;
     text_field("##seed", field);
     ImGui::End();
     gui.end();
-  };
-  for (int i = 0; i < 3; ++i) frame();
-  input.set_key(Key::kControl, true);
-  input.set_key(Key::kV, true);
-  frame();
-  frame();
-  const std::string pasted = field.data();
-  EXPECT_LE(pasted.size(), kMaxSeedBytes);
-  EXPECT_GT(pasted.size(), 100u);
-  EXPECT_TRUE(huge.starts_with(pasted));
+  }
+  void chord(Key with, Key key) {
+    input.set_key(with, true);
+    input.set_key(key, true);
+    input.set_key(key, false);
+    input.set_key(with, false);
+  }
+  void type(std::string_view text) {
+    for (const char c : text) {
+      const Key key = platform::key_named(std::string(1, c)).value_or(Key::kNone);
+      if (key != Key::kNone) input.set_key(key, true);
+      input.type(static_cast<char32_t>(c));
+      if (key != Key::kNone) input.set_key(key, false);
+    }
+  }
+  void tap(Key key) {
+    for (const bool down : {true, false}) input.set_key(key, down);
+  }
+
+  std::string clipboard;
+  Gui gui;
+  Field<kMaxSeedBytes> field{};
+  Input input;
+
+ private:
+  bool shown_ = false;
+};
+
+TEST(Typing, AMegabyteOfPastedTextIsRefusedInOneLine) {
+  Typing typing(std::string(1 << 20, 'a'));
+  typing.type("sea");
+  typing.chord(Key::kControl, Key::kV);
+  for (int i = 0; i < 9; ++i) typing.frame();
+  EXPECT_STREQ(typing.field.data(), "sea");
+  EXPECT_NE(typing.gui.take_refusal().find("1048576 bytes"), std::string::npos);
+  EXPECT_EQ(typing.gui.take_refusal(), "");
+  typing.clipboard = std::string(kMaxSeedBytes - 3, 'b');  // just fits
+  typing.chord(Key::kControl, Key::kV);
+  for (int i = 0; i < 9; ++i) typing.frame();
+  EXPECT_EQ(std::string(typing.field.data()), "sea" + typing.clipboard);
+  EXPECT_EQ(typing.gui.take_refusal(), "");
+}
+
+TEST(Typing, ChordsShorterThanAFrameKeepTheirOrder) {
+  Typing typing("b");
+  // All within one frame: a word, all of it chosen and cut, pasted behind another letter.
+  typing.type("harbour");
+  typing.chord(Key::kControl, Key::kA);
+  typing.chord(Key::kControl, Key::kX);
+  typing.type("x");
+  typing.tap(Key::kBackspace);
+  typing.type("old ");
+  typing.chord(Key::kControl, Key::kV);
+  typing.tap(Key::kHome);
+  typing.type("my ");
+  for (int i = 0; i < 40; ++i) typing.frame();
+  EXPECT_STREQ(typing.field.data(), "my old harbour");
 }
 
 TEST(PastedText, IsCutBetweenCharactersAndAtTheFirstLine) {
@@ -348,11 +438,10 @@ TEST(Pause, SaysThatSavingFailedAndLeavesAnywayOnlyIfTold) {
 }
 
 TEST(NewWorld, HasANameAndASeedWithoutAKeyboard) {
-  constexpr std::size_t kA = 0, kB = 1, kDown = 13;
+  constexpr std::size_t kA = 0, kDown = 13;
   Sitting sitting(Screen::kNewWorld);
+  sitting.tap_pad(14);  // plugged in
   sitting.settle();
-  sitting.tap_pad(kB);  // out of the field
-  EXPECT_EQ(sitting.state.stack.top(), Screen::kNewWorld);
   sitting.tap_pad(kDown);
   sitting.tap_pad(kA);
   EXPECT_TRUE(sitting.wishes.draw_name);
@@ -362,6 +451,64 @@ TEST(NewWorld, HasANameAndASeedWithoutAKeyboard) {
   sitting.tap_pad(kDown);
   sitting.tap_pad(kA);
   EXPECT_TRUE(sitting.wishes.create);
+}
+
+TEST(NewWorld, IsNamedWithAGamepadsLetters) {
+  constexpr std::size_t kA = 0, kRight = 12, kDown = 13, kUp = 11;
+  Sitting sitting(Screen::kNewWorld);
+  sitting.tap_pad(14);  // plugged in
+  sitting.settle();
+  for (int i = 0; i < 4; ++i) sitting.tap_pad(kDown);  // over the seed's field, to Create
+  sitting.tap_pad(kDown);                              // the digits
+  sitting.tap_pad(kDown);                              // the letters
+  const std::size_t before = std::string_view(sitting.state.new_seed.data()).size();
+  sitting.tap_pad(kA);
+  sitting.tap_pad(kRight);
+  sitting.tap_pad(kA);
+  const std::string seed = sitting.state.new_seed.data();
+  ASSERT_EQ(seed.size(), before + 2);  // the seed's field had the focus last
+  const std::string_view row = "qwertyuiop";
+  const std::size_t first = row.find(seed[before]);
+  ASSERT_NE(first, std::string_view::npos) << seed;
+  EXPECT_EQ(seed[before + 1], row[first + 1]);
+  EXPECT_TRUE(sitting.wishes.preview);
+  EXPECT_STREQ(sitting.state.new_name.data(), "");
+  sitting.tap_pad(kUp);
+  EXPECT_FALSE(sitting.wishes.create);
+}
+
+TEST(LetterButtons, KeepToTheirRoomAndDeleteWholeCharacters) {
+  Gui gui;
+  Field<6> text{};
+  set_field(text, "ab\xe2\x82\xac");
+  bool upper = false;
+  Input input;
+  const auto frame = [&] {
+    const platform::InputFrame taken = input.take();
+    gui.begin({1280, 720, 0.05, &taken});
+    begin_panel("letters", Place::kMiddle, 440, 300);
+    letter_buttons(text, upper);
+    end_panel();
+    gui.end();
+  };
+  const auto tap = [&](Key key) {
+    for (const bool down : {true, false}) {
+      input.set_key(key, down);
+      frame();
+    }
+    frame();
+  };
+  frame();
+  tap(Key::kDown);  // from the first button to the one below
+  tap(Key::kSpace);
+  tap(Key::kSpace);  // no room any more
+  EXPECT_STREQ(text.data(), "ab\xe2\x82\xacq");
+  for (int i = 0; i < 8; ++i) tap(Key::kDown);
+  for (int i = 0; i < 4; ++i) tap(Key::kRight);
+  tap(Key::kSpace);
+  EXPECT_STREQ(text.data(), "ab\xe2\x82\xac");
+  tap(Key::kSpace);
+  EXPECT_STREQ(text.data(), "ab");
 }
 
 TEST(Palette, FindsBlocksByAllWordsInAnyCase) {
@@ -410,7 +557,7 @@ TEST(ScreenStack, GoesBackToWhereOneCameFrom) {
 TEST(KnobCosts, AreTheDifferenceOfMediansAfterWhatWasOnItsWay) {
   KnobCosts costs;
   costs.turned(Knob::kShadows);
-  EXPECT_FALSE(costs.cost_ms(Knob::kShadows));
+  EXPECT_FALSE(costs.cost(Knob::kShadows));
   KnobCosts steady;
   for (int i = 0; i < 20; ++i) steady.note_frame(i % 5 == 0 ? 90.0 : 10.0);  // hitches do not count
   EXPECT_EQ(steady.now_ms(), 10.0);
@@ -418,12 +565,32 @@ TEST(KnobCosts, AreTheDifferenceOfMediansAfterWhatWasOnItsWay) {
   EXPECT_TRUE(steady.measuring(Knob::kShadows));
   for (std::size_t i = 0; i < KnobCosts::kSkipped; ++i) steady.note_frame(10.0);
   for (std::size_t i = 0; i < KnobCosts::kFrames; ++i) {
-    EXPECT_FALSE(steady.cost_ms(Knob::kShadows));
+    EXPECT_FALSE(steady.cost(Knob::kShadows));
     steady.note_frame(13.5);
   }
-  EXPECT_EQ(steady.cost_ms(Knob::kShadows), 3.5);
-  EXPECT_FALSE(steady.cost_ms(Knob::kBloom));
+  ASSERT_TRUE(steady.cost(Knob::kShadows));
+  EXPECT_EQ(steady.cost(Knob::kShadows)->ms, 3.5);
+  EXPECT_TRUE(steady.cost(Knob::kShadows)->certain());
+  EXPECT_FALSE(steady.cost(Knob::kBloom));
   EXPECT_FALSE(steady.measuring(Knob::kShadows));
+}
+
+TEST(KnobCosts, ADifferenceWithinTheSpreadIsNotCertain) {
+  KnobCosts costs;
+  const auto frames = [&](double ms) {
+    for (int i = 0; i < 18; ++i) costs.note_frame(ms + 4.0 * (i % 3));  // 0, 4 or 8 ms more
+  };
+  frames(100.0);
+  costs.turned(Knob::kViewDistance);
+  frames(103.6);
+  ASSERT_TRUE(costs.cost(Knob::kViewDistance));
+  EXPECT_FALSE(costs.cost(Knob::kViewDistance)->certain()) << costs.cost(Knob::kViewDistance)->ms;
+  costs.turned(Knob::kViewDistance);
+  frames(150.0);
+  EXPECT_TRUE(costs.cost(Knob::kViewDistance)->certain());
+  costs.turned(Knob::kBloom);
+  frames(150.0);  // no difference at all
+  EXPECT_FALSE(costs.cost(Knob::kBloom)->certain());
 }
 
 TEST(KnobCosts, ASliderDraggedThroughManyPlacesCountsFromItsFirst) {
@@ -434,7 +601,8 @@ TEST(KnobCosts, ASliderDraggedThroughManyPlacesCountsFromItsFirst) {
     costs.note_frame(11.0 + i);
   }
   for (int i = 0; i < 20; ++i) costs.note_frame(20.0);
-  EXPECT_EQ(costs.cost_ms(Knob::kViewDistance), 10.0);
+  ASSERT_TRUE(costs.cost(Knob::kViewDistance));
+  EXPECT_EQ(costs.cost(Knob::kViewDistance)->ms, 10.0);
 }
 
 TEST(KnobCosts, WaitsUntilAllIsInView) {
@@ -443,9 +611,10 @@ TEST(KnobCosts, WaitsUntilAllIsInView) {
   costs.turned(Knob::kViewDistance);
   for (int i = 0; i < 40; ++i) costs.note_frame(12.0, false);
   EXPECT_TRUE(costs.measuring());
-  EXPECT_FALSE(costs.cost_ms(Knob::kViewDistance));
+  EXPECT_FALSE(costs.cost(Knob::kViewDistance));
   for (std::size_t i = 0; i < KnobCosts::kSkipped + KnobCosts::kFrames; ++i) costs.note_frame(17.0);
-  EXPECT_EQ(costs.cost_ms(Knob::kViewDistance), 7.0);
+  ASSERT_TRUE(costs.cost(Knob::kViewDistance));
+  EXPECT_EQ(costs.cost(Knob::kViewDistance)->ms, 7.0);
 }
 
 TEST(Thumbnails, KeepColoursAndCutToTheMiddle) {

@@ -1,0 +1,45 @@
+// Which keys a new player is shown, until they have been used.
+#pragma once
+#include <bitset>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "engine/core/result.h"
+#include "game/input/actions.h"
+
+namespace skerry::game {
+
+/// The few keys that matter, one at a time; one that was used does not come again.
+class Hints {
+ public:
+  static constexpr std::size_t kCount = 7;
+
+  /// What the player does in the world, in a frame.
+  void note(const ActionFrame& actions);
+  /// "W, A, S, D: walk" of the first that was not used; none: all were.
+  /// @param pad names a gamepad's buttons.
+  std::optional<std::string> line(const Bindings& bindings, bool pad) const;
+  /// Whether one was used for the first time since the last call.
+  bool take_changed() { return std::exchange(changed_, false); }
+
+  /// As a file keeps it: names of the hints that were used. What is not understood is left out: the
+  /// hints then come again.
+  static Hints read(std::string_view json_text);
+  std::string print() const;
+
+ private:
+  std::bitset<kCount> used_;
+  bool changed_ = false;
+};
+
+/// `hints.json` in the user's folder for configuration; empty if there is none.
+std::filesystem::path hints_path();
+/// A file that is not there, or cannot be read, has none used.
+Hints load_hints(const std::filesystem::path& path);
+/// Errors: the folder or file cannot be written.
+Result<void> save_hints(const std::filesystem::path& path, const Hints& hints);
+
+}  // namespace skerry::game

@@ -1,0 +1,64 @@
+#include "game/input/hints.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/folder.h"
+
+namespace skerry::game {
+namespace {
+
+using platform::Input;
+using platform::Key;
+
+void press(Hints& hints, Key key) {
+  Input input;
+  input.set_key(key, true);
+  hints.note(ActionFrame(input.take(), default_bindings()));
+}
+
+TEST(Hints, ComeOneByOneAndGoOnceUsed) {
+  Hints hints;
+  const auto line = [&] { return hints.line(default_bindings(), false).value_or("none"); };
+  EXPECT_EQ(line(), "W, A, S, D: walk");
+  EXPECT_EQ(hints.line(default_bindings(), true),
+            "Left stick up, Left stick left, Left stick down, Left stick right: walk");
+  press(hints, Key::kN);  // no hint's
+  EXPECT_FALSE(hints.take_changed());
+  press(hints, Key::kA);
+  EXPECT_TRUE(hints.take_changed());
+  EXPECT_FALSE(hints.take_changed());
+  EXPECT_EQ(line(), "Space: jump");
+  press(hints, Key::kMouseLeft);  // before its turn
+  press(hints, Key::kSpace);
+  EXPECT_EQ(line(), "Mouse right: place what is in the hand");
+  for (const Key key : {Key::kMouseRight, Key::kE, Key::kL, Key::kEscape}) press(hints, key);
+  EXPECT_EQ(line(), "none");
+}
+
+TEST(Hints, NameTheKeysThatAreBound) {
+  Bindings bindings = default_bindings();
+  bindings[Action::kForward].key = {Key::kUp};
+  bindings[Action::kBack].key = {};
+  EXPECT_EQ(Hints().line(bindings, false), "Up, A, D: walk");
+  for (const Action action : {Action::kForward, Action::kLeft, Action::kRight})
+    bindings[action].key = {};
+  EXPECT_EQ(Hints().line(bindings, false), "Space: jump");  // one without a key is skipped
+}
+
+TEST(Hints, AreKeptInAFileAndSurviveAnyOther) {
+  const Folder folder;
+  const auto path = folder / "deep" / "hints.json";
+  Hints hints;
+  press(hints, Key::kW);
+  ASSERT_TRUE(save_hints(path, hints));
+  EXPECT_EQ(load_hints(path).line(default_bindings(), false), "Space: jump");
+  EXPECT_EQ(load_hints(path).print(), hints.print());
+  for (const char* text : {"", "{", "[]", "7", R"({"used": 3})", R"({"used": [1, "x", null]})",
+                           R"({"used": {"walk": 1}})", "\xff\xfe"})
+    EXPECT_EQ(Hints::read(text).line(default_bindings(), false), "W, A, S, D: walk") << text;
+  EXPECT_TRUE(load_hints(folder / "none.json").line(default_bindings(), false));
+  EXPECT_FALSE(save_hints({}, hints));
+}
+
+}  // namespace
+}  // namespace skerry::game

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# Under a window manager: nothing but the mouse turns the view, losing the focus pauses, and quality set by keys is kept.
+# usage: view_test.sh SKERRY_PROGRAM     exit: 0 passed, 1 failed, 77 no Xvfb, xdotool or openbox here
+source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
+skerry=$1
+key_pause=0.7
+start_display openbox
+openbox >/dev/null 2>&1 &
+manager=$!
+trap 'kill "$manager" 2>/dev/null || true; cleanup' EXIT
+sleep 1
+
+play --seed 1 --time 12:00 --set view.distance=48
+wait_for_frames
+sleep 2
+
+cameras() { { grep -o -- '--camera [^ ]*' "$work/out" || true; } | cut -d ' ' -f 2; }
+commands() { grep -c '^skerry shot' "$work/out" || true; }
+# Takes a screenshot; prints yaw and pitch.
+direction() {
+  local before
+  before=$(commands)
+  xdotool key --window 0 F2
+  for _ in $(seq 100); do [ "$(commands)" -gt "$before" ] && break; sleep 0.1; alive "while taking a screenshot"; done
+  [ "$(commands)" -gt "$before" ] || fail "no screenshot $1"
+  cameras | tail -n 1 | cut -d , -f 4,5
+}
+expect_same() {  # to a hundredth of a degree: what is taken back is rounded
+  awk -v a="$2" -v b="$3" 'BEGIN { split(a, p, ","); split(b, q, ","); d = (p[1] - q[1]) ^ 2 + (p[2] - q[2]) ^ 2; exit !(d < 1e-4) }' ||
+    fail "the view turned from $2 to $3 by $1"
+}
+
+# The mouse does turn it; of the settling after the window's first focus the test waits until it is over.
+for _ in 1 2 3 4; do xdotool mousemove_relative -- 20 5; sleep 0.3; done
+start=$(direction "at the start")
+xdotool mousemove_relative -- 40 0
+sleep 1
+turned=$(direction "after the mouse moved")
+[ "$start" != "$turned" ] || fail "the mouse does not turn the view"
+
+for size in '500 300' '200 400' '1 1' '640 360' '64 64' '320 180'; do
+  # shellcheck disable=SC2086  # two numbers
+  xdotool windowsize "$window" $size
+  sleep 0.5
+done
+for i in $(seq 12); do xdotool windowsize "$window" $((300 + 20 * i)) $((180 + 9 * i)); done
+xdotool windowsize "$window" 320 180
+sleep 1
+expect_same "resizing" "$turned" "$(direction "after resizing")"
+
+for place in '10 10' '300 200' '0 0' '100 50'; do
+  # shellcheck disable=SC2086
+  xdotool windowmove "$window" $place
+  sleep 0.4
+done
+expect_same "moving the window" "$turned" "$(direction "after moving")"
+
+key F11 1.5
+key F11 1.5
+xdotool windowactivate "$window"
+sleep 1
+expect_same "fullscreen and back" "$turned" "$(direction "after F11")"
+
+# Iconified it has no focus and pauses; a screenshot is none of the pause's keys.
+xdotool windowminimize "$window"
+sleep 1.5
+alive "while iconified"
+xdotool windowactivate "$window"
+sleep 1.5
+before=$(commands)
+key F2 2
+[ "$(commands)" = "$before" ] || fail "it did not pause when it lost the focus"
+key Escape 1
+expect_same "iconifying" "$turned" "$(direction "after iconifying")"
+
+# Quality by a key is kept, once the window is closed.
+key equal
+xdotool key --window 0 alt+F4
+for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
+grep -q '"quality": "medium"' "$work/config/skerry/settings.json" || fail "the quality set by a key is forgotten"
+echo "passed"

@@ -1,0 +1,42 @@
+// A gamepad that a test presses: preloaded before GLFW, it answers for its joystick layer. The file
+// that SKERRY_TEST_PAD names holds what is pressed now: "button NUMBER" and "axis NUMBER VALUE",
+// numbered as GLFW does; an empty file is a pad at rest, none is no pad.
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace {
+
+std::ifstream pad_file() {
+  const char* path = std::getenv("SKERRY_TEST_PAD");
+  return std::ifstream(path ? path : "");
+}
+
+}  // namespace
+
+extern "C" int glfwJoystickIsGamepad(int id) {
+  return id == GLFW_JOYSTICK_1 && pad_file().good() ? GLFW_TRUE : GLFW_FALSE;
+}
+
+extern "C" int glfwGetGamepadState(int id, GLFWgamepadstate* state) {
+  std::ifstream file = pad_file();
+  if (id != GLFW_JOYSTICK_1 || !file) return GLFW_FALSE;
+  std::fill(std::begin(state->buttons), std::end(state->buttons),
+            static_cast<unsigned char>(GLFW_RELEASE));
+  std::fill(std::begin(state->axes), std::end(state->axes), 0.0f);
+  state->axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] = state->axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] =
+      -1.0f;
+  std::string kind;
+  std::size_t number = 0;
+  while (file >> kind >> number) {
+    float value = 0.0f;
+    if (kind == "axis") file >> value;
+    if (kind == "axis" && number < std::size(state->axes)) state->axes[number] = value;
+    if (kind == "button" && number < std::size(state->buttons)) state->buttons[number] = GLFW_PRESS;
+  }
+  return GLFW_TRUE;
+}
