@@ -120,6 +120,9 @@ set_tests_properties(cli.hostile PROPERTIES TIMEOUT 900 PROCESSORS 2)
 add_test(NAME tools.commands COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/commands_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/commands)
 set_tests_properties(tools.commands PROPERTIES TIMEOUT 300)
+# The same commands in parts, as plan, run and merge; tests/tools/farm_test.py PROGRAM FOLDER 100 kills a hundred times.
+add_test(NAME tools.farm COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/farm_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/farm)
+set_tests_properties(tools.farm PROPERTIES TIMEOUT 600)
 
 # Each deliberate breakage of tests/mutation still fits the code; the run of all of them builds for a quarter of an hour and is no part of this.
 add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --check)

@@ -127,10 +127,16 @@ class Drawing {
   }
 
  private:
+  /// The medians, and of the spreads what is no further from them than they are from each other
+  /// (or a twentieth of the longest): a few late frames must not hide what the chart compares.
   static std::vector<double> times(const Chart& chart) {
+    const auto [least, most] = std::ranges::minmax(chart.points, {}, &ChartPoint::time);
+    const double room = std::max(most.time - least.time, 0.05 * most.time);
+    const double low = std::max(least.time - room, 0.0), high = most.time + room;
     std::vector<double> values;
     for (const ChartPoint& point : chart.points)
-      values.insert(values.end(), {point.time_low, point.time_high});
+      values.insert(values.end(), {std::clamp(point.time_low, low, high), point.time,
+                                   std::clamp(point.time_high, low, high)});
     return values;
   }
   static std::vector<double> errors(const Chart& chart) {
@@ -180,9 +186,13 @@ class Drawing {
     for (std::size_t i = 0; i < chart_.points.size(); ++i) {
       const ChartPoint& point = chart_.points[i];
       const double x = x_of(i), y = y_of(i);
-      const double low = x_.place(point.time_low), high = x_.place(point.time_high);
-      out_ += line("spread", low, y, high, y) + line("spread", low, y - 4, low, y + 4) +
-              line("spread", high, y - 4, high, y + 4);
+      const double low = std::max(x_.place(point.time_low), kLeft);
+      const double high = std::min(x_.place(point.time_high), kRight);
+      out_ += line("spread", low, y, high, y) + line("spread", low, y - 4, low, y + 4);
+      if (x_.place(point.time_high) > kRight)  // it goes on
+        out_ += line("spread", high - 5, y - 4, high, y) + line("spread", high - 5, y + 4, high, y);
+      else
+        out_ += line("spread", high, y - 4, high, y + 4);
       const bool on = std::find(front_.begin(), front_.end(), i) != front_.end();
       out_ += circle(on ? "on" : "off", x, y, 5);
       if (!point.defaults.empty()) out_ += circle(looks_of(point).ring, x, y, 10);

@@ -121,8 +121,8 @@ int CommandLine::run() {
   const CLI::App* chosen = app.get_subcommands().front();
   if (chosen == bench->command()) return bench->run();
   if (chosen == report->command()) return report->run(typed);
-  if (chosen == test->command()) return test->run();
-  if (chosen == stability->command()) return stability->run();
+  if (chosen == test->command()) return test->run(typed);
+  if (chosen == stability->command()) return stability->run(typed);
   if (chosen == vdb->command()) return vdb->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();

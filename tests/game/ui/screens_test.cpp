@@ -214,11 +214,13 @@ TEST(Screens, KnobsTurnByArrowsAloneFromTheFirstOnDown) {
   sitting.tap(Key::kLeft);
   EXPECT_EQ(sitting.quality, Quality::kLow);
   sitting.tap(Key::kLeft);
-  EXPECT_EQ(sitting.quality, Quality::kLow);
+  EXPECT_TRUE(sitting.quality_auto);
+  sitting.tap(Key::kRight);
+  EXPECT_FALSE(sitting.quality_auto);
   sitting.tap(Key::kRight);
   EXPECT_EQ(sitting.quality, Quality::kMedium);
   const Settings before = sitting.settings;
-  for (int row = 1; row < 15; ++row) {
+  for (int row = 1; row < 19; ++row) {
     sitting.tap(Key::kDown);
     sitting.tap(Key::kLeft);
     EXPECT_FALSE(sitting.gui.typing()) << row;

@@ -42,7 +42,7 @@ TopicResult result_of_noise() {
   };
   TopicResult result{&kTopic, {}, {}};
   for (const std::string_view name : kScenes) {
-    SceneRows scene{std::string(name), "skerry shot --seed '<&>'", 9, {}, {}, {}, 0.0};
+    SceneRows scene{std::string(name), "skerry shot --seed '<&>'", 9, {}, {}, {}, 0.0, {}};
     for (const TopicPoint& point : kPoints) {
       scene.rows.push_back(row(point));
       scene.pictures.push_back({picture(10), picture(0), picture(40)});
@@ -119,11 +119,17 @@ TEST(ReportFiles, JsonHoldsEveryRow) {
 }
 
 TEST(ReportFiles, MarkupIsWellFormedWithHostileLabels) {
-  const TopicResult result = result_of_noise();
+  TopicResult result = result_of_noise();
   EXPECT_EQ(measure::xml_fault(topic_svg(result)), "");
   const std::filesystem::path dir =
       std::filesystem::path(testing::TempDir()) / "skerry_report_files";
   std::filesystem::create_directories(dir);
+  for (SceneRows& scene : result.scenes) {
+    const Result<void> written = write_pictures(kTopic, scene, dir);
+    ASSERT_TRUE(written) << written.error().message;
+    for (const std::string& file : picture_files(kTopic, scene))
+      EXPECT_TRUE(std::filesystem::exists(dir / file)) << file;
+  }
   const Result<std::string> part = write_topic(result, dir);
   ASSERT_TRUE(part) << part.error().message;
   EXPECT_EQ(measure::xml_fault(measure::page("title", *part)), "");

@@ -13,8 +13,6 @@ using measure::escape;
 using measure::labelled;
 using nlohmann::ordered_json;
 
-constexpr int kFrames = 9;
-
 /// What both sides must agree in.
 struct Count {
   const char* name;
@@ -49,23 +47,6 @@ std::string cell(const Count& count, const LeftOutRow& row) {
 }
 
 }  // namespace
-
-Result<std::vector<LeftOutRow>> measure_left_out_topic(
-    gpu::Device& device, const std::function<void(double, std::string_view)>& progress) {
-  const Result<std::vector<LackingScene>> scenes = lacking_scenes();
-  if (!scenes) return scenes.error();
-  std::vector<LeftOutRow> rows;
-  for (const LackingScene& scene : *scenes) {
-    progress(static_cast<double>(rows.size()) / static_cast<double>(scenes->size()),
-             fmt::format("{}: {}", kLeftOutTopic, scene.feature));
-    Result<LeftOutRow> row = measure_left_out(device, scene, kFrames);
-    if (!row)
-      return Error{fmt::format("topic {}, feature {}: {}", kLeftOutTopic, scene.feature,
-                               row.error().message)};
-    rows.push_back(*std::move(row));
-  }
-  return rows;
-}
 
 std::vector<Defect> defects_of(const std::vector<LeftOutRow>& rows) {
   std::vector<Defect> defects;

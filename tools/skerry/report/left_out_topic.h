@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -17,9 +16,8 @@ namespace skerry::tools {
 inline constexpr std::string_view kLeftOutTopic = "left_out";
 inline constexpr std::string_view kLeftOutMeaning = "what a scene does not have must cost nothing";
 
-/// @param progress receives 0..1 and what is being done.
-Result<std::vector<LeftOutRow>> measure_left_out_topic(
-    gpu::Device& device, const std::function<void(double, std::string_view)>& progress);
+/// How many frames each side of a row is timed for.
+inline constexpr int kLeftOutFrames = 9;
 
 /// A row that is not equal in picture and counts on both sides.
 std::vector<Defect> defects_of(const std::vector<LeftOutRow>& rows);

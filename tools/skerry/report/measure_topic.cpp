@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "tools/measure/flip.h"
 #include "tools/measure/metrics.h"
@@ -13,7 +14,8 @@
 namespace skerry::tools {
 namespace {
 
-constexpr int kMinFrames = 9, kMaxFrames = 31;
+constexpr int kSettlingFrames = 2, kTimedFrames = 3;  ///< of a point, before the next one's turn
+constexpr int kMinRounds = 3, kMaxRounds = 10;
 constexpr double kTimingMs = 1500.0;  ///< to spend on a scene's timing when frames are quick
 constexpr int kDifferenceGain = 8;
 
@@ -66,10 +68,16 @@ class Sweep {
                 drawn->report.exposure_ev};
   }
 
-  Result<double> frame_ms(std::size_t point, bool keep_shadows) {
-    Result<std::vector<render::FrameReport>> reports = drawer(point).time(1, keep_shadows);
+  /// Times of kTimedFrames frames. Those right after the change of setting are drawn and not
+  /// counted: they draw anew what later ones keep.
+  Result<std::vector<double>> settled_ms(std::size_t point, bool keep_shadows) {
+    Result<std::vector<render::FrameReport>> reports =
+        drawer(point).time(kSettlingFrames + kTimedFrames, keep_shadows);
     if (!reports) return reports.error();
-    return reports->front().gpu_ms;
+    std::vector<double> ms;
+    for (const render::FrameReport& report : std::span(*reports).subspan(kSettlingFrames))
+      ms.push_back(report.gpu_ms);
+    return ms;
   }
 
  private:
@@ -117,16 +125,17 @@ Result<std::vector<std::vector<double>>> time_frames(Sweep& sweep, const Topic& 
   int rounds = 0;
   for (int round = -1; round < rounds; ++round) {
     for (std::size_t p = 0; p < points; ++p) {
-      const Result<double> frame = sweep.frame_ms(p, topic.cost == CostOf::kShading);
-      if (!frame) return frame.error();
+      const Result<std::vector<double>> frames =
+          sweep.settled_ms(p, topic.cost == CostOf::kShading);
+      if (!frames) return frames.error();
       if (round < 0)
-        round_ms += *frame;
+        round_ms += frames->front() * (kSettlingFrames + kTimedFrames);
       else
-        ms[p].push_back(*frame);
+        ms[p].insert(ms[p].end(), frames->begin(), frames->end());
     }
     if (round < 0)
       rounds =
-          std::clamp(static_cast<int>(kTimingMs / std::max(round_ms, 1.0)), kMinFrames, kMaxFrames);
+          std::clamp(static_cast<int>(kTimingMs / std::max(round_ms, 1.0)), kMinRounds, kMaxRounds);
     progress((round + 1.0) / (rounds + 1.0));
   }
   return ms;
@@ -184,11 +193,38 @@ void compare(const std::vector<Shot>& shots, Judge by, const Judged* reference, 
   }
 }
 
+/// One row for all scenes of a point.
+PointRow row_over(const std::vector<SceneRows>& scenes, std::size_t p) {
+  PointRow sum = scenes.front().rows[p];
+  const double share = 1.0 / static_cast<double>(scenes.size());
+  for (std::size_t s = 1; s < scenes.size(); ++s) {
+    const PointRow& row = scenes[s].rows[p];
+    sum.ms.p10 += row.ms.p10;
+    sum.ms.median += row.ms.median;
+    sum.ms.p90 += row.ms.p90;
+    sum.errors.flip_mean += row.errors.flip_mean;
+    sum.errors.hdr_flip_mean += row.errors.hdr_flip_mean;
+    sum.errors.rel_mse += row.errors.rel_mse;
+    sum.errors.flip_p99 = std::max(sum.errors.flip_p99, row.errors.flip_p99);
+    sum.errors.psnr_db = std::min(sum.errors.psnr_db, row.errors.psnr_db);
+    sum.change += row.change;
+    if (sum.from_reference) *sum.from_reference += row.from_reference.value_or(0.0);
+    sum.same_bytes = sum.same_bytes && row.same_bytes;
+  }
+  for (double* value : {&sum.ms.p10, &sum.ms.median, &sum.ms.p90, &sum.errors.flip_mean,
+                        &sum.errors.hdr_flip_mean, &sum.errors.rel_mse, &sum.change})
+    *value *= share;
+  if (sum.from_reference) *sum.from_reference *= share;
+  return sum;
+}
+
+}  // namespace
+
 Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, const std::string& name,
                                 const Progress& progress) {
   Result<game::SceneOptions> scene = session.scene(name);
   if (!scene) return scene.error();
-  SceneRows out{name, game::shot_command(*scene), 0, {}, {}, {}, 0.0};
+  SceneRows out{name, game::shot_command(*scene), 0, {}, {}, {}, 0.0, {}};
   const std::string what = fmt::format("{} in {}", topic.name, name);
 
   const Judged* reference = nullptr;
@@ -233,50 +269,10 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
   return out;
 }
 
-/// One row for all scenes of a point.
-PointRow over_scenes(const std::vector<SceneRows>& scenes, std::size_t p) {
-  PointRow sum = scenes.front().rows[p];
-  const double share = 1.0 / static_cast<double>(scenes.size());
-  for (std::size_t s = 1; s < scenes.size(); ++s) {
-    const PointRow& row = scenes[s].rows[p];
-    sum.ms.p10 += row.ms.p10;
-    sum.ms.median += row.ms.median;
-    sum.ms.p90 += row.ms.p90;
-    sum.errors.flip_mean += row.errors.flip_mean;
-    sum.errors.hdr_flip_mean += row.errors.hdr_flip_mean;
-    sum.errors.rel_mse += row.errors.rel_mse;
-    sum.errors.flip_p99 = std::max(sum.errors.flip_p99, row.errors.flip_p99);
-    sum.errors.psnr_db = std::min(sum.errors.psnr_db, row.errors.psnr_db);
-    sum.change += row.change;
-    if (sum.from_reference) *sum.from_reference += row.from_reference.value_or(0.0);
-    sum.same_bytes = sum.same_bytes && row.same_bytes;
-  }
-  for (double* value : {&sum.ms.p10, &sum.ms.median, &sum.ms.p90, &sum.errors.flip_mean,
-                        &sum.errors.hdr_flip_mean, &sum.errors.rel_mse, &sum.change})
-    *value *= share;
-  if (sum.from_reference) *sum.from_reference *= share;
-  return sum;
-}
-
-}  // namespace
-
-Result<TopicResult> measure_topic(ReportSession& session, const Topic& topic,
-                                  const Progress& progress) {
-  TopicResult result{&topic, {}, {}};
-  const std::vector<std::string> scenes = session.scenes_of(topic);
-  for (const std::string& scene : scenes) {
-    const double done = static_cast<double>(result.scenes.size());
-    Result<SceneRows> rows =
-        measure_scene(session, topic, scene, [&](double share, std::string_view what) {
-          progress((done + share) / static_cast<double>(scenes.size()), what);
-        });
-    if (!rows)
-      return Error{
-          fmt::format("topic {} in scene {}: {}", topic.name, scene, rows.error().message)};
-    result.scenes.push_back(*std::move(rows));
-  }
+TopicResult over_scenes(const Topic& topic, std::vector<SceneRows> scenes) {
+  TopicResult result{&topic, std::move(scenes), {}};
   for (std::size_t p = 0; p < topic.points.size(); ++p)
-    result.rows.push_back(over_scenes(result.scenes, p));
+    result.rows.push_back(row_over(result.scenes, p));
   judge_standing(result.rows);
   return result;
 }

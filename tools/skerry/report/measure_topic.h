@@ -42,6 +42,13 @@ struct PointPictures {
   measure::Image shown, flip, difference;
 };
 
+/// What files a scene's pictures are in (write_pictures).
+struct PictureFiles {
+  std::uint32_t width = 0;  ///< pixels
+  bool reference = false;
+  bool all_equal = false;  ///< no picture differs in any byte from its judge's
+};
+
 struct SceneRows {
   std::string scene;
   std::string command;                  ///< draws the scene with its own settings
@@ -50,6 +57,7 @@ struct SceneRows {
   std::vector<PointPictures> pictures;  ///< alike
   std::optional<measure::Image> reference;
   double reference_standard_error = 0.0;  ///< of its radiance
+  PictureFiles files;                     ///< of the pictures, once they are written
 };
 
 struct TopicResult {
@@ -59,10 +67,14 @@ struct TopicResult {
   std::vector<PointRow> rows;
 };
 
-/// Draws every point of a topic in every scene, times them in turns, so that what else the machine
-/// does hits all alike, and compares. @param progress receives 0..1 and what is being done.
-Result<TopicResult> measure_topic(ReportSession& session, const Topic& topic,
-                                  const std::function<void(double, std::string_view)>& progress);
+/// Draws every point of a topic in a scene, times them in turns, so that what else the machine does
+/// hits all alike, and compares. @param name of scenes_of(). @param progress receives 0..1 and what
+/// is being done.
+Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, const std::string& name,
+                                const std::function<void(double, std::string_view)>& progress);
+
+/// Adds what holds over all scenes. @pre there is one.
+TopicResult over_scenes(const Topic& topic, std::vector<SceneRows> scenes);
 
 /// Fills in `standing` of rows that compete with each other.
 void judge_standing(std::vector<PointRow>& rows);

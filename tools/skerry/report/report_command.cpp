@@ -7,6 +7,8 @@
 #include "engine/platform/files.h"
 #include "game/scene_file/parse.h"
 #include "tools/skerry/report/left_out_topic.h"
+#include "tools/skerry/report/report.h"
+#include "tools/skerry/report/report_folder.h"
 #include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
@@ -31,16 +33,45 @@ bool file_says_size(const std::optional<std::string>& file) {
   return scene && scene->size.has_value();
 }
 
+int refuse(const Refusal& refusal) {
+  return fail(refusal.status, refusal.error);
+}
+
+std::vector<Task> names_of(const ReportTasks& tasks) {
+  std::vector<Task> names;
+  for (const ReportTask& one : tasks.tasks) names.push_back(one.task);
+  return names;
+}
+
+/// Writes the report, gives it its name and prints what it found.
+std::optional<Refusal> publish(const Plan& plan, const Collected& rows, ReportFolder& folder,
+                               const std::string& name) {
+  const Result<std::vector<Defect>> defects = write_report(plan, rows, folder.path());
+  if (!defects) return Refusal{kFailed, defects.error()};
+  if (Result<void> done = folder.publish(); !done) return Refusal{kFailed, done.error()};
+  for (const Defect& defect : *defects)
+    fmt::print("{}: {}\n", defect.certain ? "DEFECT" : "doubtful", defect.text);
+  fmt::print("{}\n", (std::filesystem::path(name) / "index.html").string());
+  return std::nullopt;
+}
+
 }  // namespace
 
 ReportCommand::ReportCommand(CLI::App& app)
     : report_(app.add_subcommand("report", "Report error against run time, setting by setting")) {
   report_->allow_extras();
   report_->footer(topic_list());
-  report_->add_option("topic", topics_, "What to measure (default: everything)")
-      ->type_name("TOPIC");
-  report_->add_option("--out", out_, "Folder for the report")->type_name("DIR");
-  add_scene_options(*report_, scene_);
+  verbs_ = std::make_unique<Verbs>(*report_);
+  verbs_->plan().footer(topic_list());
+  for (CLI::App* command : {report_, &verbs_->plan()}) add_options(*command);
+  for (CLI::App* command : {report_, &verbs_->merge()})
+    command->add_option("--out", out_, "Folder for the report")->type_name("DIR");
+}
+
+/// What decides the rows.
+void ReportCommand::add_options(CLI::App& command) {
+  command.add_option("topic", topics_, "What to measure (default: everything)")->type_name("TOPIC");
+  add_scene_options(command, scene_);
 }
 
 std::optional<Refusal> ReportCommand::read_topics(ReportRequest& request) const {
@@ -67,12 +98,8 @@ std::optional<Refusal> ReportCommand::read_topics(ReportRequest& request) const 
   return std::nullopt;
 }
 
-std::optional<Refusal> ReportCommand::read(std::span<const std::string> typed,
-                                           ReportRequest& request) const {
-  if (auto refusal = check_leftovers(*report_)) return refusal;
+std::optional<Refusal> ReportCommand::read(ReportRequest& request, ReportTasks& tasks) const {
   if (auto refusal = read_topics(request)) return refusal;
-  if (!out_) return Refusal{kUsage, {"the report has no place: give --out DIR"}};
-  request.out = *out_;
   if (auto refusal = resolve(scene_, false, request.scene)) return refusal;
   if (auto refusal = check_draws_frames(request.scene)) return refusal;
   request.typed = scene_.text;
@@ -81,15 +108,99 @@ std::optional<Refusal> ReportCommand::read(std::span<const std::string> typed,
   request.own_scene = scene_.text.seed || scene_.text.world || scene_.text.camera ||
                       scene_.scene_file || !scene_.clouds.empty();
   request.own_size = scene_.text.size || file_says_size(scene_.scene_file);
-  request.command = "skerry";
-  for (const std::string& word : typed) request.command += " " + game::shell_word(word);
+  Result<ReportTasks> found = tasks_of(request);
+  if (!found) return Refusal{kFailed, found.error()};
+  tasks = *std::move(found);
+  for (const std::string& note : tasks.left_out) fmt::print("{}\n", note);
+  if (tasks.tasks.empty()) return Refusal{kFailed, {"no topic is left that can be measured here"}};
   return std::nullopt;
 }
 
 int ReportCommand::run(std::span<const std::string> typed) {
+  const CLI::App* verb = verbs_->chosen();
+  if (!verb) return run_here(typed);
+  if (const auto refusal = verbs_->check()) return refuse(*refusal);
+  if (verb == &verbs_->plan()) return write_plan(typed);
+  return verb == &verbs_->run() ? run_planned() : merge();
+}
+
+int ReportCommand::run_here(std::span<const std::string> typed) {
+  if (const auto refusal = check_leftovers(*report_)) return refuse(*refusal);
   ReportRequest request;
-  if (const auto refusal = read(typed, request)) return fail(refusal->status, refusal->error);
-  return report(request);
+  ReportTasks tasks;
+  if (const auto refusal = read(request, tasks)) return refuse(*refusal);
+  if (!out_) return fail(kUsage, {"the report has no place: give --out DIR"});
+  Result<ReportFolder> folder = ReportFolder::create(*out_, "--out");
+  if (!folder) return fail(kFailed, folder.error());
+  Result<std::unique_ptr<gpu::Device>> device = open_device(request.scene);
+  if (!device) return fail(kNoDevice, device.error());
+  const Plan plan{
+      "report", {typed.begin() + 1, typed.end()}, date_now(), names_of(tasks), tasks.left_out};
+  ReportSession session(**device, request);
+  Collected rows;
+  const Result<void> done =
+      run_tasks(session, tasks.tasks, folder->path(), [&](const Record& record) {
+        rows.records.emplace_back(record);
+        return Result<void>();
+      });
+  if (!done) return fail(kFailed, done.error());
+  rows.folders.resize(rows.records.size());
+  rows.faults.resize(rows.records.size());
+  if (const auto refusal = publish(plan, rows, *folder, *out_)) return refuse(*refusal);
+  return status_after(**device);
+}
+
+int ReportCommand::write_plan(std::span<const std::string> typed) {
+  ReportRequest request;
+  ReportTasks tasks;
+  if (const auto refusal = read(request, tasks)) return refuse(*refusal);
+  if (const auto refusal = verbs_->write(typed, names_of(tasks), tasks.left_out))
+    return refuse(*refusal);
+  return kDone;
+}
+
+int ReportCommand::run_planned() {
+  Plan plan;
+  if (const auto refusal = verbs_->read(plan)) return refuse(*refusal);
+  CLI::App app;
+  ReportCommand planned(app);
+  if (const Result<void> parsed = parse_again(app, plan); !parsed)
+    return fail(kFailed, parsed.error());
+  if (verbs_->device()) planned.scene_.device = verbs_->device();
+  ReportRequest request;
+  ReportTasks tasks;
+  if (const auto refusal = planned.read(request, tasks)) return refuse(*refusal);
+  if (const Result<void> same = check_same_tasks(plan, names_of(tasks)); !same)
+    return fail(kFailed, same.error());
+  std::vector<std::size_t> chosen;
+  if (const auto refusal = verbs_->to_run(plan, chosen)) return refuse(*refusal);
+  if (chosen.empty()) return kDone;
+  const std::filesystem::path pictures = pictures_dir(verbs_->dir());
+  if (const Result<void> made = platform::make_dirs(pictures); !made)
+    return fail(kFailed, made.error());
+  Result<std::unique_ptr<gpu::Device>> device = open_device(request.scene);
+  if (!device) return fail(kNoDevice, device.error());
+  ReportSession session(**device, request);
+  std::vector<ReportTask> wanted;
+  for (const std::size_t i : chosen) wanted.push_back(tasks.tasks[i]);
+  const Result<void> done = run_tasks(session, wanted, pictures, [&](const Record& record) {
+    return write_record(verbs_->dir(), record);
+  });
+  if (!done) return fail(kFailed, done.error());
+  return status_after(**device);
+}
+
+int ReportCommand::merge() {
+  if (!out_) return fail(kUsage, {"the report has no place: give --out DIR"});
+  Plan plan;
+  if (const auto refusal = verbs_->read(plan)) return refuse(*refusal);
+  Result<ReportFolder> folder = ReportFolder::create(*out_, "--out");
+  if (!folder) return fail(kFailed, folder.error());
+  Collected rows;
+  if (const auto refusal = verbs_->read_rows(plan, rows)) return refuse(*refusal);
+  const bool faults = print_faults(plan, rows);
+  if (const auto refusal = publish(plan, rows, *folder, *out_)) return refuse(*refusal);
+  return faults ? kFailed : kDone;
 }
 
 }  // namespace skerry::tools

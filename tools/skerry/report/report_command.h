@@ -1,16 +1,19 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "tools/skerry/report/report_session.h"
+#include "tools/skerry/farm/verbs.h"
+#include "tools/skerry/report/report_tasks.h"
 #include "tools/skerry/scene/arguments.h"
 
 namespace skerry::tools {
 
-/// `skerry report [TOPIC]... --out DIR`: errors against run time.
+/// `skerry report [TOPIC]... --out DIR`: errors against run time (docs/report.md). `report
+/// plan|run|merge` does the same in parts (docs/farm.md).
 class ReportCommand {
  public:
   /// Adds `report`.
@@ -24,16 +27,19 @@ class ReportCommand {
   int run(std::span<const std::string> typed);
 
  private:
-  std::optional<Refusal> read(std::span<const std::string> typed, ReportRequest& request) const;
+  void add_options(CLI::App& command);
+  std::optional<Refusal> read(ReportRequest& request, ReportTasks& tasks) const;
   std::optional<Refusal> read_topics(ReportRequest& request) const;
+  int run_here(std::span<const std::string> typed);
+  int write_plan(std::span<const std::string> typed);
+  int run_planned();
+  int merge();
 
   CLI::App* report_;
+  std::unique_ptr<Verbs> verbs_;
   std::vector<std::string> topics_;
   std::optional<std::string> out_;
   SceneArguments scene_;
 };
-
-/// Measures and writes. @return the exit status.
-int report(const ReportRequest& request);
 
 }  // namespace skerry::tools

@@ -20,14 +20,27 @@ constexpr const char* kOwnScene = "given";
 ReportSession::ReportSession(gpu::Device& device, const ReportRequest& request)
     : device_(device), request_(request) {}
 
-std::vector<std::string> ReportSession::scenes_of(const Topic& topic) const {
-  if (request_.own_scene) return {kOwnScene};
+std::vector<std::string> scenes_of(const ReportRequest& request, const Topic& topic) {
+  if (request.own_scene) return {kOwnScene};
   return {topic.scenes.begin(), topic.scenes.end()};
 }
 
-std::optional<std::string> ReportSession::why_not(const Topic& topic) const {
-  for (const std::string& name : scenes_of(topic)) {
-    const Result<game::SceneOptions> made = scene(name);
+Result<game::SceneOptions> requested_scene(const ReportRequest& request, const std::string& name) {
+  if (request.own_scene) return request.scene;
+  const ReportScene* known = find_report_scene(name);
+  SKERRY_ASSERT(known != nullptr);
+  const Result<game::SceneText> text = game::parse_scene(known->json);
+  if (!text) return text.error();
+  Result<game::SceneOptions> made = game::make_scene(*text, request.typed);
+  if (!made) return made.error();
+  made->device = request.scene.device;
+  made->validate = request.scene.validate;
+  return made;
+}
+
+std::optional<std::string> why_not(const ReportRequest& request, const Topic& topic) {
+  for (const std::string& name : scenes_of(request, topic)) {
+    const Result<game::SceneOptions> made = requested_scene(request, name);
     if (!made) return made.error().message;
     if (!made->clouds.empty() && !world::has_openvdb()) return "this build has no OpenVDB";
     for (const game::CloudFile& cloud : made->clouds)
@@ -39,20 +52,9 @@ std::optional<std::string> ReportSession::why_not(const Topic& topic) const {
 }
 
 Result<game::SceneOptions> ReportSession::scene(const std::string& name) const {
-  game::SceneOptions scene = request_.scene;
-  if (!request_.own_scene) {
-    const ReportScene* known = find_report_scene(name);
-    SKERRY_ASSERT(known != nullptr);
-    const Result<game::SceneText> text = game::parse_scene(known->json);
-    if (!text) return text.error();
-    Result<game::SceneOptions> made = game::make_scene(*text, request_.typed);
-    if (!made) return made.error();
-    made->device = scene.device;
-    made->validate = scene.validate;
-    scene = *std::move(made);
-  }
-  if (!request_.own_size)
-    scene.size = device_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU ? kCpuSize : kGpuSize;
+  Result<game::SceneOptions> scene = requested_scene(request_, name);
+  if (scene && !request_.own_size)
+    scene->size = device_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU ? kCpuSize : kGpuSize;
   return scene;
 }
 

@@ -20,13 +20,20 @@ namespace skerry::tools {
 struct ReportRequest {
   std::vector<const Topic*> topics;
   bool left_out = false;     ///< kLeftOutTopic, too
-  std::string out;           ///< folder
   game::SceneText typed;     ///< scene options of the command line
   game::SceneOptions scene;  ///< as they resolve
   bool own_scene = false;    ///< judge every topic in `scene` instead of the topic's own
   bool own_size = false;     ///< a size was given
-  std::string command;       ///< as typed
 };
+
+/// Names of the scenes a topic is judged in.
+std::vector<std::string> scenes_of(const ReportRequest& request, const Topic& topic);
+/// A scene by such a name, with the settings of a request; its size is the request's if that has
+/// one.
+Result<game::SceneOptions> requested_scene(const ReportRequest& request, const std::string& name);
+/// Why a topic cannot be measured here: a file of its scenes is not there, or this build cannot
+/// read it.
+std::optional<std::string> why_not(const ReportRequest& request, const Topic& topic);
 
 /// A picture by the CPU reference.
 struct Judged {
@@ -37,19 +44,14 @@ struct Judged {
   double seconds = 0.0;
 };
 
-/// What the topics of a run share: the device, the scenes, and the references, each made once.
+/// What the tasks of a run share: the device, and the references, each made once.
 class ReportSession {
  public:
   ReportSession(gpu::Device& device, const ReportRequest& request);
 
   gpu::Device& device() { return device_; }
   const ReportRequest& request() const { return request_; }
-  /// Names of the scenes a topic is judged in.
-  std::vector<std::string> scenes_of(const Topic& topic) const;
-  /// Why a topic cannot be measured here: a file of its scenes is not there, or this build cannot
-  /// read it.
-  std::optional<std::string> why_not(const Topic& topic) const;
-  /// A scene by such a name, with the size and the settings of this run.
+  /// A scene by such a name, with the size and the settings of this run on this device.
   Result<game::SceneOptions> scene(const std::string& name) const;
   /// @param progress receives 0..1. Errors: those of reference::render_reference.
   Result<const Judged*> reference(const game::SceneOptions& scene,

@@ -153,77 +153,74 @@ std::string rows_table(const std::vector<PointRow>& rows) {
   return measure::table(kHeadings, lines);
 }
 
+/// A picture's file, and what stands below it.
+struct Figure {
+  std::string name;  ///< of the file, without ".png"
+  std::string caption;
+};
+
+/// The pictures of a scene, kind by kind.
+struct Figures {
+  std::vector<Figure> shown, flips, differences;
+};
+
+Figures figures_of(const Topic& topic, const SceneRows& scene) {
+  Figures out;
+  const std::string stem = fmt::format("{}-{}", topic.name, scene.scene);
+  if (scene.files.reference) out.shown.push_back({stem + "-reference", "CPU reference"});
+  for (std::size_t p = 0; p < scene.rows.size(); ++p) {
+    const PointRow& row = scene.rows[p];
+    const std::string note =
+        row.defaults.empty() ? "" : fmt::format(" (default: {})", fmt::join(row.defaults, ", "));
+    const std::string label = std::string(row.point->label) + note;
+    const std::string name = fmt::format("{}-{}", stem, p);
+    out.shown.push_back({name, label});
+    out.flips.push_back(
+        {name + "-flip", fmt::format("{}: FLIP {:.4f}", label, row.errors.flip_mean)});
+    out.differences.push_back({name + "-difference", label});
+  }
+  return out;
+}
+
+std::string small_name(const std::string& name) {
+  return name + "-small.png";
+}
+
 /// Writes a picture and, when it is large, a smaller one to show on the page.
-/// @return the figure.
-Result<std::string> write_figure(const std::filesystem::path& dir, const std::string& name,
-                                 const measure::Image& picture, std::string_view caption) {
-  const std::string file = name + ".png";
-  if (Result<void> done = measure::write_image(dir / file, picture); !done) return done.error();
-  if (picture.width <= kThumbnailWidth) return measure::figure(file, file, caption);
-  const std::string small = name + "-small.png";
+Result<void> write_picture(const std::filesystem::path& dir, const std::string& name,
+                           const measure::Image& picture) {
+  if (Result<void> done = measure::write_image(dir / (name + ".png"), picture); !done) return done;
+  if (picture.width <= kThumbnailWidth) return {};
   const std::uint32_t factor = (picture.width + kThumbnailWidth - 1) / kThumbnailWidth;
-  if (Result<void> done = measure::write_image(dir / small, measure::shrink(picture, factor));
-      !done)
-    return done.error();
-  return measure::figure(small, file, caption);
+  return measure::write_image(dir / small_name(name), measure::shrink(picture, factor));
 }
 
-std::string pictures_grid(const std::string& figures) {
-  return element("div", {{"class", "pictures"}}, figures) + "\n";
+std::string pictures_grid(const SceneRows& scene, const std::vector<Figure>& figures) {
+  std::string out;
+  for (const Figure& one : figures) {
+    const std::string file = one.name + ".png";
+    out += measure::figure(scene.files.width <= kThumbnailWidth ? file : small_name(one.name), file,
+                           one.caption);
+  }
+  return element("div", {{"class", "pictures"}}, out) + "\n";
 }
 
-Result<std::string> write_scene(const Topic& topic, const SceneRows& scene,
-                                const std::filesystem::path& dir) {
+std::string scene_part(const Topic& topic, const SceneRows& scene) {
   const ReportScene* known = find_report_scene(scene.scene);
   std::string out = element("h3", escape(fmt::format("Scene {}{}{}", scene.scene, known ? ": " : "",
                                                      known ? known->meaning : "")));
   out += element("p", element("code", escape(scene.command)));
-  if (scene.reference)
+  if (scene.files.reference)
     out += labelled("p", "faint",
                     fmt::format("Standard error of the reference: {:.3g} of its mean radiance.",
                                 scene.reference_standard_error));
   out += rows_table(scene.rows);
-  const std::string stem = fmt::format("{}-{}", topic.name, scene.scene);
-  std::string shown, flips, differences;
-  if (scene.reference) {
-    Result<std::string> figure =
-        write_figure(dir, stem + "-reference", *scene.reference, "CPU reference");
-    if (!figure) return figure.error();
-    shown += *figure;
-  }
-  for (std::size_t p = 0; p < scene.rows.size(); ++p) {
-    const PointRow& row = scene.rows[p];
-    const PointPictures& pictures = scene.pictures[p];
-    const std::string name = fmt::format("{}-{}", stem, p);
-    const std::string note =
-        row.defaults.empty() ? "" : fmt::format(" (default: {})", fmt::join(row.defaults, ", "));
-    const auto add = [&](std::string& to, const char* suffix, const measure::Image& picture,
-                         const std::string& caption) -> Result<void> {
-      Result<std::string> figure = write_figure(dir, name + suffix, picture, caption);
-      if (!figure) return figure.error();
-      to += *figure;
-      return {};
-    };
-    const std::string label = std::string(row.point->label) + note;
-    if (Result<void> done = add(shown, "", pictures.shown, label); !done) return done.error();
-    if (Result<void> done = add(flips, "-flip", pictures.flip,
-                                fmt::format("{}: FLIP {:.4f}", label, row.errors.flip_mean));
-        !done)
-      return done.error();
-    if (Result<void> done = add(differences, "-difference", pictures.difference, label); !done)
-      return done.error();
-  }
-  const bool all_equal = std::ranges::all_of(scene.pictures, [](const PointPictures& pictures) {
-    return std::ranges::all_of(pictures.difference.rgba, [i = 0u](std::uint8_t byte) mutable {
-      return i++ % 4 == 3 || byte == 0;
-    });
-  });
-  out += pictures_grid(shown);
-  if (all_equal) return out + labelled("p", "good", "No picture differs in any byte.");
-  out += labelled("p", "faint", "FLIP: black 0, white 1") + pictures_grid(flips);
-  out += labelled("p", "faint", "Difference of the encoded bytes, 8 times") +
-         pictures_grid(differences);
-  return out;
+  const Figures figures = figures_of(topic, scene);
+  out += pictures_grid(scene, figures.shown);
+  if (scene.files.all_equal) return out + labelled("p", "good", "No picture differs in any byte.");
+  out += labelled("p", "faint", "FLIP: black 0, white 1") + pictures_grid(scene, figures.flips);
+  return out + labelled("p", "faint", "Difference of the encoded bytes, 8 times") +
+         pictures_grid(scene, figures.differences);
 }
 
 }  // namespace
@@ -256,7 +253,7 @@ ordered_json topic_json(const TopicResult& result) {
                    {"command", scene.command},
                    {"frames", scene.frames},
                    {"reference_standard_error",
-                    scene.reference ? ordered_json(scene.reference_standard_error) : nullptr},
+                    scene.files.reference ? ordered_json(scene.reference_standard_error) : nullptr},
                    {"rows", ordered_json::array()}};
     for (const PointRow& row : scene.rows) s["rows"].push_back(row_json(row));
     j["scenes"].push_back(std::move(s));
@@ -305,6 +302,44 @@ std::vector<Defect> defects_of(const TopicResult& result) {
   return defects;
 }
 
+Result<void> write_pictures(const Topic& topic, SceneRows& scene,
+                            const std::filesystem::path& dir) {
+  scene.files.width = scene.pictures.front().shown.width;
+  scene.files.reference = scene.reference.has_value();
+  scene.files.all_equal = std::ranges::all_of(scene.pictures, [](const PointPictures& pictures) {
+    return std::ranges::all_of(pictures.difference.rgba, [i = 0u](std::uint8_t byte) mutable {
+      return i++ % 4 == 3 || byte == 0;
+    });
+  });
+  const Figures figures = figures_of(topic, scene);
+  const std::size_t first = scene.reference ? 1 : 0;
+  if (scene.reference)
+    if (Result<void> done = write_picture(dir, figures.shown[0].name, *scene.reference); !done)
+      return done;
+  for (std::size_t p = 0; p < scene.pictures.size(); ++p) {
+    const PointPictures& pictures = scene.pictures[p];
+    const std::pair<const std::string&, const measure::Image&> files[] = {
+        {figures.shown[first + p].name, pictures.shown},
+        {figures.flips[p].name, pictures.flip},
+        {figures.differences[p].name, pictures.difference}};
+    for (const auto& [name, picture] : files)
+      if (Result<void> done = write_picture(dir, name, picture); !done) return done;
+  }
+  return {};
+}
+
+std::vector<std::string> picture_files(const Topic& topic, const SceneRows& scene) {
+  const Figures figures = figures_of(topic, scene);
+  std::vector<std::string> files;
+  for (const auto* kind : {&figures.shown, &figures.flips, &figures.differences}) {
+    for (const Figure& one : *kind) {
+      files.push_back(one.name + ".png");
+      if (scene.files.width > kThumbnailWidth) files.push_back(small_name(one.name));
+    }
+  }
+  return files;
+}
+
 Result<std::string> write_topic(const TopicResult& result, const std::filesystem::path& dir) {
   const Topic& topic = *result.topic;
   const std::string name(topic.name);
@@ -329,11 +364,7 @@ Result<std::string> write_topic(const TopicResult& result, const std::filesystem
       "Change: mean FLIP "
       "against the last setting. Front off?: something beats it, but their times overlap.</p>\n",
       escape(name));
-  for (const SceneRows& scene : result.scenes) {
-    Result<std::string> part = write_scene(topic, scene, dir);
-    if (!part) return part.error();
-    out += *part;
-  }
+  for (const SceneRows& scene : result.scenes) out += scene_part(topic, scene);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "tools/skerry/report/measure_topic.h"
@@ -23,7 +24,13 @@ struct Defect {
 };
 std::vector<Defect> defects_of(const TopicResult& result);
 
-/// Writes NAME.csv, NAME.json, NAME.svg and NAME-*.png below `dir`.
+/// Writes a scene's pictures, NAME-SCENE-*.png, and says in `scene.files` what there is.
+/// Errors: those of writing.
+Result<void> write_pictures(const Topic& topic, SceneRows& scene, const std::filesystem::path& dir);
+/// The names of the files that write_pictures wrote.
+std::vector<std::string> picture_files(const Topic& topic, const SceneRows& scene);
+
+/// Writes NAME.csv, NAME.json and NAME.svg below `dir`, where the scenes' pictures are.
 /// @return the topic's part of the page, as markup. Errors: those of writing.
 Result<std::string> write_topic(const TopicResult& result, const std::filesystem::path& dir);
 

@@ -15,6 +15,7 @@
 #include "tools/skerry/scene/progress.h"
 #include "tools/skerry/scene/scene_device.h"
 #include "tools/skerry/test/page.h"
+#include "tools/skerry/test/records.h"
 #include "world/vdb/worker.h"
 
 namespace skerry::tools {
@@ -80,29 +81,52 @@ TestCommand::TestCommand(CLI::App& app)
     : test_(app.add_subcommand("test", "Draw scenes and compare them with their references")) {
   test_->allow_extras();
   test_->footer("");
-  test_->add_option("SCENES", paths_, "Scene files, or folders of them (docs/testing.md)");
+  verbs_ = std::make_unique<Verbs>(*test_);
+  add_drawing_options(*test_);
+  add_drawing_options(verbs_->plan());
+  add_output_options(*test_);
+  add_output_options(verbs_->merge());
+  add_jobs(*test_);
+  add_jobs(verbs_->run());
   test_->add_flag("--approve", approve_, "Make the pictures the references");
   test_->add_option("--shard", shard_text_, "Only each N-th scene, from the I-th on")
       ->type_name("I/N");
   test_->add_flag("--merge", merge_, "SCENES are the --json files of all shards: join them");
-  test_->add_option("--html", html_, "Write a report with pictures")->type_name("DIR");
-  test_->add_option("--json", json_, "Write the rows as JSON")->type_name("FILE");
-  test_->add_option("--junit", junit_, "Write the rows as JUnit XML")->type_name("FILE");
-  test_->add_option("--repeat", repeat_text_, "Draw every scene so many times (default 1)")
-      ->type_name("N");
-  test_
-      ->add_option("--jobs", jobs_text_,
-                   "Processes that draw (default: one a core on a CPU device, else one)")
-      ->type_name("N");
   test_->add_option("--device", device_text_, "Vulkan device, as 'skerry devices' counts")
       ->type_name("N");
-  test_->add_flag("--validate", validate_, "Turn the Vulkan validation layer on");
 }
 
-int TestCommand::run() {
-  if (const auto refusal = check_leftovers(*test_)) return fail(refusal->status, refusal->error);
-  if (const auto refusal = check_typed()) return fail(refusal->status, refusal->error);
-  return merge_ ? merge_shards() : draw_and_judge();
+/// What decides the rows.
+void TestCommand::add_drawing_options(CLI::App& command) {
+  command.add_option("SCENES", paths_, "Scene files, or folders of them (docs/testing.md)");
+  command.add_option("--repeat", repeat_text_, "Draw every scene so many times (default 1)")
+      ->type_name("N");
+  command.add_flag("--validate", validate_, "Turn the Vulkan validation layer on");
+}
+
+void TestCommand::add_output_options(CLI::App& command) {
+  command.add_option("--html", html_, "Write a report with pictures")->type_name("DIR");
+  command.add_option("--json", json_, "Write the rows as JSON")->type_name("FILE");
+  command.add_option("--junit", junit_, "Write the rows as JUnit XML")->type_name("FILE");
+}
+
+void TestCommand::add_jobs(CLI::App& command) {
+  command
+      .add_option("--jobs", jobs_text_,
+                  "Processes that draw (default: one a core on a CPU device, else one)")
+      ->type_name("N");
+}
+
+int TestCommand::run(std::span<const std::string> typed) {
+  const CLI::App* verb = verbs_->chosen();
+  if (!verb) {
+    if (const auto refusal = check_leftovers(*test_)) return fail(refusal->status, refusal->error);
+    if (const auto refusal = check_typed()) return fail(refusal->status, refusal->error);
+    return merge_ ? merge_shards() : draw_and_judge();
+  }
+  if (const auto refusal = verbs_->check()) return fail(refusal->status, refusal->error);
+  if (verb == &verbs_->plan()) return write_plan(typed);
+  return verb == &verbs_->run() ? run_tasks() : merge_rows();
 }
 
 std::optional<Refusal> TestCommand::check_typed() {
@@ -164,6 +188,33 @@ std::optional<Refusal> TestCommand::read_set(std::vector<TestScene>& scenes,
                               shard_.count, in_set)}};
 }
 
+/// Draws scenes. @param finished is told each scene's outcome over all runs; an error ends all.
+PoolResult TestCommand::draw(
+    const std::vector<TestScene>& scenes,
+    const std::function<Result<void>(std::size_t, const Outcome&)>& finished) const {
+  std::vector<std::optional<Outcome>> seen(scenes.size());
+  std::vector<std::set<std::string>> pictures(scenes.size());
+  std::size_t done = 0;
+  std::optional<Error> failure;
+  ProgressBar bar;
+  PoolResult end = run_pool(scenes, pool_, [&](std::size_t index, const Outcome& outcome) {
+    if (!outcome.hash.empty()) pictures[index].insert(outcome.hash);
+    if (seen[index]) {
+      add_run(*seen[index], outcome);
+    } else {
+      seen[index] = outcome;
+    }
+    const double all = static_cast<double>(scenes.size()) * pool_.runs;
+    bar.show(static_cast<double>(++done) / all, scenes[index].name);
+    if (seen[index]->row.runs < pool_.runs) return;
+    seen[index]->row.pictures = static_cast<int>(pictures[index].size());
+    if (Result<void> kept = finished(index, *seen[index]); !kept && !failure)
+      failure = kept.error();
+  });
+  if (failure && !end.refusal) end.refusal = Refusal{kFailed, *failure};
+  return end;
+}
+
 int TestCommand::draw_and_judge() {
   Results results;
   results.shard = shard_;
@@ -173,29 +224,16 @@ int TestCommand::draw_and_judge() {
   if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
 
   const Stopwatch watch;
-  std::vector<std::optional<Outcome>> seen(scenes.size());
-  std::vector<std::set<std::string>> pictures(scenes.size());
-  std::size_t done = 0;
-  PoolResult end;
-  {
-    ProgressBar bar;
-    end = run_pool(scenes, pool_, [&](std::size_t index, const Outcome& outcome) {
-      if (!outcome.hash.empty()) pictures[index].insert(outcome.hash);
-      if (seen[index]) {
-        add_run(*seen[index], outcome);
-      } else {
-        seen[index] = outcome;
-      }
-      const double all = static_cast<double>(scenes.size()) * pool_.runs;
-      bar.show(static_cast<double>(++done) / all, scenes[index].name);
-    });
-  }
+  std::vector<Outcome> outcomes(scenes.size());
+  const PoolResult end = draw(scenes, [&](std::size_t scene, const Outcome& outcome) {
+    outcomes[scene] = outcome;
+    return Result<void>();
+  });
   if (end.refusal) return fail(end.refusal->status, end.refusal->error);
-  std::vector<Outcome> outcomes;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    outcomes.push_back(seen[i].value());
-    outcomes.back().row.pictures = static_cast<int>(pictures[i].size());
-    results.rows.push_back(outcomes.back().row);
+  for (const Outcome& outcome : outcomes) {
+    Result<Row> row = row_of(record_of(outcome.row, {}));
+    if (!row) return fail(kFailed, row.error());
+    results.rows.push_back(*std::move(row));
   }
   if (const Result<void> stored = approve(scenes, outcomes); !stored)
     return fail(kFailed, stored.error());
@@ -267,18 +305,23 @@ Result<void> TestCommand::copy_pictures(const std::vector<Results>& shards) cons
                       "folder where it was beside the file",
                       game::quote_text(paths_[i]))};
     }
-    for (const Row& row : shards[i].rows) {
-      // Names come from a file, and must not lead out of the folders.
-      if (fs::path(row.scene).filename() != row.scene) continue;
-      for (const ReportPicture kind : kReportPictures) {
-        const std::string name = report_picture_name(row.scene, kind);
-        if (!fs::exists(from / name, code)) continue;
-        const auto picture = platform::read_text(from / name, platform::kMaxPngFileBytes);
-        if (!picture) return picture.error();
-        if (const auto copied = write_text(report_->path() / name, *picture); !copied)
-          return copied;
-      }
-    }
+    for (const Row& row : shards[i].rows)
+      if (const auto copied = copy_pictures_of(row.scene, from); !copied) return copied;
+  }
+  return {};
+}
+
+/// Those of a scene that a folder has.
+Result<void> TestCommand::copy_pictures_of(const std::string& scene, const fs::path& from) const {
+  // Names come from a file, and must not lead out of the folders.
+  if (fs::path(scene).filename() != scene) return {};
+  std::error_code code;
+  for (const ReportPicture kind : kReportPictures) {
+    const std::string name = report_picture_name(scene, kind);
+    if (!fs::exists(from / name, code)) continue;
+    const auto picture = platform::read_text(from / name, platform::kMaxPngFileBytes);
+    if (!picture) return picture.error();
+    if (const auto copied = write_text(report_->path() / name, *picture); !copied) return copied;
   }
   return {};
 }
@@ -304,6 +347,93 @@ int TestCommand::merge_shards() {
   }
   const std::ptrdiff_t failed = print_summary(merged->rows, runs, seconds);
   if (const auto written = write_outputs(*std::move(merged)); !written)
+    return fail(kFailed, written.error());
+  return failed > 0 ? kFailed : kDone;
+}
+
+int TestCommand::write_plan(std::span<const std::string> typed) {
+  if (const auto refusal = check_typed()) return fail(refusal->status, refusal->error);
+  std::vector<TestScene> scenes;
+  std::size_t in_set = 0;
+  if (const auto refusal = read_set(scenes, in_set)) return fail(refusal->status, refusal->error);
+  const Result<std::vector<Task>> tasks = tasks_of(scenes, pool_);
+  if (!tasks) return fail(kFailed, tasks.error());
+  if (const auto refusal = verbs_->write(typed, *tasks))
+    return fail(refusal->status, refusal->error);
+  return kDone;
+}
+
+/// The scenes of a plan, and how to draw them. Errors: something has changed since.
+std::optional<Refusal> TestCommand::read_planned(const Plan& plan, std::vector<TestScene>& scenes) {
+  CLI::App app;
+  TestCommand planned(app);
+  if (Result<void> parsed = parse_again(app, plan); !parsed)
+    return Refusal{kFailed, parsed.error()};
+  planned.device_text_ = verbs_->device();
+  planned.jobs_text_ = jobs_text_;
+  if (auto refusal = planned.check_typed()) return refusal;
+  std::size_t in_set = 0;
+  if (auto refusal = planned.read_set(scenes, in_set)) return refusal;
+  const Result<std::vector<Task>> tasks = tasks_of(scenes, planned.pool_);
+  if (!tasks) return Refusal{kFailed, tasks.error()};
+  if (Result<void> same = check_same_tasks(plan, *tasks); !same)
+    return Refusal{kFailed, same.error()};
+  pool_ = planned.pool_;
+  return std::nullopt;
+}
+
+int TestCommand::run_tasks() {
+  Plan plan;
+  if (const auto refusal = verbs_->read(plan)) return fail(refusal->status, refusal->error);
+  std::vector<TestScene> scenes;
+  if (const auto refusal = read_planned(plan, scenes)) return fail(refusal->status, refusal->error);
+  std::vector<std::size_t> chosen;
+  if (const auto refusal = verbs_->to_run(plan, chosen))
+    return fail(refusal->status, refusal->error);
+  if (chosen.empty()) return kDone;
+  pool_.judge.html = pictures_dir(verbs_->dir());
+  if (const Result<void> made = platform::make_dirs(*pool_.judge.html); !made)
+    return fail(kFailed, made.error());
+  std::vector<TestScene> wanted;
+  for (const std::size_t i : chosen) wanted.push_back(scenes[i]);
+  const PoolResult end = draw(wanted, [&](std::size_t scene, const Outcome& outcome) {
+    return write_record(verbs_->dir(), record_of(outcome.row, plan.tasks[chosen[scene]].id));
+  });
+  if (end.refusal) return fail(end.refusal->status, end.refusal->error);
+  fmt::print("{} tasks run\n", wanted.size());
+  if (end.validation_messages == 0) return kDone;
+  return fail(kValidationMessage,
+              {fmt::format("{} validation messages were printed above", end.validation_messages)});
+}
+
+int TestCommand::merge_rows() {
+  Plan plan;
+  if (const auto refusal = verbs_->read(plan)) return fail(refusal->status, refusal->error);
+  if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
+  Collected rows;
+  if (const auto refusal = verbs_->read_rows(plan, rows))
+    return fail(refusal->status, refusal->error);
+  Results results;
+  results.scenes_in_set = plan.tasks.size();
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
+    Result<Row> row = rows.records[i] ? row_of(*rows.records[i]) : Row{};
+    if (!row) return fail(kFailed, row.error());
+    row->scene = plan.tasks[i].name;
+    if (!rows.faults[i].empty()) {
+      row->verdict = Verdict::kFail;
+      row->message = rows.faults[i];
+    }
+    seconds += row->seconds;
+    results.rows.push_back(*std::move(row));
+    if (!html_ || !rows.records[i]) continue;
+    const auto copied = copy_pictures_of(plan.tasks[i].name, pictures_dir(rows.folders[i]));
+    if (!copied) return fail(kFailed, copied.error());
+  }
+  int runs = 1;
+  for (const Row& row : results.rows) runs = std::max(runs, row.runs);
+  const std::ptrdiff_t failed = print_summary(results.rows, runs, seconds);
+  if (const Result<void> written = write_outputs(std::move(results)); !written)
     return fail(kFailed, written.error());
   return failed > 0 ? kFailed : kDone;
 }
