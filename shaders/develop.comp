@@ -15,6 +15,7 @@ layout(constant_id = kBloomConstant) const bool kBloom = false;  // if not, some
 layout(binding = kCoarseBloomBinding, rgba16f) readonly uniform image2D coarse;
 layout(push_constant) uniform Push { BloomStep step; } push;
 uvec2 coarse_size() { return push.step.coarse_size; }
+const int kTileTexels = 128;
 #include "include/bloom.glsl"
 
 #include "include/picture.glsl"

@@ -21,11 +21,9 @@ layout(constant_id = kSpreadConstant) const bool kSpread = false;  // up
 layout(constant_id = kFirstConstant) const bool kFirst = false;  // from radiance: exposes it and takes what is too bright
 
 uvec2 coarse_size() { return push.step.coarse_size; }
-#include "include/bloom.glsl"
-
 const int kTile = 20;  // texels that 8x8 coarser ones look at, along an edge
-shared vec3 tile[kTile * kTile];
-shared uint lit;
+const int kTileTexels = kTile * kTile;
+#include "include/bloom.glsl"
 
 // What exceeds the threshold; half of it already begins to count, softly.
 vec3 too_bright(vec3 radiance) {
@@ -75,19 +73,19 @@ vec3 shrunk(ivec2 at) {
 
 void shrink() {
   uint thread = gl_LocalInvocationIndex;
-  if (thread == 0u) lit = 0u;
+  if (thread == 0u) tile_lit = 0u;
   barrier();
   ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16 - 2;
   bool bright = false;
-  for (int i = int(thread); i < kTile * kTile; i += 64) {
+  for (int i = int(thread); i < kTileTexels; i += 64) {
     tile[i] = texel(corner + ivec2(i % kTile, i / kTile));
     bright = bright || tile[i] != vec3(0.0);
   }
-  if (bright) atomicOr(lit, 1u);
+  if (bright) atomicOr(tile_lit, 1u);
   barrier();
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, ivec2(push.step.coarse_size)))) return;
-  vec3 sum = lit != 0u ? shrunk(2 * ivec2(gl_LocalInvocationID.xy)) : vec3(0.0);
+  vec3 sum = tile_lit != 0u ? shrunk(2 * ivec2(gl_LocalInvocationID.xy)) : vec3(0.0);
   imageStore(made, at, vec4(sum, 1.0));
 }
 
