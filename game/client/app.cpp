@@ -21,7 +21,7 @@ constexpr double kScreensShare =
     5.0;  // times what the world behind takes, for the screen before it
 constexpr double kBehindScreens = 1.0 / 30.0;  // seconds, the fewest, between frames of the world
                                                // behind a screen
-constexpr double kUnfocusedUntilPause = 0.3;  // seconds
+constexpr double kUnfocusedUntilPause = 0.3;   // seconds
 
 ui::Clipboard clipboard_of(platform::Window& window) {
   return {[&window] { return window.clipboard(); },

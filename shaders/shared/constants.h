@@ -50,9 +50,11 @@ SHARED_CONST uint kChooseConstant = 46u;          // bool: an exposure is chosen
 SHARED_CONST uint kPackConstant = 47u;            // bool: noise that is there is packed
 SHARED_CONST uint kScanConstant = 49u;            // bool: totals are summed, nothing is emitted
 SHARED_CONST uint kBinConstant = 48u;             // bool: lights of bins, not of clusters
-SHARED_CONST uint kLightListConstant = 50u;       // uint: kListDepths, kListClusters, kListRoom, kListTiles
-SHARED_CONST uint kShowConstant = 51u;            // bool: the meter's histogram is drawn
-SHARED_CONST uint kSpreadConstant = 52u;          // bool: a coarser level of bloom is mixed into a finer one
+SHARED_CONST uint kLightListConstant =
+    50u;                                // uint: kListDepths, kListClusters, kListRoom, kListTiles
+SHARED_CONST uint kShowConstant = 51u;  // bool: the meter's histogram is drawn
+SHARED_CONST uint kSpreadConstant =
+    52u;  // bool: a coarser level of bloom is mixed into a finer one
 
 SHARED_CONST uint kListClusters = 0u;
 SHARED_CONST uint kListRoom = 1u;

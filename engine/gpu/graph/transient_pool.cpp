@@ -17,11 +17,11 @@ Result<Buffer> create(Device& device, const BufferDesc& desc) {
   return device.create_buffer(desc);
 }
 
-/// Sizes of buffers grow in large steps while they are small, then by a quarter to a half, so that
-/// counts that change from frame to frame rarely make one anew.
+/// Buffers begin with what counts of a usual world need, and grow by a quarter to a half: counts
+/// that change from frame to frame rarely make one anew.
 std::uint64_t roomy(std::uint64_t bytes, std::uint64_t most) {
-  std::uint64_t step = std::uint64_t{1} << 16;
-  while (bytes > step && step < std::uint64_t{1} << 19) step *= 8;
+  constexpr std::uint64_t kConstants = 1024;  // of so many bytes are no lists
+  std::uint64_t step = bytes <= kConstants ? kConstants : std::uint64_t{1} << 19;
   while (step * 4 < bytes) step *= 2;
   const std::uint64_t rounded = (bytes + step - 1) / step * step;
   return rounded <= most ? rounded : bytes;

@@ -152,9 +152,9 @@ Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
   return {};
 }
 
-/// Lights come and go: a power of four is not outgrown by each that comes.
+/// Lights come and go: what most worlds need is not outgrown by each that comes.
 std::uint64_t LightClusters::roomy(std::uint64_t size_bytes) const {
-  std::uint64_t bytes = std::uint64_t{1} << 16;
+  std::uint64_t bytes = std::uint64_t{1} << 20;
   while (bytes < size_bytes) bytes *= 4;
   return std::max<std::uint64_t>(std::min(bytes, device_.limits().max_storage_range), size_bytes);
 }

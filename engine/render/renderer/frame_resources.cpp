@@ -16,12 +16,16 @@ constexpr VkBufferUsageFlags kTable =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
+// Tables begin with what most worlds need, so that none grows in a flight.
+constexpr std::uint64_t kLeastBytes = std::uint64_t{1} << 16;
+
 }  // namespace
 
 Result<void> FrameResources::reserve(gpu::Buffer& buffer, const char* name,
                                      std::uint64_t size_bytes) {
   if (buffer && buffer.size_bytes() >= size_bytes) return {};
-  const std::uint64_t size = buffer ? std::max(size_bytes, buffer.size_bytes() * 2) : size_bytes;
+  const std::uint64_t size =
+      std::max({size_bytes, buffer ? buffer.size_bytes() * 2 : 0, kLeastBytes});
   Result<gpu::Buffer> made = device_->create_buffer({name, size, kTable, gpu::Memory::kDevice});
   if (!made) return made.error();
   buffer = *std::move(made);

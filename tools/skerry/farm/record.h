@@ -13,6 +13,7 @@
 namespace skerry::tools {
 
 /// What running a task gave.
+// NOLINTNEXTLINE(bugprone-exception-escape): by nlohmann's move, which is noexcept
 struct Record {
   std::string task;                 ///< its id
   std::string device, driver;       ///< that it ran on; empty: on none
