@@ -113,6 +113,10 @@ bool confirmed() {
          ImGui::IsKeyPressed(ImGuiKey_GamepadFaceDown, false);
 }
 
+void release_enter() {
+  ImGui::GetIO().AddKeyEvent(ImGuiKey_Enter, false);
+}
+
 void Gui::release_all() {
   ImGuiIO& io = ImGui::GetIO();
   for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt})
@@ -222,6 +226,10 @@ void Gui::feed(const InputFrame& input) {
 
 bool confirmed() {
   return ImGui::GetIO().NavInputsDownDuration[ImGuiNavInput_Activate] == 0.0f;
+}
+
+void release_enter() {
+  ImGui::GetIO().KeysDown[ImGuiKey_Enter] = false;
 }
 
 void Gui::release_all() {

@@ -76,6 +76,10 @@ bool by_keys();
 /// Whether Enter, or its like on a gamepad, went down in this frame; between Gui::begin and end.
 bool confirmed();
 
+/// Enter counts as up until it is pressed again. A field that has just received the focus would
+/// take a key that is still held, in a slow frame, for a repeated one.
+void release_enter();
+
 /// Panels of this frame keep so many pixels of the window's foot clear.
 void keep_foot_clear(float pixels);
 

@@ -40,6 +40,7 @@ void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
       break;
   }
   state.fresh = state.stack.top() != top;
+  if (state.fresh) release_enter();
 }
 
 bool goes_back(const ScreenState& state, const platform::InputFrame& input) {

@@ -94,6 +94,7 @@ takes_less 0.4 minimised
 xdotool windowactivate "$window"
 sleep 2
 xdotool windowfocus "$window"
+key Escape 1  # losing the focus has paused
 playing=$(spent_in 4)
 key Escape 1
 takes_less 0.7 paused
