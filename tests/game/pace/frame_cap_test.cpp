@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "game/scene_file/settings.h"
 
 namespace skerry::game {
