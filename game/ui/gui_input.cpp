@@ -101,6 +101,9 @@ void Gui::feed(const InputFrame& input) {
       io.AddMouseButtonEvent(*button, event.down);
     }
   }
+  // A key that was let go while no screen was fed, as when a world is left, comes without an event.
+  for (const GuiKey& key : kGuiKeys)
+    if (!input.down(key.ours)) io.AddKeyEvent(key.theirs, false);
   point(input.pointer);
   io.AddMouseWheelEvent(0.0f, static_cast<float>(input.scroll));
   for (const GuiKey& key : kPadKeys)
@@ -222,6 +225,10 @@ void Gui::feed(const InputFrame& input) {
     take_in(event, io);
     taken.note(event);
   }
+  // A key that was let go while no screen was fed, as when a world is left, comes without an event.
+  if (!queue_.empty() || taken.press) return;
+  for (const GuiKey& key : kGuiKeys)
+    if (!input.down(key.ours)) io.KeysDown[key.theirs] = false;
 }
 
 bool confirmed() {

@@ -17,7 +17,7 @@ press() {  # BUTTON...: together, the first of them longest
   rest; sleep 0.5
   alive "after button $*"
 }
-readonly A=0 B=1 X=2 BACK=6 START=7 UP=11 RIGHT=12 DOWN=13
+readonly A=0 B=1 X=2 BACK=6 START=7 UP=11 RIGHT=12 DOWN=13 LEFT=14
 rest
 LD_PRELOAD=$library play --set view.distance=64
 grab() { import -silent -window "$window" "$1"; }
@@ -34,12 +34,13 @@ moves() {
 until_true "the island behind the title turns" moves
 until_true "the island behind the title goes on" moves
 
-press $A  # new world
+hold "button $A"; sleep 0.8; rest  # new world; frames may be slow yet, and a gamepad is asked once a frame
 sleep 6
 # A slow frame repeats a way, so the steps are not counted: down to the last row, up to letters, up again until Create.
 for _ in $(seq 12); do press $DOWN; done
 press $UP
 for _ in 1 2 3; do press $A; press $RIGHT; done
+for _ in $(seq 8); do press $LEFT; done  # Create is over the first columns, Back over the others
 playing() { xdotool getwindowname "$window" | grep -q fps; }
 for _ in $(seq 8); do
   press $UP

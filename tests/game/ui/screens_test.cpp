@@ -359,6 +359,48 @@ TEST(Typing, ChordsShorterThanAFrameKeepTheirOrder) {
   EXPECT_STREQ(typing.field.data(), "my old harbour");
 }
 
+TEST(Typing, AKeyThatIsHeldBackIsUp) {
+  Gui gui;
+  Input input;
+  platform::HeldBack held;
+  const auto down_after_frame = [&] {
+    const platform::InputFrame frame = held.filtered(input.take());
+    gui.begin({640, 360, 0.05, &frame});
+    const bool down = ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_LeftArrow));
+    gui.end();
+    return down;
+  };
+  input.set_key(Key::kLeft, true);
+  const platform::InputFrame opening = input.take();
+  gui.begin({640, 360, 0.05, &opening});
+  gui.end();
+  // The event that it went up is kept back with it.
+  held.hold(opening);
+  EXPECT_FALSE(down_after_frame());
+  input.set_key(Key::kLeft, false);
+  EXPECT_FALSE(down_after_frame());
+  input.set_key(Key::kLeft, true);
+  EXPECT_TRUE(down_after_frame());
+  EXPECT_TRUE(down_after_frame());
+  input.set_key(Key::kLeft, false);
+  EXPECT_FALSE(down_after_frame());
+}
+
+TEST(NewWorld, IsNotMadeByTheEnterThatOpenedIt) {
+  Sitting sitting(Screen::kTitle);
+  sitting.facts.worlds = {};
+  sitting.settle();
+  sitting.input.set_key(Key::kEnter, true);
+  // Held for longer than ImGui's delay before a key repeats.
+  for (int i = 0; i < 20; ++i) sitting.frame();
+  EXPECT_EQ(sitting.state.stack.top(), Screen::kNewWorld);
+  EXPECT_FALSE(sitting.wishes.create);
+  sitting.input.set_key(Key::kEnter, false);
+  sitting.frame();
+  sitting.tap(Key::kEnter);
+  EXPECT_TRUE(sitting.wishes.create);
+}
+
 TEST(PastedText, IsCutBetweenCharactersAndAtTheFirstLine) {
   EXPECT_EQ(pasted_text("one\ntwo", 100), "one");
   EXPECT_EQ(pasted_text(std::string_view("a\0b", 3), 100), "a");
