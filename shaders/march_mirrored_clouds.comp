@@ -23,7 +23,8 @@ void main() {
   uint word = 0u;
   for (uint i = 4u; i-- > 0u;) {
     uvec2 one = min(square * 2u + uvec2(i & 1u, i >> 1), frame.size - 1u);
-    uint its_word = here ? imageLoad(layer_surfaces, ivec2(one)).r : 0u;
+    bool water = here && texelFetch(layer_depths, ivec2(one), 0).r > 0.0;  // its word is undefined elsewhere
+    uint its_word = water ? imageLoad(layer_surfaces, ivec2(one)).r : 0u;
     pixel = its_word != 0u ? one : pixel;
     word = its_word != 0u ? its_word : word;
   }

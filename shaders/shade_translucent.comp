@@ -27,15 +27,17 @@ layout(binding = kLayerDepthsBinding + 1u) uniform sampler2D layer_depths_1;
 layout(binding = kLayerDepthsBinding + 2u) uniform sampler2D layer_depths_2;
 layout(binding = kLayerDepthsBinding + 3u) uniform sampler2D layer_depths_3;
 
-uint layer_surface(uint k, ivec2 pixel) {
-  return k == 0u ? imageLoad(layer_surfaces_0, pixel).r
-                 : k == 1u ? imageLoad(layer_surfaces_1, pixel).r
-                           : k == 2u ? imageLoad(layer_surfaces_2, pixel).r : imageLoad(layer_surfaces_3, pixel).r;
-}
 float layer_depth(uint k, ivec2 pixel) {
   return k == 0u ? texelFetch(layer_depths_0, pixel, 0).r
                  : k == 1u ? texelFetch(layer_depths_1, pixel, 0).r
                            : k == 2u ? texelFetch(layer_depths_2, pixel, 0).r : texelFetch(layer_depths_3, pixel, 0).r;
+}
+// 0 where the layer has no surface; its word is undefined there.
+uint layer_surface(uint k, ivec2 pixel) {
+  uint word = k == 0u ? imageLoad(layer_surfaces_0, pixel).r
+                      : k == 1u ? imageLoad(layer_surfaces_1, pixel).r
+                                : k == 2u ? imageLoad(layer_surfaces_2, pixel).r : imageLoad(layer_surfaces_3, pixel).r;
+  return layer_depth(k, pixel) > 0.0 ? word : 0u;
 }
 
 layout(binding = kMirroredCloudsBinding) uniform sampler2D mirrored_clouds;

@@ -134,15 +134,17 @@ TEST(FrameGraph, AnEarlierWriteStaysWhenALaterOneOnlyAddsToIt) {
   EXPECT_EQ(frame.graph.pass_names(), (Names{"first", "second", "show"}));
 }
 
-TEST(FrameGraph, AClearedAttachmentForgetsTheWriteBefore) {
-  Frame frame;
-  const ImageRef first = frame.writes("forgotten", frame.graph.create(picture("p")));
-  ImageRef second;
-  frame.graph.add_pass(
-      "draw", [&](PassBuilder& b) { second = b.color(first, Load::cleared({})); }, nothing);
-  frame.reads("show", second, Use::kFragmentRead);
-  frame.run();
-  EXPECT_EQ(frame.graph.culled_names(), Names{"forgotten"});
+TEST(FrameGraph, AnAttachmentThatKeepsNothingForgetsTheWriteBefore) {
+  for (const Load load : {Load::cleared({}), Load::discarded()}) {
+    Frame frame;
+    const ImageRef first = frame.writes("forgotten", frame.graph.create(picture("p")));
+    ImageRef second;
+    frame.graph.add_pass(
+        "draw", [&](PassBuilder& b) { second = b.color(first, load); }, nothing);
+    frame.reads("show", second, Use::kFragmentRead);
+    frame.run();
+    EXPECT_EQ(frame.graph.culled_names(), Names{"forgotten"});
+  }
 }
 
 TEST(FrameGraph, LayersOfOneImageChainAndShareOneTransition) {

@@ -247,7 +247,7 @@ void FrameGraph::State::check_pass(std::uint32_t index, std::vector<std::uint32_
            "has been replaced: '" + passes[writer].name +
                "' wrote a newer version; use the reference it returned");
     }
-    const bool keeps_contents = !use.write() || (use.attachment && !use.load.clear);
+    const bool keeps_contents = !use.write() || (use.attachment && use.load.keeps());
     if (keeps_contents && !written[use.resource])
       fail(pass, use.resource, "no pass has written yet");
     if (use.write()) {
@@ -287,10 +287,11 @@ void FrameGraph::State::cull() {
     }
     if (!pass->alive) continue;
     for (const Declared& use : pass->declared) {
-      // A cleared attachment needs nothing of the version before, if it is the whole image.
+      // An attachment that does not keep its contents needs nothing of the version before, if it is
+      // the whole image.
       const ImageDesc& desc = resources[use.resource].image_desc;
       const bool replaces_all =
-          use.attachment && use.load.clear && desc.layers == 1 && desc.mips == 1;
+          use.attachment && !use.load.keeps() && desc.layers == 1 && desc.mips == 1;
       if (!replaces_all) wanted.insert({use.resource, use.version_in});
     }
   }

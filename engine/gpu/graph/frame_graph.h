@@ -36,10 +36,13 @@ struct BufferRef {
 
 /// What happens to an attachment when its pass begins.
 struct Load {
-  bool clear = false;
+  VkAttachmentLoadOp op = VK_ATTACHMENT_LOAD_OP_LOAD;
   VkClearValue value{};
   static Load keep() { return {}; }
-  static Load cleared(VkClearValue v) { return {true, v}; }
+  static Load cleared(VkClearValue v) { return {VK_ATTACHMENT_LOAD_OP_CLEAR, v}; }
+  /// Pixels that the pass does not draw have any value.
+  static Load discarded() { return {VK_ATTACHMENT_LOAD_OP_DONT_CARE, {}}; }
+  bool keeps() const { return op == VK_ATTACHMENT_LOAD_OP_LOAD; }
 };
 
 /// Milliseconds of one pass on the GPU.

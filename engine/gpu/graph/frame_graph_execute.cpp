@@ -108,7 +108,7 @@ bool FrameGraph::State::begin_rendering(VkCommandBuffer commands, const Pass& pa
         vk_struct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
     attachment.imageView = resource.image->view_of(0, use.layer);
     attachment.imageLayout = use_info(use.use).layout;
-    attachment.loadOp = use.load.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+    attachment.loadOp = use.load.op;
     const bool wanted_later = resource.imported || resource.last_pass > index;
     attachment.storeOp =
         wanted_later ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;

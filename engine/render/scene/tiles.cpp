@@ -7,14 +7,16 @@
 
 #include "engine/gpu/graph/bindings.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame.h"
 
 namespace skerry::render {
 
 using gpu::Use;
 
-Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const char* name,
-                     gpu::ImageRef words, VkExtent2D size) {
+Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                     const char* name, const Coverage& coverage) {
+  const VkExtent2D size = scene.size;
   const std::uint32_t columns = gpu::Commands::groups(size.width, shared::kTileEdge);
   const std::uint32_t rows = gpu::Commands::groups(size.height, shared::kTileEdge);
   Tiles out;
@@ -36,16 +38,20 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const ch
   graph.add_pass(
       name,
       [&](gpu::PassBuilder& b) {
-        b.read(words, Use::kComputeRead);
+        b.read(coverage.words, Use::kComputeRead);
+        b.read(coverage.depth, Use::kComputeSampled);
         out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
-      [words, out, columns, rows, size,
-       program = gpu::compute(pipelines, programs::kClassifyTiles)](gpu::Commands& c) {
+      [coverage, out, columns, rows, size, sampler = scene.point_sampler,
+       program = gpu::compute(pipelines, programs::kClassifyTiles,
+                              {{shared::kByDepthConstant, coverage.by_depth ? 1u : 0u}})](
+          gpu::Commands& c) {
         const struct {
           std::uint32_t width, height, columns, rows;
         } push{size.width, size.height, columns, rows};
-        gpu::bind(c, program, gpu::storage<shared::kSurfacesBinding>(words),
+        gpu::bind(c, program, gpu::storage<shared::kSurfacesBinding>(coverage.words),
+                  gpu::sampled<shared::kDepthsBinding>(coverage.depth, sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
                   gpu::storage<shared::kTilesBinding>(out.lists), gpu::constants(push));
         const std::uint32_t groups = gpu::Commands::groups(columns * rows, 64);

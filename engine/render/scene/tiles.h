@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
+#include "engine/render/frame/scene_refs.h"
 #include "shaders/shared/bindings.h"
 
 namespace skerry::render {
@@ -21,10 +22,16 @@ struct Tiles {
   }
 };
 
-/// Sorts tiles by whether any of their pixels has, or has not, a surface word.
-/// @param words R32_UINT, 0 where there is nothing. @param name of the pass.
-Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const char* name,
-                     gpu::ImageRef words, VkExtent2D size);
+/// Where a pixel has a surface.
+struct Coverage {
+  gpu::ImageRef words;    ///< R32_UINT: its surface, 0 where there is none
+  gpu::ImageRef depth;    ///< reverse-Z, 0 where there is none
+  bool by_depth = false;  ///< by `depth`, and `words` may have any value where there is none
+};
+
+/// Sorts tiles by whether any of their pixels has, or has not, a surface. @param name of the pass.
+Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                     const char* name, const Coverage& coverage);
 
 /// Declares what dispatch_tiles() uses.
 void declare_tiles(gpu::PassBuilder& builder, const Tiles& tiles);

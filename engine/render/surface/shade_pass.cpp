@@ -135,7 +135,8 @@ gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
                     const ShadedFrom& from, const ShadeIn& in, Target target) {
   const SampleIn on{
       from.geometry, from.shadows,
-      classify_tiles(graph, pipelines, "classify_tiles", from.geometry.surfaces(), scene.size)};
+      classify_tiles(graph, pipelines, scene, "classify_tiles",
+                     {.words = from.geometry.surfaces(), .depth = from.geometry.depth()})};
   if (in.sampled)
     target.image = add_sample_passes(graph, pipelines, scene, on, *in.sampled, target.image);
   else

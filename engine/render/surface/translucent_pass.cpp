@@ -42,7 +42,9 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           declare_draws(b, scene, draws);
           b.read(opaque_depth, Use::kFragmentRead);
           if (k > 0) b.read(previous, Use::kFragmentRead);
-          words = b.color(words, gpu::Load::cleared({}));
+          // Only depth says where the layer has a surface: a clear of both takes 0.3 ms of a GPU
+          // with few raster units at 1920x1080, and drawing the water a hundredth of it.
+          words = b.color(words, gpu::Load::discarded());
           depth = b.depth(depth, gpu::Load::cleared({}));
         },
         [scene, draws, opaque_depth, previous, program](gpu::Commands& c) {
@@ -126,8 +128,8 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
                             const In& in, Shaded shaded) {
   // Inside a medium every pixel is looked at through it; else only those with a translucent
   // surface.
-  const Tiles tiles = classify_tiles(graph, pipelines, "classify_translucent_tiles",
-                                     in.layers.surfaces[0], scene.size);
+  const Tiles tiles = classify_tiles(graph, pipelines, scene, "classify_translucent_tiles",
+                                     {in.layers.surfaces[0], in.layers.depth[0], true});
   gpu::ImageRef radiance = shaded.radiance();
   const LayerReads reads(scene, in);
   graph.add_pass(

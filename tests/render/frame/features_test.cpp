@@ -203,6 +203,33 @@ TEST_F(Features, OnlyAsManyLayersArePeeledAsAskedFor) {
   }
 }
 
+// Words of the layers are not cleared: what an earlier frame left there must not be seen.
+TEST_F(Features, WaterShowsNothingOfTheFrameBefore) {
+  const auto panes = [](int x, int y, int z) {
+    const bool pane = y >= 0 && y < 12 && z == 24 && x % 8 < 5;
+    return pane ? static_cast<world::BlockId>(world::block::kGlass) : pond(x, y, z);
+  };
+  RenderSettings settings;
+  settings.water_layers = 3;
+  settings.clouds.coverage = 0.5f;
+  const auto picture_towards = [&](double yaw) {
+    FrameInput in = input(celestial_at(kNoon, 0.0));
+    in.camera = camera_at({15.0, 8.0, -3.0}, yaw, -20.0);
+    drawn(in, settings, kSize);
+    return picture();
+  };
+  const std::vector<double> yaws{0.0, -20.0, 35.0, 10.0};
+  add(panes, {0, -1, 0}, {1, 0, 1});
+  std::vector<std::vector<std::uint8_t>> in_turn;
+  for (const double yaw : yaws) in_turn.push_back(picture_towards(yaw));
+  for (std::size_t i = 0; i < yaws.size(); ++i) {
+    restart();
+    add(panes, {0, -1, 0}, {1, 0, 1});
+    EXPECT_EQ(in_turn[i], picture_towards(yaws[i])) << yaws[i];
+    EXPECT_TRUE(has_pass("shade_translucent"));
+  }
+}
+
 TEST_F(Features, AnEmptyWorldIsSkyAndNothingElse) {
   FrameInput in = input(celestial_at(kNoon, 0.5));
   in.islands = {};
