@@ -43,12 +43,17 @@ bool arrives_in(uint index, vec3 middle, vec3 half_size) {
   around += 0.01 + 1e-4 * (abs(middle.x) + abs(middle.y) + abs(middle.z));  // rounding
   ivec3 low = max(ivec3(floor((centre - around) * per_block)) - first, 0);
   ivec3 high = min(ivec3(floor((centre + around) * per_block)) - first, size - 1);
+  if (any(greaterThan(low, high))) return false;
+  // Bits along z stand together: a word at a time.
   for (int y = low.y; y <= high.y; ++y)
-    for (int x = low.x; x <= high.x; ++x)
-      for (int z = low.z; z <= high.z; ++z) {
-        uint bit = uint(z + size.z * (x + size.x * y));
-        if ((reaches[index - 1u].bits[bit >> 5] >> (bit & 31u) & 1u) != 0u) return true;
+    for (int x = low.x; x <= high.x; ++x) {
+      uint row = uint(size.z * (x + size.x * y)), first_bit = row + uint(low.z), last_bit = row + uint(high.z);
+      for (uint word = first_bit >> 5; word <= last_bit >> 5; ++word) {
+        uint from = max(first_bit, word * 32u) & 31u, to = min(last_bit, word * 32u + 31u) & 31u;
+        uint mask = (0xffffffffu << from) & (0xffffffffu >> (31u - to));
+        if ((reaches[index - 1u].bits[word] & mask) != 0u) return true;
       }
+    }
   return false;
 }
 

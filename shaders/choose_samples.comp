@@ -73,11 +73,12 @@ void main() {
   uvec2 place;
   bool here = level_place(place);
   uvec2 pixel = place * kStep;
-  uint word = imageLoad(surfaces, ivec2(pixel)).r;
+  float stored_depth = texelFetch(depths, ivec2(pixel), 0).r;
+  uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, stored_depth);
   bool surface = here && word != 0u;
   bool shared_light = false;
   if (!kCoarsest) {
-    float depth = word != 0u ? texelFetch(depths, ivec2(pixel), 0).r : 1.0;
+    float depth = word != 0u ? stored_depth : 1.0;
     vec3 ray = pixel_ray(pixel);
     float t = view_distance(surface_depth(depth), frame.near_plane);
     uint key = plane_key(word, lattice_from_world(islands[surface_island(word)], ray * t));

@@ -4,16 +4,16 @@
 // needed only: lavapipe runs both sides of every branch, and on any device a tile's pixels then do the same. docs/conventions.md.
 #include "include/common.glsl"
 #include "shared/bindings.h"
-#include "shared/constants.h"
+#include "include/coverage.glsl"
+#include "include/layers.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
-layout(constant_id = kByDepthConstant) const bool kByDepth = false;  // words are undefined where there is no surface
 layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[2]; };  // 0 covered, 1 open
 layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };           // [kind][tile]
-layout(push_constant) uniform Push { uvec2 size; uvec2 tile_count; } push;
+layout(push_constant) uniform Push { uvec2 size; uvec2 tile_count; uvec4 area; } push;  // area: what is outside shows no surface
 
 void list_tile(uint kind, uint tile) {
   uint slot = atomicAdd(dispatches[kind].tiles, 1u);
@@ -32,7 +32,7 @@ void main() {
   for (int y = 0; y < int(kTileEdge); ++y) {
     for (int x = 0; x < int(kTileEdge); ++x) {
       ivec2 pixel = min(low + ivec2(x, y), last);
-      bool here = kByDepth ? texelFetch(depths, pixel, 0).r > 0.0 : imageLoad(surfaces, pixel).r != 0u;
+      bool here = is_covered(imageLoad(surfaces, pixel).r, layer_depth_at(depths, pixel, push.area));
       covered = covered || here;
       open = open || !here;
     }

@@ -29,9 +29,10 @@ layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint listed_til
 layout(constant_id = kLightListConstant) const uint kLightList = kListClusters;
 layout(constant_id = kOracleConstant) const bool kOracle = false;  // every light may reach every tile
 layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 0u;  // of translucent surfaces, 0..4
-layout(constant_id = kDepth16Constant) const bool kDepth16 = false;  // what lies farthest then has depth 0, and only its word distinguishes it from the sky
 
 #include "include/clusters.glsl"
+#include "include/coverage.glsl"
+#include "include/layers.glsl"
 
 void take(inout TileDepths t, float depth) {
   float z = view_distance(depth, grid.near_plane);
@@ -54,10 +55,10 @@ void find_depths() {
       float depth = texelFetch(depths, pixel, 0).r;
       if (kDepth16 && imageLoad(surfaces, pixel).r != 0u) depth = max(depth, 0.5 / 65535.0);
       if (depth > 0.0) take(t, depth);
-      if (kWaterLayers > 0u && (depth = texelFetch(layer_depths_0, pixel, 0).r) > 0.0) take(t, depth);
-      if (kWaterLayers > 1u && (depth = texelFetch(layer_depths_1, pixel, 0).r) > 0.0) take(t, depth);
-      if (kWaterLayers > 2u && (depth = texelFetch(layer_depths_2, pixel, 0).r) > 0.0) take(t, depth);
-      if (kWaterLayers > 3u && (depth = texelFetch(layer_depths_3, pixel, 0).r) > 0.0) take(t, depth);
+      if (kWaterLayers > 0u && (depth = layer_depth_at(layer_depths_0, pixel, grid.layers_area)) > 0.0) take(t, depth);
+      if (kWaterLayers > 1u && (depth = layer_depth_at(layer_depths_1, pixel, grid.layers_area)) > 0.0) take(t, depth);
+      if (kWaterLayers > 2u && (depth = layer_depth_at(layer_depths_2, pixel, grid.layers_area)) > 0.0) take(t, depth);
+      if (kWaterLayers > 3u && (depth = layer_depth_at(layer_depths_3, pixel, grid.layers_area)) > 0.0) take(t, depth);
     }
   }
   small_tiles[tile] = t;

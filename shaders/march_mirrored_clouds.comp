@@ -3,6 +3,7 @@
 // Clouds that the nearest surfaces of water and glass mirror, one ray for each square of four pixels that shows one.
 // From the surface on, as the sky is mirrored: past whatever stands there. Lamps light no cloud that is mirrored. docs/conventions.md.
 #include "include/cloud_ray.glsl"
+#include "include/layers.glsl"
 #include "shared/bindings.h"
 
 // No uniform buffers: see cloud_ray.glsl.
@@ -23,7 +24,7 @@ void main() {
   uint word = 0u;
   for (uint i = 4u; i-- > 0u;) {
     uvec2 one = min(square * 2u + uvec2(i & 1u, i >> 1), frame.size - 1u);
-    bool water = here && texelFetch(layer_depths, ivec2(one), 0).r > 0.0;  // its word is undefined elsewhere
+    bool water = here && layer_depth_at(layer_depths, ivec2(one), frame.layers_area) > 0.0;  // its word is undefined elsewhere
     uint its_word = water ? imageLoad(layer_surfaces, ivec2(one)).r : 0u;
     pixel = its_word != 0u ? one : pixel;
     word = its_word != 0u ? its_word : word;

@@ -31,9 +31,10 @@ layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 void main() {
   uvec2 pixel;
   bool here = tile_pixel(pixel);
-  uint word = imageLoad(surfaces, ivec2(pixel)).r;
+  float stored_depth = texelFetch(depths, ivec2(pixel), 0).r;
+  uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, stored_depth);
   here = here && word != 0u;
-  float depth = here ? surface_depth(texelFetch(depths, ivec2(pixel), 0).r) : 1.0;
+  float depth = here ? surface_depth(stored_depth) : 1.0;
   Cluster list = lights_at(pixel, view_distance(depth, frame.near_plane));
   if (!here) list.count = 0u;
   Surface s = resolve_surface(word, ivec2(pixel), depth, pixel_ray(pixel), kTextureTaps);

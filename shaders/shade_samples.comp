@@ -84,8 +84,9 @@ void main() {
   bool here = slot < listed.tiles;
   uint packed = pixels[here ? slot : 0u];
   uvec2 pixel = uvec2(packed & 0xffffu, packed >> 16);
-  uint word = imageLoad(surfaces, ivec2(pixel)).r;
-  float depth = surface_depth(texelFetch(depths, ivec2(pixel), 0).r), z = view_distance(depth, frame.near_plane);
+  float stored_depth = texelFetch(depths, ivec2(pixel), 0).r;
+  uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, stored_depth);
+  float depth = surface_depth(stored_depth), z = view_distance(depth, frame.near_plane);
   vec3 ray = pixel_ray(pixel);
   Surface s = surface_without_texture(word, ivec2(pixel), depth, ray);
   s.ao = surface_ao(s, word);

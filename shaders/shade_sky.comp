@@ -12,6 +12,7 @@ layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = kSkyBinding) uniform Sky { SkyConstants sky; };
 layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 
 layout(constant_id = kStarsConstant) const bool kStars = true;  // false by day
@@ -20,6 +21,7 @@ layout(constant_id = kDiscsConstant) const bool kDiscs = true;  // false when ne
 // There is no geometry; then something is bound in place of surfaces and tiles.
 layout(constant_id = kSkyAloneConstant) const bool kSkyAlone = false;
 
+#include "include/coverage.glsl"
 #include "include/tiles.glsl"
 #include "include/output.glsl"
 #include "include/sky.glsl"
@@ -30,7 +32,7 @@ void main() {
   bool here = all(lessThan(pixel, frame.size));
   if (!kSkyAlone) {
     here = tile_pixel(pixel);
-    here = here && imageLoad(surfaces, ivec2(pixel)).r == 0u;
+    here = here && !is_covered(imageLoad(surfaces, ivec2(pixel)).r, texelFetch(depths, ivec2(pixel), 0).r);
   }
   put_pixel(pixel, sky_seen(normalize(pixel_ray(pixel)), kStars, kDiscs), here);
 }

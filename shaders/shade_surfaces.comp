@@ -34,8 +34,9 @@ layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 void main() {
   uvec2 pixel;
   bool here = tile_pixel(pixel);
-  uint word = imageLoad(surfaces, ivec2(pixel)).r;
-  float depth = surface_depth(texelFetch(depths, ivec2(pixel), 0).r);
+  float stored_depth = texelFetch(depths, ivec2(pixel), 0).r;
+  uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, stored_depth);
+  float depth = surface_depth(stored_depth);
   // Pixels of sky go along as some surface near the eye; they are not stored.
   Surface surface = resolve_surface(word, ivec2(pixel), word != 0u ? depth : 1.0, pixel_ray(pixel), kTextureTaps);
   surface.ao = surface_ao(surface, word);

@@ -27,10 +27,12 @@ layout(binding = kLayerDepthsBinding + 1u) uniform sampler2D layer_depths_1;
 layout(binding = kLayerDepthsBinding + 2u) uniform sampler2D layer_depths_2;
 layout(binding = kLayerDepthsBinding + 3u) uniform sampler2D layer_depths_3;
 
+#include "include/layers.glsl"
+
 float layer_depth(uint k, ivec2 pixel) {
-  return k == 0u ? texelFetch(layer_depths_0, pixel, 0).r
-                 : k == 1u ? texelFetch(layer_depths_1, pixel, 0).r
-                           : k == 2u ? texelFetch(layer_depths_2, pixel, 0).r : texelFetch(layer_depths_3, pixel, 0).r;
+  return k == 0u ? layer_depth_at(layer_depths_0, pixel, frame.layers_area)
+                 : k == 1u ? layer_depth_at(layer_depths_1, pixel, frame.layers_area)
+                           : k == 2u ? layer_depth_at(layer_depths_2, pixel, frame.layers_area) : layer_depth_at(layer_depths_3, pixel, frame.layers_area);
 }
 // 0 where the layer has no surface; its word is undefined there.
 uint layer_surface(uint k, ivec2 pixel) {

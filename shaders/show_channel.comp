@@ -89,11 +89,12 @@ vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, frame.size))) return;
-  uint word = imageLoad(surfaces, ivec2(pixel)).r;
+  float depth = texelFetch(depths, ivec2(pixel), 0).r;
+  uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, depth);
   vec3 colour = vec3(0.0);
   if (kLit && kChannel >= kClustersChannel)
-    colour = light_count(word, pixel, texelFetch(depths, ivec2(pixel), 0).r);
+    colour = light_count(word, pixel, depth);
   else if (word != 0u)
-    colour = channel(word, ivec2(pixel), surface_depth(texelFetch(depths, ivec2(pixel), 0).r), pixel_ray(pixel));
+    colour = channel(word, ivec2(pixel), surface_depth(depth), pixel_ray(pixel));
   imageStore(picture, ivec2(pixel), vec4(clamp(colour, 0.0, 1.0), 1.0));
 }

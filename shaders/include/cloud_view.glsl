@@ -2,6 +2,8 @@
 #define SKERRY_LIGHTS
 #include "shared/constants.h"
 #include "include/cloud_ray.glsl"
+#include "include/coverage.glsl"
+#include "include/layers.glsl"
 
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
@@ -9,7 +11,6 @@ layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths;  // of the
 
 // There is no geometry; then something is bound in place of what shows it.
 layout(constant_id = kSkyAloneConstant) const bool kSkyAlone = false;
-layout(constant_id = kDepth16Constant) const bool kDepth16 = false;
 layout(constant_id = kTranslucentConstant) const bool kTranslucent = false;  // there is water or glass
 layout(constant_id = kBehindConstant) const bool kBehind = false;       // march behind the nearest water or glass, not before it
 
@@ -21,7 +22,7 @@ vec2 open_way(uvec2 pixel) {
   if (kDepth16 && imageLoad(surfaces, ivec2(pixel)).r != 0u) depth = max(depth, 0.5 / 65535.0);
   float surface = depth > 0.0 ? view_distance(depth, frame.near_plane) : kSkyDistance;
   if (!kTranslucent) return vec2(0.0, surface);
-  float layer = texelFetch(layer_depths, ivec2(pixel), 0).r;
+  float layer = layer_depth_at(layer_depths, ivec2(pixel), frame.layers_area);
   float layer_distance = layer > 0.0 ? view_distance(layer, frame.near_plane) : surface;
   return kBehind ? vec2(layer_distance, surface) : vec2(0.0, min(layer_distance, surface));
 }

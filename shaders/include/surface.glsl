@@ -5,7 +5,7 @@
 #include "shared/bindings.h"
 #include "shared/constants.h"
 
-layout(constant_id = kDepth16Constant) const bool kDepth16 = false;  // depth was kept in 16 bits
+#include "include/coverage.glsl"
 #ifdef SKERRY_STORED
 #include "include/stored.glsl"
 layout(constant_id = kNormalCodeConstant) const uint kNormalCode = 0u;

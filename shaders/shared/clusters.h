@@ -27,8 +27,9 @@ struct ClusterGrid {
   uint light_words;  // 32-bit words that hold a bit a light
   uint chunk_words;  // of them that one invocation looks through
   uint chunks;
-  uint unit_log2;  // lists begin at multiples of 2^this entries
-  uint capacity;   // of the entries [such units]
+  uint unit_log2;     // lists begin at multiples of 2^this entries
+  uint capacity;      // of the entries [such units]
+  uvec4 layers_area;  // see FrameConstants
   uint
       marked_slices;  // a bit a slice: occupied in every tile, as about a camera in water or clouds
 };

@@ -13,7 +13,6 @@ SHARED_CONST uint kNormalCodeConstant = 4u;       // uint: how normals are kept
 SHARED_CONST uint kPositionStoredConstant = 5u;   // bool: positions are kept
 SHARED_CONST uint kDepth16Constant = 6u;          // bool: depth is kept in 16 bits
 SHARED_CONST uint kFirstLayerConstant = 7u;       // bool: nothing lies before the layer
-SHARED_CONST uint kByDepthConstant = 18u;         // bool: depth says where there are surfaces
 SHARED_CONST uint kBodiesConstant = 8u;           // uint: bits of sun and moon
 SHARED_CONST uint kShadowTapsConstant = 9u;       // uint
 SHARED_CONST uint kCascadesConstant = 10u;        // uint: of a body

@@ -42,8 +42,10 @@ struct FrameConstants {
                    // of view
   vec3 ray_up;
   vec3 ray_forward;
-  vec2 pixel_to_ndc;     // 2 / image size
-  uvec2 size;            // of the images that are drawn [pixels]
+  vec2 pixel_to_ndc;  // 2 / image size
+  uvec2 size;         // of the images that are drawn [pixels]
+  uvec4 layers_area;  // from xy to before zw: pixels outside show no water or glass, and its layers
+                      // have any value there
   uvec2 picture_size;    // smaller by the samples along a pixel's edge [pixels]
   float near_plane;      // blocks
   float display_peak;    // brightest value of the picture, sRGB-encoded, 0..1

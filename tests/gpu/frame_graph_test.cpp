@@ -369,6 +369,23 @@ TEST(FrameGraphDeathTest, AnEmptyReferenceIsFatal) {
                "'show' uses an empty reference");
 }
 
+TEST(FrameGraphDeathTest, AnAreaBeyondTheAttachmentsIsFatal) {
+  for (const VkRect2D area : {VkRect2D{{-1, 0}, {4, 4}}, VkRect2D{{0, 29}, {4, 4}},
+                              VkRect2D{{0, 0}, {0, 4}}, VkRect2D{{0, 1}, {4, ~0u}}}) {
+    Frame frame;
+    const ImageRef image = frame.graph.create(picture("image"));
+    frame.graph.add_pass(
+        "draw",
+        [&](PassBuilder& builder) {
+          builder.area(area);
+          std::ignore = builder.color(image, Load::cleared({}));
+        },
+        nothing);
+    EXPECT_DEATH(frame.graph.compile(),
+                 "'draw' uses 'image', which does not contain the area that the pass draws to");
+  }
+}
+
 TEST(FrameGraphDeathTest, AttachmentsOfDifferentSizesAreFatal) {
   Frame frame;
   ImageDesc small = picture("small");

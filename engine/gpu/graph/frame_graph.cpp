@@ -68,6 +68,10 @@ ImageRef PassBuilder::depth(ImageRef image, Load load, std::uint32_t layer) {
                                           true, layer, load})};
 }
 
+void PassBuilder::area(VkRect2D area) {
+  graph_.state_->passes[pass_].area = area;
+}
+
 void PassBuilder::keep() {
   graph_.state_->passes[pass_].keep = true;
 }
@@ -258,6 +262,18 @@ void FrameGraph::State::check_pass(std::uint32_t index, std::vector<std::uint32_
   check_attachments(pass);
 }
 
+namespace {
+
+bool contains(VkExtent2D image, const VkRect2D& area) {
+  const auto along = [](std::int32_t from, std::uint32_t size, std::uint32_t whole) {
+    return from >= 0 && size > 0 && std::uint64_t{size} + static_cast<std::uint64_t>(from) <= whole;
+  };
+  return along(area.offset.x, area.extent.width, image.width) &&
+         along(area.offset.y, area.extent.height, image.height);
+}
+
+}  // namespace
+
 void FrameGraph::State::check_attachments(const Pass& pass) const {
   const Resource* first = nullptr;
   bool depth = false;
@@ -271,6 +287,8 @@ void FrameGraph::State::check_attachments(const Pass& pass) const {
     }
     if (use.use == Use::kDepth && std::exchange(depth, true))
       fail(pass, use.resource, "is a second depth attachment");
+    if (pass.area && !contains(a, *pass.area))
+      fail(pass, use.resource, "does not contain the area that the pass draws to");
   }
 }
 

@@ -78,9 +78,12 @@ class PassBuilder {
   [[nodiscard]] ImageRef write(ImageRef image, Use use);
   [[nodiscard]] BufferRef write(BufferRef buffer, Use use);
   /// Attachment of this pass. @param layer array layer drawn to. The render area is the image's
-  /// extent.
+  /// extent, or what area() says.
   [[nodiscard]] ImageRef color(ImageRef image, Load load);
   [[nodiscard]] ImageRef depth(ImageRef image, Load load, std::uint32_t layer = 0);
+  /// Part of the attachments that the pass clears and draws to; nothing is kept outside of it.
+  /// @param area not empty, within the images.
+  void area(VkRect2D area);
   /// The pass runs even when no pass reads what it writes.
   void keep();
 

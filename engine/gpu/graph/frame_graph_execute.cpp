@@ -122,7 +122,7 @@ bool FrameGraph::State::begin_rendering(VkCommandBuffer commands, const Pass& pa
   }
   if (colors.empty() && !depth.imageView) return false;
   auto info = vk_struct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
-  info.renderArea = {{0, 0}, extent};
+  info.renderArea = pass.area.value_or(VkRect2D{{0, 0}, extent});
   info.layerCount = 1;
   info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
   info.pColorAttachments = colors.data();

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,7 @@ struct FrameGraph::State {
     std::string name;
     std::function<void(Commands&)> record;
     std::vector<Declared> declared;
+    std::optional<VkRect2D> area;  ///< of its attachments
     bool keep = false;
     bool alive = false;
     std::vector<Merged> merged;      ///< what the pass itself does

@@ -51,6 +51,7 @@ struct SceneRefs {
   bool ao = false;          ///< whether corners take light; then there is an occupancy store
   std::optional<CloudRefs> clouds;  ///< none: the frame has no clouds
   VkExtent2D size{};
+  glm::uvec4 layers_area{};  ///< see shared::FrameConstants
 };
 
 }  // namespace skerry::render

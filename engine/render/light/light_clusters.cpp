@@ -107,6 +107,7 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
   g.light_words = groups(light_count, 32);
   g.chunk_words = std::max(kLeastChunkWords, groups(g.light_words, kMostChunks));
   g.chunks = groups(g.light_words, g.chunk_words);
+  g.layers_area = picture.layers_area;
   g.marked_slices = picture.marked_slices;
   // The counter that hands out room has 32 bits: even if every light reached every cluster it must
   // not wrap.

@@ -27,7 +27,8 @@ std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
 
 /// A picture to be cut into clusters.
 struct ClusterPicture {
-  VkExtent2D size{};  ///< pixels
+  VkExtent2D size{};         ///< pixels
+  glm::uvec4 layers_area{};  ///< see shared::FrameConstants
   /// Slices of depth that show something in every tile, a bit each: the first about a camera in a
   /// translucent block.
   std::uint32_t marked_slices = 0;

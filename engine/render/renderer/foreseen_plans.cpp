@@ -85,7 +85,7 @@ void suppose(FramePlan& plan, const ProgramNeeds& needs, const Supposed& what) {
   absent_unless(plan.clouds.has_value(), Feature::kClouds);
   plan.input.camera_medium =
       what.water == Water::kAroundEye && features.has(Feature::kWater) ? kSomeBlock : 0;
-  plan.contents = {features, {}, {}};
+  plan.contents = {features, {}, plan.tables.constants.layers_area, {}};
   plan.contents.cutouts_in_view.assign(1 + plan.shadows.cascades.size(),
                                        features.has(Feature::kCutouts));
   if (features.has(Feature::kLights)) plan.contents.lights = lights_of(what.lights);

@@ -3,18 +3,22 @@
 #include <algorithm>
 
 #include "engine/render/light/light_clusters.h"
+#include "engine/render/renderer/in_view.h"
 
 namespace skerry::render {
 namespace {
 
-void find_water(FrameFeatures& features, const FrameInput& input, const FrameTables& tables,
-                const SceneFacts& facts) {
-  if (input.camera_medium != 0 || !features.has(Feature::kWater)) return;
+/// @return the part of the picture that shows it; all of it about an eye inside.
+glm::uvec4 find_water(FrameFeatures& features, const FrameInput& input, const FrameTables& tables,
+                      const SceneFacts& facts) {
+  const glm::uvec4 all = tables.constants.layers_area;
+  if (input.camera_medium != 0 || !features.has(Feature::kWater)) return all;
   if (facts.translucent_quads == 0)
     features.set_absent(Feature::kWater, "no translucent block is resident");
-  else if (!ranges_in_view(facts.sections, tables.islands, tables.views[0],
-                           shared::kRangeTranslucent, shared::kRangeCount))
-    features.set_absent(Feature::kWater, "no translucent block is in view");
+  if (facts.translucent_quads == 0) return all;
+  const std::optional<glm::uvec4> area = translucent_area(facts, tables);
+  if (!area) features.set_absent(Feature::kWater, "no translucent block is in view");
+  return area.value_or(all);
 }
 
 std::vector<bool> find_cutouts(FrameFeatures& features, const FrameTables& tables,
@@ -24,8 +28,7 @@ std::vector<bool> find_cutouts(FrameFeatures& features, const FrameTables& table
     features.set_absent(Feature::kCutouts, "no cut-out block is resident");
   if (!features.has(Feature::kCutouts)) return in_view;
   for (std::size_t view = 0; view < in_view.size(); ++view)
-    in_view[view] = ranges_in_view(facts.sections, tables.islands, tables.views[view],
-                                   shared::kRangeCutout, shared::kRangeTranslucent);
+    in_view[view] = cutouts_in_view(facts.sections, tables.islands, tables.views[view]);
   if (std::find(in_view.begin(), in_view.end(), true) == in_view.end())
     features.set_absent(Feature::kCutouts, "no cut-out block is in view of camera or lights");
   return in_view;
@@ -46,7 +49,7 @@ std::vector<shared::Light> find_lights(FrameFeatures& features, const FrameInput
 FrameContents contents_of(const FrameInput& input, const RenderSettings& settings,
                           const FrameTables& tables, const shared::SkyConstants& sky,
                           const SceneFacts& facts) {
-  FrameContents out{FrameFeatures(settings.leave_out), {}, {}};
+  FrameContents out{FrameFeatures(settings.leave_out), {}, {}, {}};
   FrameFeatures& features = out.features;
   if (!input.sky.sun_casts) features.set_absent(Feature::kSun, "the sun is below the horizon");
   if (!input.sky.moon_casts)
@@ -59,7 +62,7 @@ FrameContents contents_of(const FrameInput& input, const RenderSettings& setting
     features.set_absent(Feature::kDiscs, "sun and moon are outside the picture or have set");
   if (settings.clouds.coverage == 0.0f && facts.clouds.volumes.empty())
     features.set_absent(Feature::kClouds, "clouds.coverage=0 and there is no cloud of a file");
-  find_water(features, input, tables, facts);
+  out.layers_area = find_water(features, input, tables, facts);
   out.cutouts_in_view = find_cutouts(features, tables, facts);
   out.lights = find_lights(features, input, tables, facts);
   return out;

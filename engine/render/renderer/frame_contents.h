@@ -12,6 +12,7 @@ namespace skerry::render {
 struct FrameContents {
   FrameFeatures features;
   std::vector<bool> cutouts_in_view;  ///< one a view of FrameTables
+  glm::uvec4 layers_area;             ///< see shared::FrameConstants
   std::vector<shared::Light> lights;  ///< those whose range the view touches; empty: no feature
 };
 

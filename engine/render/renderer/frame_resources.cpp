@@ -175,6 +175,7 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.point_sampler = point_sampler_;
   s.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
   s.size = size;
+  s.layers_area = tables.constants.layers_area;
   s.tone = settings.tone;
   s.calibrated = settings.display != DisplaySettings{};
   s.shadow_taps = static_cast<std::uint32_t>(settings.shadow_taps);

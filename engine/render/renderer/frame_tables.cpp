@@ -51,10 +51,6 @@ void append_islands(std::vector<shared::IslandTransform>& out,
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
 }
 
-glm::vec3 unpack_box(std::uint32_t packed) {
-  return {packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u};
-}
-
 }  // namespace
 
 shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to) {
@@ -74,6 +70,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.ray_forward = camera.forward;
   f.pixel_to_ndc = {2.0f / static_cast<float>(size.width), 2.0f / static_cast<float>(size.height)};
   f.size = {size.width, size.height};
+  f.layers_area = {0, 0, size.width, size.height};
   f.picture_size = f.size;
   f.near_plane = kNearPlane;
   f.display_peak = static_cast<float>(srgb_encoded(settings.display.peak));
@@ -149,31 +146,6 @@ void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& 
   const glm::vec3 moved(blocks_between(now, frozen));
   for (glm::vec4& plane : view.planes) plane.w += glm::dot(glm::vec3(plane), moved);
   view.eye -= moved;
-}
-
-bool ranges_in_view(std::span<const shared::Section> sections,
-                    std::span<const shared::IslandTransform> islands, const shared::CullView& view,
-                    std::uint32_t first, std::uint32_t end) {
-  for (const shared::Section& s : sections) {
-    if (s.range_end[end - 1] == s.range_end[first - 1]) continue;
-    const shared::IslandTransform& t = islands[s.island];
-    const float voxel = static_cast<float>(1u << s.voxel_size_log2);
-    const glm::vec3 low = glm::vec3(s.origin) + unpack_box(s.bounds_min) * voxel,
-                    high = glm::vec3(s.origin) + unpack_box(s.bounds_max) * voxel;
-    const glm::vec3 centre = 0.5f * (low + high), half = 0.5f * (high - low);
-    const glm::vec3 world =
-        t.axis_x * centre.x + t.axis_y * centre.y + t.axis_z * centre.z + t.translation;
-    bool inside = true;
-    for (const glm::vec4& plane : view.planes) {
-      const glm::vec3 n(plane);
-      const float reach = std::abs(glm::dot(n, t.axis_x)) * half.x +
-                          std::abs(glm::dot(n, t.axis_y)) * half.y +
-                          std::abs(glm::dot(n, t.axis_z)) * half.z;
-      inside = inside && glm::dot(n, world) + plane.w + reach >= -1e-3f * (1.0f + reach);
-    }
-    if (inside) return true;
-  }
-  return false;
 }
 
 }  // namespace skerry::render

@@ -39,10 +39,4 @@ bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame);
 /// Planes of a view at `frozen`, for a camera that has since moved to `now`.
 void shift_view(shared::CullView& view, const FixedPos& frozen, const FixedPos& now);
 
-/// Whether any section with quads of ranges [first, end) touches a view's frustum.
-/// @param islands relative to the camera.
-bool ranges_in_view(std::span<const shared::Section> sections,
-                    std::span<const shared::IslandTransform> islands, const shared::CullView& view,
-                    std::uint32_t first, std::uint32_t end);
-
 }  // namespace skerry::render

@@ -115,7 +115,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
                  .settings = settings,
                  .shown = request.size,
                  .picture = picture_size(request.size, settings),
-                 .contents = {FrameFeatures(settings.leave_out), {}, {}}};
+                 .contents = {FrameFeatures(settings.leave_out), {}, {}, {}}};
   const auto samples = static_cast<std::uint32_t>(samples_per_edge(settings));
   plan.drawn = {plan.picture.width * samples, plan.picture.height * samples};
   plan.geometry = facts.has_geometry();
@@ -129,6 +129,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.tables = build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades);
   plan.tables.constants.picture_size = {plan.picture.width, plan.picture.height};
   plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky, facts);
+  plan.tables.constants.layers_area = plan.contents.layers_area;
   plan.ao = facts.occupancy && settings.ao_strength > 0.0f && settings.shading != Shading::kFlat;
   plan.marked_slices = marked_slices(plan.input, plan.contents);
   plan.next.shadows = plan.geometry ? plan.shadows.next : history.shadows;

@@ -114,6 +114,7 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
 
 SceneFacts Renderer::State::facts() const {
   return {.sections = geometry->records(),
+          .translucent_boxes = geometry->translucent_boxes(),
           .sections_resident = geometry->sections_resident(),
           .quads_resident = geometry->quads_resident(),
           .translucent_quads = geometry->translucent_quads(),
@@ -154,7 +155,8 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
     if (Result<void> ok =
             light_clusters.upload(frame_uploader, plan.contents.lights, input.light_reaches,
                                   view_of(input.camera, plan.drawn.width, plan.drawn.height),
-                                  {plan.drawn, plan.marked_slices, plan.settings.lights_tile});
+                                  {plan.drawn, plan.tables.constants.layers_area,
+                                   plan.marked_slices, plan.settings.lights_tile});
         !ok)
       return ok;
   if (plan.indirect) indirect->set_sky(frame_uploader, plan.sky_light);

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "engine/render/scene/geometry_changes.h"
+#include "engine/render/scene/voxel_box.h"
 #include "engine/render/sky/cloud_plan.h"
 #include "shaders/shared/geometry.h"
 
@@ -11,7 +12,8 @@ namespace skerry::render {
 /// What is resident before a frame is planned, as values. The spans and `changes` live as long as
 /// the stores do not change.
 struct SceneFacts {
-  std::span<const shared::Section> sections;  ///< one a slot; free slots have no ranges
+  std::span<const shared::Section> sections;    ///< one a slot; free slots have no ranges
+  std::span<const VoxelBox> translucent_boxes;  ///< of the sections' water and glass, one a slot
   std::uint32_t sections_resident = 0;
   std::uint64_t quads_resident = 0, translucent_quads = 0, cutout_quads = 0;
   const GeometryChanges* changes = nullptr;  ///< never null in a plan

@@ -66,6 +66,10 @@ SurfaceReads::SurfaceReads(const Geometry& geometry)
 std::vector<gpu::SpecConstant> SurfaceReads::with_store(std::vector<gpu::SpecConstant> own) const {
   if (normals) own.push_back({shared::kNormalCodeConstant, normal_code(store.normal)});
   if (positions) own.push_back({shared::kPositionStoredConstant, 1});
+  return with_depth(std::move(own));
+}
+
+std::vector<gpu::SpecConstant> SurfaceReads::with_depth(std::vector<gpu::SpecConstant> own) const {
   if (store.depth == DepthStore::kD16) own.push_back({shared::kDepth16Constant, 1});
   return own;
 }

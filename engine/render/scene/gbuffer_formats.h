@@ -30,6 +30,8 @@ struct SurfaceReads {
   explicit SurfaceReads(const Geometry& geometry);
   /// Adds what the shader is specialised by.
   std::vector<gpu::SpecConstant> with_store(std::vector<gpu::SpecConstant> own) const;
+  /// The same for one that asks shaders/include/coverage.glsl alone.
+  std::vector<gpu::SpecConstant> with_depth(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
   auto bindings(VkSampler point) const {
     return std::tuple{

@@ -72,9 +72,12 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
     free_slots_.pop_back();
   } else {
     records_.emplace_back();
+    translucent_boxes_.emplace_back();
   }
   section.first_quad = range->first;
   records_[slot] = section;
+  const std::span translucent = quads.subspan(section.range_end[shared::kRangeTranslucent - 1]);
+  if (!translucent.empty()) translucent_boxes_[slot] = box_of(translucent);
   scratch_.assign(quads.begin(), quads.end());
   for (shared::Quad& quad : scratch_) quad.material |= section.island << kIslandShift;
   uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad),

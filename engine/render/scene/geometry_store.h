@@ -10,6 +10,7 @@
 #include "engine/render/frame/draw_limits.h"
 #include "engine/render/scene/geometry_changes.h"
 #include "engine/render/scene/memory_budget.h"
+#include "engine/render/scene/voxel_box.h"
 #include "shaders/shared/geometry.h"
 
 namespace skerry::gpu {
@@ -65,6 +66,8 @@ class GeometryStore {
   std::uint64_t translucent_quads() const { return translucent_quads_; }
   std::uint64_t cutout_quads() const { return cutout_quads_; }
   std::span<const shared::Section> records() const { return records_; }
+  /// Of each slot's translucent quads; of any value where it has none.
+  std::span<const VoxelBox> translucent_boxes() const { return translucent_boxes_; }
   /// For kept shadow maps: what invalidates them.
   const GeometryChanges& changes() const { return changes_; }
 
@@ -79,6 +82,7 @@ class GeometryStore {
   gpu::OffsetArena arena_;
   gpu::Buffer quads_, sections_;
   std::vector<shared::Section> records_;  // CPU copy, one a slot; free slots have no ranges
+  std::vector<VoxelBox> translucent_boxes_;
   std::vector<std::uint32_t> free_slots_;
   std::vector<shared::Quad> scratch_;
   std::uint32_t section_capacity_ = 0;

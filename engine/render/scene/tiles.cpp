@@ -45,11 +45,13 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
       },
       [coverage, out, columns, rows, size, sampler = scene.point_sampler,
        program = gpu::compute(pipelines, programs::kClassifyTiles,
-                              {{shared::kByDepthConstant, coverage.by_depth ? 1u : 0u}})](
-          gpu::Commands& c) {
+                              coverage.kept == DepthStore::kD16
+                                  ? std::vector<gpu::SpecConstant>{{shared::kDepth16Constant, 1}}
+                                  : std::vector<gpu::SpecConstant>{})](gpu::Commands& c) {
         const struct {
           std::uint32_t width, height, columns, rows;
-        } push{size.width, size.height, columns, rows};
+          glm::uvec4 area;
+        } push{size.width, size.height, columns, rows, coverage.area};
         gpu::bind(c, program, gpu::storage<shared::kSurfacesBinding>(coverage.words),
                   gpu::sampled<shared::kDepthsBinding>(coverage.depth, sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),

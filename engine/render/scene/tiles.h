@@ -1,4 +1,6 @@
 #pragma once
+#include <glm/vec4.hpp>
+
 #include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/scene_refs.h"
@@ -24,9 +26,10 @@ struct Tiles {
 
 /// Where a pixel has a surface.
 struct Coverage {
-  gpu::ImageRef words;    ///< R32_UINT: its surface, 0 where there is none
-  gpu::ImageRef depth;    ///< reverse-Z, 0 where there is none
-  bool by_depth = false;  ///< by `depth`, and `words` may have any value where there is none
+  gpu::ImageRef words;                 ///< R32_UINT
+  gpu::ImageRef depth;                 ///< reverse-Z, 0 where there is none
+  DepthStore kept = DepthStore::kD32;  ///< of `depth`; with 16 bits its words decide
+  glm::uvec4 area;                     ///< from xy to before zw: pixels outside have none
 };
 
 /// Sorts tiles by whether any of their pixels has, or has not, a surface. @param name of the pass.

@@ -102,26 +102,28 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
                const ShadeIn& in, const SampleIn& on, Target& into) {
   gpu::ImageRef& target = into.image;
   const bool to_picture = into.to_picture;
-  const auto sky_program = gpu::compute(pipelines, programs::kShadeSky,
-                                        with_target(constants_of_sky(in), scene, to_picture));
   const Tiles& tiles = on.tiles;
-  const gpu::ImageRef words = on.geometry.surfaces();
+  const SurfaceReads surfaces(on.geometry);
+  const auto sky_program =
+      gpu::compute(pipelines, programs::kShadeSky,
+                   with_target(surfaces.with_depth(constants_of_sky(in)), scene, to_picture));
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.sky}) b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
-        b.read(words, Use::kComputeRead);
+        surfaces.declare(b);
         b.read(scene.sky_lut, Use::kComputeSampled);
         if (to_picture) b.read(scene.exposure, Use::kComputeRead);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         target = b.write(target, Use::kComputeWrite);
       },
-      [sky_program, scene, tiles, words, target, to_picture](gpu::Commands& c) {
+      [sky_program, scene, tiles, surfaces, target, to_picture](gpu::Commands& c) {
         gpu::bind(c, sky_program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::storage<shared::kSkyBinding>(scene.sky),
                   gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
-                  gpu::storage<shared::kSurfacesBinding>(words),
+                  gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+                  gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
                   gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
                   gpu::storage<shared::kTargetBinding>(target),
                   gpu::storage<shared::kExposureBinding>(exposure_or_other(scene, to_picture)),
@@ -133,10 +135,12 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
 /// Adds surfaces and sky, both into `target`. @return its last version.
 gpu::ImageRef shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                     const ShadedFrom& from, const ShadeIn& in, Target target) {
-  const SampleIn on{
-      from.geometry, from.shadows,
-      classify_tiles(graph, pipelines, scene, "classify_tiles",
-                     {.words = from.geometry.surfaces(), .depth = from.geometry.depth()})};
+  const SampleIn on{from.geometry, from.shadows,
+                    classify_tiles(graph, pipelines, scene, "classify_tiles",
+                                   {.words = from.geometry.surfaces(),
+                                    .depth = from.geometry.depth(),
+                                    .kept = from.geometry.store().depth,
+                                    .area = {0, 0, scene.size.width, scene.size.height}})};
   if (in.sampled)
     target.image = add_sample_passes(graph, pipelines, scene, on, *in.sampled, target.image);
   else
@@ -173,6 +177,7 @@ gpu::ImageRef shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipel
                   gpu::storage<shared::kExposureBinding>(exposure_or_other(scene, to_picture)),
                   // Neither surfaces nor tiles are read.
                   gpu::storage<shared::kSurfacesBinding>(scene.no_words),
+                  gpu::sampled<shared::kDepthsBinding>(scene.sky_lut, scene.point_sampler),
                   gpu::storage<shared::kTilesBinding>(scene.materials),
                   gpu::storage<shared::kTileDispatchesBinding>(scene.materials),
                   gpu::constants(0u));

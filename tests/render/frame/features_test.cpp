@@ -203,8 +203,8 @@ TEST_F(Features, OnlyAsManyLayersArePeeledAsAskedFor) {
   }
 }
 
-// Words of the layers are not cleared: what an earlier frame left there must not be seen.
-TEST_F(Features, WaterShowsNothingOfTheFrameBefore) {
+// Words are not cleared: what an earlier frame left there must not be seen.
+TEST_F(Features, NothingIsSeenOfTheFrameBefore) {
   const auto panes = [](int x, int y, int z) {
     const bool pane = y >= 0 && y < 12 && z == 24 && x % 8 < 5;
     return pane ? static_cast<world::BlockId>(world::block::kGlass) : pond(x, y, z);

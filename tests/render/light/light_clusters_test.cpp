@@ -154,8 +154,9 @@ class LightClustersOnGpu : public gpu::GpuTest {
     SceneRefs scene;
     scene.size = view.size;
     scene.point_sampler = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
-    EXPECT_TRUE(clusters_->upload(*uploader_, lights, {}, view.camera,
-                                  {view.size, view.inside_medium, view.tile}));
+    EXPECT_TRUE(clusters_->upload(
+        *uploader_, lights, {}, view.camera,
+        {view.size, {0, 0, view.size.width, view.size.height}, view.inside_medium, view.tile}));
     std::vector<gpu::Image> images;
     images.reserve(2 + view.layers.size());
     images.push_back(image(view, VK_FORMAT_R32_UINT, std::vector<float>(view.depth.size())));

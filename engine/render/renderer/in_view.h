@@ -1,0 +1,21 @@
+#pragma once
+#include <glm/vec4.hpp>
+#include <optional>
+#include <span>
+
+#include "engine/render/renderer/frame_tables.h"
+#include "engine/render/renderer/scene_facts.h"
+
+namespace skerry::render {
+
+/// Whether any section with cut-out quads or plants touches a view's frustum. @param islands
+/// relative to the camera.
+bool cutouts_in_view(std::span<const shared::Section> sections,
+                     std::span<const shared::IslandTransform> islands,
+                     const shared::CullView& view);
+
+/// Part of the camera's picture that holds whatever translucent quads can cover: from xy to before
+/// zw [pixels]. None if the box of no section's translucent quads touches the frustum.
+std::optional<glm::uvec4> translucent_area(const SceneFacts& facts, const FrameTables& tables);
+
+}  // namespace skerry::render

@@ -1,0 +1,12 @@
+// Where a pixel shows a surface.
+#ifndef SKERRY_COVERAGE_GLSL
+#define SKERRY_COVERAGE_GLSL
+#include "shared/constants.h"
+
+layout(constant_id = kDepth16Constant) const bool kDepth16 = false;  // depth was kept in 16 bits
+
+// Whether there is a surface. Depth decides, and words have any value where there is none; but with 16 bits what lies farthest has depth 0
+// like the sky, and words are cleared.
+bool is_covered(uint word, float depth) { return kDepth16 ? word != 0u : depth > 0.0; }
+uint covered_word(uint word, float depth) { return is_covered(word, depth) ? word : 0u; }
+#endif
