@@ -2,6 +2,7 @@
 #include <glm/vec4.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/render/renderer/frame_tables.h"
 #include "engine/render/renderer/scene_facts.h"
@@ -13,6 +14,11 @@ namespace skerry::render {
 bool cutouts_in_view(std::span<const shared::Section> sections,
                      std::span<const shared::IslandTransform> islands,
                      const shared::CullView& view);
+
+/// Which islands the camera's picture may show: those with sections whose bounding sphere touches
+/// the frustum.
+std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const IslandPlacement> islands,
+                                  const FrameTables& tables);
 
 /// Part of the camera's picture that holds whatever translucent quads can cover: from xy to before
 /// zw [pixels]. None if the box of no section's translucent quads touches the frustum.

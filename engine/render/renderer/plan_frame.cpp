@@ -8,6 +8,7 @@
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/light/shadow_pass.h"
 #include "engine/render/renderer/frame_steps.h"
+#include "engine/render/renderer/in_view.h"
 #include "engine/render/sky/sky_irradiance.h"
 #include "engine/render/sky/sky_model.h"
 #include "engine/render/surface/marker_pass.h"
@@ -45,7 +46,7 @@ void plan_sky(FramePlan& plan, const FrameHistory& history) {
 }
 
 /// The sky lights the air, too: without sun and moon it stays as thick as it was.
-void plan_indirect(FramePlan& plan) {
+void plan_indirect(FramePlan& plan, const SceneFacts& facts) {
   shared::FrameConstants& frame = plan.tables.constants;
   frame.body_in_air = 1.0f;
   if (!plan.indirect) {
@@ -54,7 +55,8 @@ void plan_indirect(FramePlan& plan) {
                                              : "no face is known to see the sky"});
     return;
   }
-  plan.sky_light = sky_irradiance(plan.sky, plan.input.islands);
+  plan.sky_light = sky_irradiance(plan.sky, plan.input.islands,
+                                  islands_in_view(facts, plan.input.islands, plan.tables));
   frame.body_in_air = air_light(plan.input.sky);
   frame.haze_per_block = kClearAir;
 }
@@ -140,7 +142,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   }
   plan_culling(plan, history);
   plan_sky(plan, history);
-  plan_indirect(plan);
+  plan_indirect(plan, facts);
   plan_marker(plan);
   plan.next.previous = PreviousFrame{
       plan.input.camera, plan.input.anchor, {plan.input.islands.begin(), plan.input.islands.end()}};

@@ -117,7 +117,7 @@ glm::uvec4 packed(const Lobes& lobes, int channel) {
   return out;
 }
 
-void append_island(const SkyCube& cube, const glm::dquat& rotation, std::vector<glm::uvec4>& out) {
+void put_island(const SkyCube& cube, const glm::dquat& rotation, std::span<glm::uvec4> out) {
   static const std::vector<LobeSample> kSamples = make_samples();
   const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
   std::array<Lobes, kFaces> faces{};
@@ -127,18 +127,22 @@ void append_island(const SkyCube& cube, const glm::dquat& rotation, std::vector<
       faces[sample.face[axis]][sample.lobe[axis]] +=
           radiance * sample.weight[static_cast<int>(axis)];
   }
+  std::size_t at = 0;
   for (const Lobes& lobes : faces)
-    for (int channel = 0; channel < 3; ++channel) out.push_back(packed(lobes, channel));
+    for (int channel = 0; channel < 3; ++channel) out[at++] = packed(lobes, channel);
 }
 
 }  // namespace
 
 std::vector<glm::uvec4> sky_irradiance(const shared::SkyConstants& sky,
-                                       std::span<const IslandPlacement> islands) {
+                                       std::span<const IslandPlacement> islands,
+                                       const std::vector<bool>& shown) {
   const SkyCube cube(sky);
-  std::vector<glm::uvec4> out;
-  out.reserve(islands.size() * kFaces * shared::kIndirectSkyTexels);
-  for (const IslandPlacement& island : islands) append_island(cube, island.rotation, out);
+  constexpr std::size_t kTexels = kFaces * shared::kIndirectSkyTexels;
+  std::vector<glm::uvec4> out(islands.size() * kTexels, glm::uvec4(0));
+  for (std::size_t i = 0; i < islands.size(); ++i)
+    if (shown[i])
+      put_island(cube, islands[i].rotation, std::span(out).subspan(i * kTexels, kTexels));
   return out;
 }
 

@@ -97,6 +97,31 @@ TEST(CutoutsInView, AgreeWithClippingEveryBox) {
     });
 }
 
+TEST(IslandsInView, HoldEveryIslandOfASectionInView) {
+  RandomPlaces random(11);
+  int visible = 0, passed_over = 0;
+  for (int i = 0; i < 4000; ++i) {
+    RandomView view(random, 0);
+    for (IslandPlacement& island : view.islands) {
+      island.bounding_radius = 0.0;
+      for (const shared::Section& s : view.sections)
+        for (const glm::dvec3& corner : box_of(s, {.origin = {}, .rotation = {1, 0, 0, 0}}, {}))
+          island.bounding_radius = std::max(island.bounding_radius, glm::length(corner));
+    }
+    const std::vector<bool> shown = islands_in_view(view.facts(), view.islands, view.tables);
+    if (view.truly_in_view()) {
+      EXPECT_TRUE(shown[view.sections[2].island]) << "round " << i;
+      ++visible;
+    }
+    passed_over += static_cast<int>(std::count(shown.begin(), shown.end(), false));
+    for (shared::Section& s : view.sections) s = {};
+    EXPECT_EQ(islands_in_view(view.facts(), view.islands, view.tables), std::vector<bool>(2, false))
+        << "an island without a section shows nothing";
+  }
+  EXPECT_GT(visible, 200);
+  EXPECT_GT(passed_over, 200);
+}
+
 TEST(TranslucentArea, IsThereWhereClippingLeavesAnyBox) {
   expect_agreement(shared::kRangeTranslucent, [](const RandomView& view) {
     return translucent_area(view.facts(), view.tables).has_value();

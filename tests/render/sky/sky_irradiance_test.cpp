@@ -55,7 +55,8 @@ TEST(SkyIrradiance, IsTheCosineWeightedSkyOfEachFace) {
   for (const double hour : {12.0, 8.0, 18.2, 0.0}) {
     const shared::SkyConstants sky = sky_constants(celestial_at(hour * 3600.0, 0.5));
     const std::vector<IslandPlacement> islands(1);
-    const std::vector<glm::uvec4> lobes = sky_irradiance(sky, islands);
+    const std::vector<glm::uvec4> lobes =
+        sky_irradiance(sky, islands, std::vector<bool>(islands.size(), true));
     ASSERT_EQ(lobes.size(), 18u);
     for (std::size_t face = 0; face < 6; ++face) {
       const glm::dvec3 found = whole(lobes, 0, face), right = by_samples(sky, face_normal(face));
@@ -70,7 +71,8 @@ TEST(SkyIrradiance, TurnsWithTheIsland) {
   std::vector<IslandPlacement> islands(2);
   islands[1].rotation =
       glm::dquat(std::cos(0.4), glm::dvec3(0.3, 0.9, -0.2) / std::sqrt(0.94) * std::sin(0.4));
-  const std::vector<glm::uvec4> lobes = sky_irradiance(sky, islands);
+  const std::vector<glm::uvec4> lobes =
+      sky_irradiance(sky, islands, std::vector<bool>(islands.size(), true));
   for (std::size_t face = 0; face < 6; ++face) {
     const glm::dvec3 found = whole(lobes, 1, face),
                      right = by_samples(sky, islands[1].rotation * face_normal(face));
@@ -82,7 +84,8 @@ TEST(SkyIrradiance, HoldsWhatASkyOfAMillionSends) {
   shared::SkyConstants sky = sky_constants(celestial_at(12.0 * 3600.0, 0.5));
   sky.sun.haze *= 1e6f;
   const std::vector<IslandPlacement> islands(1);
-  const std::vector<glm::uvec4> lobes = sky_irradiance(sky, islands);
+  const std::vector<glm::uvec4> lobes =
+      sky_irradiance(sky, islands, std::vector<bool>(islands.size(), true));
   for (std::size_t face = 0; face < 6; ++face) {
     const glm::dvec3 sum = whole(lobes, 0, face);
     EXPECT_TRUE(std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z));
