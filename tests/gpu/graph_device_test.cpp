@@ -169,6 +169,41 @@ TEST_F(GraphTest, WhatComesBackIsNotAllocatedAgain) {
   EXPECT_EQ(bytes_of("once"), 0u);
 }
 
+// Lists of lamps are larger than all other lists together, and nothing beside the picture.
+TEST_F(GraphTest, ListsAreKeptForAllThatAFrameTakes) {
+  FrameGraph graph(&device());
+  const auto fill = [&](const char* name, std::uint64_t bytes) {
+    BufferRef list = graph.create(BufferDesc{name, bytes});
+    graph.add_pass(
+        "fill",
+        [&](PassBuilder& b) {
+          list = b.write(list, Use::kTransferWrite);
+          b.keep();
+        },
+        [list](Commands& c) { c.fill(list, 0, VK_WHOLE_SIZE, 0); });
+  };
+  const auto frame = [&](bool lamps) {
+    const std::uint64_t before = device().allocations();
+    graph.begin();
+    ImageRef image = graph.create(
+        ImageDesc{.name = "radiance", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1024, 1024}});
+    graph.add_pass(
+        "clear",
+        [&](PassBuilder& b) {
+          image = b.color(image, Load::cleared({}));
+          b.keep();
+        },
+        [](Commands&) {});
+    fill("tiles", 100);
+    if (lamps) fill("lamps", 1'000'000);
+    run(graph);
+    return device().allocations() - before;
+  };
+  EXPECT_EQ(frame(true), 3u);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(frame(false), 0u);
+  EXPECT_EQ(frame(true), 0u);
+}
+
 // A triangle on the plane z = -1, seen from the origin along -z; the projection is
 // docs/conventions.md's, with its y flip.
 constexpr const char* kTriangle = R"(

@@ -43,31 +43,37 @@ bool supersedes(const BufferDesc& taken, const BufferDesc& idle) {
   return taken.name == idle.name && taken.size_bytes > idle.size_bytes;
 }
 
-/// Drops what has been superseded for a while. What frames only do without for the time being, as
-/// where water leaves the view and comes back, stays while all of that takes no more memory than
-/// what is in use: then no frame allocates for it anew. The longest idle goes first.
-template <class Entries>
-void release(Entries& entries) {
+/// Memory of what the last frame took and of what it did without.
+struct Shares {
   std::uint64_t taken_bytes = 0, idle_bytes = 0;
+};
+
+template <class Entries>
+void count(Entries& entries, Shares& shares) {
   for (auto& entry : entries) {
     entry->idle_frames = entry->taken ? 0 : entry->idle_frames + 1;
-    (entry->taken ? taken_bytes : idle_bytes) += entry->object.allocated_bytes();
+    (entry->taken ? shares.taken_bytes : shares.idle_bytes) += entry->object.allocated_bytes();
   }
+}
+
+/// Drops what has been superseded for a while, and the longest idle where `shares` allows no more.
+template <class Entries>
+void release(Entries& entries, Shares& shares) {
   for (auto& entry : entries) {
     if (entry->idle_frames <= kIdleFrames) continue;
     for (const auto& other : entries)
       if (other && other->idle_frames == 0 && supersedes(other->desc, entry->desc)) {
-        idle_bytes -= entry->object.allocated_bytes();
+        shares.idle_bytes -= entry->object.allocated_bytes();
         entry.reset();
         break;
       }
   }
   std::erase(entries, nullptr);
-  while (idle_bytes > taken_bytes) {
+  while (!entries.empty() && shares.idle_bytes > shares.taken_bytes) {
     const auto oldest =
         std::ranges::max_element(entries, {}, [](const auto& entry) { return entry->idle_frames; });
     if ((*oldest)->idle_frames <= kIdleFrames) break;
-    idle_bytes -= (*oldest)->object.allocated_bytes();
+    shares.idle_bytes -= (*oldest)->object.allocated_bytes();
     entries.erase(oldest);
   }
   for (auto& entry : entries) entry->taken = false;
@@ -77,8 +83,15 @@ void release(Entries& entries) {
 
 void TransientPool::begin_frame() {
   failure_.reset();
-  release(images_);
-  release(buffers_);
+  // What frames only do without for the time being, as where water leaves the view and comes back,
+  // stays while all of it takes no more memory than what is in use: then no frame allocates for it
+  // anew. Images and buffers count together, or the lists of lamps would go wherever the sky alone
+  // is in view.
+  Shares shares;
+  count(images_, shares);
+  count(buffers_, shares);
+  release(images_, shares);
+  release(buffers_, shares);
 }
 
 template <class Entries, class Desc>
