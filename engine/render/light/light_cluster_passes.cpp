@@ -221,6 +221,9 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
       });
 }
 
+/// What lights of most views need, so that their counts are not outgrown by each that comes.
+constexpr std::uint32_t kUsualChunks = 4;
+
 void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                     const shared::ClusterGrid& grid, Buffers& b, ClusteredLights& out) {
   graph.add_pass(
@@ -284,7 +287,8 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
     b.tiles = create("cluster depths", std::uint64_t{tiles} * sizeof(shared::TileDepths));
     b.work = create("cluster work", sizeof(shared::ClusterWork));
     b.occupied = create("occupied clusters", clusters * sizeof(std::uint32_t));
-    b.counts = create("light counts", clusters * grid_.chunks * sizeof(std::uint32_t));
+    b.counts = create("light counts",
+                      clusters * std::max(grid_.chunks, kUsualChunks) * sizeof(std::uint32_t));
     b.bins = create("light bins", std::uint64_t{grid_.bins_x} * grid_.bins_y * grid_.light_words *
                                       sizeof(std::uint32_t));
     out.clusters = create("clusters", clusters * sizeof(shared::Cluster));
