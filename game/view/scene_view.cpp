@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
+#include <set>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -295,18 +296,15 @@ void SceneView::take_in(world::StreamUpdate update) {
   for (const world::ReadySection& ready : update.ready)
     if (sections_.contains(ready.key)) held.push_back(ready.key.island);
   for (const std::uint64_t island : held) ++islands_[island_slots_.at(island)].sections;
-  for (const world::SectionKey& key : update.removed) {
-    if (sections_.contains(key)) {
-      remove_section(key);
-    } else {
-      std::erase_if(waiting_, [&](const world::ReadySection& ready) { return ready.key == key; });
-    }
-  }
+  // Thousands at once when a large island changes its level.
+  const std::set<world::SectionKey> removed(update.removed.begin(), update.removed.end());
+  for (const world::SectionKey& key : removed)
+    if (sections_.contains(key)) remove_section(key);
+  std::erase_if(waiting_,
+                [&](const world::ReadySection& ready) { return removed.contains(ready.key); });
   // A section that stands in both lists is built anew, and goes before what is new.
   for (world::ReadySection& ready : update.ready) {
-    const bool anew =
-        std::find(update.removed.begin(), update.removed.end(), ready.key) != update.removed.end();
-    if (anew && add_section(ready)) continue;
+    if (removed.contains(ready.key) && add_section(ready)) continue;
     waiting_.push_back(std::move(ready));
   }
   for (const std::uint64_t island : held) release_island(island);
