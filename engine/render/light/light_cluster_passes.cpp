@@ -222,7 +222,7 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
 }
 
 /// What lights of most views need, so that their counts are not outgrown by each that comes.
-constexpr std::uint32_t kUsualChunks = 4;
+constexpr std::uint32_t kUsualChunks = 8;
 
 void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                     const shared::ClusterGrid& grid, Buffers& b, ClusteredLights& out) {
