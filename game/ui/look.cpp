@@ -194,12 +194,10 @@ int key_steps() {
 
 constexpr ImGuiSliderFlags kSlide = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
 
-bool slide_stepped(const char* id, int& value, int least, int most, int step, const char* format,
-                   ImGuiSliderFlags flags) {
-  ImGui::SetNextItemWidth(-1.0f);
-  const bool slid = ImGui::SliderInt(id, &value, least, most, format, kSlide | flags);
-  const int stepped = std::clamp(value + key_steps() * step, least, most);
-  return std::exchange(value, stepped) != stepped || slid;
+/// What keys add to a value that was slid, too.
+bool stepped_by(int change, int& value, int least, int most) {
+  const int stepped = std::clamp(value + change, least, most);
+  return std::exchange(value, stepped) != stepped;
 }
 
 }  // namespace
@@ -209,12 +207,17 @@ bool by_keys() {
 }
 
 bool slide(const char* id, int& value, int least, int most, const char* format) {
-  return slide_stepped(id, value, least, most, 1, format, ImGuiSliderFlags_None);
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool slid = ImGui::SliderInt(id, &value, least, most, format, kSlide);
+  return stepped_by(key_steps(), value, least, most) || slid;
 }
 
 bool slide_by_eighths(const char* id, int& value, int least, int most, const char* format) {
-  return slide_stepped(id, value, least, most, std::max(1, value / 8), format,
-                       ImGuiSliderFlags_Logarithmic);
+  const int step = std::max(1, value / 8);
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool slid =
+      ImGui::SliderInt(id, &value, least, most, format, kSlide | ImGuiSliderFlags_Logarithmic);
+  return stepped_by(key_steps() * step, value, least, most) || slid;
 }
 
 bool slide(const char* id, float& value, float least, float most, float step, const char* format) {

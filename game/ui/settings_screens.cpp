@@ -120,8 +120,7 @@ void show_frame_knobs(FrameSettings& frames, Rows& rows) {
   rows.choice("Vertical sync", std::nullopt, frames.sync, kSyncs, kSyncNames);
 }
 
-void show_knobs(const ScreenFacts& facts, Rows& rows) {
-  Settings& settings = *facts.settings;
+void show_level(const ScreenFacts& facts, Rows& rows) {
   constexpr int kLevels[] = {-1, 0, 1, 2, 3};
   constexpr const char* kLevelNames[] = {"auto", "low", "medium", "high", "ultra"};
   const int before = *facts.quality_auto ? -1 : static_cast<int>(*facts.quality);
@@ -130,15 +129,11 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
   *facts.quality_auto = level < 0;
   if (level != before && level >= 0) {
     *facts.quality = static_cast<Quality>(level);
-    set_quality(*facts.quality, settings);
+    set_quality(*facts.quality, *facts.settings);
   }
-  rows.row("View distance", Knob::kViewDistance,
-           [&] { return slide_blocks(settings.view_distance, kMinViewDistance, 4096); });
-  rows.row("Full detail up to", Knob::kViewDetail,
-           [&] { return slide_blocks(settings.view_detail, 32, 1024); });
-  rows.row("Drawn size", Knob::kScale, [&] {
-    return slide_part(settings.render.render_scale, 0.25f, 1.0f, "%.2f of the window");
-  });
+}
+
+void show_light_knobs(Settings& settings, Rows& rows) {
   int shadows = settings.render.shadow_enabled ? settings.render.shadow_size : 0;
   constexpr int kShadows[] = {0, 512, 1024, 2048, 4096};
   constexpr const char* kShadowNames[] = {"off", "coarse", "fair", "fine", "finest"};
@@ -162,6 +157,19 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
               kIndirectNames);
   rows.row("Glow of bright things", Knob::kBloom,
            [&] { return slide_part(settings.render.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
+}
+
+void show_knobs(const ScreenFacts& facts, Rows& rows) {
+  Settings& settings = *facts.settings;
+  show_level(facts, rows);
+  rows.row("View distance", Knob::kViewDistance,
+           [&] { return slide_blocks(settings.view_distance, kMinViewDistance, 4096); });
+  rows.row("Full detail up to", Knob::kViewDetail,
+           [&] { return slide_blocks(settings.view_detail, 32, 1024); });
+  rows.row("Drawn size", Knob::kScale, [&] {
+    return slide_part(settings.render.render_scale, 0.25f, 1.0f, "%.2f of the window");
+  });
+  show_light_knobs(settings, rows);
   constexpr int kSamples[] = {1, 4, 16};
   constexpr const char* kSampleNames[] = {"off", "4 samples", "16 samples"};
   rows.choice("Smooth edges", Knob::kAntialiasing, settings.render.aa_samples, kSamples,
