@@ -37,9 +37,12 @@ void plan_culling(FramePlan& plan, const FrameHistory& history) {
 }
 
 void plan_sky(FramePlan& plan, const FrameHistory& history) {
-  // Equal bytes are enough: other bytes of equal values make the table once more than is needed.
-  plan.bake_sky = !history.baked_sky ||  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
-                  std::memcmp(&*history.baked_sky, &plan.sky, sizeof(plan.sky)) != 0;
+  // Other bytes of equal values make the table once more than is needed.
+  const auto same_bytes = [](const auto& a, const auto& b) {
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): equal bytes are enough
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+  };
+  plan.bake_sky = !history.baked_sky || !same_bytes(*history.baked_sky, plan.sky);
   plan.next.baked_sky = plan.sky;
   // A table that is broken on purpose is made again by the next frame.
   if (plan.input.fault && plan.input.fault->in == Fault::In::kSkyTable) plan.next.baked_sky.reset();
