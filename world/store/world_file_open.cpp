@@ -157,14 +157,6 @@ Error not_made(const fs::path& path, const Error& why) {
   return {fmt::format("cannot make the world {}: {}", quoted(path), why.message)};
 }
 
-fs::path temporary_for(const fs::path& path) {
-  fs::path temporary = path;
-  temporary += fmt::format(".{}.tmp", ::getpid());
-  std::error_code code;
-  fs::remove(temporary, code);
-  return temporary;
-}
-
 void sync_folder_of(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -173,9 +165,9 @@ void sync_folder_of(const fs::path& path) {
   ::close(descriptor);
 }
 
-/// Puts a file in a damaged one's place, which stays beside it, with its log, under another name.
+/// Puts a draft in a damaged file's place, which stays beside it, with its log, under another name.
 /// @return that name; none: it could not be done.
-std::optional<fs::path> replace_damaged(const fs::path& temporary, const fs::path& path) {
+std::optional<fs::path> replace_damaged(Draft& whole, const fs::path& path) {
   fs::path kept = path;
   kept += ".damaged";
   for (int count = 2; ::link(path.c_str(), kept.c_str()) != 0; ++count) {
@@ -187,8 +179,7 @@ std::optional<fs::path> replace_damaged(const fs::path& temporary, const fs::pat
   const fs::path log = fs::path(path) += "-wal";
   if (fs::exists(log, code) && !fs::copy_file(log, fs::path(kept) += "-wal", code))
     return std::nullopt;
-  if (!remove_companions(path) || ::rename(temporary.c_str(), path.c_str()) != 0)
-    return std::nullopt;
+  if (!remove_companions(path) || !whole.publish()) return std::nullopt;
   sync_folder_of(path);
   return kept;
 }
@@ -299,11 +290,15 @@ bool WorldFile::State::recover() {
   if (recovered) return false;
   recovered = true;
   const bool writes = mode == Mode::kWrite;
-  const fs::path temporary = writes ? temporary_for(path) : fs::path(":memory:");
+  std::optional<Draft> draft;
+  if (writes)
+    if (Result<Draft> made = Draft::create(path)) draft.emplace(*std::move(made));
+  const fs::path place = draft ? draft->path() : fs::path(":memory:");
   int code = SQLITE_OK;
   std::optional<Database> rescued =
-      Database::open(temporary.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, code);
-  bool found = rescued && make_schema(*rescued) == SQLITE_OK && salvage(path, *rescued, damage);
+      Database::open(place.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, code);
+  bool found = (draft || !writes) && rescued && make_schema(*rescued) == SQLITE_OK &&
+               salvage(path, *rescued, damage);
   std::optional<fs::path> kept;
   if (found) {
     statements.clear();
@@ -316,9 +311,7 @@ bool WorldFile::State::recover() {
   if (writes) {
     rescued.reset();
     if (found) database.reset();
-    found = found && (kept = replace_damaged(temporary, path));
-    std::error_code ignored;
-    if (!kept) fs::remove(temporary, ignored);
+    found = found && (kept = replace_damaged(*draft, path));
     int reason = 0;
     bool newer = false;
     found = found && (lock = WriterLock::take(path, reason)) && open_database(newer) == SQLITE_OK;

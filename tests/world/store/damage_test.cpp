@@ -1,6 +1,11 @@
 // What becomes of world files whose bytes were flipped, torn or meddled with.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "tests/world/store/made_worlds.h"
 #include "world/store/pages.h"
@@ -268,6 +273,38 @@ TEST(DamagedWorldFile, BehindALinkIsMendedWhereItIs) {
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_EQ(bytes_of(good.folder / "bad.damaged"), bad);
   EXPECT_EQ(read_damaged(path, good.given, 0), good.all());
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+TEST(DamagedWorldFile, WhatAKilledRecoveryLeftGoesWithTheNext) {
+  const GoodFile good(18, 8);
+  std::string bad = good.bytes;
+  std::fill_n(bad.begin(), 4096, '\0');
+  const fs::path path = good.with(bad);
+  const std::set<std::string> before = names_in(good.folder.path());
+  const pid_t child = ::fork();
+  if (child == 0) {
+    // The first write beyond so many bytes of a file kills it.
+    const rlimit two_pages{8192, 8192};
+    ::setrlimit(RLIMIT_FSIZE, &two_pages);
+    const auto file = WorldFile::open(path, Mode::kWrite);
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status)) << status;
+  ASSERT_EQ(bytes_of(path), bad);
+  ASSERT_NE(names_in(good.folder.path()), before) << "killed too early to leave anything";
+  std::set<std::string> after = before;
+  after.insert("bad.damaged");
+  EXPECT_TRUE(WorldFile::open(path, Mode::kWrite));
+  EXPECT_EQ(names_in(good.folder.path()), after);
 }
 
 /// A log of one frame that says how many pages there are, with sound checksums
