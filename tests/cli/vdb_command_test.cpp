@@ -172,6 +172,31 @@ TEST(VdbCommand, WarnsWhenMetadataDisagreesWithWhatWasRead) {
   EXPECT_EQ(run({"vdb", "info", sample("types.vdb")}).err, "");
 }
 
+/// A grid that states other active voxels than it holds, or another box of them, has lost some or
+/// gained what was never there.
+TEST(VdbCommand, RefusesAGridThatIsNotWhatItsMetadataState) {
+  SKIP_WITHOUT_OPENVDB();
+  const Folder folder;
+  const std::string path = (folder / "odd.vdb").string(), out = (folder / "w").string();
+  const std::string good = text_of(sample("ball.vdb"));
+  struct Stated {
+    std::string name, type, refusal;
+  };
+  for (const Stated& stated : {Stated{"file_voxel_count", "int64", "active voxels and holds"},
+                               Stated{"file_bbox_min", "vec3i", "not where it states"},
+                               Stated{"file_bbox_max", "vec3i", "not where it states"}}) {
+    std::string bytes = good;
+    // As above: the name, the type and the numbers, each behind its length.
+    const std::size_t type = bytes.find(stated.type, bytes.find(stated.name));
+    ASSERT_EQ(type, bytes.find(stated.name) + stated.name.size() + 4);
+    bytes[type + 5 + 4] ^= '\1';  // the lowest bit of the first number
+    std::ofstream(path, std::ios::binary) << bytes;
+    expect_refusal(run({"vdb", "info", path}), 1, {stated.refusal}, stated.name);
+    expect_refusal(run({"vdb", "import", path, "--out", out}), 1, {stated.refusal}, stated.name);
+    EXPECT_FALSE(std::filesystem::exists(out));
+  }
+}
+
 /// As coreutils have it.
 std::string sha256_of(const std::string& path) {
   const Folder folder;
