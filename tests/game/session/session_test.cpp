@@ -14,6 +14,7 @@
 #include <optional>
 #include <thread>
 
+#include "engine/core/clock.h"
 #include "game/worlds/open_session.h"
 #include "tests/folder.h"
 #include "tests/game/session/seat.h"
@@ -688,8 +689,13 @@ TEST(SessionKillTest, WhatWasSavedOutlivesThePlay) {
   while (true) ::pause();
 }
 
+struct EndedPlay {
+  int status = 0;
+  double seconds = 0.0;  ///< from the signal on
+};
+
 /// @return the end of a play of so many edits that got a signal.
-int end_after_signal(const Saved& saved, std::uint64_t edits, int signal_number) {
+EndedPlay end_after_signal(const Saved& saved, std::uint64_t edits, int signal_number) {
   int told[2];
   EXPECT_EQ(::pipe(told), 0);
   const pid_t child = ::fork();
@@ -698,16 +704,19 @@ int end_after_signal(const Saved& saved, std::uint64_t edits, int signal_number)
   std::uint64_t n = 0;
   EXPECT_EQ(::read(told[0], &n, sizeof n), std::ssize(std::as_bytes(std::span(&n, 1))));
   ::close(told[0]);
+  const Stopwatch since_signal;
   ::kill(child, signal_number);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status;
+  EndedPlay ended;
+  ::waitpid(child, &ended.status, 0);
+  ended.seconds = since_signal.seconds();
+  return ended;
 }
 
 TEST(SessionKillTest, ASignalToEndSavesFirstWhateverTheFrameIsAt) {
   for (const int signal_number : {SIGTERM, SIGINT, SIGHUP}) {
     const Saved saved;
-    const int status = end_after_signal(saved, 17, signal_number);
+    const auto [status, seconds] = end_after_signal(saved, 17, signal_number);
+    EXPECT_LT(seconds, 2.0);  // what docs/saving.md promises
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal_number) << status;
     EXPECT_TRUE(is_after(saved, 17)) << signal_number;
   }
@@ -720,7 +729,8 @@ TEST(SessionKillTest, AnEndThatCannotSaveIsStatusOne) {
   auto other = world::Database::open(saved.path.string(), SQLITE_OPEN_READWRITE, code);
   ASSERT_TRUE(other);
   ASSERT_EQ(other->run("BEGIN IMMEDIATE"), SQLITE_OK);
-  const int status = end_after_signal(saved, 3, SIGTERM);
+  const auto [status, seconds] = end_after_signal(saved, 3, SIGTERM);
+  EXPECT_LT(seconds, 4.0);  // two for the save, and what a busy machine needs to end a process
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
   ASSERT_EQ(other->run("ROLLBACK"), SQLITE_OK);
   other.reset();
