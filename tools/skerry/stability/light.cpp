@@ -56,20 +56,21 @@ Result<Rows> sun(gpu::Device& device) {
   if (Result<void> added = (*stage)->add(floor_with_pillars, {0, -1, 0}, {1, 1, 1}); !added)
     return added.error();
   const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
+  render::FrameInput noon = input_of(islands);
+  noon.sky = sun_towards({0.4, 0.8, -0.3});
+  const auto sunlight = sunlight_of(**stage, noon, {}, kSize);
+  if (!sunlight) return sunlight.error();
   Course course;
-  double lit = 0.0;
   for (int decade = -8; decade <= 8; ++decade) {
-    render::FrameInput in = input_of(islands);
+    render::FrameInput in = noon;
     // A sky that does not change: only the light on surfaces does.
-    in.sky = sun_towards({0.4, 0.8, -0.3});
     in.sky.sun_irradiance *= static_cast<float>(std::pow(10.0, decade));
     const auto frame = (*stage)->draw(in, {}, kSize);
     if (!frame) return frame.error();
     course.follow(*frame);
-    lit = lit_surfaces(*frame);
   }
   // Each lit surface rises in most of the decades; one is enough to tell that it is lit.
-  const bool shown = lit > 0.0 && course.rises > lit;
+  const bool shown = sunlight->lit > 0.0 && course.rises > sunlight->lit;
   return Rows{{"channels that a brighter sun darkens, irradiance times 1e-8 to 1e8", 0.0,
                if_shown(shown, course.falls)},
               {"channels or pixels not finite, sun times 1e-8 to 1e8", 0.0,

@@ -174,8 +174,15 @@ render::Celestial moon_above(float irradiance) {
   return sky;
 }
 
+render::RenderSettings without_sky_light(render::RenderSettings settings) {
+  settings.indirect = render::Indirect::kOff;
+  settings.leave_out.add(render::Feature::kHaze);
+  return settings;
+}
+
 Result<Sunlight> sunlight_of(Stage& stage, const render::FrameInput& input,
-                             const render::RenderSettings& settings, VkExtent2D size) {
+                             const render::RenderSettings& asked, VkExtent2D size) {
+  const render::RenderSettings settings = without_sky_light(asked);
   const auto frame = stage.draw(input, settings, size);
   if (!frame) return frame.error();
   render::FrameInput changed = input;
@@ -190,7 +197,6 @@ Result<Sunlight> sunlight_of(Stage& stage, const render::FrameInput& input,
   Sunlight out;
   for (std::size_t i = 0; i < frame->words.size(); ++i) {
     if (frame->words[i] == 0) continue;
-    // Twice as bright: more than haze between the surface and the eye makes of it.
     out.lit += frame->radiance[i].x > 2.0f * dark->radiance[i].x;
     out.shadowed += unshadowed->radiance[i].x > 2.0f * frame->radiance[i].x;
   }

@@ -81,7 +81,10 @@ render::Celestial darkness();
 /// leaves walls black.
 render::Celestial moon_above(float irradiance);
 
-/// What the sun does to surfaces of a frame, found by drawing it three times.
+/// The settings without the light that air and sky send, which sunlit surfaces are mistaken for.
+render::RenderSettings without_sky_light(render::RenderSettings settings);
+
+/// What the sun does to surfaces of a frame, found by drawing it three times without_sky_light().
 struct Sunlight {
   double lit = 0.0;       ///< pixels of surfaces that are darker under a sun without light
   double shadowed = 0.0;  ///< of surfaces that are brighter without shadows
