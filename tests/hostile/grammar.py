@@ -21,6 +21,15 @@ JSONS = ["{", "[]", "3", "null", "{}", '{"seed": 1, "seed": 2}', '{"world": 3}',
          '{"camera": [[[[[]]]]]}', "[" * 100000, '{"a":' * 5000, '{"lights": [{"kind": "point"}]}', '{"clouds": 1}',
          '{"size": "-1x1"}', '{"fov": "nan"}', '{"time": "99:99"}', '{"\\u0000": 1}', '{"seed": "\\ud800"}', "\ufeff{}", "\0", '{"import": {}}',
          '{"world": "@fifo"}', '{"world": "missing.skerry"}', '{"clouds": [{"file": "missing.vdb"}]}', '{"masks": [[0, 0, 1e9, -1]]}']
+PLANS = ["", "{", "[]", "null", "{}", '{"command": "stability"}', '{"command": 7, "arguments": [], "date": "", "notes": [], "tasks": []}',
+         '{"command": "stability", "arguments": [], "date": "", "notes": [], "tasks": []}',
+         '{"command": "stability", "arguments": [], "date": "", "notes": [], "tasks": [{"id": "../../keep.txt", "name": "time.clock"}]}',
+         '{"command": "stability", "arguments": ["--help"], "date": "", "notes": [], "tasks": '
+         '[{"id": "t000000000000000000000000", "name": "time.clock"}]}',
+         '{"command": "test", "arguments": ["--dir", "x"], "date": "\\u0000", "notes": ["a\\nb"], "tasks": '
+         '[{"id": "t000000000000000000000000", "name": "one\\ntwo"}, {"id": "t000000000000000000000000", "name": "one"}]}',
+         '{"command": "test", "arguments": ["plan", "@fifo"], "date": "", "notes": [], "tasks": '
+         '[{"id": "tffffffffffffffffffffffff", "name": "one"}]}', "[" * 100000, '{"tasks":' * 5000]
 
 
 def any_of(values):
@@ -28,7 +37,7 @@ def any_of(values):
 
 
 GRAMMAR = {
-    "command": [(4, ["<shot>"]), (2, ["<vdb>"]), (2, ["<test>"]), (1, ["<report>"]), (1, ["<stability>"]), (1, ["<bench>"]),
+    "command": [(4, ["<shot>"]), (2, ["<vdb>"]), (2, ["<test>"]), (2, ["<farm>"]), (1, ["<report>"]), (1, ["<stability>"]), (1, ["<bench>"]),
                 (1, ["<play>"]), (1, ["<devices>"]), (1, ["<confused>"])],
 
     # What is drawn.
@@ -98,6 +107,27 @@ GRAMMAR = {
               (1, ["bench", "fly", "--device", "99", "--seconds", "<number>", "--speed", "<number>"])],
     "bad device": any_of(["99", "-1", "x", "1e3", ""]),
     "play": [(2, ["play", "<source>", "<scene options>"]), (1, ["<flag>"]), (1, ["<source>"]), (1, ["play", "<noise>", "<noise>"])],
+
+    # The same in parts. A folder of rows is written into, so that none of the places about the scratch folder may be one.
+    "farm": [(2, ["stability", "plan", "<case>", "--dir", "<rows>", "<noise>"]), (3, ["stability", "run", "<task>", "--dir", "<rows>", "<noise>"]),
+             (2, ["stability", "merge", "<folders>", "--dir", "<rows>", "--json", "<output>"]),
+             (1, ["stability", "merge", "<folders>", "--dir", "<rows>", "<noise>"]),
+             (2, ["test", "plan", "<scenes>", "--dir", "<rows>", "<test option>"]), (3, ["test", "run", "<task>", "--dir", "<rows>", "<farm option>"]),
+             (2, ["test", "merge", "<folders>", "--dir", "<rows>", "<test outputs>"]),
+             (1, ["report", "plan", "water_layers", "<noise>", "--size", "16x9", "--dir", "<rows>"]),
+             (1, ["report", "run", "<task>", "--device", "99", "--dir", "<rows>"]),
+             (1, ["report", "merge", "<folders>", "--dir", "<rows>", "--out", "<output>"]),
+             (1, ["<command of farm>", "<verb>", "<noise>", "<noise>"]), (1, ["<command of farm>", "<noise>", "<verb>", "--dir", "<rows>"])],
+    "command of farm": any_of(["stability", "test", "report"]),
+    "verb": any_of(["plan", "run", "merge", "Plan", "plan run"]),
+    "case": [(3, ["time.clock"]), (1, []), (1, ["<nowhere>"]), (1, ["time.clock", "time.clock"]), (1, ["<flag>"])],
+    "task": [(4, []), (1, ["time.clock"]), (1, ["one"]), (1, ["<nowhere>"]), (2, [["<number>", "/", "<number>"]]), (1, ["1/1"]), (1, ["2/2"])],
+    "farm option": [(2, []), (1, ["--jobs", "<number>"]), (1, ["--device", "<number>"]), (1, ["<flag>"])],
+    "folders": [(3, []), (1, ["@planned"]), (1, ["@planned_test"]), (2, ["<path>"]), (1, ["<path>", "<path>"])],
+    "rows": [(3, ["@planned"]), (3, ["@planned_test"]), (2, ["@planned_wild"]), (2, ["@new_rows"]), (1, ["@new/rows"]), (3, ["<inhabitant>"]),
+             (2, ["<lost>"])],
+    "lost": any_of(["", " ", ".", "--", "\n", "a\nb", "\t", "\u202ename", "\udcff\udcfe", "x" * 255, "x" * 256, "y/" * 2100, "no/such/thing",
+                    "/proc/self/mem/x", "/dev/fd/99", "file\\name"]),
     "devices": [(1, ["devices"]), (1, ["devices", "--json"]), (1, ["devices", "<noise>", "<noise>"])],
     "confused": [(1, ["<nowhere>"]), (1, ["<number>"]), (1, ["<text>", "<noise>", "<noise>"]), (1, ["help"]), (1, ["shot", "shot"]),
                  (1, ["shot", "--help", "<noise>"]), (1, ["vdb", "shot"])],
