@@ -55,6 +55,7 @@ endif()
 add_test(NAME tools.check_includes COMMAND ${CMAKE_SOURCE_DIR}/tools/check_includes)
 add_test(NAME tools.check_paths COMMAND ${CMAKE_SOURCE_DIR}/tools/check_paths)
 add_test(NAME tools.check_scripts_test COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/check_scripts_test.py)
+add_test(NAME tools.install_packages_test COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/install_packages_test.py)
 add_test(NAME tools.check_format COMMAND ${CMAKE_SOURCE_DIR}/tools/check_format)
 set_tests_properties(tools.check_format PROPERTIES SKIP_RETURN_CODE 77)
 
