@@ -8,6 +8,7 @@
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "game/pace/quality_front.h"
+#include "game/scene_file/json_text.h"
 
 namespace skerry::game {
 namespace {
@@ -50,7 +51,8 @@ std::optional<LearntCosts> read_entry(const Json& entry) {
 Result<Json> read_machines(const std::filesystem::path& path) {
   const Result<std::string> text = platform::read_text(path, kMostBytes);
   if (!text) return text.error();
-  Json root = Json::parse(*text, nullptr, false);
+  const Result<Json> parsed = parse_ordered_json(*text);
+  const Json root = parsed ? *parsed : Json();
   const bool known = root.is_object() && root.contains("version") && root["version"] == kVersion &&
                      root.contains("machines") && root["machines"].is_array();
   if (known && std::all_of(root["machines"].begin(), root["machines"].end(), [](const Json& m) {
@@ -113,7 +115,12 @@ Result<void> save_learnt_costs(const std::filesystem::path& path, std::string_vi
   root["version"] = kVersion;
   root["machines"] = std::move(kept);
   // Names of devices come from drivers, in whatever bytes.
-  return write_text(path, root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  const auto print = [&root] { return root.dump(2, ' ', false, Json::error_handler_t::replace); };
+  std::string text = print();
+  // Entries keep what another version put there; a file that is too large to be read has nothing.
+  for (Json& list = root["machines"]; text.size() >= kMostBytes && list.size() > 1; text = print())
+    list.erase(list.begin());
+  return write_text(path, text + "\n");
 }
 
 }  // namespace skerry::game

@@ -45,9 +45,12 @@ TEST(LearntCosts, AFileThatIsNotThereSaysNothing) {
 TEST(LearntCosts, ADamagedFileIsToldInOneLineAndReplaced) {
   const Folder folder;
   const auto path = folder / "quality.json";
+  const std::string deep = R"({"version": 1, "machines": [{"machine": "a", "x": )" +
+                           std::string(30'000, '[') + std::string(30'000, ']') + "}]}";
   for (const char* text :
        {"", "{", "[]", R"({"version": 2, "machines": []})", R"({"version": 1, "machines": {}})",
-        R"({"version": 1, "machines": [7]})", R"({"version": 1, "machines": [{"machine": 7}]})"}) {
+        R"({"version": 1, "machines": [7]})", R"({"version": 1, "machines": [{"machine": 7}]})",
+        deep.c_str()}) {
     ASSERT_TRUE(write_text(path, text));
     const auto read = load_learnt_costs(path, "a");
     ASSERT_FALSE(read) << text;
@@ -72,6 +75,21 @@ TEST(LearntCosts, AnEntryThatCannotBeIsMeasuredAnew) {
     ASSERT_TRUE(read) << entry;
     EXPECT_FALSE(*read) << entry;
   }
+}
+
+TEST(LearntCosts, WhatWouldNotBeReadAgainGoes) {
+  const Folder folder;
+  const auto path = folder / "quality.json";
+  // Two bytes a number here; a line of more than 120 blanks as it is printed.
+  std::string nested = "0";
+  for (int i = 0; i < 2000; ++i) nested += ",0";
+  nested = std::string(60, '[') + nested + std::string(60, ']');
+  ASSERT_TRUE(
+      write_text(path, R"({"version": 1, "machines": [{"machine": "b", "x": )" + nested + "}]}"));
+  ASSERT_TRUE(save_learnt_costs(path, "a", some(5.0)));
+  const auto read = load_learnt_costs(path, "a");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(*read);
 }
 
 TEST(LearntCosts, TheOldestOfTooManyMachinesGoes) {

@@ -31,10 +31,17 @@ TEST(JsonText, OtherTextIsNoJson) {
     EXPECT_NE(refusal_of(text).find("is not JSON"), std::string::npos) << text;
 }
 
-TEST(JsonText, DeepNestingIsNoProblem) {
-  const std::size_t depth = 200'000;
-  EXPECT_EQ(refusal_of(std::string(depth, '[') + std::string(depth, ']')), "");
-  EXPECT_NE(refusal_of(std::string(depth, '[')), "");
+TEST(JsonText, DeepNestingIsRefused) {
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '[') + std::string(depth, ']');
+  };
+  EXPECT_EQ(refusal_of(nested(kMostJsonDepth)), "");
+  for (const std::size_t depth : {std::size_t{kMostJsonDepth + 1}, std::size_t{200'000}}) {
+    EXPECT_NE(refusal_of(nested(depth)).find("nested"), std::string::npos) << depth;
+    EXPECT_NE(refusal_of(R"({"a": )" + nested(depth)).find("nested"), std::string::npos) << depth;
+    EXPECT_FALSE(parse_ordered_json(nested(depth))) << depth;
+  }
+  EXPECT_NE(refusal_of(std::string(200'000, '[')), "");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 
 namespace skerry::tools {
@@ -39,8 +40,10 @@ Result<Record> read_record(const fs::path& file, const std::string& id) {
     return Error{fmt::format("cannot use the row {}: {}; delete the file and run its task again",
                              game::quote_text(file.string()), why)};
   };
+  const Result<ordered_json> parsed = game::parse_ordered_json(*text);
+  if (!parsed) return wrong("it " + parsed.error().message);
   try {
-    const ordered_json from = ordered_json::parse(*text);
+    const ordered_json& from = *parsed;
     Record record{from.at("task").get<std::string>(), from.at("device").get<std::string>(),
                   from.at("driver").get<std::string>(), from.at("result"), from.at("measured")};
     if (record.task != id) return wrong("it is of another task");
