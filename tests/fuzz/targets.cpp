@@ -9,15 +9,25 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "engine/core/check.h"
+#include "engine/core/output.h"
 #include "engine/platform/image_file.h"
 #include "game/input/actions.h"
+#include "game/input/hints.h"
+#include "game/pace/learnt_costs.h"
+#include "game/pace/quality_front.h"
 #include "game/scene_file/options.h"
 #include "game/scene_file/setting_keys.h"
+#include "tools/skerry/farm/plan.h"
+#include "tools/skerry/farm/record.h"
+#include "tools/skerry/test/hashes.h"
 #include "world/store/bytes.h"
 #include "world/store/chunk_blob.h"
+#include "world/store/log.h"
+#include "world/store/page_bytes.h"
 #include "world/store/pages.h"
 #include "world/store/rows.h"
 #include "world/vdb/answer.h"
@@ -69,10 +79,12 @@ void time_and_size(std::span<const std::uint8_t> input) {
     check_line(size.error());
 }
 
-/// For parsers that take a file's name. @return where the input is now.
-std::filesystem::path written(std::span<const std::uint8_t> input) {
+/// For parsers that take a file's name, in a folder of their own. @return where the input is now.
+std::filesystem::path written(std::span<const std::uint8_t> input,
+                              const std::filesystem::path& name = "input") {
   const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("skerry_fuzz_{}", getpid());
+      std::filesystem::temp_directory_path() / fmt::format("skerry_fuzz_{}", getpid()) / name;
+  std::filesystem::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(input.data()),
              static_cast<std::streamsize>(input.size()));
@@ -173,7 +185,114 @@ void world_pages(std::span<const std::uint8_t> input) {
   std::filesystem::remove(path);
 }
 
-constexpr std::array<Target, 10> kTargets{{{"scene", scene},
+/// A log of SQLite with whatever pages, of which read_log() must name none that is not there.
+void check_log(const std::string& bytes) {
+  std::istringstream log(bytes);
+  for (const auto& [page, where] : world::read_log(log).where)
+    SKERRY_ASSERT(where + world::kPageBytes <= bytes.size());
+}
+
+/// The same log with checksums that fit: nothing behind them would be reached otherwise.
+/// Source: https://www.sqlite.org/fileformat2.html#walformat.
+std::string with_checksums(std::string log) {
+  constexpr std::size_t kHeader = 32, kFrameHeader = 24;
+  if (log.size() < kHeader) return log;
+  std::uint32_t first = 0, second = 0;
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(log[at + i]);
+    return value;
+  };
+  const auto put = [&](std::size_t at, std::uint32_t value) {
+    for (std::size_t i = 0; i < 4; ++i) log[at + i] = static_cast<char>(value >> (24 - 8 * i));
+  };
+  const auto add = [&](std::size_t at, std::size_t count) {
+    for (const std::size_t end = at + count; at < end; at += 8) {
+      first += word(at) + second;
+      second += word(at + 4) + first;
+    }
+  };
+  const auto put_sum = [&](std::size_t at) {
+    put(at, first);
+    put(at + 4, second);
+  };
+  put(0, 0x377f0683);  // words are big-endian
+  put(8, world::kPageBytes);
+  add(0, 24);
+  put_sum(24);
+  for (std::size_t at = kHeader; at + kFrameHeader + world::kPageBytes <= log.size();
+       at += kFrameHeader + world::kPageBytes) {
+    log.replace(at + 8, 8, log, 16, 8);  // its salts
+    add(at, 8);
+    add(at + kFrameHeader, world::kPageBytes);
+    put_sum(at + 16);
+  }
+  return log;
+}
+
+void world_log(std::span<const std::uint8_t> input) {
+  check_log(std::string(text_of(input)));
+  check_log(with_checksums(std::string(text_of(input))));
+}
+
+void farm_plan(std::span<const std::uint8_t> input) {
+  const std::filesystem::path dir = written(input, "plan.json").parent_path();
+  for (const char* command : {"stability", "report"}) {
+    const Result<tools::Plan> plan = tools::read_plan(dir, command);
+    if (!plan) {
+      check_line(plan.error());
+      continue;
+    }
+    for (const tools::Task& task : plan->tasks) {
+      const std::array<std::string, 2> wanted{task.id, task.name};
+      SKERRY_ASSERT(tools::chosen_tasks(*plan, wanted));
+      // A row's file lies where rows are, whatever the plan says.
+      SKERRY_ASSERT(tools::record_file(dir, task.id).parent_path() == dir / "rows");
+    }
+    SKERRY_ASSERT(tools::write_plan(dir, *plan));
+    const Result<tools::Plan> again = tools::read_plan(dir, command);
+    SKERRY_ASSERT(again && again->tasks == plan->tasks && again->arguments == plan->arguments);
+  }
+}
+
+void farm_row(std::span<const std::uint8_t> input) {
+  tools::Plan plan;
+  plan.tasks = {{"t000000000000000000000000", "one"}};
+  const std::filesystem::path file = written(input, "rows/t000000000000000000000000.json");
+  const std::array<std::filesystem::path, 1> dirs{file.parent_path().parent_path()};
+  const Result<tools::Collected> rows = tools::collect(plan, dirs);
+  if (!rows) return check_line(rows.error());
+  SKERRY_ASSERT(tools::write_record(dirs[0], *rows->records[0]));
+  const Result<tools::Collected> again = tools::collect(plan, dirs);
+  SKERRY_ASSERT(again && again->records[0]->result == rows->records[0]->result);
+}
+
+void learnt_costs(std::span<const std::uint8_t> input) {
+  const std::filesystem::path path = written(input);
+  const auto learnt = game::load_learnt_costs(path, "a");
+  if (!learnt) check_line(learnt.error());
+  const game::LearntCosts other{
+      0, std::vector<std::optional<double>>(game::quality_front().size(), 1.5)};
+  SKERRY_ASSERT(game::save_learnt_costs(path, "another", other));
+  const auto again = game::load_learnt_costs(path, "another");
+  SKERRY_ASSERT(again && *again && (*again)->costs_ms == other.costs_ms);
+}
+
+void hints(std::span<const std::uint8_t> input) {
+  const std::string printed = game::Hints::read(text_of(input)).print();
+  SKERRY_ASSERT(game::Hints::read(printed).print() == printed);
+}
+
+void hashes(std::span<const std::uint8_t> input) {
+  const std::filesystem::path path = written(input);
+  const Result<tools::Hashes> read = tools::read_hashes(path);
+  if (!read) return check_line(read.error());
+  SKERRY_ASSERT(tools::write_hashes(path, *read));
+  SKERRY_ASSERT(*tools::read_hashes(path) == *read);
+}
+
+constexpr std::array<Target, 16> kTargets{{{"scene", scene},
                                            {"setting", setting},
                                            {"camera", camera},
                                            {"time_and_size", time_and_size},
@@ -182,7 +301,13 @@ constexpr std::array<Target, 10> kTargets{{{"scene", scene},
                                            {"vdb_answer", vdb_answer},
                                            {"chunk_blob", chunk_blob},
                                            {"world_rows", world_rows},
-                                           {"world_pages", world_pages}}};
+                                           {"world_pages", world_pages},
+                                           {"world_log", world_log},
+                                           {"farm_plan", farm_plan},
+                                           {"farm_row", farm_row},
+                                           {"learnt_costs", learnt_costs},
+                                           {"hints", hints},
+                                           {"hashes", hashes}}};
 
 }  // namespace
 
