@@ -34,7 +34,7 @@ struct BlockMarker {
 enum class Capture : std::uint8_t {
   kRadiance,  ///< RGBA16F, before exposure
   kDepth,     ///< D32, reverse-Z; absent from a frame without geometry, or with another depth
-  kSurfaces,  ///< R32_UINT, the G-buffer's words; absent likewise
+  kSurfaces,  ///< R32_UINT, the G-buffer's words, 0 for the sky; absent likewise
   /// D32 layers, all cascades of the sun, then of the moon; after them layers of a body that has
   /// set. Absent when nothing casts.
   kShadowMaps

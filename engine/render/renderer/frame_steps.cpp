@@ -140,7 +140,7 @@ void cull(FrameAssembly& f) {
 void draw_geometry(FrameAssembly& f) {
   f.geometry = GeometryPass::add(f.graph, f.pipelines, f.scene, *f.draws,
                                  {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
-                                  samples_per_edge(f.plan.settings) > 1});
+                                  samples_per_edge(f.plan.settings) > 1, f.plan.input.capture});
 }
 
 void draw_shadows(FrameAssembly& f) {

@@ -92,9 +92,9 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
             b.read(ref, Use::kFragmentRead);
         // Depth says where there is a surface, unless 16 bits cannot. A clear costs a GPU with few
         // raster units 0.15 ms at 1920x1080.
+        const bool clear = in.clear_words || store.depth == DepthStore::kD16;
         out.surfaces_ =
-            b.color(out.surfaces_, store.depth == DepthStore::kD16 ? gpu::Load::cleared({})
-                                                                   : gpu::Load::discarded());
+            b.color(out.surfaces_, clear ? gpu::Load::cleared({}) : gpu::Load::discarded());
         for (gpu::ImageRef* image : {&out.normals_, &out.positions_})
           if (*image) *image = b.color(*image, gpu::Load::discarded());
         out.depth_ = b.depth(out.depth_, gpu::Load::cleared({}));

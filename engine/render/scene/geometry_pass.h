@@ -14,6 +14,7 @@ struct GeometryPass {
     /// Tests alpha on the finest texels, as suits several samples a pixel; mips of thin plants keep
     /// nothing of them where a block is smaller than a sample.
     bool finest_coverage = false;
+    bool clear_words = false;  ///< for who reads them without depth; with 16 bits of depth they are
   };
   static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const CulledDraws& draws, const In& in);

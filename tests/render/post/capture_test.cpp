@@ -52,6 +52,27 @@ TEST_F(CaptureTest, DepthIsThatOfThePlaneBelow) {
   EXPECT_EQ(renderer().captured(Capture::kShadowMaps).layers, 4u);
 }
 
+TEST_F(CaptureTest, TheSkyHasNoWordOfTheFrameBefore) {
+  add(ground, {0, -1, 0}, {1, 0, 1});
+  FrameInput in = input();
+  in.capture = false;
+  in.camera = camera_at({30.0, 8.0, 30.0}, 0.0, -90.0);  // words everywhere
+  for (int frame = 0; frame < 4; ++frame) drawn(in, {}, kSize);
+  in.capture = true;
+  in.camera = camera_at({30.0, 8.0, -3.0}, 0.0, 5.0);
+  drawn(in, {}, kSize);
+  const std::vector<float> depths = texels<float>(Capture::kDepth);
+  const std::vector<std::uint32_t> words = texels<std::uint32_t>(Capture::kSurfaces);
+  ASSERT_EQ(words.size(), depths.size());
+  int sky = 0;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    EXPECT_EQ(words[i] != 0, depths[i] > 0.0f) << i;
+    sky += depths[i] == 0.0f ? 1 : 0;
+  }
+  EXPECT_GT(sky, 64 * 48 / 4);
+  EXPECT_LT(sky, 64 * 48);
+}
+
 TEST_F(CaptureTest, WithoutGeometryThereIsRadianceOnly) {
   drawn(input(), {}, kSize);
   EXPECT_EQ(texels<std::uint64_t>(Capture::kRadiance).size(), 64u * 48u);
