@@ -28,6 +28,7 @@ constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 // The handler's, and so lock-free: a child process has the handler, too, but not the thread.
 std::atomic<pid_t> owner{0};
 std::atomic<int> signal_pipe{-1};
+std::atomic<bool> listening{false};
 
 constexpr std::chrono::seconds kMostWork{2};
 
@@ -86,6 +87,8 @@ bool do_works() {
 }
 
 void wait_for_signal(int descriptor) {
+  listening = true;
+  listening.notify_one();
   unsigned char byte = 0;
   while (::read(descriptor, &byte, 1) < 0 && errno == EINTR) {
   }
@@ -108,7 +111,11 @@ void listen() {
   if (::pipe2(ends, O_CLOEXEC) != 0) return;  // then only an interruption leaves something behind
   signal_pipe = ends[1];
   owner = ::getpid();
+  listening = false;
   std::thread(wait_for_signal, ends[0]).detach();
+  // A thread that begins holds locks, as of a sanitizer's allocator: a process forked meanwhile
+  // would wait for them forever.
+  listening.wait(false);
   for (const int signal_number : kSignals) {
     struct sigaction before {};
     ::sigaction(signal_number, nullptr, &before);
