@@ -94,7 +94,7 @@ class PassesOnGpu : public gpu::GpuTest {
     const SceneRefs scene = begin(input, size, tables);
     const CulledDraws draws = cull(scene, 1);
     const Geometry geometry =
-        GeometryPass::add(*graph_, *pipelines_, scene, draws, {GBufferStore{}, false, false});
+        GeometryPass::add(*graph_, *pipelines_, scene, draws, {GBufferStore{}, false, false, true});
     const gpu::ImageRef surfaces = geometry.surfaces(), depths = geometry.depth();
     gpu::BufferRef words_ref = graph_->import(words), depth_ref = graph_->import(depth),
                    stats_ref = graph_->import(stats);
@@ -135,7 +135,7 @@ class PassesOnGpu : public gpu::GpuTest {
     scene.islands = table("island transforms", islands);
     const CulledDraws draws = cull(scene, 1);
     const SurfaceReads surfaces(
-        GeometryPass::add(*graph_, *pipelines_, scene, draws, {store, false, false}));
+        GeometryPass::add(*graph_, *pipelines_, scene, draws, {store, false, false, true}));
     gpu::BufferRef to_normals = graph_->import(normals), to_positions = graph_->import(positions);
     const VkSampler point = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
     graph_->add_pass(
