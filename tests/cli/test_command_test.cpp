@@ -117,6 +117,107 @@ TEST_F(TestCommandLine, RepeatedRunsGiveOnePicture) {
   }
 }
 
+/// Folders of pictures that some other program drew.
+class CompareCommandLine : public TestCommandLine {
+ protected:
+  /// A grey ramp. @param brighter of a square in its middle [of 255].
+  void write_picture(const fs::path& folder, const std::string& name, int brighter = 0,
+                     std::uint32_t width = 48) {
+    constexpr std::uint32_t kHeight = 32;
+    std::vector<std::uint8_t> pixels;
+    for (std::uint32_t y = 0; y < kHeight; ++y)
+      for (std::uint32_t x = 0; x < width; ++x) {
+        const bool square = x >= 20 && x < 28 && y >= 12 && y < 20;
+        const auto grey = static_cast<std::uint8_t>(60 + 2 * x + (square ? brighter : 0));
+        pixels.insert(pixels.end(), {grey, grey, grey, 255});
+      }
+    fs::create_directories(folder);
+    ASSERT_TRUE(platform::write_png(folder / (name + ".png"), {width, kHeight, 4, pixels}));
+  }
+  void write_both(const std::string& name, int brighter) {
+    write_picture(before(), name);
+    write_picture(after(), name, brighter);
+  }
+  Outcome compare(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"--compare", before().string(), after().string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test(std::move(arguments));
+  }
+  fs::path before() const { return out("before"); }
+  fs::path after() const { return out("after"); }
+};
+
+TEST_F(CompareCommandLine, PicturesOfTwoFoldersAreJudgedByName) {
+  write_both("equal", 0);
+  write_both("hardly", 2);
+  write_both("other", 90);
+  write_picture(before(), "gone");
+  write_picture(after(), "new");
+  write_picture(before(), "wider");
+  write_picture(after(), "wider", 0, 50);
+  write_both("damaged", 0);
+  ASSERT_TRUE(write_text(after() / "damaged.png", "no picture"));
+  ASSERT_TRUE(write_text(after() / "notes.txt", "passed over"));
+  const Outcome outcome =
+      compare({"--json", out("rows.json").string(), "--html", out("html").string()});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_NE(outcome.out.find("2 of 7 scenes passed"), std::string::npos) << outcome.out;
+  const json found = rows("rows.json");
+  ASSERT_EQ(found.size(), 7u);
+  const auto row = [&](const std::string& name) {
+    return *std::find_if(found.begin(), found.end(),
+                         [&](const json& one) { return one["scene"] == name; });
+  };
+  EXPECT_EQ(row("equal")["verdict"], "pass");
+  EXPECT_EQ(row("equal")["flip_max"], 0.0);
+  EXPECT_EQ(row("hardly")["verdict"], "pass");
+  EXPECT_EQ(row("hardly")["largest"], 2);
+  EXPECT_EQ(row("other")["verdict"], "fail");
+  EXPECT_EQ(row("other")["largest"], 90);
+  EXPECT_DOUBLE_EQ(row("other")["pixels_over"].get<double>(), 64.0 / (48 * 32));
+  const auto says = [&](const std::string& name, const std::string& what) {
+    EXPECT_EQ(row(name)["verdict"], "fail") << name;
+    EXPECT_NE(row(name)["message"].get<std::string>().find(what), std::string::npos)
+        << row(name)["message"];
+  };
+  says("gone", "a reference alone");
+  says("new", "no reference");
+  says("wider", "48x32 pixels, the picture 50x32");
+  says("damaged", "damaged.png");
+  const std::string page = text_of(out("html/index.html"));
+  for (const char* shown :
+       {"other.flip.png", "other.reference.png", "gone.reference.png", "new.actual.png"}) {
+    EXPECT_NE(page.find(shown), std::string::npos) << shown;
+    EXPECT_TRUE(fs::exists(out("html") / shown)) << shown;
+  }
+}
+
+TEST_F(CompareCommandLine, TheToleranceCanBeStated) {
+  write_both("hardly", 2);
+  EXPECT_EQ(compare().status, 0);
+  EXPECT_EQ(compare({"--tolerance", R"({"flip_max": 0.001})"}).status, 1);
+  write_both("hardly", 90);
+  EXPECT_EQ(compare().status, 1);
+  EXPECT_EQ(compare({"--tolerance", R"({"flip_mean": 1, "flip_p99": 1, "pixels_over": 1})"}).status,
+            0);
+  expect_refusal(compare({"--tolerance", R"({"flip_man": 1})"}), 2, {"flip_mean"},
+                 "a typing error");
+  expect_refusal(compare({"--tolerance", "tight"}), 2, {"--tolerance"}, "no JSON");
+}
+
+TEST_F(CompareCommandLine, WhatCannotBeComparedIsRefused) {
+  write_picture(before(), "one");
+  expect_refusal(compare(), 1, {"after", "no folder"}, "one folder");
+  fs::create_directory(after());
+  expect_refusal(test({"--compare", after().string(), after().string()}), 1, {"nothing to compare"},
+                 "no pictures");
+  expect_refusal(test({"--compare", before().string()}), 2, {"two folders"}, "one path");
+  expect_refusal(compare({"--approve"}), 2, {"--compare draws nothing"}, "approve");
+  expect_refusal(compare({"--merge"}), 2, {"exclude each other"}, "merge");
+  write_scene("sky");
+  expect_refusal(test({scenes().string(), "--tolerance", "{}"}), 2, {"--compare"}, "drawing");
+}
+
 TEST_F(TestCommandLine, NothingToTestIsAFailure) {
   expect_refusal(test({}), 1, {"nothing to test"}, "no scenes");
   expect_refusal(test({scenes().string()}), 1, {"no scene"}, "empty folder");

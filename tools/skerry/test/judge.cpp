@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "tools/measure/image.h"
 #include "tools/skerry/scene/draw_scene.h"
+#include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
 namespace {
@@ -13,7 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kDriverText = "Driver";
-constexpr int kAmplification = 8;
 
 std::string driver_of(const platform::PngImage& picture) {
   for (const platform::PngText& text : picture.text) {
@@ -22,43 +21,9 @@ std::string driver_of(const platform::PngImage& picture) {
   return {};
 }
 
-bool same_size(const platform::PngImage& a, const platform::PngImage& b) {
-  return a.width == b.width && a.height == b.height;
-}
-
 platform::PixelView view_of(const platform::PngImage& picture) {
   return {picture.width, picture.height, 4, picture.pixels};
 }
-
-measure::Image image_of(const platform::PngImage& picture) {
-  return {picture.width, picture.height, picture.pixels};
-}
-
-/// Writes what a report shows of a scene, and takes away what an older report has left.
-class ReportWriter {
- public:
-  ReportWriter(const std::optional<fs::path>& folder, std::string scene)
-      : folder_(folder), scene_(std::move(scene)) {
-    std::error_code code;
-    for (const ReportPicture kind : kReportPictures) {
-      if (folder_) fs::remove(path(kind), code);
-    }
-  }
-
-  void write(ReportPicture kind, const platform::PixelView& picture) {
-    if (!folder_) return;
-    const Result<void> written = platform::write_png(path(kind), picture);
-    if (!written && error_.empty()) error_ = written.error().message;
-  }
-  const std::string& error() const { return error_; }
-
- private:
-  fs::path path(ReportPicture kind) const { return *folder_ / report_picture_name(scene_, kind); }
-
-  const std::optional<fs::path>& folder_;
-  std::string scene_;
-  std::string error_;
-};
 
 /// What keeps a picture from being right whatever the reference shows; empty if nothing does.
 std::string flaw(const TestScene& scene, const Shown& shown) {
@@ -108,24 +73,7 @@ Result<std::string> approve(const TestScene& scene, const Shown& shown,
   return fmt::format("a changed reference, off by up to {} of 255", row.found->largest);
 }
 
-void write_report(ReportWriter& writer, const platform::PngImage* reference,
-                  const platform::PngImage& picture, const std::optional<Comparison>& compared) {
-  writer.write(ReportPicture::kActual, view_of(picture));
-  if (reference) writer.write(ReportPicture::kReference, view_of(*reference));
-  if (!compared || compared->difference.equal()) return;
-  const measure::Image difference =
-      measure::amplified_difference(image_of(*reference), image_of(picture), kAmplification);
-  const measure::Image heat = measure::heat_map(compared->flip);
-  writer.write(ReportPicture::kDifference, {picture.width, picture.height, 4, difference.rgba});
-  writer.write(ReportPicture::kFlip, {picture.width, picture.height, 4, heat.rgba});
-}
-
 }  // namespace
-
-std::string report_picture_name(const std::string& scene, ReportPicture kind) {
-  constexpr const char* kEndings[] = {"reference", "actual", "difference", "flip"};
-  return fmt::format("{}.{}.png", scene, kEndings[static_cast<std::size_t>(kind)]);
-}
 
 Row failed_row(const TestScene& scene, std::string why) {
   Row row;
@@ -151,8 +99,9 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
     compared = compare(*reference, shown.picture, scene.expected);
     row.found = compared->difference;
   }
-  ReportWriter writer(options.html, scene.name);
-  write_report(writer, reference ? &*reference : nullptr, shown.picture, compared);
+  const Result<void> written = write_report_pictures(
+      options.html, scene.name,
+      {reference ? &*reference : nullptr, &shown.picture, compared ? &*compared : nullptr});
 
   row.message = flaw(scene, shown);
   if (row.message.empty()) pass_or_fail(row, scene, reference, shown.picture);
@@ -162,9 +111,9 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
     row.verdict = done ? Verdict::kApproved : Verdict::kFail;
     row.message = done ? *done : done.error().message;
   }
-  if (!writer.error().empty()) {
+  if (!written) {
     row.verdict = Verdict::kFail;
-    row.message = writer.error();
+    row.message = written.error().message;
   }
   row.failed_runs = row.failed() ? 1 : 0;
   return outcome;

@@ -39,12 +39,4 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
 /// A row of a scene that could not be drawn.
 Row failed_row(const TestScene& scene, std::string why);
 
-/// Kinds of pictures in a report's folder.
-enum class ReportPicture : std::uint8_t { kReference, kActual, kDifference, kFlip };
-inline constexpr ReportPicture kReportPictures[] = {
-    ReportPicture::kReference, ReportPicture::kActual, ReportPicture::kDifference,
-    ReportPicture::kFlip};
-/// "day.flip.png".
-std::string report_picture_name(const std::string& scene, ReportPicture kind);
-
 }  // namespace skerry::tools

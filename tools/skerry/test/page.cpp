@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/measure/html.h"
-#include "tools/skerry/test/judge.h"
+#include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
 namespace {
@@ -126,10 +126,10 @@ std::string section(const Row& row, const fs::path& folder) {
                                              row.failed_runs, row.runs, row.pictures));
   }
   out += pictures_of(row, folder);
-  return out +
-         measure::element("p", measure::element("code", measure::escape(row.command)) + " on " +
-                                   measure::escape(row.driver)) +
-         "\n";
+  if (!row.command.empty())
+    out += measure::element("p", measure::element("code", measure::escape(row.command)) + " on " +
+                                     measure::escape(row.driver));
+  return out + "\n";
 }
 
 int rank(const Row& row) {

@@ -10,12 +10,15 @@
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "engine/platform/image_file.h"
+#include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 #include "game/scene_file/vdb_options.h"
 #include "tools/skerry/scene/progress.h"
 #include "tools/skerry/scene/scene_device.h"
+#include "tools/skerry/test/compare_folders.h"
 #include "tools/skerry/test/page.h"
 #include "tools/skerry/test/records.h"
+#include "tools/skerry/test/report_pictures.h"
 #include "world/vdb/worker.h"
 
 namespace skerry::tools {
@@ -92,6 +95,12 @@ TestCommand::TestCommand(CLI::App& app)
   test_->add_option("--shard", shard_text_, "Only each N-th scene, from the I-th on")
       ->type_name("I/N");
   test_->add_flag("--merge", merge_, "SCENES are the --json files of all shards: join them");
+  test_->add_flag("--compare", compare_,
+                  "SCENES are two folders of PNG files, references first: compare them");
+  test_
+      ->add_option("--tolerance", tolerance_text_,
+                   "Of --compare, as in a scene file (docs/settings.md)")
+      ->type_name("JSON");
   test_->add_option("--device", device_text_, "Vulkan device, as 'skerry devices' counts")
       ->type_name("N");
 }
@@ -122,6 +131,7 @@ int TestCommand::run(std::span<const std::string> typed) {
   if (!verb) {
     if (const auto refusal = check_leftovers(*test_)) return fail(refusal->status, refusal->error);
     if (const auto refusal = check_typed()) return fail(refusal->status, refusal->error);
+    if (compare_) return compare_pictures();
     return merge_ ? merge_shards() : draw_and_judge();
   }
   if (const auto refusal = verbs_->check()) return fail(refusal->status, refusal->error);
@@ -134,9 +144,17 @@ std::optional<Refusal> TestCommand::check_typed() {
     return Refusal{merge_ ? kUsage : kFailed,
                    {"there is nothing to test: give scene files or folders of them"}};
   }
-  if (merge_ &&
-      (approve_ || shard_text_ || device_text_ || jobs_text_ || repeat_text_ || validate_))
-    return usage({"--merge draws nothing: leave out the options that say how to draw"});
+  const bool draws =
+      approve_ || shard_text_ || device_text_ || jobs_text_ || repeat_text_ || validate_;
+  if ((merge_ || compare_) && draws) {
+    return usage({fmt::format("{} draws nothing: leave out the options that say how to draw",
+                              merge_ ? "--merge" : "--compare")});
+  }
+  if (merge_ && compare_) return usage({"--merge and --compare exclude each other: leave out one"});
+  if (compare_ && paths_.size() != 2)
+    return usage({"--compare needs two folders: the references, and what is judged"});
+  if (tolerance_text_ && !compare_)
+    return usage({"--tolerance is for --compare: a scene states its own"});
   if (shard_text_) {
     const Result<Shard> shard = parse_shard(*shard_text_);
     if (!shard) return usage(shard.error());
@@ -347,6 +365,28 @@ int TestCommand::merge_shards() {
   }
   const std::ptrdiff_t failed = print_summary(merged->rows, runs, seconds);
   if (const auto written = write_outputs(*std::move(merged)); !written)
+    return fail(kFailed, written.error());
+  return failed > 0 ? kFailed : kDone;
+}
+
+int TestCommand::compare_pictures() {
+  game::Expectations expected;
+  if (tolerance_text_) {
+    const Result<nlohmann::json> text = game::parse_json(*tolerance_text_);
+    if (!text) return fail(kUsage, Error{"--tolerance " + text.error().message});
+    if (const auto read = game::read_expectation("tolerance", *text, expected); !read)
+      return fail(kUsage, read.error());
+  }
+  if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
+  const Stopwatch watch;
+  Result<std::vector<Row>> rows =
+      compare_folders({paths_[0], paths_[1], expected.tolerance, pool_.judge.html});
+  if (!rows) return fail(kFailed, rows.error());
+  Results results;
+  results.scenes_in_set = rows->size();
+  results.rows = *std::move(rows);
+  const std::ptrdiff_t failed = print_summary(results.rows, 1, watch.seconds());
+  if (const Result<void> written = write_outputs(std::move(results)); !written)
     return fail(kFailed, written.error());
   return failed > 0 ? kFailed : kDone;
 }

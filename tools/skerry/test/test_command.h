@@ -35,6 +35,7 @@ class TestCommand {
   std::optional<Refusal> check_outputs();
   int draw_and_judge();
   int merge_shards();
+  int compare_pictures();
   int write_plan(std::span<const std::string> typed);
   int run_tasks();
   std::optional<Refusal> read_planned(const Plan& plan, std::vector<TestScene>& scenes);
@@ -52,8 +53,8 @@ class TestCommand {
   std::unique_ptr<Verbs> verbs_;
   std::vector<std::string> paths_;
   std::optional<std::string> shard_text_, html_, json_, junit_, device_text_, jobs_text_,
-      repeat_text_;
-  bool approve_ = false, merge_ = false, validate_ = false;
+      repeat_text_, tolerance_text_;
+  bool approve_ = false, merge_ = false, compare_ = false, validate_ = false;
   Shard shard_;
   PoolOptions pool_;
   std::optional<ReportFolder> report_;  // for html_
