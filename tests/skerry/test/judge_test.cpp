@@ -6,6 +6,7 @@
 #include "engine/platform/files.h"
 #include "tests/folder.h"
 #include "tools/skerry/scene/draw_scene.h"
+#include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
 namespace {

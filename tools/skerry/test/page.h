@@ -6,7 +6,7 @@
 
 namespace skerry::tools {
 
-/// The report of a test as one HTML page beside its pictures (report_picture_name in judge.h):
+/// The report of a test as one HTML page beside its pictures (report_pictures.h):
 /// failures first, then what was approved, then the rest. Shows those pictures that `folder` holds.
 std::string test_page(const Results& results, const std::filesystem::path& folder);
 
