@@ -111,33 +111,40 @@ TEST_F(GraphTest, AChainOfComputePassesComputes) {
   EXPECT_LT(graph.times(0)[0].ms, 1000.0);
 }
 
+/// Adds a pass that clears an image of the frame.
+void add_clear(FrameGraph& graph, const char* name, std::uint32_t edge) {
+  ImageRef image = graph.create(
+      ImageDesc{.name = name, .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {edge, edge}});
+  graph.add_pass(
+      "clear",
+      [&](PassBuilder& b) {
+        image = b.color(image, Load::cleared({}));
+        b.keep();
+      },
+      [](Commands&) {});
+}
+
+/// Adds a pass that fills a buffer of the frame.
+void add_fill(FrameGraph& graph, const char* name, std::uint64_t bytes) {
+  BufferRef list = graph.create(BufferDesc{name, bytes});
+  graph.add_pass(
+      "fill",
+      [&](PassBuilder& b) {
+        list = b.write(list, Use::kTransferWrite);
+        b.keep();
+      },
+      [list](Commands& c) { c.fill(list, 0, VK_WHOLE_SIZE, 0); });
+}
+
 // Water that leaves the view and comes back, a list that grows, a window that changes its size.
 TEST_F(GraphTest, WhatComesBackIsNotAllocatedAgain) {
   FrameGraph graph(&device());
-  const auto clear = [&](const char* name, std::uint32_t edge) {
-    ImageRef image = graph.create(
-        ImageDesc{.name = name, .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {edge, edge}});
-    graph.add_pass(
-        "clear",
-        [&](PassBuilder& b) {
-          image = b.color(image, Load::cleared({}));
-          b.keep();
-        },
-        [](Commands&) {});
-  };
   const auto frame = [&](std::uint32_t edge, std::uint64_t list_bytes, bool water) {
     const std::uint64_t before = device().allocations();
     graph.begin();
-    clear("radiance", edge);
-    if (water) clear("water", edge);
-    BufferRef list = graph.create(BufferDesc{"list", list_bytes});
-    graph.add_pass(
-        "fill",
-        [&](PassBuilder& b) {
-          list = b.write(list, Use::kTransferWrite);
-          b.keep();
-        },
-        [&](Commands& c) { c.fill(list, 0, VK_WHOLE_SIZE, 0); });
+    add_clear(graph, "radiance", edge);
+    if (water) add_clear(graph, "water", edge);
+    add_fill(graph, "list", list_bytes);
     run(graph);
     return device().allocations() - before;
   };
@@ -162,7 +169,7 @@ TEST_F(GraphTest, WhatComesBackIsNotAllocatedAgain) {
   EXPECT_EQ(bytes_of("water"), small);
   // A frame that needs more than all others have does not keep it from them.
   graph.begin();
-  clear("once", 1024);
+  add_clear(graph, "once", 1024);
   run(graph);
   EXPECT_GT(bytes_of("once"), 0u);
   for (int i = 0; i < 20; ++i) (void)frame(64, 100, true);
@@ -172,30 +179,12 @@ TEST_F(GraphTest, WhatComesBackIsNotAllocatedAgain) {
 // Lists of lamps are larger than all other lists together, and nothing beside the picture.
 TEST_F(GraphTest, ListsAreKeptForAllThatAFrameTakes) {
   FrameGraph graph(&device());
-  const auto fill = [&](const char* name, std::uint64_t bytes) {
-    BufferRef list = graph.create(BufferDesc{name, bytes});
-    graph.add_pass(
-        "fill",
-        [&](PassBuilder& b) {
-          list = b.write(list, Use::kTransferWrite);
-          b.keep();
-        },
-        [list](Commands& c) { c.fill(list, 0, VK_WHOLE_SIZE, 0); });
-  };
   const auto frame = [&](bool lamps) {
     const std::uint64_t before = device().allocations();
     graph.begin();
-    ImageRef image = graph.create(
-        ImageDesc{.name = "radiance", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1024, 1024}});
-    graph.add_pass(
-        "clear",
-        [&](PassBuilder& b) {
-          image = b.color(image, Load::cleared({}));
-          b.keep();
-        },
-        [](Commands&) {});
-    fill("tiles", 100);
-    if (lamps) fill("lamps", 1'000'000);
+    add_clear(graph, "radiance", 1024);
+    add_fill(graph, "tiles", 100);
+    if (lamps) add_fill(graph, "lamps", 1'000'000);
     run(graph);
     return device().allocations() - before;
   };
