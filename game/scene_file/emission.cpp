@@ -10,12 +10,6 @@
 namespace skerry::game {
 namespace {
 
-/// IEC 61966-2-1.
-double linear_from_srgb(int byte) {
-  const double encoded = byte / 255.0;
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 double luminance(glm::dvec3 c) {
   return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
@@ -36,9 +30,9 @@ Glow glow_of(const render::BlockTextures& file, world::Texture texture) {
   for (std::size_t row = 0; row < edge; ++row) {
     for (std::size_t column = 0; column < edge; ++column, texels += 4) {
       if (std::to_integer<int>(texels[3]) < kCovered) continue;
-      const glm::dvec3 albedo{linear_from_srgb(std::to_integer<int>(texels[0])),
-                              linear_from_srgb(std::to_integer<int>(texels[1])),
-                              linear_from_srgb(std::to_integer<int>(texels[2]))};
+      const glm::dvec3 albedo{render::linear_from_srgb(texels[0]),
+                              render::linear_from_srgb(texels[1]),
+                              render::linear_from_srgb(texels[2])};
       glow.mean += albedo;
       light += luminance(albedo);
       raised += luminance(albedo) * (1.0 - (static_cast<double>(row) + 0.5) / file.edge);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <span>
 #include <utility>
+
+#include "game/view/materials.h"
 
 namespace skerry::game {
 
@@ -12,17 +15,18 @@ struct IslandLight::Search {
   std::uint64_t version = 0;
   int level = 0;
   bool sky = false;
+  std::span<const world::FaceAlbedo> albedo;  // empty: bounces are not looked for
   std::map<world::IVec3, std::vector<world::LampReach::Bricks>>
       reach;  // of chunks with strong lamps
   std::atomic<bool> reach_done = false;
   bool reach_taken = false;
   std::unique_ptr<world::SkyTransfer> transfer;
-  std::atomic<int> parts_left = world::kOctants + 1;  // octants, and weak lamps
+  std::atomic<int> parts_left = world::kOctants + 1;  // octants, and lamps; then of a step
   std::map<world::IVec3, world::ChunkSky> found;
   std::atomic<bool> done = false;
 };
 
-IslandLight::IslandLight(Jobs& jobs, bool sky) : jobs_(jobs), sky_(sky) {}
+IslandLight::IslandLight(Jobs& jobs, Finds finds) : jobs_(jobs), finds_(finds) {}
 
 void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
   Island& island = islands_[key.island];
@@ -51,7 +55,7 @@ void IslandLight::run(Jobs& jobs, std::shared_ptr<Search> search) {
     if (any) {
       const world::LampReach reach(search->chunks);
       for (const auto& [at, chunk] : search->chunks)
-        for (const world::LampPlace& lamp : chunk->strong)
+        for (const world::StrongLamp& lamp : chunk->strong)
           search->reach[at].push_back(reach.of(at, lamp));
     }
     search->reach_done = true;
@@ -65,19 +69,32 @@ void IslandLight::run(Jobs& jobs, std::shared_ptr<Search> search) {
 // Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
 void IslandLight::look_at_sky(Jobs& jobs, std::shared_ptr<Search> search) {
   jobs.submit([&jobs, search] {
-    search->transfer = std::make_unique<world::SkyTransfer>(search->chunks);
+    search->transfer = std::make_unique<world::SkyTransfer>(search->chunks, search->albedo);
     for (int part = 0; part <= world::kOctants; ++part)
-      jobs.submit([search, part] {
+      jobs.submit([&jobs, search, part] {
         if (part < world::kOctants)
           search->transfer->look(part);
         else
           search->transfer->spread_lamps();
-        if (search->parts_left.fetch_sub(1) != 1) return;
-        search->found = search->transfer->faces();
-        search->transfer.reset();
-        search->done = true;
+        if (search->parts_left.fetch_sub(1) == 1) follow_bounces(jobs, search, 0);
       });
   });
+}
+
+// A step needs all of the step before it.
+void IslandLight::follow_bounces(Jobs& jobs, std::shared_ptr<Search> search, int step) {
+  if (!search->transfer->has_bounces() || step == world::BounceLight::kSteps) {
+    search->found = search->transfer->faces();
+    search->transfer.reset();
+    search->done = true;
+    return;
+  }
+  search->parts_left = world::BounceLight::kParts;
+  for (int part = 0; part < world::BounceLight::kParts; ++part)
+    jobs.submit([&jobs, search, step, part] {
+      search->transfer->follow_bounces(step, part);
+      if (search->parts_left.fetch_sub(1) == 1) follow_bounces(jobs, search, step + 1);
+    });
 }
 
 void IslandLight::start(const world::Streamer& streamer) {
@@ -87,7 +104,8 @@ void IslandLight::start(const world::Streamer& streamer) {
     island.search->chunks = island.chunks;
     island.search->version = island.asked = island.version;
     island.search->level = island.level;
-    island.search->sky = sky_;
+    island.search->sky = finds_ != Finds::kReach;
+    if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
     run(jobs_, island.search);
   }
 }
@@ -120,7 +138,7 @@ std::vector<IslandLight::Found> IslandLight::poll() {
       continue;
     }
     const std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
-    if (!sky_) continue;
+    if (finds_ == Finds::kReach) continue;
     Found found{id, search->level, {}};
     Skies skies;
     for (auto& [at, sky] : search->found) {

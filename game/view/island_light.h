@@ -12,14 +12,19 @@
 
 namespace skerry::game {
 
-/// The light of the sky on the islands that are resident, and where their lamps can arrive, found
-/// on jobs. An island is looked at as a whole, anew whenever one of its chunks has changed; what is
-/// found depends on its voxels alone. The frame thread calls everything here.
+/// The light of the sky on the islands that are resident, what their faces reflect to each other,
+/// and where their lamps can arrive, found on jobs. An island is looked at as a whole, anew
+/// whenever one of its chunks has changed; what is found depends on its voxels alone. The frame
+/// thread calls everything here.
 class IslandLight {
  public:
-  /// @param sky look for the sky's light and that of weak lamps; else for the reach of lamps alone.
-  IslandLight(Jobs& jobs, bool sky);
-  bool finds_sky() const { return sky_; }
+  enum class Finds : std::uint8_t {
+    kReach,    ///< the reach of lamps alone
+    kSky,      ///< and the sky's light and that of weak lamps
+    kBounces,  ///< and what faces reflect to each other
+  };
+  IslandLight(Jobs& jobs, Finds finds);
+  Finds finds() const { return finds_; }
 
   /// Takes in a chunk. An island's chunks are of one level at a time. One that takes the place of
   /// another has a guess (world::inherit_faces) until its island has been looked at again.
@@ -72,9 +77,10 @@ class IslandLight {
   static Found guesses(std::uint64_t id, Island& island);
   static void run(Jobs& jobs, std::shared_ptr<Search> search);
   static void look_at_sky(Jobs& jobs, std::shared_ptr<Search> search);
+  static void follow_bounces(Jobs& jobs, std::shared_ptr<Search> search, int step);
 
   Jobs& jobs_;
-  const bool sky_;
+  const Finds finds_;
   std::map<std::uint64_t, Island> islands_;
 };
 

@@ -3,6 +3,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.h"
+#include "engine/render/scene/block_textures.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::game {
@@ -22,6 +23,44 @@ std::vector<shared::Material> material_table() {
   }
   SKERRY_ASSERT(table.size() <= shared::kMaxMaterials);
   return table;
+}
+
+namespace {
+
+/// @param texels of one layer, RGBA8.
+glm::vec3 mean_albedo(std::span<const std::byte> texels) {
+  constexpr int kCovered = 128;  // of 255: the coverage of which a texel is drawn
+  glm::dvec3 sum(0.0);
+  double count = 0.0;
+  for (std::size_t i = 0; i < texels.size(); i += 4) {
+    if (std::to_integer<int>(texels[i + 3]) < kCovered) continue;
+    for (int c = 0; c < 3; ++c)
+      sum[c] += render::linear_from_srgb(texels[i + static_cast<std::size_t>(c)]);
+    count += 1.0;
+  }
+  return count > 0.0 ? glm::vec3(sum / count) : glm::vec3(0.0f);
+}
+
+std::vector<world::FaceAlbedo> make_albedo_table() {
+  const render::BlockTextures file = render::block_textures();
+  const std::size_t layer_bytes = std::size_t{4} * file.edge * file.edge;
+  std::vector<world::FaceAlbedo> table;
+  for (const world::BlockType& type : world::block_types()) {
+    const auto mean = [&](world::Texture texture) {
+      return mean_albedo(
+          file.texels.subspan(static_cast<std::size_t>(texture) * layer_bytes, layer_bytes));
+    };
+    const glm::vec3 side = mean(type.side);
+    table.push_back({side, side, mean(type.top), mean(type.bottom), side, side});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::span<const world::FaceAlbedo> albedo_table() {
+  static const std::vector<world::FaceAlbedo> kTable = make_albedo_table();
+  return kTable;
 }
 
 }  // namespace skerry::game

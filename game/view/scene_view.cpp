@@ -102,11 +102,11 @@ std::vector<world::WeakLamp> take_weak(std::vector<LatticeLight>& lights, int le
   return weak;
 }
 
-std::vector<world::LampPlace> places_of(const std::vector<LatticeLight>& lights, int level) {
+std::vector<world::StrongLamp> places_of(const std::vector<LatticeLight>& lights, int level) {
   const float voxel = static_cast<float>(1 << level);  // blocks
-  std::vector<world::LampPlace> places;
+  std::vector<world::StrongLamp> places;
   for (const LatticeLight& light : lights)
-    places.push_back({light.place / voxel, light.range / voxel});
+    places.push_back({light.place / voxel, light.range / voxel, light.intensity / (voxel * voxel)});
   return places;
 }
 
@@ -273,7 +273,10 @@ Result<void> SceneView::follow_settings() {
   const bool full = settings_.render.indirect == render::Indirect::kFull;
   const bool store = !occupancy_ && occupancy_wanted();
   const bool sky = settings_.render.indirect != render::Indirect::kOff;
-  const bool light = island_light_ ? sky && !island_light_->finds_sky()
+  const IslandLight::Finds finds = full  ? IslandLight::Finds::kBounces
+                                   : sky ? IslandLight::Finds::kSky
+                                         : IslandLight::Finds::kReach;
+  const bool light = island_light_ ? sky && island_light_->finds() != finds
                                    : sky || settings_.render.lights_shadows != 0;
   if (!store && !light && full == weak_lamps_kept_) return {};
   while (!sections_.empty()) remove_section(sections_.begin()->first);
@@ -283,7 +286,7 @@ Result<void> SceneView::follow_settings() {
     if (!made) return made.error();
     occupancy_ = *made;
   }
-  if (light) island_light_ = std::make_unique<IslandLight>(*jobs_, sky);
+  if (light) island_light_ = std::make_unique<IslandLight>(*jobs_, finds);
   weak_lamps_kept_ = full;
   streamer_ =
       std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);

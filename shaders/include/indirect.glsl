@@ -27,8 +27,21 @@ uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
   return known ? record + kIndirectRecordTexels * bitCount(mask & ((1u << bit) - 1u)) : 0u;
 }
 
-// Irradiance of a corner by weak lamps.
-vec3 lamp_light(uint word) { return vec3(word & 511u, (word >> 9) & 511u, (word >> 18) & 511u) * exp2(float(word >> 27) - 24.0); }
+// Three numbers with a shared exponent.
+vec3 shared_exponent(uint word) { return vec3(word & 511u, (word >> 9) & 511u, (word >> 18) & 511u) * exp2(float(word >> 27) - 24.0); }
+
+// Light of sky, sun and moon that other faces reflect. @param bounce a record's texel. @param at place between its corners.
+vec3 bounced_light(uvec4 bounce, uint island, vec2 at) {
+  vec4 h_a = unpackSnorm4x8(bounce.z) * kMostBounceShape, h_b = unpackSnorm4x8(bounce.w) * kMostBounceShape;
+  uint first = kIndirectSkies + island * kIndirectIslandTexels + kIndirectHarmonics;
+  vec3 sum = uintBitsToFloat(indirect_texel(true, first + 3u).xyz);
+  for (uint channel = 0u; channel < 3u; ++channel) {
+    uvec4 e = indirect_texel(true, first + channel);
+    sum[channel] += dot(h_a, vec4(unpackHalf2x16(e.x), unpackHalf2x16(e.y))) + dot(h_b, vec4(unpackHalf2x16(e.z), unpackHalf2x16(e.w)));
+  }
+  vec4 shares = unpackUnorm4x8(bounce.y);
+  return shared_exponent(bounce.x) * max(sum, 0.0) * mix(mix(shares.x, shares.y, at.x), mix(shares.z, shares.w, at.x), at.y);
+}
 
 struct SkyLight {
   vec3 irradiance;  // of the surface's face
@@ -54,13 +67,14 @@ SkyLight light_of_sky(Surface s, uint word) {
   vec4 seen_b = mix(mix(unpackUnorm4x8(near.y), unpackUnorm4x8(near.w), at.x), mix(unpackUnorm4x8(far.y), unpackUnorm4x8(far.w), at.x), at.y);
   vec3 sum;
   for (uint channel = 0u; channel < 3u; ++channel) {
-    uvec4 lobes = indirect_texel(true, kIndirectSkies + (island * 6u + face) * kIndirectSkyTexels + channel);
+    uvec4 lobes = indirect_texel(true, kIndirectSkies + island * kIndirectIslandTexels + face * kIndirectSkyTexels + channel);
     sum[channel] = dot(seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
                    dot(seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
   }
   if (kIndirect == kIndirectFull) {
     uvec4 lamps = indirect_texel(record != 0u, record + 2u);
-    sum += mix(mix(lamp_light(lamps.x), lamp_light(lamps.y), at.x), mix(lamp_light(lamps.z), lamp_light(lamps.w), at.x), at.y);
+    sum += mix(mix(shared_exponent(lamps.x), shared_exponent(lamps.y), at.x), mix(shared_exponent(lamps.z), shared_exponent(lamps.w), at.x), at.y);
+    sum += bounced_light(indirect_texel(record != 0u, record + 3u), island, at);
   }
   float open = dot(seen_a + seen_b, vec4(1.0 / float(kSkyLobes)));
   return record != 0u ? SkyLight(sum, open) : SkyLight(vec3(0.0), 0.0);

@@ -4,7 +4,9 @@
 // One buffer of RGBA32_UINT texels. Texel i < kMaxIslands is island i's grid: x lowest chunk (10
 // bits each of x, y, z from bit 0 up, two's complement), y chunks along x, y, z (8 bits each; 24-31
 // log2 of a voxel's edge), z first texel of its tables, w 1 if there is one. From kIndirectSkies
-// on: what the sky sends to each face of each island now (SkyIrradiance). From kIndirectFirst on:
+// on, kIndirectIslandTexels for each island: what the sky sends to its six faces now
+// (SkyIrradiance), then harmonics of what sky, sun and moon send to the island: a texel a channel,
+// halves of degrees 1 and 2 in order, then a texel with floats of degree 0. From kIndirectFirst on:
 // - a table a chunk of the grid (z fastest, x, y slowest): kIndirectTableTexels, a word a brick of
 // 8^3
 //   voxels (index z + 8 x + 64 y), the first texel of the brick's masks, or 0: it has no face;
@@ -13,9 +15,13 @@
 //   (x: those with x < 4; bit z + 8 (x % 4)), zw the record of the first of each;
 // - a face's record: two texels with two words a corner, a byte a lobe: share of the lobe that is
 // seen;
-//   then a texel with a word a corner: irradiance of weak lamps, shared exponent (9, 9, 9, 5 bits).
-//   Corner b + 2 c, where b and c are 1 at the far end of the axes after the face's own (y, z for x
-//   faces; z, x for y faces; x, y for z faces).
+//   then a texel with a word a corner: irradiance of weak lamps and of all light of lamps that
+//   other faces reflect, shared exponent (9, 9, 9, 5 bits); then a texel of the light of the sky
+//   that other faces reflect, as a function of harmonics e of what comes from infinity
+//   (engine/core/harmonics.h): x colour c, shared exponent; y a byte a corner, its share s; zw a
+//   signed byte each of 8 numbers h in -1..1: irradiance c s max(0, e[0] + kMostBounceShape * sum
+//   of h[i] e[i + 1]). Corner b + 2 c, where b and c are 1 at the far end of the axes after the
+//   face's own (y, z for x faces; z, x for y faces; x, y for z faces).
 #ifndef SKERRY_SHARED_INDIRECT_H
 #define SKERRY_SHARED_INDIRECT_H
 #include "types.h"
@@ -36,15 +42,19 @@ SHARED_CONST float kSteepCosine = 0.6f;
 SHARED_CONST uint kIndirectSkyTexels =
     3u;                                    // a face: red, green, blue; halves of the lobes in order
 SHARED_CONST uint kIndirectSkies = 1024u;  // kMaxIslands
-SHARED_CONST uint kIndirectFirst = 19456u;  // + 6 faces * kIndirectSkyTexels * kMaxIslands
+SHARED_CONST uint kIndirectHarmonics = 18u;  // of an island's texels: after 6 faces
+SHARED_CONST uint kIndirectIslandTexels = 22u;
+SHARED_CONST uint kIndirectFirst = 23552u;  // + kIndirectIslandTexels * kMaxIslands
 SHARED_CONST uint kIndirectTableTexels = 128u;
 SHARED_CONST uint kIndirectBrickTexels = 48u;
-SHARED_CONST uint kIndirectRecordTexels = 3u;
+SHARED_CONST uint kIndirectRecordTexels = 4u;
+// The most that a harmonic of degree 1 or 2 can be of that of degree 0, rounded up.
+SHARED_CONST float kMostBounceShape = 2.25f;
 
 // What is read of it: FrameConstants do not have it, programs are made for it.
 SHARED_CONST uint kIndirectOff = 0u;
 SHARED_CONST uint kIndirectSky = 1u;   // light of the sky
-SHARED_CONST uint kIndirectFull = 2u;  // and of weak lamps
+SHARED_CONST uint kIndirectFull = 2u;  // and of weak lamps, and what surfaces reflect
 
 SHARED_END
 #endif

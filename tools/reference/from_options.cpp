@@ -117,6 +117,8 @@ BlockId medium_at_eye(const std::vector<Island>& islands) {
   return world::kAir;
 }
 
+constexpr int kMostBounces = 1000;
+
 /// How much of the light of clear air there is, taken back as the body that lights it sets.
 /// docs/decisions/0009-haze-that-keeps-caves-black.md.
 double light_in_air(const render::Celestial& sky) {
@@ -134,6 +136,8 @@ void add_sky(const game::SceneOptions& options, const render::Celestial& sky, do
   if (sky.moon_casts)
     scene.bodies.push_back({sky.to_moon, glm::dvec3(sky.moon_irradiance), body_radius});
   scene.sky_lights = options.settings.render.indirect != render::Indirect::kOff;
+  // Ended by lot, long before.
+  if (options.settings.render.indirect == render::Indirect::kFull) scene.bounces = kMostBounces;
   scene.air_light = light_in_air(sky);
   // What the sky lights stays as thick when sun and moon have set.
   scene.haze_per_block = 0.0005 * (scene.sky_lights ? 1.0 : scene.air_light);

@@ -23,10 +23,11 @@ struct WeakLamp {
   float range = 0.0f;     ///< voxels; the light ends there smoothly, as shaders/shared/light.h says
 };
 
-/// Where a lamp that is not kept with faces stands.
-struct LampPlace {
-  glm::vec3 place{};   ///< from the chunk's lowest corner [voxels]
-  float range = 0.0f;  ///< voxels
+/// A lamp that is not kept with faces, as far as what they reflect of it needs it.
+struct StrongLamp {
+  glm::vec3 place{};      ///< from the chunk's lowest corner [voxels]
+  float range = 0.0f;     ///< voxels
+  glm::vec3 intensity{};  ///< as WeakLamp has it
 };
 
 /// One chunk as light sees it. Immutable once shared.
@@ -35,7 +36,7 @@ struct LightChunk {
   ChunkOccupancy leaves;            ///< cut-out blocks: they let about half of the light past
   std::vector<shared::Quad> quads;  ///< all that is drawn of the chunk
   std::vector<WeakLamp> lamps{};
-  std::vector<LampPlace> strong{};  ///< all other lamps
+  std::vector<StrongLamp> strong{};  ///< all other lamps
 };
 using LightChunks = std::map<IVec3, std::shared_ptr<const LightChunk>>;  ///< by chunk at its level
 
@@ -55,6 +56,19 @@ class VoxelBits {
   std::uint64_t* row(int x, int y) { return words_.data() + index(x, y); }
   const std::uint64_t* row(int x, int y) const { return words_.data() + index(x, y); }
   bool has_row(int x, int y) const { return x >= 0 && x < size_.x && y >= 0 && y < size_.y; }
+
+  /// Number of a voxel's bit; of a voxel a vector further, bit_at() + bit_step(). Holds for z up to
+  /// 64 outside. @param voxel its row must be inside.
+  std::ptrdiff_t bit_at(IVec3 voxel) const {
+    return static_cast<std::ptrdiff_t>(index(voxel.x - low_.x, voxel.y - low_.y) * 64) +
+           (voxel.z - low_.z);
+  }
+  std::ptrdiff_t bit_step(IVec3 vector) const {
+    return (std::ptrdiff_t{vector.y} * size_.x + vector.x) * (row_words() + 2) * 64 + vector.z;
+  }
+  bool bit(std::ptrdiff_t number) const {
+    return words_[static_cast<std::size_t>(number / 64)] >> (number & 63) & 1u;
+  }
 
  private:
   std::size_t index(int x, int y) const {

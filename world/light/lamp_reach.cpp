@@ -250,7 +250,7 @@ LampReach::LampReach(const LightChunks& chunks) {
   }
 }
 
-LampReach::Bricks LampReach::of(IVec3 chunk, const LampPlace& lamp) const {
+LampReach::Bricks LampReach::of(IVec3 chunk, const StrongLamp& lamp) const {
   if (opaque_.size().x == 0) return {};
   const glm::ivec3 corner = vector_of(corner_of(chunk)) - vector_of(opaque_.low());
   const glm::vec3 place = lamp.place + glm::vec3(corner);

@@ -31,7 +31,7 @@ class LampReach {
   };
   /// The lamp's own voxel hides nothing, leaves let light past. @pre a face is drawn of the lamp's
   /// voxel, or a plant.
-  Bricks of(IVec3 chunk, const LampPlace& lamp) const;
+  Bricks of(IVec3 chunk, const StrongLamp& lamp) const;
 
  private:
   VoxelBits opaque_;

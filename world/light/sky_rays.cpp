@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/voxel/hash.h"
+
 namespace skerry::world {
 namespace {
 
@@ -97,6 +99,11 @@ std::vector<IVec3> voxels_between(IVec3 direction) {
     }
   }
   return out;
+}
+
+std::uint64_t leaves_that_stop(int leaf_set, int x, int y, int z_word) {
+  const std::uint64_t place = hash3(static_cast<std::uint32_t>(leaf_set), x, y, z_word);
+  return mix64(place + 0x9e3779b97f4a7c15u);
 }
 
 const LobeWeights& lobe_weights(int axis) {

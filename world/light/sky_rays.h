@@ -19,6 +19,12 @@ IVec3 sky_direction(int octant, int pattern);
 /// Both ends are left out. @pre each component divides 4.
 std::vector<IVec3> voxels_between(IVec3 direction);
 
+/// Leaves stop half of the rays. Each pattern belongs to a leaf set, pattern % kLeafSets, and other
+/// voxels of leaves stop the rays of another set.
+inline constexpr int kLeafSets = 8;
+/// Bit z % 64: whether leaves there stop the rays of a set. @param z_word z / 64, rounded down.
+std::uint64_t leaves_that_stop(int leaf_set, int x, int y, int z_word);
+
 /// Which of an octant's patterns belong to the steep lobe of a face whose axis this is, and the
 /// weight of each: its cell's share of the irradiance of the octant under an even sky, of 65280.
 /// The cell of a pattern holds the directions of its octant that are nearest to it.

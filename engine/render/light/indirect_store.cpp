@@ -13,7 +13,7 @@ namespace skerry::render {
 namespace {
 
 static_assert(shared::kIndirectSkies == shared::kMaxIslands);
-static_assert(shared::kIndirectFirst == shared::kMaxIslands * (1 + 6 * shared::kIndirectSkyTexels));
+static_assert(shared::kIndirectFirst == shared::kMaxIslands * (1 + shared::kIndirectIslandTexels));
 
 constexpr std::uint64_t kTexelBytes = sizeof(glm::uvec4);
 constexpr std::uint32_t kUsualTexels = (48u << 20) / kTexelBytes;  // 48 MiB

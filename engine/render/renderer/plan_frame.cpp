@@ -58,7 +58,7 @@ void plan_indirect(FramePlan& plan, const SceneFacts& facts) {
                                              : "no face is known to see the sky"});
     return;
   }
-  plan.sky_light = sky_irradiance(plan.sky, plan.input.islands,
+  plan.sky_light = sky_irradiance(plan.sky, plan.input.sky, plan.input.islands,
                                   islands_in_view(facts, plan.input.islands, plan.tables));
   frame.body_in_air = air_light(plan.input.sky);
   frame.haze_per_block = kClearAir;

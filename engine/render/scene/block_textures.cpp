@@ -1,6 +1,7 @@
 #include "engine/render/scene/block_textures.h"
 
 #include <bit>
+#include <cmath>
 
 #include "engine/core/check.h"
 
@@ -49,6 +50,11 @@ Result<BlockTextures> parse_block_textures(std::span<const std::byte> file) {
     return Error{"cannot read block textures: the file is cut short or too long; build it again"};
   }
   return BlockTextures{edge, layers, static_cast<std::uint32_t>(std::bit_width(edge)), texels};
+}
+
+double linear_from_srgb(std::byte encoded) {
+  const double value = std::to_integer<int>(encoded) / 255.0;
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
 BlockTextures block_textures() {

@@ -24,6 +24,9 @@ struct BlockTextures {
       texels;  ///< everything after the header, as gpu::Uploader::fill_image takes it
 };
 
+/// Linear light of a byte of sRGB, 0..1 (IEC 61966-2-1).
+double linear_from_srgb(std::byte encoded);
+
 /// Checks a file's header and size. The result points into `file`.
 /// @return an Error if it is no block texture file, of another version, or of another size than its
 /// header says.

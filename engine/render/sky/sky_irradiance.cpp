@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,6 +10,7 @@
 #include <glm/packing.hpp>
 #include <numbers>
 
+#include "engine/core/harmonics.h"
 #include "engine/render/sky/sky_model.h"
 #include "shaders/shared/indirect.h"
 
@@ -108,41 +110,70 @@ std::vector<LobeSample> make_samples() {
 }
 
 using Lobes = std::array<glm::vec3, shared::kSkyLobes>;
+using Harmonics = std::array<glm::vec3, kHarmonics>;
+
+void add(Harmonics& sum, const glm::vec3& direction, const glm::vec3& light) {
+  const std::array<float, kHarmonics> basis = harmonics_of(direction.x, direction.y, direction.z);
+  for (std::size_t i = 0; i < kHarmonics; ++i) sum[i] += light * basis[i];
+}
+
+std::uint32_t packed(float a, float b) {
+  return glm::packHalf2x16(
+      {std::clamp(a, -kMostHalf, kMostHalf), std::clamp(b, -kMostHalf, kMostHalf)});
+}
 
 glm::uvec4 packed(const Lobes& lobes, int channel) {
   glm::uvec4 out;
   for (std::size_t i = 0; i < 4; ++i)
-    out[static_cast<int>(i)] = glm::packHalf2x16({std::min(lobes[2 * i][channel], kMostHalf),
-                                                  std::min(lobes[2 * i + 1][channel], kMostHalf)});
+    out[static_cast<int>(i)] = packed(lobes[2 * i][channel], lobes[2 * i + 1][channel]);
   return out;
 }
 
-void put_island(const SkyCube& cube, const glm::dquat& rotation, std::span<glm::uvec4> out) {
+/// Degrees 1 and 2.
+glm::uvec4 packed(const Harmonics& harmonics, int channel) {
+  glm::uvec4 out;
+  for (std::size_t i = 0; i < 4; ++i)
+    out[static_cast<int>(i)] = packed(harmonics[2 * i + 1][channel], harmonics[2 * i + 2][channel]);
+  return out;
+}
+
+void put_island(const SkyCube& cube, const Celestial& bodies, const glm::dquat& rotation,
+                std::span<glm::uvec4> out) {
   static const std::vector<LobeSample> kSamples = make_samples();
+  const float solid_angle = 4.0f * std::numbers::pi_v<float> / static_cast<float>(kSamples.size());
   const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
+  const glm::dquat lattice_from_world = glm::conjugate(rotation);
   std::array<Lobes, kFaces> faces{};
+  Harmonics harmonics{};
   for (const LobeSample& sample : kSamples) {
     const glm::vec3 radiance = cube.at(world_from_lattice * sample.direction);
     for (std::size_t axis = 0; axis < 3; ++axis)
       faces[sample.face[axis]][sample.lobe[axis]] +=
           radiance * sample.weight[static_cast<int>(axis)];
+    add(harmonics, sample.direction, radiance * solid_angle);
   }
+  add(harmonics, glm::vec3(lattice_from_world * bodies.to_sun), bodies.sun_irradiance);
+  add(harmonics, glm::vec3(lattice_from_world * bodies.to_moon), bodies.moon_irradiance);
   std::size_t at = 0;
   for (const Lobes& lobes : faces)
     for (int channel = 0; channel < 3; ++channel) out[at++] = packed(lobes, channel);
+  for (int channel = 0; channel < 3; ++channel) out[at++] = packed(harmonics, channel);
+  for (int channel = 0; channel < 3; ++channel)
+    out[at][channel] = std::bit_cast<std::uint32_t>(harmonics[0][channel]);
 }
 
 }  // namespace
 
-std::vector<glm::uvec4> sky_irradiance(const shared::SkyConstants& sky,
+std::vector<glm::uvec4> sky_irradiance(const shared::SkyConstants& sky, const Celestial& bodies,
                                        std::span<const IslandPlacement> islands,
                                        const std::vector<bool>& shown) {
   const SkyCube cube(sky);
-  constexpr std::size_t kTexels = kFaces * shared::kIndirectSkyTexels;
+  constexpr std::size_t kTexels = shared::kIndirectIslandTexels;
+  static_assert(kFaces * shared::kIndirectSkyTexels == shared::kIndirectHarmonics);
   std::vector<glm::uvec4> out(islands.size() * kTexels, glm::uvec4(0));
   for (std::size_t i = 0; i < islands.size(); ++i)
     if (shown[i])
-      put_island(cube, islands[i].rotation, std::span(out).subspan(i * kTexels, kTexels));
+      put_island(cube, bodies, islands[i].rotation, std::span(out).subspan(i * kTexels, kTexels));
   return out;
 }
 

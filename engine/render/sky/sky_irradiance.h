@@ -3,17 +3,19 @@
 #include <span>
 #include <vector>
 
+#include "engine/render/frame/celestial.h"
 #include "engine/render/frame/frame_input.h"
 #include "shaders/shared/sky.h"
 
 namespace skerry::render {
 
 /// What each lobe of an open sky sends to each face of each island: irradiance, linear RGB, without
-/// the discs of sun and moon. Some ten microseconds an island.
+/// the discs of sun and moon. And the harmonics, about the island's own axes, of all that sky and
+/// bodies send. Some ten microseconds an island.
 /// @param shown one an island: others are passed over and get 0.
-/// @return [island][face][channel], kSkyLobes halves each, in the layout of
-/// shaders/shared/indirect.h; at most what a half can hold.
-std::vector<glm::uvec4> sky_irradiance(const shared::SkyConstants& sky,
+/// @return kIndirectIslandTexels an island in the layout of shaders/shared/indirect.h; what a half
+/// holds is at most what it can.
+std::vector<glm::uvec4> sky_irradiance(const shared::SkyConstants& sky, const Celestial& bodies,
                                        std::span<const IslandPlacement> islands,
                                        const std::vector<bool>& shown);
 

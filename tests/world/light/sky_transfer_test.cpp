@@ -19,10 +19,16 @@ using test::chunks_of;
 using test::record_of;
 using test::Voxels;
 
+/// With white faces that reflect all.
 std::map<IVec3, ChunkSky> sky_of(const LightChunks& chunks) {
-  SkyTransfer transfer(chunks);
+  FaceAlbedo white;
+  white.fill(glm::vec3(1.0f));
+  const std::vector<FaceAlbedo> albedo(block_types().size(), white);
+  SkyTransfer transfer(chunks, albedo);
   for (int octant = 0; octant < kOctants; ++octant) transfer.look(octant);
   transfer.spread_lamps();
+  for (int step = 0; step < BounceLight::kSteps; ++step)
+    for (int part = 0; part < BounceLight::kParts; ++part) transfer.follow_bounces(step, part);
   return transfer.faces();
 }
 
@@ -100,7 +106,7 @@ TEST(SkyTransfer, ASealedRoomIsExactlyDark) {
   const char* asked = std::getenv("SKERRY_ROOMS");
   const int rooms = asked ? std::atoi(asked) : 300;
   std::mt19937 random(11);
-  int faces = 0, lit_outside = 0, lit_by_lamps = 0;
+  int faces = 0, lit_outside = 0, lit_by_lamps = 0, lit_by_faces = 0;
   for (int i = 0; i < rooms; ++i) {
     const Room room = random_room(random);
     test::Lamps lamps;
@@ -117,7 +123,7 @@ TEST(SkyTransfer, ASealedRoomIsExactlyDark) {
       for (int face = 0; face < 6; ++face) {
         const std::vector<std::uint32_t> record = record_of(sky, wall, face);
         if (room.walls.contains(beside(wall, face))) continue;
-        ASSERT_EQ(record.size(), 12u);
+        ASSERT_EQ(record.size(), 16u);
         const bool dark = std::all_of(record.begin(), record.end(), [](auto w) { return w == 0; });
         if (room.air.contains(beside(wall, face))) {
           ++faces;
@@ -125,6 +131,7 @@ TEST(SkyTransfer, ASealedRoomIsExactlyDark) {
         } else {
           lit_outside += !dark;
           lit_by_lamps += record[8] != 0;
+          lit_by_faces += record[12] != 0;
         }
       }
     }
@@ -132,6 +139,7 @@ TEST(SkyTransfer, ASealedRoomIsExactlyDark) {
   EXPECT_GT(faces, 10 * rooms);
   EXPECT_GT(lit_outside, 10 * rooms);
   EXPECT_GT(lit_by_lamps, 10 * rooms);
+  EXPECT_GT(lit_by_faces, rooms);
 }
 
 TEST(SkyTransfer, AnOpenPlaneSeesAllOfItsSky) {
@@ -155,7 +163,7 @@ TEST(SkyTransfer, AWallHidesTheQuartersBehindIt) {
     for (int y = 1; y < 260; ++y) stone.insert({0, y, z});
   }
   const std::vector<std::uint32_t> record = record_of(sky_of(chunks_of(stone)), {-1, 0, 0}, 2);
-  ASSERT_EQ(record.size(), 12u);
+  ASSERT_EQ(record.size(), 16u);
   // A face that looks up has z as its first axis and x as its second: bit 1 of a quarter is towards
   // -x, away from the wall. The corners at -x are shared with voxels further from the wall, which
   // see over nothing either.

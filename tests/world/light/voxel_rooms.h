@@ -67,7 +67,8 @@ inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {}) {
   return out;
 }
 
-/// What the GPU would read for a face: 8 words of the sky, 4 of lamps; empty: no such face.
+/// What the GPU would read for a face: 8 words of the sky, 4 of lamps, 4 of bounces; empty: no such
+/// face.
 inline std::vector<std::uint32_t> record_of(const std::map<IVec3, ChunkSky>& sky, IVec3 voxel,
                                             int face) {
   const IVec3 at = chunk_holding(voxel);
@@ -84,8 +85,8 @@ inline std::vector<std::uint32_t> record_of(const std::map<IVec3, ChunkSky>& sky
   std::size_t record = masks[2 + half];
   for (int i = 0; i < bit; ++i) record += shared::kIndirectRecordTexels * (masks[half] >> i & 1u);
   const glm::uvec4 a = chunk.texels[record], b = chunk.texels[record + 1],
-                   c = chunk.texels[record + 2];
-  return {a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w};
+                   c = chunk.texels[record + 2], d = chunk.texels[record + 3];
+  return {a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w};
 }
 
 }  // namespace skerry::world::test

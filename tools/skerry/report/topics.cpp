@@ -15,6 +15,8 @@ constexpr ReportScene kScenes[] = {
      R"({"seed": 8, "time": "18:10", "camera": [250.7, 145.85, -146.0, 270, -21.8]})"},
     {"far", "islands to the horizon",
      R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
+    {"cave_mouth", "from a cave into the day",
+     R"({"seed": 4, "time": "12:00", "camera": [181.29, 30.64, 14.98, 205, 3]})"},
     {"clouds", "a layer of clouds over islands",
      R"({"seed": 1, "time": "09:30", "camera": [0, 120, -60, 20, 14],
          "settings": {"clouds.coverage": 0.6, "clouds.resolution": "full"}})"},
@@ -91,6 +93,8 @@ constexpr TopicPoint kShadingRates[] = {{"4, 0.3", "shading.rate=4 shading.toler
 constexpr TopicPoint kScales[] = {{"0.25", "render.scale=0.25"}, {"0.33", "render.scale=0.33"},
                                   {"0.5", "render.scale=0.5"},   {"0.67", "render.scale=0.67"},
                                   {"0.75", "render.scale=0.75"}, {"1", "render.scale=1"}};
+constexpr TopicPoint kIndirect[] = {
+    {"off", "indirect=off"}, {"sky", "indirect=sky"}, {"full", "indirect=full"}};
 constexpr TopicPoint kAoStrengths[] = {
     {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
@@ -148,6 +152,7 @@ constexpr TopicPoint kCloudPrecisions[] = {
 
 constexpr std::string_view kShadowScenes[] = {"day", "low_sun", "water"};
 constexpr std::string_view kLitScenes[] = {"day", "low_sun", "water", "torches"};
+constexpr std::string_view kSkyScenes[] = {"day", "low_sun", "cave_mouth"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kGlow[] = {"lava"};
@@ -182,6 +187,8 @@ constexpr Topic kTopics[] = {
     {"render_scale",
      "edges of the picture that is drawn, as a share of those of the one that is shown", kScales,
      kLitScenes, Judge::kLimit, CostOf::kFrame},
+    {"indirect", "light of the sky, and what surfaces reflect to each other", kIndirect, kSkyScenes,
+     Judge::kReference, CostOf::kFrame, false, "indirect=full"},
     {"ao_strength", "how much light a closed corner of blocks takes", kAoStrengths, kShadowScenes,
      Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,

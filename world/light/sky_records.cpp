@@ -1,0 +1,149 @@
+// SkyTransfer's records: what has been found, as means at the corners of faces in the GPU's words.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+#include "world/light/sky_transfer.h"
+
+namespace skerry::world {
+
+/// The voxels about a face: 3 x 3 of them in its plane, the one before the face in the middle.
+struct SkyTransfer::Around {
+  std::array<IVec3, 9> voxels{};
+  std::array<bool, 9> air{};
+
+  /// Those of them about a corner, b + 2 c, that hang together: first the one before the face.
+  std::vector<std::size_t> about(std::size_t corner) const {
+    const std::size_t across = corner & 1 ? 5 : 3, along = corner & 2 ? 7 : 1;
+    std::vector<std::size_t> out{4};
+    if (air[across]) out.push_back(across);
+    if (air[along]) out.push_back(along);
+    if (out.size() > 1 && air[across + along - 4]) out.push_back(across + along - 4);
+    return out;
+  }
+};
+
+namespace {
+
+using LobeShares = std::array<std::uint32_t, shared::kSkyLobes>;  // of 65280
+
+/// What a face's lobes see of the sky from a voxel.
+LobeShares lobes_from(const SeenSky& seen, const FaceAxes& axes) {
+  LobeShares out{};
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const int octant = (axes.sign < 0 ? 1 << axes.own : 0) | (quarter & 1 ? 1 << axes.b : 0) |
+                       (quarter & 2 ? 1 << axes.c : 0);
+    const std::array<std::uint32_t, 2> lobes =
+        lobes_seen(axes.own, seen[static_cast<std::size_t>(octant)]);
+    out[2 * quarter] = lobes[0];
+    out[2 * quarter + 1] = lobes[1];
+  }
+  return out;
+}
+
+using Corners = std::array<BounceLight::Light, 4>;
+
+std::uint32_t signed_byte(float value) {
+  const long byte = std::lround(std::clamp(value, -1.0f, 1.0f) * 127.0f);
+  return static_cast<std::uint32_t>(byte) & 255u;
+}
+
+/// Colour and shape of all corners together, and the share of each of the brightest.
+glm::uvec4 packed(const Corners& corners) {
+  BounceLight::Light all;
+  float most = 0.0f;
+  for (const BounceLight::Light& corner : corners) {
+    all.mean += corner.mean;
+    for (std::size_t i = 0; i < all.shape.size(); ++i) all.shape[i] += corner.shape[i];
+    most = std::max(most, luminance(corner.mean));
+  }
+  glm::uvec4 out(0);
+  if (most <= 0.0f) return out;
+  const float sum = luminance(all.mean);
+  out.x = glm::packF3x9_E1x5(all.mean * (most / sum));
+  for (std::size_t i = 0; i < 4; ++i)
+    out.y |= static_cast<std::uint32_t>(std::lround(luminance(corners[i].mean) / most * 255.0f))
+             << (8 * i);
+  for (std::size_t i = 0; i < all.shape.size(); ++i)
+    out[static_cast<int>(2 + i / 4)] |= signed_byte(all.shape[i] / sum / shared::kMostBounceShape)
+                                        << (8 * (i % 4));
+  return out;
+}
+
+}  // namespace
+
+/// What a face's corners receive that other faces have reflected.
+SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face) const {
+  Corners out{};
+  if (!bounces_) return out;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    float count = 0.0f;
+    BounceLight::Light& sum = out[corner];
+    for (const std::size_t at : around.about(corner)) {
+      const BounceLight::Light* light = bounces_->received(around.voxels[at], face);
+      if (!light) continue;
+      sum += *light;
+      count += 1.0f;
+    }
+    if (count > 0.0f) sum *= 1.0f / count;
+  }
+  return out;
+}
+
+/// @param front the voxel before the face.
+void SkyTransfer::append_record(IVec3 front, int face, std::vector<glm::uvec4>& texels) const {
+  const FaceAxes axes(face);
+  Around around;
+  std::array<LobeShares, 9> views{};
+  std::array<glm::vec3, 9> lamps{};
+  for (std::size_t at = 0; at < 9; ++at) {
+    const int i = static_cast<int>(at);
+    const IVec3 voxel = front + axis_vector(axes.b, i % 3 - 1) + axis_vector(axes.c, i / 3 - 1);
+    around.voxels[at] = voxel;
+    around.air[at] = wanted_.has(voxel);
+    if (!around.air[at]) continue;
+    const std::size_t index = wanted_.of(voxel);
+    if (const auto lit = lamp_light_.find(index); lit != lamp_light_.end())
+      lamps[at] = lit->second[static_cast<std::size_t>(face)];
+    views[at] = lobes_from(seen_[index], axes);
+  }
+  const Corners bounces = bounced(around, face);
+  std::array<std::uint32_t, 8> words{};
+  glm::uvec4 lamp_words(0);
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const std::vector<std::size_t> about = around.about(corner);
+    const auto count = static_cast<std::uint32_t>(about.size());
+    glm::vec3 lamp_sum(0.0f);
+    for (const std::size_t at : about) lamp_sum += lamps[at];
+    for (std::size_t lobe = 0; lobe < shared::kSkyLobes; ++lobe) {
+      std::uint32_t sum = 0;
+      for (const std::size_t at : about) sum += views[at][lobe];
+      words[2 * corner + lobe / 4] |= (sum / count + 128) >> 8 << (8 * (lobe % 4));
+    }
+    lamp_words[static_cast<int>(corner)] =
+        glm::packF3x9_E1x5(lamp_sum / static_cast<float>(count) + bounces[corner].lamps);
+  }
+  texels.emplace_back(words[0], words[1], words[2], words[3]);
+  texels.emplace_back(words[4], words[5], words[6], words[7]);
+  texels.push_back(lamp_words);
+  texels.push_back(packed(bounces));
+}
+
+ChunkSky SkyTransfer::faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const {
+  const IVec3 corner = corner_of(chunk);
+  return pack_faces(quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
+    const FaceAxes axes(face.direction);
+    const IVec3 front = face.plant ? IVec3{} : axis_vector(axes.own, axes.sign);
+    append_record(corner + face.voxel + front, face.direction, texels);
+  });
+}
+
+std::map<IVec3, ChunkSky> SkyTransfer::faces() const {
+  std::map<IVec3, ChunkSky> out;
+  for (const auto& [at, chunk] : chunks_)
+    if (!chunk->quads.empty()) out.emplace(at, faces_of(at, chunk->quads));
+  return out;
+}
+
+}  // namespace skerry::world
