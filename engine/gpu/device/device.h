@@ -2,6 +2,7 @@
 #include <volk.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -66,9 +67,10 @@ class Device final : public ResourceOwner {
   std::uint64_t memory_total() const;
   /// Allocations made since the device was opened.
   std::uint64_t allocations() const;
-  /// From now on memory_total() does not grow beyond `bytes`: what would is refused as memory that
-  /// has run out is. What is in use stays.
-  void set_memory_budget(std::uint64_t bytes);
+  /// Asked before each allocation from now on, for injecting faults: one that it answers with false
+  /// fails as if memory had run out. Empty: none is asked.
+  using AllocationGate = std::function<bool(const std::string& name, std::uint64_t bytes)>;
+  void set_allocation_gate(AllocationGate gate);
 
   /// Frame timeline: the value the next submit signals; whether a value has been reached; wait for
   /// it; destroy what is retired by then.
@@ -99,7 +101,7 @@ class Device final : public ResourceOwner {
   void open();
   Result<void> check_buffer(const BufferDesc& desc) const;
   Result<void> check_image(const VkImageCreateInfo& info, const std::string& name) const;
-  std::uint64_t memory_left() const;
+  bool may_allocate(const std::string& name, std::uint64_t bytes) const;
   void account(const std::string& name, std::uint64_t bytes);
   void destroy_retired(std::uint64_t completed);
   void destroy(std::uint64_t object, VkObjectType type);

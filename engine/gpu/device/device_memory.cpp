@@ -67,11 +67,9 @@ struct Allocation {
   VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
 };
 
-/// @param left of the budget.
 Allocation allocate(VkDevice device, const std::vector<std::uint32_t>& types, std::uint64_t size,
-                    std::uint64_t left, const VkMemoryDedicatedAllocateInfo& dedicated) {
+                    const VkMemoryDedicatedAllocateInfo& dedicated) {
   Allocation out;
-  if (size > left) return out;
   for (const std::uint32_t type : types) {
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &dedicated, size, type};
     out.result = vkAllocateMemory(device, &info, nullptr, &out.memory);
@@ -128,9 +126,10 @@ Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
   auto dedicated =
       vk_struct<VkMemoryDedicatedAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO);
   dedicated.buffer = buffer.handle_;
-  const Allocation got =
-      allocate(device_, rank_types(state_->memory_types, needs.memoryTypeBits, desc.memory),
-               needs.size, memory_left(), dedicated);
+  Allocation got;
+  if (may_allocate(desc.name, needs.size))
+    got = allocate(device_, rank_types(state_->memory_types, needs.memoryTypeBits, desc.memory),
+                   needs.size, dedicated);
   if (got.result != VK_SUCCESS) {
     vkDestroyBuffer(device_, buffer.handle_, nullptr);
     return out_of_memory(desc.name, needs.size, state_->memory_total, got.result);
@@ -206,9 +205,10 @@ Result<Image> Device::create_image(const ImageDesc& desc) {
   auto dedicated =
       vk_struct<VkMemoryDedicatedAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO);
   dedicated.image = image.handle_;
-  const Allocation got =
-      allocate(device_, rank_types(state_->memory_types, needs.memoryTypeBits, Memory::kDevice),
-               needs.size, memory_left(), dedicated);
+  Allocation got;
+  if (may_allocate(desc.name, needs.size))
+    got = allocate(device_, rank_types(state_->memory_types, needs.memoryTypeBits, Memory::kDevice),
+                   needs.size, dedicated);
   if (got.result != VK_SUCCESS) {
     vkDestroyImage(device_, image.handle_, nullptr);
     return out_of_memory(desc.name, needs.size, state_->memory_total, got.result);
@@ -256,16 +256,16 @@ std::uint64_t Device::memory_total() const {
   return state_->memory_total;
 }
 
-std::uint64_t Device::memory_left() const {
-  return state_->memory_budget - std::min(state_->memory_total, state_->memory_budget);
+bool Device::may_allocate(const std::string& name, std::uint64_t bytes) const {
+  return !state_->allocation_gate || state_->allocation_gate(name, bytes);
 }
 
 std::uint64_t Device::allocations() const {
   return state_->allocations;
 }
 
-void Device::set_memory_budget(std::uint64_t bytes) {
-  state_->memory_budget = bytes;
+void Device::set_allocation_gate(AllocationGate gate) {
+  state_->allocation_gate = std::move(gate);
 }
 
 void Device::account(const std::string& name, std::uint64_t bytes) {

@@ -32,7 +32,8 @@ struct Device::State {
   std::string cache_path;
   std::deque<Retired> retired;  ///< values never fall
   std::map<std::string, std::uint64_t> memory_by_name;
-  std::uint64_t memory_total = 0, memory_budget = UINT64_MAX;
+  std::uint64_t memory_total = 0;
+  Device::AllocationGate allocation_gate;
   std::uint64_t allocations = 0;
   std::vector<std::pair<SamplerDesc, VkSampler>> samplers;
 };

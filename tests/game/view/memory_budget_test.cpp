@@ -197,14 +197,17 @@ TEST_F(SceneMemory, AFrameThatFindsNoMemoryTakesSomeFromTheWorld) {
   ASSERT_TRUE(settle(*shown, moment));
   const std::uint64_t before = shown->renderer().world_memory().used;
   // A larger picture, and not a byte for it.
-  device().set_memory_budget(device().memory_total());
+  const std::uint64_t most = device().memory_total();
+  device().set_allocation_gate([&](const std::string&, std::uint64_t bytes) {
+    return device().memory_total() + bytes <= most;
+  });
   const auto drawn = shown->draw(moment, {kSize.width * 4, kSize.height * 4});
   ASSERT_TRUE(drawn) << drawn.error().message;
   EXPECT_FALSE(shown->notices().empty());
   EXPECT_TRUE(settle(*shown, moment));
   EXPECT_GT(shown->renderer().geometry().quads_resident(), 10'000u) << "it was streamed in again";
   EXPECT_LT(shown->renderer().world_memory().used, before);
-  device().set_memory_budget(UINT64_MAX);
+  device().set_allocation_gate({});
 }
 
 }  // namespace
