@@ -233,8 +233,10 @@ Result<bool> App::draw(double seconds, const PlayLoop::Layout& layout) {
   fresh_frames_ = std::max(0, fresh_frames_ - 1);
   const Result<bool> drawn = world_ ? world_->draw(layout) : draw_backdrop(layout);
   SceneView& view = world_ ? world_->view() : backdrop_->view();
+  // Behind a screen nothing else would draw what the settings have become.
+  if (view.renderer().lagged()) fresh_frames_ = std::max(fresh_frames_, kSettlingFrames);
   if (const auto& report = view.renderer().report())
-    costs_.note_frame(report->gpu_ms, view.complete());
+    costs_.note_frame(report->gpu_ms, view.complete() && !report->lagged);
   return drawn;
 }
 

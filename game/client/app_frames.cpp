@@ -73,7 +73,8 @@ void App::choose_quality(bool drawn) {
   frame.work_ms = std::max(busy_s * 1e3, report ? report->gpu_ms : 0.0);
   frame.settled = frame.now_s - world_began_s_ > kLoading ||
                   (view.complete() && view.renderer().programs_to_come() == 0);
-  frame.held = !drawn || still_ || !screens_.stack.empty() || !window_.focused();
+  frame.held = !drawn || still_ || (report && report->lagged) || !screens_.stack.empty() ||
+               !window_.focused();
   const Result<bool> changed =
       auto_quality_.note_frame(frame, budget_ms(), scene, world_->settings());
   if (!changed) say(changed.error().message);

@@ -38,6 +38,7 @@ Backdrop::Backdrop(std::unique_ptr<SceneView> view, View kind)
 SceneView::Moment Backdrop::moment() const {
   SceneView::Moment moment;
   moment.camera = view_->start_camera();
+  moment.may_lag = true;
   moment.world_time_s = passed_s_;
   moment.time_of_day_s = kMorningS;
   const double turned_deg = kTurnDegPerSecond * passed_s_;

@@ -564,6 +564,7 @@ Result<std::uint64_t> SceneView::draw(
   input.time_s = moment.world_time_s;
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
+  input.may_lag = moment.may_lag;
   input.marker = marker_of(moment);
   const render::RenderSettings& settings = settings_.render;
   input.parts = settings_.shadow_samples;

@@ -74,6 +74,7 @@ class SceneView {
     double world_time_s = 0.0;
     bool freeze_culling = false;
     bool capture = false;  ///< see render::FrameInput
+    bool may_lag = false;  ///< likewise
     /// What the eye has adapted to; the frame is metered for it nonetheless. None: as metered.
     std::optional<double> exposure_ev = {};
     std::optional<MarkedBlock> marked = {};

@@ -85,9 +85,11 @@ struct Pipelines::State {
   std::span<const EmbeddedShader> shaders;
   std::map<ComputeDesc, Program> compute;
   std::map<GraphicsDesc, Program> graphics;
-  bool foreseeing = false;
+  enum class AskedFor : std::uint8_t { kThisFrame, kNextFrame, kLater };
+  AskedFor asked_for = AskedFor::kThisFrame;
   int used = 0, late = 0;
-  PipelineQueue queue;  // ends before what it compiles does
+  std::size_t unready = 0;  // of what was asked for for the next frame
+  PipelineQueue queue;      // ends before what it compiles does
 
   void begin(const ComputeDesc& desc, Pipeline& pipeline);
   void begin(const GraphicsDesc& desc, Pipeline& pipeline);
@@ -97,7 +99,8 @@ struct Pipelines::State {
     const auto [place, is_new] = known.try_emplace(desc);
     Program& program = place->second;
     if (is_new) begin(place->first, program.pipeline);
-    if (foreseeing || program.used) return program.pipeline;
+    if (asked_for == AskedFor::kNextFrame && !program.pipeline.ready()) ++unready;
+    if (asked_for != AskedFor::kThisFrame || program.used) return program.pipeline;
     program.used = true;
     ++used;
     if (!program.pipeline.ready()) ++late;
@@ -117,7 +120,7 @@ void Pipelines::State::begin(const ComputeDesc& desc, Pipeline& pipeline) {
   queue.add(
       pipeline,
       [this, &desc, stage](Pipeline& made) { compile_compute(device, made, stage, desc); },
-      foreseeing);
+      asked_for == AskedFor::kLater);
 }
 
 void Pipelines::State::begin(const GraphicsDesc& desc, Pipeline& pipeline) {
@@ -132,7 +135,7 @@ void Pipelines::State::begin(const GraphicsDesc& desc, Pipeline& pipeline) {
   queue.add(
       pipeline,
       [this, &desc, stages](Pipeline& made) { compile_graphics(device, made, stages, desc); },
-      foreseeing);
+      asked_for == AskedFor::kLater);
 }
 
 Pipelines::Pipelines(Device& device, std::span<const EmbeddedShader> shaders)
@@ -160,9 +163,17 @@ const Pipeline& Pipelines::get(const GraphicsDesc& desc) {
 }
 
 void Pipelines::foresee(const std::function<void()>& ask) {
-  state_->foreseeing = true;
+  state_->asked_for = State::AskedFor::kLater;
   ask();
-  state_->foreseeing = false;
+  state_->asked_for = State::AskedFor::kThisFrame;
+}
+
+std::size_t Pipelines::prepare(const std::function<void()>& ask) {
+  state_->asked_for = State::AskedFor::kNextFrame;
+  state_->unready = 0;
+  ask();
+  state_->asked_for = State::AskedFor::kThisFrame;
+  return state_->unready;
 }
 
 int Pipelines::used() const {

@@ -90,7 +90,10 @@ class Pipelines {
   const Pipeline& get(const GraphicsDesc& desc);
   /// Runs `ask`, whose get() calls are for later frames: workers compile those pipelines last.
   void foresee(const std::function<void()>& ask);
-  /// Pipelines that get() was called for outside foresee(); and those of them that were not ready
+  /// Runs `ask`, whose get() calls are for the next frame: workers compile those pipelines first.
+  /// @return how many of them are not ready.
+  std::size_t prepare(const std::function<void()>& ask);
+  /// Pipelines that get() was called for outside those two; and those of them that were not ready
   /// by then, so that a frame had to wait.
   int used() const;
   int late() const;

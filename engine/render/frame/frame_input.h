@@ -79,7 +79,10 @@ struct FrameInput {
   double time_s = 0.0;              ///< seconds of play: water ripples
   std::uint32_t camera_medium = 0;  ///< block id the camera is in, if translucent; else 0
   bool freeze_culling =
-      false;             ///< keep culling with the camera of the frame in which this became true
+      false;  ///< keep culling with the camera of the frame in which this became true
+  /// While programs for these settings are being made in the background, the frame may be drawn by
+  /// the settings of an earlier one: see Renderer::foresee_programs.
+  bool may_lag = false;
   bool capture = false;  ///< copy out what Capture names; the picture is made by way of radiance
   std::optional<BlockMarker> marker;  ///< not drawn over debug views
   std::optional<Fault> fault;         ///< implies the way by radiance, too

@@ -28,6 +28,7 @@ struct Slot {
   std::optional<shared::ClusterGrid> grid;  // of the lights it sorted
   gpu::FrameCounts counts{};
   int pipelines_created = 0, programs_made = 0;
+  bool lagged = false;
   std::uint64_t allocations = 0;
   std::uint64_t memory_bytes = 0;
 };
@@ -72,7 +73,9 @@ struct Renderer::State {
   Result<void> make_room(const FramePlan& plan);
   Result<void> upload(const FramePlan& plan);
   SceneRefs import_scene(gpu::FrameGraph& to, const FramePlan& plan);
+  void add_never_drawn(const FramePlan& supposed, LightClusters& lights, gpu::FrameGraph& to);
   void foresee(const FramePlan& plan);
+  bool lacks_programs(const FramePlan& plan);
   void build(const FramePlan& plan, Slot& slot);
   void advance(FramePlan& plan);
   void take_report(std::uint32_t slot_index);
@@ -81,7 +84,9 @@ struct Renderer::State {
   gpu::Pipelines pipelines;
   gpu::FrameGraph graph;
   bool foresees = false;
-  std::optional<ProgramNeeds> foreseen;  // that programs are being made for
+  std::optional<ProgramNeeds> foreseen;    // that programs are being made for
+  std::optional<RenderSettings> drawn_by;  // of the last frame, if it foresaw
+  bool lagged = false;                     // the last frame
   gpu::Uploader frame_uploader, mesh_uploader;
   FrameResources resources;
   std::uint64_t upload_budget;
@@ -206,7 +211,31 @@ void Renderer::State::build(const FramePlan& plan, Slot& slot) {
                     sorted ? light_clusters.work() : gpu::BufferRef{});
 }
 
-/// Asks for the programs of frames to come, by adding their steps to a graph that is never drawn.
+/// Asks for a frame's programs, by adding its steps to a graph that is never drawn.
+void Renderer::State::add_never_drawn(const FramePlan& supposed, LightClusters& lights,
+                                      gpu::FrameGraph& to) {
+  to.begin();
+  lights.suppose(light_kinds(supposed.contents.lights));
+  FrameOwners owners{lights, clouds, captures, picture};
+  FrameAssembly frame{.graph = to,
+                      .pipelines = pipelines,
+                      .plan = supposed,
+                      .owners = owners,
+                      .scene = import_scene(to, supposed),
+                      .shadow_maps = {}};
+  if (const std::uint32_t layers = supposed.shadows.layout.layers; layers != 0)
+    frame.shadow_maps = to.create({.name = "shadow maps", .layers = layers});
+  for (const std::size_t step : supposed.steps) frame_steps()[step].add(frame);
+}
+
+/// Whether a frame would have to wait for a program. They are being made from now on.
+bool Renderer::State::lacks_programs(const FramePlan& plan) {
+  gpu::FrameGraph never_drawn(nullptr);
+  LightClusters no_lights(device);
+  return pipelines.prepare([&] { add_never_drawn(plan, no_lights, never_drawn); }) != 0;
+}
+
+/// Asks for the programs of frames to come.
 void Renderer::State::foresee(const FramePlan& plan) {
   if (!foresees) return;
   const ProgramNeeds needs = program_needs(plan, facts());
@@ -214,20 +243,9 @@ void Renderer::State::foresee(const FramePlan& plan) {
   foreseen = needs;
   gpu::FrameGraph never_drawn(nullptr);
   LightClusters no_lights(device);
-  FrameOwners owners{no_lights, clouds, captures, picture};
   pipelines.foresee([&] {
     each_foreseen(plan, needs, [&](const FramePlan& supposed) {
-      never_drawn.begin();
-      no_lights.suppose(light_kinds(supposed.contents.lights));
-      FrameAssembly frame{.graph = never_drawn,
-                          .pipelines = pipelines,
-                          .plan = supposed,
-                          .owners = owners,
-                          .scene = import_scene(never_drawn, supposed),
-                          .shadow_maps = {}};
-      if (const std::uint32_t layers = supposed.shadows.layout.layers; layers != 0)
-        frame.shadow_maps = never_drawn.create({.name = "shadow maps", .layers = layers});
-      for (const std::size_t step : supposed.steps) frame_steps()[step].add(frame);
+      add_never_drawn(supposed, no_lights, never_drawn);
     });
   });
 }
@@ -255,6 +273,7 @@ void Renderer::State::take_report(std::uint32_t slot_index) {
   r.counts = slot.counts;
   r.pipelines_created = slot.pipelines_created;
   r.programs_made = slot.programs_made;
+  r.lagged = slot.lagged;
   r.allocations = slot.allocations;
   r.memory_bytes = slot.memory_bytes;
   if (slot.part != 0 && report) add_earlier(*report, r);
@@ -285,6 +304,9 @@ Result<std::uint64_t> Renderer::draw(
   const int late = s.pipelines.late();
   const std::uint64_t allocations = s.device.allocations();
   FramePlan plan = plan_frame({input, settings, size}, s.facts(), s.history);
+  s.lagged = s.foresees && input.may_lag && s.drawn_by && *s.drawn_by != settings &&
+             s.lacks_programs(plan);
+  if (s.lagged) plan = plan_frame({input, *s.drawn_by, size}, s.facts(), s.history);
   if (Result<void> ok = s.check(plan); !ok) return ok.error();
   if (Result<void> ok = s.make_room(plan); !ok) return ok.error();
   if (Result<void> ok = s.upload(plan); !ok) return ok.error();
@@ -310,12 +332,14 @@ Result<std::uint64_t> Renderer::draw(
   slot.counts = s.graph.counts();
   slot.pipelines_created = s.pipelines.used();
   slot.programs_made = s.pipelines.late() - late;
+  slot.lagged = s.lagged;
   slot.allocations = s.device.allocations() - allocations;
   slot.memory_bytes = s.device.memory_total();
   if (after) after(frame.commands, s.picture.shown());
   slot.value = s.ring.submit(waits, signals);
   s.last_slot = frame.slot;
   s.foresee(plan);
+  if (s.foresees) s.drawn_by = plan.settings;
   s.advance(plan);
   return slot.value;
 }
@@ -405,6 +429,9 @@ void Renderer::time_passes(bool each) {
 }
 void Renderer::foresee_programs() {
   state_->foresees = true;
+}
+bool Renderer::lagged() const {
+  return state_->lagged;
 }
 int Renderer::programs_made() const {
   return state_->pipelines.late();

@@ -69,8 +69,10 @@ class Renderer {
   /// which costs less on some drivers: see FrameGraph::time_passes.
   void time_passes(bool each);
   /// From now on each frame asks for the programs that later ones can need as settings and world
-  /// are, and worker threads make them: docs/frame.md. Until then a frame asks for its own alone.
+  /// are, and worker threads make them: docs/frame.md. Until then a frame asks for its own alone. A
+  /// frame that may lag is drawn by earlier settings as long as programs for its own are missing.
   void foresee_programs();
+  bool lagged() const;  ///< whether the last frame was drawn so
   /// Pipelines that frames have used, and those of them that a frame had to wait for.
   int pipelines_created() const;
   int programs_made() const;

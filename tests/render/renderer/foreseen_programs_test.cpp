@@ -125,6 +125,48 @@ TEST_F(ForeseenPrograms, AreForeseenAnewWhenSettingsChange) {
   for (const FrameInput& in : lively()) EXPECT_EQ(drawn(in, cloudy, kSize).programs_made, 0);
 }
 
+TEST_F(ForeseenPrograms, OfOtherSettingsAreNotWaitedForByAFrameThatMayLag) {
+  RenderSettings cloudy;
+  cloudy.clouds.coverage = 0.5f;
+  cloudy.bloom.intensity = 0.2f;
+  FrameInput in = dull();
+  drawn(in, cloudy, kSize);
+  const std::vector<std::uint8_t> after = picture();
+  restart();
+  begin();
+  renderer().foresee_programs();
+  drawn(in, {}, kSize);
+  renderer().wait_for_programs();
+  const std::vector<std::uint8_t> before = picture();
+  ASSERT_NE(before, after);
+  in.may_lag = true;
+  int lagging = 0;
+  for (; lagging < 100000; ++lagging) {
+    const FrameReport report = drawn(in, cloudy, kSize);
+    ASSERT_EQ(report.programs_made, 0);
+    ASSERT_EQ(renderer().lagged(), report.lagged);
+    if (!report.lagged) break;
+    ASSERT_EQ(picture(), before);
+  }
+  EXPECT_GT(lagging, 0);
+  EXPECT_EQ(picture(), after);
+}
+
+TEST_F(ForeseenPrograms, OfOtherSettingsAreWaitedForByAnExactFrame) {
+  RenderSettings cloudy;
+  cloudy.clouds.coverage = 0.5f;
+  drawn(dull(), cloudy, kSize);
+  const std::vector<std::uint8_t> after = picture();
+  restart();
+  begin();
+  renderer().foresee_programs();
+  drawn(dull(), {}, kSize);
+  const FrameReport report = drawn(dull(), cloudy, kSize);
+  EXPECT_GT(report.programs_made, 0);
+  EXPECT_FALSE(report.lagged);
+  EXPECT_EQ(picture(), after);
+}
+
 TEST_F(ForeseenPrograms, LeaveThePictureAsItIs) {
   const FrameInput in = lively().front();
   drawn(in, {}, kSize);
