@@ -1,8 +1,8 @@
-# Compiles every shaders/*.{vert,frag,comp} to SPIR-V (glslang for Vulkan 1.2, then spirv-opt: lavapipe takes seconds to
+# Compiles every shaders/*/*.{vert,frag,comp} to SPIR-V (glslang for Vulkan 1.2, then spirv-opt: lavapipe takes seconds to
 # compile unoptimised SPIR-V) and embeds all of them in the program as engine/gpu's shader table.
 find_program(GLSLANG glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
-file(GLOB shader_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*.vert ${CMAKE_SOURCE_DIR}/shaders/*.frag ${CMAKE_SOURCE_DIR}/shaders/*.comp)
+file(GLOB shader_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*/*.vert ${CMAKE_SOURCE_DIR}/shaders/*/*.frag ${CMAKE_SOURCE_DIR}/shaders/*/*.comp)
 set(shader_dir ${CMAKE_BINARY_DIR}/shaders)
 file(MAKE_DIRECTORY ${shader_dir})
 set(spirv_files)

@@ -88,7 +88,7 @@ TEST(ShaderTable, ABindingThatIsDeclaredAndNotUsedEndsTheBuild) {
                      said),
             1);
   EXPECT_EQ(said,
-            "skerry_shader_table: shaders/mine.comp declares the binding 7 and does not use it: "
+            "skerry_shader_table: mine.comp declares the binding 7 and does not use it: "
             "declare it beside its use (shaders/shared/bindings.h)\n");
 }
 

@@ -87,8 +87,8 @@ class OccupancyOnGpu : public gpu::GpuTest {
                           const std::vector<Table>& besides = {},
                           const std::vector<gpu::SpecConstant>& constants = {}) {
     const gpu::TestShader shader("ask.comp",
-                                 "#include \"include/common.glsl\"\n"
-                                 "#include \"include/occupancy.glsl\"\n" +
+                                 "#include \"include/frame/common.glsl\"\n"
+                                 "#include \"include/scene/occupancy.glsl\"\n" +
                                      body + R"(
       layout(local_size_x = 64) in;
       layout(scalar, binding = 0) readonly buffer Questions { Question questions[]; };

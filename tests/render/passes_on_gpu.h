@@ -253,7 +253,7 @@ class PassesOnGpu : public gpu::GpuTest {
       texels[(at.z * size.y + at.y) * size.x + at.x] = texelFetch(maps, ivec3(at), 0).r;
     })";
   static constexpr const char* kDecode =
-      "#include \"include/stored.glsl\"\n"
+      "#include \"include/scene/stored.glsl\"\n"
       R"(
     layout(local_size_x = 8, local_size_y = 8) in;
     layout(constant_id = 4) const uint kNormalCode = 0u;

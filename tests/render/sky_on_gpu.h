@@ -36,7 +36,7 @@ inline glm::dvec3 decoded(const Texel& t) {
 
 /// What the shading passes do with a ray into the open, to radiance.
 inline constexpr const char* kSeeSky =
-    "#include \"include/common.glsl\"\n"
+    "#include \"include/frame/common.glsl\"\n"
     "#include \"shared/sky.h\"\n"
     R"(
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -45,7 +45,7 @@ layout(scalar, binding = 1) uniform Sky { SkyConstants sky; };
 layout(binding = 2) uniform sampler2D sky_lut;
 layout(binding = 3, rgba16f) writeonly uniform image2D radiance;
 )"
-    "#include \"include/stars.glsl\"\n"
+    "#include \"include/sky/stars.glsl\"\n"
     R"(
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
@@ -56,7 +56,7 @@ void main() {
 
 /// Tone curve and encoding, without and with dither.
 inline constexpr const char* kDevelop =
-    "#include \"include/tonemap.glsl\"\n"
+    "#include \"include/post/tonemap.glsl\"\n"
     R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, rgba16f) readonly uniform image2D radiance;

@@ -14,8 +14,8 @@ GOOD = {
     "engine/gpu/device/device.h": '#include <volk.h>\n#include "engine/core/log.h"\n',
     "engine/render/sky.h": '#include "engine/gpu/device/device.h"\n#include "shaders/shared/types.h"\n',
     "shaders/shared/types.h": "// docs/conventions.md\n#include <glm/vec3.hpp>\n",
-    "shaders/include/light.glsl": '#include "types.h"\n',
-    "shaders/shade.comp": '#include "include/light.glsl"\n',
+    "shaders/include/light/light.glsl": '#include "types.h"\n',
+    "shaders/surface/shade.comp": '#include "include/light/light.glsl"\n',
     "world/voxel/chunk.h": '#include "engine/core/log.h"\n',
     "world/voxel/chunk.cpp": '#include "world/voxel/chunk.h"\n\n#include <vector>\n',
     "world/vdb/read_vdb.cpp": "#include <openvdb/openvdb.h>\n",
@@ -106,6 +106,14 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertEqual(output, "folders that include each other: world/mesh, world/voxel\n")
 
+    def test_folders_of_shaders_do_not_include_each_other(self):
+        files = {**GOOD, "shaders/include/light/shadow.glsl": '#include "include/sky/sky.glsl"\n',
+                 "shaders/include/sky/sky.glsl": "",
+                 "shaders/include/sky/march.glsl": '#include "include/light/light.glsl"\n'}
+        status, output = run("check_includes", files)
+        self.assertEqual(status, 1)
+        self.assertEqual(output, "folders that include each other: shaders/include/light, shaders/include/sky\n")
+
     def test_the_state_of_a_unit_is_its_own(self):
         self.assert_breach("game/session/other.cpp", '#include "game/session/session_state.h"\n', "private")
 
@@ -121,7 +129,7 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(status, 0, output)
 
     def test_a_shader_leads_to_the_conventions(self):
-        self.assert_breach("shaders/blur.comp", "void main() {}\n", "docs/conventions.md")
+        self.assert_breach("shaders/post/blur.comp", "void main() {}\n", "docs/conventions.md")
 
 
 class CheckPaths(unittest.TestCase):

@@ -31,16 +31,15 @@ Result<std::vector<std::uint32_t>> read_words(const std::string& path) {
 
 /// @param folder of unoptimised SPIR-V.
 Result<ShaderReflection> declared_by(const std::string& folder, const std::string& name) {
-  const std::string shader = "shaders/" + name;
   const Result<std::vector<std::uint32_t>> words = read_words(folder + "/" + name + ".full.spv");
   if (!words) return words.error();
   Result<ShaderReflection> declared = reflect(*words);
-  if (!declared) return Error{shader + " cannot be used: " + declared.error().message};
+  if (!declared) return Error{name + " cannot be used: " + declared.error().message};
   if (!declared->unused.empty())
-    return Error{shader + " declares the binding " + std::to_string(declared->unused.front()) +
+    return Error{name + " declares the binding " + std::to_string(declared->unused.front()) +
                  " and does not use it: declare it beside its use (shaders/shared/bindings.h)"};
   if (declared->bindings.size() > kMostBindings)
-    return Error{shader + " declares " + std::to_string(declared->bindings.size()) +
+    return Error{name + " declares " + std::to_string(declared->bindings.size()) +
                  " bindings, but no pass may bind over " + std::to_string(kMostBindings) +
                  ": split it"};
   return declared;

@@ -27,7 +27,7 @@ struct SpecConstant {
 };
 
 struct ComputeDesc {
-  std::string shader;  ///< file name in shaders/, e.g. "shade.comp"
+  std::string shader;  ///< file name below shaders/, e.g. "shade.comp"
   std::vector<SpecConstant> constants;
   auto operator<=>(const ComputeDesc&) const = default;
 };

@@ -10,7 +10,7 @@
 
 namespace skerry::render {
 
-/// A frame's clouds on the GPU: what passes need that include shaders/include/cloud_*.glsl.
+/// A frame's clouds on the GPU: what passes need that include shaders/include/sky/cloud_*.glsl.
 struct CloudRefs {
   gpu::BufferRef constants;                ///< shared::CloudConstants
   gpu::ImageRef weather, shapes, billows;  ///< noise of the layer; where there is none, others

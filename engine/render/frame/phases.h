@@ -17,8 +17,8 @@ class Geometry {
   Geometry& operator=(Geometry&&) = default;
   gpu::ImageRef surfaces() const {
     return surfaces_;
-  }  ///< R32_UINT, pack_surface() of shaders/include/common.glsl; read through
-     ///< shaders/include/coverage.glsl
+  }  ///< R32_UINT, pack_surface() of shaders/include/frame/common.glsl; read through
+     ///< shaders/include/scene/coverage.glsl
   gpu::ImageRef depth() const { return depth_; }          ///< reverse-Z
   gpu::ImageRef normals() const { return normals_; }      ///< empty when they are not kept
   gpu::ImageRef positions() const { return positions_; }  ///< likewise

@@ -46,7 +46,7 @@ std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture&
 shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
                                  std::uint32_t light_count, std::uint64_t entries);
 
-/// A frame's lights, sorted: what a pass needs that includes shaders/include/clustered.glsl.
+/// A frame's lights, sorted: what a pass needs that includes shaders/include/light/clustered.glsl.
 struct ClusteredLights {
   gpu::BufferRef grid, lights, reaches, clusters, entries;
   Tiles tiles;              ///< those that some light reaches, kCovered alone
@@ -65,7 +65,7 @@ struct ClusteredLights {
                       gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters),
                       gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
   }
-  /// Of a pass that includes shaders/include/blocked_lights.glsl, beside bindings().
+  /// Of a pass that includes shaders/include/light/blocked_lights.glsl, beside bindings().
   auto reach_binding() const { return gpu::storage<shared::kLightReachBinding>(reaches); }
 };
 

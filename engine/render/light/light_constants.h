@@ -8,7 +8,7 @@
 namespace skerry::render {
 
 /// A shader's own specialization constants and those of the light functions it includes
-/// (shaders/include/lighting.glsl, shadow.glsl): which bodies shine, and how their maps are
+/// (shaders/include/surface/lighting.glsl, shadow.glsl): which bodies shine, and how their maps are
 /// filtered, if there are maps.
 std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
                                           const SceneRefs& scene, bool shadows);

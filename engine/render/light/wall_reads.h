@@ -11,8 +11,8 @@
 
 namespace skerry::render {
 
-/// What a shader reads that looks for walls before lights (shaders/include/traced.glsl), as the
-/// settings have it.
+/// What a shader reads that looks for walls before lights (shaders/include/light/traced.glsl), as
+/// the settings have it.
 class WallReads {
  public:
   /// @param corners the shader looks corners up besides (corners.glsl).

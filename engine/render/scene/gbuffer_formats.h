@@ -22,15 +22,15 @@ VkFormat normal_format(NormalStore store);
 VkFormat position_format(PositionStore store);
 VkFormat depth_format(DepthStore store);
 
-/// What a texel of that image means: a code of shaders/include/stored.glsl.
+/// What a texel of that image means: a code of shaders/include/scene/stored.glsl.
 std::uint32_t normal_code(NormalStore store);
 
-/// What a compute pass needs that asks shaders/include/surface.glsl for surfaces.
+/// What a compute pass needs that asks shaders/include/surface/surface.glsl for surfaces.
 struct SurfaceReads {
   explicit SurfaceReads(const Geometry& geometry);
   /// Adds what the shader is specialised by.
   std::vector<gpu::SpecConstant> with_store(std::vector<gpu::SpecConstant> own) const;
-  /// The same for one that asks shaders/include/coverage.glsl alone.
+  /// The same for one that asks shaders/include/scene/coverage.glsl alone.
   std::vector<gpu::SpecConstant> with_depth(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
   auto bindings(VkSampler point) const {

@@ -11,7 +11,7 @@ std::uint32_t packed(const glm::uvec3& corner) {
   return corner.x | corner.y << 7 | corner.z << 14;
 }
 
-/// Axes that a face's u and v run along, as in shaders/draw_quads.vert.
+/// Axes that a face's u and v run along, as in shaders/scene/draw_quads.vert.
 glm::uvec2 axes_of_plane(std::uint32_t axis) {
   return axis == 0 ? glm::uvec2(2, 1) : axis == 1 ? glm::uvec2(0, 2) : glm::uvec2(0, 1);
 }

@@ -17,8 +17,8 @@ struct CloudPass {
     const ClusteredLights* lights = nullptr;  ///< null: there are none
   };
   /// Clouds that the nearest surfaces of water or glass mirror. @pre layers.count != 0, and sun or
-  /// moon gives light: without, no sky is mirrored. @return as shaders/include/mirrored_clouds.glsl
-  /// reads it.
+  /// moon gives light: without, no sky is mirrored. @return as
+  /// shaders/include/sky/mirrored_clouds.glsl reads it.
   static gpu::ImageRef add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                     const SceneRefs& scene, const View& view,
                                     const TranslucentPass::Layers& layers);

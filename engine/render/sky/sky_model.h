@@ -13,7 +13,7 @@ namespace skerry::render {
 shared::SkyConstants sky_constants(const Celestial& sky);
 
 /// Radiance of the sky without discs and stars, linear RGB, >= 0 and finite. The double-precision
-/// twin of sky_radiance() in shaders/include/sky.glsl. @param dir unit, any.
+/// twin of sky_radiance() in shaders/include/sky/sky.glsl. @param dir unit, any.
 glm::dvec3 sky_radiance(glm::dvec3 dir, const shared::SkyConstants& sky);
 
 /// Extinction of clear air [1/block].

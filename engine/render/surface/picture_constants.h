@@ -6,7 +6,7 @@
 
 namespace skerry::render {
 
-/// A shader's own specialization constants and those of shaders/include/picture.glsl and
+/// A shader's own specialization constants and those of shaders/include/post/picture.glsl and
 /// tonemap.glsl: which tone curve, and whether it is fitted to a display.
 std::vector<gpu::SpecConstant> with_picture(std::vector<gpu::SpecConstant> own,
                                             const SceneRefs& scene);

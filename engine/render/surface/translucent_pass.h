@@ -15,8 +15,8 @@ struct TranslucentPass {
   /// The peeled surfaces, nearest first.
   struct Layers {
     std::array<gpu::ImageRef, 4> surfaces;  ///< words, of any value where there is no surface
-    std::array<gpu::ImageRef, 4> depth;  ///< read through shaders/include/layers.glsl: reverse-Z, 0
-                                         ///< where there is no surface
+    std::array<gpu::ImageRef, 4> depth;     ///< read through shaders/include/scene/layers.glsl:
+                                            ///< reverse-Z, 0 where there is no surface
     std::uint32_t count = 0;
     gpu::ImageRef mirrored_clouds;  ///< CloudPass::add_mirrored(); empty: none are mirrored
 

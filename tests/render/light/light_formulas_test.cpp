@@ -1,5 +1,5 @@
-// The formulas of shaders/include/brdf.glsl and lights.glsl, run on the device and held against
-// closed forms, integrals and the reference's own.
+// The formulas of shaders/include/light/brdf.glsl and lights.glsl, run on the device and held
+// against closed forms, integrals and the reference's own.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -31,7 +31,7 @@ struct Query {
 enum class Ask : std::uint32_t { kReflectance, kReflected, kReceived };
 
 constexpr const char* kFormulas =
-    "#include \"include/lights.glsl\"\n"
+    "#include \"include/light/lights.glsl\"\n"
     R"(
 layout(local_size_x = 64) in;
 struct Query { vec3 at; vec3 normal; vec3 to_eye; vec3 albedo; float roughness; float metalness; };

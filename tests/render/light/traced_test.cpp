@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kVisibility =
     "#include \"shared/light.h\"\n"
     "layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };\n"
-    "#include \"include/traced.glsl\"\n"
+    "#include \"include/light/traced.glsl\"\n"
     R"(
   struct Question { vec3 position; uint word; Light light; };
   struct Answer { float visibility; };
@@ -320,9 +320,9 @@ constexpr const char* kPixel =
     "struct Cluster { uint first; uint count; };\n"
     "uint light_index(Cluster list, uint i) { return list.first + i; }\n"
     "const bool kOracle = false;\n"
-    "#include \"include/lights.glsl\"\n"
-    "#include \"include/traced.glsl\"\n"
-    "#include \"include/blocked_lights.glsl\"\n"
+    "#include \"include/light/lights.glsl\"\n"
+    "#include \"include/light/traced.glsl\"\n"
+    "#include \"include/light/blocked_lights.glsl\"\n"
     R"(
   struct Question { vec3 position; uint word; uint first; uint count; };
   struct Answer { vec3 radiance; };

@@ -101,7 +101,7 @@ class BloomOnGpu : public PostOnGpu {
     layout(push_constant) uniform Push { BloomStep step; } push;
     uvec2 coarse_size() { return push.step.coarse_size; }
 )"
-                             "const int kTileTexels = 128;\n#include \"include/bloom.glsl\"\n"
+                             "const int kTileTexels = 128;\n#include \"include/post/bloom.glsl\"\n"
                              R"(
     void main() {
       vec3 added = push.step.intensity * spread_from_coarser();

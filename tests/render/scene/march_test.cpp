@@ -11,7 +11,7 @@ namespace skerry::render {
 namespace {
 
 constexpr const char* kMarch =
-    "#include \"include/march.glsl\"\n"
+    "#include \"include/scene/march.glsl\"\n"
     R"(
   struct Question { vec3 from; vec3 to; uint island; };
   struct Answer { uint blocked; };

@@ -21,7 +21,7 @@ constexpr VkExtent2D kSize{96, 54};
 constexpr double kEye = 0.5, kLamps = 40.0;  // z of the eye and of the wall of lamps
 
 /// Extinction a block of a medium with white absorption a: it scatters 0.3 of it besides
-/// (shaders/include/water.glsl).
+/// (shaders/include/surface/water.glsl).
 constexpr double kExtinctionPerAbsorption = 1.3;
 
 /// Radiance below which a half's steps would be coarse: what is compared is above.

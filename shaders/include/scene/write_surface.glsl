@@ -1,0 +1,24 @@
+// Body of write_surface.frag and of its twins with more outputs: what surface is here.
+#include "include/frame/common.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#ifdef SKERRY_STORED
+#include "include/scene/write_stored.glsl"
+#endif
+
+layout(location = 0) flat in uint in_surface;
+layout(location = 1) in vec2 in_uv;
+layout(location = 0) out uint out_surface;
+
+layout(constant_id = kTexturedConstant) const bool kTextured = false;              // leaves and plants; else opaque blocks
+layout(constant_id = kFinestCoverageConstant) const bool kFinestCoverage = false;  // where several samples make a pixel: their mean is its coverage
+
+#include "include/scene/cutout.glsl"
+
+void main() {
+  if (kTextured) discard_uncovered(in_surface);
+  out_surface = in_surface;
+#ifdef SKERRY_STORED
+  write_stored(in_surface);
+#endif
+}

@@ -1,0 +1,116 @@
+// What a pixel's surface is, from the G-buffer word and depth.
+// Needs before the include: `frame`, `islands[]`, `materials[]`, `block_textures` (sampler2DArray, repeat, trilinear).
+#ifndef SKERRY_SURFACE_GLSL
+#define SKERRY_SURFACE_GLSL
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+#include "include/scene/coverage.glsl"
+#ifdef SKERRY_STORED
+#include "include/scene/stored.glsl"
+layout(constant_id = kNormalCodeConstant) const uint kNormalCode = 0u;
+layout(constant_id = kPositionStoredConstant) const bool kPositionStored = false;
+// Where one of them is not kept, some image is bound that is never read.
+layout(binding = kStoredNormalsBinding) uniform sampler2D stored_normals;
+layout(binding = kStoredPositionsBinding) uniform sampler2D stored_positions;
+#endif
+
+// Of a plant: position in its voxel's cube, 0..1. Rounding at its foot must not take it for the voxel below.
+vec3 place_in_voxel(vec3 lattice) { return clamp(lattice - floor(lattice + vec3(0.0, 0.001, 0.0)), 0.0, 1.0); }
+
+// Texture coordinates of a lattice point on a face [blocks], v downwards.
+vec2 face_uv(uint face, vec3 lattice) {
+  return face >= 6u ? vec2(lattice.x, -lattice.y)
+                    : face < 2u ? vec2(lattice.z, -lattice.y) : face < 4u ? lattice.xz : vec2(lattice.x, -lattice.y);
+}
+
+// Sharp texels with smooth edges: inside a texel the coordinate stays at its centre, over one pixel at its border it crosses over.
+vec2 crisp_uv(vec2 uv, vec2 texels_per_pixel) {
+  vec2 t = uv * kTextureEdge;
+  vec2 border = floor(t + 0.5);
+  return (border + clamp((t - border) / max(texels_per_pixel, 1e-6), -0.5, 0.5)) / kTextureEdge;
+}
+
+struct PlaneView {  // how a pixel sees a plane, in its island's lattice
+  vec3 ray, right, up;  // the pixel's ray, and what is added to it for the pixels beside and above
+  vec3 normal;
+  float t;  // blocks along the view axis
+};
+
+// Block texture at a point of a plane. The footprint is worked out from neighbouring rays, since compute has no derivatives; along its
+// long side it is covered by up to `max_taps` samples.
+vec4 plane_texel(uint layer, uint face, vec2 uv, PlaneView view, uint max_taps) {
+  float facing = dot(view.normal, view.ray);
+  facing = abs(facing) < 1e-6 ? 1e-6 : facing;
+  // d(ray * t) along one pixel while staying on the plane.
+  vec3 dx = view.t * (view.right - view.ray * (dot(view.normal, view.right) / facing));
+  vec3 dy = view.t * (view.up - view.ray * (dot(view.normal, view.up) / facing));
+  vec2 uv_dx = face_uv(face, dx), uv_dy = face_uv(face, dy);
+  float x2 = dot(uv_dx, uv_dx), y2 = dot(uv_dy, uv_dy);
+  vec2 major = x2 > y2 ? uv_dx : uv_dy;
+  float major_texels = sqrt(max(x2, y2)) * kTextureEdge;
+  float minor_texels = max(abs(uv_dx.x * uv_dy.y - uv_dx.y * uv_dy.x) * kTextureEdge * kTextureEdge / max(major_texels, 1e-6), 1e-6);
+  float taps = clamp(ceil(major_texels / max(minor_texels, 1.0)), 1.0, float(max_taps));
+  float lod = log2(max(max(minor_texels, major_texels / taps), 1e-6));
+  uv = crisp_uv(uv, max(abs(uv_dx) + abs(uv_dy), 1e-7) * kTextureEdge);
+  vec4 sum = vec4(0.0);
+  for (float i = 0.0; i < taps; ++i)
+    sum += textureLod(block_textures, vec3(uv + major * ((i + 0.5) / taps - 0.5), float(layer)), lod);
+  return sum / taps;
+}
+
+// Texture of the surface a word names, where the ray meets it `t` blocks along the view axis.
+vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
+  uint face = surface_face(word);
+  IslandTransform island = islands[surface_island(word)];
+  Material material = materials[surface_block(word)];
+  uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
+  vec3 normal = face >= 6u ? vec3(0.70710678, 0.0, face == 6u ? -0.70710678 : 0.70710678) : face_normal(face);
+  vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.pixel_to_ndc.x;
+  vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.pixel_to_ndc.y;
+  vec3 lattice = lattice_from_world(island, ray * t);
+  vec2 uv = face >= 6u ? plant_uv(face_uv(face, place_in_voxel(lattice))) : face_uv(face, lattice);
+  return plane_texel(layer, face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
+}
+
+// Depth of a surface. What 16 bits round to 0 lies half a step before infinity.
+float surface_depth(float depth) { return kDepth16 ? max(depth, 0.5 / 65535.0) : depth; }
+
+// Without its albedo and what comes of that. @param pixel where the word is from. @param depth of the surface, greater than 0.
+Surface surface_without_texture(uint word, ivec2 pixel, float depth, vec3 ray) {
+  float t = view_distance(depth, frame.near_plane);
+  Surface s;
+  s.position = ray * t;
+#ifdef SKERRY_STORED
+  if (kPositionStored && word != 0u) s.position = texelFetch(stored_positions, pixel, 0).xyz;
+#endif
+  s.normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
+#ifdef SKERRY_STORED
+  if (kNormalCode != kNormalExact && word != 0u) s.normal = normal_from_texel(texelFetch(stored_normals, pixel, 0), kNormalCode);
+#endif
+  IslandTransform island = islands[surface_island(word)];
+  s.plant = surface_face(word) >= 6u;
+  s.in_voxel = place_in_voxel(lattice_from_world(island, s.position));
+  s.axis_x = island.axis_x;
+  s.axis_y = island.axis_y;
+  s.axis_z = island.axis_z;
+  s.ao = 1.0;
+  s.albedo = vec3(0.0);
+  s.emitted = vec3(0.0);
+  s.roughness = materials[surface_block(word)].roughness;
+  s.metalness = materials[surface_block(word)].metalness;
+  return s;
+}
+
+// @param pixel where the word is from. @param depth of the surface, greater than 0.
+Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_taps) {
+  Surface s = surface_without_texture(word, pixel, depth, ray);
+  float t = view_distance(depth, frame.near_plane);
+#ifdef SKERRY_STORED
+  if (kPositionStored && word != 0u) t = dot(s.position, frame.ray_forward);
+#endif
+  s.albedo = surface_texel(word, ray, t, max_taps).rgb;
+  s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
+  return s;
+}
+#endif

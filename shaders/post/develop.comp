@@ -1,0 +1,29 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Radiance to the picture, with bloom if there is any. docs/exposure.md, docs/conventions.md.
+#include "include/frame/common.glsl"
+#include "shared/bloom.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
+layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
+layout(constant_id = kBloomConstant) const bool kBloom = false;  // if not, something is bound in place of its image
+layout(binding = kCoarseBloomBinding, rgba16f) readonly uniform image2D coarse;
+layout(push_constant) uniform Push { BloomStep step; } push;
+uvec2 coarse_size() { return push.step.coarse_size; }
+const int kTileTexels = 128;
+#include "include/post/bloom.glsl"
+
+#include "include/post/picture.glsl"
+
+void main() {
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  bool here = all(lessThan(pixel, frame.picture_size));
+  vec3 colour = imageLoad(radiance, ivec2(min(pixel, frame.picture_size - 1u))).rgb;
+  vec3 glow = kBloom ? push.step.intensity * spread_from_coarser() : vec3(0.0);
+  put_in_picture(pixel, colour, glow, here);
+}

@@ -1,0 +1,104 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// A step of bloom's pyramid. Down: a level from the finer one by 13 taps of 2x2 texels (J. Jimenez, Next Generation Post Processing in Call of
+// Duty, 2014), on the texel grid, with nothing but black beyond the edges, so that no light is made. Up: the coarser levels mixed into a finer
+// one, in place: the same image is then both `fine` and `made`. docs/exposure.md, docs/conventions.md.
+#include "include/frame/common.glsl"
+#include "shared/bloom.h"
+#include "shared/exposure.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = kFineBloomBinding, rgba16f) readonly uniform image2D fine;
+layout(binding = kCoarseBloomBinding, rgba16f) readonly uniform image2D coarse;  // on the way up
+layout(binding = kMadeBloomBinding, rgba16f) writeonly uniform image2D made;
+layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; };
+layout(push_constant) uniform Push { BloomStep step; } push;
+
+layout(constant_id = kSpreadConstant) const bool kSpread = false;  // up
+layout(constant_id = kFirstConstant) const bool kFirst = false;  // from radiance: exposes it and takes what is too bright
+
+uvec2 coarse_size() { return push.step.coarse_size; }
+const int kTile = 20;  // texels that 8x8 coarser ones look at, along an edge
+const int kTileTexels = kTile * kTile;
+#include "include/post/bloom.glsl"
+
+// What exceeds the threshold; half of it already begins to count, softly.
+vec3 too_bright(vec3 radiance) {
+  vec3 exposed = min(sanitised(radiance) * exp2(-exposure.ev), kMostTaken);
+  float brightest = max(exposed.r, max(exposed.g, exposed.b)), knee = 0.5 * push.step.threshold;
+  float over = brightest - push.step.threshold, soft = clamp(over + knee, 0.0, 2.0 * knee);
+  return exposed * (max(over, knee > 0.0 ? soft * soft / (4.0 * knee) : 0.0) / max(brightest, 1e-9));
+}
+
+vec3 texel(ivec2 at) {
+  if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(push.step.fine_size)))) return vec3(0.0);
+  vec3 value = imageLoad(fine, at).rgb;
+  return kFirst ? too_bright(value) : value;
+}
+
+float calmed(vec3 mean) { return 1.0 / (1.0 + dot(mean, vec3(0.2126, 0.7152, 0.0722))); }
+
+// Weighted mean of five squares of 4x4 texels, which is what the 13 taps are. The first step weighs them by their darkness as well (B. Karis:
+// Tone Mapping, 2013), so that a lone bright pixel does not flicker; yet never takes more than the plain mean.
+vec3 shrunk(ivec2 at) {
+  vec3 middle = vec3(0.0), corners[4] = vec3[](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+  for (int y = 0; y < 6; ++y) {
+    int row = (at.y + y) * kTile + at.x;
+    vec3 inner = tile[row + 2] + tile[row + 3], left = tile[row + 1] + inner, right = inner + tile[row + 4];
+    vec3 low = left + tile[row], high = right + tile[row + 5];
+    if (y >= 1 && y < 5) middle += left + tile[row + 4];
+    if (y < 4) {
+      corners[0] += low;
+      corners[1] += high;
+    }
+    if (y >= 2) {
+      corners[2] += low;
+      corners[3] += high;
+    }
+  }
+  vec3 plain = (0.5 * middle + 0.125 * (corners[0] + corners[1] + corners[2] + corners[3])) / 16.0;
+  if (!kFirst) return plain;
+  float weight = 0.5 * calmed(middle / 16.0), weights = weight;
+  vec3 sum = weight * middle;
+  for (int i = 0; i < 4; ++i) {
+    weight = 0.125 * calmed(corners[i] / 16.0);
+    weights += weight;
+    sum += weight * corners[i];
+  }
+  return min(plain, sum / (16.0 * weights));
+}
+
+void shrink() {
+  uint thread = gl_LocalInvocationIndex;
+  if (thread == 0u) tile_lit = 0u;
+  barrier();
+  ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16 - 2;
+  bool bright = false;
+  for (int i = int(thread); i < kTileTexels; i += 64) {
+    tile[i] = texel(corner + ivec2(i % kTile, i / kTile));
+    bright = bright || tile[i] != vec3(0.0);
+  }
+  if (bright) atomicOr(tile_lit, 1u);
+  barrier();
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, ivec2(push.step.coarse_size)))) return;
+  vec3 sum = tile_lit != 0u ? shrunk(2 * ivec2(gl_LocalInvocationID.xy)) : vec3(0.0);
+  imageStore(made, at, vec4(sum, 1.0));
+}
+
+void spread() {
+  vec3 glow = spread_from_coarser();
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, ivec2(push.step.fine_size)))) return;
+  imageStore(made, at, vec4(mix(imageLoad(fine, at).rgb, glow, kBloomShare), 1.0));
+}
+
+void main() {
+  if (kSpread)
+    spread();
+  else
+    shrink();
+}

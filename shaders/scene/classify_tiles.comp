@@ -1,0 +1,42 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Sorts 8x8-pixel tiles into those with surfaces and those with open pixels (a tile may be both), so that each shader runs where it is
+// needed only: lavapipe runs both sides of every branch, and on any device a tile's pixels then do the same. docs/conventions.md.
+#include "include/frame/common.glsl"
+#include "shared/bindings.h"
+#include "include/scene/coverage.glsl"
+#include "include/scene/layers.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[2]; };  // 0 covered, 1 open
+layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };           // [kind][tile]
+layout(push_constant) uniform Push { uvec2 size; uvec2 tile_count; uvec4 area; } push;  // area: what is outside shows no surface
+
+void list_tile(uint kind, uint tile) {
+  uint slot = atomicAdd(dispatches[kind].tiles, 1u);
+  atomicMax(dispatches[kind].groups_x, min(slot + 1u, kTileRow));
+  if (slot % kTileRow == 0u) atomicMax(dispatches[kind].groups_y, slot / kTileRow + 1u);
+  tiles[kind * push.tile_count.x * push.tile_count.y + slot] = tile;
+}
+
+// One invocation a tile: no barriers, which lavapipe pays for dearly.
+void main() {
+  uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+  if (tile >= push.tile_count.x * push.tile_count.y) return;
+  ivec2 low = ivec2(tile % push.tile_count.x, tile / push.tile_count.x) * int(kTileEdge);
+  ivec2 last = ivec2(push.size) - 1;
+  bool covered = false, open = false;
+  for (int y = 0; y < int(kTileEdge); ++y) {
+    for (int x = 0; x < int(kTileEdge); ++x) {
+      ivec2 pixel = min(low + ivec2(x, y), last);
+      bool here = is_covered(imageLoad(surfaces, pixel).r, layer_depth_at(depths, pixel, push.area));
+      covered = covered || here;
+      open = open || !here;
+    }
+  }
+  if (covered) list_tile(0u, tile);
+  if (open) list_tile(1u, tile);
+}

@@ -1,0 +1,107 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Light of sun, moon and lamps at listed pixels (choose_samples.comp), to a level's samples or, at step 1, to the radiance.
+// docs/decisions/0030-light-at-fewer-pixels.md.
+#define SKERRY_STORED
+#include "include/frame/common.glsl"
+#include "shared/sky.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(local_size_x = 64) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
+layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
+layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
+layout(binding = kRadianceBinding, rgba16f) writeonly uniform image2D radiance;  // of step 1
+layout(binding = kOwnSamplesBinding, rgba32ui) writeonly uniform uimage2D own;  // of the other steps
+layout(scalar, binding = kListedBinding) readonly buffer Listed { TileDispatch listed; };
+layout(scalar, binding = kListedPixelsBinding) readonly buffer Pixels { uint pixels[]; };
+layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
+
+layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
+layout(push_constant) uniform Push { uint step; } push;  // pixels between the level's points
+
+layout(constant_id = kEveryPixelConstant) const bool kEveryPixel = false;   // step 1. A constant: the program of the other steps has no texture
+layout(constant_id = kLitConstant) const bool kLit = false;  // the frame has lights; if not, buffers are bound that are never read
+
+#define SKERRY_ANY_ALBEDO
+#include "include/surface/surface.glsl"
+#include "include/sky/sky.glsl"
+#include "include/surface/lighting.glsl"
+#include "include/surface/haze.glsl"
+#include "include/light/corners.glsl"
+#include "include/light/indirect.glsl"
+#include "include/light/clustered.glsl"
+#include "include/light/traced.glsl"
+#include "include/light/blocked_lights.glsl"
+#include "include/surface/light_samples.glsl"
+
+// A black and a white surface that are else alike.
+BrdfPair surface_brdf_pair(Surface s, vec3 to_eye) {
+  BrdfPair pair;
+  s.albedo = vec3(1.0);
+  pair.white = surface_brdf(s, to_eye);
+  s.albedo = vec3(0.0);
+  pair.black = surface_brdf(s, to_eye);
+  // Black metal would have no lobe at all; its grazing light is that of any metal.
+  if (pair.white.mirror != vec3(0.0)) pair.black.mirror = max(pair.black.mirror, vec3(1e-6));
+  return pair;
+}
+
+// Of one body: twin of reflected() in lighting.glsl.
+mat2x3 body_sent(Surface s, BrdfPair b, vec3 to_eye, const uint index, const uint first_cascade) {
+  Body body = frame.bodies[index];
+  float n_dot_l = dot(s.normal, body.to_light), facing = max(n_dot_l, 0.0);
+  float visibility = surface_visibility(s, body.to_light, first_cascade, n_dot_l) * light_through_clouds(index, s.position);
+  float cosine = frame.shading_flat != 0u ? 1.0 : n_dot_l;
+  vec3 arriving = body.irradiance * (n_dot_l > 0.0 ? cosine * visibility : 0.0);
+  return mat2x3(arriving * brdf(b.black, s.normal, to_eye, body.to_light, facing),
+                arriving * brdf(b.white, s.normal, to_eye, body.to_light, facing));
+}
+
+mat2x3 light_sent(Surface s, uint word, uvec2 pixel, float z, bool here) {
+  vec3 to_eye = -normalize(s.position);
+  BrdfPair b = surface_brdf_pair(s, to_eye);
+  mat2x3 sent = mat2x3(0.0);
+  if ((kBodies & 1u) != 0u) sent += body_sent(s, b, to_eye, 0u, 0u);
+  if ((kBodies & 2u) != 0u) sent += body_sent(s, b, to_eye, 1u, kMoonCascade);
+  if (kLit) {
+    Cluster list = lights_at(pixel, z);
+    if (!here) list.count = 0u;
+    sent += lights_reflected(list, b, way_start(s, word), to_eye);
+  }
+  return sent * s.ao;
+}
+
+void main() {
+  uint slot = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+  bool here = slot < listed.tiles;
+  uint packed = pixels[here ? slot : 0u];
+  uvec2 pixel = uvec2(packed & 0xffffu, packed >> 16);
+  float stored_depth = texelFetch(depths, ivec2(pixel), 0).r;
+  uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, stored_depth);
+  float depth = surface_depth(stored_depth), z = view_distance(depth, frame.near_plane);
+  vec3 ray = pixel_ray(pixel);
+  Surface s = surface_without_texture(word, ivec2(pixel), depth, ray);
+  s.ao = surface_ao(s, word);
+  mat2x3 sent = light_sent(s, word, pixel, z, here);
+  SkyLight sky = light_of_sky(s, word);
+  sent[1] += kInvPi * sky.irradiance + unpackHalf2x16(materials[surface_block(word)].emission).x;
+  vec3 air = seen_through_air(vec3(0.0), s.position, sky.seen);
+  sent = sent * clear_air(s.position) + mat2x3(air, air);
+  if (here && !(finite3(sent[0]) && finite3(sent[1]))) atomicAdd(stats.non_finite, 1u);
+  sent = mat2x3(sanitised(sent[0]), sanitised(sent[1]));
+  if (kEveryPixel) {
+    vec3 albedo = surface_texel(word, ray, z, kTextureTaps).rgb;
+    if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(radiance_at(sent, albedo)), 1.0));
+  } else {
+    uint key = plane_key(word, lattice_from_world(islands[surface_island(word)], s.position));
+    if (here) imageStore(own, ivec2(pixel / push.step), packed_sample(sent, key));
+  }
+}

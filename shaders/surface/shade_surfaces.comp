@@ -1,0 +1,47 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Light of sun and moon for the pixels that show a surface, by tiles: to radiance, or in a frame without later passes to the picture.
+// docs/conventions.md.
+#define SKERRY_STORED
+#include "include/frame/common.glsl"
+#include "shared/sky.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
+layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
+layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
+layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
+
+layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
+
+#include "include/scene/tiles.glsl"
+#include "include/post/output.glsl"
+#include "include/surface/surface.glsl"
+#include "include/sky/sky.glsl"
+#include "include/surface/lighting.glsl"
+#include "include/surface/haze.glsl"
+#include "include/light/corners.glsl"
+#include "include/light/indirect.glsl"
+
+void main() {
+  uvec2 pixel;
+  bool here = tile_pixel(pixel);
+  float stored_depth = texelFetch(depths, ivec2(pixel), 0).r;
+  uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, stored_depth);
+  float depth = surface_depth(stored_depth);
+  // Pixels of sky go along as some surface near the eye; they are not stored.
+  Surface surface = resolve_surface(word, ivec2(pixel), word != 0u ? depth : 1.0, pixel_ray(pixel), kTextureTaps);
+  surface.ao = surface_ao(surface, word);
+  SkyLight sky = light_of_sky(surface, word);
+  vec3 lit = shade_surface(surface) + surface.albedo * kInvPi * sky.irradiance;
+  vec3 colour = seen_through_air(lit, surface.position, sky.seen);
+  put_pixel(pixel, colour, here && word != 0u);
+}

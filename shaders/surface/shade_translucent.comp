@@ -1,0 +1,69 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Looks through the peeled layers of water and glass from front to back: absorption along each stretch
+// inside a medium, light scattered towards the eye, and at each surface Fresnel reflection. In place on the radiance image. docs/conventions.md.
+#include "include/frame/common.glsl"
+#include "shared/sky.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
+layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
+layout(binding = kRadianceBinding, rgba16f) uniform image2D radiance;
+layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
+layout(binding = kLayerSurfacesBinding, r32ui) readonly uniform uimage2D layer_surfaces_0;
+layout(binding = kLayerSurfacesBinding + 1u, r32ui) readonly uniform uimage2D layer_surfaces_1;
+layout(binding = kLayerSurfacesBinding + 2u, r32ui) readonly uniform uimage2D layer_surfaces_2;
+layout(binding = kLayerSurfacesBinding + 3u, r32ui) readonly uniform uimage2D layer_surfaces_3;
+layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths_0;
+layout(binding = kLayerDepthsBinding + 1u) uniform sampler2D layer_depths_1;
+layout(binding = kLayerDepthsBinding + 2u) uniform sampler2D layer_depths_2;
+layout(binding = kLayerDepthsBinding + 3u) uniform sampler2D layer_depths_3;
+
+#include "include/scene/layers.glsl"
+
+float layer_depth(uint k, ivec2 pixel) {
+  return k == 0u ? layer_depth_at(layer_depths_0, pixel, frame.layers_area)
+                 : k == 1u ? layer_depth_at(layer_depths_1, pixel, frame.layers_area)
+                           : k == 2u ? layer_depth_at(layer_depths_2, pixel, frame.layers_area) : layer_depth_at(layer_depths_3, pixel, frame.layers_area);
+}
+// 0 where the layer has no surface; its word is undefined there.
+uint layer_surface(uint k, ivec2 pixel) {
+  uint word = k == 0u ? imageLoad(layer_surfaces_0, pixel).r
+                      : k == 1u ? imageLoad(layer_surfaces_1, pixel).r
+                                : k == 2u ? imageLoad(layer_surfaces_2, pixel).r : imageLoad(layer_surfaces_3, pixel).r;
+  return layer_depth(k, pixel) > 0.0 ? word : 0u;
+}
+
+layout(binding = kMirroredCloudsBinding) uniform sampler2D mirrored_clouds;
+layout(constant_id = kMirroredCloudsConstant) const bool kMirroredClouds = false;  // whether they are known
+
+layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
+
+#include "include/scene/tiles.glsl"
+#include "include/surface/surface.glsl"
+#include "include/sky/sky.glsl"
+#include "include/surface/lighting.glsl"
+#include "include/light/clustered.glsl"
+#include "include/light/traced.glsl"
+#include "include/surface/ripples.glsl"
+#include "include/sky/mirrored_clouds.glsl"
+#include "include/surface/water.glsl"
+
+void main() {
+  uvec2 pixel;
+  bool here = tile_pixel(pixel);
+  // A mixed tile is in both lists: each list does its own pixels.
+  here = here && (layer_surface(0u, ivec2(pixel)) != 0u) == (push.kind == 0u);
+  vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
+  vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
+  if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
+  if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
+}

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One layer of translucent surfaces: the nearest one behind the previous layer and before the opaque surface (depth peeling, Everitt 2001).
+// docs/conventions.md.
+#include "include/frame/common.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(location = 0) flat in uint in_surface;
+layout(location = 0) out uint out_surface;
+
+layout(binding = kDepthsBinding) uniform sampler2D opaque_depth;
+layout(binding = kPreviousDepthsBinding) uniform sampler2D previous_depth;  // of the layer before; for the first layer the opaque depth again, unread
+
+layout(constant_id = kFirstLayerConstant) const bool kFirstLayer = true;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float z = gl_FragCoord.z;  // reverse-Z: nearer is greater
+  if (z <= texelFetch(opaque_depth, pixel, 0).r) discard;
+  if (!kFirstLayer && z >= texelFetch(previous_depth, pixel, 0).r) discard;
+  // Which side faces the camera distinguishes a block's back from its front.
+  out_surface = gl_FrontFacing ? in_surface : in_surface ^ kOppositeFace;
+}

@@ -1,6 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// The same for a G-buffer that also keeps normals and positions, for measuring. docs/conventions.md.
-#define SKERRY_STORED
-#define SKERRY_STORED_BOTH
-#include "include/write_surface.glsl"
