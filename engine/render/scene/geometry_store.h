@@ -6,7 +6,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device/resources.h"
-#include "engine/gpu/transfer/quad_arena.h"
+#include "engine/gpu/transfer/offset_arena.h"
 #include "engine/render/frame/draw_limits.h"
 #include "engine/render/scene/geometry_changes.h"
 #include "engine/render/scene/memory_budget.h"

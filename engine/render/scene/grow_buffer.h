@@ -3,7 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device/resources.h"
-#include "engine/gpu/transfer/quad_arena.h"
+#include "engine/gpu/transfer/offset_arena.h"
 #include "engine/render/scene/memory_budget.h"
 
 namespace skerry::gpu {

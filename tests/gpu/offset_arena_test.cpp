@@ -1,4 +1,4 @@
-#include "engine/gpu/transfer/quad_arena.h"
+#include "engine/gpu/transfer/offset_arena.h"
 
 #include <gtest/gtest.h>
 
