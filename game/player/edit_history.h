@@ -54,6 +54,8 @@ class EditHistory {
   /// something else has changed all its voxels, is dropped for the one before it.
   Replay undo(const Surroundings& around, BlockEditor& blocks, const VoxelFree& free);
   Replay redo(const Surroundings& around, BlockEditor& blocks, const VoxelFree& free);
+  /// Acts that undo() can put back. For tests: a refused act and a dropped one look alike from
+  /// outside.
   std::size_t undoable() const { return done_.size(); }
 
  private:

@@ -161,7 +161,8 @@ class Session {
 
   // Clients and their messages, from any thread. ------------------------------------------------
   ClientId connect();
-  /// The client's place is kept; its answers are dropped.
+  /// The client's place is kept; its answers are dropped. For sessions of several clients, as tests
+  /// have them: the game's one client stays as long as its session.
   void disconnect(ClientId client);
   /// Requests of all clients are handled in the order of these calls, by the calls below. Those of
   /// a client that is not connected have no effect.

@@ -28,10 +28,8 @@ std::uint8_t byte_of(double encoded) {
 }
 
 void append(Image& image, const glm::vec3& linear) {
-  for (int c = 0; c < 3; ++c) {
-    const double value = linear[c] > 0.0f ? std::min(linear[c], 1.0f) : 0.0f;
-    image.rgba.push_back(byte_of(srgb_from_linear(value)));
-  }
+  for (int c = 0; c < 3; ++c)
+    image.rgba.push_back(byte_of(srgb_from_linear(static_cast<double>(linear[c]))));
   image.rgba.push_back(255);
 }
 
@@ -44,13 +42,6 @@ Picture picture_from(const Image& image) {
   for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4)
     out.pixels.emplace_back(linear[image.rgba[i]], linear[image.rgba[i + 1]],
                             linear[image.rgba[i + 2]]);
-  return out;
-}
-
-Image image_from(const Picture& picture) {
-  Image out{picture.width, picture.height, {}};
-  out.rgba.reserve(picture.pixels.size() * 4);
-  for (const glm::vec3& pixel : picture.pixels) append(out, pixel);
   return out;
 }
 
@@ -104,12 +95,6 @@ Image shrink(const Image& image, std::uint32_t factor) {
     }
   }
   return out;
-}
-
-Result<Image> read_image(const std::filesystem::path& path) {
-  Result<platform::PngImage> png = platform::read_png(path);
-  if (!png) return png.error();
-  return Image{png->width, png->height, std::move(png->pixels)};
 }
 
 Result<void> write_image(const std::filesystem::path& path, const Image& image) {

@@ -19,8 +19,6 @@ struct Image {
 
 /// Decoded; alpha is left out.
 Picture picture_from(const Image& image);
-/// Encoded, clamped to 0..1 (NaN: 0), opaque.
-Image image_from(const Picture& picture);
 
 /// Errors as colours, from black over blue-violet, red and orange to white; equally bright steps.
 Image heat_map(const ErrorMap& map);
@@ -34,8 +32,7 @@ Image amplified_difference(const Image& a, const Image& b, int gain);
 /// bottom is averaged over what is there. @pre factor >= 1.
 Image shrink(const Image& image, std::uint32_t factor);
 
-/// Errors: see platform::read_png and platform::write_png.
-Result<Image> read_image(const std::filesystem::path& path);
+/// Errors: see platform::write_png.
 Result<void> write_image(const std::filesystem::path& path, const Image& image);
 
 }  // namespace skerry::measure

@@ -13,7 +13,8 @@ struct BlockColor {
   std::array<std::uint8_t, 3> srgb;
 };
 
-/// Blocks that a colour may become: solid, without light of their own.
+/// Blocks that a colour may become: solid, without light of their own. Public for the test that
+/// compares them with the painted textures, which this room cannot see.
 std::span<const BlockColor> block_colors();
 
 /// The block whose colour is nearest, as the eye sees differences: distance in OKLab
