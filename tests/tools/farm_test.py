@@ -172,6 +172,11 @@ def check_changes(work, scenes):
     check("did you mean 'sky_09'" in done.stderr, done)
     done = work.run("report", "run", "--dir", work.whole, status=1)
     check("it is one of skerry" in done.stderr, done)
+    other = work.folder / "skerry"
+    other.write_bytes(Path(work.run.program).read_bytes() + b"0")
+    other.chmod(0o755)
+    done = Runs(other)("test", "run", "sky_09", "--dir", work.whole, status=1)
+    check("is not what was planned" in done.stderr, done)
 
 
 def check_many(work):
