@@ -70,7 +70,7 @@ TEST(Image, HeatRisesInBrightness) {
 TEST(Image, ShrinkingAveragesLight) {
   // 3 x 2: a block of black and white, and a rest one pixel wide.
   Image image{3, 2, {}};
-  for (const std::uint8_t grey : {255, 0, 0, 0, 255, 255})
+  for (const std::uint8_t grey : std::to_array<std::uint8_t>({255, 0, 0, 0, 255, 255}))
     image.rgba.insert(image.rgba.end(), {grey, grey, grey, 255});
   const Image small = shrink(image, 2);
   EXPECT_EQ(small.width, 2u);
