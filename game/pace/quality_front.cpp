@@ -11,9 +11,9 @@
 namespace skerry::game {
 namespace {
 
-constexpr MeasuredError kErrors[] = {{"render_scale", "0.25", 0.1037},
-                                     {"render_scale", "0.33", 0.0866},
-                                     {"render_scale", "0.5", 0.0633},
+constexpr MeasuredError kErrors[] = {{"render_scale", "0.25", 0.1003},
+                                     {"render_scale", "0.33", 0.0840},
+                                     {"render_scale", "0.5", 0.0611},
                                      {"render_scale", "1", 0.0},
                                      {"shading_rate", "4, 0.1", 0.0057},
                                      {"shading_rate", "2, 0.1", 0.0038},

@@ -1,5 +1,6 @@
 #include "game/view/materials.h"
 
+#include <cstddef>
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.h"

@@ -1,6 +1,7 @@
 #include "world/light/voxel_index.h"
 
 #include <bit>
+#include <utility>
 
 namespace skerry::world {
 

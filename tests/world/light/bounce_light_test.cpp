@@ -4,14 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "tests/world/light/voxel_rooms.h"
 #include "world/light/sky_transfer.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::world {
 namespace {
