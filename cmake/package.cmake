@@ -42,5 +42,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION games)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # What is loaded while it runs, which no linker knows of: Vulkan's loader, what GLFW asks the X server with, letters.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libvulkan1, libxcursor1, libxi6, libxinerama1, libxrandr2, fonts-dejavu-core")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, fonts-wqy-microhei")
+# Sound is loaded if it is there: without it the program is silent.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, fonts-wqy-microhei, libopenal1")
 include(CPack)
