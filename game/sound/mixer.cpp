@@ -21,6 +21,12 @@ float compressed(float x) {
   return std::copysign(kKnee + kRoom * over / (1.0f + over), x);
 }
 
+/// How much of the way to its goal a number glides in so many samples.
+float glide_of(std::size_t samples) {
+  return static_cast<float>(
+      std::min(1.0, static_cast<double>(samples) / (kGlideSeconds * 0.25 * kSampleRate)));
+}
+
 }  // namespace
 
 Mixer::Mixer(const SoundBank& bank) : bank_(bank) {
@@ -29,9 +35,7 @@ Mixer::Mixer(const SoundBank& bank) : bank_(bank) {
 
 Mixer::Goal Mixer::goal_of(const Voice& voice) const {
   const VoiceAim& aim = voice.start.aim;
-  const float volume = voice.ending ? 0.0f
-                                    : volumes_[static_cast<std::size_t>(voice.start.group)] *
-                                          volumes_[static_cast<std::size_t>(SoundGroup::kMaster)];
+  const float volume = voice.ending ? 0.0f : volumes_[static_cast<std::size_t>(voice.start.group)];
   const float angle = (std::clamp(aim.pan, -1.0f, 1.0f) + 1.0f) * 0.25f * std::numbers::pi_v<float>;
   const float gain = std::clamp(aim.gain, 0.0f, 4.0f) * volume;
   const float pole =
@@ -140,8 +144,7 @@ void Mixer::mix_voice(Voice& voice, std::size_t samples) {
   fill(voice, samples);
   // Straight to what the glide reaches at the block's end: no step, and no exponential a sample.
   const Goal goal = goal_of(voice);
-  const auto glide = static_cast<float>(
-      std::min(1.0, static_cast<double>(samples) / (kGlideSeconds * 0.25 * kSampleRate)));
+  const float glide = glide_of(samples);
   const auto n = static_cast<float>(samples);
   const Goal step{(goal.left - voice.left) * glide / n, (goal.right - voice.right) * glide / n,
                   (goal.reverb - voice.reverb) * glide / n, 0.0f};
@@ -173,10 +176,16 @@ void Mixer::mix_block(std::span<float> stereo) {
   for (Voice& voice : voices_)
     if (voice.playing) mix_voice(voice, samples);
   reverb_.render({send_.data(), samples}, {left_.data(), samples}, {right_.data(), samples});
+  // The master's volume is of all that is heard, the reverb's tail included.
+  const float goal = volumes_[static_cast<std::size_t>(SoundGroup::kMaster)];
+  const float step = (goal - master_) * glide_of(samples) / static_cast<float>(samples);
   for (std::size_t i = 0; i < samples; ++i) {
-    stereo[2 * i] = compressed(left_[i]);
-    stereo[2 * i + 1] = compressed(right_[i]);
+    const float volume = master_ + step * static_cast<float>(i + 1);
+    stereo[2 * i] = compressed(volume * left_[i]);
+    stereo[2 * i + 1] = compressed(volume * right_[i]);
   }
+  master_ += step * static_cast<float>(samples);
+  if (std::abs(goal - master_) < kFadedOut) master_ = goal;
 }
 
 void Mixer::render(std::span<float> stereo) {

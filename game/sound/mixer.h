@@ -85,6 +85,7 @@ class Mixer {
   const SoundBank& bank_;
   std::array<Voice, kMaxVoices> voices_;
   std::array<float, kSoundGroups> volumes_;
+  float master_ = 1.0f;  // glides to its volume
   Reverb reverb_;
   std::array<float, kBlock> clip_{}, left_{}, right_{}, send_{};
 };

@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <queue>
 #include <random>
+#include <vector>
 
 #include "game/sound/room_echo.h"
 #include "tests/game/sound/listen.h"
@@ -283,6 +287,28 @@ TEST(SoundPaths, OneFloodServesAllSourcesUntilSomethingChanges) {
   room.set({1, 1, 1}, block::kStone);
   (void)paths.path_from({20.5, 32.5, 40.5});
   EXPECT_EQ(paths.floods(), 2u);
+}
+
+// A screen in open air: the flood runs until its bound.
+TEST(SoundPaths, AFloodInTheOpenIsBounded) {
+  SoundRoom room;
+  fill(room, {26, 26, 40}, {38, 38, 41}, block::kStone);
+  SoundPaths paths(room);
+  std::vector<double> ms;
+  for (int i = 0; i < 21; ++i) {
+    paths.listen_at({30.5 + i % 2, 32.5, 32.5});
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_TRUE(paths.path_from({32.5, 32.5, 44.5}).open);
+    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+                     .count());
+  }
+  EXPECT_EQ(paths.floods(), 21u);
+  int reached = 0;
+  for (int i = 0; i < static_cast<int>(SoundRoom::kCells); ++i)
+    reached += paths.way_cost({i / 64 % 64, i / 4096, i % 64}) >= 0;
+  EXPECT_LT(reached, 2 * SoundPaths::kMostCells);
+  std::sort(ms.begin(), ms.end());
+  std::printf("flood in the open: median %.2f ms, p90 %.2f ms\n", ms[10], ms[18]);
 }
 
 TEST(RoomEcho, MeasuresVolumeAndSurfaceOfABox) {
