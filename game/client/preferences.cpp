@@ -18,7 +18,8 @@ constexpr std::string_view kKept[] = {
     "view.distance",  "view.detail",      "render.scale",  "shadow.enabled",  "shadow.size",
     "lights.shadows", "ao.strength",      "indirect",      "bloom.intensity", "aa.samples",
     "water.layers",   "display.peak",     "display.black", "clouds.coverage", "frames.wanted",
-    "frames.cap",     "frames.unfocused", "frames.sync"};
+    "frames.cap",     "frames.unfocused", "frames.sync",   "sound.master",    "sound.effects",
+    "sound.ambience", "sound.interface",  "sound.captions"};
 
 constexpr std::string_view kAuto = "auto";  // as a quality: play chooses
 

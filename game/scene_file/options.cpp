@@ -236,7 +236,8 @@ std::string shot_command(const SceneOptions& scene) {
                          format_time_of_day(scene.time_of_day_s), scene.size.width,
                          scene.size.height, quality_level(scene.quality).name);
   for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
-    if (assignment.starts_with("frames.")) continue;  // of play alone
+    // Of play alone.
+    if (assignment.starts_with("frames.") || assignment.starts_with("sound.")) continue;
     command += " --set " + shell_word(assignment);
   }
   for (const CloudFile& cloud : scene.clouds)

@@ -40,5 +40,7 @@ std::span<const SettingKey> picture_keys();
 /// Which renderer draws, what it leaves out, what it may take: renderer, shading.*, debug.*,
 /// lights.*, leave.out, upload.*, memory.*, jobs.*, water.*, reference.*.
 std::span<const SettingKey> program_keys();
+/// How loud play is: sound.*.
+std::span<const SettingKey> sound_keys();
 
 }  // namespace skerry::game

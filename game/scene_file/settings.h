@@ -34,6 +34,14 @@ struct FrameSettings {
   bool operator==(const FrameSettings&) const = default;
 };
 
+/// How loud play is: amplitudes, 0 .. 1.
+struct SoundSettings {
+  float master = 0.8f;  ///< scales the others
+  float effects = 1.0f, ambience = 1.0f, interface = 1.0f;
+  bool captions = false;  ///< lines that say what is heard
+  bool operator==(const SoundSettings&) const = default;
+};
+
 /// Everything `--set` reaches, with the defaults of quality `medium`. docs/settings.md says what
 /// each means to a player.
 struct Settings {
@@ -55,6 +63,7 @@ struct Settings {
   std::optional<std::uint32_t> memory_budget_mib;  ///< for the world, 8 .. 2^20; none: by device
   std::uint32_t jobs_threads = 0;                  ///< 0: one a core; .. 256
   FrameSettings frames;
+  SoundSettings sound;
   std::uint32_t reference_samples = 64;  ///< a pixel, 1 .. 65536
   ReferenceFilter reference_filter = ReferenceFilter::kPixel;
   bool operator==(const Settings&) const = default;

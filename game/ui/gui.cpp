@@ -123,6 +123,7 @@ void Gui::begin(const GuiFrame& frame) {
 }
 
 OverlayTriangles Gui::end() {
+  pressed_ = ImGui::IsAnyItemActive();
   ImGui::Render();
   return flatten(*ImGui::GetDrawData());
 }

@@ -58,6 +58,8 @@ class Gui {
   OverlayTriangles end();
   /// Why nothing was pasted since the last call, for the player; empty: nothing was refused.
   std::string take_refusal();
+  /// Whether a button, slider or the like was held down in the last frame.
+  bool pressed() const { return pressed_; }
   /// Whether the keys go into a text field, as of the last frame.
   bool typing() const;
 
@@ -73,6 +75,7 @@ class Gui {
   std::deque<platform::InputEvent>
       queue_;  // that no frame of an ImGui without a queue has read yet
   Fonts fonts_;
+  bool pressed_ = false;
   bool fed_ = true;  // in the last frame; before the first, so that keys are mapped whatever comes
 };
 

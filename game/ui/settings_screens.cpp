@@ -120,6 +120,19 @@ void show_frame_knobs(FrameSettings& frames, Rows& rows) {
   rows.choice("Vertical sync", std::nullopt, frames.sync, kSyncs, kSyncNames);
 }
 
+void show_sound_knobs(SoundSettings& sound, Rows& rows) {
+  const auto volume = [&rows](const char* label, float& value) {
+    rows.row(label, std::nullopt, [&] { return slide_part(value, 0.0f, 1.0f, "%.2f"); });
+  };
+  volume("Sound", sound.master);
+  volume("Sound: effects", sound.effects);
+  volume("Sound: wind, fire, water", sound.ambience);
+  volume("Sound: clicks", sound.interface);
+  constexpr bool kCaptions[] = {false, true};
+  constexpr const char* kCaptionNames[] = {"off", "on"};
+  rows.choice("Captions of sounds", std::nullopt, sound.captions, kCaptions, kCaptionNames);
+}
+
 void show_level(const ScreenFacts& facts, Rows& rows) {
   constexpr int kLevels[] = {-1, 0, 1, 2, 3};
   constexpr const char* kLevelNames[] = {"auto", "low", "medium", "high", "ultra"};
@@ -182,6 +195,7 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
   });
   rows.row("Field of view", std::nullopt,
            [&] { return slide_part(*facts.fov_deg, 40.0f, 110.0f, "%.0f degrees"); });
+  show_sound_knobs(settings.sound, rows);
   show_frame_knobs(settings.frames, rows);
   render::DisplaySettings& display = settings.render.display;
   rows.row("Display: white", std::nullopt, [&] {

@@ -220,7 +220,7 @@ TEST(Screens, KnobsTurnByArrowsAloneFromTheFirstOnDown) {
   sitting.tap(Key::kRight);
   EXPECT_EQ(sitting.quality, Quality::kMedium);
   const Settings before = sitting.settings;
-  for (int row = 1; row < 19; ++row) {
+  for (int row = 1; row < 24; ++row) {
     sitting.tap(Key::kDown);
     sitting.tap(Key::kLeft);
     EXPECT_FALSE(sitting.gui.typing()) << row;
@@ -230,6 +230,8 @@ TEST(Screens, KnobsTurnByArrowsAloneFromTheFirstOnDown) {
   EXPECT_LT(sitting.settings.render.shadow_size, before.render.shadow_size);
   EXPECT_LT(sitting.settings.render.water_layers, before.render.water_layers);
   EXPECT_LT(sitting.fov_deg, 70.0);
+  EXPECT_LT(sitting.settings.sound.master, before.sound.master);
+  EXPECT_LT(sitting.settings.sound.interface, before.sound.interface);
   EXPECT_LT(sitting.settings.render.display.peak, before.render.display.peak);
   EXPECT_TRUE(sitting.wishes.settings_changed);
   EXPECT_EQ(sitting.state.stack.top(), Screen::kSettings);
