@@ -103,6 +103,7 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   const Result<bool> drawn = draw(seconds, layout);
   if (!drawn) return drawn;
   if (const auto done = fulfil(wishes_); !done) return done.error();
+  sound(std::min(seconds, kLongestFrame));
   // What was held while one thing was shown shall not act on the next, nor what was bound just now.
   if (listened && !screens_.listening) held_back_.hold(input);
   if (screens_.stack.top() == before) return drawn;
@@ -163,6 +164,26 @@ void App::act(const platform::InputFrame& input, double seconds) {
   if (!world_->take_settings_changed()) return;
   settings_changed_ = true;
   follow_settings();
+}
+
+/// Hands what is heard of this frame to the threads that make sound.
+void App::sound(double seconds) {
+  SoundFrame frame;
+  if (world_) {
+    frame = world_->sound_frame(seconds);
+    world_->set_sound_line(sound_.status());
+  }
+  frame.seconds = seconds;
+  const Settings& settings = world_ ? world_->settings() : base_.settings;
+  const SoundSettings& loud = settings.sound;
+  frame.volumes = {loud.master, loud.effects, loud.ambience, loud.interface};
+  const bool pressed = gui_.pressed();
+  if ((pressed && !pressed_before_) || back_)
+    frame.events.push_back({Sound::kClick, SoundMaterial::kStone, std::nullopt, 0.35f});
+  pressed_before_ = pressed;
+  sound_.frame(std::move(frame));
+  for (std::string& line : sound_.take_captions())
+    if (loud.captions) messages_.say(std::move(line));
 }
 
 void App::act_on_screens(const platform::InputFrame& input, const ActionFrame& actions) {

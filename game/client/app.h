@@ -19,6 +19,7 @@
 #include "game/input/hints.h"
 #include "game/input/photo_camera.h"
 #include "game/scene_file/options.h"
+#include "game/sound/game_sound.h"
 #include "game/ui/gui.h"
 #include "game/ui/hud.h"
 #include "game/ui/screens.h"
@@ -43,6 +44,7 @@ class App {
   // app.cpp: a frame.
   Result<bool> frame(const platform::InputFrame& input, double seconds);
   void act(const platform::InputFrame& input, double seconds);
+  void sound(double seconds);
   void act_on_screens(const platform::InputFrame& input, const ActionFrame& actions);
   void pause_unattended(double seconds);
   void fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
@@ -104,6 +106,8 @@ class App {
   double began_thread_s_ = 0.0;                               // see thread_seconds
   bool auto_before_ = false;  // the settings had the quality chosen when they changed last
   ui::Messages messages_;
+  GameSound sound_;
+  bool pressed_before_ = false;  // something on a screen was held down in the last frame
   std::vector<ui::WorldCard> cards_;
   std::optional<double> preview_due_s_;  // until the new world's seed is shown
   PhotoCamera photo_;

@@ -18,6 +18,7 @@
 #include "game/player/player.h"
 #include "game/player/world_surroundings.h"
 #include "game/scene_file/options.h"
+#include "game/sound/play_sounds.h"
 #include "game/ui/hud.h"
 #include "game/ui/overlay.h"
 #include "game/view/scene_view.h"
@@ -80,6 +81,11 @@ class PlayLoop {
   /// Lines for the player since the last call.
   std::vector<std::string> take_messages() { return std::exchange(said_, {}); }
 
+  /// What is heard of the last frame, which took so long. Once a frame.
+  SoundFrame sound_frame(double seconds);
+  /// What the overlay says of sound.
+  void set_sound_line(std::string line) { sound_line_ = std::move(line); }
+
   void note_frame(double seconds);
   /// What the overlay says of how the quality was chosen; empty: it was named.
   void set_quality_line(std::string line) { quality_line_ = std::move(line); }
@@ -96,6 +102,7 @@ class PlayLoop {
   Intent steer(const ActionFrame& actions, const Intent& intent);
   void go_on(double seconds, const Intent& intent);
   bool held_fast() const;
+  PlayMoment sound_moment(double seconds) const;
   void watch_helm(const std::optional<world::Pose>& before, double seconds);
   void hear_session();
   void use_hands(const ActionFrame& actions, double seconds);
@@ -132,7 +139,8 @@ class PlayLoop {
   bool screenshot_wanted_ = false;
   bool settings_changed_ = false;
   std::vector<std::string> said_;
-  std::string quality_line_;
+  std::string quality_line_, sound_line_;
+  PlaySounds sounds_;
   std::vector<float> frame_ms_;
   double since_title_s_ = 0.0;
 };

@@ -68,6 +68,7 @@ std::vector<std::string> PlayLoop::overlay_lines() const {
                   view_->renderer().report().value_or(render::FrameReport{}).exposure_ev),
       fmt::format("streaming: {} islands, {} tasks left", stream.islands, stream.tasks_left)};
   if (!quality_line_.empty()) lines.push_back(quality_line_);
+  if (!sound_line_.empty()) lines.push_back(sound_line_);
   return lines;
 }
 

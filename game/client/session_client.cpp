@@ -35,6 +35,7 @@ void SessionClient::take_in() {
       time_s_ = time->world_time_s;
     } else if (const auto* edited = std::get_if<EditAnswer>(&answer)) {
       verdict_ = edited->verdict;
+      if (verdict_ == EditVerdict::kDone) edits_.push_back(*edited);
     } else {
       heard_.push_back(std::move(answer));
     }

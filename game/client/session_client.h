@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "game/player/edit_history.h"
@@ -29,6 +30,8 @@ class SessionClient : public BlockEditor {
   void save_next() { session_->save_next(); }
   Result<void> save() { return session_->save(); }
 
+  /// Edits of this client that were done since the last call.
+  std::vector<EditAnswer> take_edits() { return std::exchange(edits_, {}); }
   /// Messages since the last call, besides what the members above say.
   std::vector<Answer> hear();
 
@@ -40,6 +43,7 @@ class SessionClient : public BlockEditor {
   Joined joined_;
   double time_s_ = 0.0;
   EditVerdict verdict_ = EditVerdict::kDone;  // of the last edit
+  std::vector<EditAnswer> edits_;
   std::vector<Answer> heard_;
 };
 
