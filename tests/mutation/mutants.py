@@ -61,7 +61,7 @@ MUTANTS = (
            "shaders/include/light/shadow.glsl",
            "kBodyRadius * distance_blocks / texel", "0.1 * kBodyRadius * distance_blocks / texel", "water"),
     Mutant("shadow_casters_lost", "what the camera does not see casts no shadow of a far sun",
-           "engine/render/renderer/frame_tables.cpp", "light.planes[5] = glm::vec4(\n        0, 0, 0, 1);",
+           "engine/render/plan/frame_tables.cpp", "light.planes[5] = glm::vec4(\n        0, 0, 0, 1);",
            "light.planes[5] = glm::vec4(\n        0, 0, 0, -1);", "day"),
     Mutant("haze_ignores_shadow", "haze glows in caves", "shaders/include/surface/haze.glsl",
            "0.0 : light_in_air(0u, p) *", "0.0 :", "cave cave_mouth sealed_dark"),

@@ -235,7 +235,7 @@ MUTANTS = (
            "glm::dquat{std::cos(0.5 * yaw), 0.0, std::sin(0.5 * yaw), 0.0}};",
            "glm::dquat{std::cos(0.5 * yaw) * (1.0 + 1e-12), 0.0, std::sin(0.5 * yaw), 0.0}};", "time.islands"),
     # Places
-    Mutant("places_of_double", "places are subtracted after they are rounded", "engine/render/renderer/frame_tables.cpp",
+    Mutant("places_of_double", "places are subtracted after they are rounded", "engine/render/plan/frame_tables.cpp",
            "return {static_cast<double>(to[0] - from[0]) / 65536.0,",
            "return {static_cast<double>(static_cast<float>(to[0])) / 65536.0 - static_cast<double>(static_cast<float>(from[0])) / 65536.0,",
            "coordinates"),

@@ -10,7 +10,7 @@
 #include "engine/gpu/transfer/uploader.h"
 #include "engine/render/light/shadow_maps.h"
 #include "engine/render/light/shadow_pass.h"
-#include "engine/render/renderer/frame_tables.h"
+#include "engine/render/plan/frame_tables.h"
 #include "engine/render/scene/cull_pass.h"
 #include "engine/render/scene/gbuffer_formats.h"
 #include "engine/render/scene/geometry_pass.h"

@@ -30,11 +30,4 @@ bool meters(const FrameInput& input, const RenderSettings& settings) {
   return input.meter || !input.exposure_ev || settings.debug_view == DebugView::kExposure;
 }
 
-bool by_radiance(const FrameInput& input, const RenderSettings& settings,
-                 const FrameFeatures& features) {
-  return features.has(Feature::kLights) || features.has(Feature::kClouds) ||
-         settings.bloom.intensity > 0.0f || meters(input, settings) || input.capture ||
-         input.fault.has_value() || samples_per_edge(settings) > 1 || input.parts > 1;
-}
-
 }  // namespace skerry::render

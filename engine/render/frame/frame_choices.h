@@ -1,5 +1,4 @@
 #pragma once
-#include "engine/render/frame/features.h"
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/settings.h"
 
@@ -16,8 +15,5 @@ VkExtent2D picture_size(VkExtent2D shown, const RenderSettings& settings);
 float shadow_blur(const FrameInput& input, const RenderSettings& settings);
 /// Whether the frame's radiance is metered.
 bool meters(const FrameInput& input, const RenderSettings& settings);
-/// Whether the picture takes the way over a radiance image though no pass comes between.
-bool by_radiance(const FrameInput& input, const RenderSettings& settings,
-                 const FrameFeatures& features);
 
 }  // namespace skerry::render

@@ -1,7 +1,7 @@
 #pragma once
 #include <functional>
 
-#include "engine/render/renderer/frame_plan.h"
+#include "engine/render/plan/frame_plan.h"
 
 namespace skerry::render {
 

@@ -8,7 +8,7 @@
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/frame/settings.h"
-#include "engine/render/renderer/frame_tables.h"
+#include "engine/render/plan/frame_tables.h"
 #include "shaders/shared/sky.h"
 
 namespace skerry::render {

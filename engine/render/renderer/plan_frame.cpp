@@ -1,5 +1,6 @@
 #include "engine/render/renderer/plan_frame.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
@@ -7,8 +8,8 @@
 #include "engine/core/check.h"
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/light/shadow_pass.h"
+#include "engine/render/plan/in_view.h"
 #include "engine/render/renderer/frame_steps.h"
-#include "engine/render/renderer/in_view.h"
 #include "engine/render/sky/sky_irradiance.h"
 #include "engine/render/sky/sky_model.h"
 #include "engine/render/surface/marker_pass.h"
@@ -98,18 +99,20 @@ void explain_contents(FramePlan& plan) {
 }  // namespace
 
 void choose_steps(FramePlan& plan) {
-  plan.direct = !plan.shows_channel() && !plan.sampled() &&
-                !(plan.geometry && plan.contents.features.has(Feature::kWater)) &&
-                !by_radiance(plan.input, plan.settings, plan.contents.features);
   const std::span<const FrameStep> all = frame_steps();
+  plan.direct = !plan.shows_channel() && std::ranges::none_of(all, [&](const FrameStep& step) {
+    return step.by_radiance && step.by_radiance(plan);
+  });
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const char* why = all[i].why_not(plan);
-    if (!why) {
-      plan.steps.push_back(i);
-      continue;
+    bool needed = false;
+    for (const StepPasses& passes : all[i].passes) {
+      const char* why = passes.why_not(plan);
+      needed |= !why;
+      if (!why) continue;
+      for (const std::string_view name : passes.names)
+        plan.left_out.push_back({std::string(name), why});
     }
-    for (const std::string_view pass : all[i].passes)
-      plan.left_out.push_back({std::string(pass), why});
+    if (needed) plan.steps.push_back(i);
   }
 }
 

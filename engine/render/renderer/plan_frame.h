@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/render/renderer/frame_plan.h"
+#include "engine/render/plan/frame_plan.h"
 
 namespace skerry::render {
 

@@ -4,7 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 
-#include "engine/render/renderer/frame_tables.h"
+#include "engine/render/plan/frame_tables.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/light.h"
 #include "tests/render/occupancy_on_gpu.h"

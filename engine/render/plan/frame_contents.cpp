@@ -1,9 +1,9 @@
-#include "engine/render/renderer/frame_contents.h"
+#include "engine/render/plan/frame_contents.h"
 
 #include <algorithm>
 
 #include "engine/render/light/light_clusters.h"
-#include "engine/render/renderer/in_view.h"
+#include "engine/render/plan/in_view.h"
 
 namespace skerry::render {
 namespace {

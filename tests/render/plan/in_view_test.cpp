@@ -1,4 +1,4 @@
-#include "engine/render/renderer/in_view.h"
+#include "engine/render/plan/in_view.h"
 
 #include <gtest/gtest.h>
 

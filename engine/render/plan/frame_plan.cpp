@@ -1,4 +1,4 @@
-#include "engine/render/renderer/frame_plan.h"
+#include "engine/render/plan/frame_plan.h"
 
 #include "engine/render/frame/frame_choices.h"
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/render/renderer/frame_tables.h"
-#include "engine/render/renderer/scene_facts.h"
+#include "engine/render/plan/frame_tables.h"
+#include "engine/render/plan/scene_facts.h"
 
 namespace skerry::render {
 

@@ -1,4 +1,4 @@
-#include "engine/render/renderer/frame_tables.h"
+#include "engine/render/plan/frame_tables.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "engine/render/frame/features.h"
-#include "engine/render/renderer/frame_tables.h"
-#include "engine/render/renderer/scene_facts.h"
+#include "engine/render/plan/frame_tables.h"
+#include "engine/render/plan/scene_facts.h"
 #include "shaders/shared/sky.h"
 
 namespace skerry::render {

@@ -1,0 +1,47 @@
+#include "engine/render/steps/reasons.h"
+
+namespace skerry::render {
+namespace {
+
+constexpr const char* kNoGeometry = "no geometry is resident";
+constexpr const char* kDebugView = "a debug view is shown";
+
+}  // namespace
+
+const char* needs(bool wanted) {
+  return wanted ? nullptr : "";
+}
+
+const char* needs_geometry(const FramePlan& plan) {
+  return plan.geometry ? nullptr : kNoGeometry;
+}
+
+const char* needs_lit_scene(const FramePlan& plan) {
+  return plan.shows_channel() ? kDebugView : nullptr;
+}
+
+const char* needs_lit_surfaces(const FramePlan& plan) {
+  const char* why = needs_geometry(plan);
+  return why ? why : needs_lit_scene(plan);
+}
+
+const char* needs_water(const FramePlan& plan) {
+  const char* why = needs_lit_surfaces(plan);
+  return why ? why : plan.contents.features.why_not(Feature::kWater);
+}
+
+const char* needs_clouds(const FramePlan& plan) {
+  return needs(plan.clouds && !plan.shows_channel());
+}
+
+const char* needs_last_part(const FramePlan& plan) {
+  return plan.last_part() ? nullptr : "the picture has parts to come";
+}
+
+const char* needs_whole_radiance(const FramePlan& plan) {
+  if (const char* why = needs_lit_scene(plan)) return why;
+  if (plan.direct) return "nothing comes between shading and picture";
+  return needs_last_part(plan);
+}
+
+}  // namespace skerry::render

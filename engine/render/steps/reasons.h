@@ -1,0 +1,21 @@
+// Why passes are left out, for steps that share a reason.
+#pragma once
+#include "engine/render/plan/frame_plan.h"
+
+namespace skerry::render {
+
+/// Null if passes are wanted; else the reason of passes without names.
+const char* needs(bool wanted);
+const char* needs_geometry(const FramePlan& plan);
+/// No debug view.
+const char* needs_lit_scene(const FramePlan& plan);
+/// Both.
+const char* needs_lit_surfaces(const FramePlan& plan);
+const char* needs_water(const FramePlan& plan);
+const char* needs_clouds(const FramePlan& plan);
+/// Radiance of the whole picture: what works on it waits for the last part.
+const char* needs_whole_radiance(const FramePlan& plan);
+/// As soon as the last part is drawn.
+const char* needs_last_part(const FramePlan& plan);
+
+}  // namespace skerry::render
