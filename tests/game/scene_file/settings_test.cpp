@@ -158,11 +158,16 @@ TEST(Settings, TheDefaultsAreQualityMedium) {
 TEST(Settings, TheDocumentListsExactlyTheKeys) {
   std::ifstream file(SKERRY_SOURCE_DIR "/docs/settings.md");
   ASSERT_TRUE(file);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
   std::vector<std::string> documented;
-  const std::regex row("\\n\\| `([a-z_.]+)` \\| ([^|]*) \\|");
-  for (std::sregex_iterator it(text.begin(), text.end(), row), end; it != end; ++it) {
-    documented.push_back((*it)[1].str() + ": " + (*it)[2].str());
+  // Rows without a key go on with the row before them.
+  const std::regex row("\\| `([a-z_.]+)` \\| ([^|]*) \\|.*"),
+      more("\\| \\| (?:([^|]+) )?\\| [^|]*\\| \\|");
+  std::smatch part;
+  for (std::string line; std::getline(file, line);) {
+    if (std::regex_match(line, part, row))
+      documented.push_back(part[1].str() + ": " + part[2].str());
+    else if (std::regex_match(line, part, more) && part[1].matched)
+      documented.back().append(1, ' ').append(part[1].str());
   }
   std::vector<std::string> keys;
   for (const SettingKey& key : setting_keys())
