@@ -179,6 +179,35 @@ def check_changes(work, scenes):
     check("is not what was planned" in done.stderr, done)
 
 
+def check_devices(work):
+    """All devices of this machine, which may be one, give the rows that one gives."""
+    folder = copy_plan(work.whole, work.folder / "all_devices")
+    work.run(work.command, "run", "--devices", "all", "--dir", folder)
+    expected = rows_of(work.whole)
+    rows = rows_of(folder)
+    check(rows.keys() == expected.keys(), "--devices all left tasks out")
+    for task, row in rows.items():
+        for key in ("device", "driver", "result"):
+            check(row[key] == expected[task][key], f"{row} is not {expected[task]}")
+    work.run(work.command, "run", "--devices", "two", "--dir", folder, status=2)
+
+
+def check_references(work, arguments):
+    """References are computed once for all that share their folder."""
+    def references():
+        return {file.name: file.stat().st_mtime_ns
+                for file in (work.whole / "references").iterdir()}
+    before = references()
+    check(before and all(name.endswith(".reference") for name in before), before)
+    work.run("report", *arguments, "--references", work.whole / "references", "--out",
+             work.folder / "by_kept_references")
+    shared = copy_plan(work.whole, work.folder / "shared")
+    work.run("report", "run", "--references", work.whole / "references", "--dir", shared)
+    check(references() == before, f"references were made again: {references()} after {before}")
+    for task, row in rows_of(shared).items():
+        check(row["result"] == rows_of(work.whole)[task]["result"], f"{row} by a kept reference")
+
+
 def check_many(work):
     """A merge of many rows takes seconds."""
     folder = work.folder / "many"
@@ -216,6 +245,7 @@ def main(program, folder, kills="6"):
     work.check_faults()
     check_kills(work, int(kills))
     check_changes(work, scenes)
+    check_devices(work)
     check_many(work)
 
     cases = ["projection.near_and_far", "media.slab", "exposure.steps", "time.islands"]
@@ -228,11 +258,13 @@ def main(program, folder, kills="6"):
           "stability at once and in parts differ")
 
     (folder / "report").mkdir()
-    work = Work(run, folder / "report", "report",
-                ["water_layers", "lights_oracle", "--size", "24x16", "--set",
-                 "reference.samples=1"], {"--out": "page"})
+    arguments = ["water_layers", "lights_oracle", "--size", "24x16", "--set",
+                 "reference.samples=1"]
+    work = Work(run, folder / "report", "report", arguments, {"--out": "page"})
     work.check_splits()
     work.check_faults()
+    check_devices(work)
+    check_references(work, arguments)
 
 
 if __name__ == "__main__":

@@ -85,7 +85,7 @@ TEST_F(TasksOfATest, DependOnHowTheyAreDrawnButNotWhereOrBySoMany) {
   expect_changed("--repeat", true, true);
   options_.validate = true;
   expect_changed("--validate", true, true);
-  options_.device = 1;
+  options_.devices = {1, 2};
   options_.processes = 3;
   options_.judge.html = folder_ / "page";
   expect_changed("device, processes and pages", false, false);

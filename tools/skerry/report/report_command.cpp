@@ -66,6 +66,14 @@ ReportCommand::ReportCommand(CLI::App& app)
   for (CLI::App* command : {report_, &verbs_->plan()}) add_options(*command);
   for (CLI::App* command : {report_, &verbs_->merge()})
     command->add_option("--out", out_, "Folder for the report")->type_name("DIR");
+  for (CLI::App* command : {report_, &verbs_->run()})
+    command
+        ->add_option("--references", references_,
+                     "Folder that keeps references for other runs (run: in the plan's folder)")
+        ->type_name("DIR");
+  verbs_->run()
+      .add_option("--devices", devices_, "All devices of the best one's kind at once")
+      ->type_name("all");
 }
 
 /// What decides the rows.
@@ -136,6 +144,7 @@ int ReportCommand::run_here(std::span<const std::string> typed) {
   if (!device) return fail(kNoDevice, device.error());
   const Plan plan{
       "report", {typed.begin() + 1, typed.end()}, date_now(), names_of(tasks), tasks.left_out};
+  request.references = references_;
   ReportSession session(**device, request);
   Collected rows;
   const Result<void> done =
@@ -159,6 +168,21 @@ int ReportCommand::write_plan(std::span<const std::string> typed) {
   return kDone;
 }
 
+/// Runs tasks in this process, on one device, as long as there are any.
+int ReportCommand::run_on(const ReportRequest& request, std::span<const ReportTask> tasks,
+                          const NextTask& next) const {
+  Result<std::unique_ptr<gpu::Device>> device = open_device(request.scene);
+  if (!device) return fail(kNoDevice, device.error());
+  ReportSession session(**device, request);
+  while (const std::optional<std::size_t> task = next()) {
+    const Result<void> done =
+        run_tasks(session, tasks.subspan(*task, 1), pictures_dir(verbs_->dir()),
+                  [&](const Record& record) { return write_record(verbs_->dir(), record); });
+    if (!done) return fail(kFailed, done.error());
+  }
+  return status_after(**device);
+}
+
 int ReportCommand::run_planned() {
   Plan plan;
   if (const auto refusal = verbs_->read(plan)) return refuse(*refusal);
@@ -167,6 +191,10 @@ int ReportCommand::run_planned() {
   if (const Result<void> parsed = parse_again(app, plan); !parsed)
     return fail(kFailed, parsed.error());
   if (verbs_->device()) planned.scene_.device = verbs_->device();
+  std::vector<std::uint32_t> devices;
+  if (devices_)
+    if (const auto refusal = parse_devices(devices_, planned.scene_.device, devices))
+      return refuse(*refusal);
   ReportRequest request;
   ReportTasks tasks;
   if (const auto refusal = planned.read(request, tasks)) return refuse(*refusal);
@@ -175,19 +203,24 @@ int ReportCommand::run_planned() {
   std::vector<std::size_t> chosen;
   if (const auto refusal = verbs_->to_run(plan, chosen)) return refuse(*refusal);
   if (chosen.empty()) return kDone;
-  const std::filesystem::path pictures = pictures_dir(verbs_->dir());
-  if (const Result<void> made = platform::make_dirs(pictures); !made)
+  if (const Result<void> made = platform::make_dirs(pictures_dir(verbs_->dir())); !made)
     return fail(kFailed, made.error());
-  Result<std::unique_ptr<gpu::Device>> device = open_device(request.scene);
-  if (!device) return fail(kNoDevice, device.error());
-  ReportSession session(**device, request);
+  request.references =
+      references_ ? std::filesystem::path(*references_) : verbs_->dir() / "references";
   std::vector<ReportTask> wanted;
   for (const std::size_t i : chosen) wanted.push_back(tasks.tasks[i]);
-  const Result<void> done = run_tasks(session, wanted, pictures, [&](const Record& record) {
-    return write_record(verbs_->dir(), record);
+  if (devices.size() < 2) {
+    if (!devices.empty()) request.scene.device = devices.front();
+    std::size_t next = 0;
+    return run_on(request, wanted, [&]() -> std::optional<std::size_t> {
+      if (next == wanted.size()) return std::nullopt;
+      return next++;
+    });
+  }
+  return run_on_devices(devices, wanted.size(), [&](std::uint32_t device, const NextTask& next) {
+    request.scene.device = device;
+    return run_on(request, wanted, next);
   });
-  if (!done) return fail(kFailed, done.error());
-  return status_after(**device);
 }
 
 int ReportCommand::merge() {

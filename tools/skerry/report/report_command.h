@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/skerry/farm/devices.h"
 #include "tools/skerry/farm/verbs.h"
 #include "tools/skerry/report/report_tasks.h"
 #include "tools/skerry/scene/arguments.h"
@@ -33,12 +34,14 @@ class ReportCommand {
   int run_here(std::span<const std::string> typed);
   int write_plan(std::span<const std::string> typed);
   int run_planned();
+  int run_on(const ReportRequest& request, std::span<const ReportTask> tasks,
+             const NextTask& next) const;
   int merge();
 
   CLI::App* report_;
   std::unique_ptr<Verbs> verbs_;
   std::vector<std::string> topics_;
-  std::optional<std::string> out_;
+  std::optional<std::string> out_, references_, devices_;
   SceneArguments scene_;
 };
 

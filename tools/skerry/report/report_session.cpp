@@ -62,8 +62,7 @@ Result<const Judged*> ReportSession::reference(const game::SceneOptions& scene,
                                                const std::function<void(double)>& progress) {
   std::unique_ptr<Judged>& kept = references_[game::shot_command(scene)];
   if (kept) return kept.get();
-  Result<reference::ReferencePicture> made =
-      reference::render_reference(scene, reference::settings_from(scene), progress);
+  Result<KeptReference> made = radiance_of(scene, progress);
   if (!made) return made.error();
   kept = std::make_unique<Judged>();
   kept->shown = {
@@ -72,8 +71,21 @@ Result<const Judged*> ReportSession::reference(const game::SceneOptions& scene,
   kept->ev = made->ev;
   kept->radiance = std::move(made->radiance);
   kept->mean_standard_error = made->mean_error.value_or(0.0);
-  kept->seconds = made->seconds;
   return kept.get();
+}
+
+Result<KeptReference> ReportSession::radiance_of(
+    const game::SceneOptions& scene, const std::function<void(double)>& progress) const {
+  const auto render = [&]() -> Result<KeptReference> {
+    Result<reference::ReferencePicture> made =
+        reference::render_reference(scene, reference::settings_from(scene), progress);
+    if (!made) return made.error();
+    return KeptReference{std::move(made->radiance), made->ev, made->mean_error, made->seconds};
+  };
+  if (!request_.references) return render();
+  const Result<std::string> id = reference_id(scene);
+  if (!id) return id.error();
+  return ReferenceStore(*request_.references).get(*id, render);
 }
 
 Result<void> apply_point(std::string_view settings, game::Settings& into) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "game/scene_file/options.h"
 #include "tools/measure/image.h"
 #include "tools/measure/picture.h"
+#include "tools/skerry/report/reference_store.h"
 #include "tools/skerry/report/topics.h"
 
 namespace skerry::tools {
@@ -24,6 +26,7 @@ struct ReportRequest {
   game::SceneOptions scene;  ///< as they resolve
   bool own_scene = false;    ///< judge every topic in `scene` instead of the topic's own
   bool own_size = false;     ///< a size was given
+  std::optional<std::filesystem::path> references;  ///< folder that keeps references
 };
 
 /// Names of the scenes a topic is judged in.
@@ -41,10 +44,10 @@ struct Judged {
   measure::Image shown;
   double ev = 0.0;                   ///< that it is shown at [stops]
   double mean_standard_error = 0.0;  ///< of radiance; 0 when unknown
-  double seconds = 0.0;
 };
 
-/// What the tasks of a run share: the device, and the references, each made once.
+/// What the tasks of a run share: the device, and the references, each made once, or taken from the
+/// request's folder.
 class ReportSession {
  public:
   ReportSession(gpu::Device& device, const ReportRequest& request);
@@ -53,11 +56,14 @@ class ReportSession {
   const ReportRequest& request() const { return request_; }
   /// A scene by such a name, with the size and the settings of this run on this device.
   Result<game::SceneOptions> scene(const std::string& name) const;
-  /// @param progress receives 0..1. Errors: those of reference::render_reference.
+  /// @param progress receives 0..1. Errors: those of reference::render_reference and reference_id.
   Result<const Judged*> reference(const game::SceneOptions& scene,
                                   const std::function<void(double)>& progress);
 
  private:
+  Result<KeptReference> radiance_of(const game::SceneOptions& scene,
+                                    const std::function<void(double)>& progress) const;
+
   gpu::Device& device_;
   const ReportRequest& request_;
   std::map<std::string, std::unique_ptr<Judged>> references_;  // by the command that draws it

@@ -29,7 +29,8 @@ struct Worker {
   int results = -1;  ///< lines come from here
   std::string unread;
   bool greeted = false;
-  std::optional<std::size_t> scene;  ///< it draws now
+  std::optional<std::uint32_t> device;  ///< none: the best
+  std::optional<std::size_t> scene;     ///< it draws now
 };
 
 /// "signal 11", "status 3".
@@ -41,14 +42,18 @@ std::string end_of(int status) {
 class Pool {
  public:
   Pool(std::span<const TestScene> scenes, const PoolOptions& options,
-       const std::function<void(std::size_t, const Outcome&)>& done)
+       const std::function<void(std::size_t, const Outcome&)>& done, const Serve& serve)
       : scenes_(scenes),
         options_(options),
         done_(done),
+        serve_(serve),
         cores_(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
         left_(scenes.size() * static_cast<std::size_t>(options.runs)) {
-    const auto most = static_cast<int>(std::min<std::size_t>(left_, 1024));
-    planned_ = std::min(options.processes.value_or(cores_), most);
+    devices_.assign(options.devices.begin(), options.devices.end());
+    if (devices_.empty()) devices_.push_back(std::nullopt);
+    const auto devices = static_cast<int>(devices_.size());
+    const int wanted = options.processes ? *options.processes * devices : std::max(cores_, devices);
+    planned_ = std::min(wanted, static_cast<int>(std::min<std::size_t>(left_, 1024)));
   }
   ~Pool() {
     for (Worker& worker : workers_) {
@@ -58,14 +63,14 @@ class Pool {
   }
 
   PoolResult run() {
-    start_worker();
+    start_worker(devices_.front());
     while (!workers_.empty() && !result_.refusal) wait_for_lines();
     return result_;
   }
 
  private:
-  void start_worker();
-  [[noreturn]] void become_worker(int jobs, int results);
+  void start_worker(std::optional<std::uint32_t> device);
+  [[noreturn]] void become_worker(int jobs, int results, std::optional<std::uint32_t> device);
   void wait_for_lines();
   bool take_in(Worker& worker);
   void take_line(Worker& worker, const std::string& line);
@@ -77,8 +82,10 @@ class Pool {
   std::span<const TestScene> scenes_;
   const PoolOptions& options_;
   const std::function<void(std::size_t, const Outcome&)>& done_;
+  const Serve& serve_;
+  std::vector<std::optional<std::uint32_t>> devices_;
   int cores_;
-  int planned_ = 1;   // processes, if the device is a CPU
+  int planned_ = 1;   // processes, if devices are CPUs
   std::size_t left_;  // jobs not given out yet
   std::size_t next_ = 0;
   bool met_ = false;  // a worker has said that there is a device
@@ -86,7 +93,7 @@ class Pool {
   PoolResult result_;
 };
 
-void Pool::start_worker() {
+void Pool::start_worker(std::optional<std::uint32_t> device) {
   int jobs[2], results[2];
   const bool piped = ::pipe(jobs) == 0 && ::pipe(results) == 0;
   std::fflush(nullptr);  // or the child would write it again
@@ -101,7 +108,7 @@ void Pool::start_worker() {
   if (process == 0) {
     ::close(jobs[1]);
     ::close(results[0]);
-    become_worker(jobs[0], results[1]);
+    become_worker(jobs[0], results[1], device);
   }
   ::close(jobs[0]);
   ::close(results[1]);
@@ -109,17 +116,18 @@ void Pool::start_worker() {
   worker.process = process;
   worker.jobs = jobs[1];
   worker.results = results[0];
+  worker.device = device;
   workers_.push_back(std::move(worker));
 }
 
-void Pool::become_worker(int jobs, int results) {
+void Pool::become_worker(int jobs, int results, std::optional<std::uint32_t> device) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // A sibling sees the end of its jobs only when no other process holds its pipe.
   for (const Worker& sibling : workers_) {
     ::close(sibling.jobs);
     ::close(sibling.results);
   }
-  serve(jobs, results, scenes_, options_, std::max(1, cores_ / planned_));
+  serve_(jobs, results, {device, std::max(1, cores_ / planned_)});
   std::fflush(nullptr);
   ::_exit(0);
 }
@@ -173,8 +181,10 @@ void Pool::greet(const Greeting& greeting) {
     return;
   }
   if (std::exchange(met_, true)) return;
-  const int wanted = greeting.on_cpu || options_.processes ? planned_ : 1;
-  for (int i = 1; i < wanted && !result_.refusal; ++i) start_worker();
+  const auto devices = static_cast<int>(devices_.size());
+  const int wanted = greeting.on_cpu || options_.processes ? planned_ : std::min(planned_, devices);
+  for (int i = 1; i < wanted && !result_.refusal; ++i)
+    start_worker(devices_[static_cast<std::size_t>(i % devices)]);
 }
 
 void Pool::give_job(Worker& worker) {
@@ -201,8 +211,10 @@ void Pool::lose(Worker& worker) {
   }
   if (!worker.scene) return;
   const std::string why = fmt::format("drawing it ended the process by {}", end_of(status));
-  done_(*worker.scene, {failed_row(scenes_[*worker.scene], why), {}, false});
-  if (left_ > 0) start_worker();
+  Outcome outcome{failed_row(scenes_[*worker.scene], why), {}, false};
+  outcome.row.device = worker.device;
+  done_(*worker.scene, outcome);
+  if (left_ > 0) start_worker(worker.device);
 }
 
 int Pool::end(Worker& worker) {
@@ -218,9 +230,17 @@ int Pool::end(Worker& worker) {
 
 PoolResult run_pool(std::span<const TestScene> scenes, const PoolOptions& options,
                     const std::function<void(std::size_t scene, const Outcome&)>& done) {
+  return run_pool(scenes, options, done, [&](int jobs, int results, const Seat& seat) {
+    serve(jobs, results, scenes, options, seat);
+  });
+}
+
+PoolResult run_pool(std::span<const TestScene> scenes, const PoolOptions& options,
+                    const std::function<void(std::size_t scene, const Outcome&)>& done,
+                    const Serve& serve) {
   // Writing to a worker that has died must not end this process.
   const auto before = std::signal(SIGPIPE, SIG_IGN);
-  PoolResult result = Pool(scenes, options, done).run();
+  PoolResult result = Pool(scenes, options, done, serve).run();
   std::signal(SIGPIPE, before);
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "tools/skerry/test/judge.h"
 
@@ -8,9 +9,9 @@ namespace skerry::tools {
 
 /// How scenes are drawn and judged, in every process alike.
 struct PoolOptions {
-  std::optional<std::uint32_t> device;
+  std::vector<std::uint32_t> devices;  ///< each has processes of its own; empty: the best one
   bool validate = false;
-  std::optional<int> processes;  ///< none: one a core on a CPU device, else one
+  std::optional<int> processes;  ///< a device; none: one a core on CPU devices, else one
   int runs = 1;                  ///< every scene is drawn afresh so many times
   JudgeOptions judge;
 };

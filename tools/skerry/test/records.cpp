@@ -65,14 +65,22 @@ Result<std::vector<Task>> tasks_of(std::span<const TestScene> scenes, const Pool
 }
 
 Record record_of(const Row& row, const std::string& task) {
-  Record record{task, row.driver, {}, row_json(row), {{"seconds", row.seconds}}};
-  record.result.erase("seconds");
+  Record record{task, row.driver, {}, row_json(row), {}};
+  // Where and how fast it was drawn is no result.
+  for (const char* key : {"seconds", "device"}) {
+    record.measured[key] = record.result[key];
+    record.result.erase(key);
+  }
   return record;
 }
 
 Result<Row> row_of(const Record& record) {
   nlohmann::json row = record.result;
-  if (row.is_object()) row["seconds"] = measured_number(record, "seconds");
+  if (row.is_object()) {
+    row["seconds"] = measured_number(record, "seconds");
+    row["device"] = record.measured.is_object() ? record.measured.value("device", nlohmann::json())
+                                                : nlohmann::json();
+  }
   return row_from_json(row);
 }
 

@@ -59,6 +59,7 @@ Row row_or_throw(const json& from) {
   row.seconds = from.at("seconds").get<double>();
   row.message = from.at("message").get<std::string>();
   row.driver = from.at("driver").get<std::string>();
+  if (!from.at("device").is_null()) row.device = from.at("device").get<std::uint32_t>();
   row.command = from.at("command").get<std::string>();
   row.runs = from.at("runs").get<int>();
   row.failed_runs = from.at("failed_runs").get<int>();
@@ -138,6 +139,7 @@ ordered_json row_json(const Row& row) {
   out["seconds"] = row.seconds;
   out["message"] = row.message;
   out["driver"] = row.driver;
+  out["device"] = row.device ? ordered_json(*row.device) : ordered_json(nullptr);
   out["command"] = row.command;
   out["runs"] = row.runs;
   out["failed_runs"] = row.failed_runs;

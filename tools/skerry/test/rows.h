@@ -28,8 +28,9 @@ struct Row {
   std::optional<bool> hash_equal;   ///< none: no hash is approved for the driver, or no picture
   std::optional<Difference> found;  ///< none: there was nothing to compare
   double seconds = 0.0;
-  std::string driver;   ///< key of approved hashes
-  std::string command;  ///< draws the picture again
+  std::string driver;                   ///< key of approved hashes
+  std::optional<std::uint32_t> device;  ///< that drew it, as `skerry devices` counts; none: unknown
+  std::string command;                  ///< draws the picture again
   int runs = 1, failed_runs = 0;
   int pictures = 0;  ///< distinct ones over all runs
 

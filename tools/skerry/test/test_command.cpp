@@ -122,8 +122,10 @@ void TestCommand::add_output_options(CLI::App& command) {
 void TestCommand::add_jobs(CLI::App& command) {
   command
       .add_option("--jobs", jobs_text_,
-                  "Processes that draw (default: one a core on a CPU device, else one)")
+                  "Processes that draw, a device (default: one a core on a CPU, else one)")
       ->type_name("N");
+  command.add_option("--devices", devices_text_, "All devices of the best one's kind at once")
+      ->type_name("all");
 }
 
 int TestCommand::run(std::span<const std::string> typed) {
@@ -144,8 +146,8 @@ std::optional<Refusal> TestCommand::check_typed() {
     return Refusal{merge_ ? kUsage : kFailed,
                    {"there is nothing to test: give scene files or folders of them"}};
   }
-  const bool draws =
-      approve_ || shard_text_ || device_text_ || jobs_text_ || repeat_text_ || validate_;
+  const bool draws = approve_ || shard_text_ || device_text_ || devices_text_ || jobs_text_ ||
+                     repeat_text_ || validate_;
   if ((merge_ || compare_) && draws) {
     return usage({fmt::format("{} draws nothing: leave out the options that say how to draw",
                               merge_ ? "--merge" : "--compare")});
@@ -162,7 +164,8 @@ std::optional<Refusal> TestCommand::check_typed() {
   }
   if (const auto refusal = read_count(jobs_text_, "--jobs", 1024, pool_.processes)) return refusal;
   if (const auto refusal = read_count(repeat_text_, "--repeat", 100000, pool_.runs)) return refusal;
-  if (const auto refusal = parse_device(device_text_, pool_.device)) return refusal;
+  if (const auto refusal = parse_devices(devices_text_, device_text_, pool_.devices))
+    return refusal;
   if (approve_ && pool_.runs > 1) return usage({"--approve needs one run: leave out --repeat"});
   pool_.validate = validate_;
   pool_.judge.approve = approve_;
@@ -410,6 +413,7 @@ std::optional<Refusal> TestCommand::read_planned(const Plan& plan, std::vector<T
   if (Result<void> parsed = parse_again(app, plan); !parsed)
     return Refusal{kFailed, parsed.error()};
   planned.device_text_ = verbs_->device();
+  planned.devices_text_ = devices_text_;
   planned.jobs_text_ = jobs_text_;
   if (auto refusal = planned.check_typed()) return refusal;
   std::size_t in_set = 0;

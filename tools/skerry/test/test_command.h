@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/skerry/farm/devices.h"
 #include "tools/skerry/farm/verbs.h"
 #include "tools/skerry/report/report_folder.h"
 #include "tools/skerry/scene/arguments.h"
@@ -52,8 +53,8 @@ class TestCommand {
   CLI::App* test_;
   std::unique_ptr<Verbs> verbs_;
   std::vector<std::string> paths_;
-  std::optional<std::string> shard_text_, html_, json_, junit_, device_text_, jobs_text_,
-      repeat_text_, tolerance_text_;
+  std::optional<std::string> shard_text_, html_, json_, junit_, device_text_, devices_text_,
+      jobs_text_, repeat_text_, tolerance_text_;
   bool approve_ = false, merge_ = false, compare_ = false, validate_ = false;
   Shard shard_;
   PoolOptions pool_;

@@ -34,6 +34,7 @@ class Artist {
     const Stopwatch watch;
     Outcome outcome = outcome_of_scene(scene);
     outcome.row.driver = driver_;
+    outcome.row.device = device_.info().index;
     outcome.row.seconds = watch.seconds();
     return outcome;
   }
@@ -81,12 +82,12 @@ class Lines {
 }  // namespace
 
 void serve(int jobs, int results, std::span<const TestScene> scenes, const PoolOptions& options,
-           int threads) {
+           const Seat& seat) {
   Lines out(results);
   // Mesa's CPU driver asks this; what the user has set stays.
-  ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+  ::setenv("LP_NUM_THREADS", std::to_string(seat.threads).c_str(), 0);
   game::SceneOptions wanted;
-  wanted.device = options.device;
+  wanted.device = seat.device;
   wanted.validate = options.validate;
   Result<std::unique_ptr<gpu::Device>> device = open_device(wanted);
   if (!device) {
@@ -95,7 +96,7 @@ void serve(int jobs, int results, std::span<const TestScene> scenes, const PoolO
   }
   const bool on_cpu = (*device)->info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
   out.write(line_of(Greeting{{}, on_cpu}));
-  Artist artist(**device, options.judge, on_cpu ? threads : 0);
+  Artist artist(**device, options.judge, on_cpu ? seat.threads : 0);
   std::FILE* in = ::fdopen(jobs, "r");
   SKERRY_ASSERT(in);
   for (unsigned long index = 0; std::fscanf(in, "%lu", &index) == 1;) {

@@ -15,11 +15,16 @@ struct Farewell {
   int validation_messages = 0;
 };
 
+/// What a drawing process may use.
+struct Seat {
+  std::optional<std::uint32_t> device;  ///< none: the best
+  int threads = 1;                      ///< of the processor, when the device is the CPU
+};
+
 /// The body of a drawing process: reads indices of scenes from `jobs`, a line each, until that
 /// ends, and writes lines of JSON to `results`: a greeting, an outcome a job, a farewell.
-/// @param threads the processor's threads this process may use when the device is the CPU.
 void serve(int jobs, int results, std::span<const TestScene> scenes, const PoolOptions& options,
-           int threads);
+           const Seat& seat);
 
 /// Each a line of JSON and back. @pre of the second: the line came from the first.
 std::string line_of(const Greeting& greeting);

@@ -1,0 +1,132 @@
+#include "tools/skerry/test/pool.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "tests/folder.h"
+
+namespace skerry::tools {
+namespace {
+
+/// Devices that draw nothing: each tells when two processes use it at once.
+class FakeDevices {
+ public:
+  explicit FakeDevices(bool cpus) : cpus_(cpus) {}
+
+  /// @param killer index of a scene that ends the process, the first time it is drawn.
+  Serve serve(std::optional<std::size_t> killer = {}) const {
+    return [this, killer](int jobs, int results, const Seat& seat) {
+      const std::string name = std::to_string(seat.device.value_or(99));
+      const int lock = ::open((folder_ / name).c_str(), O_RDWR | O_CREAT, 0600);
+      const bool alone = cpus_ || ::flock(lock, LOCK_EX | LOCK_NB) == 0;
+      std::FILE* out = ::fdopen(results, "w");
+      const auto say = [&](const std::string& line) {
+        std::fputs(line.c_str(), out);
+        std::fflush(out);
+      };
+      say(line_of(Greeting{{}, cpus_}));
+      std::FILE* in = ::fdopen(jobs, "r");
+      for (unsigned long scene = 0; std::fscanf(in, "%lu", &scene) == 1;) {
+        if (scene == killer) ::kill(::getpid(), SIGKILL);
+        ::usleep(2000);
+        Outcome outcome;
+        outcome.row.scene = std::to_string(scene);
+        outcome.row.verdict = alone ? Verdict::kPass : Verdict::kFail;
+        outcome.row.device = seat.device;
+        outcome.row.message = std::to_string(::getpid()) + " " + std::to_string(seat.threads);
+        say(line_of(outcome));
+      }
+      say(line_of(Farewell{1}));
+    };
+  }
+
+ private:
+  bool cpus_;
+  Folder folder_;
+};
+
+struct Ran {
+  std::map<std::size_t, int> times;                                         // by scene
+  std::map<std::optional<std::uint32_t>, std::set<std::string>> processes;  // by device
+  int failures = 0;
+  PoolResult result;
+};
+
+Ran run(const Serve& serve, const PoolOptions& options, std::size_t count) {
+  std::vector<TestScene> scenes(count);
+  Ran ran;
+  ran.result = run_pool(
+      scenes, options,
+      [&](std::size_t scene, const Outcome& outcome) {
+        ++ran.times[scene];
+        if (outcome.row.failed()) ++ran.failures;
+        ran.processes[outcome.row.device].insert(outcome.row.message);
+      },
+      serve);
+  EXPECT_FALSE(ran.result.refusal);
+  EXPECT_EQ(ran.times.size(), count);
+  for (const auto& [scene, times] : ran.times) EXPECT_EQ(times, options.runs) << scene;
+  return ran;
+}
+
+TEST(Pool, GivesEachDeviceOneTaskAtATime) {
+  const FakeDevices gpus(false);
+  PoolOptions options;
+  options.devices = {0, 2, 3, 7};
+  const Ran ran = run(gpus.serve(), options, 60);
+  EXPECT_EQ(ran.failures, 0) << "two processes used one device";
+  ASSERT_EQ(ran.processes.size(), 4u);
+  for (const std::uint32_t device : options.devices)
+    EXPECT_EQ(ran.processes.at(device).size(), 1u) << device;
+  EXPECT_EQ(ran.result.validation_messages, 4) << "each says farewell";
+}
+
+TEST(Pool, OpensNoMoreDevicesThanThereAreScenes) {
+  const FakeDevices gpus(false);
+  PoolOptions options;
+  options.devices = {0, 1, 2, 3};
+  const Ran ran = run(gpus.serve(), options, 2);
+  EXPECT_EQ(ran.result.validation_messages, 2);
+  EXPECT_EQ(ran.failures, 0);
+}
+
+TEST(Pool, ReplacesAProcessThatDiesOnItsOwnDevice) {
+  const FakeDevices gpus(false);
+  PoolOptions options;
+  options.devices = {4, 5};
+  for (const std::size_t killer : {0u, 1u, 9u, 39u}) {
+    const Ran ran = run(gpus.serve(killer), options, 40);
+    EXPECT_EQ(ran.failures, 1) << "one died, and no two used one device";
+    for (const auto& [device, processes] : ran.processes)
+      EXPECT_TRUE(device == 4u || device == 5u) << "a failure says on which device, too";
+  }
+}
+
+TEST(Pool, WithoutDevicesUsesTheBest) {
+  const FakeDevices gpus(false);
+  const Ran ran = run(gpus.serve(), {}, 5);
+  ASSERT_EQ(ran.processes.size(), 1u);
+  EXPECT_FALSE(ran.processes.begin()->first);
+}
+
+TEST(Pool, StartsAsManyProcessesADeviceAsAreWanted) {
+  const FakeDevices gpus(true);  // which may be shared
+  PoolOptions options;
+  options.devices = {0, 1};
+  options.processes = 3;
+  options.runs = 2;
+  const Ran ran = run(gpus.serve(), options, 40);
+  EXPECT_EQ(ran.result.validation_messages, 6);
+  EXPECT_EQ(ran.processes.size(), 2u);
+}
+
+}  // namespace
+}  // namespace skerry::tools
