@@ -303,5 +303,28 @@ TEST_F(TestCommandLine, MergingWhatIsNoShardFails) {
   expect_refusal(test({"--merge", out("x.json").string()}), 1, {"x.json"}, "no rows");
 }
 
+TEST_F(TestCommandLine, ABaselineKeepsReferencesOutsideTheScenes) {
+  write_scene("sky");
+  const std::string baseline = out("baseline").string();
+  const auto judge = [&] { return test({scenes().string(), "--baseline", baseline}); };
+  expect_refusal(judge(), 2, {"there is no folder", "--approve"}, "no baseline");
+  EXPECT_EQ(test({scenes().string(), "--baseline", baseline, "--approve"}).status, 0);
+  EXPECT_EQ(judge().status, 0);
+  EXPECT_FALSE(fs::exists(scenes() / "sky.png") || fs::exists(scenes() / "hashes"));
+  const fs::path driver = fs::directory_iterator(baseline)->path();
+  EXPECT_TRUE(fs::exists(driver / "sky.png"));
+  EXPECT_TRUE(fs::exists(driver / "hashes" / (driver.filename().string() + ".json")));
+
+  const std::string dir = out("work").string();
+  EXPECT_EQ(test({"plan", scenes().string(), "--baseline", baseline, "--dir", dir}).status, 0);
+  EXPECT_EQ(test({"run", "--dir", dir}).status, 0);
+  EXPECT_EQ(test({"merge", "--dir", dir}).status, 0);
+  fs::rename(driver, out("baseline") / "another_driver");
+  const Outcome other = judge();
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.out.find("no reference yet"), std::string::npos) << other.out;
+  expect_refusal(test({"run", "sky", "--dir", dir}), 1, {"'sky' is not what was planned"}, "run");
+}
+
 }  // namespace
 }  // namespace skerry

@@ -37,10 +37,11 @@ class Judge : public testing::Test {
     shown_.picture = picture(32, 18, 100);
     shown_.driver = "mine";
   }
+  fs::path reference() const { return scene_.reference(shown_.driver); }
   void write_reference(const platform::PngImage& image, const std::string& driver = "mine") {
     const std::vector<platform::PngText> text{{"Driver", driver}};
-    ASSERT_TRUE(platform::write_png(scene_.reference(),
-                                    {image.width, image.height, 4, image.pixels}, text));
+    ASSERT_TRUE(
+        platform::write_png(reference(), {image.width, image.height, 4, image.pixels}, text));
   }
   Row row(const Hashes& approved = {}) { return judge(scene_, shown_, approved, {}).row; }
   Outcome approve(const Hashes& approved = {}) {
@@ -96,9 +97,9 @@ TEST_F(Judge, AReferenceThatIsMissingOrWrongIsAFailure) {
   write_reference(picture(33, 18, 100));
   expect_failure(row(), "33x18");
   write_reference(shown_.picture);
-  const auto text = platform::read_text(scene_.reference(), 1 << 20);
+  const auto text = platform::read_text(reference(), 1 << 20);
   for (const std::size_t bytes : {std::size_t{0}, std::size_t{7}, text->size() / 2}) {
-    ASSERT_TRUE(write_text(scene_.reference(), text->substr(0, bytes)));
+    ASSERT_TRUE(write_text(reference(), text->substr(0, bytes)));
     expect_failure(row(), "day.png");
   }
   const std::string hash = sha256_hex(shown_.picture.pixels);
@@ -137,7 +138,7 @@ TEST_F(Judge, WhatIsApprovedPassesAfterwards) {
 }
 
 TEST_F(Judge, ApprovingReplacesADamagedReference) {
-  ASSERT_TRUE(write_text(scene_.reference(), "no picture"));
+  ASSERT_TRUE(write_text(reference(), "no picture"));
   EXPECT_TRUE(approve().replaced);
   EXPECT_EQ(row().verdict, Verdict::kPass);
 }
@@ -147,9 +148,24 @@ TEST_F(Judge, AnotherDriversReferenceStaysWhenThePictureIsWithinTheTolerance) {
   const Outcome near = approve();
   EXPECT_EQ(near.row.verdict, Verdict::kApproved);
   EXPECT_FALSE(near.replaced);
-  EXPECT_EQ(platform::read_png(scene_.reference())->pixels, nearly(shown_.picture).pixels);
+  EXPECT_EQ(platform::read_png(reference())->pixels, nearly(shown_.picture).pixels);
   shown_.picture = picture(32, 18, 160);
   EXPECT_TRUE(approve().replaced);
+}
+
+TEST_F(Judge, ABaselineHasAFolderADriver) {
+  const fs::path beside = reference();
+  write_reference(picture(32, 18, 200));  // beside the scene, and not looked at
+  scene_.baseline = folder_ / "baseline";
+  EXPECT_EQ(reference(), folder_ / "baseline/mine/day.png");
+  EXPECT_EQ(scene_.reference("theirs"), folder_ / "baseline/theirs/day.png");
+  expect_failure(row(), "no reference yet");
+  EXPECT_TRUE(approve().replaced);
+  EXPECT_EQ(row().verdict, Verdict::kPass);
+  EXPECT_EQ(platform::read_png(reference())->pixels, shown_.picture.pixels);
+  EXPECT_EQ(platform::read_png(beside)->pixels, picture(32, 18, 200).pixels);
+  shown_.driver = "theirs";
+  expect_failure(row(), "no reference yet");
 }
 
 TEST_F(Judge, AReportShowsWhatThereIs) {
@@ -164,7 +180,7 @@ TEST_F(Judge, AReportShowsWhatThereIs) {
   const auto actual =
       platform::read_png(folder_ / report_picture_name("day", ReportPicture::kActual));
   EXPECT_EQ(actual->pixels, shown_.picture.pixels);
-  fs::remove(scene_.reference());
+  fs::remove(reference());
   judge(scene_, shown_, {}, options);  // and takes away what no longer is
   EXPECT_TRUE(there(ReportPicture::kActual));
   EXPECT_FALSE(there(ReportPicture::kReference) || there(ReportPicture::kDifference) ||

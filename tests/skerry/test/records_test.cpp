@@ -36,6 +36,7 @@ class TasksOfATest : public testing::Test {
       TestScene scene;
       scene.name = name;
       scene.file = folder_ / (std::string(name) + ".json");
+      scene.baseline = baseline_;
       if (scene.name == "day") scene.scene.world = (folder_ / "world").string();
       if (scene.name == "day") scene.scene.clouds.push_back({(folder_ / "cloud").string()});
       scenes.push_back(scene);
@@ -57,6 +58,7 @@ class TasksOfATest : public testing::Test {
 
   Folder folder_;
   PoolOptions options_;
+  std::optional<fs::path> baseline_;
   std::map<std::string, std::string> before_;
 };
 
@@ -89,6 +91,21 @@ TEST_F(TasksOfATest, DependOnHowTheyAreDrawnButNotWhereOrBySoMany) {
   options_.processes = 3;
   options_.judge.html = folder_ / "page";
   expect_changed("device, processes and pages", false, false);
+}
+
+TEST_F(TasksOfATest, WithABaselineDependOnAllOfItsDrivers) {
+  baseline_ = folder_ / "baseline";
+  write("baseline/mine/day.png", "a reference");
+  before_ = ids();
+  write("day.png", "another reference");
+  write("hashes/mine.json", hashes("5", "6"));
+  expect_changed("what lies beside the scenes", false, false);
+  write("baseline/mine/day.png", "another reference");
+  expect_changed("the reference", true, false);
+  write("baseline/theirs/night.png", "another driver's");
+  expect_changed("another driver's reference", true, true);
+  write("baseline/mine/hashes/mine.json", R"({"night": ")" + std::string(64, '7') + "\"}");
+  expect_changed("an approved hash", false, true);
 }
 
 TEST(RecordOfARow, ComesBackAsItWas) {

@@ -91,7 +91,7 @@ TEST(SceneSet, ASceneNamesItsFileWhenItIsWrong) {
   const auto scene = read_scene(folder / "right.json");
   ASSERT_TRUE(scene) << scene.error().message;
   EXPECT_EQ(scene->name, "right");
-  EXPECT_EQ(scene->reference(), folder / "right.png");
+  EXPECT_EQ(scene->reference("any"), folder / "right.png");
 }
 
 TEST(SceneSet, TheScenesOfTheRepositoryAreRightAndComplete) {
@@ -102,7 +102,7 @@ TEST(SceneSet, TheScenesOfTheRepositoryAreRightAndComplete) {
   for (const fs::path& file : *files) {
     const auto scene = read_scene(file);
     ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_TRUE(fs::exists(scene->reference())) << file;
+    EXPECT_TRUE(fs::exists(scene->reference("any"))) << file;
     EXPECT_FALSE(scene->expected.description.empty()) << file;
   }
 }

@@ -214,25 +214,17 @@ void set(game::SceneOptions& options, const std::string& assignment) {
 }
 
 /// Settings that are left out of the hash, none as in scene().
-constexpr const char* kUnread[] = {"view.detail=64",        "aa.samples=16",
-                                   "render.scale=0.5",      "shadow.size=256",
-                                   "shadow.cascades=1",     "shadow.taps=1",
-                                   "shadow.samples=4",      "shadow.split=0.5",
-                                   "shadow.blur=0",         "texture.taps=16",
-                                   "gbuffer.normal=oct8",   "gbuffer.position=rgba32f",
-                                   "gbuffer.depth=d16",     "exposure.stride=1",
-                                   "bloom.intensity=0.5",   "bloom.threshold=3",
-                                   "bloom.levels=2",        "clouds.steps=100",
-                                   "clouds.shadow_steps=8", "clouds.resolution=full",
-                                   "clouds.precision=32",   "tone=agx",
-                                   "display.peak=0.5",      "display.black=0.1",
-                                   "renderer=deferred",     "shading.rate=4",
-                                   "shading.tolerance=0.3", "lights.shadows=off",
-                                   "lights.softness=8",     "lights.tile=64",
-                                   "lights.oracle=1",       "upload.path=mapped",
-                                   "upload.budget=65536",   "memory.budget=256",
-                                   "jobs.threads=1",        "frames.cap=30",
-                                   "water.layers=4"};
+constexpr const char* kUnread[] = {
+    "view.detail=64",      "aa.samples=16",     "render.scale=0.5",      "shadow.size=256",
+    "shadow.cascades=1",   "shadow.taps=1",     "shadow.samples=4",      "shadow.split=0.5",
+    "shadow.blur=0",       "texture.taps=16",   "gbuffer.normal=oct8",   "gbuffer.position=rgba32f",
+    "gbuffer.depth=d16",   "exposure.stride=1", "bloom.intensity=0.5",   "bloom.threshold=3",
+    "bloom.levels=2",      "clouds.steps=100",  "clouds.shadow_steps=8", "clouds.resolution=full",
+    "clouds.precision=32", "tone=agx",          "display.peak=0.5",      "display.black=0.1",
+    "renderer=deferred",   "shading.rate=4",    "shading.tolerance=0.3", "lights.shadows=off",
+    "lights.softness=8",   "lights.tile=64",    "lights.oracle=1",       "upload.path=mapped",
+    "upload.budget=65536", "memory.budget=256", "jobs.threads=1",        "frames.cap=30",
+    "water.layers=4"};
 
 TEST(ReferenceId, LeavesOutWhatTheReferenceDoesNotRead) {
   const game::SceneOptions plain = scene();

@@ -59,14 +59,13 @@ const CLI::App* Verbs::chosen() const {
   return nullptr;
 }
 
-std::optional<Refusal> Verbs::check() const {
-  const CLI::App* verb = chosen();
-  if (auto refusal = check_leftovers(*verb)) return refusal;
+std::optional<Refusal> Verbs::check(const CLI::App& verb) const {
+  if (auto refusal = check_leftovers(verb)) return refusal;
   for (const CLI::Option* option : command_.get_options()) {
     if (option->count() == 0 || option->get_name() == "--help") continue;
     return Refusal{kUsage,
                    {fmt::format("{} stands before {}: give it behind that",
-                                game::quote_text(option->get_name()), verb->get_name())}};
+                                game::quote_text(option->get_name()), verb.get_name())}};
   }
   return std::nullopt;
 }

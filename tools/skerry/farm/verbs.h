@@ -27,8 +27,8 @@ class Verbs {
   CLI::App& merge() { return *merge_; }
   /// The one that was given; nullptr: none.
   const CLI::App* chosen() const;
-  /// What is wrong with the arguments of the one that was given.
-  std::optional<Refusal> check() const;
+  /// What is wrong with the arguments of a sub-command that was given.
+  std::optional<Refusal> check(const CLI::App& verb) const;
 
   std::filesystem::path dir() const { return dir_; }
   /// --device of `run`, as typed.

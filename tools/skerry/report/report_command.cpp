@@ -127,7 +127,7 @@ std::optional<Refusal> ReportCommand::read(ReportRequest& request, ReportTasks& 
 int ReportCommand::run(std::span<const std::string> typed) {
   const CLI::App* verb = verbs_->chosen();
   if (!verb) return run_here(typed);
-  if (const auto refusal = verbs_->check()) return refuse(*refusal);
+  if (const auto refusal = verbs_->check(*verb)) return refuse(*refusal);
   if (verb == &verbs_->plan()) return write_plan(typed);
   return verb == &verbs_->run() ? run_planned() : merge();
 }

@@ -48,7 +48,7 @@ void StabilityCommand::add_options(CLI::App& command) {
 
 int StabilityCommand::run(std::span<const std::string> typed) {
   if (!verbs_->chosen()) return run_here();
-  if (const auto refusal = verbs_->check()) return refuse(*refusal);
+  if (const auto refusal = verbs_->check(*verbs_->chosen())) return refuse(*refusal);
   if (verbs_->chosen() == &verbs_->plan()) return write_plan(typed);
   return verbs_->chosen() == &verbs_->run() ? run_tasks() : merge();
 }

@@ -21,7 +21,16 @@ bool is_letter_or_digit(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// Lower case; what is neither letter, digit nor dot becomes one underscore.
+bool is_hash(const nlohmann::json& value) {
+  if (!value.is_string()) return false;
+  const auto& text = value.get_ref<const std::string&>();
+  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+         });
+}
+
+}  // namespace
+
 std::string file_name_part(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -34,16 +43,6 @@ std::string file_name_part(std::string_view text) {
   while (!out.empty() && out.back() == '_') out.pop_back();
   return out.empty() ? "unknown" : out;
 }
-
-bool is_hash(const nlohmann::json& value) {
-  if (!value.is_string()) return false;
-  const auto& text = value.get_ref<const std::string&>();
-  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-         });
-}
-
-}  // namespace
 
 std::string cpu_vendor() {
   std::ifstream info("/proc/cpuinfo");

@@ -14,6 +14,9 @@ namespace skerry::tools {
 /// drivers that run on the CPU its vector width and vendor.
 std::string driver_key(const gpu::DeviceInfo& device);
 
+/// Lower case; what is neither letter, digit nor dot becomes one underscore.
+std::string file_name_part(std::string_view text);
+
 /// Vendor of this machine's processor as it names itself, else "unknown".
 std::string cpu_vendor();
 

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "engine/platform/files.h"
 #include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/test/report_pictures.h"
 
@@ -34,12 +35,13 @@ std::string flaw(const TestScene& scene, const Shown& shown) {
   return {};
 }
 
-/// Fills in the row's verdict from the reference. @param reference of the picture's size.
+/// Fills in the row's verdict from the reference.
 void pass_or_fail(Row& row, const TestScene& scene, const Result<platform::PngImage>& reference,
-                  const platform::PngImage& picture) {
+                  const Shown& shown) {
+  const platform::PngImage& picture = shown.picture;
   if (!reference) {
     std::error_code code;
-    row.message = fs::exists(scene.reference(), code)
+    row.message = fs::exists(scene.reference(shown.driver), code)
                       ? reference.error().message
                       : "there is no reference yet; look at the picture, then approve it";
     return;
@@ -66,7 +68,10 @@ Result<std::string> approve(const TestScene& scene, const Shown& shown,
   const std::array<platform::PngText, 3> text{{{"Software", "Skerry"},
                                                {"Command", game::shot_command(scene.scene)},
                                                {std::string(kDriverText), shown.driver}}};
-  const Result<void> written = platform::write_png(scene.reference(), view_of(shown.picture), text);
+  if (const auto made = platform::make_dirs(scene.approved(shown.driver)); !made)
+    return made.error();
+  const Result<void> written =
+      platform::write_png(scene.reference(shown.driver), view_of(shown.picture), text);
   if (!written) return written.error();
   outcome.replaced = true;
   if (!comparable) return std::string("a new reference");
@@ -93,7 +98,7 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
   const auto known = approved.find(scene.name);
   if (known != approved.end()) row.hash_equal = known->second == outcome.hash;
 
-  const Result<platform::PngImage> reference = platform::read_png(scene.reference());
+  const Result<platform::PngImage> reference = platform::read_png(scene.reference(shown.driver));
   std::optional<Comparison> compared;
   if (reference && same_size(*reference, shown.picture)) {
     compared = compare(*reference, shown.picture, scene.expected);
@@ -104,9 +109,9 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
       {reference ? &*reference : nullptr, &shown.picture, compared ? &*compared : nullptr});
 
   row.message = flaw(scene, shown);
-  if (row.message.empty()) pass_or_fail(row, scene, reference, shown.picture);
-  const bool sound = flaw(scene, shown).empty();
-  if (options.approve && sound && (row.failed() || row.hash_equal != true)) {
+  if (row.message.empty()) pass_or_fail(row, scene, reference, shown);
+  row.sound = flaw(scene, shown).empty();
+  if (options.approve && row.sound && (row.failed() || row.hash_equal != true)) {
     const Result<std::string> done = approve(scene, shown, reference, row, outcome);
     row.verdict = done ? Verdict::kApproved : Verdict::kFail;
     row.message = done ? *done : done.error().message;
@@ -117,6 +122,17 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
   }
   row.failed_runs = row.failed() ? 1 : 0;
   return outcome;
+}
+
+Result<void> store_hash(const TestScene& scene, const Outcome& outcome) {
+  const fs::path folder = scene.approved(outcome.row.driver);
+  const fs::path file = hash_file(folder, outcome.row.driver);
+  Result<Hashes> hashes = read_hashes(file);
+  if (!hashes) return hashes.error();
+  (*hashes)[scene.name] = outcome.hash;
+  if (const auto written = write_hashes(file, *hashes); !written) return written;
+  if (!outcome.replaced) return {};
+  return remove_others(folder, outcome.row.driver, scene.name);
 }
 
 }  // namespace skerry::tools

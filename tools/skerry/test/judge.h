@@ -36,6 +36,10 @@ struct Outcome {
 Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved,
               const JudgeOptions& options);
 
+/// Stores the hash of a picture that was approved; where the reference is another one now, takes
+/// the scene's hash from other drivers that share it.
+Result<void> store_hash(const TestScene& scene, const Outcome& outcome);
+
 /// A row of a scene that could not be drawn.
 Row failed_row(const TestScene& scene, std::string why);
 

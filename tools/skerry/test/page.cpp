@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/measure/html.h"
+#include "tools/skerry/farm/plan.h"
 #include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
@@ -20,6 +21,38 @@ constexpr std::string_view kStyle = R"(
 .blink img + img { position: absolute; left: 0; top: 0; animation: blink 1s steps(1) infinite; }
 @keyframes blink { 50% { opacity: 0; } }
 .pictures { grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); }
+.decide [aria-pressed=true] { font-weight: 700; outline: 2px solid var(--link); }
+.decisions { position: sticky; bottom: 0; padding: .5rem; background: var(--soft); }
+)";
+
+// What was decided is kept by the page alone until it is saved. Well-formed as XML, too: without
+// the characters that markup begins with.
+constexpr std::string_view kScript = R"(
+"use strict";
+const decisions = new Map();
+const count = document.querySelector(".decisions output");
+const save = document.querySelector(".decisions button");
+function decide(box, button) {
+  const { scene, driver, picture } = box.dataset;
+  const decision = button.dataset.decision;
+  const withdrawn = decisions.get(scene)?.decision === decision;
+  if (withdrawn) decisions.delete(scene);
+  else decisions.set(scene, { scene, driver, picture, decision });
+  for (const other of box.querySelectorAll("button"))
+    other.setAttribute("aria-pressed", String(other === button ? !withdrawn : false));
+  count.textContent = decisions.size + " decided";
+  save.disabled = decisions.size === 0;
+}
+for (const box of document.querySelectorAll(".decide"))
+  for (const button of box.querySelectorAll("button"))
+    button.addEventListener("click", () => decide(box, button));
+save.addEventListener("click", () => {
+  const text = JSON.stringify({ decisions: [...decisions.values()] }, null, 1) + "\n";
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type: "application/json" }));
+  link.download = "decisions.json";
+  link.click();
+});
 )";
 
 /// A file name as a relative address.
@@ -115,11 +148,43 @@ std::string pictures_of(const Row& row, const fs::path& folder) {
   return measure::element("div", {{"class", "pictures"}}, out);
 }
 
+/// Approve and reject, for a failure whose picture could be approved; else nothing.
+std::string buttons(const Row& row, const fs::path& folder) {
+  const std::string picture = report_picture_name(row.scene, ReportPicture::kActual);
+  if (!row.failed() || !row.sound || row.driver.empty()) return {};
+  const Result<std::string> hash = file_hash(folder / picture);
+  if (!hash || *hash == "none") return {};
+  std::string both;
+  for (const char* decision : {"approve", "reject"})
+    both += measure::element(
+        "button", {{"type", "button"}, {"data-decision", decision}, {"aria-pressed", "false"}},
+        decision);
+  return measure::element("p",
+                          {{"class", "decide"},
+                           {"data-scene", row.scene},
+                           {"data-driver", row.driver},
+                           {"data-picture", *hash}},
+                          both);
+}
+
+/// Where decisions are saved, if there is anything to decide.
+std::string decisions_bar(std::string_view sections) {
+  if (sections.find("class=\"decide\"") == std::string_view::npos) return {};
+  return measure::element(
+             "p", {{"class", "decisions"}},
+             measure::element("output", "0 decided") + " " +
+                 measure::element("button", {{"type", "button"}, {"disabled", "disabled"}},
+                                  "save decisions.json") +
+                 " " + measure::labelled("span", "faint", "then: skerry test approve")) +
+         measure::element("script", kScript);
+}
+
 std::string section(const Row& row, const fs::path& folder) {
   std::string out =
       measure::element("h2", {{"id", address(row.scene)}},
                        measure::escape(row.scene) + " " +
                            measure::labelled("span", css_class(row), verdict_name(row.verdict)));
+  out += buttons(row, folder);
   if (!row.message.empty()) out += measure::element("p", measure::escape(row.message));
   if (row.runs > 1) {
     out += measure::element("p", fmt::format("{} of {} runs failed; {} different pictures",
@@ -157,7 +222,8 @@ std::string test_page(const Results& results, const fs::path& folder) {
   constexpr std::string_view kHeadings[] = {"scene", "verdict", "hash",        "FLIP mean", "p99",
                                             "max",   "PSNR",    "pixels over", "time"};
   return measure::page(title, measure::element("style", kStyle) + measure::element("h1", title) +
-                                  measure::table(kHeadings, table) + sections);
+                                  measure::table(kHeadings, table) + sections +
+                                  decisions_bar(sections));
 }
 
 }  // namespace skerry::tools

@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 /// "DRIVER HASH" for each driver that has approved a picture of a scene.
 using ApprovedBy = std::map<std::string, std::vector<std::string>>;
 
-Result<ApprovedBy> approved_in(const fs::path& scenes) {
-  ApprovedBy approved;
+/// Adds the hashes that lie in a folder of scenes, or in one of a baseline.
+Result<void> add_approved(const fs::path& folder, ApprovedBy& approved) {
   std::error_code code;
-  for (fs::directory_iterator at(hash_file(scenes, "any").parent_path(), code), end;
+  for (fs::directory_iterator at(hash_file(folder, "any").parent_path(), code), end;
        !code && at != end; at.increment(code)) {
     if (at->path().extension() != ".json") continue;
     const Result<Hashes> hashes = read_hashes(at->path());
@@ -25,15 +25,44 @@ Result<ApprovedBy> approved_in(const fs::path& scenes) {
     for (const auto& [scene, hash] : *hashes)
       approved[scene].push_back(at->path().stem().string() + " " + hash);
   }
-  for (auto& [scene, lines] : approved) std::ranges::sort(lines);
+  return {};
+}
+
+/// The drivers of a baseline, sorted; without one a single name that stands for all.
+std::vector<std::string> drivers_of(const TestScene& scene) {
+  if (!scene.baseline) return {"any"};
+  std::vector<std::string> drivers;
+  std::error_code code;
+  for (fs::directory_iterator at(*scene.baseline, code), end; !code && at != end;
+       at.increment(code))
+    if (at->is_directory(code)) drivers.push_back(at->path().filename().string());
+  std::ranges::sort(drivers);
+  return drivers;
+}
+
+Result<ApprovedBy> approved_for(const TestScene& scene) {
+  ApprovedBy approved;
+  for (const std::string& driver : drivers_of(scene))
+    if (auto added = add_approved(scene.approved(driver), approved); !added) return added.error();
+  for (auto& [name, lines] : approved) std::ranges::sort(lines);
   return approved;
 }
 
-std::vector<fs::path> files_of(const TestScene& scene) {
-  std::vector<fs::path> files{scene.file, scene.reference()};
+/// Adds hashes of the files that decide a scene's row.
+Result<void> add_files(const TestScene& scene, std::vector<std::string>& inputs) {
+  std::vector<fs::path> files{scene.file};
+  for (const std::string& driver : drivers_of(scene)) {
+    if (scene.baseline) inputs.push_back(driver);
+    files.push_back(scene.reference(driver));
+  }
   if (scene.scene.world) files.emplace_back(*scene.scene.world);
   for (const game::CloudFile& cloud : scene.scene.clouds) files.emplace_back(cloud.path);
-  return files;
+  for (const fs::path& file : files) {
+    Result<std::string> hash = file_hash(file);
+    if (!hash) return hash.error();
+    inputs.push_back(*std::move(hash));
+  }
+  return {};
 }
 
 }  // namespace
@@ -42,19 +71,15 @@ Result<std::vector<Task>> tasks_of(std::span<const TestScene> scenes, const Pool
   std::vector<Task> tasks;
   std::map<fs::path, ApprovedBy> approved;  // by folder
   for (const TestScene& scene : scenes) {
-    const fs::path folder = scene.file.parent_path();
+    const fs::path folder = scene.baseline.value_or(scene.file.parent_path());
     if (!approved.contains(folder)) {
-      Result<ApprovedBy> found = approved_in(folder);
+      Result<ApprovedBy> found = approved_for(scene);
       if (!found) return found.error();
       approved[folder] = *std::move(found);
     }
     std::vector<std::string> inputs{
         fmt::format("{} runs{}", options.runs, options.validate ? ", validated" : "")};
-    for (const fs::path& file : files_of(scene)) {
-      Result<std::string> hash = file_hash(file);
-      if (!hash) return hash.error();
-      inputs.push_back(*std::move(hash));
-    }
+    if (auto added = add_files(scene, inputs); !added) return added.error();
     const std::vector<std::string>& lines = approved[folder][scene.name];
     inputs.insert(inputs.end(), lines.begin(), lines.end());
     Result<std::string> id = task_id("test", scene.name, inputs);

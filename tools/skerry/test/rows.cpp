@@ -61,6 +61,7 @@ Row row_or_throw(const json& from) {
   row.driver = from.at("driver").get<std::string>();
   if (!from.at("device").is_null()) row.device = from.at("device").get<std::uint32_t>();
   row.command = from.at("command").get<std::string>();
+  row.sound = from.at("sound").get<bool>();
   row.runs = from.at("runs").get<int>();
   row.failed_runs = from.at("failed_runs").get<int>();
   row.pictures = from.at("pictures").get<int>();
@@ -141,6 +142,7 @@ ordered_json row_json(const Row& row) {
   out["driver"] = row.driver;
   out["device"] = row.device ? ordered_json(*row.device) : ordered_json(nullptr);
   out["command"] = row.command;
+  out["sound"] = row.sound;
   out["runs"] = row.runs;
   out["failed_runs"] = row.failed_runs;
   out["pictures"] = row.pictures;

@@ -31,6 +31,7 @@ struct Row {
   std::string driver;                   ///< key of approved hashes
   std::optional<std::uint32_t> device;  ///< that drew it, as `skerry devices` counts; none: unknown
   std::string command;                  ///< draws the picture again
+  bool sound = false;  ///< there is a picture, finite, and not black unless it may be
   int runs = 1, failed_runs = 0;
   int pictures = 0;  ///< distinct ones over all runs
 

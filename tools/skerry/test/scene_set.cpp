@@ -38,8 +38,12 @@ Result<void> add_path(const std::string& text, std::vector<fs::path>& files) {
 
 }  // namespace
 
-fs::path TestScene::reference() const {
-  return fs::path(file).replace_extension(".png");
+fs::path TestScene::approved(std::string_view driver) const {
+  return baseline ? *baseline / driver : file.parent_path();
+}
+
+fs::path TestScene::reference(std::string_view driver) const {
+  return approved(driver) / file.filename().replace_extension(".png");
 }
 
 Result<Shard> parse_shard(std::string_view text) {
@@ -91,7 +95,7 @@ Result<TestScene> read_scene(const fs::path& file) {
   if (!scene) return wrong(scene.error());
   const Result<void> masked = game::check_masks(parsed->expectations.masks, scene->size);
   if (!masked) return wrong(masked.error());
-  return TestScene{file.stem().string(), file, *std::move(scene), parsed->expectations};
+  return TestScene{file.stem().string(), file, *std::move(scene), parsed->expectations, {}};
 }
 
 std::vector<TestScene> shard_of(std::vector<TestScene> scenes, const Shard& shard) {

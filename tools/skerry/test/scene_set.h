@@ -1,8 +1,10 @@
 // The scenes a test is asked to judge: found, read, checked and split before anything is drawn.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -17,8 +19,13 @@ struct TestScene {
   game::SceneOptions scene;
   game::Expectations expected;
 
-  /// The reference picture lies beside the scene.
-  std::filesystem::path reference() const;
+  std::optional<std::filesystem::path> baseline;  ///< folder with a folder a driver
+
+  /// The folder of what is approved for a driver: the baseline's, else the scene's, which is the
+  /// same for all drivers.
+  std::filesystem::path approved(std::string_view driver) const;
+  /// The reference picture in it.
+  std::filesystem::path reference(std::string_view driver) const;
 };
 
 /// Part `index` (from 1) of `count`.

@@ -85,6 +85,7 @@ TestCommand::TestCommand(CLI::App& app)
   test_->allow_extras();
   test_->footer("");
   verbs_ = std::make_unique<Verbs>(*test_);
+  approve_command_ = std::make_unique<ApproveCommand>(*test_);
   add_drawing_options(*test_);
   add_drawing_options(verbs_->plan());
   add_output_options(*test_);
@@ -108,6 +109,10 @@ TestCommand::TestCommand(CLI::App& app)
 /// What decides the rows.
 void TestCommand::add_drawing_options(CLI::App& command) {
   command.add_option("SCENES", paths_, "Scene files, or folders of them (docs/testing.md)");
+  command
+      .add_option("--baseline", baseline_,
+                  "References and hashes are here, a folder a driver, not beside the scenes")
+      ->type_name("DIR");
   command.add_option("--repeat", repeat_text_, "Draw every scene so many times (default 1)")
       ->type_name("N");
   command.add_flag("--validate", validate_, "Turn the Vulkan validation layer on");
@@ -129,6 +134,10 @@ void TestCommand::add_jobs(CLI::App& command) {
 }
 
 int TestCommand::run(std::span<const std::string> typed) {
+  if (approve_command_->command().parsed()) {
+    const auto refusal = verbs_->check(approve_command_->command());
+    return refusal ? fail(refusal->status, refusal->error) : approve_command_->run();
+  }
   const CLI::App* verb = verbs_->chosen();
   if (!verb) {
     if (const auto refusal = check_leftovers(*test_)) return fail(refusal->status, refusal->error);
@@ -136,7 +145,7 @@ int TestCommand::run(std::span<const std::string> typed) {
     if (compare_) return compare_pictures();
     return merge_ ? merge_shards() : draw_and_judge();
   }
-  if (const auto refusal = verbs_->check()) return fail(refusal->status, refusal->error);
+  if (const auto refusal = verbs_->check(*verb)) return fail(refusal->status, refusal->error);
   if (verb == &verbs_->plan()) return write_plan(typed);
   return verb == &verbs_->run() ? run_tasks() : merge_rows();
 }
@@ -147,7 +156,7 @@ std::optional<Refusal> TestCommand::check_typed() {
                    {"there is nothing to test: give scene files or folders of them"}};
   }
   const bool draws = approve_ || shard_text_ || device_text_ || devices_text_ || jobs_text_ ||
-                     repeat_text_ || validate_;
+                     baseline_ || repeat_text_ || validate_;
   if ((merge_ || compare_) && draws) {
     return usage({fmt::format("{} draws nothing: leave out the options that say how to draw",
                               merge_ ? "--merge" : "--compare")});
@@ -166,6 +175,10 @@ std::optional<Refusal> TestCommand::check_typed() {
   if (const auto refusal = read_count(repeat_text_, "--repeat", 100000, pool_.runs)) return refusal;
   if (const auto refusal = parse_devices(devices_text_, device_text_, pool_.devices))
     return refusal;
+  std::error_code code;
+  if (baseline_ && !approve_ && !fs::is_directory(*baseline_, code))
+    return usage({fmt::format("there is no folder {}: --baseline needs one that --approve made",
+                              game::quote_text(*baseline_))});
   if (approve_ && pool_.runs > 1) return usage({"--approve needs one run: leave out --repeat"});
   pool_.validate = validate_;
   pool_.judge.approve = approve_;
@@ -198,6 +211,7 @@ std::optional<Refusal> TestCommand::read_set(std::vector<TestScene>& scenes,
       fmt::print("skipped: {}: this build has no OpenVDB\n", one_line(scene->name));
       continue;
     }
+    scene->baseline = baseline_;
     scenes.push_back(*std::move(scene));
   }
   in_set = scenes.size();
@@ -256,8 +270,10 @@ int TestCommand::draw_and_judge() {
     if (!row) return fail(kFailed, row.error());
     results.rows.push_back(*std::move(row));
   }
-  if (const Result<void> stored = approve(scenes, outcomes); !stored)
-    return fail(kFailed, stored.error());
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    if (outcomes[i].row.verdict == Verdict::kApproved)
+      if (const Result<void> stored = store_hash(scenes[i], outcomes[i]); !stored)
+        return fail(kFailed, stored.error());
   const std::ptrdiff_t failed = print_summary(results.rows, pool_.runs, watch.seconds());
   if (const Result<void> written = write_outputs(std::move(results)); !written)
     return fail(kFailed, written.error());
@@ -269,25 +285,6 @@ int TestCommand::draw_and_judge() {
   }
   if (failed > 0) return kFailed;
   return end.validation_messages > 0 ? kValidationMessage : kDone;
-}
-
-/// Stores the hashes of pictures that were approved.
-Result<void> TestCommand::approve(const std::vector<TestScene>& scenes,
-                                  const std::vector<Outcome>& outcomes) const {
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const Outcome& outcome = outcomes[i];
-    if (outcome.row.verdict != Verdict::kApproved) continue;
-    const fs::path folder = scenes[i].file.parent_path();
-    const fs::path file = hash_file(folder, outcome.row.driver);
-    Result<Hashes> hashes = read_hashes(file);
-    if (!hashes) return hashes.error();
-    (*hashes)[scenes[i].name] = outcome.hash;
-    if (const auto written = write_hashes(file, *hashes); !written) return written;
-    if (!outcome.replaced) continue;
-    if (const auto done = remove_others(folder, outcome.row.driver, scenes[i].name); !done)
-      return done;
-  }
-  return {};
 }
 
 Result<void> TestCommand::write_outputs(Results results) {

@@ -11,6 +11,7 @@
 #include "tools/skerry/farm/verbs.h"
 #include "tools/skerry/report/report_folder.h"
 #include "tools/skerry/scene/arguments.h"
+#include "tools/skerry/test/approve_command.h"
 #include "tools/skerry/test/pool.h"
 
 namespace skerry::tools {
@@ -44,17 +45,16 @@ class TestCommand {
   PoolResult draw(const std::vector<TestScene>& scenes,
                   const std::function<Result<void>(std::size_t, const Outcome&)>& finished) const;
   std::optional<Refusal> read_set(std::vector<TestScene>& scenes, std::size_t& in_set) const;
-  Result<void> approve(const std::vector<TestScene>& scenes,
-                       const std::vector<Outcome>& outcomes) const;
   Result<void> write_outputs(Results results);
   Result<void> copy_pictures(const std::vector<Results>& shards) const;
   Result<void> copy_pictures_of(const std::string& scene, const std::filesystem::path& from) const;
 
   CLI::App* test_;
   std::unique_ptr<Verbs> verbs_;
+  std::unique_ptr<ApproveCommand> approve_command_;
   std::vector<std::string> paths_;
   std::optional<std::string> shard_text_, html_, json_, junit_, device_text_, devices_text_,
-      jobs_text_, repeat_text_, tolerance_text_;
+      jobs_text_, repeat_text_, tolerance_text_, baseline_;
   bool approve_ = false, merge_ = false, compare_ = false, validate_ = false;
   Shard shard_;
   PoolOptions pool_;

@@ -41,7 +41,7 @@ class Artist {
 
  private:
   Outcome outcome_of_scene(const TestScene& scene) {
-    const Result<Hashes> approved = read_hashes(hash_file(scene.file.parent_path(), driver_));
+    const Result<Hashes> approved = read_hashes(hash_file(scene.approved(driver_), driver_));
     if (!approved) return {failed_row(scene, approved.error().message), {}, false};
     game::SceneOptions options = scene.scene;
     // TBB warns when a single thread is asked for; two of two processes on two cores do no harm.

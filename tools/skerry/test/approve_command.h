@@ -1,0 +1,33 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/skerry/scene/arguments.h"
+#include "tools/skerry/test/scene_set.h"
+
+namespace skerry::tools {
+
+/// `skerry test approve`: applies decisions that the page of a test saved (docs/testing.md).
+class ApproveCommand {
+ public:
+  /// Adds `approve` and its options to `test`.
+  explicit ApproveCommand(CLI::App& test);
+  ApproveCommand(const ApproveCommand&) = delete;
+  ApproveCommand& operator=(const ApproveCommand&) = delete;
+
+  const CLI::App& command() const { return *approve_; }
+  /// @pre `approve` was given. @return the exit status.
+  int run() const;
+
+ private:
+  std::optional<Refusal> read_scenes(std::vector<TestScene>& scenes) const;
+
+  CLI::App* approve_;
+  std::string file_, report_;
+  std::vector<std::string> paths_;
+  std::optional<std::string> baseline_;
+};
+
+}  // namespace skerry::tools
