@@ -129,6 +129,10 @@ set_tests_properties(tools.farm PROPERTIES TIMEOUT 600)
 add_test(NAME tools.decisions COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/decisions_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/decisions)
 set_tests_properties(tools.decisions PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
 
+# The commands of docs/examples.
+add_test(NAME tools.examples COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/examples_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/examples)
+set_tests_properties(tools.examples PROPERTIES TIMEOUT 120)
+
 # Each deliberate breakage of tests/mutation still fits the code; the run of all of them builds for a quarter of an hour and is no part of this.
 add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --check)
 add_test(NAME mutation.stability COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/stability --check)
