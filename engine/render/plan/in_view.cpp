@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 
 namespace skerry::render {
 namespace {
@@ -74,6 +75,40 @@ glm::uvec2 pixels_between(float low, float high, std::uint32_t size) {
           static_cast<std::uint32_t>(std::clamp(end, 1.0f, whole))};
 }
 
+/// A ray is as long as its part along the view axis or longer, so that it rises no faster than
+/// its end at a corner of the picture does.
+bool layer_in_view(const shared::CloudLayer& layer, const shared::FrameConstants& frame) {
+  constexpr float kNear = 1.0f;  // blocks from the layer at which the eye counts as within
+  const float height = layer.place.y;
+  const float below = -height, above = height - layer.thickness;
+  if (std::max(below, above) <= kNear) return true;
+  const float spread = std::abs(frame.ray_right.y) + std::abs(frame.ray_up.y);
+  const float towards =
+      below > 0.0f ? frame.ray_forward.y + spread : spread - frame.ray_forward.y;
+  return towards >= 0.999f * std::max(below, above) / shared::kLayerFadeEnd;
+}
+
+/// Whether the box, in the world, has a corner on the inner side of each of the picture's edges.
+bool volume_in_view(const shared::CloudVolume& volume, const shared::FrameConstants& frame) {
+  constexpr float kEdge = 1.001f;
+  const glm::mat4 world_from_index = glm::inverse(glm::transpose(
+      glm::mat4(volume.index_x, volume.index_y, volume.index_z, glm::vec4(0, 0, 0, 1))));
+  const glm::vec3 right = frame.ray_right / glm::dot(frame.ray_right, frame.ray_right);
+  const glm::vec3 up = frame.ray_up / glm::dot(frame.ray_up, frame.ray_up);
+  std::array<bool, 5> inside{};
+  for (unsigned i = 0; i < 8; ++i) {
+    const glm::vec4 corner((i & 1u) ? volume.high.x : volume.low.x,
+                           (i & 2u) ? volume.high.y : volume.low.y,
+                           (i & 4u) ? volume.high.z : volume.low.z, 1.0f);
+    const glm::vec3 at(world_from_index * corner);
+    const float x = glm::dot(at, right), y = glm::dot(at, up);
+    const float z = glm::dot(at, frame.ray_forward), edge = kEdge * z;
+    const std::array<bool, 5> now{x <= edge, -x <= edge, y <= edge, -y <= edge, z >= 0.0f};
+    for (std::size_t k = 0; k < inside.size(); ++k) inside[k] = inside[k] || now[k];
+  }
+  return std::ranges::all_of(inside, [](bool some) { return some; });
+}
+
 }  // namespace
 
 bool cutouts_in_view(std::span<const shared::Section> sections,
@@ -123,6 +158,14 @@ std::optional<glm::uvec4> translucent_area(const SceneFacts& facts, const FrameT
   const glm::uvec2 x = pixels_between(on_picture.low.x, on_picture.high.x, frame.size.x);
   const glm::uvec2 y = pixels_between(on_picture.low.y, on_picture.high.y, frame.size.y);
   return glm::uvec4(x.x, y.x, std::max(x.y, x.x + 1), std::max(y.y, y.x + 1));
+}
+
+bool clouds_in_view(const shared::CloudConstants& clouds, bool layer, std::size_t volumes,
+                    const shared::FrameConstants& frame) {
+  if (layer && layer_in_view(clouds.layer, frame)) return true;
+  return std::any_of(
+      std::begin(clouds.volumes), std::begin(clouds.volumes) + volumes,
+      [&](const shared::CloudVolume& volume) { return volume_in_view(volume, frame); });
 }
 
 }  // namespace skerry::render

@@ -6,6 +6,7 @@
 
 #include "engine/render/plan/frame_tables.h"
 #include "engine/render/plan/scene_facts.h"
+#include "shaders/shared/clouds.h"
 
 namespace skerry::render {
 
@@ -23,5 +24,11 @@ std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const Islan
 /// Part of the camera's picture that holds whatever translucent quads can cover: from xy to before
 /// zw [pixels]. None if the box of no section's translucent quads touches the frustum.
 std::optional<glm::uvec4> translucent_area(const SceneFacts& facts, const FrameTables& tables);
+
+/// Whether a ray of the camera's picture may meet the layer of clouds or the box of a volume,
+/// whatever stands before them. False is certain. @param layer there is one. @param volumes of
+/// `clouds`, that there are.
+bool clouds_in_view(const shared::CloudConstants& clouds, bool layer, std::size_t volumes,
+                    const shared::FrameConstants& frame);
 
 }  // namespace skerry::render

@@ -17,6 +17,7 @@ struct Supposed {
   std::uint32_t lights = 0;  // bit a kind that is in view
   Water water = Water::kNone;
   bool stars = false, discs = false;
+  bool clouds = true;  // that there are, are in view
 };
 
 constexpr std::uint32_t kTorches = 1u << shared::kLightPoint;  // what grows and is built
@@ -71,6 +72,7 @@ void suppose_bodies(FramePlan& plan, const ProgramNeeds& needs, std::uint32_t bo
 
 void suppose(FramePlan& plan, const ProgramNeeds& needs, const Supposed& what) {
   suppose_bodies(plan, needs, what.bodies);
+  if (plan.clouds) plan.clouds->in_view = what.clouds;
   FrameFeatures features(plan.settings.leave_out);
   const auto absent_unless = [&](bool there, Feature feature) {
     if (!there) features.set_absent(feature, kSupposed);
@@ -112,9 +114,13 @@ void each_foreseen(const FramePlan& now, const ProgramNeeds& needs,
   FramePlan plan = common_of(now, needs);
   std::vector<std::uint32_t> kinds{0, kTorches};
   if (needs.light_kinds != kTorches) kinds.push_back(needs.light_kinds);
-  const auto visit_with = [&](const Supposed& what) {
-    suppose(plan, needs, what);
-    visit(plan);
+  const auto visit_with = [&](Supposed what) {
+    for (const bool clouds : {true, false}) {
+      what.clouds = clouds;
+      suppose(plan, needs, what);
+      visit(plan);
+      if (!plan.clouds) break;
+    }
   };
   // Day before night: both, sun, moon, neither.
   for (const std::uint32_t bodies : {3u, 1u, 2u, 0u}) {

@@ -81,6 +81,9 @@ void explain_contents(FramePlan& plan) {
   if (!plan.ao)
     plan.left_out.push_back(
         {"ao", plan.settings.shading == Shading::kFlat ? "shading=flat" : "ao.strength=0"});
+  if (plan.clouds && !plan.clouds->in_view)
+    for (const char* pass : {"march_clouds", "blend_clouds"})
+      plan.left_out.push_back({pass, "no cloud is in view"});
   for (const ActiveCascade& cascade : plan.shadows.cascades)
     if (!cascade.redraw)
       plan.left_out.push_back(
@@ -144,6 +147,8 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.next.clouds = history.clouds;
   if (plan.contents.features.has(Feature::kClouds)) {
     plan.clouds = plan_clouds(plan.input, settings.clouds, plan.sky, facts.clouds, history.clouds);
+    plan.clouds->in_view = clouds_in_view(plan.clouds->constants, plan.clouds->layer,
+                                          facts.clouds.volumes.size(), plan.tables.constants);
     plan.next.clouds = plan.clouds->next;
   }
   plan_culling(plan, history);

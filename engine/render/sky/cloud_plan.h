@@ -38,6 +38,7 @@ struct CloudHistory {
 /// Clouds of one frame.
 struct CloudPlan {
   bool layer = false;         ///< the frame has the layer
+  bool in_view = true;        ///< else they only cast shadows and are mirrored
   bool volume_light = false;  ///< the volumes' light is sampled
   bool bake_noise = false;    ///< else what an earlier frame baked is kept
   shared::CloudConstants constants{};

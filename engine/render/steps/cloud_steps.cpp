@@ -15,6 +15,11 @@ const char* needs_mirrored_clouds(const FramePlan& plan) {
   return !lit || plan.input.camera_medium != 0 ? "no sky is mirrored" : nullptr;
 }
 
+/// In front of what a pixel shows: that a mirror shows some needs no more than clouds.
+bool clouds_are_seen(const FramePlan& plan) {
+  return !needs_clouds(plan) && plan.clouds->in_view;
+}
+
 CloudPass::View cloud_view(FrameAssembly& f) {
   if (!f.geometry) return {};
   return {&*f.geometry, f.shadows->maps(), f.layers.depth[0], f.lights_or_null()};
@@ -31,7 +36,7 @@ FrameStep light_clouds_step() {
 
 FrameStep blend_clouds_behind_water_step() {
   return {
-      {{[](const FramePlan& plan) { return needs(!needs_clouds(plan) && !needs_water(plan)); }}},
+      {{[](const FramePlan& plan) { return needs(clouds_are_seen(plan) && !needs_water(plan)); }}},
       [](FrameAssembly& f) {
         f.shaded = CloudPass::add_behind(f.graph, f.pipelines, f.scene, cloud_view(f),
                                          *std::move(f.shaded), f.plan.settings);
@@ -47,13 +52,14 @@ FrameStep mirror_clouds_step() {
 
 FrameStep blend_clouds_step() {
   return {{{[](const FramePlan& plan) {
-            return needs(!needs_clouds(plan) && (!plan.geometry || plan.input.camera_medium == 0));
+            return needs(clouds_are_seen(plan) &&
+                         (!plan.geometry || plan.input.camera_medium == 0));
           }}},
           [](FrameAssembly& f) {
             f.shaded = CloudPass::add(f.graph, f.pipelines, f.scene, cloud_view(f),
                                       *std::move(f.shaded), f.plan.settings);
           },
-          [](const FramePlan& plan) { return plan.contents.features.has(Feature::kClouds); }};
+          clouds_are_seen};
 }
 
 }  // namespace skerry::render

@@ -131,6 +131,21 @@ TEST(PlanFrame, LeavesShadowsOutWithTheirSetting) {
   EXPECT_STREQ(why_not(plan, "draw_shadow_sun"), "shadow.enabled=0");
 }
 
+TEST(PlanFrame, LeavesCloudsOutThatAreNotInView) {
+  Planned scene;
+  scene.settings.clouds.coverage = 0.5f;
+  scene.input.camera.pitch_deg = 10.0;
+  const FramePlan up = scene.plan();
+  ASSERT_TRUE(up.clouds);
+  EXPECT_TRUE(up.clouds->in_view);
+  EXPECT_EQ(why_not(up, "march_clouds"), nullptr);
+  scene.input.camera.pitch_deg = -80.0;
+  const FramePlan down = scene.plan();
+  ASSERT_TRUE(down.clouds) << "they still shade what is seen";
+  EXPECT_STREQ(why_not(down, "march_clouds"), "no cloud is in view");
+  EXPECT_LT(down.steps.size(), up.steps.size());
+}
+
 TEST(PlanFrame, FreezesTheViewOfTheFrameInWhichCullingIsFrozen) {
   Planned scene;
   scene.input.freeze_culling = true;
