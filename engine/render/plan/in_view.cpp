@@ -83,8 +83,7 @@ bool layer_in_view(const shared::CloudLayer& layer, const shared::FrameConstants
   const float below = -height, above = height - layer.thickness;
   if (std::max(below, above) <= kNear) return true;
   const float spread = std::abs(frame.ray_right.y) + std::abs(frame.ray_up.y);
-  const float towards =
-      below > 0.0f ? frame.ray_forward.y + spread : spread - frame.ray_forward.y;
+  const float towards = below > 0.0f ? frame.ray_forward.y + spread : spread - frame.ray_forward.y;
   return towards >= 0.999f * std::max(below, above) / shared::kLayerFadeEnd;
 }
 

@@ -51,15 +51,15 @@ FrameStep mirror_clouds_step() {
 }
 
 FrameStep blend_clouds_step() {
-  return {{{[](const FramePlan& plan) {
-            return needs(clouds_are_seen(plan) &&
-                         (!plan.geometry || plan.input.camera_medium == 0));
-          }}},
-          [](FrameAssembly& f) {
-            f.shaded = CloudPass::add(f.graph, f.pipelines, f.scene, cloud_view(f),
-                                      *std::move(f.shaded), f.plan.settings);
-          },
-          clouds_are_seen};
+  return {
+      {{[](const FramePlan& plan) {
+        return needs(clouds_are_seen(plan) && (!plan.geometry || plan.input.camera_medium == 0));
+      }}},
+      [](FrameAssembly& f) {
+        f.shaded = CloudPass::add(f.graph, f.pipelines, f.scene, cloud_view(f),
+                                  *std::move(f.shaded), f.plan.settings);
+      },
+      clouds_are_seen};
 }
 
 }  // namespace skerry::render

@@ -78,8 +78,8 @@ struct RandomVolume {
     const double voxel = random.uniform(0.2, 4.0);
     const glm::dvec3 low = random.in_box(20.0), size = glm::abs(random.in_box(60.0));
     for (std::size_t i = 0; i < box.size(); ++i)
-      box[i] = at + turn * (voxel * (low + size * glm::dvec3(i & 1 ? 1 : 0, i & 2 ? 1 : 0,
-                                                             i & 4 ? 1 : 0)));
+      box[i] = at + turn * (voxel *
+                            (low + size * glm::dvec3(i & 1 ? 1 : 0, i & 2 ? 1 : 0, i & 4 ? 1 : 0)));
     const glm::dmat3 index_from_world = glm::mat3_cast(glm::conjugate(turn)) / voxel;
     const auto row = [&](int r) {
       const glm::dvec3 axis(index_from_world[0][r], index_from_world[1][r], index_from_world[2][r]);
