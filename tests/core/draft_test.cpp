@@ -95,7 +95,7 @@ int end_of_interrupted(const fs::path& name, int signal_number, bool ignores) {
   EXPECT_EQ(::pipe(ready), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    if (ignores) ::signal(signal_number, SIG_IGN);
+    ::signal(signal_number, ignores ? SIG_IGN : SIG_DFL);  // whatever this test was started with
     Result<Draft> draft = Draft::create(name);
     if (draft) write(draft->path(), "half");
     [[maybe_unused]] const ssize_t told = ::write(ready[1], "x", 1);
