@@ -80,8 +80,7 @@ SHARED_CONST uint kDrawCountsBinding = 59u;
 SHARED_CONST uint kHistogramBinding = 60u;
 SHARED_CONST uint kFineBloomBinding = 61u;
 SHARED_CONST uint kCoarseBloomBinding = 62u;
-SHARED_CONST uint kSamplesBinding = 63u;  // radiance of samples, several to a pixel
-SHARED_CONST uint kTotalBinding = 64u;    // sum over the parts of a still
+SHARED_CONST uint kTotalBinding = 64u;  // sum over the parts of a still
 
 // Overlay.
 SHARED_CONST uint kOverlayVerticesBinding = 65u;  // OverlayVertex[]
@@ -104,7 +103,8 @@ SHARED_CONST uint kLightReachBinding = 75u;
 // Of a picture that is drawn smaller than it is shown.
 SHARED_CONST uint kSmallPictureBinding = 76u;
 
-SHARED_CONST uint kMadeBloomBinding = 77u;  // the level that a step of bloom makes
+SHARED_CONST uint kMadeBloomBinding = 77u;      // the level that a step of bloom makes
+SHARED_CONST uint kMarchedCloudsBinding = 78u;  // the coarse image as it is made
 
 SHARED_END
 #endif

@@ -48,18 +48,27 @@ SHARED_CONST uint kEveryPixelConstant = 43u;      // bool: the level is the pict
 SHARED_CONST uint kToleranceConstant = 44u;       // float: how much shared light may differ
 SHARED_CONST uint kChooseConstant = 46u;          // bool: an exposure is chosen from the histogram
 SHARED_CONST uint kPackConstant = 47u;            // bool: noise that is there is packed
-SHARED_CONST uint kScanConstant = 49u;            // bool: totals are summed, nothing is emitted
-SHARED_CONST uint kBinConstant = 48u;             // bool: lights of bins, not of clusters
-SHARED_CONST uint kLightListConstant =
-    50u;                                // uint: kListDepths, kListClusters, kListRoom, kListTiles
-SHARED_CONST uint kShowConstant = 51u;  // bool: the meter's histogram is drawn
-SHARED_CONST uint kSpreadConstant =
-    52u;  // bool: a coarser level of bloom is mixed into a finer one
+SHARED_CONST uint kCullStepConstant = 49u;        // uint: kCullSections, kCullScan or kCullEmit
+SHARED_CONST uint kMarchConstant = 48u;           // bool: clouds are marched, not blended
+SHARED_CONST uint kLightStepConstant = 50u;       // uint: kLightDepths to kLightTiles
+SHARED_CONST uint kShowConstant = 51u;            // bool: the meter's histogram is drawn
+SHARED_CONST uint kFilterConstant = 52u;  // uint: kFilterAverage, kFilterShrink or kFilterSpread
 
-SHARED_CONST uint kListClusters = 0u;
-SHARED_CONST uint kListRoom = 1u;
-SHARED_CONST uint kListTiles = 2u;
-SHARED_CONST uint kListDepths = 3u;
+SHARED_CONST uint kCullSections = 0u;
+SHARED_CONST uint kCullScan = 1u;
+SHARED_CONST uint kCullEmit = 2u;
+
+SHARED_CONST uint kFilterAverage = 0u;
+SHARED_CONST uint kFilterShrink = 1u;
+SHARED_CONST uint kFilterSpread = 2u;
+
+// Steps of sort_lights.comp, in their order.
+SHARED_CONST uint kLightDepths = 0u;
+SHARED_CONST uint kLightClusters = 1u;
+SHARED_CONST uint kLightBins = 2u;
+SHARED_CONST uint kLightLists = 3u;
+SHARED_CONST uint kLightRoom = 4u;
+SHARED_CONST uint kLightTiles = 5u;
 
 // How much steeper than linear an enlarged picture passes from one pixel to the next.
 SHARED_CONST float kEnlargeSlope = 1.5f;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Clouds before what is shaded, in place. From the coarse image where a neighbour in it saw as far as the pixel does;
-// along edges the pixel's own ray is marched. docs/clouds.md, docs/conventions.md.
+// Clouds before what is shaded. March: along the rays of every second pixel each way, to the coarse image. Else blend, in place: from the coarse
+// image where a neighbour in it saw as far as the pixel does; along edges the pixel's own ray is marched. docs/clouds.md, docs/conventions.md.
 #include "include/sky/cloud_view.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -9,7 +9,9 @@
 layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
 layout(binding = kRadianceBinding, rgba16f) uniform image2D radiance;
 layout(binding = kCoarseCloudsBinding) uniform sampler2D coarse;
+layout(binding = kMarchedCloudsBinding, rgba16f) writeonly uniform image2D marched;
 
+layout(constant_id = kMarchConstant) const bool kMarch = false;
 layout(constant_id = kCoarseConstant) const bool kCoarse = false;  // there is a coarse image
 
 // Adds one neighbour. @return its share if it saw what the pixel sees.
@@ -24,7 +26,18 @@ float take(uvec2 texel, float share, vec2 way, inout vec4 sum) {
   return taken;
 }
 
-void main() {
+void march() {
+  uvec2 size = (frame.size + 1u) / 2u;
+  uvec2 texel = gl_GlobalInvocationID.xy;
+  bool here = all(lessThan(texel, size));
+  uvec2 pixel = min(texel * 2u, frame.size - 1u);
+  vec2 way = open_way(pixel);
+  if (!here) way = vec2(0.0);
+  Clouded seen = clouds_seen(pixel, way, gradient_jitter(texel));
+  if (here) imageStore(marched, ivec2(texel), vec4(min(seen.light, vec3(kMaxRadiance)), seen.clear));
+}
+
+void blend() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   bool here = all(lessThan(pixel, frame.size));
   pixel = min(pixel, frame.size - 1u);
@@ -46,4 +59,11 @@ void main() {
   vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb * seen.clear + seen.light;
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
   if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
+}
+
+void main() {
+  if (kMarch)
+    march();
+  else
+    blend();
 }

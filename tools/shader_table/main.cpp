@@ -52,7 +52,7 @@ std::string identifier(std::string name) {
   return name;
 }
 
-/// march_clouds.comp is MarchClouds, draw_quads.vert is DrawQuadsVert.
+/// blend_clouds.comp is BlendClouds, draw_quads.vert is DrawQuadsVert.
 std::string type_name(const std::string& name) {
   std::string out;
   bool first = true;

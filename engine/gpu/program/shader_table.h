@@ -10,7 +10,7 @@ namespace skerry::gpu {
 /// asks of a pipeline layout is what its source declares, whatever an optimiser leaves of that:
 /// every build binds alike.
 struct EmbeddedShader {
-  const char* name;                                     ///< source file name, e.g. "cull_emit.comp"
+  const char* name;                                     ///< source file name, e.g. "cull.comp"
   const unsigned char* begin;                           ///< first byte
   const unsigned char* end;                             ///< one past the last byte
   std::span<const ShaderReflection::Binding> bindings;  ///< of set 0, by number

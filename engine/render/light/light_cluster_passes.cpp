@@ -1,6 +1,8 @@
 #include <shader_names.h>
 #include <algorithm>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "engine/render/light/light_clusters.h"
 
@@ -31,12 +33,71 @@ void fill_dispatch(gpu::Commands& c, gpu::BufferRef to, std::uint64_t size_bytes
   c.fill(to, 12, size_bytes - 12, 0);
 }
 
-struct Buffers {
+/// What every step of sort_lights.comp reads, whether it looks at it or not.
+struct Inputs {
   gpu::BufferRef grid, lights, islands, reaches;
-  gpu::BufferRef small_tiles, tiles;  ///< shared::TileDepths
-  gpu::BufferRef bins, occupied, counts, work;
   ClusterDepths pixels;  ///< what the picture shows
   VkSampler point;
+
+  void declare(gpu::PassBuilder& p) const {
+    for (const gpu::BufferRef ref : {grid, lights, islands, reaches})
+      p.read(ref, Use::kComputeRead);
+    p.read(pixels.surfaces, Use::kComputeRead);
+    p.read(pixels.depth, Use::kComputeSampled);
+    for (std::uint32_t k = 0; k < pixels.layer_count; ++k)
+      p.read(pixels.layers[k], Use::kComputeSampled);
+  }
+  auto bindings() const {
+    return std::tuple{
+        gpu::storage<shared::kLightGridBinding>(grid), gpu::storage<shared::kLightsBinding>(lights),
+        gpu::storage<shared::kIslandsBinding>(islands),
+        gpu::storage<shared::kLightReachBinding>(reaches),
+        gpu::sampled<shared::kDepthsBinding>(pixels.depth, point),
+        gpu::storage<shared::kSurfacesBinding>(pixels.surfaces),
+        // Layers that are not there are never read; depth is bound in their place.
+        gpu::each_of<shared::kLayerDepthsBinding, 4>([&]<std::uint32_t kBinding>(std::size_t k) {
+          return gpu::sampled<kBinding>(k < pixels.layer_count ? pixels.layers[k] : pixels.depth,
+                                        point);
+        })};
+  }
+};
+
+/// What a step of sort_lights.comp works on and may write.
+struct Lists {
+  /// @param unused stands for all that the step has no use for: a buffer that it writes.
+  explicit Lists(gpu::BufferRef unused)
+      : small_tiles(unused),
+        tiles(unused),
+        bins(unused),
+        work(unused),
+        occupied(unused),
+        counts(unused),
+        clusters(unused),
+        entries(unused),
+        dispatches(unused),
+        listed(unused) {}
+
+  gpu::BufferRef small_tiles, tiles;  ///< shared::TileDepths
+  gpu::BufferRef bins, work, occupied, counts, clusters, entries, dispatches, listed;
+
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kTileDepthsBinding>(small_tiles),
+                      gpu::storage<shared::kGridTilesBinding>(tiles),
+                      gpu::storage<shared::kLightBinsBinding>(bins),
+                      gpu::storage<shared::kClusterWorkBinding>(work),
+                      gpu::storage<shared::kOccupiedClustersBinding>(occupied),
+                      gpu::storage<shared::kLightCountsBinding>(counts),
+                      gpu::storage<shared::kClustersBinding>(clusters),
+                      gpu::storage<shared::kLightEntriesBinding>(entries),
+                      gpu::storage<shared::kTileDispatchesBinding>(dispatches),
+                      gpu::storage<shared::kTilesBinding>(listed)};
+  }
+};
+
+struct Buffers {
+  Inputs in;
+  gpu::BufferRef small_tiles, tiles;  ///< shared::TileDepths
+  gpu::BufferRef bins, occupied, counts, work;
 };
 
 std::uint32_t small_tile_count(const shared::ClusterGrid& grid) {
@@ -44,67 +105,28 @@ std::uint32_t small_tile_count(const shared::ClusterGrid& grid) {
          gpu::Commands::groups(grid.size.y, shared::kTileEdge);
 }
 
-/// What list_lights.comp works on besides Buffers; what a step does not use is bound to another of
-/// its buffers.
-struct Lists {
-  gpu::BufferRef tiles, work, occupied, counts, clusters, dispatches, listed;
-
-  auto bindings(const Buffers& b) const {
-    const ClusterDepths& pixels = b.pixels;
-    return std::tuple{
-        gpu::storage<shared::kLightGridBinding>(b.grid),
-        gpu::sampled<shared::kDepthsBinding>(pixels.depth, b.point),
-        gpu::storage<shared::kSurfacesBinding>(pixels.surfaces),
-        // Layers that are not there are never read; depth is bound in their place.
-        gpu::each_of<shared::kLayerDepthsBinding, 4>([&]<std::uint32_t kBinding>(std::size_t k) {
-          return gpu::sampled<kBinding>(k < pixels.layer_count ? pixels.layers[k] : pixels.depth,
-                                        b.point);
-        }),
-        gpu::storage<shared::kTileDepthsBinding>(b.small_tiles),
-        gpu::storage<shared::kGridTilesBinding>(tiles),
-        gpu::storage<shared::kClusterWorkBinding>(work),
-        gpu::storage<shared::kOccupiedClustersBinding>(occupied),
-        gpu::storage<shared::kLightCountsBinding>(counts),
-        gpu::storage<shared::kClustersBinding>(clusters),
-        gpu::storage<shared::kTileDispatchesBinding>(dispatches),
-        gpu::storage<shared::kTilesBinding>(listed)};
-  }
-};
-
-/// What every step of list_lights.comp declares, whether it looks at it or not.
-void declare_pixels(gpu::PassBuilder& p, Buffers& b) {
-  p.read(b.pixels.surfaces, Use::kComputeRead);
-  p.read(b.pixels.depth, Use::kComputeSampled);
-  for (std::uint32_t k = 0; k < b.pixels.layer_count; ++k)
-    p.read(b.pixels.layers[k], Use::kComputeSampled);
-  b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
-}
-
-auto list_program(gpu::Pipelines& pipelines, std::uint32_t list, const ClusterDepths& pixels,
-                  bool oracle = false) {
-  std::vector<gpu::SpecConstant> constants{{shared::kLightListConstant, list}};
-  if (oracle) constants.push_back({shared::kOracleConstant, 1});
-  if (list == shared::kListDepths) {
-    constants.push_back({shared::kWaterLayersConstant, pixels.layer_count});
-    if (pixels.depth16) constants.push_back({shared::kDepth16Constant, 1});
-  }
-  return gpu::compute(pipelines, programs::kListLights, std::move(constants));
+auto program_of(gpu::Pipelines& pipelines, std::uint32_t step,
+                std::vector<gpu::SpecConstant> constants) {
+  constants.push_back({shared::kLightStepConstant, step});
+  return gpu::compute(pipelines, programs::kSortLights, std::move(constants));
 }
 
 /// Finds what depths each tile of 8x8 pixels shows.
 void add_mark(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::ClusterGrid& grid,
               Buffers& b) {
+  const ClusterDepths& pixels = b.in.pixels;
+  std::vector<gpu::SpecConstant> constants{{shared::kWaterLayersConstant, pixels.layer_count}};
+  if (pixels.depth16) constants.push_back({shared::kDepth16Constant, 1});
   graph.add_pass(
       "mark_light_tiles",
       [&](gpu::PassBuilder& p) {
-        p.read(b.grid, Use::kComputeRead);
-        declare_pixels(p, b);
+        b.in.declare(p);
+        b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
       },
-      [b, program = list_program(pipelines, shared::kListDepths, b.pixels),
-       count = small_tile_count(grid)](gpu::Commands& c) {
-        const gpu::BufferRef& unused = b.small_tiles;
-        const Lists lists{unused, unused, unused, unused, unused, unused, unused};
-        gpu::bind(c, program, lists.bindings(b));
+      [in = b.in, lists = Lists(b.small_tiles), count = small_tile_count(grid),
+       program =
+           program_of(pipelines, shared::kLightDepths, std::move(constants))](gpu::Commands& c) {
+        gpu::bind(c, program, in.bindings(), lists.bindings(), gpu::constants(0u));
         dispatch_items(c, count);
       });
 }
@@ -117,107 +139,99 @@ void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       [work = b.work, chunks = grid.chunks](gpu::Commands& c) {
         fill_dispatch(c, work, sizeof(shared::ClusterWork), chunks);
       });
+  Lists lists(b.occupied);
+  lists.small_tiles = b.small_tiles;
+  lists.tiles = b.tiles;
+  lists.work = b.work;
   graph.add_pass(
       "list_light_clusters",
       [&](gpu::PassBuilder& p) {
-        p.read(b.grid, Use::kComputeRead);
-        declare_pixels(p, b);
+        b.in.declare(p);
+        // Read alone by this step, but the shader may write it: so in the steps below.
+        b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
         b.tiles = p.write(b.tiles, Use::kComputeWrite);
         b.work = p.write(b.work, Use::kComputeWrite);
         b.occupied = p.write(b.occupied, Use::kComputeWrite);
       },
-      [b, count = grid.tiles_x * grid.tiles_y,
-       program = list_program(pipelines, shared::kListClusters, b.pixels)](gpu::Commands& c) {
-        const Lists lists{b.tiles,    b.work,     b.occupied, b.occupied,
-                          b.occupied, b.occupied, b.occupied};
-        gpu::bind(c, program, lists.bindings(b));
+      [in = b.in, lists, count = grid.tiles_x * grid.tiles_y,
+       program = program_of(pipelines, shared::kLightClusters, {})](gpu::Commands& c) {
+        gpu::bind(c, program, in.bindings(), lists.bindings(), gpu::constants(0u));
         dispatch_items(c, count);
       });
 }
 
-/// What assign_lights.comp works on besides Buffers; what a step does not use is bound to another.
-struct Assigned {
-  gpu::BufferRef work, occupied, counts, clusters, entries;
-
-  auto bindings(const Buffers& b) const {
-    return std::tuple{gpu::storage<shared::kLightGridBinding>(b.grid),
-                      gpu::storage<shared::kLightsBinding>(b.lights),
-                      gpu::storage<shared::kIslandsBinding>(b.islands),
-                      gpu::storage<shared::kLightReachBinding>(b.reaches),
-                      gpu::storage<shared::kGridTilesBinding>(b.tiles),
-                      gpu::storage<shared::kLightBinsBinding>(b.bins),
-                      gpu::storage<shared::kClusterWorkBinding>(work),
-                      gpu::storage<shared::kOccupiedClustersBinding>(occupied),
-                      gpu::storage<shared::kLightCountsBinding>(counts),
-                      gpu::storage<shared::kClustersBinding>(clusters),
-                      gpu::storage<shared::kLightEntriesBinding>(entries)};
-  }
-};
-
 void add_bin(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const shared::ClusterGrid& grid,
              std::uint32_t kinds, Buffers& b) {
+  Lists lists(b.bins);
+  lists.tiles = b.tiles;
   graph.add_pass(
       "bin_lights",
       [&](gpu::PassBuilder& p) {
-        for (const gpu::BufferRef ref : {b.grid, b.lights, b.islands, b.reaches, b.tiles})
-          p.read(ref, Use::kComputeRead);
+        b.in.declare(p);
+        b.tiles = p.write(b.tiles, Use::kComputeWrite);
         b.bins = p.write(b.bins, Use::kComputeWrite);
       },
-      [b, groups = gpu::Commands::groups(grid.bins_x * grid.bins_y, shared::kClusterGroup),
+      [in = b.in, lists,
+       groups = gpu::Commands::groups(grid.bins_x * grid.bins_y, shared::kClusterGroup),
        words = grid.light_words,
-       program = gpu::compute(pipelines, programs::kAssignLights,
-                              {{shared::kLightKindsConstant, kinds}, {shared::kBinConstant, 1}})](
+       program = program_of(pipelines, shared::kLightBins, {{shared::kLightKindsConstant, kinds}})](
           gpu::Commands& c) {
-        const Assigned in{b.bins, b.bins, b.bins, b.bins, b.bins};
-        gpu::bind(c, program, in.bindings(b), gpu::constants(0u));
+        gpu::bind(c, program, in.bindings(), lists.bindings(), gpu::constants(0u));
         c.dispatch(groups, words, 1);
       });
 }
 
 void add_reserve(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Buffers& b,
                  ClusteredLights& out) {
+  Lists lists(b.counts);
+  lists.work = b.work;
+  lists.occupied = b.occupied;
+  lists.clusters = out.clusters;
   graph.add_pass(
       "reserve_light_lists",
       [&](gpu::PassBuilder& p) {
-        p.read(b.grid, Use::kComputeRead);
+        b.in.declare(p);
         p.read(b.work, Use::kIndirect);
-        declare_pixels(p, b);
         b.work = p.write(b.work, Use::kComputeWrite);
-        // Read alone by this step, but the shader may write it.
         b.occupied = p.write(b.occupied, Use::kComputeWrite);
         b.counts = p.write(b.counts, Use::kComputeWrite);
         out.clusters = p.write(out.clusters, Use::kComputeWrite);
       },
-      [b, clusters = out.clusters,
-       program = list_program(pipelines, shared::kListRoom, b.pixels)](gpu::Commands& c) {
-        const Lists lists{b.counts, b.work, b.occupied, b.counts, clusters, b.counts, b.counts};
-        gpu::bind(c, program, lists.bindings(b));
-        c.dispatch_indirect(b.work, 0);
+      [in = b.in, lists, work = b.work,
+       program = program_of(pipelines, shared::kLightRoom, {})](gpu::Commands& c) {
+        gpu::bind(c, program, in.bindings(), lists.bindings(), gpu::constants(0u));
+        c.dispatch_indirect(work, 0);
       });
 }
 
-/// One of the two runs over the occupied clusters. In the first, the counts stand for what is not
-/// there yet and not looked at.
+/// One of the two runs over the occupied clusters. @param list else lights are counted.
 void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Buffers& b,
                 ClusteredLights& out) {
+  Lists lists(b.counts);
+  lists.tiles = b.tiles;
+  lists.bins = b.bins;
+  lists.work = b.work;
+  lists.occupied = b.occupied;
+  if (list) {
+    lists.clusters = out.clusters;
+    lists.entries = out.entries;
+  }
   graph.add_pass(
       list ? "assign_lights" : "count_lights",
       [&](gpu::PassBuilder& p) {
-        for (const gpu::BufferRef ref :
-             {b.grid, b.lights, b.islands, b.reaches, b.tiles, b.occupied, b.work})
-          p.read(ref, Use::kComputeRead);
-        b.bins = p.write(b.bins, Use::kComputeWrite);  // by the shader's other step
+        b.in.declare(p);
         p.read(b.work, Use::kIndirect);
-        if (list) p.read(out.clusters, Use::kComputeRead);
-        b.counts = p.write(b.counts, Use::kComputeWrite);
-        if (list) out.entries = p.write(out.entries, Use::kComputeWrite);
+        for (gpu::BufferRef* ref : {&b.tiles, &b.bins, &b.work, &b.occupied, &b.counts})
+          *ref = p.write(*ref, Use::kComputeWrite);
+        if (!list) return;
+        out.clusters = p.write(out.clusters, Use::kComputeWrite);
+        out.entries = p.write(out.entries, Use::kComputeWrite);
       },
-      [b, list, clusters = list ? out.clusters : b.counts, entries = list ? out.entries : b.counts,
-       program = gpu::compute(pipelines, programs::kAssignLights,
-                              {{shared::kLightKindsConstant, out.kinds}})](gpu::Commands& c) {
-        const Assigned in{b.work, b.occupied, b.counts, clusters, entries};
-        gpu::bind(c, program, in.bindings(b), gpu::constants(list ? 1u : 0u));
-        c.dispatch_indirect(b.work, 0);
+      [in = b.in, lists, list, work = b.work,
+       program = program_of(pipelines, shared::kLightLists,
+                            {{shared::kLightKindsConstant, out.kinds}})](gpu::Commands& c) {
+        gpu::bind(c, program, in.bindings(), lists.bindings(), gpu::constants(list ? 1u : 0u));
+        c.dispatch_indirect(work, 0);
       });
 }
 
@@ -234,23 +248,25 @@ void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       [dispatches = out.tiles.dispatches](gpu::Commands& c) {
         fill_dispatch(c, dispatches, 2 * sizeof(shared::TileDispatch), 1);
       });
-  const gpu::BufferRef clusters = out.oracle ? out.tiles.lists : out.clusters;  // may be unread
+  Lists lists(out.tiles.lists);
+  lists.small_tiles = b.small_tiles;
+  if (!out.oracle) lists.clusters = out.clusters;
+  lists.dispatches = out.tiles.dispatches;
+  std::vector<gpu::SpecConstant> constants;
+  if (out.oracle) constants.push_back({shared::kOracleConstant, 1});
   graph.add_pass(
       "list_light_tiles",
       [&](gpu::PassBuilder& p) {
-        p.read(b.grid, Use::kComputeRead);
-        declare_pixels(p, b);
-        // Read alone by this step, but the shader may write them.
+        b.in.declare(p);
+        b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
         if (!out.oracle) out.clusters = p.write(out.clusters, Use::kComputeWrite);
         out.tiles.dispatches = p.write(out.tiles.dispatches, Use::kComputeWrite);
         out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
       },
-      [b, clusters, tiles = out.tiles, count = small_tile_count(grid),
+      [in = b.in, lists, count = small_tile_count(grid),
        program =
-           list_program(pipelines, shared::kListTiles, b.pixels, out.oracle)](gpu::Commands& c) {
-        const Lists lists{tiles.lists, tiles.lists,      tiles.lists, tiles.lists,
-                          clusters,    tiles.dispatches, tiles.lists};
-        gpu::bind(c, program, lists.bindings(b));
+           program_of(pipelines, shared::kLightTiles, std::move(constants))](gpu::Commands& c) {
+        gpu::bind(c, program, in.bindings(), lists.bindings(), gpu::constants(0u));
         dispatch_items(c, count);
       });
 }
@@ -274,13 +290,8 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
   out.tiles.dispatches = create("light tile dispatches", 2 * sizeof(shared::TileDispatch));
   out.tiles.lists = create("light tiles", std::uint64_t{small} * sizeof(std::uint32_t));
   Buffers b;
-  b.grid = out.grid;
-  b.lights = out.lights;
-  b.islands = scene.islands;
-  b.reaches = out.reaches;
+  b.in = {out.grid, out.lights, scene.islands, out.reaches, depths, scene.point_sampler};
   b.small_tiles = create("tile depths", std::uint64_t{small} * sizeof(shared::TileDepths));
-  b.pixels = depths;
-  b.point = scene.point_sampler;
   work_ = {};
   add_mark(graph, pipelines, grid_, b);
   if (!oracle) {

@@ -1,12 +1,10 @@
 #include "engine/render/post/bloom_pass.h"
-#include "engine/gpu/graph/bindings.h"
-#include "shaders/shared/bindings.h"
-#include "shaders/shared/constants.h"
 
-#include <shader_names.h>
 #include <algorithm>
 #include <string>
 #include <vector>
+
+#include "engine/render/post/radiance_filter.h"
 
 namespace skerry::render {
 namespace {
@@ -21,6 +19,7 @@ VkExtent2D halved(VkExtent2D size) {
 struct Level {
   shared::BloomStep step;
   std::uint32_t index = 0;  // of the level that is made
+  gpu::ImageRef& no_total;
 };
 
 shared::BloomStep step_between(VkExtent2D fine, VkExtent2D coarse, const BloomSettings& settings) {
@@ -48,16 +47,15 @@ gpu::ImageRef shrink(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
         b.read(fine, Use::kComputeRead);
         b.read(scene.exposure, Use::kComputeRead);
         coarse = b.write(coarse, Use::kComputeWrite);
+        level.no_total =
+            b.write(level.no_total, Use::kComputeWrite);  // by the shader's other steps
       },
-      [fine, coarse, step, exposure = scene.exposure,
-       program =
-           gpu::compute(pipelines, programs::kFilterBloom,
-                        {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}})](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kFineBloomBinding>(fine),
-                  gpu::storage<shared::kCoarseBloomBinding>(fine),  // not read
-                  gpu::storage<shared::kMadeBloomBinding>(coarse),
-                  gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(step));
-        dispatch_over(c, step.coarse_size);
+      [filter = RadianceFilter{fine, fine, coarse, level.no_total, scene.exposure, {step}},
+       program = RadianceFilter::program(pipelines, shared::kFilterShrink,
+                                         {{shared::kFirstConstant, level.index == 1 ? 1u : 0u}})](
+          gpu::Commands& c) {
+        gpu::bind(c, program, filter.bindings());
+        dispatch_over(c, filter.push.step.coarse_size);
       });
   return coarse;
 }
@@ -71,15 +69,13 @@ gpu::ImageRef spread(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
         b.read(coarse, Use::kComputeRead);
         b.read(scene.exposure, Use::kComputeRead);
         fine = b.write(fine, Use::kComputeWrite);
+        level.no_total =
+            b.write(level.no_total, Use::kComputeWrite);  // by the shader's other steps
       },
-      [fine, coarse, exposure = scene.exposure, step = level.step,
-       program = gpu::compute(pipelines, programs::kFilterBloom, {{shared::kSpreadConstant, 1}})](
-          gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kFineBloomBinding>(fine),
-                  gpu::storage<shared::kCoarseBloomBinding>(coarse),
-                  gpu::storage<shared::kMadeBloomBinding>(fine),
-                  gpu::storage<shared::kExposureBinding>(exposure), gpu::constants(step));
-        dispatch_over(c, step.fine_size);
+      [filter = RadianceFilter{fine, coarse, fine, level.no_total, scene.exposure, {level.step}},
+       program = RadianceFilter::program(pipelines, shared::kFilterSpread, {})](gpu::Commands& c) {
+        gpu::bind(c, program, filter.bindings());
+        dispatch_over(c, filter.push.step.fine_size);
       });
   return fine;
 }
@@ -97,17 +93,19 @@ std::uint32_t bloom_levels(VkExtent2D size, int asked) {
 Bloom BloomPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      gpu::ImageRef radiance, const BloomSettings& settings) {
   const std::uint32_t levels = bloom_levels(scene.size, settings.levels);
+  gpu::ImageRef no_total = RadianceFilter::no_total(graph);
   std::vector<gpu::ImageRef> images{radiance};
   std::vector<shared::BloomStep> steps;
   VkExtent2D size = scene.size;
   for (std::uint32_t level = 1; level <= levels; ++level) {
     steps.push_back(step_between(size, halved(size), settings));
-    images.push_back(shrink(graph, pipelines, scene, images.back(), {steps.back(), level}));
+    images.push_back(
+        shrink(graph, pipelines, scene, images.back(), {steps.back(), level, no_total}));
     size = halved(size);
   }
   for (std::uint32_t level = levels - 1; level >= 1; --level)
-    images[level] =
-        spread(graph, pipelines, scene, images[level], images[level + 1], {steps[level], level});
+    images[level] = spread(graph, pipelines, scene, images[level], images[level + 1],
+                           {steps[level], level, no_total});
   return {images[1], steps[0]};
 }
 

@@ -1,10 +1,6 @@
 #include "engine/render/post/resolve_pass.h"
 
-#include <shader_names.h>
-
-#include "engine/gpu/graph/bindings.h"
-#include "shaders/shared/bindings.h"
-#include "shaders/shared/constants.h"
+#include "engine/render/post/radiance_filter.h"
 
 namespace skerry::render {
 
@@ -16,11 +12,7 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
   const bool accumulates = in.parts > 1;
   const gpu::ImageRef samples = shaded.radiance();
   // Without parts there is no total: one texel of its format is bound in its place.
-  gpu::ImageRef total =
-      accumulates
-          ? graph.import(*in.total)
-          : graph.create(gpu::ImageDesc{
-                .name = "no total", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {1, 1}});
+  gpu::ImageRef total = accumulates ? graph.import(*in.total) : RadianceFilter::no_total(graph);
   gpu::ImageRef radiance = graph.create(gpu::ImageDesc{.name = "radiance of pixels",
                                                        .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                                        .extent = in.picture_size});
@@ -30,7 +22,10 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
     constants.push_back({shared::kAccumulateConstant, 1});
     constants.push_back({shared::kFirstConstant, in.part == 0 ? 1u : 0u});
   }
-  const auto program = gpu::compute(pipelines, programs::kAverageSamples, std::move(constants));
+  const VkExtent2D size = in.picture_size;
+  RadianceFilter filter{samples, samples, radiance, total, scene.frame};  // nothing is exposed
+  filter.push.step.coarse_size = {size.width, size.height};
+  filter.push.share = 1.0f / static_cast<float>(in.parts);
   graph.add_pass(
       accumulates ? "accumulate_part" : "average_samples",
       [&](gpu::PassBuilder& b) {
@@ -39,14 +34,11 @@ Shaded ResolvePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Scene
         radiance = b.write(radiance, Use::kComputeWrite);
         total = b.write(total, Use::kComputeWrite);
       },
-      [program, frame = scene.frame, samples, radiance, total, in](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
-                  gpu::storage<shared::kSamplesBinding>(samples),
-                  gpu::storage<shared::kRadianceBinding>(radiance),
-                  gpu::storage<shared::kTotalBinding>(total),
-                  gpu::constants(1.0f / static_cast<float>(in.parts)));
-        c.dispatch(gpu::Commands::groups(in.picture_size.width, 8),
-                   gpu::Commands::groups(in.picture_size.height, 8), 1);
+      [filter, size,
+       program = RadianceFilter::program(pipelines, shared::kFilterAverage, std::move(constants))](
+          gpu::Commands& c) {
+        gpu::bind(c, program, filter.bindings());
+        c.dispatch(gpu::Commands::groups(size.width, 8), gpu::Commands::groups(size.height, 8), 1);
       });
   return Shaded(radiance);
 }

@@ -19,9 +19,9 @@ std::uint32_t list_index(std::uint32_t view, DrawList list) {
   return view * shared::kListCount + static_cast<std::uint32_t>(list);
 }
 
-/// Push constants of cull_emit.comp, in both of its steps.
-struct EmitPush {
-  std::uint32_t section_count, group_count;
+/// Push constants of cull.comp.
+struct CullPush {
+  std::uint32_t section_count, group_count, islands_per_view;
   DrawLimits most;
 };
 
@@ -30,7 +30,32 @@ struct Culling {
   const CullIn& in;
   std::uint32_t groups = 0;
   gpu::BufferRef masks, totals;
+
+  CullPush push(const SceneRefs& scene) const {
+    return {in.section_slots, groups, scene.islands_per_view, in.most};
+  }
 };
+
+/// What cull.comp works on; what a step does not use is bound to another of its buffers.
+struct StepBuffers {
+  gpu::BufferRef sections, islands, views, masks, totals, stats, transforms, commands, counts;
+
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kSectionsBinding>(sections),
+                      gpu::storage<shared::kIslandsBinding>(islands),
+                      gpu::storage<shared::kCullViewsBinding>(views),
+                      gpu::storage<shared::kCullMasksBinding>(masks),
+                      gpu::storage<shared::kCullTotalsBinding>(totals),
+                      gpu::storage<shared::kCullStatsBinding>(stats),
+                      gpu::storage<shared::kSectionTransformsBinding>(transforms),
+                      gpu::storage<shared::kDrawCommandsBinding>(commands),
+                      gpu::storage<shared::kDrawCountsBinding>(counts)};
+  }
+};
+
+auto cull_program(gpu::Pipelines& pipelines, std::uint32_t step) {
+  return gpu::compute(pipelines, programs::kCull, {{shared::kCullStepConstant, step}});
+}
 
 void add_sections(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                   Culling& culling, CulledDraws& out) {
@@ -44,26 +69,18 @@ void add_sections(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
         out.stats = b.write(out.stats, Use::kComputeWrite);
         out.transforms = b.write(out.transforms, Use::kComputeWrite);
       },
-      [scene, masks = culling.masks, totals = culling.totals, stats = out.stats,
-       transforms = out.transforms, in = culling.in, groups = culling.groups,
-       program = gpu::compute(pipelines, programs::kCullSections)](gpu::Commands& c) {
-        const struct {
-          std::uint32_t section_count, group_count, islands_per_view;
-        } push{in.section_slots, groups, scene.islands_per_view};
-        gpu::bind(c, program, gpu::storage<shared::kSectionsBinding>(scene.sections),
-                  gpu::storage<shared::kIslandsBinding>(scene.view_islands),
-                  gpu::storage<shared::kCullViewsBinding>(scene.views),
-                  gpu::storage<shared::kCullMasksBinding>(masks),
-                  gpu::storage<shared::kCullTotalsBinding>(totals),
-                  gpu::storage<shared::kCullStatsBinding>(stats),
-                  gpu::storage<shared::kSectionTransformsBinding>(transforms),
-                  gpu::constants(push));
-        c.dispatch(groups, in.views, 1);
+      [buffers =
+           StepBuffers{scene.sections, scene.view_islands, scene.views, culling.masks,
+                       culling.totals, out.stats, out.transforms, culling.totals, culling.totals},
+       push = culling.push(scene), views = culling.in.views,
+       program = cull_program(pipelines, shared::kCullSections)](gpu::Commands& c) {
+        gpu::bind(c, program, buffers.bindings(), gpu::constants(push));
+        c.dispatch(push.group_count, views, 1);
       });
 }
 
-void add_scan(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Culling& culling,
-              CulledDraws& out) {
+void add_scan(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+              Culling& culling, CulledDraws& out) {
   graph.add_pass(
       "cull_scan",
       [&](gpu::PassBuilder& b) {
@@ -71,42 +88,33 @@ void add_scan(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Culling& cullin
         out.counts = b.write(out.counts, Use::kComputeWrite);
       },
       [totals = culling.totals, counts = out.counts, lists = culling.in.views * shared::kListCount,
-       push = EmitPush{culling.in.section_slots, culling.groups, culling.in.most},
-       program = gpu::compute(pipelines, programs::kCullEmit, {{shared::kScanConstant, 1}})](
-          gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kCullTotalsBinding>(totals),
-                  gpu::storage<shared::kDrawCountsBinding>(counts),
-                  // Used by the next step alone.
-                  gpu::storage<shared::kSectionsBinding>(totals),
-                  gpu::storage<shared::kCullMasksBinding>(totals),
-                  gpu::storage<shared::kCullViewsBinding>(totals),
-                  gpu::storage<shared::kDrawCommandsBinding>(totals), gpu::constants(push));
+       push = culling.push(scene),
+       program = cull_program(pipelines, shared::kCullScan)](gpu::Commands& c) {
+        const StepBuffers buffers{totals, totals, totals, totals, totals,
+                                  totals, totals, totals, counts};
+        gpu::bind(c, program, buffers.bindings(), gpu::constants(push));
         c.dispatch(lists, 1, 1);
       });
 }
 
 void add_emit(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-              const Culling& culling, CulledDraws& out) {
-  gpu::BufferRef totals = culling.totals;
+              Culling& culling, CulledDraws& out) {
   graph.add_pass(
       "cull_emit",
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref : {scene.sections, culling.masks, scene.views})
+        for (const gpu::BufferRef ref : {scene.sections, scene.views})
           b.read(ref, Use::kComputeRead);
-        b.read(totals, Use::kComputeRead);
+        // Read alone by this step, but the shader may write them.
+        culling.masks = b.write(culling.masks, Use::kComputeWrite);
+        culling.totals = b.write(culling.totals, Use::kComputeWrite);
         out.commands = b.write(out.commands, Use::kComputeWrite);
       },
-      [scene, masks = culling.masks, totals, commands = out.commands,
-       push = EmitPush{culling.in.section_slots, culling.groups, culling.in.most},
-       views = culling.in.views,
-       program = gpu::compute(pipelines, programs::kCullEmit)](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kSectionsBinding>(scene.sections),
-                  gpu::storage<shared::kCullMasksBinding>(masks),
-                  gpu::storage<shared::kCullTotalsBinding>(totals),
-                  gpu::storage<shared::kCullViewsBinding>(scene.views),
-                  gpu::storage<shared::kDrawCommandsBinding>(commands),
-                  gpu::storage<shared::kDrawCountsBinding>(commands),  // of the step before
-                  gpu::constants(push));
+      [buffers =
+           StepBuffers{scene.sections, scene.sections, scene.views, culling.masks, culling.totals,
+                       out.commands, out.commands, out.commands, out.commands},
+       push = culling.push(scene), views = culling.in.views,
+       program = cull_program(pipelines, shared::kCullEmit)](gpu::Commands& c) {
+        gpu::bind(c, program, buffers.bindings(), gpu::constants(push));
         c.dispatch(push.group_count, views, 1);
       });
 }
@@ -158,7 +166,7 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       [&](gpu::PassBuilder& b) { out.stats = b.write(out.stats, Use::kTransferWrite); },
       [stats = out.stats](gpu::Commands& c) { c.fill(stats, 0, VK_WHOLE_SIZE, 0); });
   add_sections(graph, pipelines, scene, culling, out);
-  add_scan(graph, pipelines, culling, out);
+  add_scan(graph, pipelines, scene, culling, out);
   add_emit(graph, pipelines, scene, culling, out);
   return out;
 }

@@ -15,7 +15,7 @@ using gpu::Use;
 
 enum class Part : std::uint8_t { kAll, kBefore, kBehind };  // of water or glass
 
-/// What programs that include cloud_view.glsl read.
+/// What both steps of blend_clouds.comp read.
 class ViewReads {
  public:
   ViewReads(const SceneRefs& scene, const CloudPass::View& view, const RenderSettings& settings,
@@ -99,19 +99,34 @@ gpu::ImageRef coarse_image(gpu::FrameGraph& graph, const SceneRefs& scene, const
                      .extent = {(scene.size.width + 1) / 2, (scene.size.height + 1) / 2}});
 }
 
-gpu::ImageRef march(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+/// What a step of blend_clouds.comp writes; what it does not is bound to another of its images.
+struct Written {
+  gpu::BufferRef stats;
+  gpu::ImageRef radiance, marched;
+
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kPixelStatsBinding>(stats),
+                      gpu::storage<shared::kRadianceBinding>(radiance),
+                      gpu::storage<shared::kMarchedCloudsBinding>(marched)};
+  }
+};
+
+gpu::ImageRef march(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                     const ViewReads& reads) {
   gpu::ImageRef coarse = coarse_image(graph, scene, "coarse clouds");
   graph.add_pass(
       "march_clouds",
       [&](gpu::PassBuilder& b) {
         reads.declare(b);
+        scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         coarse = b.write(coarse, Use::kComputeWrite);
       },
-      [reads, coarse, size = scene.size,
-       program =
-           gpu::compute(pipelines, programs::kMarchClouds, reads.constants({}))](gpu::Commands& c) {
-        gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kCoarseCloudsBinding>(coarse));
+      [reads, written = Written{scene.pixel_stats, coarse, coarse}, size = scene.size,
+       lut = scene.sky_lut, sampler = scene.point_sampler,
+       program = gpu::compute(pipelines, programs::kBlendClouds,
+                              reads.constants({{shared::kMarchConstant, 1}}))](gpu::Commands& c) {
+        gpu::bind(c, program, reads.bindings(), written.bindings(),
+                  gpu::sampled<shared::kCoarseCloudsBinding>(lut, sampler));
         dispatch_over_fours(c, size);
       });
   return coarse;
@@ -137,12 +152,11 @@ gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         radiance = b.write(radiance, Use::kComputeWrite);
       },
-      [reads, coarse, radiance, stats = scene.pixel_stats, size = scene.size, lut = scene.sky_lut,
-       sampler = scene.point_sampler,
+      [reads, coarse, written = Written{scene.pixel_stats, radiance, radiance}, size = scene.size,
+       lut = scene.sky_lut, sampler = scene.point_sampler,
        program = gpu::compute(pipelines, programs::kBlendClouds,
                               reads.constants(std::move(constants)))](gpu::Commands& c) {
-        gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kPixelStatsBinding>(stats),
-                  gpu::storage<shared::kRadianceBinding>(radiance),
+        gpu::bind(c, program, reads.bindings(), written.bindings(),
                   gpu::sampled<shared::kCoarseCloudsBinding>(coarse ? coarse : lut, sampler));
         dispatch_over(c, size);
       });

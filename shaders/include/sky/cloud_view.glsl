@@ -1,4 +1,4 @@
-// What march_clouds.comp and blend_clouds.comp share: what a pixel's ray has before it.
+// What blend_clouds.comp marches: what a pixel's ray has before it.
 #define SKERRY_LIGHTS
 #include "shared/constants.h"
 #include "include/sky/cloud_ray.glsl"

@@ -1,23 +1,36 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Step 1 of 3: which ranges of each section a view needs (frustum, then the directions its faces look in), and how many draws each
-// work group of sections makes. One thread a section, one row of groups a view. docs/conventions.md.
+// Culling in three steps. Sections: which ranges of each section a view needs (frustum, then the directions its faces look in), and how many draws
+// each work group of sections makes; one thread a section, one row of groups a view. Scan: where each group's draws begin; one work group a list,
+// exclusive scan of the group totals in place, the sum becomes the list's draw count. Emit: writes the indirect commands of every view and list,
+// in section order. docs/conventions.md.
 #include "include/scene/cull.glsl"
 #include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(local_size_x = 256) in;
 
 layout(scalar, binding = kSectionsBinding) readonly buffer Sections { Section sections[]; };
 layout(scalar, binding = kIslandsBinding) readonly buffer Islands { IslandTransform islands[]; };
 layout(scalar, binding = kCullViewsBinding) readonly buffer Views { CullView views[]; };
-layout(scalar, binding = kCullMasksBinding) writeonly buffer Masks { uint masks[]; };         // [view][section]
-layout(scalar, binding = kCullTotalsBinding) writeonly buffer Totals { uint group_totals[]; }; // [view][list][group]
-layout(scalar, binding = kCullStatsBinding) buffer Stats { CullStats stats[]; };              // [view]
+layout(scalar, binding = kCullMasksBinding) buffer Masks { uint masks[]; };                      // [view][section]
+layout(scalar, binding = kCullTotalsBinding) buffer Totals { uint totals[]; };                   // [view][list][group]; scanned: where draws begin
+layout(scalar, binding = kCullStatsBinding) buffer Stats { CullStats stats[]; };                 // [view]
 layout(scalar, binding = kSectionTransformsBinding) writeonly buffer Transforms { SectionTransform transforms[]; };  // [view][section]
-layout(push_constant) uniform Push { uint section_count; uint group_count; uint islands_per_view; } push;
+layout(scalar, binding = kDrawCommandsBinding) writeonly buffer Draws { DrawCommand draws[]; };  // [view][list][most]
+layout(scalar, binding = kDrawCountsBinding) writeonly buffer Counts { uint draw_counts[]; };    // [view][list]
+layout(scalar, push_constant) uniform Push {
+  uint section_count;
+  uint group_count;
+  uint islands_per_view;
+  uvec3 most;  // draws of each list
+} push;
+
+layout(constant_id = kCullStepConstant) const uint kCullStep = kCullSections;
 
 shared uint draws_of_list[3];
 shared CullStats group_stats;
+shared uint sums[256];
 
 uvec3 unpack_box(uint packed) { return uvec3(packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u); }
 
@@ -61,7 +74,7 @@ SectionTransform section_transform(Section s, IslandTransform t) {
                           vec4(vec3(t.axis_x.z, t.axis_y.z, t.axis_z.z) * voxel, origin.z));
 }
 
-void main() {
+void cull_sections() {
   uint section = gl_GlobalInvocationID.x;
   uint view = gl_GlobalInvocationID.y;
   if (gl_LocalInvocationIndex == 0u) {
@@ -92,7 +105,7 @@ void main() {
   }
   barrier();
   if (gl_LocalInvocationIndex < kListCount)
-    group_totals[(view * kListCount + gl_LocalInvocationIndex) * push.group_count + gl_WorkGroupID.x] =
+    totals[(view * kListCount + gl_LocalInvocationIndex) * push.group_count + gl_WorkGroupID.x] =
         draws_of_list[gl_LocalInvocationIndex];
   if (gl_LocalInvocationIndex == 0u && group_stats.sections_in != 0u) {
     atomicAdd(stats[view].sections_in, group_stats.sections_in);
@@ -100,4 +113,87 @@ void main() {
     atomicAdd(stats[view].draws, group_stats.draws);
     atomicAdd(stats[view].quads, group_stats.quads);
   }
+}
+
+uint emit_run(uint section, uint first_quad, uint begin, uint end, uint list, uint slot) {
+  uvec3 most = push.most;
+  uint before = list == 0u ? 0u : list == 1u ? most.x : most.x + most.y;
+  uint list_base = gl_GlobalInvocationID.y * (most.x + most.y + most.z) + before;
+  for (; begin < end; begin += kMaxQuadsPerDraw, ++slot) {
+    if (slot >= most[list]) return slot;
+    uint quads = min(end - begin, kMaxQuadsPerDraw);
+    draws[list_base + slot] = DrawCommand(6u * quads, 1u, 0u, 4u * (first_quad + begin), section);
+  }
+  return slot;
+}
+
+void emit() {
+  uint section = gl_GlobalInvocationID.x;
+  uint view = gl_GlobalInvocationID.y;
+  uint lane = gl_LocalInvocationIndex;
+  if (views[view].enabled == 0u) return;
+  uint mask = 0u;
+  Section s;
+  if (section < push.section_count) {
+    mask = masks[view * push.section_count + section];
+    s = sections[section];
+  }
+  for (uint list = 0u; list < kListCount; ++list) {
+    uint own = mask == 0u ? 0u : draw_count(s, mask, list);
+    sums[lane] = own;
+    barrier();
+    for (uint step = 1u; step < 256u; step <<= 1) {
+      uint other = lane >= step ? sums[lane - step] : 0u;
+      barrier();
+      sums[lane] += other;
+      barrier();
+    }
+    if (own != 0u) {
+      uint slot = totals[(view * kListCount + list) * push.group_count + gl_WorkGroupID.x] + sums[lane] - own;
+      uint begin = 0u, end = 0u;
+      for (uint r = list_first_range(list); r < list_end_range(list); ++r) {
+        uint b = range_begin(s, r), e = s.range_end[r];
+        if ((mask & (1u << r)) == 0u || b == e) continue;
+        if (b != end || begin == end) {
+          slot = emit_run(section, s.first_quad, begin, end, list, slot);
+          begin = b;
+        }
+        end = e;
+      }
+      emit_run(section, s.first_quad, begin, end, list, slot);
+    }
+    barrier();
+  }
+}
+
+void scan() {
+  uint list = gl_WorkGroupID.x;
+  uint lane = gl_LocalInvocationIndex;
+  uint base = list * push.group_count;
+  uint carried = 0u;
+  for (uint start = 0u; start < push.group_count; start += 256u) {
+    uint i = start + lane;
+    uint own = i < push.group_count ? totals[base + i] : 0u;
+    sums[lane] = own;
+    barrier();
+    for (uint step = 1u; step < 256u; step <<= 1) {
+      uint other = lane >= step ? sums[lane - step] : 0u;
+      barrier();
+      sums[lane] += other;
+      barrier();
+    }
+    if (i < push.group_count) totals[base + i] = carried + sums[lane] - own;
+    carried += sums[255];
+    barrier();
+  }
+  if (lane == 0u) draw_counts[list] = min(carried, push.most[list % kListCount]);
+}
+
+void main() {
+  if (kCullStep == kCullSections)
+    cull_sections();
+  else if (kCullStep == kCullScan)
+    scan();
+  else
+    emit();
 }

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A step of bloom's pyramid. Down: a level from the finer one by 13 taps of 2x2 texels (J. Jimenez, Next Generation Post Processing in Call of
-// Duty, 2014), on the texel grid, with nothing but black beyond the edges, so that no light is made. Up: the coarser levels mixed into a finer
-// one, in place: the same image is then both `fine` and `made`. docs/exposure.md, docs/conventions.md.
+// Radiance at another resolution. Average: of a pixel from its samples, their mean, as a sensor's square pixel gathers it. Shrink: a level of bloom's
+// pyramid from the finer one by 13 taps of 2x2 texels (J. Jimenez, Next Generation Post Processing in Call of Duty, 2014), on the texel grid, with
+// nothing but black beyond the edges, so that no light is made. Spread: the coarser levels mixed into a finer one, in place: the same image is then
+// both `fine` and `made`. docs/settings.md, aa.samples and shadow.samples; docs/exposure.md, docs/conventions.md.
 #include "include/frame/common.glsl"
 #include "shared/bloom.h"
 #include "shared/exposure.h"
@@ -12,13 +13,17 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = kFineBloomBinding, rgba16f) readonly uniform image2D fine;
-layout(binding = kCoarseBloomBinding, rgba16f) readonly uniform image2D coarse;  // on the way up
+layout(binding = kCoarseBloomBinding, rgba16f) readonly uniform image2D coarse;  // to spread
 layout(binding = kMadeBloomBinding, rgba16f) writeonly uniform image2D made;
 layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; };
-layout(push_constant) uniform Push { BloomStep step; } push;
+layout(binding = kTotalBinding, rgba32f) uniform image2D total;  // of a picture that has several parts
+layout(push_constant) uniform Push { BloomStep step; float share; } push;  // share: of a part in the total
 
-layout(constant_id = kSpreadConstant) const bool kSpread = false;  // up
-layout(constant_id = kFirstConstant) const bool kFirst = false;  // from radiance: exposes it and takes what is too bright
+layout(constant_id = kFilterConstant) const uint kFilter = kFilterAverage;
+// To shrink: from radiance, which is exposed and of which what is too bright is taken. To average: the first part, there is no total yet.
+layout(constant_id = kFirstConstant) const bool kFirst = false;
+layout(constant_id = kSamplesPerEdgeConstant) const uint kSamplesPerEdge = 2u;
+layout(constant_id = kAccumulateConstant) const bool kAccumulate = false;  // a part is added to those before
 
 uvec2 coarse_size() { return push.step.coarse_size; }
 const int kTile = 20;  // texels that 8x8 coarser ones look at, along an edge
@@ -96,9 +101,26 @@ void spread() {
   imageStore(made, at, vec4(mix(imageLoad(fine, at).rgb, glow, kBloomShare), 1.0));
 }
 
+void average() {
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(pixel, push.step.coarse_size))) return;
+  vec3 sum = vec3(0.0);
+  for (uint y = 0u; y < kSamplesPerEdge; ++y)
+    for (uint x = 0u; x < kSamplesPerEdge; ++x) sum += imageLoad(fine, ivec2(pixel * kSamplesPerEdge + uvec2(x, y))).rgb;
+  sum /= float(kSamplesPerEdge * kSamplesPerEdge);
+  if (kAccumulate) {
+    sum *= push.share;
+    if (!kFirst) sum += imageLoad(total, ivec2(pixel)).rgb;
+    imageStore(total, ivec2(pixel), vec4(sum, 1.0));
+  }
+  imageStore(made, ivec2(pixel), vec4(sum, 1.0));
+}
+
 void main() {
-  if (kSpread)
-    spread();
-  else
+  if (kFilter == kFilterAverage)
+    average();
+  else if (kFilter == kFilterShrink)
     shrink();
+  else
+    spread();
 }
