@@ -24,7 +24,7 @@ constexpr float kDirectionalReach = 1000.0f;  // blocks, of a directional light 
 
 constexpr float kLeastRange = 0.01f;  // blocks, of a light too weak to reach anything
 
-constexpr std::array<std::string_view, 10> kFields{
+constexpr std::array<std::string_view, 10> kLightFields{
     "kind", "position", "intensity", "color", "power", "range", "axis", "size", "cone", "dual"};
 
 /// A kind, and what it has besides a strength and a range. All of it but `dual` must be given.
@@ -44,12 +44,12 @@ bool has_field(const Kind& kind, std::string_view field) {
   return kind.fields.find(field) != std::string_view::npos;
 }
 
-Error wrong(std::string_view field, std::string_view wanted) {
+Error wrong_field(std::string_view field, std::string_view wanted) {
   return Error{fmt::format("'{}' is wrong: give {}", field, wanted)};
 }
 
 Result<float> number(const json& value, std::string_view field) {
-  if (!value.is_number()) return wrong(field, "a number");
+  if (!value.is_number()) return wrong_field(field, "a number");
   return static_cast<float>(value.get<double>());
 }
 
@@ -57,9 +57,9 @@ template <std::size_t N>
 Result<std::array<float, N>> numbers(const json& value, std::string_view field,
                                      std::string_view wanted) {
   std::array<float, N> out{};
-  if (!value.is_array() || value.size() != N) return wrong(field, wanted);
+  if (!value.is_array() || value.size() != N) return wrong_field(field, wanted);
   for (std::size_t i = 0; i < N; ++i) {
-    if (!value[i].is_number()) return wrong(field, wanted);
+    if (!value[i].is_number()) return wrong_field(field, wanted);
     out[i] = static_cast<float>(value[i].get<double>());
   }
   return out;
@@ -72,19 +72,19 @@ Result<glm::vec3> vector(const json& value, std::string_view field, std::string_
 }
 
 /// Blocks as a JSON number, or as a text where a number would not hold all digits.
-Result<std::int64_t> coordinate(const json& value) {
+Result<std::int64_t> light_coordinate(const json& value) {
   if (value.is_string()) return parse_blocks(value.get<std::string>(), "'position'");
   if (value.is_number_float())
     return parse_blocks(fmt::format("{:.17f}", value.get<double>()), "'position'");
   if (value.is_number()) return parse_blocks(value.dump(), "'position'");
-  return wrong("position", "[X, Y, Z] in blocks");
+  return wrong_field("position", "[X, Y, Z] in blocks");
 }
 
 Result<world::WorldPos> position(const json& value) {
-  if (!value.is_array() || value.size() != 3) return wrong("position", "[X, Y, Z] in blocks");
+  if (!value.is_array() || value.size() != 3) return wrong_field("position", "[X, Y, Z] in blocks");
   std::array<std::int64_t, 3> units{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Result<std::int64_t> part = coordinate(value[i]);
+    const Result<std::int64_t> part = light_coordinate(value[i]);
     if (!part) return part.error();
     units[i] = *part;
   }
@@ -115,7 +115,7 @@ Result<void> read_strength(const json& value, const Kind& kind, shared::Light& i
   if (!color) return color.error();
   for (int c = 0; c < 3; ++c)
     if (!((*color)[c] >= 0.0f && (*color)[c] <= 1.0f))
-      return wrong("color", "[R, G, B] from 0 to 1");
+      return wrong_field("color", "[R, G, B] from 0 to 1");
   const Result<float> power = number(value.at("power"), "power");
   if (!power) return power.error();
   into.intensity = *color * (*power / (4.0f * std::numbers::pi_v<float>));
@@ -127,7 +127,7 @@ Result<void> read_cone(const json& value, shared::Light& into) {
   const Result<std::array<float, 2>> cone = numbers<2>(value, "cone", kWanted);
   if (!cone) return cone.error();
   const auto [inner, outer] = *cone;
-  if (!(inner >= 0.0f && inner <= outer && outer <= 180.0f)) return wrong("cone", kWanted);
+  if (!(inner >= 0.0f && inner <= outer && outer <= 180.0f)) return wrong_field("cone", kWanted);
   into.cos_inner = std::cos(glm::radians(inner));
   into.cos_outer = std::cos(glm::radians(outer));
   return {};
@@ -147,7 +147,7 @@ Result<void> read_shape(const json& value, const Kind& kind, shared::Light& into
   if (has_field(kind, "cone")) {
     if (Result<void> read = read_cone(value.at("cone"), into); !read) return read;
     if (value.contains("dual")) {
-      if (!value.at("dual").is_boolean()) return wrong("dual", "true or false");
+      if (!value.at("dual").is_boolean()) return wrong_field("dual", "true or false");
       if (value.at("dual").get<bool>()) into.kind |= shared::kLightDualBit;
     }
   }
@@ -156,9 +156,9 @@ Result<void> read_shape(const json& value, const Kind& kind, shared::Light& into
 
 Result<void> check_fields(const json& value, const Kind& kind) {
   for (const auto& [field, entry] : value.items()) {
-    if (std::find(kFields.begin(), kFields.end(), field) == kFields.end())
+    if (std::find(kLightFields.begin(), kLightFields.end(), field) == kLightFields.end())
       return Error{fmt::format("it has an unknown field {}: did you mean '{}'?", quote_text(field),
-                               nearest_name(field, kFields))};
+                               nearest_name(field, kLightFields))};
     constexpr std::array<std::string_view, 5> kOfSome{"position", "axis", "size", "cone", "dual"};
     const bool of_some = std::find(kOfSome.begin(), kOfSome.end(), field) != kOfSome.end();
     if (of_some && !has_field(kind, field))

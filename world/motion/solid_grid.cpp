@@ -10,7 +10,7 @@
 namespace skerry::world {
 namespace {
 
-constexpr int kEdge = BitBrick::kEdge;
+constexpr int kGridEdge = BitBrick::kEdge;
 
 // Bits of a layer with a neighbour below, or above, along z in the same brick.
 constexpr std::uint64_t kNotFirstZ = 0xfefe'fefe'fefe'fefe, kNotLastZ = 0x7f7f'7f7f'7f7f'7f7f;
@@ -93,7 +93,7 @@ bool SolidGrid::set(IVec3 voxel, bool solid) {
 void SolidGrid::clear(IVec3 at, const BitBrick& voxels) {
   if (!bits(chunk_of_brick(at))) return;
   BitBrick& brick = slots_[chunk_of_brick(at)].bits->bricks[brick_index(at)];
-  for (int y = 0; y < kEdge; ++y) brick.layers[y] &= ~voxels.layers[y];
+  for (int y = 0; y < kGridEdge; ++y) brick.layers[y] &= ~voxels.layers[y];
 }
 
 void SolidGrid::complete() {
@@ -129,29 +129,29 @@ BitBrick SolidGrid::surface_of(IVec3 at) const {
   const BitBrick &lx = or_nothing(-1, 0, 0), &hx = or_nothing(1, 0, 0);
   const BitBrick &ly = or_nothing(0, -1, 0), &hy = or_nothing(0, 1, 0);
   const BitBrick &lz = or_nothing(0, 0, -1), &hz = or_nothing(0, 0, 1);
-  for (int y = 0; y < kEdge; ++y) {
+  for (int y = 0; y < kGridEdge; ++y) {
     const std::uint64_t layer = own.layers[y];
     // Each term: where the neighbour on one side is solid.
     const std::uint64_t inner = (layer << 8 | lx.layers[y] >> 56) &
                                 (layer >> 8 | hx.layers[y] << 56) &
                                 ((layer << 1 & kNotFirstZ) | (lz.layers[y] >> 7 & ~kNotFirstZ)) &
                                 ((layer >> 1 & kNotLastZ) | (hz.layers[y] << 7 & ~kNotLastZ)) &
-                                (y > 0 ? own.layers[y - 1] : ly.layers[kEdge - 1]) &
-                                (y + 1 < kEdge ? own.layers[y + 1] : hy.layers[0]);
+                                (y > 0 ? own.layers[y - 1] : ly.layers[kGridEdge - 1]) &
+                                (y + 1 < kGridEdge ? own.layers[y + 1] : hy.layers[0]);
     out.layers[y] = layer & ~inner;
   }
   return out;
 }
 
 void MassSum::add(IVec3 brick, const BitBrick& voxels, int sign) {
-  for (int y = 0; y < kEdge; ++y) {
+  for (int y = 0; y < kGridEdge; ++y) {
     for (std::uint64_t layer = voxels.layers[y]; layer != 0; layer &= layer - 1) {
       const int bit = std::countr_zero(layer);
-      const std::int64_t x = std::int64_t{brick.x} * kEdge + bit / kEdge;
-      const std::int64_t z = std::int64_t{brick.z} * kEdge + bit % kEdge;
+      const std::int64_t x = std::int64_t{brick.x} * kGridEdge + bit / kGridEdge;
+      const std::int64_t z = std::int64_t{brick.z} * kGridEdge + bit % kGridEdge;
       count_ += sign;
       x_ += sign * x;
-      y_ += sign * (std::int64_t{brick.y} * kEdge + y);
+      y_ += sign * (std::int64_t{brick.y} * kGridEdge + y);
       z_ += sign * z;
       xx_zz_ += sign * (x * x + z * z);
     }

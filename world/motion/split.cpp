@@ -12,21 +12,21 @@
 namespace skerry::world {
 namespace {
 
-constexpr int kEdge = BitBrick::kEdge;
+constexpr int kSplitEdge = BitBrick::kEdge;
 constexpr std::uint64_t kFirstZ = 0x0101'0101'0101'0101, kLastZ = 0x8080'8080'8080'8080;
 
 BitBrick operator&(const BitBrick& a, const BitBrick& b) {
   BitBrick out;
-  for (int y = 0; y < kEdge; ++y) out.layers[y] = a.layers[y] & b.layers[y];
+  for (int y = 0; y < kSplitEdge; ++y) out.layers[y] = a.layers[y] & b.layers[y];
   return out;
 }
 BitBrick without(const BitBrick& a, const BitBrick& b) {
   BitBrick out;
-  for (int y = 0; y < kEdge; ++y) out.layers[y] = a.layers[y] & ~b.layers[y];
+  for (int y = 0; y < kSplitEdge; ++y) out.layers[y] = a.layers[y] & ~b.layers[y];
   return out;
 }
 void add_to(BitBrick& a, const BitBrick& b) {
-  for (int y = 0; y < kEdge; ++y) a.layers[y] |= b.layers[y];
+  for (int y = 0; y < kSplitEdge; ++y) a.layers[y] |= b.layers[y];
 }
 
 /// All of `solid` that hangs together with `seeds` inside the brick.
@@ -34,11 +34,11 @@ BitBrick flooded(const BitBrick& solid, const BitBrick& seeds) {
   BitBrick reached = seeds & solid;
   for (bool grown = true; grown;) {
     grown = false;
-    for (int y = 0; y < kEdge; ++y) {
+    for (int y = 0; y < kSplitEdge; ++y) {
       const std::uint64_t own = reached.layers[y];
       std::uint64_t next = own | own << 8 | own >> 8 | (own & ~kLastZ) << 1 | (own & ~kFirstZ) >> 1;
       if (y > 0) next |= reached.layers[y - 1];
-      if (y + 1 < kEdge) next |= reached.layers[y + 1];
+      if (y + 1 < kSplitEdge) next |= reached.layers[y + 1];
       next &= solid.layers[y];
       grown |= next != own;
       reached.layers[y] = next;
@@ -59,14 +59,14 @@ std::array<Beside, 6> beside(const BitBrick& b) {
                              {{0, -1, 0}, {}},
                              {{0, 0, 1}, {}},
                              {{0, 0, -1}, {}}}};
-  for (int y = 0; y < kEdge; ++y) {
+  for (int y = 0; y < kSplitEdge; ++y) {
     out[0].voxels.layers[y] = b.layers[y] >> 56;
     out[1].voxels.layers[y] = b.layers[y] << 56;
     out[4].voxels.layers[y] = (b.layers[y] & kLastZ) >> 7;
     out[5].voxels.layers[y] = (b.layers[y] & kFirstZ) << 7;
   }
-  out[2].voxels.layers[0] = b.layers[kEdge - 1];
-  out[3].voxels.layers[kEdge - 1] = b.layers[0];
+  out[2].voxels.layers[0] = b.layers[kSplitEdge - 1];
+  out[3].voxels.layers[kSplitEdge - 1] = b.layers[0];
   return out;
 }
 
@@ -272,10 +272,11 @@ std::optional<LoosePiece> copy_piece(World& world, std::uint64_t island, const F
   MassSum sum;
   for (const auto& [brick, voxels] : fragment.bricks) {
     BitBrick left;  // someone may have dug since the fragment was found
-    for (int y = 0; y < kEdge; ++y) {
+    for (int y = 0; y < kSplitEdge; ++y) {
       for (std::uint64_t layer = voxels.layers[y]; layer != 0; layer &= layer - 1) {
         const int bit = std::countr_zero(layer);
-        IVec3 v{brick.x * kEdge + bit / kEdge, brick.y * kEdge + y, brick.z * kEdge + bit % kEdge};
+        IVec3 v{brick.x * kSplitEdge + bit / kSplitEdge, brick.y * kSplitEdge + y,
+                brick.z * kSplitEdge + bit % kSplitEdge};
         if (!is_solid(blocks.at(v))) continue;
         left.layers[y] |= layer & -layer;
         move.take(v);

@@ -17,7 +17,7 @@
 namespace skerry::tools {
 namespace {
 
-constexpr int kWarmUpFrames = 6, kRounds = 24, kMostFrames = 600;
+constexpr int kWarmUpFrames = 6, kEditRounds = 24, kMostFrames = 600;
 constexpr double kTurnDeg = 15.0, kPitchDeg = -50.0;
 
 /// Times of one kind of edit.
@@ -146,7 +146,7 @@ int bench_edit(const BenchEditOptions& options) {
 
   Editing editing(**device, **view, options.scene);
   Kind dug{"dig", {}, {}}, torch{"place a torch", {}, {}}, taken{"take it back", {}, {}};
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kEditRounds; ++round) {
     if (Result<void> turned = editing.turn(); !turned) return fail(kFailed, turned.error());
     const auto timed = [&](const game::EditAct& act, Kind& kind) -> Result<bool> {
       return editing.time(act, kind);

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kSpeed = 48.0, kSeconds = 60.0;  // blocks/s: four times a player's usual flight
 constexpr double kAboveStart = 32.0;              // blocks
-constexpr double kPitchDeg = -12.0;
+constexpr double kFlyPitchDeg = -12.0;
 constexpr double kLongestStart = 120.0;  // s; what has no geometry in view is never playable
 constexpr double kDayRate = 24.0;        // seconds of day a second, as in play
 constexpr std::size_t kWorst = 8;        // frames that are listed one by one
@@ -58,7 +58,7 @@ class Flight {
         start_s_(options.scene.settings.world_time_s),
         day_(options.scene.time_of_day_s) {
     moment_.camera = view.start_camera();
-    moment_.camera.pitch_deg = kPitchDeg;
+    moment_.camera.pitch_deg = kFlyPitchDeg;
     start_ = world::moved(place_of(moment_.camera.position), {0.0, kAboveStart, 0.0});
     go_to(0.0);
   }

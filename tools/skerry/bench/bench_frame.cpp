@@ -13,7 +13,7 @@
 namespace skerry::tools {
 namespace {
 
-constexpr int kWarmUpFrames = 8;
+constexpr int kFrameWarmUp = 8;
 constexpr int kMinFrames = 30, kMaxFrames = 600;
 constexpr double kMaxSeconds = 8.0;
 constexpr int kPassFrames = 30;   // whose passes are timed
@@ -48,20 +48,20 @@ Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
   view.renderer().time_passes(false);
   double last = now_ms();
   const double start = last;
-  for (int i = 0; i < kWarmUpFrames + kMaxFrames; ++i) {
+  for (int i = 0; i < kFrameWarmUp + kMaxFrames; ++i) {
     moment.camera.yaw_deg += kTurnDegPerFrame;
     const int programs = view.renderer().programs_made();
     const std::uint64_t allocations = device.allocations();
     if (Result<std::uint64_t> drawn = view.draw(moment, size); !drawn) return drawn.error();
     if (i == 0) view.renderer().wait_for_programs();
     const double now = now_ms();
-    if (i >= kWarmUpFrames) {
+    if (i >= kFrameWarmUp) {
       out.programs_made += view.renderer().programs_made() - programs;
       out.allocations += device.allocations() - allocations;
       out.frames.push_back(now - last);
     }
     last = now;
-    if (i >= kWarmUpFrames + kMinFrames && now - start > kMaxSeconds * 1000.0) break;
+    if (i >= kFrameWarmUp + kMinFrames && now - start > kMaxSeconds * 1000.0) break;
   }
   view.renderer().finish();
   return out;

@@ -14,7 +14,7 @@
 namespace skerry::tools {
 namespace {
 
-constexpr int kWarmUpFrames = 3, kFrames = 15;
+constexpr int kLightsWarmUp = 3, kLightsFrames = 15;
 constexpr std::array<std::uint32_t, 5> kCounts{64, 256, 1024, 4096, 16384};
 
 bool is_light_pass(const std::string& name) {
@@ -42,7 +42,7 @@ Samples samples_of(const std::vector<render::FrameReport>& reports) {
   return out;
 }
 
-nlohmann::ordered_json spread_json(const Spread& spread) {
+nlohmann::ordered_json lights_spread(const Spread& spread) {
   return {{"median", spread.median}, {"p10", spread.p10}, {"p90", spread.p90}};
 }
 
@@ -51,9 +51,9 @@ Result<nlohmann::ordered_json> measure(gpu::Device& device, game::SceneOptions s
   scene.settings.lights_random = count;
   Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
   if (!drawer) return drawer.error();
-  if (Result<std::vector<render::FrameReport>> warm = (*drawer)->time(kWarmUpFrames, true); !warm)
+  if (Result<std::vector<render::FrameReport>> warm = (*drawer)->time(kLightsWarmUp, true); !warm)
     return warm.error();
-  const Result<std::vector<render::FrameReport>> reports = (*drawer)->time(kFrames, true);
+  const Result<std::vector<render::FrameReport>> reports = (*drawer)->time(kLightsFrames, true);
   if (!reports) return reports.error();
   const Samples samples = samples_of(*reports);
   const render::FrameReport& last = reports->back();
@@ -73,8 +73,8 @@ Result<nlohmann::ordered_json> measure(gpu::Device& device, game::SceneOptions s
                                 {"lights_in_view", last.lights},
                                 {"clusters", last.clusters.clusters},
                                 {"lights_a_cluster", per_cluster},
-                                {"sort_ms", spread_json(sort)},
-                                {"shade_ms", spread_json(shade)},
+                                {"sort_ms", lights_spread(sort)},
+                                {"shade_ms", lights_spread(shade)},
                                 {"gpu_ms", gpu_ms}};
 }
 

@@ -21,7 +21,7 @@ namespace {
 using namespace world;
 
 constexpr std::size_t kChunksInSet = 64;
-constexpr int kWarmPasses = 2, kPasses = 9;
+constexpr int kWarmPasses = 2, kMeshPasses = 9;
 constexpr BlockId kOpaqueIds = 0x4000;  // ids beyond the block table count as opaque
 
 /// Chunks to mesh: bytes with a palette, or ids.
@@ -152,7 +152,7 @@ Timed time_set(const ChunkSet& set) {
   ChunkMesh mesh;
   Timed timed;
   std::vector<std::vector<double>> times(set.size());
-  for (int pass = 0; pass < kWarmPasses + kPasses; ++pass) {
+  for (int pass = 0; pass < kWarmPasses + kMeshPasses; ++pass) {
     for (std::size_t i = 0; i < set.size(); ++i) {
       const Clock::time_point start = Clock::now();
       if (set.ids.empty()) {

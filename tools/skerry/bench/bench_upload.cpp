@@ -21,7 +21,7 @@ namespace skerry::tools {
 namespace {
 
 constexpr std::uint64_t kBytes = 8u << 20;
-constexpr int kWarmUp = 3, kRuns = 25;
+constexpr int kUploadWarmUp = 3, kRuns = 25;
 
 struct Way {
   std::string_view name;
@@ -48,11 +48,12 @@ void add_size(std::vector<std::uint64_t>& sizes, std::uint64_t& left, std::uint6
 /// every eighth a cave or a forest several times that, every fourth only a shore. The pattern is
 /// fixed, so that runs compare.
 Pattern chunk_meshes() {
-  constexpr std::array<std::uint64_t, 8> kQuads{2373, 1800, 310, 3100, 10690, 2050, 120, 2700};
+  constexpr std::array<std::uint64_t, 8> kUploadQuads{2373,  1800, 310, 3100,
+                                                      10690, 2050, 120, 2700};
   Pattern pattern{"chunk_meshes", {}};
   std::uint64_t left = kBytes;
   for (std::size_t i = 0; left > 0; ++i)
-    add_size(pattern.sizes, left, kQuads[i % kQuads.size()] * 8);
+    add_size(pattern.sizes, left, kUploadQuads[i % kUploadQuads.size()] * 8);
   return pattern;
 }
 
@@ -77,7 +78,7 @@ Result<Times> measure(gpu::Device& device, const Way& way, const Pattern& patter
   gpu::FrameGraph graph(&device);
   gpu::FrameRing ring(device, 1);
   Times times;
-  for (int run = 0; run < kWarmUp + kRuns; ++run) {
+  for (int run = 0; run < kUploadWarmUp + kRuns; ++run) {
     std::fill(bytes.begin(), bytes.end(), static_cast<std::byte>(run));
     graph.begin();
     // A pass of its own gives the batch its timer.
@@ -98,7 +99,7 @@ Result<Times> measure(gpu::Device& device, const Way& way, const Pattern& patter
     const double record_ms = total.milliseconds();
     device.wait(ring.submit());
     const double total_ms = total.milliseconds();
-    if (run < kWarmUp) continue;
+    if (run < kUploadWarmUp) continue;
     times.record_ms.push_back(record_ms);
     times.total_ms.push_back(total_ms);
     for (const gpu::PassTime& pass : graph.times(frame.slot)) times.gpu_ms.push_back(pass.ms);

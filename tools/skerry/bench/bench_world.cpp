@@ -24,7 +24,7 @@ namespace {
 using namespace world;
 using Rows = nlohmann::ordered_json;
 
-constexpr int kRounds = 9;
+constexpr int kWorldRounds = 9;
 
 void add_row(Rows& rows, const char* name, const std::vector<double>& ms,
              const std::map<std::string, std::uint64_t>& counts) {
@@ -74,7 +74,7 @@ Result<void> bench_saving(Rows& rows) {
   const IslandSpec home = world.islands_near({}, 300.0, 0.0).front();
   std::vector<double> save_ms, open_ms;
   std::uint64_t bytes = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kWorldRounds; ++round) {
     const std::filesystem::path path = scratch->folder() / fmt::format("{}.skerry", round);
     Result<std::unique_ptr<WorldFile>> file = WorldFile::create(path, info);
     if (!file) return file.error();
@@ -123,7 +123,7 @@ void bench_split(Rows& rows) {
   desc.generated = false;
   std::vector<double> look_ms, find_ms, whole_ms, move_ms;
   std::uint64_t blocks = 0, bricks = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kWorldRounds; ++round) {
     World world(desc);
     const std::uint64_t id = add_made(world, {}, {-64, -32, -62}, {64, 32, 62},
                                       [](IVec3 v) { return v.z != 0 || (v.x == 0 && v.y == 0); });

@@ -129,9 +129,9 @@ constexpr TopicPoint kBloomLevels[] = {{"0", "bloom.intensity=0"},
                                        {"4", "bloom.intensity=0.1 bloom.levels=4"},
                                        {"6", "bloom.intensity=0.1 bloom.levels=6"},
                                        {"8", "bloom.intensity=0.1 bloom.levels=8"}};
-constexpr TopicPoint kUploadPaths[] = {{"update", "upload.path=update"},
-                                       {"staging", "upload.path=staging"},
-                                       {"mapped", "upload.path=mapped"}};
+constexpr TopicPoint kUploadPathPoints[] = {{"update", "upload.path=update"},
+                                            {"staging", "upload.path=staging"},
+                                            {"mapped", "upload.path=mapped"}};
 
 constexpr TopicPoint kCloudSteps[] = {
     {"8", "clouds.steps=8"},
@@ -222,7 +222,7 @@ constexpr Topic kTopics[] = {
      kTorches, Judge::kReference, CostOf::kShading},
     {"lights_softness", "ways looked along to a light that has a size", kLightSoftness, kGallery,
      Judge::kReference, CostOf::kShading},
-    {"upload_path", "how meshes travel to the GPU", kUploadPaths, kDay, Judge::kEqual,
+    {"upload_path", "how meshes travel to the GPU", kUploadPathPoints, kDay, Judge::kEqual,
      CostOf::kUpload, true},
 };
 

@@ -11,19 +11,19 @@
 namespace skerry::tools::stability {
 namespace {
 
-constexpr VkExtent2D kSize{64, 48};
-constexpr int kEdge = 64;  // blocks and samples of the box
+constexpr VkExtent2D kCloudsSize{64, 48};
+constexpr int kBoxEdge = 64;  // blocks and samples of the box
 constexpr int kSteps = 96;
 /// Short of the ends of the world by what the scene is large [blocks].
 constexpr double kFarthest = 1099511627776.0 - 4096.0;
 
-/// A box of samples of value 1, which linear ramps make as wide as `kEdge` blocks exactly.
+/// A box of samples of value 1, which linear ramps make as wide as `kBoxEdge` blocks exactly.
 /// @param corner its first sample relative to `origin`.
 render::CloudVolumeDesc box(const render::FixedPos& origin, glm::dvec3 corner) {
   render::CloudVolumeDesc out;
   out.origin = origin;
   out.blocks_from_index = glm::translate(glm::dmat4(1.0), corner + 0.5);
-  out.tiles.push_back({{0, 0, 0}, kEdge, 1.0f});
+  out.tiles.push_back({{0, 0, 0}, kBoxEdge, 1.0f});
   return out;
 }
 
@@ -42,7 +42,7 @@ Result<Frame> look(gpu::Device& device, const render::FrameInput& in,
   if (!stage) return stage.error();
   if (Result<void> ok = (*stage)->renderer().set_clouds(volumes, render::CloudPrecision::k32); !ok)
     return ok.error();
-  return (*stage)->draw(in, settings, kSize);
+  return (*stage)->draw(in, settings, kCloudsSize);
 }
 
 /// @param depth of the box before the eye, straight ahead [blocks]; its sides are out of view.
@@ -54,10 +54,10 @@ Result<Rows> through(gpu::Device& device, double front, double depth, const std:
   render::RenderSettings settings;
   settings.clouds.resolution = 1;
   settings.clouds.steps = kSteps;
-  const render::CloudVolumeDesc volume = box({}, {-kEdge / 2, -kEdge / 2, front});
+  const render::CloudVolumeDesc volume = box({}, {-kBoxEdge / 2, -kBoxEdge / 2, front});
   const auto clear = look(device, in, settings, {});
   if (!clear) return clear.error();
-  const double step = kEdge * std::sqrt(3.0) / kSteps;
+  const double step = kBoxEdge * std::sqrt(3.0) / kSteps;
   double off = 0.0, beyond = 0.0, darkest = 1.0;
   for (int decade = -6; decade <= 4; ++decade) {
     const double extinction = std::pow(10.0, decade) / step;
@@ -65,7 +65,8 @@ Result<Rows> through(gpu::Device& device, double front, double depth, const std:
     const auto frame = look(device, in, settings, std::span(&volume, 1));
     if (!frame) return frame.error();
     for (std::uint32_t i = 0; i < frame->radiance.size(); ++i) {
-      const glm::dvec3 ray = ray_of(in.camera, kSize, i % kSize.width, i / kSize.width);
+      const glm::dvec3 ray =
+          ray_of(in.camera, kCloudsSize, i % kCloudsSize.width, i / kCloudsSize.width);
       const double exact = std::exp(-extinction * depth * glm::length(ray));
       for (int c = 0; c < 3; ++c) {
         const double share =
@@ -81,16 +82,16 @@ Result<Rows> through(gpu::Device& device, double front, double depth, const std:
 }
 
 Result<Rows> before_the_eye(gpu::Device& device) {
-  return through(device, 90.0, kEdge, "box of 64 blocks");
+  return through(device, 90.0, kBoxEdge, "box of 64 blocks");
 }
 
 Result<Rows> about_the_eye(gpu::Device& device) {
-  return through(device, -kEdge / 2, kEdge / 2, "eye inside the box");
+  return through(device, -kBoxEdge / 2, kBoxEdge / 2, "eye inside the box");
 }
 
 /// What so little cloud scatters that it does not shade itself is in proportion to it. Lit by a
 /// moon from straight above, before a wall that it leaves black.
-Result<Rows> faint(gpu::Device& device) {
+Result<Rows> faint_clouds(gpu::Device& device) {
   auto stage = Stage::create(device);
   if (!stage) return stage.error();
   const auto wall = [](int, int, int z) {
@@ -98,7 +99,7 @@ Result<Rows> faint(gpu::Device& device) {
   };
   if (Result<void> added = (*stage)->add(wall, {-1, -1, 2}, {1, 1, 3}); !added)
     return added.error();
-  const render::CloudVolumeDesc volume = box({}, {-kEdge / 2, -kEdge / 2, 30.0});
+  const render::CloudVolumeDesc volume = box({}, {-kBoxEdge / 2, -kBoxEdge / 2, 30.0});
   if (Result<void> ok =
           (*stage)->renderer().set_clouds(std::span(&volume, 1), render::CloudPrecision::k32);
       !ok)
@@ -114,12 +115,12 @@ Result<Rows> faint(gpu::Device& device) {
   settings.leave_out.add(render::Feature::kHaze);
   settings.clouds.resolution = 1;
   settings.clouds.steps = kSteps;
-  const double step = kEdge * std::sqrt(3.0) / kSteps;
+  const double step = kBoxEdge * std::sqrt(3.0) / kSteps;
   double off = 0.0, dark = 0.0;
   std::vector<glm::vec3> faintest;
   for (int decade = -6; decade <= -4; ++decade) {
     settings.clouds.file_density = static_cast<float>(std::pow(10.0, decade) / step);
-    const auto frame = (*stage)->draw(in, settings, kSize);
+    const auto frame = (*stage)->draw(in, settings, kCloudsSize);
     if (!frame) return frame.error();
     if (faintest.empty()) {
       faintest = frame->radiance;
@@ -196,16 +197,16 @@ Result<Rows> far(gpu::Device& device) {
   return Rows{{"pixels that differ 2^40 blocks away", 0.0, if_shown(shown, different)}};
 }
 
-constexpr Case kCases[] = {{"clouds.box", before_the_eye},
-                           {"clouds.inside", about_the_eye},
-                           {"clouds.faint", faint},
-                           {"clouds.lit", lit},
-                           {"clouds.far", far}};
+constexpr Case kCloudsCases[] = {{"clouds.box", before_the_eye},
+                                 {"clouds.inside", about_the_eye},
+                                 {"clouds.faint", faint_clouds},
+                                 {"clouds.lit", lit},
+                                 {"clouds.far", far}};
 
 }  // namespace
 
 std::span<const Case> cloud_cases() {
-  return kCases;
+  return kCloudsCases;
 }
 
 }  // namespace skerry::tools::stability

@@ -138,12 +138,13 @@ Result<Rows> jitter(gpu::Device& device) {
   return rows;
 }
 
-constexpr Case kCases[] = {{"coordinates.far_away", far_away}, {"coordinates.jitter", jitter}};
+constexpr Case kCoordinatesCases[] = {{"coordinates.far_away", far_away},
+                                      {"coordinates.jitter", jitter}};
 
 }  // namespace
 
 std::span<const Case> coordinates_cases() {
-  return kCases;
+  return kCoordinatesCases;
 }
 
 }  // namespace skerry::tools::stability

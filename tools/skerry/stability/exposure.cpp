@@ -171,16 +171,16 @@ Result<Rows> metered_frames(gpu::Device& device) {
                if_shown(glare.has_value(), wrong_way)}};
 }
 
-constexpr Case kCases[] = {{"exposure.steps", steps},
-                           {"exposure.alternating", alternating},
-                           {"exposure.splitting", splitting},
-                           {"exposure.nothing_metered", nothing_metered},
-                           {"exposure.metered_frames", metered_frames}};
+constexpr Case kExposureCases[] = {{"exposure.steps", steps},
+                                   {"exposure.alternating", alternating},
+                                   {"exposure.splitting", splitting},
+                                   {"exposure.nothing_metered", nothing_metered},
+                                   {"exposure.metered_frames", metered_frames}};
 
 }  // namespace
 
 std::span<const Case> exposure_cases() {
-  return kCases;
+  return kExposureCases;
 }
 
 }  // namespace skerry::tools::stability

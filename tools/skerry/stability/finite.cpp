@@ -21,19 +21,19 @@ using world::block::kGlass;
 using world::block::kLamp;
 using world::block::kStone;
 
-constexpr VkExtent2D kSize{160, 90};
+constexpr VkExtent2D kFiniteSize{160, 90};
 constexpr float kBroken[] = {std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::quiet_NaN()};
 
 /// A floor, a lamp on it, and a pane of glass before it all.
-world::BlockId room(int x, int y, int z) {
+world::BlockId finite_room(int x, int y, int z) {
   if (y < 0) return kStone;
   if (z == 6 && y < 8 && x >= 20 && x < 28) return kGlass;
   return x == 24 && y == 0 && z == 20 ? kLamp : kAirBlock;
 }
 
-const std::vector<render::IslandPlacement>& one_island() {
+const std::vector<render::IslandPlacement>& finite_island() {
   static const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
   return islands;
 }
@@ -41,7 +41,7 @@ const std::vector<render::IslandPlacement>& one_island() {
 FrameInput input_of(bool capture = true) {
   FrameInput in;
   in.camera = camera_at({24.5, 3.0, 1.5}, 0.0, -4.0);
-  in.islands = one_island();
+  in.islands = finite_island();
   in.sky = sun_towards({0.4, 0.8, -0.5});
   in.exposure_ev = -0.5f;
   in.capture = capture;
@@ -52,7 +52,8 @@ Result<std::unique_ptr<Stage>> room_stage(gpu::Device& device,
                                           std::span<const shared::Material> materials = {}) {
   auto stage = Stage::create(device, materials);
   if (!stage) return stage;
-  if (Result<void> added = (*stage)->add(room, {0, -1, 0}, {1, 1, 1}); !added) return added.error();
+  if (Result<void> added = (*stage)->add(finite_room, {0, -1, 0}, {1, 1, 1}); !added)
+    return added.error();
   return stage;
 }
 
@@ -85,7 +86,7 @@ Rows rows_of(const std::string& what, const Damage& damage) {
 Result<Rows> radiance(gpu::Device& device) {
   auto stage = room_stage(device);
   if (!stage) return stage.error();
-  const auto clean = (*stage)->draw(input_of(), {}, kSize);
+  const auto clean = (*stage)->draw(input_of(), {}, kFiniteSize);
   if (!clean) return clean.error();
   Rows rows;
   for (const auto& [in, what] :
@@ -96,7 +97,7 @@ Result<Rows> radiance(gpu::Device& device) {
       const glm::uvec2 texel{80, 44};
       FrameInput broken = input_of();
       broken.fault = Fault{in, texel, value};
-      const auto frame = (*stage)->draw(broken, {}, kSize);
+      const auto frame = (*stage)->draw(broken, {}, kFiniteSize);
       if (!frame) return frame.error();
       compare(
           *clean, *frame, [&](auto x, auto y) { return x == texel.x && y == texel.y; }, damage);
@@ -120,19 +121,19 @@ Result<Rows> bloom(gpu::Device& device) {
   FrameInput input = input_of();
   // The texel is black in the frame to compare with, so that its own light is not missed about it.
   input.fault = Fault{Fault::In::kLookedThrough, texel, 0.0f};
-  const auto clean = (*stage)->draw(input, settings, kSize);
+  const auto clean = (*stage)->draw(input, settings, kFiniteSize);
   if (!clean) return clean.error();
   Damage damage;
   // The same texel, blinding, must glow on others, or there is no bloom to be damaged.
   Damage glow;
   input.fault->value = 1e4f;
-  const auto glowing = (*stage)->draw(input, settings, kSize);
+  const auto glowing = (*stage)->draw(input, settings, kFiniteSize);
   if (!glowing) return glowing.error();
   compare(
       *clean, *glowing, [&](auto x, auto y) { return x != texel.x || y != texel.y; }, glow);
   for (const float value : kBroken) {
     input.fault->value = value;
-    const auto frame = (*stage)->draw(input, settings, kSize);
+    const auto frame = (*stage)->draw(input, settings, kFiniteSize);
     if (!frame) return frame.error();
     compare(
         *clean, *frame, [&](auto x, auto y) { return x == texel.x && y == texel.y; }, damage);
@@ -163,23 +164,23 @@ Result<Rows> sky_table(gpu::Device& device) {
     if (with_ground)
       if (Result<void> added = (*stage)->add(floor, {0, -1, 0}, {1, 0, 1}); !added)
         return added.error();
-    const auto clean = (*stage)->draw(input_of(), {}, kSize);
+    const auto clean = (*stage)->draw(input_of(), {}, kFiniteSize);
     if (!clean) return clean.error();
     Damage damage;
     const FrameInput in = input_of();
     for (const float value : kBroken) {
       for (const glm::uvec2 pixel : {glm::uvec2{30, 20}, glm::uvec2{80, 38}, glm::uvec2{100, 70}}) {
-        const glm::dvec2 place = sky_table_place(ray_of(in.camera, kSize, pixel.x, pixel.y));
+        const glm::dvec2 place = sky_table_place(ray_of(in.camera, kFiniteSize, pixel.x, pixel.y));
         const glm::uvec2 texel(glm::round(place));
         FrameInput broken = in;
         broken.fault = Fault{Fault::In::kSkyTable, texel, value};
-        const auto frame = (*stage)->draw(broken, {}, kSize);
+        const auto frame = (*stage)->draw(broken, {}, kFiniteSize);
         if (!frame) return frame.error();
         damage.non_finite += non_finite_channels(frame->radiance);
         // Filters weigh places in steps of 1/256 texel, and a weight of 0 still hands a NaN on.
         const double reach = 1.0 + 1.0 / 256.0;
         const auto touches = [&](std::uint32_t x, std::uint32_t y) {
-          const glm::dvec2 at = sky_table_place(ray_of(in.camera, kSize, x, y));
+          const glm::dvec2 at = sky_table_place(ray_of(in.camera, kFiniteSize, x, y));
           return std::abs(at.x - texel.x) <= reach && std::abs(at.y - texel.y) <= reach;
         };
         compare(*clean, *frame, touches, damage);
@@ -198,7 +199,7 @@ Result<Rows> materials(gpu::Device& device) {
   const std::vector<shared::Material> good = game::material_table();
   auto clean_stage = room_stage(device, good);
   if (!clean_stage) return clean_stage.error();
-  const auto clean = (*clean_stage)->draw(input_of(), {}, kSize);
+  const auto clean = (*clean_stage)->draw(input_of(), {}, kFiniteSize);
   if (!clean) return clean.error();
   Damage emission, medium;
   for (const float value : kBroken) {
@@ -206,13 +207,13 @@ Result<Rows> materials(gpu::Device& device) {
     table[kLamp].emission = glm::packHalf1x16(value);
     auto stage = room_stage(device, table);
     if (!stage) return stage.error();
-    const auto lamp = (*stage)->draw(input_of(), {}, kSize);
+    const auto lamp = (*stage)->draw(input_of(), {}, kFiniteSize);
     if (!lamp) return lamp.error();
     emission.non_finite += non_finite_channels(lamp->radiance);
     compare(
         *clean, *lamp,
         [&](auto x, auto y) {
-          return (clean->words[std::size_t{y} * kSize.width + x] & 0xffffu) == kLamp;
+          return (clean->words[std::size_t{y} * kFiniteSize.width + x] & 0xffffu) == kLamp;
         },
         emission);
 
@@ -221,7 +222,7 @@ Result<Rows> materials(gpu::Device& device) {
     table[kGlass].roughness = value;
     stage = room_stage(device, table);
     if (!stage) return stage.error();
-    const auto glass = (*stage)->draw(input_of(), {}, kSize);
+    const auto glass = (*stage)->draw(input_of(), {}, kFiniteSize);
     if (!glass) return glass.error();
     medium.non_finite += non_finite_channels(glass->radiance);
     // The pane's front is at z = 6, its back at z = 7, x 20 to 28, y 0 to 8; a pixel more for its
@@ -229,7 +230,7 @@ Result<Rows> materials(gpu::Device& device) {
     compare(
         *clean, *glass,
         [&](auto x, auto y) {
-          const glm::dvec3 eye{24.5, 3.0, 1.5}, ray = ray_of(input_of().camera, kSize, x, y);
+          const glm::dvec3 eye{24.5, 3.0, 1.5}, ray = ray_of(input_of().camera, kFiniteSize, x, y);
           const glm::dvec3 front = eye + ray * (4.5 / ray.z), back = eye + ray * (5.5 / ray.z);
           const double pixel = 0.1;
           return std::max(front.x, back.x) > 20.0 - pixel &&
@@ -244,15 +245,15 @@ Result<Rows> materials(gpu::Device& device) {
   return rows;
 }
 
-constexpr Case kCases[] = {{"finite.radiance", radiance},
-                           {"finite.bloom", bloom},
-                           {"finite.sky_table", sky_table},
-                           {"finite.materials", materials}};
+constexpr Case kFiniteCases[] = {{"finite.radiance", radiance},
+                                 {"finite.bloom", bloom},
+                                 {"finite.sky_table", sky_table},
+                                 {"finite.materials", materials}};
 
 }  // namespace
 
 std::span<const Case> finite_cases() {
-  return kCases;
+  return kFiniteCases;
 }
 
 }  // namespace skerry::tools::stability

@@ -15,7 +15,7 @@ using world::block::kAirBlock;
 using world::block::kLamp;
 using world::block::kStone;
 
-constexpr VkExtent2D kSize{96, 54};
+constexpr VkExtent2D kLightSize{96, 54};
 
 world::BlockId floor_with_pillars(int x, int y, int z) {
   return y < 0 || (y < 6 && x % 7 == 0 && z % 9 == 0) ? kStone : kAirBlock;
@@ -58,14 +58,14 @@ Result<Rows> sun(gpu::Device& device) {
   const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
   render::FrameInput noon = input_of(islands);
   noon.sky = sun_towards({0.4, 0.8, -0.3});
-  const auto sunlight = sunlight_of(**stage, noon, {}, kSize);
+  const auto sunlight = sunlight_of(**stage, noon, {}, kLightSize);
   if (!sunlight) return sunlight.error();
   Course course;
   for (int decade = -8; decade <= 8; ++decade) {
     render::FrameInput in = noon;
     // A sky that does not change: only the light on surfaces does.
     in.sky.sun_irradiance *= static_cast<float>(std::pow(10.0, decade));
-    const auto frame = (*stage)->draw(in, {}, kSize);
+    const auto frame = (*stage)->draw(in, {}, kLightSize);
     if (!frame) return frame.error();
     course.follow(*frame);
   }
@@ -95,7 +95,7 @@ Result<Rows> emission(gpu::Device& device) {
       return added.error();
     render::FrameInput in = input_of(islands);
     in.sky = darkness();
-    const auto frame = (*stage)->draw(in, {}, kSize);
+    const auto frame = (*stage)->draw(in, {}, kLightSize);
     if (!frame) return frame.error();
     if (albedo.empty()) {  // an emission of 1 shows the albedo
       albedo = frame->radiance;
@@ -148,7 +148,7 @@ Result<Course> follow_lights(gpu::Device& device, const std::vector<shared::Ligh
     render::FrameInput in = input_of(islands);
     in.sky = darkness();
     in.lights = std::span<const shared::Light>(&*light, 1);
-    const auto frame = (*stage)->draw(in, {}, kSize);
+    const auto frame = (*stage)->draw(in, {}, kLightSize);
     if (!frame) return frame.error();
     course.follow(*frame);
   }
@@ -212,15 +212,15 @@ Result<Rows> million_lamps(gpu::Device& device) {
               {"frames that a million lights leave dark", 0.0, dark}};
 }
 
-constexpr Case kCases[] = {{"light.sun", sun},
-                           {"light.emission", emission},
-                           {"light.lamps", lamps},
-                           {"light.million_lamps", million_lamps}};
+constexpr Case kLightCases[] = {{"light.sun", sun},
+                                {"light.emission", emission},
+                                {"light.lamps", lamps},
+                                {"light.million_lamps", million_lamps}};
 
 }  // namespace
 
 std::span<const Case> light_cases() {
-  return kCases;
+  return kLightCases;
 }
 
 }  // namespace skerry::tools::stability

@@ -17,7 +17,7 @@ using world::block::kAirBlock;
 using world::block::kGlass;
 using world::block::kLamp;
 
-constexpr VkExtent2D kSize{96, 54};
+constexpr VkExtent2D kMediaSize{96, 54};
 constexpr double kEye = 0.5, kLamps = 40.0;  // z of the eye and of the wall of lamps
 
 /// Extinction a block of a medium with white absorption a: it scatters 0.3 of it besides
@@ -50,7 +50,7 @@ Result<Frame> look(gpu::Device& device, const Glass& glass, double absorption) {
   in.sky = darkness();  // nothing lights the glass itself: what is left is what came through
   in.camera_medium = glass.front < kEye ? kGlass : 0;
   in.capture = true;
-  return (*stage)->draw(in, {}, kSize);
+  return (*stage)->draw(in, {}, kMediaSize);
 }
 
 /// The share of light that came through against exp(-tau), tau along each pixel's own ray.
@@ -67,7 +67,7 @@ Result<Rows> through(gpu::Device& device, const Glass& glass, const std::string&
     const auto frame = look(device, glass, absorption);
     if (!frame) return frame.error();
     for (std::uint32_t i = 0; i < clear->radiance.size(); ++i) {
-      const glm::dvec3 ray = ray_of(camera, kSize, i % kSize.width, i / kSize.width);
+      const glm::dvec3 ray = ray_of(camera, kMediaSize, i % kMediaSize.width, i / kMediaSize.width);
       const double exact = std::exp(-tau_ahead * glm::length(ray));
       for (int c = 0; c < 3; ++c) {
         const double all = static_cast<double>(clear->radiance[i][c]);
@@ -116,12 +116,12 @@ Result<Frame> glow(gpu::Device& device, double absorption, float irradiance) {
   render::RenderSettings settings;
   settings.shadow_enabled = false;
   settings.leave_out.add(render::Feature::kHaze);
-  return (*stage)->draw(in, settings, kSize);
+  return (*stage)->draw(in, settings, kMediaSize);
 }
 
 /// Scattering once, in closed form: share / (4 pi) of what the medium takes from the way. Where it
 /// takes a millionth, only an error relative to that millionth tells anything.
-Result<Rows> faint(gpu::Device& device) {
+Result<Rows> faint_media(gpu::Device& device) {
   constexpr float kIrradiance = 1e4f;  // so that a half holds a millionth of it to all its digits
   const double depth = kLamps - kEye;
   const render::Camera camera = camera_at({}, 0.0, 0.0);
@@ -131,7 +131,7 @@ Result<Rows> faint(gpu::Device& device) {
     const auto frame = glow(device, tau_ahead / depth / kExtinctionPerAbsorption, kIrradiance);
     if (!frame) return frame.error();
     for (std::uint32_t i = 0; i < frame->radiance.size(); ++i) {
-      const glm::dvec3 ray = ray_of(camera, kSize, i % kSize.width, i / kSize.width);
+      const glm::dvec3 ray = ray_of(camera, kMediaSize, i % kMediaSize.width, i / kMediaSize.width);
       const double taken = -std::expm1(-tau_ahead * glm::length(ray));
       const double exact = (1.0 - 1.0 / kExtinctionPerAbsorption) * double{kIrradiance} /
                            (4.0 * std::numbers::pi) * taken;
@@ -144,12 +144,13 @@ Result<Rows> faint(gpu::Device& device) {
                std::ldexp(1.0, -9), off}};
 }
 
-constexpr Case kCases[] = {{"media.inside", inside}, {"media.slab", slab}, {"media.faint", faint}};
+constexpr Case kMediaCases[] = {
+    {"media.inside", inside}, {"media.slab", slab}, {"media.faint", faint_media}};
 
 }  // namespace
 
 std::span<const Case> media_cases() {
-  return kCases;
+  return kMediaCases;
 }
 
 }  // namespace skerry::tools::stability

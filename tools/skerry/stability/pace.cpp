@@ -94,13 +94,13 @@ Result<Rows> throttling() {
               {"longest late stretch of it [s]", 1.0, if_shown(turns > 0.0, late_s)}};
 }
 
-constexpr Case kCases[] = {
+constexpr Case kPaceCases[] = {
     {"pace.noise", noise}, {"pace.load_step", load_step}, {"pace.throttling", throttling}};
 
 }  // namespace
 
 std::span<const Case> pace_cases() {
-  return kCases;
+  return kPaceCases;
 }
 
 }  // namespace skerry::tools::stability

@@ -18,7 +18,7 @@ using game::MoveMode;
 using game::Player;
 using world::IVec3;
 
-constexpr double kUnit = 1.0 / static_cast<double>(world::kUnitsPerBlock);
+constexpr double kUnitBlocks = 1.0 / static_cast<double>(world::kUnitsPerBlock);
 constexpr std::array kTimeSteps{1e-4, 1e-3, 1.0 / 144.0, 1.0 / 60.0, 0.1, 1.0};
 constexpr std::array kSpeeds{1.0, 10.0, 100.0, 1e3, 1e4};
 constexpr int kShell = 24;  // inner half width of the room below [blocks]
@@ -156,7 +156,7 @@ Rest stand(double spin, double drift, double seconds) {
 Result<Rows> standing() {
   constexpr double kWeek = 7.0 * 86400.0;
   // Both places are rounded to whole units on each axis: sqrt(3) half units each.
-  const double rounding = std::sqrt(3.0) * kUnit;
+  const double rounding = std::sqrt(3.0) * kUnitBlocks;
   std::array<Rest, 2> rests;
   Jobs jobs;
   jobs.parallel_for(2, [&rests](int moves) {
@@ -339,7 +339,7 @@ Result<Rows> whirl() {
                if_shown(way > 1.0, volume)}};
 }
 
-constexpr Case kCases[] = {
+constexpr Case kPhysicsCases[] = {
     {"physics.tunnelling", tunnelling}, {"physics.clutter", clutter},
     {"physics.standing", standing},     {"physics.energy", energy_of_the_thrown},
     {"physics.jumps", jumps},           {"physics.climbing", climbing},
@@ -348,7 +348,7 @@ constexpr Case kCases[] = {
 }  // namespace
 
 std::span<const Case> physics_cases() {
-  return kCases;
+  return kPhysicsCases;
 }
 
 }  // namespace skerry::tools::stability

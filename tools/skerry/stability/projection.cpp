@@ -25,7 +25,7 @@ using world::block::kStone;
 
 constexpr double kHalfUlp = 1.0 / (1 << 24);  // of a float, relative
 
-world::BlockId ground(int, int y, int) {
+world::BlockId projected_ground(int, int y, int) {
   return y < 0 ? kGrass : kAirBlock;
 }
 
@@ -43,7 +43,7 @@ FrameInput input_of(const Camera& camera, std::span<const IslandPlacement> islan
 }
 
 /// Without shadow maps, which far things would stretch for nothing.
-render::RenderSettings settings() {
+render::RenderSettings projection_settings() {
   render::RenderSettings out;
   out.shadow_enabled = false;
   return out;
@@ -81,7 +81,7 @@ void compare_ground(const Frame& frame, const Camera& camera, DepthError& error)
 Result<std::unique_ptr<Stage>> ground_stage(gpu::Device& device) {
   auto stage = Stage::create(device);
   if (!stage) return stage;
-  if (Result<void> added = (*stage)->add(ground, {-2, -1, -2}, {2, 0, 2}); !added)
+  if (Result<void> added = (*stage)->add(projected_ground, {-2, -1, -2}, {2, 0, 2}); !added)
     return added.error();
   return stage;
 }
@@ -104,7 +104,8 @@ Result<Rows> fields_of_view(gpu::Device& device) {
     double non_finite = 0.0, lit = 0.0;
     for (const double pitch : {-80.0, -30.0, -3.0}) {
       const Camera camera = camera_at({0.37, 1.62, 0.21}, 33.0, pitch, fov);
-      const auto frame = (*stage)->draw(input_of(camera, islands), settings(), {160, 90});
+      const auto frame =
+          (*stage)->draw(input_of(camera, islands), projection_settings(), {160, 90});
       if (!frame) return frame.error();
       compare_ground(*frame, camera, error);
       non_finite += non_finite_channels(frame->radiance);
@@ -161,7 +162,7 @@ Result<Rows> near_and_far(gpu::Device& device) {
         !added)
       return added.error();
   }
-  const auto frame = (*stage)->draw(input_of(camera, islands), settings(), size);
+  const auto frame = (*stage)->draw(input_of(camera, islands), projection_settings(), size);
   if (!frame) return frame.error();
   double relative = 0.0;
   std::array<double, kDistances.size()> seen{};
@@ -209,7 +210,7 @@ Result<double> lost_pixels(gpu::Device& device, double distance, double separati
         return added.error();
     }
     const Camera camera = camera_at({0.0, 0.0, 0.0}, yaw_deg, pitch_deg);
-    const auto frame = (*stage)->draw(input_of(camera, islands), settings(), {256, 144});
+    const auto frame = (*stage)->draw(input_of(camera, islands), projection_settings(), {256, 144});
     if (!frame) return frame.error();
     for (const std::uint32_t word : frame->words) lost += block_of(word) != kStone;
   }
@@ -263,7 +264,7 @@ Result<Rows> sizes(gpu::Device& device) {
                                              {{square, square}, "4729x4729", 0.0}}) {
     FrameInput in = input_of(camera_at({0.37, 1.62, 0.21}, 33.0, -30.0), islands);
     in.capture = size.width != square;  // radiance would take as much memory again
-    const auto frame = (*stage)->draw(in, settings(), size);
+    const auto frame = (*stage)->draw(in, projection_settings(), size);
     if (!frame) return frame.error();
     double unwritten = 0.0;
     for (std::size_t i = 3; i < frame->rgba.size(); i += 4) unwritten += frame->rgba[i] != 255;
@@ -280,21 +281,22 @@ Result<Rows> sizes(gpu::Device& device) {
   }
   double accepted = 0.0;
   for (const VkExtent2D size : {VkExtent2D{0, 8}, {8, 0}, {most + 1, 8}, {8, most + 1}})
-    accepted += static_cast<bool>((*stage)->draw(input_of({}, islands), settings(), size));
+    accepted +=
+        static_cast<bool>((*stage)->draw(input_of({}, islands), projection_settings(), size));
   rows.push_back(
       {"pictures without pixels or over the device's limit that were drawn", 0.0, accepted});
   return rows;
 }
 
-constexpr Case kCases[] = {{"projection.fields_of_view", fields_of_view},
-                           {"projection.near_and_far", near_and_far},
-                           {"projection.close_surfaces", close_surfaces},
-                           {"projection.sizes", sizes}};
+constexpr Case kProjectionCases[] = {{"projection.fields_of_view", fields_of_view},
+                                     {"projection.near_and_far", near_and_far},
+                                     {"projection.close_surfaces", close_surfaces},
+                                     {"projection.sizes", sizes}};
 
 }  // namespace
 
 std::span<const Case> projection_cases() {
-  return kCases;
+  return kProjectionCases;
 }
 
 }  // namespace skerry::tools::stability

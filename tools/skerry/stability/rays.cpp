@@ -17,25 +17,25 @@ using world::block::kAirBlock;
 using world::block::kStone;
 using world::block::kWater;
 
-constexpr VkExtent2D kSize{96, 54};
+constexpr VkExtent2D kRaysSize{96, 54};
 constexpr world::IVec3 kLow{-1, -1, -1}, kHigh{1, 1, 1};  // chunks that are there
 
 /// A room of 9 x 7 x 9 blocks of air within walls of one block, about the origin.
 bool in_room(int x, int y, int z) {
   return std::abs(x) <= 4 && std::abs(y) <= 3 && std::abs(z) <= 4;
 }
-world::BlockId room(int x, int y, int z) {
+world::BlockId rays_room(int x, int y, int z) {
   const bool shell = std::abs(x) <= 5 && std::abs(y) <= 4 && std::abs(z) <= 5;
   return shell && !in_room(x, y, z) ? kStone : kAirBlock;
 }
 /// The same without a roof.
 world::BlockId court(int x, int y, int z) {
-  return y > 3 ? world::BlockId{kAirBlock} : room(x, y, z);
+  return y > 3 ? world::BlockId{kAirBlock} : rays_room(x, y, z);
 }
 
 /// Both, with water knee-deep on the floor.
 world::BlockId pool(int x, int y, int z) {
-  return in_room(x, y, z) && y < -2 ? world::BlockId{kWater} : room(x, y, z);
+  return in_room(x, y, z) && y < -2 ? world::BlockId{kWater} : rays_room(x, y, z);
 }
 world::BlockId open_pool(int x, int y, int z) {
   return in_room(x, y, z) && y < -2 ? world::BlockId{kWater} : court(x, y, z);
@@ -118,7 +118,7 @@ class View {
     render::RenderSettings settings;
     settings.lights_shadows = render::kEveryLight;
     settings.lights_softness = 4;
-    return stage_->draw(in, settings, kSize);
+    return stage_->draw(in, settings, kRaysSize);
   }
 
   std::unique_ptr<Stage> stage_;
@@ -140,7 +140,7 @@ constexpr std::uint32_t kKinds[] = {shared::kLightPoint, shared::kLightSphere};
 
 /// From a hair outside the wall to a million blocks away.
 Result<Rows> lengths(gpu::Device& device) {
-  Result<View> sealed = View::create(device, room), open = View::create(device, court);
+  Result<View> sealed = View::create(device, rays_room), open = View::create(device, court);
   if (!sealed) return sealed.error();
   if (!open) return open.error();
   double leaks = 0.0, dark = 0.0, non_finite = 0.0;
@@ -168,7 +168,7 @@ Result<Rows> lengths(gpu::Device& device) {
 
 /// An island that turns by any angle from one frame to the next.
 Result<Rows> turns(gpu::Device& device) {
-  Result<View> sealed = View::create(device, room);
+  Result<View> sealed = View::create(device, rays_room);
   if (!sealed) return sealed.error();
   const auto lit = lit_from_above(device, court);
   if (!lit) return lit.error();
@@ -189,7 +189,7 @@ Result<Rows> turns(gpu::Device& device) {
 
 /// Lights in a wall, on a face, an edge, a corner of voxels, and where the eye is.
 Result<Rows> places(gpu::Device& device) {
-  Result<View> sealed = View::create(device, room);
+  Result<View> sealed = View::create(device, rays_room);
   if (!sealed) return sealed.error();
   double non_finite = 0.0, leaks = 0.0, lit = 0.0;
   for (const glm::dvec3& place : {glm::dvec3{5.5, 0.5, 0.5},
@@ -245,15 +245,15 @@ Result<Rows> pools(gpu::Device& device) {
       {"channels or pixels not finite, lights over water", 0.0, if_shown(dark == 0.0, non_finite)}};
 }
 
-constexpr Case kCases[] = {{"rays.lengths", lengths},
-                           {"rays.turns", turns},
-                           {"rays.places", places},
-                           {"rays.pools", pools}};
+constexpr Case kRaysCases[] = {{"rays.lengths", lengths},
+                               {"rays.turns", turns},
+                               {"rays.places", places},
+                               {"rays.pools", pools}};
 
 }  // namespace
 
 std::span<const Case> rays_cases() {
-  return kCases;
+  return kRaysCases;
 }
 
 }  // namespace skerry::tools::stability

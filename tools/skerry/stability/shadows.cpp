@@ -47,7 +47,7 @@ double non_finite_numbers(const Cascade& cascade) {
   return count;
 }
 
-Result<Rows> directions() {
+Result<Rows> shadow_directions() {
   double non_finite = 0.0, skew = 0.0, left_handed = 0.0;
   for (const glm::dvec3& to_light : hard_directions()) {
     const std::array<glm::dvec3, 3> axes = render::light_axes(to_light);
@@ -100,7 +100,7 @@ world::BlockId pillars(int x, int y, int z) {
   return y < 0 || pillar ? world::block::kStone : world::block::kAirBlock;
 }
 
-const std::vector<render::IslandPlacement>& one_island() {
+const std::vector<render::IslandPlacement>& shadowed_island() {
   static const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 200.0}};
   return islands;
 }
@@ -116,16 +116,16 @@ Result<std::unique_ptr<Stage>> pillar_stage(gpu::Device& device) {
 render::FrameInput input_of(const render::Celestial& sky) {
   render::FrameInput in;
   in.camera = camera_at({1.3, 4.2, -7.7}, 30.0, -10.0);
-  in.islands = one_island();
+  in.islands = shadowed_island();
   in.sky = sky;
   in.reach_blocks = 200.0;
   in.capture = true;
   return in;
 }
 
-constexpr VkExtent2D kSize{96, 54};
+constexpr VkExtent2D kShadowsSize{96, 54};
 
-render::RenderSettings settings() {
+render::RenderSettings shadow_settings() {
   render::RenderSettings out;
   out.shadow_size = 512;
   return out;
@@ -138,7 +138,8 @@ render::Celestial slanting_sun() {
 
 /// Whether the pillars are lit and cast shadows: without either, no row of shadows means anything.
 Result<bool> shadows_show(Stage& stage) {
-  const auto sunlight = sunlight_of(stage, input_of(slanting_sun()), settings(), kSize);
+  const auto sunlight =
+      sunlight_of(stage, input_of(slanting_sun()), shadow_settings(), kShadowsSize);
   if (!sunlight) return sunlight.error();
   return sunlight->lit > 0.0 && sunlight->shadowed > 0.0;
 }
@@ -150,7 +151,8 @@ Result<Rows> pictures(gpu::Device& device) {
   if (!shown) return shown.error();
   double non_finite = 0.0, out_of_range = 0.0, without_maps = 0.0;
   for (const glm::dvec3& to_sun : hard_directions()) {
-    const auto frame = (*stage)->draw(input_of(sun_towards(to_sun)), settings(), kSize);
+    const auto frame =
+        (*stage)->draw(input_of(sun_towards(to_sun)), shadow_settings(), kShadowsSize);
     if (!frame) return frame.error();
     non_finite += non_finite_channels(frame->radiance) + frame->report.pixels.non_finite;
     for (const float depth : frame->shadow_maps) out_of_range += !(depth >= 0.0f && depth <= 1.0f);
@@ -176,7 +178,7 @@ Result<Change> change_over(Stage& stage, int frames, bool afresh,
   std::vector<float> first;
   for (int i = 0; i < frames; ++i) {
     if (afresh) stage.renderer().invalidate_shadows();
-    const auto frame = stage.draw(input(i), settings(), kSize);
+    const auto frame = stage.draw(input(i), shadow_settings(), kShadowsSize);
     if (!frame) return frame.error();
     if (i == 0) first = frame->shadow_maps;
     if (frame->shadow_maps.empty() || frame->shadow_maps.size() != first.size())
@@ -199,7 +201,7 @@ Result<Rows> camera_motion(gpu::Device& device) {
   if (!shown) return shown.error();
   CascadeInput in;
   in.far_blocks = input_of(sky).reach_blocks;
-  in.map_size = settings().shadow_size;
+  in.map_size = shadow_settings().shadow_size;
   const double texel = static_cast<double>(render::make_cascades(in)[0].texel_blocks);
   const auto input = [&](int frame) {
     render::FrameInput moved_input = input_of(sky);
@@ -243,16 +245,16 @@ Result<Rows> sun_motion(gpu::Device& device) {
                if_shown(moved, redrawn)}};
 }
 
-constexpr Case kCases[] = {{"shadows.directions", directions},
-                           {"shadows.continuity", continuity},
-                           {"shadows.pictures", pictures},
-                           {"shadows.camera_motion", camera_motion},
-                           {"shadows.sun_motion", sun_motion}};
+constexpr Case kShadowsCases[] = {{"shadows.directions", shadow_directions},
+                                  {"shadows.continuity", continuity},
+                                  {"shadows.pictures", pictures},
+                                  {"shadows.camera_motion", camera_motion},
+                                  {"shadows.sun_motion", sun_motion}};
 
 }  // namespace
 
 std::span<const Case> shadows_cases() {
-  return kCases;
+  return kShadowsCases;
 }
 
 }  // namespace skerry::tools::stability

@@ -105,14 +105,14 @@ Result<Rows> islands_after_long_play() {
               {"error of a rotation's length", std::ldexp(1.0, -51), if_shown(turn > 0.0, length)}};
 }
 
-constexpr Case kCases[] = {{"time.sky", sky_after_long_play},
-                           {"time.clock", clock_after_long_play},
-                           {"time.islands", islands_after_long_play}};
+constexpr Case kTimeCases[] = {{"time.sky", sky_after_long_play},
+                               {"time.clock", clock_after_long_play},
+                               {"time.islands", islands_after_long_play}};
 
 }  // namespace
 
 std::span<const Case> time_cases() {
-  return kCases;
+  return kTimeCases;
 }
 
 }  // namespace skerry::tools::stability

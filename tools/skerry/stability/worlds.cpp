@@ -17,19 +17,19 @@ using render::IslandPlacement;
 using world::block::kAirBlock;
 using world::block::kStone;
 
-constexpr VkExtent2D kSize{96, 54};
+constexpr VkExtent2D kWorldsSize{96, 54};
 
 game::SceneOptions scene_of(const std::string& seed) {
   game::SceneOptions scene;
   scene.seed_text = seed;
-  scene.size = {kSize.width, kSize.height};
+  scene.size = {kWorldsSize.width, kWorldsSize.height};
   scene.quality = game::Quality::kLow;
   scene.settings = game::settings_of(scene.quality);
   scene.settings.view_distance = 96;
   return scene;
 }
 
-render::FrameInput input_of(std::span<const IslandPlacement> islands) {
+render::FrameInput worlds_input_of(std::span<const IslandPlacement> islands) {
   render::FrameInput in;
   in.camera = camera_at({32.5, 32.5, 32.5}, 20.0, -5.0);
   in.islands = islands;
@@ -38,7 +38,7 @@ render::FrameInput input_of(std::span<const IslandPlacement> islands) {
   return in;
 }
 
-const std::vector<IslandPlacement>& one_island() {
+const std::vector<IslandPlacement>& worlds_island() {
   static const std::vector<IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
   return islands;
 }
@@ -82,20 +82,20 @@ Result<Rows> solid(gpu::Device& device) {
     if (Result<void> added = (*stage)->add(stone, {-1, -1, -1}, {2, 2, 2}); !added)
       return added.error();
     if (eye == Eye::kInShaft) {
-      render::FrameInput in = input_of(one_island());
+      render::FrameInput in = worlds_input_of(worlds_island());
       in.sky = sun_towards({0.0, 1.0, 0.0});
       in.camera.pitch_deg = -90.0;
-      const auto sunlight = sunlight_of(**stage, in, {}, kSize);
+      const auto sunlight = sunlight_of(**stage, in, {}, kWorldsSize);
       if (!sunlight) return sunlight.error();
       shines = sunlight->lit > 0.0;
       continue;
     }
     double lit = 0.0, non_finite = 0.0;
     for (const double pitch : {-90.0, -20.0, 45.0, 90.0}) {
-      render::FrameInput in = input_of(one_island());
+      render::FrameInput in = worlds_input_of(worlds_island());
       in.sky = sun_towards({0.0, 1.0, 0.0});
       in.camera.pitch_deg = pitch;
-      const auto frame = (*stage)->draw(in, {}, kSize);
+      const auto frame = (*stage)->draw(in, {}, kWorldsSize);
       if (!frame) return frame.error();
       non_finite += non_finite_channels(frame->radiance);
       for (const glm::vec3& p : frame->radiance) lit += p != glm::vec3(0.0f);
@@ -143,18 +143,18 @@ Result<Rows> full_arena(gpu::Device& device) {
       refusal = id.error().message;
     chunk.section.origin = {0, 0, -64 * static_cast<int>(added.size())};
   }
-  render::FrameInput in = input_of(one_island());
+  render::FrameInput in = worlds_input_of(worlds_island());
   in.camera = camera_at({32.5, 80.0, -10.0}, 0.0, -60.0);
   render::RenderSettings settings;
   settings.shadow_enabled = false;
-  const auto frame = (*stage)->draw(in, settings, kSize);
+  const auto frame = (*stage)->draw(in, settings, kWorldsSize);
   if (!frame) return frame.error();
   double shown = 0.0;
   for (const std::uint32_t word : frame->words) shown += (word & 0xffffu) == kStone;
   // Room that a removed chunk leaves must be found again once the GPU has finished with it.
   if (!added.empty()) store.remove((*stage)->renderer().mesh_uploader(), added.back());
   for (int i = 0; i < 3; ++i)
-    if (const auto again = (*stage)->draw(in, settings, kSize); !again) return again.error();
+    if (const auto again = (*stage)->draw(in, settings, kWorldsSize); !again) return again.error();
   const auto refilled = store.add((*stage)->renderer().mesh_uploader(), chunk.section, chunk.quads);
   const bool unclear = room < kMostChunks && refusal.find("is full") == std::string::npos;
   return Rows{{"checkerboard chunks refused although they fit", 0.0,
@@ -189,7 +189,7 @@ Result<Rows> many_islands(gpu::Device& device) {
                                                            block.section, block.quads);
     if (!added) return added.error();
   }
-  render::FrameInput in = input_of(islands);
+  render::FrameInput in = worlds_input_of(islands);
   in.camera = camera_at({48.0, 48.0, 20.0}, 0.0, 0.0);
   render::RenderSettings settings;
   settings.shadow_size = 512;
@@ -224,10 +224,10 @@ Result<Rows> whirling_island(gpu::Device& device) {
       const world::Pose pose = world::pose_at(spec, time_s);
       const std::vector<IslandPlacement> islands{
           {{pose.origin.x, pose.origin.y, pose.origin.z}, pose.rotation, spec.bounding_radius}};
-      render::FrameInput in = input_of(islands);
+      render::FrameInput in = worlds_input_of(islands);
       in.camera = camera_at({0.5, 60.0, -90.0}, 0.0, -30.0);
       in.time_s = time_s;
-      const auto frame = (*stage)->draw(in, {}, kSize);
+      const auto frame = (*stage)->draw(in, {}, kWorldsSize);
       if (!frame) return frame.error();
       non_finite += non_finite_channels(frame->radiance);
       lit += lit_surfaces(*frame);
@@ -282,18 +282,18 @@ Result<Rows> world_times(gpu::Device& device) {
               {"of those worlds without a block in reach of the spawn", 0.0, empty_worlds}};
 }
 
-constexpr Case kCases[] = {{"worlds.empty", empty},
-                           {"worlds.solid", solid},
-                           {"worlds.full_arena", full_arena},
-                           {"worlds.many_islands", many_islands},
-                           {"worlds.whirling_island", whirling_island},
-                           {"worlds.seeds", seeds},
-                           {"worlds.world_times", world_times}};
+constexpr Case kWorldsCases[] = {{"worlds.empty", empty},
+                                 {"worlds.solid", solid},
+                                 {"worlds.full_arena", full_arena},
+                                 {"worlds.many_islands", many_islands},
+                                 {"worlds.whirling_island", whirling_island},
+                                 {"worlds.seeds", seeds},
+                                 {"worlds.world_times", world_times}};
 
 }  // namespace
 
 std::span<const Case> worlds_cases() {
-  return kCases;
+  return kWorldsCases;
 }
 
 }  // namespace skerry::tools::stability
