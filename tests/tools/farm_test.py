@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs `plan`, `run` and `merge` of `skerry test`, `report` and `stability`, and ends them at random.
+"""Runs `plan`, `run` and `merge` of `skerry test`, `report` and `stability`, ends them at random.
 
     farm_test.py SKERRY_PROGRAM FOLDER [KILLS]      FOLDER is made anew
 
@@ -192,6 +192,39 @@ def check_devices(work):
     work.run(work.command, "run", "--devices", "two", "--dir", folder, status=2)
 
 
+def check_farm(work):
+    """What `farm` does where there is no Slurm; tests/slurm has the rest."""
+    folder = copy_plan(work.whole, work.folder / "it's 100% for farm")
+    script = work.run("farm", "submit", folder, "--tasks-per-job", 4, "--constraint", "alike",
+                      "--dry-run").stdout
+    check(not (folder / "jobs").exists(), "--dry-run wrote something")
+    tasks = names_of(folder)
+    jobs = (len(tasks) + 3) // 4
+    check(f'--array="1{f"-{jobs}" if jobs > 1 else ""}"' in script, script)
+    check(("--exclusive" in script) == (work.command == "report"), script)
+    for job in range(1, jobs + 1):  # as Slurm would: a shell that has the job's number
+        array = script.split("\n\n")[0]
+        subprocess.run(["sh", "-c", array], check=True, stdout=subprocess.DEVNULL,
+                       env=os.environ | {"SLURM_ARRAY_TASK_ID": str(job)})
+    check(rows_of(folder).keys() == rows_of(work.whole).keys(), "jobs left tasks out")
+    check("have rows" in work.run("farm", "status", folder).stdout, "status")
+    work.run("farm", "fetch", folder, "--to", work.folder / "fetched")
+    check(rows_of(work.folder / "fetched") == rows_of(folder), "fetch left rows out")
+    check((work.folder / "fetched" / "page" / "index.html").exists(), "fetch did not merge")
+    next((folder / "rows").iterdir()).unlink()
+    path = os.environ["PATH"]
+    os.environ["PATH"] = str(folder)
+    done = work.run("farm", "submit", folder, "--constraint", "alike", status=1)
+    os.environ["PATH"] = path
+    check("cannot run 'sbatch'" in done.stderr and done.stderr.count("\n") == 1, done)
+    done = work.run("farm", "status", folder)
+    check(" 1 not submitted" in done.stdout, done)
+    work.run("farm", "submit", work.folder, "--dry-run", status=1)
+    if work.command == "report":
+        done = work.run("farm", "submit", folder, "--dry-run", status=2)
+        check("nodes of one kind" in done.stderr, done)
+
+
 def check_references(work, arguments):
     """References are computed once for all that share their folder."""
     def references():
@@ -246,6 +279,7 @@ def main(program, folder, kills="6"):
     check_kills(work, int(kills))
     check_changes(work, scenes)
     check_devices(work)
+    check_farm(work)
     check_many(work)
 
     cases = ["projection.near_and_far", "media.slab", "exposure.steps", "time.islands"]
@@ -264,6 +298,7 @@ def main(program, folder, kills="6"):
     work.check_splits()
     work.check_faults()
     check_devices(work)
+    check_farm(work)
     check_references(work, arguments)
 
 

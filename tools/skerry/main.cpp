@@ -20,6 +20,7 @@
 #include "game/scene_file/parse.h"
 #include "tools/skerry/bench/bench_commands.h"
 #include "tools/skerry/devices.h"
+#include "tools/skerry/farm/farm_command.h"
 #include "tools/skerry/play_command.h"
 #include "tools/skerry/report/report_command.h"
 #include "tools/skerry/scene/arguments.h"
@@ -52,6 +53,7 @@ struct CommandLine {
   std::vector<std::string> typed;  ///< all arguments, the command first
   std::optional<TestCommand> test;
   std::optional<StabilityCommand> stability;
+  std::optional<FarmCommand> farm;
   std::optional<VdbCommand> vdb;
 
   CommandLine();
@@ -79,6 +81,7 @@ CommandLine::CommandLine() {
   test.emplace(app);
   bench.emplace(app);
   stability.emplace(app);
+  farm.emplace(app);
   vdb.emplace(app);
   devices = add("devices", "List the Vulkan devices");
   devices->add_flag("--json", json, "As JSON");
@@ -123,6 +126,7 @@ int CommandLine::run() {
   if (chosen == report->command()) return report->run(typed);
   if (chosen == test->command()) return test->run(typed);
   if (chosen == stability->command()) return stability->run(typed);
+  if (chosen == farm->command()) return farm->run();
   if (chosen == vdb->command()) return vdb->run();
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == play) return run_play();

@@ -37,7 +37,8 @@ Result<std::string> file_hash(const std::filesystem::path& file);
 /// Writes DIR/plan.json; makes the folder. Rows in it stay: those of tasks that are in the new plan
 /// as well count as run.
 Result<void> write_plan(const std::filesystem::path& dir, const Plan& plan);
-/// Errors: none there; not what write_plan writes; of another command than `command`.
+/// Errors: none there; not what write_plan writes; of another command than `command`, which may be
+/// empty for any that has plans.
 Result<Plan> read_plan(const std::filesystem::path& dir, std::string_view command);
 
 /// Checks that a plan made again, here and now, is the plan: that nothing a task depends on has
