@@ -124,6 +124,9 @@ set_tests_properties(tools.commands PROPERTIES TIMEOUT 300)
 # The same commands in parts, as plan, run and merge; tests/tools/farm_test.py PROGRAM FOLDER 100 kills a hundred times.
 add_test(NAME tools.farm COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/farm_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/farm)
 set_tests_properties(tools.farm PROPERTIES TIMEOUT 600)
+# The same under Slurm, on nodes that this machine plays; skipped without Debian's slurm-wlm or without root.
+add_test(NAME tools.slurm COMMAND ${CMAKE_SOURCE_DIR}/tests/slurm/slurm_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/slurm)
+set_tests_properties(tools.slurm PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 PROCESSORS 2)
 
 # The buttons of a test's page, and what they save.
 add_test(NAME tools.decisions COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/decisions_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/decisions)

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""Runs a test set under Slurm on four nodes of this machine, and takes a node and the controller away.
+
+    slurm_test.py SKERRY_PROGRAM FOLDER      FOLDER is made anew
+
+Exit status 77, with the reason, where tests/slurm/cluster cannot make a cluster. All rows come,
+each once, and the page that is merged has the bytes of the one made without Slurm.
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "tools"))
+from commands_test import SKY, check  # noqa: E402
+from farm_test import rows_of, same_bytes, write_row  # noqa: E402
+
+SCENES = 12
+NODES = ("n1", "n2", "n3", "n4")
+SECONDS = 90.0  # for all jobs to end
+RUNS = 12  # of each scene, so that a job takes long enough for its node to be lost
+
+
+class Cluster:
+    def __init__(self, folder, program):
+        self.folder, self.program = folder, program
+
+    def call(self, command, *arguments):
+        done = subprocess.run([HERE / "cluster", command, self.folder, *map(str, arguments)],
+                              capture_output=True, text=True, check=False)
+        check(done.returncode == 0, f"cluster {command} {arguments}: {done.stdout}{done.stderr}")
+        return done.stdout
+
+    def skerry(self, *arguments, status=0):
+        """Runs skerry where users of the cluster log in."""
+        done = subprocess.run([HERE / "cluster", "run", self.folder, self.program,
+                               *map(str, arguments)], capture_output=True, text=True, check=False)
+        check(done.returncode == status,
+              f"{arguments}: status {done.returncode}, not {status}: {done.stdout}{done.stderr}")
+        return done
+
+    def running(self):
+        """{node: job} of the jobs on nodes."""
+        lines = self.call("run", "squeue", "--noheader", "--array", "--states=R",
+                          "--format=%N %F_%K").splitlines()
+        return dict(line.split() for line in lines)
+
+
+def wait_until(what, holds):
+    end = time.monotonic() + SECONDS
+    while not holds():
+        check(time.monotonic() < end, f"{what} took more than {SECONDS} s")
+        time.sleep(0.3)
+
+
+def lose_a_node(cluster):
+    """Kills a node that runs a job. @return the job, which the dead node cannot have ended."""
+    for _ in range(20):
+        for node in cluster.running():
+            cluster.call("kill", node)
+            time.sleep(0.5)
+            job = cluster.running().get(node)
+            if job and job.split("_")[1].isdigit():
+                return job
+            cluster.call("start", node)
+    sys.exit("FAILED: no node was lost while it ran a job")
+
+
+def check_errors(cluster, plan):
+    """What is said in one line."""
+    for arguments, says in ((["--time", "never"], "sbatch failed: "),
+                            (["--partition", "nowhere"], "sbatch failed: "),
+                            (["--constraint", "purple"], "sbatch failed: ")):
+        done = cluster.skerry("farm", "submit", plan, *arguments, status=1)
+        check(says in done.stderr and done.stderr.count("\n") == 1, done)
+    check(not (plan / "jobs" / "submitted.json").exists(), "what was refused is said to be submitted")
+
+
+def lines_in_logs(plan, text):
+    return sum(log.read_text(encoding="utf-8").count(text) for log in (plan / "jobs").glob("*_*.log"))
+
+
+def check_jobs(cluster, plan):
+    start = time.monotonic()
+    cluster.skerry("farm", "submit", plan, "--tasks-per-job", 1, "--time", 5)
+    done = cluster.skerry("farm", "submit", plan, status=1)
+    check("has not ended" in done.stderr, done)
+    wait_until("the first row", lambda: rows_of(plan))
+    lost = lose_a_node(cluster)
+    done = cluster.skerry("farm", "status", plan)
+    check(" 0 failed" in done.stdout and f"{SCENES} tasks: " in done.stdout, done)
+    cluster.call("controller", "stop")
+    time.sleep(1.0)
+    cluster.call("controller", "start")
+    page = plan / "page" / "index.html"
+    wait_until("the merge", page.exists)
+    print(f"{SCENES} tasks and their merge after {time.monotonic() - start:.0f} s, of which a node and the "
+          "controller were away")
+    state = cluster.call("run", "scontrol", "show", "job", lost)
+    check("Restarts=1" in state, f"the job of the lost node did not run again: {state}")
+    done = cluster.skerry("farm", "status", plan)
+    check(f"{SCENES} have rows" in done.stdout, done)
+    check(len(rows_of(plan)) == SCENES, "a row was lost")
+    check(lines_in_logs(plan, "1 tasks run") == SCENES, "a task wrote its row twice")
+
+
+def check_alone(cluster, plan):
+    """A task without a row runs again, and it alone."""
+    task, row = next(iter(rows_of(plan).items()))
+    (plan / "rows" / f"{task}.json").unlink()
+    done = cluster.skerry("farm", "status", plan, status=1)
+    check(" 1 failed" in done.stdout and "see " in done.stdout, done)
+    wait_until("the merge job", lambda: not cluster.running())
+    done = cluster.skerry("farm", "submit", plan, "--tasks-per-job", 1)
+    check(done.stdout.startswith("1 tasks in 1 jobs: "), done)
+    wait_until("the row that was missing", lambda: task in rows_of(plan))
+    check(rows_of(plan)[task]["result"] == row["result"], "it gave another row")
+    check(lines_in_logs(plan, "1 tasks run") == SCENES + 1, "other tasks ran again")
+
+
+def check_page(cluster, plan, whole):
+    """But for times, all is as without Slurm."""
+    expected = rows_of(whole)
+    for task, row in rows_of(plan).items():
+        check(row["result"] == expected[task]["result"], f"{row} is not {expected[task]}")
+        write_row(plan, row | {"measured": expected[task]["measured"]})
+    cluster.skerry("farm", "fetch", whole)
+    fetched = plan.parent / "fetched"
+    cluster.skerry("farm", "fetch", plan, "--to", fetched)
+    for name in ("page", "rows.json", "rows.xml", "pictures"):
+        check(same_bytes(whole / name, fetched / name), f"{name} differs from the one of one machine")
+
+
+def main(program, folder):
+    folder = Path(folder).resolve()
+    able = subprocess.run([HERE / "cluster", "check"], capture_output=True, text=True, check=False)
+    if able.returncode == 77:
+        print(able.stdout, end="")
+        sys.exit(77)
+    cluster = Cluster(folder / "cluster", program)
+    if (folder / "cluster" / "ids").is_dir():
+        cluster.call("down")  # of a run that was ended
+    shutil.rmtree(folder, ignore_errors=True)
+    scenes, plan, whole = folder / "scenes", folder / "plan", folder / "whole"
+    scenes.mkdir(parents=True)
+    os.environ["XDG_CACHE_HOME"] = str(folder / "cache")
+    for i in range(SCENES):
+        scene = SKY | {"time": f"{7 + i}:00"}
+        (scenes / f"sky_{7 + i:02}.json").write_text(json.dumps(scene), encoding="utf-8")
+    subprocess.run([program, "test", scenes, "--approve"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "test", "plan", scenes, "--repeat", str(RUNS), "--dir", plan],
+                   check=True)
+    whole.mkdir()
+    shutil.copy(plan / "plan.json", whole)
+    subprocess.run([program, "test", "run", "--dir", whole], check=True)
+    try:
+        cluster.call("up")
+        check_errors(cluster, plan)
+        check_jobs(cluster, plan)
+        check_alone(cluster, plan)
+        check_page(cluster, plan, whole)
+    finally:
+        cluster.call("down")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
