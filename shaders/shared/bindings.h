@@ -80,31 +80,31 @@ SHARED_CONST uint kDrawCountsBinding = 59u;
 SHARED_CONST uint kHistogramBinding = 60u;
 SHARED_CONST uint kFineBloomBinding = 61u;
 SHARED_CONST uint kCoarseBloomBinding = 62u;
-SHARED_CONST uint kTotalBinding = 64u;  // sum over the parts of a still
+SHARED_CONST uint kTotalBinding = 63u;  // sum over the parts of a still
 
 // Overlay.
-SHARED_CONST uint kOverlayVerticesBinding = 65u;  // OverlayVertex[]
-SHARED_CONST uint kOverlayClipsBinding = 66u;
-SHARED_CONST uint kFontBinding = 67u;
-SHARED_CONST uint kOverlayPicturesBinding = 68u;
+SHARED_CONST uint kOverlayVerticesBinding = 64u;  // OverlayVertex[]
+SHARED_CONST uint kOverlayClipsBinding = 65u;
+SHARED_CONST uint kFontBinding = 66u;
+SHARED_CONST uint kOverlayPicturesBinding = 67u;
 
-SHARED_CONST uint kTargetBinding = 69u;    // of shading: radiance, or the picture at once
-SHARED_CONST uint kIndirectBinding = 70u;  // texels of shared/indirect.h
+SHARED_CONST uint kTargetBinding = 68u;    // of shading: radiance, or the picture at once
+SHARED_CONST uint kIndirectBinding = 69u;  // texels of shared/indirect.h
 
 // Light at fewer pixels than are drawn.
-SHARED_CONST uint kCoarserSamplesBinding = 71u;  // of the next coarser level
-SHARED_CONST uint kOwnSamplesBinding = 72u;      // of the level that is worked on
-SHARED_CONST uint kListedBinding = 73u;          // TileDispatch of the pixels that are listed
-SHARED_CONST uint kListedPixelsBinding = 74u;    // x in bits 0-15, y in bits 16-31
+SHARED_CONST uint kCoarserSamplesBinding = 70u;  // of the next coarser level
+SHARED_CONST uint kOwnSamplesBinding = 71u;      // of the level that is worked on
+SHARED_CONST uint kListedBinding = 72u;          // TileDispatch of the pixels that are listed
+SHARED_CONST uint kListedPixelsBinding = 73u;    // x in bits 0-15, y in bits 16-31
 
 // Past walls: LightReach[].
-SHARED_CONST uint kLightReachBinding = 75u;
+SHARED_CONST uint kLightReachBinding = 74u;
 
 // Of a picture that is drawn smaller than it is shown.
-SHARED_CONST uint kSmallPictureBinding = 76u;
+SHARED_CONST uint kSmallPictureBinding = 75u;
 
-SHARED_CONST uint kMadeBloomBinding = 77u;      // the level that a step of bloom makes
-SHARED_CONST uint kMarchedCloudsBinding = 78u;  // the coarse image as it is made
+SHARED_CONST uint kMadeBloomBinding = 76u;      // the level that a step of bloom makes
+SHARED_CONST uint kMarchedCloudsBinding = 77u;  // the coarse image as it is made
 
 SHARED_END
 #endif
