@@ -37,8 +37,12 @@ grab night
 # A torch on the ground: the night is lit within a second or two.
 key 1
 xdotool click 3
-sleep 3
-grab torch
+for _ in 1 2 3 4 5; do  # longer where the machine has other work
+  sleep 3
+  grab torch
+  count=$(changed night torch)
+  awk -v c="$count" 'BEGIN { exit !(c >= 2000) }' && break
+done
 awk -v a="$(brightness night)" -v b="$(brightness torch)" 'BEGIN { exit !(b > a) }' || fail "the torch gave no light"
 expect_change night torch 2000 "a torch at night"
 
