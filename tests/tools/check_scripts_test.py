@@ -152,6 +152,16 @@ class CheckPaths(unittest.TestCase):
             done = subprocess.run([sys.executable, TOOLS / "check_paths", root], capture_output=True)
             self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_the_text_of_a_picture_is_read(self):
+        text = b"Command\0skerry shot --world /" + b"tmp/a.vdb"
+        chunk = len(text).to_bytes(4, "big") + b"tEXt" + text + b"crc_"
+        with tempfile.TemporaryDirectory() as root:
+            Path(root, "a.png").write_bytes(b"\x89PNG\r\n\x1a\n" + chunk)
+            done = subprocess.run([sys.executable, TOOLS / "check_paths", root], capture_output=True,
+                                  text=True)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("a.png:1: ", done.stdout)
+
 
 if __name__ == "__main__":
     unittest.main()
