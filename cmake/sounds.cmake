@@ -7,21 +7,10 @@ add_executable(skerry_sounds ${CMAKE_SOURCE_DIR}/tools/sounds/main.cpp)
 target_link_libraries(skerry_sounds PRIVATE skerry_synthesis)
 
 set(sounds_file ${CMAKE_BINARY_DIR}/generated/sound_bank.bin)
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/sound_bank.S CONTENT
-".section .rodata
-.balign 16
-.global skerry_sound_bank
-skerry_sound_bank:
-.incbin \"${sounds_file}\"
-.global skerry_sound_bank_end
-skerry_sound_bank_end:
-.section .note.GNU-stack,\"\",%progbits
-" @ONLY)
 add_custom_command(OUTPUT ${sounds_file}
   COMMAND skerry_sounds ${sounds_file}
   DEPENDS skerry_sounds COMMENT "Synthesising sounds" VERBATIM)
-set_source_files_properties(${CMAKE_BINARY_DIR}/generated/sound_bank.S PROPERTIES OBJECT_DEPENDS ${sounds_file})
-add_library(skerry_sound_bank STATIC ${CMAKE_BINARY_DIR}/generated/sound_bank.S ${sounds_file})
+skerry_embed(skerry_sound_bank ${sounds_file})
 target_link_libraries(skerry_game PUBLIC skerry_sound_bank)
 
 # The tests listen to what the synthesis returns. skerry_tests is defined later.

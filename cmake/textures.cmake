@@ -8,21 +8,10 @@ target_link_libraries(skerry_textures PRIVATE skerry_painter)
 
 enable_language(ASM)
 set(textures_file ${CMAKE_BINARY_DIR}/generated/block_textures.bin)
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/block_textures.S CONTENT
-".section .rodata
-.balign 16
-.global skerry_block_textures
-skerry_block_textures:
-.incbin \"${textures_file}\"
-.global skerry_block_textures_end
-skerry_block_textures_end:
-.section .note.GNU-stack,\"\",%progbits
-" @ONLY)
 add_custom_command(OUTPUT ${textures_file}
   COMMAND skerry_textures ${textures_file}
   DEPENDS skerry_textures COMMENT "Painting block textures" VERBATIM)
-set_source_files_properties(${CMAKE_BINARY_DIR}/generated/block_textures.S PROPERTIES OBJECT_DEPENDS ${textures_file})
-add_library(skerry_block_textures STATIC ${CMAKE_BINARY_DIR}/generated/block_textures.S ${textures_file})
+skerry_embed(skerry_block_textures ${textures_file})
 target_link_libraries(skerry_render PUBLIC skerry_block_textures)
 
 # The tests compare the painter's own words with what the program holds. skerry_tests is defined later.

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "engine/core/check.h"
+#include "engine/core/words.h"
 
 // Begin and end of the file, placed in the program by cmake/sounds.cmake.
 extern "C" {
@@ -13,13 +14,6 @@ namespace skerry::game {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "samples are used where they lie");
-
-std::uint32_t word_at(std::span<const std::byte> file, std::size_t index) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    word |= std::to_integer<std::uint32_t>(file[index * 4 + i]) << (8 * i);
-  return word;
-}
 
 }  // namespace
 

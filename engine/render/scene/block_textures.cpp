@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/check.h"
+#include "engine/core/words.h"
 
 // Begin and end of the file, placed in the program by cmake/textures.cmake.
 extern "C" {
@@ -17,13 +18,6 @@ constexpr std::uint32_t kMaxLayers =
     2048;  // what every desktop Vulkan device can hold in one image
 constexpr std::uint32_t kMaxEdge = 1024;
 constexpr std::size_t kTexelBytes = 4;
-
-std::uint32_t word_at(std::span<const std::byte> file, std::size_t index) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    word |= std::to_integer<std::uint32_t>(file[index * 4 + i]) << (8 * i);
-  return word;
-}
 
 }  // namespace
 
