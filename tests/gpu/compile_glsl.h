@@ -11,6 +11,7 @@
 #include <test_paths.h>
 #include "engine/gpu/program/reflection.h"
 #include "engine/gpu/program/shader_table.h"
+#include "tests/folder.h"
 
 namespace skerry::gpu {
 
@@ -20,10 +21,7 @@ class TestShader {
  public:
   /// @param name file name whose ending is the stage, e.g. "add.comp".
   TestShader(std::string name, const std::string& glsl) : name_(std::move(name)) {
-    namespace fs = std::filesystem;
-    const std::string info = testing::UnitTest::GetInstance()->current_test_info()->name();
-    const fs::path folder = fs::path(testing::TempDir()) / ("skerry_glsl_" + info);
-    fs::create_directories(folder);
+    const Folder folder;
     const std::string source = (folder / name_).string(), full = source + ".full.spv",
                       small = source + ".spv";
     std::ofstream(source) << "#version 460\n#extension GL_EXT_scalar_block_layout : require\n"
@@ -42,7 +40,6 @@ class TestShader {
       if (const Result<ShaderReflection> declared = reflect(words_with_names_))
         declared_ = *declared;
     }
-    fs::remove_all(folder);
   }
   const std::vector<std::uint32_t>& words() const { return words_; }
   /// Before optimisation.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <test_paths.h>
+#include "tests/folder.h"
 #include "tests/gpu/compile_glsl.h"
 
 namespace skerry::gpu {
@@ -64,17 +65,16 @@ TEST(ShaderTable, OptimisedProgramsAskForNothingElse) {
 
 /// Runs the build's tool on a shader of the test. @return its exit status; `said` is its stderr.
 int tabulate(const TestShader& shader, std::string& said) {
-  const fs::path folder = fs::path(testing::TempDir()) / "skerry_shader_table";
-  fs::create_directories(folder);
+  const Folder folder;
   const std::vector<std::uint32_t>& words = shader.words_with_names();
   std::ofstream(folder / "mine.comp.full.spv", std::ios::binary)
       .write(reinterpret_cast<const char*>(words.data()),
              static_cast<std::streamsize>(words.size() * sizeof(std::uint32_t)));
-  const std::string command = SKERRY_BINARY_DIR "/skerry_shader_table " + folder.string() + " " +
-                              folder.string() + " mine.comp 2> " + (folder / "said").string();
+  const std::string command = SKERRY_BINARY_DIR "/skerry_shader_table " + folder.path().string() +
+                              " " + folder.path().string() + " mine.comp 2> " +
+                              (folder / "said").string();
   const int status = std::system(command.c_str());
   said = text_of(folder / "said");
-  fs::remove_all(folder);
   return WEXITSTATUS(status);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/platform/image_file.h"
+#include "tests/folder.h"
 #include "tools/measure/color.h"
 
 namespace skerry::measure {
@@ -29,12 +30,11 @@ TEST(Image, EveryByteComesBackFromLinearLight) {
 }
 
 TEST(Image, AFileHoldsTheImage) {
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / "skerry_measure_image.png";
+  const Folder folder;
+  const std::filesystem::path path = folder / "image.png";
   const Image image = all_bytes();
   ASSERT_TRUE(write_image(path, image));
   const Result<platform::PngImage> read = platform::read_png(path);
-  std::filesystem::remove(path);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->width, 16u);
   EXPECT_EQ(read->height, 16u);

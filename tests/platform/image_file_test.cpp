@@ -9,20 +9,16 @@
 
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "tests/folder.h"
 
 namespace skerry::platform {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, gone afterwards.
 class ImageFile : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(dir_); }
-  void TearDown() override { fs::remove_all(dir_); }
-  fs::path dir_ =
-      fs::path(testing::TempDir()) /
-      ("skerry_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  const Folder dir_;
 };
 
 std::vector<std::uint8_t> random_bytes(std::size_t count) {
@@ -77,12 +73,12 @@ TEST_F(ImageFile, AnUnwritablePathIsNamedAndNothingIsLeft) {
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("no/a.png"), std::string::npos);
   EXPECT_NE(missing.error().message.find("No such file"), std::string::npos);
-  const auto folder = write_png(dir_, {1, 1, 4, pixels});
+  const auto folder = write_png(dir_.path(), {1, 1, 4, pixels});
   ASSERT_FALSE(folder);
   EXPECT_NE(folder.error().message.find("directory"), std::string::npos);
   const auto full = write_png("/dev/full/a.png", {1, 1, 4, pixels});
   EXPECT_FALSE(full);
-  EXPECT_TRUE(fs::is_empty(dir_));
+  EXPECT_TRUE(fs::is_empty(dir_.path()));
 }
 
 TEST_F(ImageFile, EveryTruncationAndManyCorruptionsAreErrorsNotCrashes) {

@@ -4,12 +4,14 @@
 
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "tests/folder.h"
 
 namespace skerry::game {
 namespace {
 
 TEST(Screenshot, NamesAreDatesAndNeverTaken) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "skerry_shots";
+  const Folder own;
+  const std::filesystem::path folder = own / "shots";
   ASSERT_TRUE(platform::make_dirs(folder));
   constexpr std::int64_t kMoment = 1738367999;  // 2025-01-31 23:59:59 UTC
   for (const char* name : {"skerry-20250131-235959.png", "skerry-20250131-235959-2.png",
@@ -18,7 +20,6 @@ TEST(Screenshot, NamesAreDatesAndNeverTaken) {
     EXPECT_EQ(path, folder / name);
     ASSERT_TRUE(write_text(path, "taken"));
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "engine/platform/files.h"
+#include "tests/folder.h"
 #include "tests/measure/xml.h"
 #include "tools/measure/html.h"
 
@@ -121,9 +122,8 @@ TEST(ReportFiles, JsonHoldsEveryRow) {
 TEST(ReportFiles, MarkupIsWellFormedWithHostileLabels) {
   TopicResult result = result_of_noise();
   EXPECT_EQ(measure::xml_fault(topic_svg(result)), "");
-  const std::filesystem::path dir =
-      std::filesystem::path(testing::TempDir()) / "skerry_report_files";
-  std::filesystem::create_directories(dir);
+  const Folder own;
+  const std::filesystem::path& dir = own.path();
   for (SceneRows& scene : result.scenes) {
     const Result<void> written = write_pictures(kTopic, scene, dir);
     ASSERT_TRUE(written) << written.error().message;
@@ -140,7 +140,6 @@ TEST(ReportFiles, MarkupIsWellFormedWithHostileLabels) {
     if (name.find('.') == std::string::npos) continue;
     EXPECT_TRUE(std::filesystem::exists(dir / name)) << name;
   }
-  std::filesystem::remove_all(dir);
 }
 
 PointRow point_row(double p10, double median, double p90, double error) {
