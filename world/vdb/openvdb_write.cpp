@@ -19,8 +19,11 @@ openvdb::math::Transform::Ptr transform_of(const glm::dmat4& m) {
 template <class GridType>
 openvdb::GridBase::Ptr grid_of(const VolumeGrid& volume) {
   using Value = typename GridType::ValueType;
-  const auto grid = GridType::create(static_cast<Value>(volume.background));
+  // By OpenVDB's registry: where a grid is constructed, the compiler needs all that grids can do.
+  const auto grid =
+      openvdb::gridPtrCast<GridType>(openvdb::GridBase::createGrid(GridType::gridType()));
   auto& tree = grid->tree();
+  tree.root().setBackground(static_cast<Value>(volume.background), /*updateChildNodes=*/false);
   for (const VolumeTile& tile : volume.tiles) {
     const openvdb::Coord low(tile.origin.x, tile.origin.y, tile.origin.z);
     const openvdb::CoordBBox box = openvdb::CoordBBox::createCube(low, tile.edge);
