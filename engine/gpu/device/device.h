@@ -67,6 +67,7 @@ class Device final : public ResourceOwner {
   std::uint64_t memory_total() const;
   /// Allocations made since the device was opened.
   std::uint64_t allocations() const;
+  const std::string& last_allocation() const;  ///< name of what the latest was for; empty: none yet
   /// Asked before each allocation from now on, for injecting faults: one that it answers with false
   /// fails as if memory had run out. Empty: none is asked.
   using AllocationGate = std::function<bool(const std::string& name, std::uint64_t bytes)>;

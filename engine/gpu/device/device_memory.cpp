@@ -264,6 +264,10 @@ std::uint64_t Device::allocations() const {
   return state_->allocations;
 }
 
+const std::string& Device::last_allocation() const {
+  return state_->last_allocation;
+}
+
 void Device::set_allocation_gate(AllocationGate gate) {
   state_->allocation_gate = std::move(gate);
 }
@@ -272,6 +276,7 @@ void Device::account(const std::string& name, std::uint64_t bytes) {
   state_->memory_by_name[name] += bytes;
   state_->memory_total += bytes;
   ++state_->allocations;
+  state_->last_allocation = name;
 }
 
 void Device::retire(std::uint64_t object, VkObjectType type, VkDeviceMemory memory,

@@ -35,6 +35,7 @@ struct Device::State {
   std::uint64_t memory_total = 0;
   Device::AllocationGate allocation_gate;
   std::uint64_t allocations = 0;
+  std::string last_allocation;
   std::vector<std::pair<SamplerDesc, VkSampler>> samplers;
 };
 

@@ -35,6 +35,7 @@ struct Frame {
   std::uint64_t pending_bytes = 0;
   int programs = 0;  // that it waited for
   std::uint64_t allocations = 0;
+  std::string allocated;  // what the last of them was for
   std::vector<gpu::PassTime> passes;
 };
 
@@ -98,6 +99,7 @@ class Flight {
       frame.pending_bytes = view_.renderer().mesh_uploader().pending_bytes();
       frame.programs = view_.renderer().programs_made() - programs;
       frame.allocations = device.allocations() - allocations;
+      if (frame.allocations != 0) frame.allocated = device.last_allocation();
       // The newest report is of the frame that the one before had to wait for.
       if (const auto& report = view_.renderer().report(); report && !frames_.empty()) {
         frames_.back().passes = report->passes;
@@ -183,6 +185,20 @@ nlohmann::ordered_json hitches_of(const std::vector<Frame>& frames, double limit
         "made, {} allocations\n",
         frame->at_s, frame->ms, frame->stream_ms, frame->draw_ms, frame->cpu_ms, frame->gpu_ms,
         pass, beyond_ms, frame->pending_bytes / 1024, frame->programs, frame->allocations);
+  }
+  return rows;
+}
+
+/// The frames that allocated device memory, which a flight should have done before its second half.
+nlohmann::ordered_json allocations_of(const std::vector<Frame>& frames) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Frame& frame : frames) {
+    if (frame.allocations == 0) continue;
+    rows.push_back(
+        {{"at_s", frame.at_s}, {"allocations", frame.allocations}, {"last", frame.allocated}});
+    if (frame.at_s > 0.5 * frames.back().at_s)
+      fmt::print("  at {:5.2f} s {} allocations, the last for '{}'\n", frame.at_s,
+                 frame.allocations, frame.allocated);
   }
   return rows;
 }
@@ -305,6 +321,7 @@ int bench_fly(const BenchFlyOptions& options) {
                              {"seconds", seconds}};
   add_numbers(row, flight.frames());
   print(row, (*view)->streamer().stats().chunks_made);
+  row["allocated"] = allocations_of(flight.frames());
   row["hitches"] = hitches_of(flight.frames(), 2.0 * row["ms_median"].get<double>());
   if (Result<void> written = write_rows(options.json, nlohmann::ordered_json::array({row}));
       !written)
