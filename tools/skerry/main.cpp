@@ -33,10 +33,6 @@
 namespace skerry::tools {
 namespace {
 
-int refuse(const Refusal& refusal) {
-  return fail(refusal.status, refusal.error);
-}
-
 /// The sub-commands and what was typed for them.
 struct CommandLine {
   CLI::App app{"Skerry: islands of voxels in the air, lit by a real sun.", "skerry"};

@@ -1,6 +1,7 @@
 #include "tools/skerry/bench/bench_commands.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <string_view>
@@ -20,10 +21,6 @@
 
 namespace skerry::tools {
 namespace {
-
-int refuse(const Refusal& refusal) {
-  return fail(refusal.status, refusal.error);
-}
 
 std::optional<std::filesystem::path> path_of(const std::optional<std::string>& text) {
   if (!text) return std::nullopt;

@@ -1,6 +1,7 @@
 #include "tools/skerry/farm/farm_command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -24,10 +25,6 @@ namespace fs = std::filesystem;
 /// Slurm's own limit is 1001 unless the cluster says otherwise (MaxArraySize).
 constexpr std::size_t kUsualMostJobs = 1000;
 constexpr std::size_t kNamedAtMost = 20;
-
-int refuse(const Refusal& refusal) {
-  return fail(refusal.status, refusal.error);
-}
 
 /// Runs one of Slurm's programs. Errors: it is not there or fails; one line with what it said.
 Result<std::string> ask_slurm(std::vector<std::string> words, std::string_view what_to_do) {

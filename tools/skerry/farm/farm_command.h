@@ -1,5 +1,4 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,6 +7,10 @@
 #include "tools/skerry/farm/plan.h"
 #include "tools/skerry/farm/slurm.h"
 #include "tools/skerry/scene/arguments.h"
+
+namespace CLI {
+class App;
+}
 
 namespace skerry::tools {
 

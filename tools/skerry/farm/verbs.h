@@ -1,6 +1,5 @@
 // The sub-commands plan, run and merge of a command that can be split (docs/farm.md).
 #pragma once
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -11,6 +10,10 @@
 #include "tools/skerry/farm/plan.h"
 #include "tools/skerry/farm/record.h"
 #include "tools/skerry/scene/arguments.h"
+
+namespace CLI {
+class App;
+}
 
 namespace skerry::tools {
 

@@ -1,6 +1,7 @@
 #include "tools/skerry/report/report_command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -31,10 +32,6 @@ bool file_says_size(const std::optional<std::string>& file) {
   if (!text) return false;
   const Result<game::SceneText> scene = game::parse_scene(*text);
   return scene && scene->size.has_value();
-}
-
-int refuse(const Refusal& refusal) {
-  return fail(refusal.status, refusal.error);
 }
 
 std::vector<Task> names_of(const ReportTasks& tasks) {

@@ -1,5 +1,4 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +9,10 @@
 #include "tools/skerry/farm/verbs.h"
 #include "tools/skerry/report/report_tasks.h"
 #include "tools/skerry/scene/arguments.h"
+
+namespace CLI {
+class App;
+}
 
 namespace skerry::tools {
 

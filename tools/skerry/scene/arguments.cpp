@@ -1,6 +1,7 @@
 #include "tools/skerry/scene/arguments.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
@@ -10,10 +11,6 @@
 
 namespace skerry::tools {
 namespace {
-
-Refusal usage(Error error) {
-  return {kUsage, std::move(error)};
-}
 
 std::string help_of(const CLI::App& command) {
   std::string path = command.get_name();
@@ -167,6 +164,14 @@ std::optional<Refusal> check_output(const std::optional<std::string>& path) {
   const auto writable = check_writable(*path);
   if (!writable) return Refusal{kFailed, writable.error()};
   return std::nullopt;
+}
+
+Refusal usage(Error error) {
+  return {kUsage, std::move(error)};
+}
+
+int refuse(const Refusal& refusal) {
+  return fail(refusal.status, refusal.error);
 }
 
 }  // namespace skerry::tools

@@ -1,13 +1,16 @@
 // The command line: options shared by sub-commands, and usage errors that name what was probably
 // meant.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/core/result.h"
 #include "game/scene_file/options.h"
+
+namespace CLI {
+class App;
+}
 
 namespace skerry::tools {
 
@@ -16,6 +19,9 @@ struct Refusal {
   int status = 0;
   Error error;
 };
+
+Refusal usage(Error error);          ///< of a command line that asks for what cannot be
+int refuse(const Refusal& refusal);  ///< Reports it. @return the exit status.
 
 /// Options of every command that draws a scene, as typed.
 struct SceneArguments {

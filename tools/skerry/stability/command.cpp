@@ -1,6 +1,7 @@
 #include "tools/skerry/stability/command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <ctime>
@@ -18,10 +19,6 @@ namespace {
 /// Of all threads, the driver's among them.
 double processor_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
-int refuse(const Refusal& refusal) {
-  return fail(refusal.status, refusal.error);
 }
 
 }  // namespace

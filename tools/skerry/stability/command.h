@@ -1,5 +1,4 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -8,6 +7,10 @@
 
 #include "tools/skerry/farm/verbs.h"
 #include "tools/skerry/stability/run.h"
+
+namespace CLI {
+class App;
+}
 
 namespace skerry::tools {
 

@@ -1,6 +1,7 @@
 #include "tools/skerry/test/approve_command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "engine/core/log.h"
 #include "tools/skerry/scene/scene_device.h"

@@ -1,11 +1,14 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/skerry/scene/arguments.h"
 #include "tools/skerry/test/scene_set.h"
+
+namespace CLI {
+class App;
+}
 
 namespace skerry::tools {
 

@@ -1,6 +1,7 @@
 #include "tools/skerry/test/test_command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <set>
@@ -25,10 +26,6 @@ namespace skerry::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-Refusal usage(Error error) {
-  return {kUsage, std::move(error)};
-}
 
 bool needs_openvdb(const game::SceneOptions& scene) {
   return !scene.clouds.empty() || (scene.world && game::is_vdb(*scene.world));

@@ -1,5 +1,4 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,6 +12,10 @@
 #include "tools/skerry/scene/arguments.h"
 #include "tools/skerry/test/approve_command.h"
 #include "tools/skerry/test/pool.h"
+
+namespace CLI {
+class App;
+}
 
 namespace skerry::tools {
 

@@ -1,6 +1,7 @@
 #include "tools/skerry/vdb/vdb_command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <string_view>
 #include <utility>
@@ -15,10 +16,6 @@
 
 namespace skerry::tools {
 namespace {
-
-int refuse(const Refusal& refusal) {
-  return fail(refusal.status, refusal.error);
-}
 
 using Typed = std::pair<const char*, std::optional<std::string>>;
 

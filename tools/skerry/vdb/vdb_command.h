@@ -1,9 +1,12 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "tools/skerry/scene/arguments.h"
+
+namespace CLI {
+class App;
+}
 
 namespace skerry::tools {
 
