@@ -39,7 +39,7 @@ int ApproveCommand::run() const {
   const Result<std::vector<Decision>> decisions = read_decisions(file_);
   if (!decisions) return fail(kFailed, decisions.error());
   std::vector<TestScene> scenes;
-  if (const auto refusal = read_scenes(scenes)) return fail(refusal->status, refusal->error);
+  if (const auto refusal = read_scenes(scenes)) return refuse(*refusal);
   const Result<std::vector<Approval>> approvals = check_decisions(*decisions, report_, scenes);
   if (!approvals) return fail(kFailed, approvals.error());
   for (const Approval& approval : *approvals) {

@@ -133,16 +133,16 @@ void TestCommand::add_jobs(CLI::App& command) {
 int TestCommand::run(std::span<const std::string> typed) {
   if (approve_command_->command().parsed()) {
     const auto refusal = verbs_->check(approve_command_->command());
-    return refusal ? fail(refusal->status, refusal->error) : approve_command_->run();
+    return refusal ? refuse(*refusal) : approve_command_->run();
   }
   const CLI::App* verb = verbs_->chosen();
   if (!verb) {
-    if (const auto refusal = check_leftovers(*test_)) return fail(refusal->status, refusal->error);
-    if (const auto refusal = check_typed()) return fail(refusal->status, refusal->error);
+    if (const auto refusal = check_leftovers(*test_)) return refuse(*refusal);
+    if (const auto refusal = check_typed()) return refuse(*refusal);
     if (compare_) return compare_pictures();
     return merge_ ? merge_shards() : draw_and_judge();
   }
-  if (const auto refusal = verbs_->check(*verb)) return fail(refusal->status, refusal->error);
+  if (const auto refusal = verbs_->check(*verb)) return refuse(*refusal);
   if (verb == &verbs_->plan()) return write_plan(typed);
   return verb == &verbs_->run() ? run_tasks() : merge_rows();
 }
@@ -251,9 +251,8 @@ int TestCommand::draw_and_judge() {
   Results results;
   results.shard = shard_;
   std::vector<TestScene> scenes;
-  if (const auto refusal = read_set(scenes, results.scenes_in_set))
-    return fail(refusal->status, refusal->error);
-  if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
+  if (const auto refusal = read_set(scenes, results.scenes_in_set)) return refuse(*refusal);
+  if (const auto refusal = check_outputs()) return refuse(*refusal);
 
   const Stopwatch watch;
   std::vector<Outcome> outcomes(scenes.size());
@@ -261,7 +260,7 @@ int TestCommand::draw_and_judge() {
     outcomes[scene] = outcome;
     return Result<void>();
   });
-  if (end.refusal) return fail(end.refusal->status, end.refusal->error);
+  if (end.refusal) return refuse(*end.refusal);
   for (const Outcome& outcome : outcomes) {
     Result<Row> row = row_of(record_of(outcome.row, {}));
     if (!row) return fail(kFailed, row.error());
@@ -350,7 +349,7 @@ int TestCommand::merge_shards() {
   }
   Result<Results> merged = merge(shards);
   if (!merged) return fail(kFailed, merged.error());
-  if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
+  if (const auto refusal = check_outputs()) return refuse(*refusal);
   if (html_) {
     if (const auto copied = copy_pictures(shards); !copied) return fail(kFailed, copied.error());
   }
@@ -374,7 +373,7 @@ int TestCommand::compare_pictures() {
     if (const auto read = game::read_expectation("tolerance", *text, expected); !read)
       return fail(kUsage, read.error());
   }
-  if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
+  if (const auto refusal = check_outputs()) return refuse(*refusal);
   const Stopwatch watch;
   Result<std::vector<Row>> rows =
       compare_folders({paths_[0], paths_[1], expected.tolerance, pool_.judge.html});
@@ -389,14 +388,13 @@ int TestCommand::compare_pictures() {
 }
 
 int TestCommand::write_plan(std::span<const std::string> typed) {
-  if (const auto refusal = check_typed()) return fail(refusal->status, refusal->error);
+  if (const auto refusal = check_typed()) return refuse(*refusal);
   std::vector<TestScene> scenes;
   std::size_t in_set = 0;
-  if (const auto refusal = read_set(scenes, in_set)) return fail(refusal->status, refusal->error);
+  if (const auto refusal = read_set(scenes, in_set)) return refuse(*refusal);
   const Result<std::vector<Task>> tasks = tasks_of(scenes, pool_);
   if (!tasks) return fail(kFailed, tasks.error());
-  if (const auto refusal = verbs_->write(typed, *tasks))
-    return fail(refusal->status, refusal->error);
+  if (const auto refusal = verbs_->write(typed, *tasks)) return refuse(*refusal);
   return kDone;
 }
 
@@ -422,12 +420,11 @@ std::optional<Refusal> TestCommand::read_planned(const Plan& plan, std::vector<T
 
 int TestCommand::run_tasks() {
   Plan plan;
-  if (const auto refusal = verbs_->read(plan)) return fail(refusal->status, refusal->error);
+  if (const auto refusal = verbs_->read(plan)) return refuse(*refusal);
   std::vector<TestScene> scenes;
-  if (const auto refusal = read_planned(plan, scenes)) return fail(refusal->status, refusal->error);
+  if (const auto refusal = read_planned(plan, scenes)) return refuse(*refusal);
   std::vector<std::size_t> chosen;
-  if (const auto refusal = verbs_->to_run(plan, chosen))
-    return fail(refusal->status, refusal->error);
+  if (const auto refusal = verbs_->to_run(plan, chosen)) return refuse(*refusal);
   if (chosen.empty()) return kDone;
   pool_.judge.html = pictures_dir(verbs_->dir());
   if (const Result<void> made = platform::make_dirs(*pool_.judge.html); !made)
@@ -437,7 +434,7 @@ int TestCommand::run_tasks() {
   const PoolResult end = draw(wanted, [&](std::size_t scene, const Outcome& outcome) {
     return write_record(verbs_->dir(), record_of(outcome.row, plan.tasks[chosen[scene]].id));
   });
-  if (end.refusal) return fail(end.refusal->status, end.refusal->error);
+  if (end.refusal) return refuse(*end.refusal);
   fmt::print("{} tasks run\n", wanted.size());
   if (end.validation_messages == 0) return kDone;
   return fail(kValidationMessage,
@@ -446,11 +443,10 @@ int TestCommand::run_tasks() {
 
 int TestCommand::merge_rows() {
   Plan plan;
-  if (const auto refusal = verbs_->read(plan)) return fail(refusal->status, refusal->error);
-  if (const auto refusal = check_outputs()) return fail(refusal->status, refusal->error);
+  if (const auto refusal = verbs_->read(plan)) return refuse(*refusal);
+  if (const auto refusal = check_outputs()) return refuse(*refusal);
   Collected rows;
-  if (const auto refusal = verbs_->read_rows(plan, rows))
-    return fail(refusal->status, refusal->error);
+  if (const auto refusal = verbs_->read_rows(plan, rows)) return refuse(*refusal);
   Results results;
   results.scenes_in_set = plan.tasks.size();
   double seconds = 0.0;
