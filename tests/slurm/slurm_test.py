@@ -105,11 +105,14 @@ def check_jobs(cluster, plan):
     done = cluster.skerry("farm", "status", plan)
     check(f"{SCENES} have rows" in done.stdout, done)
     check(len(rows_of(plan)) == SCENES, "a row was lost")
-    check(lines_in_logs(plan, "1 tasks run") == SCENES, "a task wrote its row twice")
+    # One line less where the node died between its row and its line: the job then had nothing left to run.
+    runs = lines_in_logs(plan, "1 tasks run")
+    check(runs in (SCENES - 1, SCENES), f"{runs} runs wrote {SCENES} rows")
 
 
 def check_alone(cluster, plan):
     """A task without a row runs again, and it alone."""
+    runs = lines_in_logs(plan, "1 tasks run")
     task, row = next(iter(rows_of(plan).items()))
     (plan / "rows" / f"{task}.json").unlink()
     done = cluster.skerry("farm", "status", plan, status=1)
@@ -118,8 +121,9 @@ def check_alone(cluster, plan):
     done = cluster.skerry("farm", "submit", plan, "--tasks-per-job", 1)
     check(done.stdout.startswith("1 tasks in 1 jobs: "), done)
     wait_until("the row that was missing", lambda: task in rows_of(plan))
+    wait_until("the end of its job", lambda: not cluster.running())
     check(rows_of(plan)[task]["result"] == row["result"], "it gave another row")
-    check(lines_in_logs(plan, "1 tasks run") == SCENES + 1, "other tasks ran again")
+    check(lines_in_logs(plan, "1 tasks run") == runs + 1, "other tasks ran again")
 
 
 def check_page(cluster, plan, whole):
