@@ -1,6 +1,7 @@
 #include "game/client/app.h"
 
 #include <imgui.h>
+#include <skerry_version.h>
 
 #include <algorithm>
 #include <ctime>
@@ -329,7 +330,7 @@ ui::ScreenFacts App::screen_facts(const platform::InputFrame& input) {
   if (world_) facts.adapted_ev = world_->exposure_ev().value_or(0.0);
   ui::take_keys(screens_, input, facts);
   facts.back = back_;
-  facts.version = SKERRY_VERSION;
+  facts.version = kSkerryVersion;
   return facts;
 }
 

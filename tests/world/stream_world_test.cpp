@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kFar = 2500.0;
 
-double length(const glm::dvec3& v) {
-  return std::sqrt(glm::dot(v, v));
-}
-
 std::vector<std::uint64_t> ids_of(const std::vector<IslandSpec>& specs) {
   std::vector<std::uint64_t> ids;
   for (const IslandSpec& spec : specs) ids.push_back(spec.id);

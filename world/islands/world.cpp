@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <tuple>
 #include <utility>
 
@@ -18,10 +19,6 @@ constexpr std::uint32_t kMaxIslandLimit = 100'000;
 constexpr std::size_t kMaxKnownIslands = 32'768;
 // An island that moved so far since it was last noted may have come near someone.
 constexpr double kNotedBlocks = 24.0;
-
-double length(const glm::dvec3& v) {
-  return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-}
 
 // Ids of the `count` islands nearest to the world's own origin. The plan lists every island whose
 // centre is within the radius, so a list that reaches the radius with enough centres has them all.

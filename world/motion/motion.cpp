@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "world/motion/motion_body.h"
@@ -18,10 +19,6 @@ constexpr double kLookAround = 64.0;
 constexpr double kFeltSpeed = 0.02;
 // ... unless it is this deep in the other [blocks].
 constexpr double kDeepContact = 0.25;
-
-double length(const glm::dvec3& v) {
-  return std::sqrt(glm::dot(v, v));
-}
 
 /// Speed that turning gives a place.
 glm::dvec3 carried(double spin, const glm::dvec3& arm) {

@@ -19,9 +19,9 @@ BlockId block_of(float id) {
   return is_known(id) ? static_cast<BlockId>(std::floor(id + 0.5f)) : BlockId{block::kStone};
 }
 
-class Reader {
+class ChunkOfIds {
  public:
-  Reader(const VolumeField& field, const SolidRule& rule, const Placement& placement)
+  ChunkOfIds(const VolumeField& field, const SolidRule& rule, const Placement& placement)
       : field_(field), rule_(rule), placement_(placement) {}
 
   IdChunk run(IVec3 chunk) {
@@ -85,7 +85,7 @@ class Reader {
 
 IdChunk id_chunk(const VolumeField& field, const SolidRule& rule, const Placement& placement,
                  IVec3 chunk) {
-  return Reader(field, rule, placement).run(chunk);
+  return ChunkOfIds(field, rule, placement).run(chunk);
 }
 
 }  // namespace skerry::world

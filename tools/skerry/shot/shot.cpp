@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/clock.h"
 #include "engine/core/output.h"
 #include "engine/platform/image_file.h"
 #include "tools/skerry/scene/draw_scene.h"
@@ -15,22 +15,7 @@
 namespace skerry::tools {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using nlohmann::ordered_json;
-
-/// Milliseconds between calls.
-class Stopwatch {
- public:
-  double lap() {
-    const Clock::time_point now = Clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return ms;
-  }
-
- private:
-  Clock::time_point last_ = Clock::now();
-};
 
 ordered_json stats_json(const gpu::Device& device, game::SceneView& view, const Drawn& drawn,
                         const ordered_json& cpu_ms) {
@@ -115,21 +100,27 @@ int shot(const ShotOptions& options) {
     return fail(kUsage, {"--out and --stats name the same file; give two"});
   if (options.scene.settings.renderer == game::RendererKind::kReference)
     return shot_reference(options);
-  Stopwatch watch, total;
+  const Stopwatch total;
+  Stopwatch watch;
+  const auto lap = [&watch] {
+    const double ms = watch.milliseconds();
+    watch.restart();
+    return ms;
+  };
   ordered_json cpu_ms;
   Result<std::unique_ptr<gpu::Device>> device = open_device(options.scene);
   if (!device) return fail(kNoDevice, device.error());
-  cpu_ms["device"] = watch.lap();
+  cpu_ms["device"] = lap();
   const VkExtent2D size{options.scene.size.width, options.scene.size.height};
   if (Result<void> fits = check_size(**device, options.scene.size); !fits)
     return fail(kUsage, fits.error());
 
   Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(**device, options.scene);
   if (!drawer) return fail(kFailed, drawer.error());
-  cpu_ms["world"] = watch.lap();
+  cpu_ms["world"] = lap();
   const Result<Drawn> drawn = (*drawer)->draw();
   if (!drawn) return fail(kFailed, drawn.error());
-  cpu_ms["draw"] = watch.lap();
+  cpu_ms["draw"] = lap();
   cpu_ms["gather_lights"] = (*drawer)->view().gather_ms();
   const platform::PixelView image{size.width, size.height, 4, drawn->rgba};
   const std::array<platform::PngText, 2> text{
@@ -139,8 +130,8 @@ int shot(const ShotOptions& options) {
   if (!png) return fail(kFailed, png.error());
   if (Result<void> added = outputs.add(options.out, *png); !added)
     return fail(kFailed, added.error());
-  cpu_ms["write"] = watch.lap();
-  cpu_ms["total"] = total.lap();
+  cpu_ms["write"] = lap();
+  cpu_ms["total"] = total.milliseconds();
 
   if (options.stats) {
     const ordered_json j = stats_json(**device, (*drawer)->view(), *drawn, cpu_ms);

@@ -32,8 +32,8 @@ double mean_radiance(const measure::Picture& picture) {
   return sum / (3.0 * static_cast<double>(picture.pixels.size()));
 }
 
-ordered_json stats_json(const ShotOptions& options, const ReferencePicture& picture,
-                        std::span<const std::uint8_t> rgba, const ordered_json& cpu_ms) {
+ordered_json reference_stats_json(const ShotOptions& options, const ReferencePicture& picture,
+                                  std::span<const std::uint8_t> rgba, const ordered_json& cpu_ms) {
   const game::Settings& settings = options.scene.settings;
   ordered_json j;
   j["renderer"] = "reference";
@@ -90,7 +90,7 @@ int shot_reference(const ShotOptions& options) {
     return fail(kFailed, added.error());
   cpu_ms["total"] = total.milliseconds();
   if (options.stats) {
-    const ordered_json j = stats_json(options, *picture, rgba, cpu_ms);
+    const ordered_json j = reference_stats_json(options, *picture, rgba, cpu_ms);
     if (Result<void> added = outputs.add(*options.stats, j.dump(2) + "\n"); !added)
       return fail(kFailed, added.error());
   }
