@@ -134,15 +134,16 @@ void LightField::add_lights(const world::SectionKey& key, std::vector<LatticeLig
 
 void LightField::set_reach(const world::SectionKey& key,
                            std::vector<world::LampReach::Bricks> reach) {
+  // An island that changes its level of detail invalidates once for each of thousands of sections:
+  // the bricks go when the first new ones come.
+  if (stale_.erase(key.island) != 0) {
+    for (auto group = emitted_.lower_bound({key.island, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
+         group != emitted_.end() && group->first.island == key.island; ++group)
+      group->second.bricks.clear();
+  }
   const auto group = emitted_.find(key);
   if (group != emitted_.end() && reach.size() == group->second.lights.size())
     group->second.bricks = std::move(reach);
-}
-
-void LightField::invalidate_reach(std::uint64_t island) {
-  for (auto group = emitted_.lower_bound({island, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
-       group != emitted_.end() && group->first.island == island; ++group)
-    group->second.bricks.clear();
 }
 
 void LightField::scatter(std::map<world::SectionKey, std::vector<LatticeLight>> lights) {
@@ -152,7 +153,7 @@ void LightField::scatter(std::map<world::SectionKey, std::vector<LatticeLight>> 
 
 void LightField::gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
                                std::span<const PlacedIsland> islands, bool in_the_open,
-                               FrameLights& out) {
+                               FrameLights& out) const {
   Writer writer(islands, out);
   auto island = islands.begin();
   for (const auto& [key, group] : groups) {
@@ -165,13 +166,14 @@ void LightField::gather_groups(const Groups& groups, const std::optional<render:
     const glm::dvec3 centre = corner + island->rotation * glm::dvec3(group.centre);
     if (view && !in_view(*view, centre, group.reach)) continue;
     writer.within(centre, group.reach);
+    const bool known = !group.bricks.empty() && !stale_.contains(key.island);
     // Within a chunk, float is exact to a few millionths of a block.
     const glm::mat3 rotation(island->rotation);
     for (std::size_t i = 0; i < group.lights.size(); ++i) {
       const LatticeLight& light = group.lights[i];
       const glm::dvec3 position = corner + glm::dvec3(rotation * light.place);
       const shared::Light point = point_light(light.intensity, light.range);
-      if (in_the_open || group.bricks.empty())
+      if (in_the_open || !known)
         writer.write(point, position);
       else
         writer.write(point, position, *island, reach_of(group.bricks[i], key.level, *island));

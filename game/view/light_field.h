@@ -3,6 +3,7 @@
 #include <glm/mat3x3.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -59,11 +60,14 @@ class LightField {
   /// invalidate_reach() of the island, or until the section is removed.
   void set_reach(const world::SectionKey& key, std::vector<world::LampReach::Bricks> reach);
   /// To be called whenever a voxel of the island changes.
-  void invalidate_reach(std::uint64_t island);
+  void invalidate_reach(std::uint64_t island) { stale_.insert(island); }
   /// Forgets them. A section without lights is no concern.
   void remove(const world::SectionKey& key) { emitted_.erase(key); }
   /// Forgets all that add() took in.
-  void remove_sections() { emitted_.clear(); }
+  void remove_sections() {
+    emitted_.clear();
+    stale_.clear();
+  }
   /// Lights that no section brings, kept for good. Keys are of level 0.
   void scatter(std::map<world::SectionKey, std::vector<LatticeLight>> lights);
   void set_world_lights(std::vector<WorldLight> lights) { world_ = std::move(lights); }
@@ -90,14 +94,15 @@ class LightField {
   };
   using Groups = std::map<world::SectionKey, Group>;
   static Group group_of(const world::SectionKey& key, std::vector<LatticeLight> lights);
-  static void gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
-                            std::span<const PlacedIsland> islands, bool in_the_open,
-                            FrameLights& out);
+  void gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
+                     std::span<const PlacedIsland> islands, bool in_the_open,
+                     FrameLights& out) const;
   void gather_world(const world::WorldPos& camera, std::span<const PlacedIsland> islands,
                     FrameLights& out) const;
 
   std::vector<BlockEmission> emission_;  // by block id
   Groups emitted_, scattered_;
+  std::set<std::uint64_t> stale_;  // islands whose groups' bricks no longer hold
   std::vector<WorldLight> world_;
 };
 

@@ -116,6 +116,30 @@ TEST(LightField, GathersWhatBruteForceFinds) {
   }
 }
 
+TEST(LightField, UsesWhereLightsArriveOnlyWhileItHolds) {
+  const world::SectionKey a{1, {0, 0, 0}, 0}, b{1, {1, 0, 0}, 0}, other{2, {0, 0, 0}, 0};
+  const std::vector<world::Emitter> torch{{glm::vec3(32.0f), world::block::kTorch, 1, false}};
+  LightField field = field_of({{a, torch}, {b, torch}, {other, torch}});
+  const std::vector<PlacedIsland> islands{{1, 0, glm::dmat3(1.0), {}, 100.0},
+                                          {2, 1, glm::dmat3(1.0), {1e4, 0.0, 0.0}, 100.0}};
+  const auto reaches = [&] {
+    FrameLights frame;
+    field.gather({}, std::nullopt, islands, std::nullopt, false, frame);
+    EXPECT_EQ(frame.lights.size(), 3u);
+    return frame.reaches.size();
+  };
+  world::LampReach::Bricks somewhere;
+  somewhere.size = {1, 1, 1};
+  for (const world::SectionKey& key : {a, b, other}) field.set_reach(key, {somewhere});
+  EXPECT_EQ(reaches(), 3u);
+  field.invalidate_reach(1);
+  EXPECT_EQ(reaches(), 1u) << "both sections of the island that changed";
+  field.set_reach(a, {somewhere});
+  EXPECT_EQ(reaches(), 2u) << "what was found before the change does not come back";
+  field.set_reach(b, {somewhere});
+  EXPECT_EQ(reaches(), 3u);
+}
+
 TEST(LightField, LeavesOutOnlyWhatCannotReachTheView) {
   const MadeWorld world(9);
   const LightField field = field_of(world.emitters);
