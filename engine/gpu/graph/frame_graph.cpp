@@ -188,6 +188,23 @@ std::optional<Error> FrameGraph::allocation_failure() const {
   return state_->pool.failure();
 }
 
+void FrameGraph::add_needs(TransientNeeds& to) const {
+  std::vector<ImageDesc> images;
+  std::vector<BufferDesc> buffers;
+  for (const auto& resource : state_->resources) {
+    if (resource.imported || resource.last_pass == State::kNoPass) continue;
+    if (!resource.is_image)
+      buffers.push_back(resource.buffer_desc);
+    else if (resource.image_desc.format != VK_FORMAT_UNDEFINED)
+      images.push_back(resource.image_desc);
+  }
+  to.add(images, buffers);
+}
+
+void FrameGraph::reserve(const TransientNeeds& needs) {
+  state_->pool.reserve(needs);
+}
+
 std::vector<MemoryUse> FrameGraph::transient_memory() const {
   return state_->pool.memory();
 }

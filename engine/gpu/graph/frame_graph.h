@@ -16,6 +16,8 @@
 
 namespace skerry::gpu {
 
+class TransientNeeds;
+
 class Device;
 struct MemoryUse;
 class FrameGraph;
@@ -167,7 +169,8 @@ class FrameGraph {
   ~FrameGraph();
 
   /// Forgets last frame's passes; transient images and buffers go back to a pool keyed by their
-  /// description and are reused. Pool entries not used for a few frames are retired.
+  /// description and are reused. Pool entries neither used for a few frames nor reserved are
+  /// retired.
   void begin();
   ImageRef create(const ImageDesc& desc);    ///< transient; its usage flags are added from its uses
   BufferRef create(const BufferDesc& desc);  ///< transient
@@ -182,6 +185,11 @@ class FrameGraph {
   /// Culls, checks versions, assigns resources, plans barriers. An error is a programmer's mistake
   /// and is fatal, with the pass's name.
   void compile();
+  /// Adds the images and buffers of the frame that compile() saw last. Images without a format,
+  /// which stand for imported ones, do not count.
+  void add_needs(TransientNeeds& to) const;
+  /// See TransientPool::reserve.
+  void reserve(const TransientNeeds& needs);
   /// Why an image or buffer could not be made by the last compile(), if so; then execute() must not
   /// be called. The next begin() starts afresh.
   std::optional<Error> allocation_failure() const;

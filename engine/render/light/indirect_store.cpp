@@ -16,8 +16,9 @@ static_assert(shared::kIndirectSkies == shared::kMaxIslands);
 static_assert(shared::kIndirectFirst == shared::kMaxIslands * (1 + shared::kIndirectIslandTexels));
 
 constexpr std::uint64_t kTexelBytes = sizeof(glm::uvec4);
-constexpr std::uint32_t kUsualTexels = (48u << 20) / kTexelBytes;  // 48 MiB
-constexpr std::uint64_t kShareOfBudget = 2;                        // most of it that light takes
+// 96 MiB: twice what islands take at medium quality, since what replaces a grid is made beside it.
+constexpr std::uint32_t kUsualTexels = (96u << 20) / kTexelBytes;
+constexpr std::uint64_t kShareOfBudget = 2;  // most of it that light takes
 
 std::uint64_t most_texels(const gpu::Device& device, const MemoryBudget& budget) {
   return std::min(device.limits().max_texels, budget.limit() / kShareOfBudget / kTexelBytes);

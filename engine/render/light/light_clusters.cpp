@@ -26,6 +26,9 @@ constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 17, kFirstE
 /// 256 lights are looked through at a stretch: more would leave a GPU idle, and lavapipe ends an
 /// invocation after 65,535 rounds of its loops, without a word.
 constexpr std::uint32_t kLeastChunkWords = 8, kMostChunks = 16;
+/// Lights of most views: so many are sorted without lists that grow.
+constexpr std::uint32_t kUsualLights = 2048;
+constexpr std::uint64_t kUsualEntries = 1u << 20;
 /// Lists never take more: what does not fit is looked for among all lights.
 constexpr std::uint64_t kMostEntryBytes = 512u << 20;
 
@@ -158,6 +161,18 @@ std::uint64_t LightClusters::roomy(std::uint64_t size_bytes) const {
   std::uint64_t bytes = std::uint64_t{1} << 20;
   while (bytes < size_bytes) bytes *= 4;
   return std::max<std::uint64_t>(std::min(bytes, device_.limits().max_storage_range), size_bytes);
+}
+
+void LightClusters::suppose(std::uint32_t kinds, const ClusterPicture& picture) {
+  kinds_ = kinds;
+  grid_ = cluster_grid({}, picture, kUsualLights, kUsualEntries);
+}
+
+void LightClusters::reserve() {
+  (void)reserve(entries_, "light lists", kUsualEntries * sizeof(std::uint32_t));
+  (void)reserve(lights_, "lights", roomy(kUsualLights * sizeof(shared::Light)));
+  (void)reserve(reaches_, "reach of lights", roomy(kUsualLights * sizeof(shared::LightReach)));
+  (void)reserve(grid_buffer_, "cluster grid", sizeof(grid_));
 }
 
 Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,

@@ -89,9 +89,11 @@ class LightClusters {
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
                       std::span<const shared::LightReach> reaches, const CameraView& camera,
                       const ClusterPicture& picture);
-  /// Takes lights of these kinds for uploaded, so that add() asks for the programs they need.
-  /// @param kinds see ClusteredLights.
-  void suppose(std::uint32_t kinds) { kinds_ = kinds; }
+  /// Takes as many lights of these kinds as most views have for uploaded, so that add() asks for
+  /// the programs and the memory they need. @param kinds see ClusteredLights.
+  void suppose(std::uint32_t kinds, const ClusterPicture& picture);
+  /// Makes room for the lights of most views, if there is memory.
+  void reserve();
   /// Adds the passes that sort what was uploaded last. @param oracle see ClusteredLights.
   ClusteredLights add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const ClusterDepths& depths, bool oracle);

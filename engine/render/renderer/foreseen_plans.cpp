@@ -36,7 +36,7 @@ std::vector<shared::Light> lights_of(std::uint32_t kinds) {
 }
 
 /// What all supposed frames share.
-FramePlan common_of(const FramePlan& now, const ProgramNeeds& needs) {
+FramePlan common_of(const FramePlan& now, const FrameNeeds& needs) {
   FramePlan plan = now;
   plan.geometry = true;
   plan.input.capture = false;
@@ -53,7 +53,7 @@ FramePlan common_of(const FramePlan& now, const ProgramNeeds& needs) {
   return plan;
 }
 
-void suppose_bodies(FramePlan& plan, const ProgramNeeds& needs, std::uint32_t bodies) {
+void suppose_bodies(FramePlan& plan, const FrameNeeds& needs, std::uint32_t bodies) {
   plan.input.sky.sun_casts = (bodies & 1u) != 0;
   plan.input.sky.moon_casts = (bodies & 2u) != 0;
   plan.shadows.cascades.clear();
@@ -70,7 +70,7 @@ void suppose_bodies(FramePlan& plan, const ProgramNeeds& needs, std::uint32_t bo
   plan.clouds->light_jobs = {{0, 0}};
 }
 
-void suppose(FramePlan& plan, const ProgramNeeds& needs, const Supposed& what) {
+void suppose(FramePlan& plan, const FrameNeeds& needs, const Supposed& what) {
   suppose_bodies(plan, needs, what.bodies);
   if (plan.clouds) plan.clouds->in_view = what.clouds;
   FrameFeatures features(plan.settings.leave_out);
@@ -98,8 +98,9 @@ void suppose(FramePlan& plan, const ProgramNeeds& needs, const Supposed& what) {
 
 }  // namespace
 
-ProgramNeeds program_needs(const FramePlan& plan, const SceneFacts& facts) {
+FrameNeeds frame_needs(const FramePlan& plan, const SceneFacts& facts) {
   return {.settings = plan.settings,
+          .drawn = {plan.drawn.width, plan.drawn.height},
           .metered = plan.input.meter,
           .given_exposure = plan.input.exposure_ev.has_value(),
           .parts = plan.input.parts > 1,
@@ -109,7 +110,7 @@ ProgramNeeds program_needs(const FramePlan& plan, const SceneFacts& facts) {
           .light_kinds = light_kinds(plan.input.lights) | kTorches};
 }
 
-void each_foreseen(const FramePlan& now, const ProgramNeeds& needs,
+void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
                    const std::function<void(const FramePlan&)>& visit) {
   FramePlan plan = common_of(now, needs);
   std::vector<std::uint32_t> kinds{0, kTorches};

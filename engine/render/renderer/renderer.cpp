@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/gpu/graph/frame_ring.h"
+#include "engine/gpu/graph/transient_pool.h"
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/renderer/foreseen_plans.h"
 #include "engine/render/renderer/frame_readback.h"
@@ -47,6 +48,16 @@ void add_earlier(const FrameReport& earlier, FrameReport& to) {
   }
 }
 
+bool sorts_lights(const FrameAssembly& frame) {
+  return frame.lights && !frame.plan.settings.lights_oracle;
+}
+
+void add_readback(FrameAssembly& frame, FrameReadback& to) {
+  to.add(frame.graph, frame.scene, frame.draws ? &frame.draws->stats : nullptr,
+         static_cast<std::uint32_t>(frame.plan.tables.views.size()),
+         sorts_lights(frame) ? frame.owners.light_clusters.work() : gpu::BufferRef{});
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -84,7 +95,7 @@ struct Renderer::State {
   gpu::Pipelines pipelines;
   gpu::FrameGraph graph;
   bool foresees = false;
-  std::optional<ProgramNeeds> foreseen;    // that programs are being made for
+  std::optional<FrameNeeds> foreseen;      // that programs are being made for
   std::optional<RenderSettings> drawn_by;  // of the last frame, if it foresaw
   bool lagged = false;                     // the last frame
   gpu::Uploader frame_uploader, mesh_uploader;
@@ -204,18 +215,16 @@ void Renderer::State::build(const FramePlan& plan, Slot& slot) {
       .scene = import_scene(graph, plan),
       .shadow_maps = shadows.maps() ? graph.import(*shadows.maps()) : gpu::ImageRef{}};
   for (const std::size_t step : plan.steps) frame_steps()[step].add(frame);
-  const bool sorted = frame.lights && !plan.settings.lights_oracle;
-  if (sorted) slot.grid = light_clusters.grid();
-  slot.readback.add(graph, frame.scene, frame.draws ? &frame.draws->stats : nullptr,
-                    static_cast<std::uint32_t>(plan.tables.views.size()),
-                    sorted ? light_clusters.work() : gpu::BufferRef{});
+  if (sorts_lights(frame)) slot.grid = light_clusters.grid();
+  add_readback(frame, slot.readback);
 }
 
-/// Asks for a frame's programs, by adding its steps to a graph that is never drawn.
+/// Asks for a frame's programs and memory, by adding its steps to a graph that is never drawn.
 void Renderer::State::add_never_drawn(const FramePlan& supposed, LightClusters& lights,
                                       gpu::FrameGraph& to) {
   to.begin();
-  lights.suppose(light_kinds(supposed.contents.lights));
+  lights.suppose(light_kinds(supposed.contents.lights),
+                 {.size = supposed.drawn, .tile_edge = supposed.settings.lights_tile});
   FrameOwners owners{lights, clouds, captures, picture};
   FrameAssembly frame{.graph = to,
                       .pipelines = pipelines,
@@ -223,9 +232,12 @@ void Renderer::State::add_never_drawn(const FramePlan& supposed, LightClusters& 
                       .owners = owners,
                       .scene = import_scene(to, supposed),
                       .shadow_maps = {}};
+  frame.scene.section_slots = std::max(frame.scene.section_slots, kUsualSections);
   if (const std::uint32_t layers = supposed.shadows.layout.layers; layers != 0)
     frame.shadow_maps = to.create({.name = "shadow maps", .layers = layers});
   for (const std::size_t step : supposed.steps) frame_steps()[step].add(frame);
+  FrameReadback unread;
+  add_readback(frame, unread);
 }
 
 /// Whether a frame would have to wait for a program. They are being made from now on.
@@ -235,19 +247,24 @@ bool Renderer::State::lacks_programs(const FramePlan& plan) {
   return pipelines.prepare([&] { add_never_drawn(plan, no_lights, never_drawn); }) != 0;
 }
 
-/// Asks for the programs of frames to come.
+/// Asks for the programs of frames to come, and makes room for what they need.
 void Renderer::State::foresee(const FramePlan& plan) {
   if (!foresees) return;
-  const ProgramNeeds needs = program_needs(plan, facts());
+  const FrameNeeds needs = frame_needs(plan, facts());
   if (foreseen == needs) return;
   foreseen = needs;
   gpu::FrameGraph never_drawn(nullptr);
+  gpu::TransientNeeds transients;
   LightClusters no_lights(device);
   pipelines.foresee([&] {
     each_foreseen(plan, needs, [&](const FramePlan& supposed) {
       add_never_drawn(supposed, no_lights, never_drawn);
+      never_drawn.compile();
+      never_drawn.add_needs(transients);
     });
   });
+  graph.reserve(transients);
+  light_clusters.reserve();
 }
 
 /// The frame has been submitted: what it leaves behind is so from now on.

@@ -11,7 +11,7 @@
 namespace skerry::render {
 namespace {
 
-constexpr std::uint32_t kLeastSections = 1024, kUsualSections = 8192;
+constexpr std::uint32_t kLeastSections = 1024;
 constexpr std::uint32_t kLeastQuads = 1u << 19;
 constexpr std::uint64_t kMostQuads = std::uint64_t{1} << 29;
 constexpr std::uint32_t kIslandShift = 19;  // of Quad::material

@@ -20,6 +20,9 @@ class Uploader;
 
 namespace skerry::render {
 
+/// Sections of most worlds: tables begin with room for them, so that none grows in a flight.
+inline constexpr std::uint32_t kUsualSections = 8192;
+
 /// A resident chunk mesh; only GeometryStore makes one.
 struct SectionId {
   std::uint32_t slot = ~0u;

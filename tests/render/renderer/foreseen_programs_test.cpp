@@ -1,4 +1,4 @@
-// Programs of frames to come are made before they are needed.
+// Programs and memory of frames to come are made before they are needed.
 #include <gtest/gtest.h>
 
 #include "shaders/shared/light.h"
@@ -60,17 +60,37 @@ class ForeseenPrograms : public RendererOnGpu {
         }
     return out;
   }
-  /// Programs that the lively frames wait for, after a dull one.
-  int made_late(const RenderSettings& settings, bool foresee) {
+  /// From now on; `names` must outlive the gate. Without shadow maps, of which a body has none
+  /// until it shines: by day those of the moon would double their memory.
+  void note_allocations(std::vector<std::string>& names) {
+    device().set_allocation_gate([&names](const std::string& name, std::uint64_t) {
+      if (name != "shadow maps") names.push_back(name);
+      return true;
+    });
+  }
+  struct Late {
+    int programs = 0;
+    std::vector<std::string> allocations;  // what they are for
+  };
+  /// What the lively frames wait for, after a dull one.
+  Late made_late(const RenderSettings& settings, bool foresee) {
     restart();
     begin();
     if (foresee) renderer().foresee_programs();
     drawn(dull(), settings, kSize);
     renderer().wait_for_programs();
     EXPECT_EQ(renderer().programs_to_come(), 0u);
-    int late = 0;
-    for (const FrameInput& in : lively()) late += drawn(in, settings, kSize).programs_made;
+    Late late;
+    note_allocations(late.allocations);
+    for (const FrameInput& in : lively()) late.programs += drawn(in, settings, kSize).programs_made;
+    device().set_allocation_gate({});
     return late;
+  }
+
+  void expect_none_late(const RenderSettings& settings) {
+    const Late late = made_late(settings, true);
+    EXPECT_EQ(late.programs, 0);
+    EXPECT_EQ(late.allocations, std::vector<std::string>{});
   }
 
  private:
@@ -86,31 +106,57 @@ class ForeseenPrograms : public RendererOnGpu {
   }();
 };
 
-TEST_F(ForeseenPrograms, WhatComesNewlyIntoViewNeedsNoProgramInItsFrame) {
-  EXPECT_GT(made_late({}, false), 10) << "frames that foresee nothing make their own";
-  EXPECT_EQ(made_late({}, true), 0);
+TEST_F(ForeseenPrograms, WhatComesNewlyIntoViewNeedsNoProgramOrMemoryInItsFrame) {
+  const Late unforeseen = made_late({}, false);
+  EXPECT_GT(unforeseen.programs, 10) << "frames that foresee nothing make their own";
+  EXPECT_GT(unforeseen.allocations.size(), 10u);
+  expect_none_late({});
+}
+
+TEST_F(ForeseenPrograms, MemoryForThemStaysWhileNothingNeedsIt) {
+  renderer().foresee_programs();
+  drawn(dull(), {}, kSize);
+  for (int i = 0; i < 30; ++i) drawn(dull(), {}, kSize);
+  std::vector<std::string> allocations;
+  note_allocations(allocations);
+  for (const FrameInput& in : lively()) drawn(in, {}, kSize);
+  device().set_allocation_gate({});
+  EXPECT_EQ(allocations, std::vector<std::string>{});
+}
+
+TEST_F(ForeseenPrograms, FramesGoOnWhereThereIsNoMemoryForThose) {
+  drawn(dull(), {}, kSize);
+  device().set_allocation_gate([](const std::string&, std::uint64_t) { return false; });
+  renderer().foresee_programs();
+  drawn(dull(), {}, kSize);
+  device().set_allocation_gate({});
+  const std::vector<std::uint8_t> after = picture();
+  restart();
+  begin();
+  drawn(dull(), {}, kSize);
+  EXPECT_EQ(picture(), after);
 }
 
 TEST_F(ForeseenPrograms, AreThoseOfTheSettingsInForce) {
   RenderSettings cloudy;
   cloudy.clouds.coverage = 0.5f;
   cloudy.bloom.intensity = 0.2f;
-  EXPECT_EQ(made_late(cloudy, true), 0);
+  expect_none_late(cloudy);
   RenderSettings plain;
   plain.shadow_enabled = false;
   plain.lights_shadows = 0;
   plain.indirect = Indirect::kOff;
   plain.ao_strength = 0.0f;
-  EXPECT_EQ(made_late(plain, true), 0);
+  expect_none_late(plain);
   RenderSettings shared_light;
   shared_light.shading_rate = 4;
-  EXPECT_EQ(made_late(shared_light, true), 0);
+  expect_none_late(shared_light);
   RenderSettings without;
   without.leave_out.add(Feature::kMoon);
   without.leave_out.add(Feature::kWater);
-  EXPECT_EQ(made_late(without, true), 0);
+  expect_none_late(without);
   without.leave_out.add(Feature::kLights);
-  EXPECT_EQ(made_late(without, true), 0);
+  expect_none_late(without);
 }
 
 TEST_F(ForeseenPrograms, AreForeseenAnewWhenSettingsChange) {
