@@ -22,7 +22,7 @@ from farm_test import rows_of, same_bytes, write_row  # noqa: E402
 SCENES = 12
 NODES = ("n1", "n2", "n3", "n4")
 SECONDS = 90.0  # for all jobs to end
-RUNS = 12  # of each scene, so that a job takes long enough for its node to be lost
+RUNS = 30  # of each scene, so that a job takes long enough for its node to be lost
 
 
 class Cluster:

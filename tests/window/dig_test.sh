@@ -12,7 +12,8 @@ mkdir -p "$pictures"
 
 play --seed 1 --time 22:00 --set view.distance=64
 wait_for_frames
-sleep 4
+wait_until_quick
+sleep 2
 
 # In several motions: one alone may be taken for the pointer's first place.
 turn() { for _ in 1 2 3 4; do xdotool mousemove_relative -- $(($1 / 4)) $(($2 / 4)); sleep 0.3; done; sleep 0.5; }

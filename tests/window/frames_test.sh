@@ -6,8 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 skerry=$1
 key_pause=0.5
 start_display openbox display python3
-openbox >/dev/null 2>&1 &
-manager=$!
+start_manager
 other=
 trap 'kill "$manager" ${other:+"$other"} 2>/dev/null || true; cleanup' EXIT
 learnt=$work/cache/skerry/quality.json
@@ -35,13 +34,6 @@ spent_in() {
   sleep "$1"
   alive "while its time was measured"
   awk -v a="$before" -v b="$(spent)" 'BEGIN { print b - a }'
-}
-
-fps() { xdotool getwindowname "$window" | sed 's/.* \([0-9]*\) fps/\1/'; }
-# Shaders are compiled and the world is there: until then frames are few.
-wait_until_quick() {
-  for _ in $(seq 300); do [ "$(fps)" -ge 5 ] && break; sleep 0.3; alive "before it was quick"; done
-  sleep 2
 }
 
 # Quality is chosen, what it was chosen by is kept, and what was asked for by name stays.

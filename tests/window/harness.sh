@@ -35,6 +35,14 @@ start_display() {
   unset WAYLAND_DISPLAY
 }
 
+# A window manager, and sets `manager` to its process. Windows that are opened while it starts are never shown.
+start_manager() {
+  openbox >/dev/null 2>&1 &
+  manager=$!
+  for _ in $(seq 100); do xdotool get_desktop >/dev/null 2>&1 && return; sleep 0.1; done
+  fail "openbox did not start"
+}
+
 # play OPTION...: under the validation layer; waits for the window and gives it the focus.
 quality=(--quality low)
 play() {
@@ -57,6 +65,13 @@ wait_for_frames() {
     xdotool getwindowname "$window" | grep -q fps && break
     sleep 0.2
   done
+}
+
+fps() { xdotool getwindowname "$window" | sed 's/.* \([0-9]*\) fps/\1/'; }
+# Shaders are compiled and the world is there: until then frames are few, and what the mouse does in one of them counts as a whole.
+wait_until_quick() {
+  for _ in $(seq 300); do [ "$(fps)" -ge 5 ] && break; sleep 0.3; alive "before it was quick"; done
+  sleep 2
 }
 
 # The game must end by itself and well.

@@ -5,8 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 skerry=$1
 key_pause=0.7
 start_display openbox
-openbox >/dev/null 2>&1 &
-manager=$!
+start_manager
 trap 'kill "$manager" 2>/dev/null || true; cleanup' EXIT
 sleep 1
 
