@@ -84,8 +84,8 @@ Result<Rows> far_away(gpu::Device& device) {
     double different = 0.0;
     for (std::size_t i = 0; i < moved->size(); ++i)
       different += different_pixels((*moved)[i], (*at_origin)[i]);
-    rows.push_back({std::string("pixels unlike those at 0, camera and world at ") + name +
-                        " blocks, noon, dusk and moon",
+    rows.push_back({std::string("pixels unlike those at 0, camera, world at ") + name +
+                        " blocks, noon, dusk, moon",
                     0.0, if_shown(*shown, different)});
   }
   return rows;

@@ -140,7 +140,7 @@ Result<Rows> faint_media(gpu::Device& device) {
     }
   }
   // A half's rounding, towards zero with some drivers: 2^-10. Seen on lavapipe: 9.8e-4.
-  return Rows{{"relative error of light scattered, optical depth 1e-6 to 10, eye inside the medium",
+  return Rows{{"relative error of light scattered, optical depth 1e-6 to 10, eye inside it",
                std::ldexp(1.0, -9), off}};
 }
 

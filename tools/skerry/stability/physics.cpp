@@ -164,11 +164,11 @@ Result<Rows> standing() {
         moves != 0 ? stand(0.01, 0.02, kWeek) : stand(0.0, 0.0, kWeek);
   });
   const auto& [resting, on_moving] = rests;
-  return Rows{{"blocks moved, standing a week of 72,576,000 ticks on a resting island", 0.0,
+  return Rows{{"blocks moved, a week (72,576,000 ticks) on a resting island", 0.0,
                if_shown(resting.stood, resting.moved)},
               {"blocks/s after standing a week", 0.0, if_shown(resting.stood, resting.speed)},
-              {"blocks moved, standing a week of 72,576,000 ticks on a turning, drifting island",
-               rounding, if_shown(on_moving.stood, on_moving.moved)},
+              {"blocks moved, a week (72,576,000 ticks) on a turning, drifting island", rounding,
+               if_shown(on_moving.stood, on_moving.moved)},
               {"blocks/s after standing on it", 0.0, if_shown(on_moving.stood, on_moving.speed)},
               {"blocks sunk, standing on it", 0.0, if_shown(on_moving.stood, on_moving.sunk)}};
 }

@@ -182,8 +182,8 @@ Result<Rows> near_and_far(gpu::Device& device) {
   // A wall square to the view has one depth: near / w, each rounded, w from three products and
   // their sum, and three planar interpolations: eight roundings, half of them one way. Seen on
   // lavapipe and on an H200: 8.8e-8.
-  return Rows{{"relative error of distance, walls at 0.01 to 1e6 blocks in one picture",
-               4.0 * kHalfUlp, if_shown(fewest > 0.0, relative)},
+  return Rows{{"relative error of distance, walls at 0.01 to 1e6 blocks together", 4.0 * kHalfUlp,
+               if_shown(fewest > 0.0, relative)},
               {"pixels missing of the wall that shows least", 0.0, std::max(0.0, share - fewest)},
               {"channels that are not finite, 0.01 to 1e6 blocks", 0.0,
                if_shown(lit_surfaces(*frame) > 0.0, non_finite_channels(frame->radiance))}};
