@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 """Runs a test set under Slurm on four nodes of this machine, and takes a node and the controller away.
 
-    slurm_test.py SKERRY_PROGRAM FOLDER      FOLDER is made anew
+    slurm_test.py SKERRY_PROGRAM FOLDER [KILLS]      FOLDER is made anew
 
 Exit status 77, with the reason, where tests/slurm/cluster cannot make a cluster. All rows come,
-each once, and the page that is merged has the bytes of the one made without Slurm.
+each once, and the page that is merged has the bytes of the one made without Slurm. With KILLS, so
+many tasks, nodes and controllers are ended at random as well, and the disk is full for a while:
+100 take ten minutes.
 """
 import json
 import os
+import random
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -126,6 +130,100 @@ def check_alone(cluster, plan):
     check(lines_in_logs(plan, "1 tasks run") == runs + 1, "other tasks ran again")
 
 
+def processes_with(word):
+    """Ids of the processes that have a word in their command line."""
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            if word in (folder / "cmdline").read_bytes().decode().split("\0"):
+                yield int(folder.name)
+        except OSError:
+            pass  # it has ended
+
+
+def kill_a_task(cluster, plan):
+    """Ends a process of a task. @return whether there was one."""
+    del cluster
+    for process in processes_with(str(plan)):
+        try:
+            os.kill(process, signal.SIGKILL)
+            return True
+        except ProcessLookupError:
+            continue
+    return False
+
+
+def kill_a_node(cluster, plan):
+    del plan
+    node = random.choice(NODES)
+    cluster.call("kill", node)
+    time.sleep(random.uniform(0.0, 6.0))  # at 4 s it counts as lost
+    cluster.call("start", node)
+    return True
+
+
+def kill_the_controller(cluster, plan):
+    del plan
+    cluster.call("controller", "stop")
+    time.sleep(random.uniform(0.0, 2.0))
+    cluster.call("controller", "start")
+    return True
+
+
+def queue_of(cluster):
+    return cluster.call("run", "squeue", "--noheader").split()
+
+
+def check_rows(plan, whole, what):
+    expected, rows = rows_of(whole), rows_of(plan)
+    check(sorted(rows) == sorted(expected), f"{what}: {len(rows)} rows")
+    for task, row in rows.items():
+        check(row["result"] == expected[task]["result"], f"{what}: {row} is not {expected[task]}")
+
+
+def check_kills(cluster, folder, whole, kills):
+    """Until so many have been ended, plans run from the start; what fails is submitted again."""
+    ends = [kill_a_task] * 6 + [kill_a_node] * 3 + [kill_the_controller]
+    ended, plans, submits = dict.fromkeys(set(ends), 0), 0, 0
+    while sum(ended.values()) < kills:
+        plan = folder / f"killed_{plans}"
+        plan.mkdir()
+        shutil.copy(whole / "plan.json", plan)
+        while len(rows_of(plan)) < SCENES:
+            wait_until("the queue", lambda: not queue_of(cluster))
+            cluster.skerry("farm", "submit", plan, "--tasks-per-job", 1, "--time", 5)
+            submits += 1
+            while queue_of(cluster) and sum(ended.values()) < kills:
+                time.sleep(random.uniform(0.2, 2.0))
+                end = random.choice(ends)
+                ended[end] += end(cluster, plan)
+            wait_until("the end of all jobs", lambda: not queue_of(cluster))
+        check_rows(plan, whole, plan.name)
+        lines = lines_in_logs(plan, "1 tasks run")
+        check(lines <= SCENES, f"{plan.name}: {lines} runs wrote {SCENES} rows")
+        plans += 1
+    counts = ", ".join(f"{count} by {end.__name__}" for end, count in ended.items())
+    print(f"{kills} ends ({counts}), {plans} plans, {submits} submits: no row lost, none doubled")
+
+
+def check_full_disk(cluster, full, whole):
+    """A row that cannot be written is none, and comes when there is room."""
+    shutil.copy(whole / "plan.json", full)
+    filler = full / "filler"
+    with filler.open("wb", buffering=0) as file:
+        try:
+            while True:
+                file.write(bytes(4096))
+        except OSError:
+            pass  # it is full
+    done = cluster.skerry("test", "run", "--dir", full, status=1)
+    check(done.stderr.count("\n") == 1 and "cannot write" in done.stderr, done)
+    check(not rows_of(full), "a row was written where there is no room")
+    filler.unlink()
+    cluster.skerry("farm", "submit", full, "--tasks-per-job", 3, "--time", 5)
+    wait_until("the end of all jobs", lambda: not queue_of(cluster))
+    check_rows(full, whole, "a disk that was full")
+
+
 def check_page(cluster, plan, whole):
     """But for times, all is as without Slurm."""
     expected = rows_of(whole)
@@ -139,7 +237,7 @@ def check_page(cluster, plan, whole):
         check(same_bytes(whole / name, fetched / name), f"{name} differs from the one of one machine")
 
 
-def main(program, folder):
+def main(program, folder, kills="0"):
     folder = Path(folder).resolve()
     able = subprocess.run([HERE / "cluster", "check"], capture_output=True, text=True, check=False)
     if able.returncode == 77:
@@ -161,14 +259,23 @@ def main(program, folder):
     whole.mkdir()
     shutil.copy(plan / "plan.json", whole)
     subprocess.run([program, "test", "run", "--dir", whole], check=True)
+    full = folder / "full"
+    full.mkdir()
+    if int(kills):  # before the cluster, whose nodes see what is mounted then
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16m", "skerry", full], check=True)
     try:
         cluster.call("up")
         check_errors(cluster, plan)
         check_jobs(cluster, plan)
         check_alone(cluster, plan)
         check_page(cluster, plan, whole)
+        if int(kills):
+            check_full_disk(cluster, full, whole)
+            check_kills(cluster, folder, whole, int(kills))
     finally:
         cluster.call("down")
+        if int(kills):
+            subprocess.run(["umount", full], check=True)
 
 
 if __name__ == "__main__":
