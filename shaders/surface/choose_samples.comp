@@ -30,10 +30,12 @@ layout(constant_id = kToleranceConstant) const float kTolerance = 0.1;  // how m
 #include "include/surface/surface.glsl"
 #include "include/surface/light_samples.glsl"
 
-// How far apart planes may lie that are lit alike: a step of the land, a plant above its foot; and what of them a pixel cannot tell apart.
-const float kAlikeBlocks = 1.25, kAlikePixels = 2.0;
+// How far apart planes may lie that are lit alike: by rounding; a plant above its foot; and pixels, which far planes lie closer than.
+const float kAlikeBlocks = 0.05, kAlikePlants = 1.05, kAlikePixels = 1.0;
 // How much farther or nearer, as a share and in blocks.
 const float kAlikeShare = 0.1, kAlikeNear = 2.0;
+// Of the bilinear weights, that alike points have to have: beside an edge, where shadows and corners are, one point far away does not do.
+const float kLeastShare = 0.25;
 
 uvec2 grid_size() { return (frame.size + (kStep - 1u)) / kStep; }
 
@@ -58,6 +60,8 @@ struct Taker {
   vec3 normal;  // of the lit face, world
   float along;  // of its plane, from the eye along the normal [blocks]
   float z;
+  float apart;  // of planes, at most [blocks]
+  bool plant;
   vec3 albedo;
 };
 
@@ -65,12 +69,11 @@ struct Taker {
 float alike(uvec4 texel, uvec2 point, Taker by) {
   float z = place_z(texel.w);
   float along = dot(by.normal, pixel_ray(point * kStep)) * z;
-  float pixel_blocks = by.z * frame.pixel_to_ndc.y * length(frame.ray_up);
-  bool same_plane = abs(along - by.along) <= kAlikeBlocks + kAlikePixels * pixel_blocks;
-  return (texel.w >> 16) == by.key && same_plane && abs(z - by.z) <= kAlikeNear + kAlikeShare * by.z ? 1.0 : 0.0;
+  float apart = by.plant || place_on_plant(texel.w) ? by.apart + kAlikePlants : by.apart;
+  return place_key(texel.w) == by.key && abs(along - by.along) <= apart && abs(z - by.z) <= kAlikeNear + kAlikeShare * by.z ? 1.0 : 0.0;
 }
 
-// Light between the four points around a pixel. @return false where none of them is alike, or those that are differ too much.
+// Light between the four points around a pixel. @return false where too few of them are alike, or those that are differ too much.
 bool light_between(uvec2 pixel, Taker by, out mat2x3 light) {
   uvec2 low = pixel / kStep, beside = pixel % kStep, high = min(low + min(beside, 1u), grid_size() - 1u);
   uvec4 t00 = imageLoad(samples, ivec2(low)), t11 = imageLoad(samples, ivec2(high));
@@ -87,7 +90,7 @@ bool light_between(uvec2 pixel, Taker by, out mat2x3 light) {
   vec3 apart = most - least;
   bool own = beside == uvec2(0u);  // a point of the grid
   bool near = kTolerance > 0.0 && max(max(apart.r, apart.g), apart.b) <= kTolerance * max(max(most.r, most.g), most.b);
-  return sum > 0.0 && (own || near);
+  return sum > (by.plant ? 0.0 : kLeastShare) && (own || near);
 }
 
 void main() {
@@ -103,7 +106,9 @@ void main() {
     vec3 ray = pixel_ray(pixel);
     float t = view_distance(surface_depth(word != 0u ? stored_depth : 1.0), frame.near_plane);
     vec3 normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(lit_face(word)));
-    Taker by = Taker(alike_key(word), normal, dot(normal, ray * t), t, surface_texel(word, ray, t, kTextureTaps).rgb);
+    float apart = kAlikeBlocks + kAlikePixels * t * frame.pixel_to_ndc.y * length(frame.ray_up);
+    vec3 albedo = surface_texel(word, ray, t, kTextureTaps).rgb;
+    Taker by = Taker(alike_key(word), normal, dot(normal, ray * t), t, apart, is_plant(word), albedo);
     mat2x3 light;
     shared_light = light_between(pixel, by, light) && surface;
     if (shared_light) imageStore(radiance, ivec2(pixel), vec4(sanitised(radiance_at(light, by.albedo)), 1.0));

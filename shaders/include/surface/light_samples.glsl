@@ -6,8 +6,8 @@
 
 vec3 radiance_at(mat2x3 sent, vec3 albedo) { return sent[0] + albedo * (sent[1] - sent[0]); }
 
-// What a sample lies on, to be told from other surfaces by the pixels around: 16 bits of what is lit alike (island, direction of the face, the
-// material but for its texture) and the distance along the view axis. 0: sky.
+// What a sample lies on, to be told from other surfaces by the pixels around: 15 bits of what is lit alike (island, direction of the face, the
+// material but for its texture), whether it is a plant, and the distance along the view axis. 0: sky.
 const uint kNoSurface = 0u;
 
 uint mixed(uint hash, uint value) {
@@ -21,9 +21,14 @@ uint lit_face(uint word) { return surface_face(word) >= 6u ? 2u : surface_face(w
 // Never 0.
 uint alike_key(uint word) {
   uint key = mixed(mixed(surface_island(word), lit_face(word)), materials[surface_block(word)].light_class);
-  return (key & 0xffffu) | 1u;
+  return (key & 0x7fffu) | 1u;
 }
-uint place_code(uint word, float z) { return (alike_key(word) << 16) | packHalf2x16(vec2(min(z, 65504.0), 0.0)); }
+bool is_plant(uint word) { return surface_face(word) >= 6u; }
+uint place_code(uint word, float z) {
+  return (alike_key(word) << 17) | (is_plant(word) ? 0x10000u : 0u) | packHalf2x16(vec2(min(z, 65504.0), 0.0));
+}
+uint place_key(uint code) { return code >> 17; }
+bool place_on_plant(uint code) { return (code & 0x10000u) != 0u; }
 float place_z(uint code) { return unpackHalf2x16(code).x; }
 
 uvec4 packed_sample(mat2x3 sent, uint code) {
