@@ -111,7 +111,7 @@ void main() {
     Taker by = Taker(alike_key(word), normal, dot(normal, ray * t), t, apart, is_plant(word), albedo);
     mat2x3 light;
     shared_light = light_between(pixel, by, light) && surface;
-    if (shared_light) imageStore(radiance, ivec2(pixel), vec4(sanitised(radiance_at(light, by.albedo)), 1.0));
+    if (shared_light) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(radiance_at(light, by.albedo))), 1.0));
   } else if (here && !surface) {
     imageStore(samples, ivec2(gl_GlobalInvocationID.xy), uvec4(kNoSurface));
   }
