@@ -371,7 +371,7 @@ void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
   gap(0);
   if (first_button(tr("Back"), 150)) state.stack.back();
   ImGui::SameLine();
-  if (button(tr("Back to the usual keys"), 260)) {
+  if (button(tr("Back to the usual keys"), 340)) {
     bindings = default_bindings();
     wishes.bindings_changed = true;
   }
