@@ -38,6 +38,10 @@ TEST(Gallery, APictureLeadsBackToItsPlace) {
   taken.settings.render.clouds.coverage = 0.5f;
   taken.settings.render.ao_strength = 0.1f;
   taken.settings.exposure_ev = 3.0;
+  taken.settings.ui.scale = 2.0f;  // of play alone, as play.* is: no command has them
+  taken.settings.play = {true, true, false};
+  for (const char* group : {" ui.", " play."})
+    EXPECT_EQ(shot_command(taken).find(group), std::string::npos) << group;
   const platform::PngText text[] = {{"Software", "Skerry"}, {"Command", shot_command(taken)}};
   const auto place = place_of_picture(text);
   ASSERT_TRUE(place) << place.error().message;
