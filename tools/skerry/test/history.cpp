@@ -129,10 +129,13 @@ std::string summary_of(std::span<const PastRun> runs) {
     if (!run.picture.empty()) pictures.insert(run.picture);
     differed = differed || run.pictures > 1;
   }
-  return fmt::format("{} {}: {} passed, {} failed; {} different {}{}", runs.size(),
-                     runs.size() == 1 ? "run" : "runs", passed, failed, pictures.size(),
-                     pictures.size() == 1 ? "picture" : "pictures",
-                     differed ? ", some within a run" : "");
+  std::string text = fmt::format("{} {}: {} passed, {} failed", runs.size(),
+                                 runs.size() == 1 ? "run" : "runs", passed, failed);
+  if (!pictures.empty())
+    text += fmt::format("; {} different {}", pictures.size(),
+                        pictures.size() == 1 ? "picture" : "pictures");
+  if (differed) text += ", some within a run";
+  return text;
 }
 
 Result<History> History::open(fs::path file) {
