@@ -53,6 +53,8 @@ void scene(std::span<const std::uint8_t> input) {
   const Result<game::SceneOptions> scene = game::make_scene(*text, {});
   if (!scene) return check_line(scene.error());
   SKERRY_ASSERT(!game::shot_command(*scene).empty());
+  const Result<void> fits = game::check_expectations(text->expectations, scene->size);
+  if (!fits) check_line(fits.error());
 }
 
 void setting(std::span<const std::uint8_t> input) {
