@@ -37,6 +37,7 @@ TEST(CommandLine, HelpIsThereOnEveryLevel) {
                                                     {"bench", "upload", "--help"},
                                                     {"bench", "cull", "--help"},
                                                     {"bench", "device", "--help"},
+                                                    {"bench", "flicker", "--help"},
                                                     {"bench", "frame", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0) << joined(arguments) << outcome.err;
@@ -94,6 +95,9 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"bench", "mesh", "--inptu", "x"}, {"'--input'"}},
       {{"bench", "cull", "--device", "-1"}, {"--device"}},
       {{"bench", "frame"}, {"--seed"}},
+      {{"bench", "flicker"}, {"--seed"}},
+      {{"bench", "fliker"}, {"'flicker'"}},
+      {{"bench", "flicker", "--seed", "1", "--frames", "1"}, {"--frames", "2"}},
       {{"report", "shadow_sise", "--out", "x"}, {"'shadow_sise'", "'shadow_size'"}},
       {{"report", "leftout", "--out", "x"}, {"'left_out'"}},
       {{"report", "shadow_size"}, {"--out DIR"}},

@@ -10,6 +10,7 @@
 #include "tools/skerry/bench/bench_cull.h"
 #include "tools/skerry/bench/bench_device.h"
 #include "tools/skerry/bench/bench_edit.h"
+#include "tools/skerry/bench/bench_flicker.h"
 #include "tools/skerry/bench/bench_fly.h"
 #include "tools/skerry/bench/bench_frame.h"
 #include "tools/skerry/bench/bench_generate.h"
@@ -48,6 +49,10 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_scene_options(*lights_, scene_);
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
   add_scene_options(*frame_, scene_);
+  flicker_ = add("flicker", "Measure how much of the picture flickers in a turn, a walk, a drift");
+  add_scene_options(*flicker_, scene_);
+  flicker_->add_option("--frames", frames_, "Frames of each motion (default 120)")
+      ->check(CLI::Range(2, 10000));
   edit_ = add("edit", "Time from an edit to the first picture that shows it");
   add_scene_options(*edit_, scene_);
   fly_ = add("fly", "Time every frame of a flight through islands not seen before");
@@ -80,6 +85,7 @@ int BenchCommands::run() {
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == lights_) return run_lights();
   if (chosen == frame_) return run_frame();
+  if (chosen == flicker_) return run_flicker();
   if (chosen == edit_) return run_edit();
   if (chosen == fly_ || chosen == start_) return run_flight(*chosen);
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
@@ -90,14 +96,15 @@ int BenchCommands::run() {
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh",   "generate", "world", "upload", "cull", "device",
-                                         "lights", "frame",    "edit",  "fly",    "start"};
+  constexpr std::string_view kNames[] = {"mesh",    "generate", "world",  "upload",
+                                         "cull",    "device",   "lights", "frame",
+                                         "flicker", "edit",     "fly",    "start"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
     return fail(
         kUsage,
         {"bench does not say what: give mesh, generate, world, upload, cull, device, lights, "
-         "frame, edit, fly or start"});
+         "frame, flicker, edit, fly or start"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
@@ -138,6 +145,16 @@ int BenchCommands::run_frame() {
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   options.json = path_of(json_);
   return bench_frame(options);
+}
+
+int BenchCommands::run_flicker() {
+  BenchFlickerOptions options;
+  if (const auto refusal = resolve(scene_, true, options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_output(json_)) return refuse(*refusal);
+  options.frames = frames_;
+  options.json = path_of(json_);
+  return bench_flicker(options);
 }
 
 int BenchCommands::run_edit() {

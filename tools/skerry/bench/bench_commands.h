@@ -10,7 +10,8 @@ class App;
 
 namespace skerry::tools {
 
-/// `skerry bench mesh|generate|world|upload|cull|device|lights|frame|edit|fly|start`: options, and
+/// `skerry bench mesh|generate|world|upload|cull|device|lights|frame|flicker|edit|fly|
+/// start`: options, and
 /// which function each calls.
 class BenchCommands {
  public:
@@ -30,6 +31,7 @@ class BenchCommands {
   int run_on_device(const CLI::App& chosen);
   int run_lights();
   int run_frame();
+  int run_flicker();
   int run_edit();
   int run_flight(const CLI::App& chosen);
   int refuse_unknown() const;
@@ -43,11 +45,13 @@ class BenchCommands {
   CLI::App* costs_;
   CLI::App* lights_;
   CLI::App* frame_;
+  CLI::App* flicker_;
   CLI::App* edit_;
   CLI::App* fly_;
   CLI::App* start_;
   std::optional<std::string> input_, json_, device_;
   std::optional<double> speed_, seconds_;
+  std::optional<int> frames_;
   bool validate_ = false;
   SceneArguments scene_;
 };

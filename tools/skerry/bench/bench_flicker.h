@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "game/scene_file/options.h"
+
+namespace skerry::tools {
+
+struct BenchFlickerOptions {
+  game::SceneOptions scene;
+  std::optional<int> frames;  ///< of each motion; none: 120
+  std::optional<std::filesystem::path> json;
+};
+
+/// Draws a slow turn, a walk and a drift of the islands frame by frame, each frame also with 16
+/// samples a pixel (aa.samples=16), and counts pixels that change otherwise than those do. Prints a
+/// row for each motion and writes it as JSON: name, motion, device, size, frames, and as shares of
+/// the pixels changed, truly_changed, flicker and flicker_worst, that of the worst pair of frames.
+/// See measure::FlickerCounts. @return exit status.
+int bench_flicker(const BenchFlickerOptions& options);
+
+}  // namespace skerry::tools
