@@ -15,7 +15,7 @@ constexpr MeasuredError kErrors[] = {{"render_scale", "0.25", 0.1003},
                                      {"render_scale", "0.33", 0.0840},
                                      {"render_scale", "0.5", 0.0611},
                                      {"render_scale", "1", 0.0},
-                                     {"shading_rate", "4, 0.3", 0.0072},
+                                     {"shading_rate", "4, 0.3", 0.0239},
                                      {"shading_rate", "1", 0.0},
                                      {"view_distance", "400", 0.0447},
                                      {"view_distance", "1000", 0.0240},
@@ -62,10 +62,10 @@ double error_of(const FrontPoint& point) {
 
 std::vector<FrontPoint> make_front() {
   std::vector<FrontPoint> front{
-      {Quality::kLow, 0.25f, 4, 23.0},    {Quality::kMedium, 0.25f, 4, 25.0},
-      {Quality::kMedium, 0.33f, 4, 29.0}, {Quality::kMedium, 0.5f, 4, 41.0},
-      {Quality::kHigh, 0.5f, 4, 56.0},    {Quality::kMedium, 1.0f, 4, 78.0},
-      {Quality::kHigh, 1.0f, 4, 127.0},   {Quality::kHigh, 1.0f, 1, 161.0},
+      {Quality::kLow, 0.25f, 4, 25.0},    {Quality::kMedium, 0.25f, 4, 27.0},
+      {Quality::kMedium, 0.33f, 4, 31.5}, {Quality::kMedium, 0.5f, 4, 44.0},
+      {Quality::kHigh, 0.5f, 4, 60.0},    {Quality::kMedium, 1.0f, 4, 84.0},
+      {Quality::kHigh, 1.0f, 4, 136.0},   {Quality::kHigh, 1.0f, 1, 172.0},
       {Quality::kUltra, 1.0f, 1, 330.0}};
   for (FrontPoint& point : front) point.error = error_of(point);
   return front;

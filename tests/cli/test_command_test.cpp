@@ -378,7 +378,7 @@ TEST_F(TestCommandLine, AFailureNamesTheChannelInWhichItBegins) {
   };
   write("12:00", "");
   ASSERT_EQ(test({scenes().string(), "--baseline", baseline, "--approve"}).status, 0);
-  write("12:00", R"(, "gbuffer.normal": "oct8")");
+  write("12:00", R"(, "gbuffer.normal": "rgb10a2")");
   const json normal = cause();
   EXPECT_EQ(normal["channel"], "normal");
   EXPECT_EQ(normal["pass"], "draw_geometry");

@@ -85,7 +85,7 @@ Row row_or_throw(const json& from) {
   row.verdict = verdict_from_name(from.at("verdict").get<std::string>());
   if (!from.at("hash_equal").is_null()) row.hash_equal = from.at("hash_equal").get<bool>();
   if (!from.at("flip_mean").is_null()) row.found = difference_from_json(from);
-  for (const json& region : from.at("regions"))
+  for (const json& region : from.at("regions").get_ref<const json::array_t&>())
     row.parts.push_back({region.at("name").get<std::string>(), difference_from_json(region)});
   if (const json& shift = from.at("shift"); !shift.is_null())
     row.shift = Shift{shift.at(0).get<int>(), shift.at(1).get<int>()};
