@@ -62,10 +62,10 @@ double error_of(const FrontPoint& point) {
 
 std::vector<FrontPoint> make_front() {
   std::vector<FrontPoint> front{
-      {Quality::kLow, 0.25f, 4, 25.0},    {Quality::kMedium, 0.25f, 4, 27.0},
-      {Quality::kMedium, 0.33f, 4, 31.5}, {Quality::kMedium, 0.5f, 4, 44.0},
-      {Quality::kHigh, 0.5f, 4, 60.0},    {Quality::kMedium, 1.0f, 4, 84.0},
-      {Quality::kHigh, 1.0f, 4, 136.0},   {Quality::kHigh, 1.0f, 1, 172.0},
+      {Quality::kLow, 0.25f, 4, 25.5},    {Quality::kMedium, 0.25f, 4, 28.5},
+      {Quality::kMedium, 0.33f, 4, 31.5}, {Quality::kMedium, 0.5f, 4, 44.3},
+      {Quality::kHigh, 0.5f, 4, 61.9},    {Quality::kMedium, 1.0f, 4, 88.3},
+      {Quality::kHigh, 1.0f, 4, 137.8},   {Quality::kHigh, 1.0f, 1, 173.9},
       {Quality::kUltra, 1.0f, 1, 330.0}};
   for (FrontPoint& point : front) point.error = error_of(point);
   return front;
