@@ -366,7 +366,7 @@ TEST_F(TestCommandLine, AFailureNamesTheChannelInWhichItBegins) {
                            R"("flip_p99": 0, "flip_max": 0, "pixels_over": 0}, "time": ")" +
                                time +
                                R"(", "settings": {"world.islands": 1, "view.distance": 100, )" +
-                               R"("indirect": "off")" + settings + "}}"));
+                               R"("indirect": "off", "shadow.enabled": 0)" + settings + "}}"));
   };
   const std::string baseline = out("baseline").string();
   const auto cause = [&] {
