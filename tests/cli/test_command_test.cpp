@@ -378,10 +378,10 @@ TEST_F(TestCommandLine, AFailureNamesTheChannelInWhichItBegins) {
   };
   write("12:00", "");
   ASSERT_EQ(test({scenes().string(), "--baseline", baseline, "--approve"}).status, 0);
-  write("12:00", R"(, "gbuffer.normal": "rgb10a2")");
-  const json normal = cause();
-  EXPECT_EQ(normal["channel"], "normal");
-  EXPECT_EQ(normal["pass"], "draw_geometry");
+  write("12:00", R"(, "gbuffer.depth": "d16")");
+  const json depth = cause();
+  EXPECT_EQ(depth["channel"], "depth");
+  EXPECT_EQ(depth["pass"], "draw_geometry");
   write("15:00", "");
   EXPECT_NE(cause()["pass"], "draw_geometry");  // the surfaces are the same
   write("12:00", "");
