@@ -24,7 +24,7 @@ layout(scalar, binding = kListedPixelsBinding) writeonly buffer Pixels { uint pi
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 layout(constant_id = kStepConstant) const uint kStep = 4u;  // pixels between the grid's points
 layout(constant_id = kEveryPixelConstant) const bool kEveryPixel = false;  // the second pass
-layout(constant_id = kToleranceConstant) const float kTolerance = 0.1;  // how much the four may differ, of the brightest
+layout(constant_id = kToleranceConstant) const float kTolerance = 0.3;  // how much the four may differ, of the brightest
 
 #include "include/scene/tiles.glsl"
 #include "include/surface/surface.glsl"

@@ -75,7 +75,8 @@ std::span<const Kernel* const> kernels() {
     std::vector<const Kernel*> found;
 #if defined(__x86_64__)
     __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl"))
       found.push_back(&kAvx512Kernel);
     if (__builtin_cpu_supports("avx2")) found.push_back(&kAvx2Kernel);
 #endif
