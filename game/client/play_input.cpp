@@ -55,13 +55,8 @@ void PlayLoop::rest(double seconds) {
   adapt_eye(seconds);
 }
 
-/// Follows what the newest finished frame was metered at; that frame's own exposure plays no part
-/// in it, so nothing feeds back.
 void PlayLoop::adapt_eye(double seconds) {
-  const std::optional<render::FrameReport>& seen = view_->renderer().report();
-  if (!seen || !seen->metered_ev) return;
-  exposure_ev_ = exposure_ev_ ? render::adapted_ev(*exposure_ev_, *seen->metered_ev, seconds)
-                              : double{*seen->metered_ev};
+  exposure_ev_ = view_->adapted_ev(exposure_ev_, seconds);
 }
 
 void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,

@@ -95,6 +95,7 @@ SceneView::Moment PlayLoop::moment() const {
   moment.world_time_s = player_.world_time_s();
   moment.freeze_culling = culling_frozen_;
   moment.may_lag = !screenshot_wanted_ && !photo_;
+  moment.count_pixels = false;
   moment.exposure_ev = exposure_ev_;
   if (photo_) {
     moment.camera = {fixed(photo_->eye.position), photo_->eye.yaw_deg, photo_->eye.pitch_deg,

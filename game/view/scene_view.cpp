@@ -1,4 +1,5 @@
 #include "game/view/scene_view.h"
+#include "engine/render/frame/exposure.h"
 
 #include <fmt/format.h>
 
@@ -531,6 +532,12 @@ double SceneView::reach(const render::FixedPos& camera,
   return std::ceil(reach / kReachStep) * kReachStep;
 }
 
+std::optional<double> SceneView::adapted_ev(std::optional<double> ev, double seconds) const {
+  const std::optional<render::FrameReport>& seen = renderer_->report();
+  if (!seen || !seen->metered_ev) return ev;
+  return ev ? render::adapted_ev(*ev, *seen->metered_ev, seconds) : double{*seen->metered_ev};
+}
+
 /// None if nothing of the island is drawn.
 std::optional<render::BlockMarker> SceneView::marker_of(const Moment& moment) const {
   if (!moment.marked) return std::nullopt;
@@ -565,6 +572,7 @@ Result<std::uint64_t> SceneView::draw(
   input.freeze_culling = moment.freeze_culling;
   input.capture = moment.capture;
   input.may_lag = moment.may_lag;
+  input.count_pixels = moment.count_pixels;
   input.marker = marker_of(moment);
   const render::RenderSettings& settings = settings_.render;
   input.parts = settings_.shadow_samples;

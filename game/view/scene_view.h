@@ -73,8 +73,9 @@ class SceneView {
     double time_of_day_s = 43200.0;
     double world_time_s = 0.0;
     bool freeze_culling = false;
-    bool capture = false;  ///< see render::FrameInput
-    bool may_lag = false;  ///< likewise
+    bool capture = false;      ///< see render::FrameInput
+    bool may_lag = false;      ///< likewise
+    bool count_pixels = true;  ///< likewise
     /// What the eye has adapted to; the frame is metered for it nonetheless. None: as metered.
     std::optional<double> exposure_ev = {};
     std::optional<MarkedBlock> marked = {};
@@ -85,6 +86,10 @@ class SceneView {
       const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after = {},
       std::span<const VkSemaphoreSubmitInfo> waits = {},
       std::span<const VkSemaphoreSubmitInfo> signals = {});
+  /// What an eye adapts to that has looked at the newest finished frame. That frame's own exposure
+  /// plays no part in it, so nothing feeds back. @param ev before; none: the eye sees for the first
+  /// time. @return `ev` if nothing was metered.
+  std::optional<double> adapted_ev(std::optional<double> ev, double seconds) const;
 
  private:
   SceneView(const SceneOptions& options, std::shared_ptr<world::World> world);

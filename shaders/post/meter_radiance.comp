@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The meter. First the histogram of the luminance of scene radiance, black left out: one pixel of each cell of stride x stride, at a place in it
-// that looks random and is always the same; integer counts: no order of work groups shows. Then, in one work group with a thread a bin, an
+// that looks random and is always the same, from the image of radiance or from what shading kept of pixels without one; integer counts: no order of work groups shows. Then, in one work group with a thread a bin, an
 // exposure from the histogram: mean of log2 luminance without the darkest and the brightest pixels; sums run in a fixed order.
 // Last, if it is asked for, a debug view over the lower third of the picture: the histogram by log2 luminance from left to right. White bars
 // count, grey ones are passed over. Blue lines: where the limits lie; yellow: what is metered; red: what the picture is exposed for.
@@ -15,6 +15,7 @@ layout(local_size_x = kMeterGroup, local_size_y = kMeterGroup) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
+layout(binding = kMeteredBinding, r32f) readonly uniform image2D metered;  // luminance where pixels went to the picture at once
 layout(scalar, binding = kHistogramBinding) buffer Histogram { uint counts[kHistogramBins]; };
 layout(scalar, binding = kExposureBinding) buffer Chosen { Exposure exposure; };
 layout(binding = kPictureBinding, rgba8) uniform image2D picture;  // of the debug view
@@ -22,25 +23,21 @@ layout(push_constant) uniform Push { Metering metering; } push;
 
 layout(constant_id = kChooseConstant) const bool kChoose = false;
 layout(constant_id = kShowConstant) const bool kShow = false;  // neither: the histogram is filled
+layout(constant_id = kMeterStrideConstant) const uint kMeterStride = 0u;
+const bool kFromCells = kMeterStride != 0u;  // if not, something is bound in place of what was metered
 
 shared uint here[kHistogramBins];
-
-// Integer hash of two coordinates (M. Jarzynski, M. Olano: Hash Functions for GPU Rendering, 2020: pcg).
-uint hashed(uvec2 cell) {
-  uint state = (cell.y * 65537u + cell.x) * 747796405u + 2891336453u;
-  uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
-  return (word >> 22) ^ word;
-}
 
 void fill_histogram() {
   uint stride = push.metering.stride, thread = gl_LocalInvocationIndex;
   here[thread] = 0u;
   barrier();
-  uvec2 cell = gl_GlobalInvocationID.xy, first = cell * stride;
-  if (all(lessThan(first, frame.picture_size))) {
-    uint h = hashed(cell);
-    uvec2 pixel = min(first + uvec2(h, h >> 16) % stride, frame.picture_size - 1u);
-    float y = luminance(imageLoad(radiance, ivec2(pixel)).rgb);
+  uvec2 cell = gl_GlobalInvocationID.xy;
+  if (all(lessThan(cell * stride, frame.picture_size))) {
+    uvec2 pixel = metered_pixel(cell, stride, frame.picture_size);
+    float y = exact_luminance(imageLoad(radiance, ivec2(pixel)).rgb);
+    bool within = all(greaterThanEqual(pixel, frame.radiance_area.xy)) && all(lessThan(pixel, frame.radiance_area.zw));
+    if (kFromCells && !within) y = imageLoad(metered, ivec2(cell)).r;
     if (counts_as_light(y)) atomicAdd(here[bin_of(y)], 1u);
   }
   barrier();

@@ -88,7 +88,7 @@ SHARED_CONST uint kOverlayClipsBinding = 65u;
 SHARED_CONST uint kFontBinding = 66u;
 SHARED_CONST uint kOverlayPicturesBinding = 67u;
 
-SHARED_CONST uint kTargetBinding = 68u;    // of shading: radiance, or the picture at once
+SHARED_CONST uint kTargetBinding = 68u;    // the picture
 SHARED_CONST uint kIndirectBinding = 69u;  // texels of shared/indirect.h
 
 // Light at fewer pixels than are drawn.
@@ -104,6 +104,7 @@ SHARED_CONST uint kSmallPictureBinding = 74u;
 
 SHARED_CONST uint kMadeBloomBinding = 75u;      // the level that a step of bloom makes
 SHARED_CONST uint kMarchedCloudsBinding = 76u;  // the coarse image as it is made
+SHARED_CONST uint kMeteredBinding = 77u;        // luminance of the pixels that the meter looks at
 
 SHARED_END
 #endif

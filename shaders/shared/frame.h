@@ -46,6 +46,8 @@ struct FrameConstants {
   uvec2 size;         // of the images that are drawn [pixels]
   uvec4 layers_area;  // from xy to before zw: pixels outside show no water or glass, and its layers
                       // have any value there
+  uvec4 radiance_area;   // from xy to before zw: pixels whose radiance goes to an image before it
+                         // becomes the picture; the others go to the picture at once
   uvec2 picture_size;    // smaller by the samples along a pixel's edge [pixels]
   float near_plane;      // blocks
   float display_peak;    // brightest value of the picture, sRGB-encoded, 0..1
@@ -88,6 +90,8 @@ struct CullStats {
 SHARED_CONST uint kTileEdge = 8u;  // pixels
 SHARED_CONST uint kTileRow =
     32768u;  // tiles in one row of an indirect dispatch; 65,535 is the least a device must take
+
+SHARED_CONST uint kChooseGroup = 16u;  // invocations that choose_samples.comp has for a tile
 
 // One kind's tiles: arguments of vkCmdDispatchIndirect, then how many tiles they are for.
 struct TileDispatch {

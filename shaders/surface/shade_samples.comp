@@ -18,7 +18,6 @@ layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
-layout(binding = kRadianceBinding, rgba16f) writeonly uniform image2D radiance;  // of the second pass
 layout(binding = kSamplesBinding, rgba32ui) writeonly uniform uimage2D samples;  // of the first
 layout(scalar, binding = kListedBinding) readonly buffer Listed { TileDispatch listed; };
 layout(scalar, binding = kListedPixelsBinding) readonly buffer Pixels { uint pixels[]; };
@@ -31,6 +30,7 @@ layout(constant_id = kStepConstant) const uint kStep = 4u;  // pixels between th
 layout(constant_id = kLitConstant) const bool kLit = false;  // the frame has lights; if not, buffers are bound that are never read
 
 #define SKERRY_ANY_ALBEDO
+#include "include/post/output.glsl"
 #include "include/surface/surface.glsl"
 #include "include/sky/sky.glsl"
 #include "include/surface/lighting.glsl"
@@ -95,11 +95,11 @@ void main() {
   sent[1] += kInvPi * sky.irradiance + unpackHalf2x16(materials[surface_block(word)].emission).x;
   vec3 air = seen_through_air(vec3(0.0), s.position, sky.seen);
   sent = sent * clear_air(s.position) + mat2x3(air, air);
-  if (here && !(finite3(sent[0]) && finite3(sent[1]))) atomicAdd(stats.non_finite, 1u);
+  if (!kEveryPixel) count_non_finite(here && !(finite3(sent[0]) && finite3(sent[1])));
   sent = mat2x3(sanitised(sent[0]), sanitised(sent[1]));
   if (kEveryPixel) {
     vec3 albedo = surface_texel(word, ray, z, kTextureTaps).rgb;
-    if (here) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(radiance_at(sent, albedo))), 1.0));
+    put_pixel(pixel, radiance_at(sent, albedo), here);
   } else {
     if (here) imageStore(samples, ivec2(pixel / kStep), packed_sample(sent, place_code(word, z)));
   }

@@ -83,6 +83,7 @@ struct FrameInput {
   /// While programs for these settings are being made in the background, the frame may be drawn by
   /// the settings of an earlier one: see Renderer::foresee_programs.
   bool may_lag = false;
+  bool count_pixels = true;  ///< FrameReport::pixels are wanted
   bool capture = false;  ///< copy out what Capture names; the picture is made by way of radiance
   std::optional<BlockMarker> marker;  ///< not drawn over debug views
   std::optional<Fault> fault;         ///< implies the way by radiance, too

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <utility>
 
 #include "engine/gpu/graph/frame_graph.h"
@@ -45,12 +46,18 @@ class Shadows {
   gpu::ImageRef maps_;
 };
 
-/// Every pixel has its light: scene radiance, linear, finite.
+/// Which pixels' radiance is an image before it becomes the picture; the others go to the picture
+/// at once. kLayers: where water or glass may be seen.
+enum class ByRadiance : std::uint8_t { kNothing, kLayers, kEverything };
+
+/// Every pixel has its light: scene radiance, linear, finite; or it is in the picture already.
 class Shaded {
  public:
   Shaded(Shaded&&) = default;
   Shaded& operator=(Shaded&&) = default;
-  gpu::ImageRef radiance() const { return radiance_; }  ///< RGBA16F
+  gpu::ImageRef radiance() const { return radiance_; }  ///< RGBA16F; empty: all are in the picture
+  gpu::ImageRef picture() const { return picture_; }    ///< empty: none is
+  gpu::ImageRef metered() const { return metered_; }    ///< see ShadeTarget
 
  private:
   friend struct ShadePass;
@@ -60,7 +67,7 @@ class Shaded {
   friend struct FaultPass;
   friend struct ResolvePass;
   explicit Shaded(gpu::ImageRef radiance) : radiance_(radiance) {}
-  gpu::ImageRef radiance_;
+  gpu::ImageRef radiance_, picture_, metered_;
 };
 
 /// The picture as it is shown: RGBA8, sRGB-encoded.

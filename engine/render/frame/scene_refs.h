@@ -47,11 +47,12 @@ struct SceneRefs {
   bool haze = true;
   Indirect indirect_light = Indirect::kOff;
   ToneCurve tone = ToneCurve::kAces;
-  bool calibrated = false;  ///< whether the display takes other than 0 to 1
-  bool ao = false;          ///< whether corners take light; then there is an occupancy store
+  bool calibrated = false;   ///< whether the display takes other than 0 to 1
+  bool count_pixels = true;  ///< see FrameInput
+  bool ao = false;           ///< whether corners take light; then there is an occupancy store
   std::optional<CloudRefs> clouds;  ///< none: the frame has no clouds
   VkExtent2D size{};
-  glm::uvec4 layers_area{};  ///< see shared::FrameConstants
+  glm::uvec4 layers_area{}, radiance_area{};  ///< see shared::FrameConstants
 };
 
 }  // namespace skerry::render

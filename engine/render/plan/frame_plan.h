@@ -4,6 +4,7 @@
 
 #include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/frame_input.h"
+#include "engine/render/frame/phases.h"
 #include "engine/render/frame/settings.h"
 #include "engine/render/light/shadow_plan.h"
 #include "engine/render/plan/frame_contents.h"
@@ -29,7 +30,7 @@ struct FramePlan {
   bool ao = false;                ///< corners take light
   bool indirect = false;          ///< the sky lights surfaces
   std::vector<glm::uvec4> sky_light{};  ///< what it sends to them, see sky_irradiance()
-  bool direct = false;                  ///< shading writes the picture itself
+  ByRadiance by_radiance = ByRadiance::kEverything;  ///< the rest goes to the picture at once
   ShadowPlan shadows{};
   FrameTables tables{};
   FrameContents contents;

@@ -13,7 +13,9 @@ namespace skerry::render {
 
 /// Radiance to picture: exposure, tone curve, sRGB; or a debug view of what the frame holds.
 struct DevelopPass {
-  /// @param bloom null: none. @param picture RGBA8 storage image of the frame's size.
+  /// Of the pixels that are not in the picture already; no pass at all if all are.
+  /// @param bloom null: none. @param picture RGBA8 storage image of the frame's size, the one that
+  /// shading wrote to.
   static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                        Shaded shaded, const Bloom* bloom, gpu::Image& picture);
   struct DebugIn {

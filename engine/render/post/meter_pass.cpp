@@ -21,15 +21,17 @@ shared::Metering metering_of(const MeterSettings& settings, bool decides) {
           static_cast<std::uint32_t>(settings.stride), decides ? 1u : 0u};
 }
 
-/// What meter_radiance.comp works on; a step that has no use for an image has one texel instead.
+/// What meter_radiance.comp works on.
 struct MeterStep {
   gpu::BufferRef frame, histogram, exposure;
-  gpu::ImageRef radiance, picture;
+  gpu::ImageRef radiance, picture, cells;
   shared::Metering metering;
+  bool has_radiance = true, has_cells = false;  // if not, it is a texel that is never read
 
   auto bindings() const {
     return std::tuple{gpu::storage<shared::kFrameBinding>(frame),
                       gpu::storage<shared::kRadianceBinding>(radiance),
+                      gpu::storage<shared::kMeteredBinding>(cells),
                       gpu::storage<shared::kHistogramBinding>(histogram),
                       gpu::storage<shared::kExposureBinding>(exposure),
                       gpu::storage<shared::kPictureBinding>(picture),
@@ -37,10 +39,21 @@ struct MeterStep {
   }
 };
 
+/// Bound where a step has no use for an image.
+gpu::ImageRef unread(gpu::FrameGraph& graph, VkFormat format) {
+  return graph.create(gpu::ImageDesc{.name = "unread", .format = format, .extent = {1, 1}});
+}
+
 /// What each step declares, whether it reads and writes it or not.
 void declare(gpu::PassBuilder& b, MeterStep& in) {
   b.read(in.frame, Use::kComputeRead);
-  b.read(in.radiance, Use::kComputeRead);
+  for (gpu::ImageRef* const image : {&in.radiance, &in.cells}) {
+    const bool made = image == &in.radiance ? in.has_radiance : in.has_cells;
+    if (made)
+      b.read(*image, Use::kComputeRead);
+    else
+      *image = b.write(*image, Use::kComputeWrite);
+  }
   in.histogram = b.write(in.histogram, Use::kComputeWrite);
   in.exposure = b.write(in.exposure, Use::kComputeWrite);
   in.picture = b.write(in.picture, Use::kComputeWrite);
@@ -49,12 +62,20 @@ void declare(gpu::PassBuilder& b, MeterStep& in) {
 }  // namespace
 
 Metered MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                       gpu::ImageRef radiance, const MeterSettings& settings, bool decides) {
-  MeterStep m{scene.frame, {}, scene.exposure, radiance, {}, metering_of(settings, decides)};
+                       const MeterIn& in, const MeterSettings& settings, bool decides) {
+  MeterStep m{scene.frame,
+              {},
+              scene.exposure,
+              in.radiance ? in.radiance : unread(graph, VK_FORMAT_R16G16B16A16_SFLOAT),
+              unread(graph, VK_FORMAT_R8G8B8A8_UNORM),
+              in.cells ? in.cells : unread(graph, VK_FORMAT_R32_SFLOAT),
+              metering_of(settings, decides),
+              bool{in.radiance},
+              bool{in.cells}};
   m.histogram =
       graph.create(gpu::BufferDesc{"histogram", shared::kHistogramBins * sizeof(std::uint32_t)});
-  m.picture = graph.create(
-      gpu::ImageDesc{.name = "no picture", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1, 1}});
+  std::vector<gpu::SpecConstant> cells;
+  if (in.cells) cells.push_back({shared::kMeterStrideConstant, m.metering.stride});
   graph.add_pass(
       "clear_histogram",
       [&](gpu::PassBuilder& b) { m.histogram = b.write(m.histogram, Use::kTransferWrite); },
@@ -62,7 +83,8 @@ Metered MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneR
   graph.add_pass(
       "meter_radiance", [&](gpu::PassBuilder& b) { declare(b, m); },
       [m, size = scene.size,
-       program = gpu::compute(pipelines, programs::kMeterRadiance)](gpu::Commands& c) {
+       program =
+           gpu::compute(pipelines, programs::kMeterRadiance, std::move(cells))](gpu::Commands& c) {
         const auto groups = [&](std::uint32_t pixels) {
           return gpu::Commands::groups(gpu::Commands::groups(pixels, m.metering.stride),
                                        shared::kMeterGroup);
@@ -78,14 +100,19 @@ Metered MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneR
         c.dispatch(1, 1, 1);
       });
   scene.exposure = m.exposure;
-  return {m.histogram, radiance};
+  return {m.histogram, m.radiance};
 }
 
 Developed MeterPass::show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                           Developed developed, const Metered& metered,
                           const MeterSettings& settings) {
-  MeterStep m{scene.frame,      metered.histogram,   scene.exposure,
-              metered.radiance, developed.picture(), metering_of(settings, false)};
+  MeterStep m{scene.frame,
+              metered.histogram,
+              scene.exposure,
+              metered.radiance,
+              developed.picture(),
+              unread(graph, VK_FORMAT_R32_SFLOAT),
+              metering_of(settings, false)};
   graph.add_pass(
       "show_exposure", [&](gpu::PassBuilder& b) { declare(b, m); },
       [m, size = scene.size,

@@ -7,6 +7,13 @@
 
 namespace skerry::render {
 
+/// What is metered.
+struct MeterIn {
+  gpu::ImageRef
+      radiance;         ///< RGBA16F of the frame's size; nothing of it need be finite. Empty: none
+  gpu::ImageRef cells;  ///< ShadeTarget::metered: of what has no radiance. Empty: all has
+};
+
 /// What has been metered.
 struct Metered {
   gpu::BufferRef histogram;  ///< shared::kHistogramBins counts
@@ -15,10 +22,9 @@ struct Metered {
 
 /// Light meter: a histogram of scene radiance, and the exposure that it asks for. docs/exposure.md.
 struct MeterPass {
-  /// @param radiance RGBA16F of the frame's size; nothing of it need be finite.
   /// @param decides the picture is developed at what is metered; else it is only reported.
   static Metered add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                     gpu::ImageRef radiance, const MeterSettings& settings, bool decides);
+                     const MeterIn& in, const MeterSettings& settings, bool decides);
   /// Draws the histogram over the picture.
   /// @param metered of add(), and with the same settings.
   static Developed show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,

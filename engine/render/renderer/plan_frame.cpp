@@ -101,11 +101,28 @@ void explain_contents(FramePlan& plan) {
 
 }  // namespace
 
+namespace {
+
+glm::uvec4 radiance_area(const FramePlan& plan) {
+  switch (plan.by_radiance) {
+    case ByRadiance::kNothing:
+      return {0, 0, 0, 0};
+    case ByRadiance::kLayers:
+      return plan.contents.layers_area;
+    case ByRadiance::kEverything:
+      return {0, 0, plan.drawn.width, plan.drawn.height};
+  }
+  return {};
+}
+
+}  // namespace
+
 void choose_steps(FramePlan& plan) {
   const std::span<const FrameStep> all = frame_steps();
-  plan.direct = !plan.shows_channel() && std::ranges::none_of(all, [&](const FrameStep& step) {
-    return step.by_radiance && step.by_radiance(plan);
-  });
+  plan.by_radiance = plan.shows_channel() ? ByRadiance::kEverything : ByRadiance::kNothing;
+  for (const FrameStep& step : all)
+    if (step.by_radiance) plan.by_radiance = std::max(plan.by_radiance, step.by_radiance(plan));
+  plan.tables.constants.radiance_area = radiance_area(plan);
   for (std::size_t i = 0; i < all.size(); ++i) {
     bool needed = false;
     for (const StepPasses& passes : all[i].passes) {

@@ -15,8 +15,8 @@ struct PictureRequest {
 FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
                      const FrameHistory& history);
 
-/// Decides the rest of a plan from what the frame has: `direct`, the steps, and why the others are
-/// left out.
+/// Decides the rest of a plan from what the frame has: `by_radiance`, the steps, and why the others
+/// are left out.
 void choose_steps(FramePlan& plan);
 
 }  // namespace skerry::render

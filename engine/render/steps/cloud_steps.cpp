@@ -59,7 +59,7 @@ FrameStep blend_clouds_step() {
         f.shaded = CloudPass::add(f.graph, f.pipelines, f.scene, cloud_view(f),
                                   *std::move(f.shaded), f.plan.settings);
       },
-      clouds_are_seen};
+      [](const FramePlan& plan) { return everything_if(clouds_are_seen(plan)); }};
 }
 
 }  // namespace skerry::render

@@ -58,9 +58,9 @@ struct StepPasses {
 struct FrameStep {
   std::vector<StepPasses> passes;
   void (*add)(FrameAssembly& frame);
-  /// Whether the frame's radiance has to be an image because of this step; null: never. If no step
-  /// wants one, shading writes the picture itself (FramePlan::direct, which is not known yet).
-  bool (*by_radiance)(const FramePlan& plan) = nullptr;
+  /// Where the frame's radiance has to be an image because of this step; null: nowhere. What no
+  /// step wants to be one, shading writes to the picture (FramePlan::by_radiance, not known yet).
+  ByRadiance (*by_radiance)(const FramePlan& plan) = nullptr;
 };
 
 }  // namespace skerry::render

@@ -30,7 +30,9 @@ FrameStep shade_lights_step() {
                 LightPass::add(f.graph, f.pipelines, f.scene,
                                {*f.geometry, *f.lights, f.plan.settings}, *std::move(f.shaded));
           },
-          [](const FramePlan& plan) { return plan.contents.features.has(Feature::kLights); }};
+          [](const FramePlan& plan) {
+            return everything_if(plan.contents.features.has(Feature::kLights) && !plan.sampled());
+          }};
 }
 
 }  // namespace skerry::render

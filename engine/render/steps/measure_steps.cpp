@@ -15,6 +15,11 @@ const char* needs_fault(const FramePlan& plan) {
   return needs(has_fault<in>(plan) && (in == Fault::In::kSkyTable || !plan.shows_channel()));
 }
 
+template <Fault::In in>
+ByRadiance breaks(const FramePlan& plan) {
+  return everything_if(has_fault<in>(plan));
+}
+
 void break_radiance(FrameAssembly& f) {
   f.shaded = FaultPass::add(f.graph, *std::move(f.shaded), *f.plan.input.fault);
 }
@@ -35,13 +40,12 @@ FrameStep pixel_stats_step() {
 }
 
 FrameStep capture_radiance_step() {
-  return {{{[](const FramePlan& plan) {
-            return needs(plan.input.capture && !needs_whole_radiance(plan));
-          }}},
-          [](FrameAssembly& f) {
-            f.owners.captures.add(f.graph, Capture::kRadiance, f.shaded->radiance());
-          },
-          [](const FramePlan& plan) { return plan.input.capture; }};
+  return {
+      {{[](const FramePlan& plan) { return needs(plan.input.capture && !needs_radiance(plan)); }}},
+      [](FrameAssembly& f) {
+        f.owners.captures.add(f.graph, Capture::kRadiance, f.shaded->radiance());
+      },
+      [](const FramePlan& plan) { return everything_if(plan.input.capture); }};
 }
 
 FrameStep capture_geometry_step() {
@@ -60,17 +64,17 @@ FrameStep break_sky_table_step() {
           [](FrameAssembly& f) {
             f.scene.sky_lut = FaultPass::add(f.graph, f.scene.sky_lut, *f.plan.input.fault);
           },
-          has_fault<Fault::In::kSkyTable>};
+          breaks<Fault::In::kSkyTable>};
 }
 
 FrameStep break_shaded_step() {
-  return {{{needs_fault<Fault::In::kShaded>}}, break_radiance, has_fault<Fault::In::kShaded>};
+  return {{{needs_fault<Fault::In::kShaded>}}, break_radiance, breaks<Fault::In::kShaded>};
 }
 
 FrameStep break_looked_through_step() {
   return {{{needs_fault<Fault::In::kLookedThrough>}},
           break_radiance,
-          has_fault<Fault::In::kLookedThrough>};
+          breaks<Fault::In::kLookedThrough>};
 }
 
 }  // namespace skerry::render

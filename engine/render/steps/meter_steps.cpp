@@ -9,7 +9,7 @@ namespace {
 const char* needs_meter(const FramePlan& plan) {
   if (const char* why = needs_lit_scene(plan)) return why;
   if (!meters(plan.input, plan.settings)) return "the exposure is given";
-  return needs_whole_radiance(plan);
+  return needs_last_part(plan);
 }
 
 }  // namespace
@@ -17,10 +17,16 @@ const char* needs_meter(const FramePlan& plan) {
 FrameStep meter_step() {
   return {{{needs_meter, {"meter_radiance", "choose_exposure"}}},
           [](FrameAssembly& f) {
-            f.metered = MeterPass::add(f.graph, f.pipelines, f.scene, f.shaded->radiance(),
+            f.metered = MeterPass::add(f.graph, f.pipelines, f.scene,
+                                       {f.shaded->radiance(), f.shaded->metered()},
                                        f.plan.settings.meter, !f.plan.input.exposure_ev);
           },
-          [](const FramePlan& plan) { return meters(plan.input, plan.settings); }};
+          // An exposure that is given is not waited for.
+          [](const FramePlan& plan) {
+            return everything_if(
+                meters(plan.input, plan.settings) &&
+                (!plan.input.exposure_ev || plan.settings.debug_view == DebugView::kExposure));
+          }};
 }
 
 FrameStep show_exposure_step() {

@@ -15,6 +15,11 @@ void show_channel(FrameAssembly& f) {
       f.owners.picture.image());
 }
 
+const char* needs_picture(const FramePlan& plan) {
+  const char* why = needs_lit_scene(plan);
+  return why ? why : needs_last_part(plan);
+}
+
 const char* needs_enlarging(const FramePlan& plan) {
   if (const char* why = needs_lit_scene(plan)) return why;
   return plan.enlarged() ? needs_last_part(plan) : "render.scale=1";
@@ -27,7 +32,7 @@ FrameStep show_channel_step() {
 }
 
 FrameStep develop_step() {
-  return {{{needs_whole_radiance, {"develop"}}}, [](FrameAssembly& f) {
+  return {{{needs_picture}, {needs_radiance, {"develop"}}}, [](FrameAssembly& f) {
             f.developed = DevelopPass::add(f.graph, f.pipelines, f.scene, *std::move(f.shaded),
                                            f.bloom ? &*f.bloom : nullptr, f.owners.picture.image());
           }};

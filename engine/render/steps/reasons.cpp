@@ -12,6 +12,10 @@ const char* needs(bool wanted) {
   return wanted ? nullptr : "";
 }
 
+ByRadiance everything_if(bool wanted) {
+  return wanted ? ByRadiance::kEverything : ByRadiance::kNothing;
+}
+
 const char* needs_geometry(const FramePlan& plan) {
   return plan.geometry ? nullptr : kNoGeometry;
 }
@@ -38,9 +42,9 @@ const char* needs_last_part(const FramePlan& plan) {
   return plan.last_part() ? nullptr : "the picture has parts to come";
 }
 
-const char* needs_whole_radiance(const FramePlan& plan) {
+const char* needs_radiance(const FramePlan& plan) {
   if (const char* why = needs_lit_scene(plan)) return why;
-  if (plan.direct) return "nothing comes between shading and picture";
+  if (plan.by_radiance == ByRadiance::kNothing) return "nothing comes between shading and picture";
   return needs_last_part(plan);
 }
 

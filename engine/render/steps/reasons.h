@@ -6,6 +6,7 @@ namespace skerry::render {
 
 /// Null if passes are wanted; else the reason of passes without names.
 const char* needs(bool wanted);
+ByRadiance everything_if(bool wanted);
 const char* needs_geometry(const FramePlan& plan);
 /// No debug view.
 const char* needs_lit_scene(const FramePlan& plan);
@@ -13,8 +14,8 @@ const char* needs_lit_scene(const FramePlan& plan);
 const char* needs_lit_surfaces(const FramePlan& plan);
 const char* needs_water(const FramePlan& plan);
 const char* needs_clouds(const FramePlan& plan);
-/// Radiance of the whole picture: what works on it waits for the last part.
-const char* needs_whole_radiance(const FramePlan& plan);
+/// An image of radiance: what works on it waits for the last part.
+const char* needs_radiance(const FramePlan& plan);
 /// As soon as the last part is drawn.
 const char* needs_last_part(const FramePlan& plan);
 

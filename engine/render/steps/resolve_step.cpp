@@ -29,7 +29,7 @@ FrameStep resolve_step() {
                                   f.plan.input.part, f.plan.input.parts, picture.total()});
           },
           [](const FramePlan& plan) {
-            return samples_per_edge(plan.settings) > 1 || plan.input.parts > 1;
+            return everything_if(samples_per_edge(plan.settings) > 1 || plan.input.parts > 1);
           }};
 }
 

@@ -1,5 +1,6 @@
 #include "engine/render/steps/shade_step.h"
 
+#include "engine/render/frame/frame_choices.h"
 #include "engine/render/steps/reasons.h"
 #include "engine/render/surface/shade_pass.h"
 
@@ -17,16 +18,12 @@ void shade(FrameAssembly& f) {
   if (f.plan.sampled())
     in.sampled.emplace(SampledLight{f.lights_or_null(), f.plan.settings,
                                     static_cast<std::uint32_t>(f.plan.settings.shading_rate)});
-  gpu::Image& picture = f.owners.picture.image();
-  if (f.plan.geometry && f.plan.direct)
-    f.developed = ShadePass::add_to_picture(f.graph, f.pipelines, f.scene,
-                                            {*f.geometry, *f.shadows}, in, picture);
-  else if (f.plan.geometry)
-    f.shaded = ShadePass::add(f.graph, f.pipelines, f.scene, {*f.geometry, *f.shadows}, in);
-  else if (f.plan.direct)
-    f.developed = ShadePass::add_sky_only_to_picture(f.graph, f.pipelines, f.scene, in, picture);
-  else
-    f.shaded = ShadePass::add_sky_only(f.graph, f.pipelines, f.scene, in);
+  std::optional<ShadedFrom> from;
+  if (f.plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows});
+  f.shaded =
+      ShadePass::add(f.graph, f.pipelines, f.scene, from ? &*from : nullptr, in,
+                     {f.plan.by_radiance, f.owners.picture.image(),
+                      meters(f.plan.input, f.plan.settings) ? &f.plan.settings.meter : nullptr});
 }
 
 }  // namespace
@@ -34,8 +31,7 @@ void shade(FrameAssembly& f) {
 FrameStep shade_step() {
   return {{{needs_lit_surfaces, {"classify_tiles", "shade_surfaces"}},
            {needs_lit_scene, {"shade_sky"}}},
-          shade,
-          [](const FramePlan& plan) { return plan.sampled(); }};
+          shade};
 }
 
 }  // namespace skerry::render

@@ -20,7 +20,9 @@ FrameStep shade_translucent_step() {
                                             *std::move(f.shaded));
           },
           [](const FramePlan& plan) {
-            return plan.geometry && plan.contents.features.has(Feature::kWater);
+            return plan.geometry && plan.contents.features.has(Feature::kWater)
+                       ? ByRadiance::kLayers
+                       : ByRadiance::kNothing;
           }};
 }
 

@@ -27,7 +27,7 @@ struct SamplePass {
   std::uint32_t step;             ///< pixels between the grid's points
   bool every_pixel;               ///< the second pass
   gpu::ImageRef samples;          ///< light at the grid's points
-  gpu::ImageRef radiance;         ///< of the picture
+  ShadeTarget into;               ///< of the second pass
   gpu::BufferRef listed, pixels;  ///< shared::TileDispatch in groups of 64, and x | y << 16
 
   std::string name(const char* what) const { return what + std::to_string(every_pixel ? 1 : step); }
@@ -59,14 +59,23 @@ void add_clear(gpu::FrameGraph& graph, SamplePass& pass) {
       pass.name("choose_samples_") + "_clear",
       [&](gpu::PassBuilder& b) { pass.listed = b.write(pass.listed, Use::kTransferWrite); },
       [listed = pass.listed](gpu::Commands& c) {
-        c.fill(listed, offsetof(shared::TileDispatch, groups_x), 4, 0);
-        c.fill(listed, offsetof(shared::TileDispatch, groups_y), 8, 1);
         c.fill(listed, offsetof(shared::TileDispatch, tiles), 4, 0);
       });
 }
 
+void add_sizing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SamplePass& pass) {
+  graph.add_pass(
+      pass.name("size_samples_"),
+      [&](gpu::PassBuilder& b) { pass.listed = b.write(pass.listed, Use::kComputeWrite); },
+      [listed = pass.listed,
+       program = gpu::compute(pipelines, programs::kSizeSamples)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kListedBinding>(listed));
+        c.dispatch(1, 1, 1);
+      });
+}
+
 /// Lists the pixels that need light of their own; the others get it at once.
-void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                   const SampleIn& on, SamplePass& pass, std::vector<gpu::SpecConstant> constants) {
   const SurfaceReads surfaces(on.geometry);
   graph.add_pass(
@@ -80,11 +89,13 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
         declare_tiles(b, on.tiles);
         pass.listed = b.write(pass.listed, Use::kComputeWrite);
         pass.pixels = b.write(pass.pixels, Use::kComputeWrite);
-        pass.radiance = b.write(pass.radiance, Use::kComputeWrite);
+        scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
+        pass.into.declare(b, scene);
       },
       [scene, surfaces, pass, tiles = on.tiles,
-       program = gpu::compute(pipelines, programs::kChooseSamples, std::move(constants))](
-          gpu::Commands& c) {
+       program =
+           gpu::compute(pipelines, programs::kChooseSamples,
+                        pass.into.with_output(std::move(constants), scene))](gpu::Commands& c) {
         gpu::bind(
             c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::storage<shared::kIslandsBinding>(scene.islands),
@@ -92,15 +103,14 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
             gpu::storage<shared::kSurfacesBinding>(surfaces.words),
             gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
-            gpu::storage<shared::kRadianceBinding>(pass.radiance),
+            gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats), pass.into.bindings(scene),
             gpu::storage<shared::kSamplesBinding>(pass.samples),
             gpu::storage<shared::kListedBinding>(pass.listed),
             gpu::storage<shared::kListedPixelsBinding>(pass.pixels),
             tiles.bindings(TileKind::kCovered));
         if (pass.every_pixel) return dispatch_tiles(c, tiles, TileKind::kCovered);
         const VkExtent2D size = points(scene.size, pass.step);
-        c.dispatch(gpu::Commands::groups(size.width, shared::kTileEdge),
-                   gpu::Commands::groups(size.height, shared::kTileEdge), 1);
+        c.dispatch(gpu::Commands::groups(size.width, shared::kChooseGroup), size.height, 1);
       });
 }
 
@@ -118,7 +128,8 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
     constants = WallReads(scene, light.settings, scene.ao)
                     .with_walls(light.lights->with_lights(std::move(constants)));
   }
-  return gpu::compute(pipelines, programs::kShadeSamples, std::move(constants));
+  return gpu::compute(pipelines, programs::kShadeSamples,
+                      pass.into.with_output(std::move(constants), scene));
 }
 
 /// Works out the light of the listed pixels.
@@ -147,7 +158,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         b.read(pass.pixels, Use::kComputeRead);
         pass.declare_samples(b);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
-        pass.radiance = b.write(pass.radiance, Use::kComputeWrite);
+        pass.into.declare(b, scene);
       },
       [program = shading_program(pipelines, scene, on, light, pass), scene, surfaces, walls, clouds,
        lights, maps, pass](gpu::Commands& c) {
@@ -161,8 +172,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             lights.bindings(), lights.reach_binding(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
-            gpu::storage<shared::kRadianceBinding>(pass.radiance),
-            gpu::storage<shared::kSamplesBinding>(pass.samples),
+            pass.into.bindings(scene), gpu::storage<shared::kSamplesBinding>(pass.samples),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler),
             gpu::storage<shared::kListedBinding>(pass.listed),
@@ -173,16 +183,15 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
 
 }  // namespace
 
-gpu::ImageRef add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                                const SampleIn& on, const SampledLight& light,
-                                gpu::ImageRef radiance) {
+void add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                       const SampleIn& on, const SampledLight& light, ShadeTarget& into) {
   SKERRY_ASSERT(light.rate > 1);
   SamplePass pass{.step = light.rate,
                   .every_pixel = false,
                   .samples = graph.create({.name = "light samples",
                                            .format = VK_FORMAT_R32G32B32A32_UINT,
                                            .extent = points(scene.size, light.rate)}),
-                  .radiance = radiance,
+                  .into = into,
                   .listed = {},
                   .pixels = {}};
   for (const bool every_pixel : {false, true}) {
@@ -194,9 +203,10 @@ gpu::ImageRef add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipeline
         "sample list", std::uint64_t{size.width} * size.height * 4, 0, gpu::Memory::kDevice});
     add_clear(graph, pass);
     add_choosing(graph, pipelines, scene, on, pass, choosing_constants(pass, on, light.settings));
+    add_sizing(graph, pipelines, pass);
     add_shading(graph, pipelines, scene, on, light, pass);
   }
-  return pass.radiance;
+  into = pass.into;
 }
 
 }  // namespace skerry::render

@@ -3,6 +3,7 @@
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/light/light_clusters.h"
 #include "engine/render/scene/tiles.h"
+#include "engine/render/surface/shade_target.h"
 
 namespace skerry::render {
 
@@ -24,9 +25,8 @@ struct SampledLight {
 /// wherever too few of the four around a pixel are lit alike or those differ. Textures are sampled
 /// at every pixel. docs/decisions/0030-light-at-fewer-pixels.md. @pre normals and positions are not
 /// kept.
-/// @return the last version of `radiance`.
-gpu::ImageRef add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                                const SampleIn& on, const SampledLight& light,
-                                gpu::ImageRef radiance);
+/// @param into becomes what was written.
+void add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                       const SampleIn& on, const SampledLight& light, ShadeTarget& into);
 
 }  // namespace skerry::render

@@ -25,21 +25,18 @@ struct ShadedFrom {
   const Shadows& shadows;
 };
 
+/// Where shading puts pixels.
+struct ShadeOut {
+  ByRadiance by_radiance;        ///< what goes to an image of radiance
+  gpu::Image& picture;           ///< that the rest goes to: RGBA8, of the frame's size
+  const MeterSettings* metered;  ///< null: the meter looks at none of the rest
+};
+
 /// Light for every pixel, in compute, by tiles: surfaces under sun and moon, sky elsewhere.
 struct ShadePass {
-  /// To scene radiance, for the passes that follow.
+  /// @param from null: a frame without geometry, of sky alone.
   static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const ShadedFrom& from, const ShadeIn& in);
-  /// Straight to the picture, when nothing comes between: two image passes less.
-  static Developed add_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                  SceneRefs& scene, const ShadedFrom& from, const ShadeIn& in,
-                                  gpu::Image& picture);
-  /// A frame without geometry: sky alone, to scene radiance or straight to the picture.
-  static Shaded add_sky_only(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                             const ShadeIn& in);
-  static Developed add_sky_only_to_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                           SceneRefs& scene, const ShadeIn& in,
-                                           gpu::Image& picture);
+                    const ShadedFrom* from, const ShadeIn& in, const ShadeOut& out);
 };
 
 }  // namespace skerry::render

@@ -158,7 +158,8 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
           dispatch_tiles(c, tiles, kind);
         }
       });
-  return Shaded(radiance);
+  shaded.radiance_ = radiance;
+  return shaded;
 }
 
 }  // namespace skerry::render

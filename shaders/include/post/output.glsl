@@ -1,19 +1,51 @@
-// Where a shading pass puts its pixels: scene radiance, or, when nothing comes between it and the picture, the picture itself.
-// Needs before the include: `frame`, `stats` (PixelStats).
+// Where a shading pass puts its pixels: to the picture at once, or, where something comes between it and the picture, to an image of scene
+// radiance. Both give the same picture. Needs before the include: `frame`, `stats` (PixelStats).
 #ifndef SKERRY_OUTPUT_GLSL
 #define SKERRY_OUTPUT_GLSL
 #include "shared/constants.h"
 #include "include/post/picture.glsl"
+#include "include/post/meter.glsl"
 
-layout(constant_id = kToPictureConstant) const bool kToPicture = false;  // if not, something is bound in place of the exposure
+// If both, frame.radiance_area decides. Where one is false, something is bound in place of its image; and in place of the exposure.
+layout(constant_id = kToPictureConstant) const bool kToPicture = false;
+layout(constant_id = kToRadianceConstant) const bool kToRadiance = true;
+layout(constant_id = kMeterStrideConstant) const uint kMeterStride = 0u;  // 0: no luminance is kept
 
-// Every invocation calls this once; `here` says which have a pixel. What is stored is finite.
-void put_pixel(uvec2 pixel, vec3 colour, bool here) {
-  if (kToPicture) {
-    put_in_picture(pixel, colour, vec3(0.0), here);
-  } else if (here) {
-    if (!finite3(colour)) atomicAdd(stats.non_finite, 1u);
-    imageStore(target, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));
+layout(binding = kRadianceBinding) writeonly uniform image2D radiance;
+layout(binding = kMeteredBinding) writeonly uniform image2D metered;  // [cell of stride x stride pixels]
+
+bool has_radiance(uvec2 pixel) {
+  uvec4 area = frame.radiance_area;
+  return kToRadiance && (!kToPicture || (all(greaterThanEqual(pixel, area.xy)) && all(lessThan(pixel, area.zw))));
+}
+
+// What a pixel shows: radiance, finite, and how that is encoded for the picture.
+struct Shown {
+  vec3 radiance, encoded;
+};
+
+// Every invocation calls this once a colour; `here` says which of them count.
+Shown shown(vec3 colour, bool here) {
+  count_non_finite(here && !finite3(colour));
+  colour = as_halves(sanitised(colour));
+  return Shown(colour, kToPicture ? developed(colour * exp2(-exposure.ev)) : vec3(0.0));
+}
+
+// Every invocation calls this once a pixel; `here` says which have one.
+void put_shown(uvec2 pixel, Shown what, bool here) {
+  bool kept = has_radiance(pixel);
+  if (kToRadiance && here && kept) imageStore(radiance, ivec2(pixel), vec4(what.radiance, 1.0));
+  if (!kToPicture) return;
+  here = here && !kept;
+  count_black(here && what.radiance == vec3(0.0));
+  if (here) put_developed(pixel, what.encoded);
+  if (kMeterStride != 0u) {
+    uvec2 cell = pixel / kMeterStride;
+    if (here && metered_pixel(cell, kMeterStride, frame.picture_size) == pixel)
+      imageStore(metered, ivec2(cell), vec4(exact_luminance(what.radiance)));
   }
 }
+
+// Every invocation calls this once a pixel; `here` says which have one. What is stored is finite.
+void put_pixel(uvec2 pixel, vec3 colour, bool here) { put_shown(pixel, shown(colour, here), here); }
 #endif

@@ -1,31 +1,33 @@
 // Pixels of the picture: exposed, tone-mapped, dithered. Needs before the include: `frame`, `stats` (PixelStats).
 #ifndef SKERRY_PICTURE_GLSL
 #define SKERRY_PICTURE_GLSL
-#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "shared/bindings.h"
 #include "shared/constants.h"
 #include "shared/exposure.h"
+#include "include/frame/pixel_stats.glsl"
 #include "include/post/tonemap.glsl"
 
-layout(binding = kTargetBinding) writeonly uniform image2D target;  // of any format: the picture, or scene radiance
+layout(binding = kTargetBinding) writeonly uniform image2D target;
 layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; };
 
 layout(constant_id = kCalibratedConstant) const bool kCalibrated = false;  // the display takes other than 0 to 1
 
-vec4 developed(vec3 exposed, uvec2 pixel) {
+vec3 developed(vec3 exposed) {
   vec3 encoded = srgb_encode(tone_map(exposed));
-  if (kCalibrated) encoded = displayed(encoded, frame.display_peak, frame.display_black);
-  // Rounded here: how a store rounds differs from driver to driver.
-  return vec4(floor(dithered(encoded, pixel) * 255.0 + 0.5) / 255.0, 1.0);
+  return kCalibrated ? displayed(encoded, frame.display_peak, frame.display_black) : encoded;
 }
 
-// Every invocation calls this once; `here` says which have a pixel. What is stored is finite.
-// @param glow exposed light that the lens adds.
-void put_in_picture(uvec2 pixel, vec3 colour, vec3 glow, bool here) {
-  uint black = subgroupAdd(here && colour == vec3(0.0) ? 1u : 0u);
-  if (black != 0u && subgroupElect()) atomicAdd(stats.black, black);
-  if (!here) return;
-  if (!finite3(colour)) atomicAdd(stats.non_finite, 1u);
-  imageStore(target, ivec2(pixel), developed(sanitised(colour) * exp2(-exposure.ev) + glow, pixel));
+// Rounded here: how a store rounds differs from driver to driver.
+void put_developed(uvec2 pixel, vec3 encoded) {
+  imageStore(target, ivec2(pixel), vec4(floor(dithered(encoded, pixel) * 255.0 + 0.5) / 255.0, 1.0));
 }
+
+// Of pixels that are black before tone mapping. Every invocation calls this once a pixel.
+void count_black(bool black) {
+  if (!kCountPixels) return;
+  uint count = subgroupBallotBitCount(subgroupBallot(black));
+  if (count != 0u && subgroupElect()) atomicAdd(stats.black, count);
+}
+
 #endif

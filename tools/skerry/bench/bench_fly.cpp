@@ -59,6 +59,7 @@ class Flight {
         start_s_(options.scene.settings.world_time_s),
         day_(options.scene.time_of_day_s) {
     moment_.camera = view.start_camera();
+    moment_.count_pixels = false;
     moment_.camera.pitch_deg = kFlyPitchDeg;
     start_ = world::moved(place_of(moment_.camera.position), {0.0, kAboveStart, 0.0});
     go_to(0.0);
@@ -73,6 +74,7 @@ class Flight {
       const Result<std::uint64_t> value = view_.draw(moment_, size_);
       if (!value) return value.error();
       device.wait(*value);
+      moment_.exposure_ev = view_.adapted_ev(moment_.exposure_ev, 0.0);
     }
     view_.renderer().wait_for_programs();
     return {};
@@ -95,6 +97,7 @@ class Flight {
       const Result<std::uint64_t> value = view_.draw(moment_, size_);
       if (!value) return value.error();
       frame.draw_ms = watch.milliseconds();
+      moment_.exposure_ev = view_.adapted_ev(moment_.exposure_ev, frame.draw_ms * 1e-3);
       frame.cpu_ms = thread_cpu_ms() - cpu_ms;
       frame.pending_bytes = view_.renderer().mesh_uploader().pending_bytes();
       frame.programs = view_.renderer().programs_made() - programs;

@@ -19,6 +19,7 @@ constexpr double kMaxSeconds = 8.0;
 constexpr int kPassFrames = 30;   // whose passes are timed
 constexpr int kReportedLate = 2;  // frames in flight
 constexpr double kTurnDegPerFrame = 0.5;
+constexpr double kAdaptSeconds = 1.0 / 30.0;  // that the eye has for a frame
 
 double now_ms() {
   return std::chrono::duration<double, std::milli>(
@@ -40,7 +41,8 @@ struct Timings {
   std::uint64_t allocations = 0;                      ///< of device memory
 };
 
-/// As in play, where passes are not timed by themselves: timers cost, too.
+/// As in play, where the eye has adapted to earlier frames, nobody sees counts of pixels, and
+/// passes are not timed by themselves: timers cost, too.
 Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
                             game::SceneView::Moment moment, VkExtent2D size) {
   Timings out;
@@ -53,7 +55,8 @@ Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
     const int programs = view.renderer().programs_made();
     const std::uint64_t allocations = device.allocations();
     if (Result<std::uint64_t> drawn = view.draw(moment, size); !drawn) return drawn.error();
-    if (i == 0) view.renderer().wait_for_programs();
+    moment.exposure_ev = view.adapted_ev(moment.exposure_ev, kAdaptSeconds);
+    if (i < kFrameWarmUp) view.renderer().wait_for_programs();
     const double now = now_ms();
     if (i >= kFrameWarmUp) {
       out.programs_made += view.renderer().programs_made() - programs;
@@ -70,6 +73,7 @@ Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
 /// The beginning of the turn again, with a timer behind each pass.
 Result<void> time_passes(game::SceneView& view, game::SceneView::Moment moment, VkExtent2D size,
                          Timings& out) {
+  moment.exposure_ev = view.adapted_ev({}, 0.0);
   view.renderer().time_passes(true);
   for (int i = 0; i < kReportedLate + kPassFrames; ++i) {
     moment.camera.yaw_deg += kTurnDegPerFrame;
@@ -151,9 +155,10 @@ int bench_frame(const BenchFrameOptions& options) {
   Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(**device, options.scene);
   if (!view) return fail(kFailed, view.error());
   const double world_time_s = options.scene.settings.world_time_s;
-  const game::SceneView::Moment moment{(*view)->start_camera(),
-                                       static_cast<double>(options.scene.time_of_day_s),
-                                       world_time_s, false};
+  game::SceneView::Moment moment{(*view)->start_camera(),
+                                 static_cast<double>(options.scene.time_of_day_s), world_time_s,
+                                 false};
+  moment.count_pixels = false;
   if (Result<void> loaded = (*view)->load_completely(moment.camera, world_time_s); !loaded)
     return fail(kFailed, loaded.error());
   const VkExtent2D size{options.scene.size.width, options.scene.size.height};
