@@ -106,5 +106,8 @@ SHARED_CONST uint kSmallPictureBinding = 75u;
 SHARED_CONST uint kMadeBloomBinding = 76u;      // the level that a step of bloom makes
 SHARED_CONST uint kMarchedCloudsBinding = 77u;  // the coarse image as it is made
 
+// Pixels at edges of surfaces: EdgePixel[].
+SHARED_CONST uint kEdgePixelsBinding = 78u;
+
 SHARED_END
 #endif

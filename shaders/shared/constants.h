@@ -53,6 +53,7 @@ SHARED_CONST uint kMarchConstant = 48u;           // bool: clouds are marched, n
 SHARED_CONST uint kLightStepConstant = 50u;       // uint: kLightDepths to kLightTiles
 SHARED_CONST uint kShowConstant = 51u;            // bool: the meter's histogram is drawn
 SHARED_CONST uint kFilterConstant = 52u;  // uint: kFilterAverage, kFilterShrink or kFilterSpread
+SHARED_CONST uint kStoreConstant = 53u;   // bool: what was found is stored
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

@@ -1,0 +1,18 @@
+// Edges of surfaces in the picture, smoothed by the share of a pixel that each side covers.
+// docs/decisions/0043.
+#ifndef SKERRY_SHARED_EDGES_H
+#define SKERRY_SHARED_EDGES_H
+#include "types.h"
+SHARED_BEGIN
+
+SHARED_CONST uint kEdgeColumns = 4u;  // pixels that an invocation of find_edges.comp looks at
+SHARED_CONST uint kEdgeRows = 8u;
+
+// A pixel at an edge. Its picture is read before any is written.
+struct EdgePixel {
+  uint place;   // x in bits 0-15, y in bits 16-31
+  uint colour;  // what it becomes, RGBA8
+};
+
+SHARED_END
+#endif
