@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 3> kSyncNames{"off", "on", "adaptive"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
-constexpr std::array<std::string_view, 3> kRateNames{"1", "2", "4"};
+constexpr std::array<std::string_view, 4> kRateNames{"1", "2", "3", "4"};
 constexpr std::array<std::string_view, 4> kTileNames{"8", "16", "32", "64"};
 
 Result<void> parse_memory_budget(std::string_view text, Settings& s) {
@@ -117,15 +117,15 @@ constexpr SettingKey kProgramKeys[] = {
      },
      [](const Settings& s) { return name_of(kShadingNames, s.render.shading); }},
     {"shading.rate", "1, 2 or 4",
-     "Pixels along a block whose light is worked out once where its neighbours agree; textures and "
-     "edges keep every pixel.",
+     "Pixels along a square that takes its light from its corners where they are lit alike; "
+     "textures and edges keep every pixel.",
      [](std::string_view t, Settings& s) {
        return into_listed(t, "shading.rate", kRateNames, s.render.shading_rate);
      },
      [](const Settings& s) { return std::to_string(s.render.shading_rate); }},
     {"shading.tolerance", "0 to 1",
-     "Light that may differ within such a block, as a share of the brightest. 0: every pixel is "
-     "lit by itself where light differs at all.",
+     "Light that may differ between such corners, as a share of the brightest. 0: every pixel is "
+     "lit by itself.",
      [](std::string_view t, Settings& s) {
        return into_number(parse_number(t, "shading.tolerance", 0.0, 1.0),
                           s.render.shading_tolerance);

@@ -8,10 +8,10 @@ namespace skerry::game {
 namespace {
 
 constexpr std::array<QualityLevel, 4> kLevels{
-    {{"low", 400, 128, 1024, 0.0f, 1, 16, 2, 0.5f},
-     {"medium", 1000, 192, 2048, 0.0f, 4, 24, 2, 1.0f},
-     {"high", 2000, 320, 4096, 0.1f, 8, 48, 1, 1.0f},
-     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight, 96, 1, 1.0f}}};
+    {{"low", 400, 128, 1024, 0.0f, 1, 16, 2, 0.5f, 4},
+     {"medium", 1000, 192, 2048, 0.0f, 4, 24, 2, 1.0f, 4},
+     {"high", 2000, 320, 4096, 0.1f, 8, 48, 1, 1.0f, 1},
+     {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight, 96, 1, 1.0f, 1}}};
 
 }  // namespace
 
@@ -43,6 +43,7 @@ void set_quality(Quality quality, Settings& settings) {
   settings.render.clouds.steps = level.cloud_steps;
   settings.render.clouds.resolution = level.cloud_resolution;
   settings.render.render_scale = level.render_scale;
+  settings.render.shading_rate = level.shading_rate;
 }
 
 }  // namespace skerry::game

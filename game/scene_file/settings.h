@@ -78,6 +78,7 @@ struct QualityLevel {
   std::uint32_t lights_shadows;
   int cloud_steps, cloud_resolution;
   float render_scale;
+  int shading_rate;
 };
 const QualityLevel& quality_level(Quality quality);
 Result<Quality> parse_quality(std::string_view text);

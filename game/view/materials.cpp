@@ -1,5 +1,7 @@
 #include "game/view/materials.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <glm/gtc/packing.hpp>
 
@@ -11,6 +13,7 @@ namespace skerry::game {
 
 std::vector<shared::Material> material_table() {
   std::vector<shared::Material> table;
+  std::uint32_t classes = 0;
   for (const world::BlockType& type : world::block_types()) {
     shared::Material m{};
     m.layer_side = static_cast<std::uint32_t>(type.side);
@@ -20,6 +23,11 @@ std::vector<shared::Material> material_table() {
     m.absorption = {type.absorption[0], type.absorption[1], type.absorption[2]};
     m.roughness = type.roughness;
     m.metalness = type.metalness;
+    const auto alike = std::find_if(table.begin(), table.end(), [&](const shared::Material& other) {
+      return other.emission == m.emission && other.metalness == m.metalness &&
+             std::abs(other.roughness - m.roughness) < 0.1f;
+    });
+    m.light_class = alike != table.end() ? alike->light_class : classes++;
     table.push_back(m);
   }
   SKERRY_ASSERT(table.size() <= shared::kMaxMaterials);

@@ -33,7 +33,7 @@ layout(scalar, binding = kLightCountsBinding) buffer Counts { uint counts[]; }; 
 layout(scalar, binding = kClustersBinding) buffer Clusters { Cluster clusters[]; };
 layout(scalar, binding = kLightEntriesBinding) writeonly buffer Entries { uint entries[]; };
 layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatch; };
-layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint listed_tiles[]; };
+layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint listed_tiles[]; };  // x | y << 16
 layout(push_constant) uniform Push { uint list; } push;  // of kLightLists. 0: count, 1: list
 
 layout(constant_id = kLightStepConstant) const uint kLightStep = kLightDepths;
@@ -126,7 +126,8 @@ void list_tiles() {
   uvec2 count = (grid.size + kTileEdge - 1u) / kTileEdge;
   uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (tile >= count.x * count.y) return;
-  uint first = cluster_of(tile_at(uvec2(tile % count.x, tile / count.x) * kTileEdge), 0u);
+  uvec2 at = uvec2(tile % count.x, tile / count.x);
+  uint first = cluster_of(tile_at(at * kTileEdge), 0u);
   bool lit = false;
   for (uint left = small_tiles[tile].slices; left != 0u && !lit; left &= left - 1u)
     lit = kOracle || clusters[first + uint(findLSB(left))].count != 0u;
@@ -134,7 +135,7 @@ void list_tiles() {
   uint slot = atomicAdd(dispatch.tiles, 1u);
   atomicMax(dispatch.groups_x, min(slot + 1u, kTileRow));
   if (slot % kTileRow == 0u) atomicMax(dispatch.groups_y, slot / kTileRow + 1u);
-  listed_tiles[slot] = tile;
+  listed_tiles[slot] = at.x | (at.y << 16);
 }
 
 // Whether walls let a light arrive at what a cell shows, as far as that is known. Errs on the side of yes.

@@ -12,21 +12,22 @@ layout(local_size_x = 64) in;
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[2]; };  // 0 covered, 1 open
-layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };           // [kind][tile]
+layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };           // [kind][tile]: x | y << 16
 layout(push_constant) uniform Push { uvec2 size; uvec2 tile_count; uvec4 area; } push;  // area: what is outside shows no surface
 
-void list_tile(uint kind, uint tile) {
+void list_tile(uint kind, uvec2 tile) {
   uint slot = atomicAdd(dispatches[kind].tiles, 1u);
   atomicMax(dispatches[kind].groups_x, min(slot + 1u, kTileRow));
   if (slot % kTileRow == 0u) atomicMax(dispatches[kind].groups_y, slot / kTileRow + 1u);
-  tiles[kind * push.tile_count.x * push.tile_count.y + slot] = tile;
+  tiles[kind * push.tile_count.x * push.tile_count.y + slot] = tile.x | (tile.y << 16);
 }
 
 // One invocation a tile: no barriers, which lavapipe pays for dearly.
 void main() {
   uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (tile >= push.tile_count.x * push.tile_count.y) return;
-  ivec2 low = ivec2(tile % push.tile_count.x, tile / push.tile_count.x) * int(kTileEdge);
+  uvec2 at = uvec2(tile % push.tile_count.x, tile / push.tile_count.x);
+  ivec2 low = ivec2(at * kTileEdge);
   ivec2 last = ivec2(push.size) - 1;
   bool covered = false, open = false;
   for (int y = 0; y < int(kTileEdge); ++y) {
@@ -37,6 +38,6 @@ void main() {
       open = open || !here;
     }
   }
-  if (covered) list_tile(0u, tile);
-  if (open) list_tile(1u, tile);
+  if (covered) list_tile(0u, at);
+  if (open) list_tile(1u, at);
 }

@@ -92,19 +92,18 @@ SHARED_CONST uint kTargetBinding = 68u;    // of shading: radiance, or the pictu
 SHARED_CONST uint kIndirectBinding = 69u;  // texels of shared/indirect.h
 
 // Light at fewer pixels than are drawn.
-SHARED_CONST uint kCoarserSamplesBinding = 70u;  // of the next coarser level
-SHARED_CONST uint kOwnSamplesBinding = 71u;      // of the level that is worked on
-SHARED_CONST uint kListedBinding = 72u;          // TileDispatch of the pixels that are listed
-SHARED_CONST uint kListedPixelsBinding = 73u;    // x in bits 0-15, y in bits 16-31
+SHARED_CONST uint kSamplesBinding = 70u;       // of light, at the points of a grid
+SHARED_CONST uint kListedBinding = 71u;        // TileDispatch of the pixels that are listed
+SHARED_CONST uint kListedPixelsBinding = 72u;  // x in bits 0-15, y in bits 16-31
 
 // Past walls: LightReach[].
-SHARED_CONST uint kLightReachBinding = 74u;
+SHARED_CONST uint kLightReachBinding = 73u;
 
 // Of a picture that is drawn smaller than it is shown.
-SHARED_CONST uint kSmallPictureBinding = 75u;
+SHARED_CONST uint kSmallPictureBinding = 74u;
 
-SHARED_CONST uint kMadeBloomBinding = 76u;      // the level that a step of bloom makes
-SHARED_CONST uint kMarchedCloudsBinding = 77u;  // the coarse image as it is made
+SHARED_CONST uint kMadeBloomBinding = 75u;      // the level that a step of bloom makes
+SHARED_CONST uint kMarchedCloudsBinding = 76u;  // the coarse image as it is made
 
 // Pixels at edges of surfaces: EdgePixel[].
 SHARED_CONST uint kEdgePixelsBinding = 78u;

@@ -56,9 +56,10 @@ struct Material {
   uint layer_bottom;  // for -y
   uint emission;  // luminous emission, half float in bits 0-15: radiance = albedo * this [the unit
                   // of sun radiance]
-  vec3 absorption;  // translucent kinds: extinction per block of path [1/block]; else 0
-  float roughness;  // 0..1 perceptual
-  float metalness;  // 0..1: how much of what it reflects is mirrored, in its own colour
+  vec3 absorption;   // translucent kinds: extinction per block of path [1/block]; else 0
+  float roughness;   // 0..1 perceptual
+  float metalness;   // 0..1: how much of what it reflects is mirrored, in its own colour
+  uint light_class;  // equal for ids that light shows alike, but for their textures
 };
 
 // Arguments of vkCmdDrawIndexedIndirect (VkDrawIndexedIndirectCommand). firstInstance carries the

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Light of sun, moon and lamps at listed pixels (choose_samples.comp), to a level's samples or, at step 1, to the radiance.
+// Light of sun, moon and lamps at listed pixels (choose_samples.comp): to the samples of a grid's points or, in the second pass, to the radiance.
 // docs/decisions/0030-light-at-fewer-pixels.md.
 #define SKERRY_STORED
 #include "include/frame/common.glsl"
@@ -18,16 +18,16 @@ layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
-layout(binding = kRadianceBinding, rgba16f) writeonly uniform image2D radiance;  // of step 1
-layout(binding = kOwnSamplesBinding, rgba32ui) writeonly uniform uimage2D own;  // of the other steps
+layout(binding = kRadianceBinding, rgba16f) writeonly uniform image2D radiance;  // of the second pass
+layout(binding = kSamplesBinding, rgba32ui) writeonly uniform uimage2D samples;  // of the first
 layout(scalar, binding = kListedBinding) readonly buffer Listed { TileDispatch listed; };
 layout(scalar, binding = kListedPixelsBinding) readonly buffer Pixels { uint pixels[]; };
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
 
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
-layout(push_constant) uniform Push { uint step; } push;  // pixels between the level's points
 
-layout(constant_id = kEveryPixelConstant) const bool kEveryPixel = false;   // step 1. A constant: the program of the other steps has no texture
+layout(constant_id = kEveryPixelConstant) const bool kEveryPixel = false;  // the second pass
+layout(constant_id = kStepConstant) const uint kStep = 4u;  // pixels between the grid's points
 layout(constant_id = kLitConstant) const bool kLit = false;  // the frame has lights; if not, buffers are bound that are never read
 
 #define SKERRY_ANY_ALBEDO
@@ -101,7 +101,6 @@ void main() {
     vec3 albedo = surface_texel(word, ray, z, kTextureTaps).rgb;
     if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(radiance_at(sent, albedo)), 1.0));
   } else {
-    uint key = plane_key(word, lattice_from_world(islands[surface_island(word)], s.position));
-    if (here) imageStore(own, ivec2(pixel / push.step), packed_sample(sent, key));
+    if (here) imageStore(samples, ivec2(pixel / kStep), packed_sample(sent, place_code(word, z)));
   }
 }

@@ -118,9 +118,9 @@ struct RenderSettings {
   Shading shading = Shading::kPbr;
   float ao_strength = 0.5f;  ///< share of light that a closed corner takes, 0..1; 0: no corners
   Indirect indirect = Indirect::kFull;
-  /// Pixels along a block whose light is worked out once where its neighbours agree: 1, 2 or 4.
+  /// Pixels along a square that takes its light from its corners where they are lit alike, 1 to 4.
   int shading_rate = 1;
-  float shading_tolerance = 0.1f;  ///< how much light may differ between them, of the brightest
+  float shading_tolerance = 0.3f;  ///< how much light may differ between them, of the brightest
   int texture_taps = 2;            ///< samples along the long side of a texture footprint, 1..16
   int water_layers = 2;            ///< nearest surfaces of water and glass kept a pixel, 1..4
   GBufferStore gbuffer;

@@ -22,74 +22,67 @@ namespace {
 
 using gpu::Use;
 
-/// The pixels whose coordinates are multiples of `step`.
-struct SampleLevel {
-  std::uint32_t step = 1;
-  gpu::ImageRef coarser;          ///< samples of the next coarser one; empty: there is none
-  gpu::ImageRef own;              ///< samples; empty at step 1, which writes radiance
+/// One of two passes: the points of a grid, then all pixels.
+struct SamplePass {
+  std::uint32_t step;             ///< pixels between the grid's points
+  bool every_pixel;               ///< the second pass
+  gpu::ImageRef samples;          ///< light at the grid's points
   gpu::ImageRef radiance;         ///< of the picture
   gpu::BufferRef listed, pixels;  ///< shared::TileDispatch in groups of 64, and x | y << 16
 
-  /// What is bound where samples are read and written; where there are none, the other one, which
-  /// is then not used.
-  gpu::ImageRef read() const { return coarser ? coarser : own; }
-  gpu::ImageRef written() const { return own ? own : coarser; }
+  std::string name(const char* what) const { return what + std::to_string(every_pixel ? 1 : step); }
+  /// The second pass reads samples, and writes none: they stand in where the shader may write.
+  void declare_samples(gpu::PassBuilder& b) { samples = b.write(samples, Use::kComputeWrite); }
 };
 
 constexpr VkExtent2D points(VkExtent2D size, std::uint32_t step) {
   return {(size.width + step - 1) / step, (size.height + step - 1) / step};
 }
 
-std::vector<gpu::SpecConstant> choosing_constants(const SampleLevel& level, const SampleIn& on,
+std::vector<gpu::SpecConstant> choosing_constants(const SamplePass& pass, const SampleIn& on,
                                                   const RenderSettings& settings) {
-  std::vector<gpu::SpecConstant> constants{
-      {shared::kTextureTapsConstant, static_cast<std::uint32_t>(settings.texture_taps)},
-      {shared::kStepConstant, level.step},
-      {shared::kToleranceConstant, std::bit_cast<std::uint32_t>(settings.shading_tolerance)}};
-  if (!level.coarser) constants.push_back({shared::kFirstConstant, 1});
+  std::vector<gpu::SpecConstant> constants{{shared::kStepConstant, pass.step}};
+  if (pass.every_pixel) {
+    constants.push_back({shared::kEveryPixelConstant, 1});
+    constants.push_back(
+        {shared::kTextureTapsConstant, static_cast<std::uint32_t>(settings.texture_taps)});
+    constants.push_back(
+        {shared::kToleranceConstant, std::bit_cast<std::uint32_t>(settings.shading_tolerance)});
+  }
   if (on.geometry.store().depth == DepthStore::kD16)
     constants.push_back({shared::kDepth16Constant, 1});
   return constants;
 }
 
-void add_clear(gpu::FrameGraph& graph, SampleLevel& level) {
+void add_clear(gpu::FrameGraph& graph, SamplePass& pass) {
   graph.add_pass(
-      "choose_samples_" + std::to_string(level.step) + "_clear",
-      [&](gpu::PassBuilder& b) { level.listed = b.write(level.listed, Use::kTransferWrite); },
-      [listed = level.listed](gpu::Commands& c) {
+      pass.name("choose_samples_") + "_clear",
+      [&](gpu::PassBuilder& b) { pass.listed = b.write(pass.listed, Use::kTransferWrite); },
+      [listed = pass.listed](gpu::Commands& c) {
         c.fill(listed, offsetof(shared::TileDispatch, groups_x), 4, 0);
         c.fill(listed, offsetof(shared::TileDispatch, groups_y), 8, 1);
         c.fill(listed, offsetof(shared::TileDispatch, tiles), 4, 0);
       });
 }
 
-/// The finest level writes no samples: the coarser ones stand in where the shader may write.
-void declare_coarser(gpu::PassBuilder& b, SampleLevel& level) {
-  if (!level.coarser) return;
-  if (level.own) return b.read(level.coarser, Use::kComputeRead);
-  level.coarser = b.write(level.coarser, Use::kComputeWrite);
-}
-
-/// Lists the level's pixels that need light of their own; the others get it at once.
+/// Lists the pixels that need light of their own; the others get it at once.
 void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                  const SampleIn& on, SampleLevel& level,
-                  std::vector<gpu::SpecConstant> constants) {
+                  const SampleIn& on, SamplePass& pass, std::vector<gpu::SpecConstant> constants) {
   const SurfaceReads surfaces(on.geometry);
   graph.add_pass(
-      "choose_samples_" + std::to_string(level.step),
+      pass.name("choose_samples_"),
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
-        declare_coarser(b, level);
+        pass.declare_samples(b);
         declare_tiles(b, on.tiles);
-        level.listed = b.write(level.listed, Use::kComputeWrite);
-        level.pixels = b.write(level.pixels, Use::kComputeWrite);
-        if (level.own) level.own = b.write(level.own, Use::kComputeWrite);
-        level.radiance = b.write(level.radiance, Use::kComputeWrite);
+        pass.listed = b.write(pass.listed, Use::kComputeWrite);
+        pass.pixels = b.write(pass.pixels, Use::kComputeWrite);
+        pass.radiance = b.write(pass.radiance, Use::kComputeWrite);
       },
-      [scene, surfaces, level, tiles = on.tiles,
+      [scene, surfaces, pass, tiles = on.tiles,
        program = gpu::compute(pipelines, programs::kChooseSamples, std::move(constants))](
           gpu::Commands& c) {
         gpu::bind(
@@ -99,26 +92,26 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
             gpu::storage<shared::kSurfacesBinding>(surfaces.words),
             gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
-            gpu::storage<shared::kRadianceBinding>(level.radiance),
-            gpu::storage<shared::kCoarserSamplesBinding>(level.read()),
-            gpu::storage<shared::kOwnSamplesBinding>(level.written()),
-            gpu::storage<shared::kListedBinding>(level.listed),
-            gpu::storage<shared::kListedPixelsBinding>(level.pixels),
+            gpu::storage<shared::kRadianceBinding>(pass.radiance),
+            gpu::storage<shared::kSamplesBinding>(pass.samples),
+            gpu::storage<shared::kListedBinding>(pass.listed),
+            gpu::storage<shared::kListedPixelsBinding>(pass.pixels),
             tiles.bindings(TileKind::kCovered));
-        if (level.step == 1) return dispatch_tiles(c, tiles, TileKind::kCovered);
-        const VkExtent2D size = points(scene.size, level.step);
+        if (pass.every_pixel) return dispatch_tiles(c, tiles, TileKind::kCovered);
+        const VkExtent2D size = points(scene.size, pass.step);
         c.dispatch(gpu::Commands::groups(size.width, shared::kTileEdge),
                    gpu::Commands::groups(size.height, shared::kTileEdge), 1);
       });
 }
 
 auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const SampleIn& on,
-                     const SampledLight& light, bool last) {
+                     const SampledLight& light, const SamplePass& pass) {
   const bool maps{on.shadows.maps()};
   std::vector<gpu::SpecConstant> constants = with_light(
-      {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(light.settings.texture_taps)}},
+      {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(light.settings.texture_taps)},
+       {shared::kStepConstant, pass.step}},
       scene, maps);
-  if (last) constants.push_back({shared::kEveryPixelConstant, 1});
+  if (pass.every_pixel) constants.push_back({shared::kEveryPixelConstant, 1});
   constants = clouds_before_light(scene).with_clouds(
       with_ao(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.ao));
   if (light.lights) {
@@ -130,14 +123,14 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
 
 /// Works out the light of the listed pixels.
 void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                 const SampleIn& on, const SampledLight& light, SampleLevel& level) {
+                 const SampleIn& on, const SampledLight& light, SamplePass& pass) {
   const SurfaceReads surfaces(on.geometry);
   const WallReads walls(scene, light.settings, scene.ao);
   const CloudRefs clouds = clouds_before_light(scene);
   const ClusteredLights lights = light.lights ? *light.lights : ClusteredLights::none(scene);
   const gpu::ImageRef maps = on.shadows.maps();
   graph.add_pass(
-      "shade_samples_" + std::to_string(level.step),
+      pass.name("shade_samples_"),
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref :
              {scene.frame, scene.islands, scene.materials, scene.indirect})
@@ -149,16 +142,15 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         if (maps) b.read(maps, Use::kComputeSampled);
         b.read(scene.block_textures, Use::kComputeSampled);
         b.read(scene.sky_lut, Use::kComputeSampled);
-        b.read(level.listed, Use::kIndirect);
-        b.read(level.listed, Use::kComputeRead);
-        b.read(level.pixels, Use::kComputeRead);
-        declare_coarser(b, level);
-        if (level.own) level.own = b.write(level.own, Use::kComputeWrite);
+        b.read(pass.listed, Use::kIndirect);
+        b.read(pass.listed, Use::kComputeRead);
+        b.read(pass.pixels, Use::kComputeRead);
+        pass.declare_samples(b);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
-        level.radiance = b.write(level.radiance, Use::kComputeWrite);
+        pass.radiance = b.write(pass.radiance, Use::kComputeWrite);
       },
-      [program = shading_program(pipelines, scene, on, light, level.step == 1), scene, surfaces,
-       walls, clouds, lights, maps, level](gpu::Commands& c) {
+      [program = shading_program(pipelines, scene, on, light, pass), scene, surfaces, walls, clouds,
+       lights, maps, pass](gpu::Commands& c) {
         gpu::bind(
             c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::storage<shared::kIslandsBinding>(scene.islands),
@@ -169,13 +161,13 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             lights.bindings(), lights.reach_binding(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
-            gpu::storage<shared::kRadianceBinding>(level.radiance),
-            gpu::storage<shared::kOwnSamplesBinding>(level.written()),
+            gpu::storage<shared::kRadianceBinding>(pass.radiance),
+            gpu::storage<shared::kSamplesBinding>(pass.samples),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler),
-            gpu::storage<shared::kListedBinding>(level.listed),
-            gpu::storage<shared::kListedPixelsBinding>(level.pixels), gpu::constants(level.step));
-        c.dispatch_indirect(level.listed, 0);
+            gpu::storage<shared::kListedBinding>(pass.listed),
+            gpu::storage<shared::kListedPixelsBinding>(pass.pixels));
+        c.dispatch_indirect(pass.listed, 0);
       });
 }
 
@@ -184,30 +176,27 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
 gpu::ImageRef add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                                 const SampleIn& on, const SampledLight& light,
                                 gpu::ImageRef radiance) {
-  SKERRY_ASSERT(light.rate == 2 || light.rate == 4);
-  gpu::ImageRef coarser;
-  for (std::uint32_t step = light.rate; step > 0; step /= 2) {
-    const VkExtent2D size = points(scene.size, step);
-    SampleLevel level{.step = step,
-                      .coarser = coarser,
-                      .own = {},
-                      .radiance = radiance,
-                      .listed = {},
-                      .pixels = {}};
-    level.listed = graph.create(
+  SKERRY_ASSERT(light.rate > 1);
+  SamplePass pass{.step = light.rate,
+                  .every_pixel = false,
+                  .samples = graph.create({.name = "light samples",
+                                           .format = VK_FORMAT_R32G32B32A32_UINT,
+                                           .extent = points(scene.size, light.rate)}),
+                  .radiance = radiance,
+                  .listed = {},
+                  .pixels = {}};
+  for (const bool every_pixel : {false, true}) {
+    pass.every_pixel = every_pixel;
+    const VkExtent2D size = points(scene.size, every_pixel ? 1 : light.rate);
+    pass.listed = graph.create(
         gpu::BufferDesc{"sample dispatch", sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
-    level.pixels = graph.create(gpu::BufferDesc{
+    pass.pixels = graph.create(gpu::BufferDesc{
         "sample list", std::uint64_t{size.width} * size.height * 4, 0, gpu::Memory::kDevice});
-    if (step != 1)
-      level.own = graph.create(gpu::ImageDesc{
-          .name = "light samples", .format = VK_FORMAT_R32G32B32A32_UINT, .extent = size});
-    add_clear(graph, level);
-    add_choosing(graph, pipelines, scene, on, level, choosing_constants(level, on, light.settings));
-    add_shading(graph, pipelines, scene, on, light, level);
-    radiance = level.radiance;
-    coarser = level.own;
+    add_clear(graph, pass);
+    add_choosing(graph, pipelines, scene, on, pass, choosing_constants(pass, on, light.settings));
+    add_shading(graph, pipelines, scene, on, light, pass);
   }
-  return radiance;
+  return pass.radiance;
 }
 
 }  // namespace skerry::render

@@ -3,7 +3,7 @@
 #define SKERRY_TILES_GLSL
 #include "shared/bindings.h"
 
-layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };
+layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // x | y << 16: an integer division for each pixel costs lavapipe more than its light
 layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[2]; };
 layout(push_constant) uniform Push { uint kind; } push;  // of tiles: 0 covered, 1 open
 
@@ -13,7 +13,7 @@ bool tile_pixel(out uvec2 pixel) {
   uint slot = gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x;
   bool here = slot < dispatches[push.kind].tiles;
   uint tile = tiles[push.kind * count.x * count.y + (here ? slot : 0u)];
-  pixel = uvec2(tile % count.x, tile / count.x) * 8u + gl_LocalInvocationID.xy;
+  pixel = uvec2(tile & 0xffffu, tile >> 16) * 8u + gl_LocalInvocationID.xy;
   here = here && all(lessThan(pixel, frame.size));
   pixel = min(pixel, frame.size - 1u);
   return here;

@@ -76,20 +76,25 @@ class ShadingRate : public RendererOnGpu {
     return out;
   }
   struct Apart {
-    double mean = 0.0, most = 0.0;  ///< of a pixel's largest channel
-    double wrong = 0.0;             ///< share of pixels that are wrong by more than a tenth
+    double mean = 0.0;   ///< of a pixel's largest channel, as a share of the picture's mean
+    double most = 0.0;   ///< as a share of the pixel itself
+    double wrong = 0.0;  ///< share of pixels that are wrong by more than a tenth
   };
   static Apart apart(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& truth) {
     Apart out;
     EXPECT_EQ(a.size(), truth.size());
+    double light = 0.0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const glm::dvec3 difference = glm::abs(glm::dvec3(a[i]) - glm::dvec3(truth[i]));
       const double bright = std::max({truth[i].x, truth[i].y, truth[i].z, 1e-4f});
-      const double off = std::max({difference.x, difference.y, difference.z}) / bright;
-      out.mean += off / static_cast<double>(truth.size());
+      const double most = std::max({difference.x, difference.y, difference.z});
+      const double off = most / bright;
+      out.mean += most;
+      light += bright;
       out.most = std::max(out.most, off);
       out.wrong += off > 0.1 ? 1.0 / static_cast<double>(truth.size()) : 0.0;
     }
+    out.mean /= light;
     return out;
   }
 };
@@ -106,7 +111,7 @@ TEST_F(ShadingRate, WithoutToleranceItIsThePictureOfEveryPixel) {
       every.shadow_enabled = shadows;
       every.lights_shadows = kEveryLight;
       const std::vector<glm::vec4> truth = radiance(input, every, kSize);
-      for (const int rate : {2, 4}) {
+      for (const int rate : {2, 3, 4}) {
         SCOPED_TRACE(rate);
         RenderSettings fewer = every;
         fewer.shading_rate = rate;
@@ -124,8 +129,9 @@ TEST_F(ShadingRate, WithToleranceFewPixelsAreWrong) {
     for (const int rate : {2, 4}) {
       SCOPED_TRACE(testing::Message() << rate << ", " << tolerance);
       const Apart off = apart(radiance(view(), settings(rate, tolerance), kSize), truth);
-      EXPECT_LT(off.mean, 0.05 * static_cast<double>(tolerance) + 0.004);
-      EXPECT_LT(off.wrong, 0.01);
+      // Pixels here are large: a pillar is five wide, and a square of points as wide as its shadow.
+      EXPECT_LT(off.mean, 0.02 + 0.05 * static_cast<double>(tolerance));
+      EXPECT_LT(off.wrong, rate == 2 ? 0.02 : 0.04);
       if (rate == 4) {
         EXPECT_GE(off.mean, last);
         last = off.mean;
