@@ -106,7 +106,7 @@ SHARED_CONST uint kMadeBloomBinding = 75u;      // the level that a step of bloo
 SHARED_CONST uint kMarchedCloudsBinding = 76u;  // the coarse image as it is made
 
 // Pixels at edges of surfaces: EdgePixel[].
-SHARED_CONST uint kEdgePixelsBinding = 78u;
+SHARED_CONST uint kEdgePixelsBinding = 77u;
 
 SHARED_END
 #endif
