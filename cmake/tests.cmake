@@ -32,11 +32,11 @@ target_compile_options(skerry_sanitized PRIVATE -fsanitize=address,undefined -fn
 target_link_options(skerry_sanitized PRIVATE -fsanitize=address,undefined)
 
 # The parsers of what comes from outside, with what they need and no more: built under sanitizers.
-set(fuzz_sources tests/fuzz/targets.cpp game/input/actions.cpp game/input/bindings_file.cpp game/input/hints.cpp game/pace/learnt_costs.cpp game/pace/quality_front.cpp game/scene_file/expectations.cpp game/scene_file/cloud_files.cpp game/scene_file/json_text.cpp game/scene_file/options.cpp game/scene_file/parse.cpp game/scene_file/scene_files.cpp game/scene_file/scene_lights.cpp game/scene_file/setting_values.cpp game/scene_file/setting_keys.cpp game/scene_file/settings.cpp game/scene_file/world_keys.cpp game/scene_file/light_keys.cpp game/scene_file/picture_keys.cpp game/scene_file/program_keys.cpp game/scene_file/sound_keys.cpp game/scene_file/vdb_options.cpp engine/render/light/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp engine/platform/input.cpp tools/skerry/farm/plan.cpp tools/skerry/farm/record.cpp tools/skerry/test/hashes.cpp)
+set(fuzz_sources tests/fuzz/targets.cpp game/input/actions.cpp game/input/bindings_file.cpp game/input/hints.cpp game/pace/learnt_costs.cpp game/pace/quality_front.cpp game/scene_file/expectations.cpp game/scene_file/cloud_files.cpp game/scene_file/json_text.cpp game/scene_file/options.cpp game/scene_file/parse.cpp game/scene_file/scene_files.cpp game/scene_file/scene_lights.cpp game/scene_file/setting_values.cpp game/scene_file/setting_keys.cpp game/scene_file/settings.cpp game/scene_file/world_keys.cpp game/scene_file/light_keys.cpp game/scene_file/picture_keys.cpp game/scene_file/program_keys.cpp game/scene_file/sound_keys.cpp game/scene_file/play_keys.cpp game/session/journal.cpp game/words/words.cpp game/worlds/gallery.cpp game/scene_file/vdb_options.cpp engine/render/light/lights.cpp engine/platform/files.cpp engine/platform/image_file.cpp engine/platform/input.cpp tools/skerry/farm/plan.cpp tools/skerry/farm/record.cpp tools/skerry/test/hashes.cpp)
 list(TRANSFORM fuzz_sources PREPEND ${CMAKE_SOURCE_DIR}/)
 function(skerry_fuzz_program name main)
   add_executable(${name} EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/${main} ${fuzz_sources})
-  target_link_libraries(${name} PRIVATE skerry_world nlohmann_json::nlohmann_json OpenSSL::Crypto PNG::PNG)
+  target_link_libraries(${name} PRIVATE skerry_world skerry_words_en skerry_words_de skerry_words_fr skerry_words_es skerry_words_ru skerry_words_zh skerry_words_ja nlohmann_json::nlohmann_json OpenSSL::Crypto PNG::PNG)
 endfunction()
 skerry_fuzz_program(skerry_fuzz_short mutate_main.cpp)
 if(SKERRY_SANITIZE MATCHES fuzzer)  # Clang's
@@ -76,6 +76,8 @@ add_test(NAME window.dig COMMAND ${CMAKE_SOURCE_DIR}/tests/window/dig_test.sh $<
 set_tests_properties(window.dig PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_test(NAME window.view COMMAND ${CMAKE_SOURCE_DIR}/tests/window/view_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.view PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
+add_test(NAME window.map COMMAND ${CMAKE_SOURCE_DIR}/tests/window/map_test.sh $<TARGET_FILE:skerry>)
+set_tests_properties(window.map PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_library(skerry_virtual_pad MODULE EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/window/virtual_pad.cpp)
 target_link_libraries(skerry_virtual_pad PRIVATE skerry_options glfw)
 if(test_sources)

@@ -11,6 +11,7 @@
 #include "game/client/preferences.h"
 #include "game/pace/learnt_costs.h"
 #include "game/ui/look.h"
+#include "game/words/words.h"
 
 namespace skerry::game {
 namespace {
@@ -31,7 +32,7 @@ ui::Clipboard clipboard_of(platform::Window& window) {
 
 /// Screens under which the world goes on.
 bool world_goes_on(const ui::ScreenStack& stack) {
-  return stack.empty() || stack.top() == Screen::kPalette;
+  return stack.empty() || stack.top() == Screen::kPalette || stack.top() == Screen::kMap;
 }
 
 }  // namespace
@@ -107,7 +108,10 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   sound(std::min(seconds, kLongestFrame));
   // What was held while one thing was shown shall not act on the next, nor what was bound just now.
   if (listened && !screens_.listening) held_back_.hold(input);
+  if (screens_.stack.top() == Screen::kGallery) read_next_picture();
   if (screens_.stack.top() == before) return drawn;
+  if (screens_.stack.top() == Screen::kGallery) list_gallery();
+  if (before == Screen::kGallery && !world_) list_again();  // thumbnails share their slots
   fresh_frames_ = std::max(fresh_frames_, kSettlingFrames);
   held_back_.hold(input);
   keep_settings();
@@ -123,6 +127,14 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
 
 /// Brings pictures and glyphs to the device that it does not have yet.
 Result<void> App::show_new_images(const platform::InputFrame& input) {
+  const Settings& settings = world_ ? world_->settings() : base_.settings;
+  const Language language = settings.ui.language.value_or(system_language_);
+  if (std::exchange(language_, language) != language) {
+    speak(language);
+    gui_.expect(words_of(language));
+  }
+  if (screens_.stack.top() == Screen::kSettings)
+    for (const char* name : kLanguageNames) gui_.expect(name);
   gui_.expect(input);
   for (const ui::Messages::Line& message : messages_.lines()) gui_.expect(message.text);
   if (gui_.fit_font())
@@ -161,6 +173,12 @@ void App::act(const platform::InputFrame& input, double seconds) {
     fly_photo_camera(input, was_photo ? actions : ActionFrame(), seconds);
   else
     world_->set_photo(std::nullopt);
+  if (screens_.stack.top() == Screen::kMap) {
+    if (const auto picture =
+            world_->take_map(ui::kMapRadii[static_cast<std::size_t>(screens_.map_radius)]))
+      pictures_.set_map(*picture);
+    map_ = world_->map_facts();
+  }
   for (std::string& line : world_->take_messages()) messages_.say(std::move(line));
   if (!world_->take_settings_changed()) return;
   settings_changed_ = true;
@@ -194,6 +212,7 @@ void App::act_on_screens(const platform::InputFrame& input, const ActionFrame& a
     if (actions.pressed(Action::kPause)) open(Screen::kPause);
     if (actions.pressed(Action::kPalette)) open(Screen::kPalette);
     if (actions.pressed(Action::kPhoto)) open(Screen::kPhoto);
+    if (actions.pressed(Action::kMap)) open(Screen::kMap);
     if (actions.pressed(Action::kHideHud)) hud_hidden_ = !hud_hidden_;
     return;
   }
@@ -298,11 +317,12 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
                                   double seconds) {
   const bool bare = screens_.stack.top() == Screen::kPhoto && photo_settings_.bare;
   const bool fed = !screens_.stack.empty() && !screens_.listening && !bare;
-  gui_.begin({size.width, size.height, seconds, fed ? &input : nullptr});
+  const Settings& settings = world_ ? world_->settings() : base_.settings;
+  gui_.begin({size.width, size.height, seconds, fed ? &input : nullptr, settings.ui.scale});
   if (world_ && !hud_hidden_ && world_goes_on(screens_.stack)) {
     ui::HudFacts facts = world_->hud();
     facts.hint = hints_.line(bindings_, input.pad);
-    facts.choosing = screens_.stack.top() == Screen::kPalette;
+    facts.choosing = !screens_.stack.empty();
     ui::show_hud(facts, pictures_);
   }
   if (world_ && screens_.stack.empty()) world_->show_numbers();
@@ -317,6 +337,7 @@ ui::ScreenFacts App::screen_facts(const platform::InputFrame& input) {
   ui::ScreenFacts facts;
   facts.pictures = &pictures_;
   facts.worlds = cards_;
+  facts.gallery = gallery_;
   facts.now_s = std::time(nullptr);
   if (world_) facts.world = world_name_;
   SceneOptions& scene = world_ ? world_->scene() : base_;
@@ -327,6 +348,7 @@ ui::ScreenFacts App::screen_facts(const platform::InputFrame& input) {
   facts.bindings = &bindings_;
   facts.costs = &costs_;
   facts.photo = &photo_settings_;
+  facts.map = &map_;
   if (world_) facts.adapted_ev = world_->exposure_ev().value_or(0.0);
   ui::take_keys(screens_, input, facts);
   facts.back = back_;

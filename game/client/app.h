@@ -23,6 +23,7 @@
 #include "game/ui/gui.h"
 #include "game/ui/hud.h"
 #include "game/ui/screens.h"
+#include "game/words/words.h"
 #include "game/worlds/world_list.h"
 
 namespace skerry::game {
@@ -79,6 +80,10 @@ class App {
   void follow_settings();
   void keep_settings();
   void list_again();
+  void list_gallery();
+  void read_next_picture();
+  Result<void> enter_picture(const std::string& path);
+  Result<void> to_title();
   Result<void> set_backdrop(Backdrop::View view, const std::string& seed_text);
   void draw_lots();
   void draw_name();
@@ -101,6 +106,8 @@ class App {
   ui::Wishes wishes_;
   ui::KnobCosts costs_;
   AutoQuality auto_quality_;
+  const Language system_language_ = system_language();
+  Language language_ = Language::kEnglish;                    // that is spoken
   Stopwatch clock_;                                           // since the program began
   double due_s_ = 0.0, began_s_ = 0.0, world_began_s_ = 0.0;  // by that clock
   double began_thread_s_ = 0.0;                               // see thread_seconds
@@ -109,7 +116,10 @@ class App {
   GameSound sound_;
   bool pressed_before_ = false;  // something on a screen was held down in the last frame
   std::vector<ui::WorldCard> cards_;
+  std::vector<ui::PictureCard> gallery_;
+  std::size_t pictures_read_ = 0;        // of the gallery
   std::optional<double> preview_due_s_;  // until the new world's seed is shown
+  ui::MapFacts map_;                     // while it is shown
   PhotoCamera photo_;
   ui::PhotoSettings photo_settings_;
   bool in_photo_ = false;

@@ -13,6 +13,7 @@
 #include "game/client/app.h"
 #include "game/client/island_name.h"
 #include "game/client/preferences.h"
+#include "game/worlds/gallery.h"
 #include "game/worlds/open_session.h"
 #include "game/worlds/open_world.h"
 #include "world/store/world_file.h"
@@ -53,6 +54,7 @@ Result<void> App::fulfil(const ui::Wishes& wishes) {
   bindings_changed_ |= wishes.bindings_changed;
   if (wishes.photograph) world_->want_screenshot();
   if (wishes.take) world_->hotbar().take(*wishes.take);
+  if (world_) world_->fulfil(wishes.map);
   if (wishes.draw_name) draw_name();
   if (wishes.draw_lots) draw_lots();
   if (wishes.preview || wishes.draw_lots) preview_due_s_ = kPreviewDelay;
@@ -64,13 +66,67 @@ Result<void> App::fulfil(const ui::Wishes& wishes) {
   if (wishes.create) return create_world(*wishes.create);
   if (wishes.play) return play_as_left(*wishes.play, open_file(*wishes.play));
   if (wishes.quit) window_.close();  // run() saves, and opens it again if that fails
+  if (wishes.enter) return enter_picture(*wishes.enter);
   if (!wishes.leave_world && !wishes.leave_unsaved) return {};
   if (!wishes.leave_unsaved && !save_world()) return {};
+  return to_title();
+}
+
+Result<void> App::to_title() {
   leave_world();
   list_again();
   screens_.stack.clear();
   open(Screen::kTitle);
   return set_backdrop(Backdrop::View::kAround, "");
+}
+
+void App::list_gallery() {
+  gallery_.clear();
+  pictures_read_ = 0;
+  for (const std::filesystem::path& path : list_pictures(pictures_dir())) {
+    if (gallery_.size() == static_cast<std::size_t>(ui::Pictures::kThumbnails)) break;
+    gallery_.push_back({path.string(), path.stem().string(), -1, {}});
+    gui_.expect(gallery_.back().name);
+  }
+}
+
+/// One a frame: a large picture takes tens of milliseconds.
+void App::read_next_picture() {
+  if (pictures_read_ >= gallery_.size()) return;
+  ui::PictureCard& card = gallery_[pictures_read_];
+  const int slot = static_cast<int>(pictures_read_++);
+  const auto image = platform::read_png(card.path);
+  if (!image) {
+    card.problem = image.error().message;
+    return;
+  }
+  pictures_.set_thumbnail(slot, ui::thumbnail_of(static_cast<int>(image->width),
+                                                 static_cast<int>(image->height), image->pixels));
+  card.thumbnail = slot;
+  if (const auto place = place_of_picture(image->text); !place)
+    card.problem = place.error().message;
+}
+
+/// Leaves what is played for the place where a picture was taken.
+Result<void> App::enter_picture(const std::string& path) {
+  const auto image = platform::read_png(path);
+  auto there = image ? place_of_picture(image->text) : Result<SceneOptions>(image.error());
+  if (!there) {
+    say(there.error().message);
+    return {};
+  }
+  if (!save_world()) return {};
+  leave_world();
+  SceneOptions options = at_place(base_, *there);
+  auto session = open_session(options);
+  if (!session) {
+    say(session.error().message);
+    return to_title();
+  }
+  auto client = std::make_unique<SessionClient>(*std::move(session));
+  if (!options.world) client->advance(options.settings.world_time_s - client->time_s());
+  options.settings.world_time_s = client->time_s();
+  return play(options, std::move(client));
 }
 
 Result<void> App::set_backdrop(Backdrop::View view, const std::string& seed_text) {

@@ -11,6 +11,7 @@
 #include "engine/render/frame/exposure.h"
 #include "game/client/island_name.h"
 #include "game/client/play_loop.h"
+#include "game/words/words.h"
 
 namespace skerry::game {
 namespace {
@@ -38,6 +39,7 @@ void PlayLoop::act(const platform::InputFrame& input, double seconds) {
   }
   move(input, actions, seconds);
   use_hands(actions, seconds);
+  act_on_places(actions);
   adapt_eye(seconds);
 }
 
@@ -86,7 +88,7 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
     scene_.quality_auto = false;
     scene_.quality = stepped_quality(scene_.quality, better);
     set_quality(scene_.quality, settings);
-    said_.push_back(fmt::format("Quality: {}", quality_level(scene_.quality).name));
+    said_.push_back(tr_format("Quality: {}", quality_level(scene_.quality).name));
   }
   settings_changed_ |= farther != 0 || better != 0 || settings.render.display != display;
   const double later = actions.value(Action::kLater) - actions.value(Action::kEarlier);
@@ -105,7 +107,9 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
     player_.set_fly_speed(player_.fly_speed() * std::pow(kFlySpeedNotch, double(faster)));
   const double reach = glm::length(player_.velocity()) * kLongestFrame;
   around_.refresh(player_.feet(), reach, player_.world_time_s());
-  go_on(seconds, steer(actions, intent_of(actions)));
+  Intent intent = intent_of(actions);
+  toggles_.apply(settings().play, actions, player_.mode() == MoveMode::kWalk && !helm_, intent);
+  go_on(seconds, steer(actions, intent));
 }
 
 /// At the helm, what would move the player moves the island. @return what is left to the player.
@@ -117,9 +121,9 @@ Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
     } else if (player_.frame_island()) {
       helm_ = player_.frame_island();
       helm_speed_ = helm_held_s_ = 0.0;
-      said_.emplace_back("At the helm: forward and back drive, left and right turn");
+      said_.emplace_back(tr("At the helm: forward and back drive, left and right turn"));
     } else {
-      said_.emplace_back("Stand on an island to take its helm");
+      said_.emplace_back(tr("Stand on an island to take its helm"));
     }
   }
   if (!helm_) return intent;
@@ -146,7 +150,8 @@ void PlayLoop::go_on(double seconds, const Intent& intent) {
   watch_helm(helm_before, session_->time_s() - before_s);
   const int returns = player_.returns();
   player_.advance(session_->time_s() - before_s, intent, around_);
-  if (player_.returns() != returns) said_.push_back("You fell off the world: back on firm ground");
+  if (player_.returns() != returns)
+    said_.emplace_back(tr("You fell off the world: back on firm ground"));
   scene_.camera = player_.eye(around_);
   tell_session();  // before edits are asked for: the session decides their reach by where the
                    // player is now
@@ -165,14 +170,14 @@ void PlayLoop::watch_helm(const std::optional<world::Pose>& before, double secon
   const double turned = 1.0 - std::abs(glm::dot(now->rotation, before->rotation));
   const bool stands = speed < kHeldSpeed && turned < kHeldTurn;
   if (helm_speed_ > kBumpSpeed && speed < 0.25 * helm_speed_)
-    said_.push_back(fmt::format("{} bumped into something at {:.0f} blocks/s", island_name(*helm_),
-                                helm_speed_));
+    said_.push_back(
+        tr_format("{} bumped into something at {:.0f} blocks/s", island_name(*helm_), helm_speed_));
   helm_speed_ = speed;
   const bool was_held = held_fast();
   helm_held_s_ = stands && helm_driven_ ? helm_held_s_ + seconds : 0.0;
   if (held_fast() && !was_held)
-    said_.push_back(fmt::format("{} is held fast by another island: back off, rise or turn",
-                                island_name(*helm_)));
+    said_.push_back(tr_format("{} is held fast by another island: back off, rise or turn",
+                              island_name(*helm_)));
 }
 
 /// Where the player is, and all else that a saved play keeps.
@@ -194,19 +199,20 @@ void PlayLoop::hear_session() {
       said_.push_back(notice->text);
     }
     if (const auto* island = std::get_if<IslandIs>(&answer); island && island->blocks > 1)
-      said_.push_back(fmt::format("{} blocks broke off and drift away: {}, an island of its own",
-                                  island->blocks, island_name(island->spec.id)));
+      said_.push_back(tr_format("{} blocks broke off and drift away: {}, an island of its own",
+                                island->blocks, island_name(island->spec.id)));
   }
 }
 
 void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
   HandIntent intent = hand_intent_of(actions);
+  intent.repeats = settings().play.repeat;
   // The click that captured the pointer, or closed a screen, means nothing to the hands.
   hands_free_ = window_.pointer_captured() && (hands_free_ || (!intent.dig && !intent.place));
   if (!hands_free_) intent.dig = intent.place = false;
   hands_.advance(seconds, intent, player_, *scene_.camera, around_, *session_);
   if (hands_.replay_refused())
-    said_.push_back("Not from here, or not now: go closer, and stand beside it");
+    said_.emplace_back(tr("Not from here, or not now: go closer, and stand beside it"));
 }
 
 }  // namespace skerry::game

@@ -8,6 +8,7 @@
 
 #include "engine/core/log.h"
 #include "game/client/screenshot.h"
+#include "game/words/words.h"
 
 namespace skerry::game {
 namespace {
@@ -26,7 +27,7 @@ Player player_at(const render::Camera& eye, double time_s) {
 }
 
 /// Ground at the spawn, wherever its island has drifted since. None: there is none.
-std::optional<Footing> home_of(const world::World& world) {
+std::optional<Spot> home_of(const world::World& world) {
   const world::Spawn spawn = world.spawn();
   (void)world.islands_near(spawn.feet, 0.0, 0.0);  // makes its island known
   const std::optional<world::IslandSpec> spec = world.island(spawn.island);
@@ -36,7 +37,15 @@ std::optional<Footing> home_of(const world::World& world) {
   const world::Pose pose = world.desc().generated || !now ? world::pose_at(*spec, 0.0) : *now;
   const glm::dvec3 feet =
       glm::conjugate(pose.rotation) * world::difference_blocks(spawn.feet, pose.origin);
-  return Footing{spawn.island, lattice_pos(feet) + LatticePos{0, kContactGap, 0}};
+  return Spot{spawn.island, lattice_pos(feet) + LatticePos{0, kContactGap, 0}, spawn.feet};
+}
+
+/// Where the seed makes no islands, the search for a spawn goes through all voxels of one: none
+/// where a player comes back to ground that held them.
+std::optional<Spot> spawn_of(const SessionClient& session, const world::World& world) {
+  const std::optional<SavedPlay>& left = session.joined().play;
+  const bool wanted = world.desc().generated || !left || !left->player.safe;
+  return wanted ? home_of(world) : std::nullopt;
 }
 
 }  // namespace
@@ -52,6 +61,7 @@ PlayLoop::PlayLoop(const Machine& machine, const Bindings& bindings, const Scene
       view_(std::move(view)),
       player_(player_at(view_->start_camera(), session_->time_s())),
       around_(view_->world()),
+      wayfinder_(view_->world(), session_->joined().journal, spawn_of(*session_, view_->world())),
       day_(options.time_of_day_s) {
   const std::optional<SavedPlay>& left = session_->joined().play;
   if (left) hands_.hotbar() = left->hotbar;
@@ -62,10 +72,8 @@ PlayLoop::PlayLoop(const Machine& machine, const Bindings& bindings, const Scene
     // A place that was asked for is a view, most often in the air.
     player_.set_mode(MoveMode::kFly);
   }
-  // Where the seed makes no islands, the search for a spawn goes through all voxels of one.
-  const bool home_wanted = view_->world().desc().generated || !left || !left->player.safe;
-  if (const auto home = home_wanted ? home_of(view_->world()) : std::nullopt)
-    player_.set_home(*home);
+  if (const std::optional<Spot> home = wayfinder_.home(); home && home->island)
+    player_.set_home({*home->island, home->lattice});
   scene_.camera = player_.eye(around_);
 }
 
@@ -151,7 +159,7 @@ void PlayLoop::take_screenshot() {
     said_.push_back(path.error().message);
     return;
   }
-  said_.push_back(fmt::format("Saved {}", path->string()));
+  said_.push_back(tr_format("Saved {}", path->string()));
   fmt::print("{}\n{}\n", path->string(), shot_command(taken));
   std::fflush(stdout);
 }

@@ -15,11 +15,14 @@
 #include "game/client/session_client.h"
 #include "game/input/actions.h"
 #include "game/input/controls.h"
+#include "game/map/map_maker.h"
+#include "game/map/wayfinder.h"
 #include "game/player/player.h"
 #include "game/player/world_surroundings.h"
 #include "game/scene_file/options.h"
 #include "game/sound/play_sounds.h"
 #include "game/ui/hud.h"
+#include "game/ui/map_facts.h"
 #include "game/ui/overlay.h"
 #include "game/view/scene_view.h"
 
@@ -45,7 +48,7 @@ struct Machine {
 };
 
 /// A world while it is played. Private to game/app* and game/play*: input is in play_input.cpp,
-/// what the overlay, the title and the display say in play_overlay.cpp.
+/// what the overlay, the title and the display say in play_overlay.cpp, the map in play_map.cpp.
 class PlayLoop {
  public:
   /// All but the options, the session and its view outlive this.
@@ -94,6 +97,14 @@ class PlayLoop {
   /// Good until the next frame.
   ui::HudFacts hud() const;
 
+  /// Once a frame while the map is open. @param radius blocks from its middle to an edge. @return a
+  /// new picture of it, if there is one.
+  std::optional<ui::Rgba> take_map(double radius);
+  /// What lies over the picture that was taken last.
+  ui::MapFacts map_facts() const;
+  /// What was asked for on the map.
+  void fulfil(const ui::MapWishes& wishes);
+
  private:
   void adapt_eye(double seconds);
   void act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
@@ -106,6 +117,12 @@ class PlayLoop {
   void watch_helm(const std::optional<world::Pose>& before, double seconds);
   void hear_session();
   void use_hands(const ActionFrame& actions, double seconds);
+  void act_on_places(const ActionFrame& actions);
+  void mark_place();
+  void travel_to(const Wayfinder::Place& place);
+  void keep_journal();
+  void ask_for_map(double radius);
+  std::vector<ui::HudFacts::Mark> compass_marks() const;
   void tell_session();
   void take_screenshot();
   /// The world's name and seed, short enough for a title.
@@ -122,10 +139,16 @@ class PlayLoop {
   std::unique_ptr<SceneView> view_;
   Player player_;
   WorldSurroundings around_;
+  Wayfinder wayfinder_;
+  MapMaker map_maker_;
+  MapMaker::Map map_;                  // the last one taken, without its picture
+  bool map_taken_ = false;             // there is one
+  double map_asked_s_ = 0.0;           // the world's time then
   std::optional<std::uint64_t> helm_;  // the island that is steered
   bool helm_driven_ = false;           // by what is pressed now
   double helm_speed_ = 0.0;            // of it, as its place changes [blocks/s]
   double helm_held_s_ = 0.0;           // for so long it has been driven and not moved
+  Toggles toggles_;
   Interaction hands_;
   bool hands_free_ = false;  // captured, and no button held from before that
   DayClock day_;

@@ -113,6 +113,7 @@ ui::HudFacts PlayLoop::hud() const {
   facts.place = fmt::format("{}  {}  {}", whole(feet.x), whole(feet.y), whole(feet.z));
   facts.numbers = overlay_shown_;
   if (helm_) facts.steering = ui::HudFacts::Steering{island_name(*helm_), helm_speed_, held_fast()};
+  facts.marks = compass_marks();
   facts.torch = view_->settings().lights_held;
   if (!view_->complete()) facts.islands_to_come = view_->streamer().stats().tasks_left;
   facts.shaders_to_come = view_->renderer().programs_to_come();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "game/words/words.h"
+
 namespace skerry::game {
 namespace {
 
@@ -12,55 +14,58 @@ using platform::InputFrame;
 using platform::Key;
 
 constexpr ActionType kTypes[] = {
-    {"forward", "Forward", "w", "pad_left_stick_up"},
-    {"back", "Back", "s", "pad_left_stick_down"},
-    {"left", "Left", "a", "pad_left_stick_left"},
-    {"right", "Right", "d", "pad_left_stick_right"},
-    {"jump", "Jump, rise", "space", "pad_a"},
-    {"crouch", "Crouch, sink", "shift", "pad_b"},
-    {"fast", "Sprint", "ctrl", "pad_left_thumb"},
-    {"fly", "Fly or walk", "f", "pad_y"},
-    {"noclip", "Fly through walls", "n", "pad_back+pad_y"},
-    {"faster_flight", "Faster flight", "ctrl+wheel_up", "pad_back+pad_right_bumper"},
-    {"slower_flight", "Slower flight", "ctrl+wheel_down", "pad_back+pad_left_bumper"},
-    {"look_up", "Look up", "none", "pad_right_stick_up"},
-    {"look_down", "Look down", "none", "pad_right_stick_down"},
-    {"look_left", "Look left", "none", "pad_right_stick_left"},
-    {"look_right", "Look right", "none", "pad_right_stick_right"},
-    {"dig", "Dig", "mouse_left", "pad_right_trigger"},
-    {"place", "Place", "mouse_right", "pad_left_trigger"},
-    {"pick", "Pick block", "mouse_middle", "pad_right_thumb"},
-    {"undo", "Undo", "ctrl+z", "pad_left"},
-    {"redo", "Redo", "ctrl+y", "pad_right"},
-    {"slot_1", "Slot 1", "1", "none"},
-    {"slot_2", "Slot 2", "2", "none"},
-    {"slot_3", "Slot 3", "3", "none"},
-    {"slot_4", "Slot 4", "4", "none"},
-    {"slot_5", "Slot 5", "5", "none"},
-    {"slot_6", "Slot 6", "6", "none"},
-    {"slot_7", "Slot 7", "7", "none"},
-    {"slot_8", "Slot 8", "8", "none"},
-    {"slot_9", "Slot 9", "9", "none"},
-    {"next_slot", "Next slot", "wheel_down", "pad_right_bumper"},
-    {"previous_slot", "Previous slot", "wheel_up", "pad_left_bumper"},
-    {"palette", "All blocks", "e", "pad_x"},
-    {"torch", "Torch in the hand", "l", "pad_up"},
-    {"helm", "Take the helm", "h", "pad_down"},
-    {"later", "Later in the day", "t", "pad_back+pad_right"},
-    {"earlier", "Earlier in the day", "y", "pad_back+pad_left"},
-    {"stop_day", "Stop the day", "p", "pad_back+pad_down"},
-    {"pause", "Pause", "escape", "pad_start"},
-    {"screenshot", "Screenshot", "f2", "pad_back+pad_x"},
-    {"photo", "Photo mode", "f10", "pad_back+pad_a"},
-    {"hide_hud", "Hide all displays", "f1", "pad_back+pad_up"},
-    {"overlay", "Numbers", "f3", "pad_back+pad_start"},
-    {"fullscreen", "Fullscreen", "f11", "none"},
-    {"farther_view", "See farther", "right_bracket", "none"},
-    {"nearer_view", "See less far", "left_bracket", "none"},
-    {"better_quality", "Better quality", "plus", "none"},
-    {"worse_quality", "Lower quality", "minus", "none"},
-    {"calibrate", "Calibrate the display", "f9", "none"},
-    {"freeze_culling", "Freeze culling", "f8", "none"},
+    {"forward", word("Forward"), "w", "pad_left_stick_up"},
+    {"back", word("Backward"), "s", "pad_left_stick_down"},
+    {"left", word("Left"), "a", "pad_left_stick_left"},
+    {"right", word("Right"), "d", "pad_left_stick_right"},
+    {"jump", word("Jump, rise"), "space", "pad_a"},
+    {"crouch", word("Crouch, sink"), "shift", "pad_b"},
+    {"fast", word("Sprint"), "ctrl", "pad_left_thumb"},
+    {"fly", word("Fly or walk"), "f", "pad_y"},
+    {"noclip", word("Fly through walls"), "n", "pad_back+pad_y"},
+    {"faster_flight", word("Faster flight"), "ctrl+wheel_up", "pad_back+pad_right_bumper"},
+    {"slower_flight", word("Slower flight"), "ctrl+wheel_down", "pad_back+pad_left_bumper"},
+    {"look_up", word("Look up"), "none", "pad_right_stick_up"},
+    {"look_down", word("Look down"), "none", "pad_right_stick_down"},
+    {"look_left", word("Look left"), "none", "pad_right_stick_left"},
+    {"look_right", word("Look right"), "none", "pad_right_stick_right"},
+    {"dig", word("Dig"), "mouse_left", "pad_right_trigger"},
+    {"place", word("Place"), "mouse_right", "pad_left_trigger"},
+    {"pick", word("Pick block"), "mouse_middle", "pad_right_thumb"},
+    {"undo", word("Undo"), "ctrl+z", "pad_left"},
+    {"redo", word("Redo"), "ctrl+y", "pad_right"},
+    {"slot_1", word("Slot {}"), "1", "none"},
+    {"slot_2", word("Slot {}"), "2", "none"},
+    {"slot_3", word("Slot {}"), "3", "none"},
+    {"slot_4", word("Slot {}"), "4", "none"},
+    {"slot_5", word("Slot {}"), "5", "none"},
+    {"slot_6", word("Slot {}"), "6", "none"},
+    {"slot_7", word("Slot {}"), "7", "none"},
+    {"slot_8", word("Slot {}"), "8", "none"},
+    {"slot_9", word("Slot {}"), "9", "none"},
+    {"next_slot", word("Next slot"), "wheel_down", "pad_right_bumper"},
+    {"previous_slot", word("Previous slot"), "wheel_up", "pad_left_bumper"},
+    {"palette", word("All blocks"), "e", "pad_x"},
+    {"torch", word("Torch in the hand"), "l", "pad_up"},
+    {"helm", word("Take the helm"), "h", "pad_down"},
+    {"map", word("Map"), "m", "pad_back+pad_b"},
+    {"mark", word("Mark this place"), "b", "none"},
+    {"go_home", word("Go home"), "home", "none"},
+    {"later", word("Later in the day"), "t", "pad_back+pad_right"},
+    {"earlier", word("Earlier in the day"), "y", "pad_back+pad_left"},
+    {"stop_day", word("Stop the day"), "p", "pad_back+pad_down"},
+    {"pause", word("Pause"), "escape", "pad_start"},
+    {"screenshot", word("Screenshot"), "f2", "pad_back+pad_x"},
+    {"photo", word("Photo mode"), "f10", "pad_back+pad_a"},
+    {"hide_hud", word("Hide all displays"), "f1", "pad_back+pad_up"},
+    {"overlay", word("Numbers"), "f3", "pad_back+pad_start"},
+    {"fullscreen", word("Fullscreen"), "f11", "none"},
+    {"farther_view", word("See farther"), "right_bracket", "none"},
+    {"nearer_view", word("See less far"), "left_bracket", "none"},
+    {"better_quality", word("Better quality"), "plus", "none"},
+    {"worse_quality", word("Lower quality"), "minus", "none"},
+    {"calibrate", word("Calibrate the display"), "f9", "none"},
+    {"freeze_culling", word("Freeze culling"), "f8", "none"},
 };
 static_assert(std::size(kTypes) == kActions);
 
@@ -75,6 +80,11 @@ bool is_bound(const Bindings& bindings, Chord chord) {
 
 const ActionType& action_type(Action action) {
   return kTypes[static_cast<std::size_t>(action)];
+}
+
+std::string action_label(Action action) {
+  return tr_format(action_type(action).label,
+                   static_cast<int>(action) - static_cast<int>(Action::kSlot1) + 1);
 }
 
 std::optional<Action> action_named(std::string_view name) {

@@ -50,6 +50,9 @@ enum class Action : std::uint8_t {
   kPalette,
   kTorch,
   kHelm,
+  kMap,
+  kMark,  ///< a waypoint where the player is
+  kGoHome,
   kLater,
   kEarlier,
   kStopDay,
@@ -73,10 +76,12 @@ inline constexpr std::size_t kActions = static_cast<std::size_t>(Action::kCount)
 /// The properties of an action.
 struct ActionType {
   std::string_view name;      ///< as files write it
-  std::string_view label;     ///< as people read it
+  const char* label;          ///< as people read it, a word of tr(); "{}": number of the slot
   std::string_view key, pad;  ///< what it is bound to by default, as parse_chord reads it
 };
 const ActionType& action_type(Action action);
+/// As people read it.
+std::string action_label(Action action);
 std::optional<Action> action_named(std::string_view name);
 
 /// A key, maybe together with Ctrl, or on a gamepad with Back. Written "ctrl+z", "pad_back+pad_y",

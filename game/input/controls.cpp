@@ -31,6 +31,17 @@ Intent intent_of(const ActionFrame& actions) {
   return intent;
 }
 
+void Toggles::apply(const PlaySettings& settings, const ActionFrame& actions, bool walking,
+                    Intent& intent) {
+  if (actions.presses(Action::kFast) % 2 != 0) sprints_ = !sprints_;
+  if (actions.presses(Action::kCrouch) % 2 != 0) crouches_ = !crouches_;
+  sprints_ &= walking && settings.toggle_sprint && intent.move != glm::dvec2(0.0);
+  crouches_ &= walking && settings.toggle_crouch;
+  if (!walking) return;
+  if (settings.toggle_sprint) intent.fast = sprints_;
+  if (settings.toggle_crouch) intent.crouch = crouches_;
+}
+
 HandIntent hand_intent_of(const ActionFrame& actions) {
   HandIntent intent;
   // What was pressed and released within a frame still counts for that frame.

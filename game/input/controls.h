@@ -12,6 +12,17 @@ namespace skerry::game {
 /// What the actions say about the next ticks.
 Intent intent_of(const ActionFrame& actions);
 
+/// What is on after a press, where settings ask for that.
+class Toggles {
+ public:
+  /// Once a frame. @param walking else keys of crouching and sprinting mean what they do held.
+  void apply(const PlaySettings& settings, const ActionFrame& actions, bool walking,
+             Intent& intent);
+
+ private:
+  bool sprints_ = false, crouches_ = false;
+};
+
 /// What the actions say about the hands.
 HandIntent hand_intent_of(const ActionFrame& actions);
 

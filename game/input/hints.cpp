@@ -10,6 +10,7 @@
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "game/scene_file/json_text.h"
+#include "game/words/words.h"
 
 namespace skerry::game {
 namespace {
@@ -18,18 +19,18 @@ constexpr std::uint64_t kMaxHintsBytes = 1 << 16;
 
 struct Hint {
   std::string_view name;  ///< in the file
-  std::string_view does;
+  const char* does;
   Action actions[4];  ///< each of which uses it; the first is repeated where there are fewer
   std::size_t count;
 };
 constexpr Hint kHints[] = {
-    {"walk", "walk", {Action::kForward, Action::kLeft, Action::kBack, Action::kRight}, 4},
-    {"jump", "jump", {Action::kJump}, 1},
-    {"dig", "dig, held", {Action::kDig}, 1},
-    {"place", "place what is in the hand", {Action::kPlace}, 1},
-    {"palette", "choose among all blocks", {Action::kPalette}, 1},
-    {"torch", "torch in the hand", {Action::kTorch}, 1},
-    {"pause", "pause, settings, controls", {Action::kPause}, 1},
+    {"walk", word("walk"), {Action::kForward, Action::kLeft, Action::kBack, Action::kRight}, 4},
+    {"jump", word("jump"), {Action::kJump}, 1},
+    {"dig", word("dig, held"), {Action::kDig}, 1},
+    {"place", word("place what is in the hand"), {Action::kPlace}, 1},
+    {"palette", word("choose among all blocks"), {Action::kPalette}, 1},
+    {"torch", word("torch in the hand"), {Action::kTorch}, 1},
+    {"pause", word("pause, settings, controls"), {Action::kPause}, 1},
 };
 static_assert(std::size(kHints) == Hints::kCount);
 
@@ -58,7 +59,7 @@ std::optional<std::string> Hints::line(const Bindings& bindings, bool pad) const
       if (chord.key == platform::Key::kNone) continue;
       keys += (keys.empty() ? "" : ", ") + chord_label(chord);
     }
-    if (!keys.empty()) return fmt::format("{}: {}", keys, kHints[i].does);
+    if (!keys.empty()) return fmt::format("{}: {}", keys, tr(kHints[i].does));
   }
   return std::nullopt;
 }

@@ -15,8 +15,7 @@ constexpr MeasuredError kErrors[] = {{"render_scale", "0.25", 0.1003},
                                      {"render_scale", "0.33", 0.0840},
                                      {"render_scale", "0.5", 0.0611},
                                      {"render_scale", "1", 0.0},
-                                     {"shading_rate", "4, 0.1", 0.0057},
-                                     {"shading_rate", "2, 0.1", 0.0038},
+                                     {"shading_rate", "4, 0.3", 0.0239},
                                      {"shading_rate", "1", 0.0},
                                      {"view_distance", "400", 0.0447},
                                      {"view_distance", "1000", 0.0240},
@@ -52,7 +51,7 @@ double error_of(const FrontPoint& point) {
                                 ? "all"
                                 : fmt::format("nearest:{}", level.lights_shadows);
   const std::string rate =
-      point.shading_rate == 1 ? "1" : fmt::format("{}, 0.1", point.shading_rate);
+      point.shading_rate == 1 ? "1" : fmt::format("{}, 0.3", point.shading_rate);
   return error_of("render_scale", fmt::format("{}", point.render_scale)) +
          error_of("shading_rate", rate) +
          error_of("view_distance", fmt::format("{}", level.view_distance)) +
@@ -63,11 +62,11 @@ double error_of(const FrontPoint& point) {
 
 std::vector<FrontPoint> make_front() {
   std::vector<FrontPoint> front{
-      {Quality::kLow, 0.25f, 1, 27.5},    {Quality::kMedium, 0.25f, 1, 28.6},
-      {Quality::kMedium, 0.33f, 1, 33.9}, {Quality::kMedium, 0.5f, 1, 51.2},
-      {Quality::kHigh, 0.5f, 1, 62.8},    {Quality::kMedium, 1.0f, 4, 106.0},
-      {Quality::kMedium, 1.0f, 2, 112.0}, {Quality::kMedium, 1.0f, 1, 116.1},
-      {Quality::kHigh, 1.0f, 1, 164.5},   {Quality::kUltra, 1.0f, 1, 330.0}};
+      {Quality::kLow, 0.25f, 4, 25.5},    {Quality::kMedium, 0.25f, 4, 28.5},
+      {Quality::kMedium, 0.33f, 4, 31.5}, {Quality::kMedium, 0.5f, 4, 44.3},
+      {Quality::kHigh, 0.5f, 4, 61.9},    {Quality::kMedium, 1.0f, 4, 88.3},
+      {Quality::kHigh, 1.0f, 4, 137.8},   {Quality::kHigh, 1.0f, 1, 173.9},
+      {Quality::kUltra, 1.0f, 1, 330.0}};
   for (FrontPoint& point : front) point.error = error_of(point);
   return front;
 }
@@ -92,7 +91,7 @@ std::string label_of(const FrontPoint& point) {
 std::size_t find_point(Quality level, float render_scale) {
   const auto front = quality_front();
   const auto same = [=](const FrontPoint& point) {
-    return point.level == level && point.shading_rate == 1 && point.render_scale == render_scale;
+    return point.level == level && point.render_scale == render_scale;
   };
   const auto found = std::find_if(front.begin(), front.end(), same);
   SKERRY_ASSERT(found != front.end());

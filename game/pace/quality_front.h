@@ -38,7 +38,7 @@ struct FrontPoint {
 std::span<const FrontPoint> quality_front();
 /// "medium 0.75", "medium 1.00 rate 4": unique.
 std::string label_of(const FrontPoint& point);
-/// The point that shades every pixel of a picture of that scale. @pre there is one.
+/// The first point of that level and scale. @pre there is one.
 std::size_t find_point(Quality level, float render_scale);
 
 /// Whether a key of `--set` is among those that a point decides.

@@ -1,6 +1,7 @@
 #include "game/player/interaction.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "game/player/edit_rules.h"
@@ -40,25 +41,29 @@ void Interaction::advance(double seconds, const HandIntent& intent, const Player
   const bool same = pick_ && before && pick_->island == before->island &&
                     pick_->voxel == before->voxel && pick_->block == before->block;
   if (!same || !intent.dig) dig_progress_ = 0.0;
+  dug_ &= intent.dig && !intent.repeats;
   if (pick_ && intent.take_block) hotbar_.take(pick_->block);
-  if (pick_ && intent.dig) dig(seconds, around, blocks);
+  if (pick_ && intent.dig && !dug_) dug_ = dig(seconds, around, blocks);
   until_place_s_ = intent.place ? until_place_s_ - seconds : 0.0;
-  if (pick_ && intent.place && until_place_s_ <= 0.0) place(player, around, blocks);
+  if (pick_ && intent.place && until_place_s_ <= 0.0) {
+    until_place_s_ = intent.repeats ? kPlacePeriod : std::numeric_limits<double>::infinity();
+    place(player, around, blocks);
+  }
   if (!pick_) pick_ = point();  // an edit has changed what is there
 }
 
-void Interaction::dig(double seconds, const Surroundings& around, BlockEditor& blocks) {
-  if (!world::can_dig(pick_->block)) return;
+bool Interaction::dig(double seconds, const Surroundings& around, BlockEditor& blocks) {
+  if (!world::can_dig(pick_->block)) return false;
   const double needed = world::dig_seconds(pick_->block);
   dig_progress_ = needed > 0.0 ? std::min(1.0, dig_progress_ + seconds / needed) : 1.0;
-  if (dig_progress_ < 1.0) return;
+  if (dig_progress_ < 1.0) return false;
   history_.perform(dig_act(around, pick_->island, pick_->voxel), blocks);
   dig_progress_ = 0.0;
   pick_.reset();
+  return true;
 }
 
 void Interaction::place(const Player& player, const Surroundings& around, BlockEditor& blocks) {
-  until_place_s_ = kPlacePeriod;
   const EditAct act = place_act(around, *pick_, hotbar_.held(), player.world_time_s());
   if (act.empty()) return;
   const BlockChange& change = act.front();

@@ -21,6 +21,7 @@ inline constexpr double kPlacePeriod = 0.2;
 struct HandIntent {
   bool dig = false;         ///< held down
   bool place = false;       ///< held down
+  bool repeats = true;      ///< what is held goes on with the next block
   bool take_block = false;  ///< the block pointed at comes into the hand
   bool undo = false, redo = false;
   std::optional<int> slot = {};  ///< selects 0 .. kHotbarSlots - 1
@@ -47,12 +48,14 @@ class Interaction {
   bool replay_refused() const { return replay_refused_; }
 
  private:
-  void dig(double seconds, const Surroundings& around, BlockEditor& blocks);
+  /// @return whether the block is dug.
+  bool dig(double seconds, const Surroundings& around, BlockEditor& blocks);
   void place(const Player& player, const Surroundings& around, BlockEditor& blocks);
 
   std::optional<Pick> pick_;
   double dig_progress_ = 0.0;
   double until_place_s_ = 0.0;  // while the button is held
+  bool dug_ = false;            // a block, since the button went down
   Hotbar hotbar_;
   EditHistory history_;
   bool replay_refused_ = false;

@@ -370,19 +370,44 @@ bool Player::stand_on(const Footing& ground, const Surroundings& around, Place& 
   return true;
 }
 
-/// To the last ground that is still there, else to where it all began.
-void Player::come_back(const Surroundings& around) {
+/// The present place in no island's frame.
+Player::Place Player::away_from_frame(const Surroundings& around) const {
   Place place = now_;
   if (const auto pose = now_.island ? around.pose(*now_.island, tick_time_s()) : std::nullopt)
     place.yaw_deg += heading_deg(*pose);
   place.island.reset();
-  place.feet = start_feet_;
   place.eye_lag = 0.0;
-  while (!safe_.empty() && !stand_on(safe_.back(), around, place)) safe_.pop_back();
-  if (safe_.empty() && home_) stand_on(*home_, around, place);
+  return place;
+}
+
+void Player::come_to_rest(const Place& place) {
   now_ = before_ = place;
   fall_from_y_ = now_.feet.y;
   velocity_ = {};
+}
+
+bool Player::stand_on(const Footing& ground, const Surroundings& around) {
+  Place place = away_from_frame(around);
+  if (!stand_on(ground, around, place)) return false;
+  mode_ = MoveMode::kWalk;
+  come_to_rest(place);
+  return true;
+}
+
+void Player::fly_to(world::WorldPos feet, const Surroundings& around) {
+  Place place = away_from_frame(around);
+  place.feet = feet;
+  if (mode_ == MoveMode::kWalk) mode_ = MoveMode::kFly;
+  come_to_rest(place);
+}
+
+/// To the last ground that is still there, else to where it all began.
+void Player::come_back(const Surroundings& around) {
+  Place place = away_from_frame(around);
+  place.feet = start_feet_;
+  while (!safe_.empty() && !stand_on(safe_.back(), around, place)) safe_.pop_back();
+  if (safe_.empty() && home_) stand_on(*home_, around, place);
+  come_to_rest(place);
   ++returns_;
   returned_tick_ = ticks_;
 }

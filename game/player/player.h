@@ -78,6 +78,10 @@ class Player {
   PlayerState state() const;
   /// Where they come back to if no ground that they stood on is left.
   void set_home(const Footing& home) { home_ = home; }
+  /// Comes to rest on ground, walking. @return false: nothing carries them there; they stay.
+  bool stand_on(const Footing& ground, const Surroundings& around);
+  /// Comes to rest in the air, flying.
+  void fly_to(world::WorldPos feet, const Surroundings& around);
 
   /// Turns the head at once. Pitch stays within +-90.
   void turn(double yaw_deg, double pitch_deg);
@@ -148,6 +152,8 @@ class Player {
   void note_safe_ground(const Surroundings& around);
   bool is_lost(const Surroundings& around) const;
   bool stand_on(const Footing& ground, const Surroundings& around, Place& place) const;
+  Place away_from_frame(const Surroundings& around) const;
+  void come_to_rest(const Place& place);
   void come_back(const Surroundings& around);
 
   Place before_, now_;

@@ -32,9 +32,24 @@ struct Mask {
 /// The most masks a scene may have.
 inline constexpr std::size_t kMaxMasks = 64;
 
-struct Expectations {
+/// A rectangle of a picture that has a tolerance of its own.
+struct Region {
+  std::string name;
+  Mask rectangle;
   Tolerance tolerance;
-  bool expects_dark = false;  ///< a black picture is right
+  bool operator==(const Region&) const = default;
+};
+
+inline constexpr std::size_t kMaxRegions = 64;
+inline constexpr std::uint32_t kMaxShift = 16;  ///< [pixels]
+/// The name of what is left of a picture beside its regions.
+inline constexpr std::string_view kElsewhere = "elsewhere";
+
+struct Expectations {
+  Tolerance tolerance;          ///< of what lies in no region
+  std::vector<Region> regions;  ///< a pixel belongs to the first that has it
+  std::uint32_t shift = 0;      ///< a picture may be moved by so many pixels along each axis
+  bool expects_dark = false;    ///< a black picture is right
   std::vector<Mask> masks;
   std::string description;  ///< what the scene is there to show
 };
@@ -48,8 +63,9 @@ inline constexpr std::string_view kExpectationFields[] = {"tolerance", "expects_
 Result<void> read_expectation(std::string_view field, const nlohmann::json& value,
                               Expectations& into);
 
-/// Checks that every mask lies within a picture of this size and that they leave something of it.
-Result<void> check_masks(std::span<const Mask> masks, const PictureSize& size);
+/// Checks that every mask and region lies within a picture of this size, and that masks and a shift
+/// leave something of it.
+Result<void> check_expectations(const Expectations& expected, const PictureSize& size);
 
 /// Whether a mask covers the pixel.
 bool is_masked(std::span<const Mask> masks, std::uint32_t x, std::uint32_t y);

@@ -237,7 +237,10 @@ std::string shot_command(const SceneOptions& scene) {
                          scene.size.height, quality_level(scene.quality).name);
   for (const std::string& assignment : assignments_from(scene.quality, scene.settings)) {
     // Of play alone.
-    if (assignment.starts_with("frames.") || assignment.starts_with("sound.")) continue;
+    constexpr std::string_view kOfPlay[] = {"frames.", "sound.", "ui.", "play."};
+    if (std::any_of(std::begin(kOfPlay), std::end(kOfPlay),
+                    [&](std::string_view group) { return assignment.starts_with(group); }))
+      continue;
     command += " --set " + shell_word(assignment);
   }
   for (const CloudFile& cloud : scene.clouds)

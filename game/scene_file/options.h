@@ -55,7 +55,7 @@ inline constexpr std::uint64_t kMaxSceneBytes = 1 << 20;
 /// time, size, quality, settings and import (objects), lights (read_lights), clouds (read_clouds)
 /// and those of Expectations.
 /// Errors: no JSON, an unknown field (names the nearest), a value of the wrong kind. Values are
-/// checked by make_scene, but for lights; masks by check_masks.
+/// checked by make_scene, but for lights; masks and regions by check_expectations.
 Result<SceneText> parse_scene(std::string_view json_text);
 
 /// Finds the world that a scene file names, as file_of_scene (scene_files.h) has it.

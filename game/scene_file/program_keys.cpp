@@ -116,7 +116,7 @@ constexpr SettingKey kProgramKeys[] = {
        return into_name(parse_name(t, "shading", kShadingNames), s.render.shading);
      },
      [](const Settings& s) { return name_of(kShadingNames, s.render.shading); }},
-    {"shading.rate", "1, 2 or 4",
+    {"shading.rate", "1, 2, 3 or 4",
      "Pixels along a square that takes its light from its corners where they are lit alike; "
      "textures and edges keep every pixel.",
      [](std::string_view t, Settings& s) {

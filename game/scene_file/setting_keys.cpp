@@ -10,7 +10,7 @@ std::span<const SettingKey> setting_keys() {
   static const std::vector<SettingKey> kAll = [] {
     std::vector<SettingKey> all;
     for (const std::span<const SettingKey> keys :
-         {world_keys(), light_keys(), picture_keys(), program_keys(), sound_keys()})
+         {world_keys(), light_keys(), picture_keys(), program_keys(), sound_keys(), play_keys()})
       all.insert(all.end(), keys.begin(), keys.end());
     return all;
   }();

@@ -42,5 +42,7 @@ std::span<const SettingKey> picture_keys();
 std::span<const SettingKey> program_keys();
 /// How loud play is: sound.*.
 std::span<const SettingKey> sound_keys();
+/// How screens look, and how keys work in play: ui.*, play.*.
+std::span<const SettingKey> play_keys();
 
 }  // namespace skerry::game

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<QualityLevel, 4> kLevels{
     {{"low", 400, 128, 1024, 0.0f, 1, 16, 2, 0.5f, 4},
-     {"medium", 1000, 192, 2048, 0.0f, 4, 24, 2, 1.0f, 4},
+     {"medium", 1000, 192, 2048, 0.0f, 4, 24, 2, 1.0f, 1},
      {"high", 2000, 320, 4096, 0.1f, 8, 48, 1, 1.0f, 1},
      {"ultra", 4000, 512, 4096, 0.1f, render::kEveryLight, 96, 1, 1.0f, 1}}};
 

@@ -6,6 +6,7 @@
 
 #include "engine/core/result.h"
 #include "engine/render/frame/settings.h"
+#include "game/words/language.h"
 
 namespace skerry::game {
 
@@ -42,6 +43,22 @@ struct SoundSettings {
   bool operator==(const SoundSettings&) const = default;
 };
 
+inline constexpr double kMinUiScale = 0.5, kMaxUiScale = 2.0;
+
+/// How text, buttons and displays look.
+struct UiSettings {
+  float scale = 1.0f;                     ///< times the usual size, kMinUiScale .. kMaxUiScale
+  std::optional<Language> language = {};  ///< none: that of the system
+  bool operator==(const UiSettings&) const = default;
+};
+
+/// How keys and buttons work in play.
+struct PlaySettings {
+  bool toggle_sprint = false, toggle_crouch = false;  ///< by a press; else while held
+  bool repeat = true;  ///< digging and placing go on while the button is held
+  bool operator==(const PlaySettings&) const = default;
+};
+
 /// Everything `--set` reaches, with the defaults of quality `medium`. docs/settings.md says what
 /// each means to a player.
 struct Settings {
@@ -64,6 +81,8 @@ struct Settings {
   std::uint32_t jobs_threads = 0;                  ///< 0: one a core; .. 256
   FrameSettings frames;
   SoundSettings sound;
+  UiSettings ui;
+  PlaySettings play;
   std::uint32_t reference_samples = 64;  ///< a pixel, 1 .. 65536
   ReferenceFilter reference_filter = ReferenceFilter::kPixel;
   bool operator==(const Settings&) const = default;

@@ -166,6 +166,7 @@ void Session::State::handle(Client& client, const Request& request) {
     void operator()(const Edit& edit) { s.edit(client, edit); }
     void operator()(const PlayerMoved& moved) { s.moved(client, moved.play); }
     void operator()(const Steer& steer) { s.steer(client, steer); }
+    void operator()(const KeepJournal& keep) { s.keep(client, keep.journal); }
   };
   if (client.joined || std::holds_alternative<Join>(request))
     std::visit(Handler{*this, client}, request);
@@ -185,6 +186,13 @@ void Session::State::steer(const Client& client, const Steer& steer) {
   const bool off = steer.thrust == glm::dvec3{} && steer.turn == 0.0;
   if (off || (client.play && client.play->player.island == steer.island))
     motion.steer(steer.island, steer.thrust, steer.turn);
+}
+
+void Session::State::keep(const Client& client, const Journal& journal) {
+  if (!fits_file(journal)) return;
+  auto changed = std::make_shared<Journals>(*journals);
+  changed->insert_or_assign(client.player, journal);
+  journals = std::move(changed);
 }
 
 /// Why a Join cannot be accepted; empty: it can.
@@ -214,6 +222,8 @@ void Session::State::join(Client& client, const Join& join) {
   client.gets_voxels = !join.shares_world;
   Joined answer;
   answer.play = client.play;
+  if (const auto kept = journals->find(join.player); kept != journals->end())
+    answer.journal = kept->second;
   answer.read_only = read_only;
   if (file) answer.world = file->info();
   if (!file) answer.world.desc = world->desc();

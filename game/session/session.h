@@ -12,6 +12,7 @@
 
 #include "engine/core/interruption.h"
 #include "engine/core/result.h"
+#include "game/session/journal.h"
 #include "game/session/saved_play.h"
 #include "world/islands/world.h"
 #include "world/store/chunk_blob.h"
@@ -52,7 +53,11 @@ struct Steer {
   glm::dvec3 thrust{};  ///< in the island's axes; length at most 1 counts
   double turn = 0.0;    ///< -1 .. 1, about +y
 };
-using Request = std::variant<Join, ChunkWanted, Edit, PlayerMoved, Steer>;
+/// Replaces the player's journal. One that no file may hold (fits_file) has no effect.
+struct KeepJournal {
+  Journal journal;
+};
+using Request = std::variant<Join, ChunkWanted, Edit, PlayerMoved, Steer, KeepJournal>;
 
 // From session to client. ------------------------------------------------------------------------
 
@@ -61,6 +66,7 @@ using Request = std::variant<Join, ChunkWanted, Edit, PlayerMoved, Steer>;
 struct Joined {
   world::WorldInfo world;
   std::optional<SavedPlay> play;          ///< none: begin at the spawn
+  Journal journal;                        ///< the player's, as it was kept last
   bool read_only = false;                 ///< nothing of this play will be saved
   std::vector<world::ChunkName> changed;  ///< what ChunkWanted may be asked for
 };

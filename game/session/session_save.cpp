@@ -17,6 +17,7 @@ constexpr double kMostAhead_s = 1.0;
 
 void Session::State::load(world::LoadedWorld& loaded) {
   plays = saved_plays(*file);
+  journals = journals_written = std::make_shared<Journals>(saved_journals(*file));
   notices = file->damage();
   if (read_only)
     notices.push_back("this world may not be written: nothing of this play will be saved");
@@ -42,8 +43,8 @@ void Session::State::save_soon() {
   }
   if (save_under_way.exchange(true)) return;
   saved_at = Clock::now();
-  saver.add([this, moving = motion.states(), plays_now = plays] {
-    if (const Result<void> done = write(moving, plays_now); !done) {
+  saver.add([this, now = snapshot()] {
+    if (const Result<void> done = write(now); !done) {
       const std::lock_guard lock(problem_mutex);
       problem = done.error().message;
     }
@@ -56,8 +57,7 @@ void Session::save_next() {
 }
 
 /// What cannot be written counts as unsaved again.
-Result<void> Session::State::write(const std::vector<world::MovingIsland>& moving,
-                                   const std::map<std::string, SavedPlay>& plays_now) {
+Result<void> Session::State::write(const Snapshot& now) {
   Unsaved what;
   std::map<std::uint64_t, world::IslandRow> rows;
   std::vector<std::pair<world::ChunkName, world::ChunkEdits>> edits;
@@ -75,7 +75,7 @@ Result<void> Session::State::write(const std::vector<world::MovingIsland>& movin
       if (const std::optional<world::IslandSpec> spec = world->island(id))
         rows.try_emplace(id, world::IslandRow{*spec, added.contains(id), {}});
     };
-    for (const world::MovingIsland& m : moving) {
+    for (const world::MovingIsland& m : now.moving) {
       want_row(m.island);
       if (const auto row = rows.find(m.island); row != rows.end()) row->second.motion = m.state;
     }
@@ -99,9 +99,12 @@ Result<void> Session::State::write(const std::vector<world::MovingIsland>& movin
   }
   for (const auto& [name, list] : edits) transaction.put_edits(name.island, name.chunk, list);
   for (const auto& [name, chunk] : chunks) transaction.put_chunk(name.island, name.chunk, chunk);
-  put_plays(transaction, plays_now);
+  put_plays(transaction, now.plays);
+  if (now.journals != journals_written) put_journals(transaction, *now.journals);
   Result<void> done = transaction.commit();
-  if (!done) {
+  if (done) {
+    journals_written = now.journals;
+  } else {
     const std::lock_guard lock(unsaved_mutex);
     unsaved.merge(what);
   }
@@ -117,7 +120,7 @@ Result<void> Session::save() {
   s.tell_moves();
   if (!s.file || s.read_only) return {};
   s.saver.wait();
-  return s.write(s.motion.states(), s.plays);
+  return s.write(s.snapshot());
 }
 
 }  // namespace skerry::game

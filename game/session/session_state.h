@@ -65,6 +65,7 @@ struct Session::State {
   void introduce(Client& client, std::uint64_t island);
   void moved(Client& client, const SavedPlay& play);
   void steer(const Client& client, const Steer& steer);
+  void keep(const Client& client, const Journal& journal);
   void tell_moves();
   void tell_chunk(Client& client, const world::ChunkName& name);
   world::ChunkEdits changes_of(const world::ChunkName& name);
@@ -86,8 +87,14 @@ struct Session::State {
   // session_save.cpp.
   void load(world::LoadedWorld& loaded);
   void save_soon();
-  Result<void> write(const std::vector<world::MovingIsland>& moving,
-                     const std::map<std::string, SavedPlay>& plays_now);
+  /// What of a state the session thread alone knows.
+  struct Snapshot {
+    std::vector<world::MovingIsland> moving;
+    std::map<std::string, SavedPlay> plays;
+    std::shared_ptr<const Journals> journals;
+  };
+  Snapshot snapshot() const { return {motion.states(), plays, journals}; }
+  Result<void> write(const Snapshot& now);
 
   const std::shared_ptr<world::World> world;
   std::unique_ptr<world::WorldFile> file;  // none: this world is saved nowhere
@@ -104,6 +111,7 @@ struct Session::State {
   world::IslandMotion motion;
   std::vector<world::MovingIsland> moves;  // since they were sent
   std::map<std::string, SavedPlay> plays;  // by player: as said last, else as it was saved
+  std::shared_ptr<const Journals> journals = std::make_shared<Journals>();  // replaced, not changed
   double time_s = 0.0;
   struct ShapeOnItsWay {
     std::map<world::IVec3, bool> edits;  // since it was asked for: what is solid now, what is not
@@ -124,6 +132,7 @@ struct Session::State {
   std::mutex unsaved_mutex;
   Unsaved unsaved;
   std::atomic<bool> save_under_way = false;
+  std::shared_ptr<const Journals> journals_written;  // by who writes, one at a time
   std::mutex problem_mutex;
   std::string problem;  // of the last save, if it failed
 

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "game/words/words.h"
+
 namespace skerry::game {
 namespace {
 
@@ -21,16 +23,16 @@ constexpr double kCaptionPause = 10.0;    // seconds between two captions of a s
 constexpr double kHighAbove = 30.0;       // blocks above ground in which the wind grows
 constexpr VoiceId kWindVoice = 1, kContactVoices = 16, kSourceVoices = 1u << 16;
 
-constexpr std::array<std::string_view, kSounds> kCaptions{"",
-                                                          "",
-                                                          "",
-                                                          "splash",
-                                                          "",
-                                                          "strong wind",
-                                                          "torch crackling",
-                                                          "lava bubbling",
-                                                          "water lapping",
-                                                          "islands grinding"};
+constexpr std::array<const char*, kSounds> kCaptions{"",
+                                                     "",
+                                                     "",
+                                                     word("splash"),
+                                                     "",
+                                                     word("strong wind"),
+                                                     word("torch crackling"),
+                                                     word("lava bubbling"),
+                                                     word("water lapping"),
+                                                     word("islands grinding")};
 
 SoundGroup group_of(Sound sound) {
   if (sound == Sound::kClick) return SoundGroup::kInterface;
@@ -55,13 +57,14 @@ glm::dvec3 right_of(double yaw_deg) {
   return {-std::cos(yaw), 0.0, std::sin(yaw)};
 }
 
-std::string_view side_of(const glm::dvec3& arrival, double yaw_deg) {
+const char* side_of(const glm::dvec3& arrival, double yaw_deg) {
   if (arrival == glm::dvec3(0.0)) return "";
-  if (std::abs(arrival.y) > 0.8) return arrival.y > 0.0 ? " above" : " below";
+  if (std::abs(arrival.y) > 0.8) return tr(arrival.y > 0.0 ? word("above") : word("below"));
   const double right = glm::dot(arrival, right_of(yaw_deg));
   const double ahead = glm::dot(arrival, forward_of(yaw_deg));
-  if (std::abs(right) > std::abs(ahead)) return right > 0.0 ? " to the right" : " to the left";
-  return ahead > 0.0 ? " ahead" : " behind";
+  if (std::abs(right) > std::abs(ahead))
+    return tr(right > 0.0 ? word("to the right") : word("to the left"));
+  return tr(ahead > 0.0 ? word("ahead") : word("behind"));
 }
 
 }  // namespace
@@ -171,11 +174,12 @@ VoiceAim SoundScene::aim_of(const SoundPath& path, float gain, double yaw_deg) c
 
 void SoundScene::caption(Sound sound, const VoiceAim& aim, const SoundPath& path, double yaw_deg) {
   const auto index = static_cast<std::size_t>(sound);
-  if (kCaptions[index].empty() || aim.gain < kCaptionHeard) return;
+  if (*kCaptions[index] == '\0' || aim.gain < kCaptionHeard) return;
   if (captioned_s_[index] > 0.0 && clock_s_ - captioned_s_[index] < kCaptionPause) return;
   captioned_s_[index] = std::max(clock_s_, 1e-3);
-  captions_.push_back(fmt::format("[{}{}]", kCaptions[index],
-                                  side_of(keeper_.world_direction(path.arrival), yaw_deg)));
+  const char* side = side_of(keeper_.world_direction(path.arrival), yaw_deg);
+  captions_.push_back(*side == '\0' ? fmt::format("[{}]", tr(kCaptions[index]))
+                                    : fmt::format("[{} {}]", tr(kCaptions[index]), side));
 }
 
 void SoundScene::keep_voice(const Source& source, const VoiceAim& aim,

@@ -29,7 +29,7 @@ float wanted_size(TextSize size) {
 // What names and messages need. The large sizes are for words of ours alone.
 constexpr ImWchar kLatin[] = {0x20, 0x7e, 0xa0, 0x17f, 0x2010, 0x2026, 0};
 constexpr ImWchar kAscii[] = {0x20, 0x7e, 0};
-constexpr float kLargest = 36.0f;  // with all of kLatin
+constexpr float kLargest = 56.0f;  // with all of kLatin
 
 // Alphabets that come as a whole, so that a text that is being typed asks for a new atlas once. All
 // others, above all Chinese, come character by character.
@@ -136,7 +136,8 @@ bool Fonts::fit() {
 }
 
 ImFont* Fonts::at(TextSize size, float scale) const {
-  const float wanted = wanted_size(size) * scale + 0.5f;
+  const float largest = size == TextSize::kTitle ? kSizes.back() : kLargest;
+  const float wanted = std::min(wanted_size(size) * scale + 0.5f, largest);
   const auto above = std::upper_bound(kSizes.begin(), kSizes.end(), wanted);
   return fonts_[static_cast<std::size_t>(above == kSizes.begin() ? 0 : above - kSizes.begin() - 1)];
 }

@@ -9,6 +9,7 @@
 
 #include "game/ui/look.h"
 #include "game/ui/pictures.h"
+#include "game/words/words.h"
 
 namespace skerry::game::ui {
 
@@ -113,7 +114,8 @@ void Gui::begin(const GuiFrame& frame) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(frame.width), static_cast<float>(frame.height));
   io.DeltaTime = std::max(static_cast<float>(frame.seconds), 1e-6f);
-  begin_look(fonts_, io.DisplaySize.x, io.DisplaySize.y);
+  if (!pressed_) scale_ = frame.scale;
+  begin_look(fonts_, io.DisplaySize.x, io.DisplaySize.y, scale_);
   if (frame.input)
     feed(*frame.input);
   else if (fed_)
@@ -130,7 +132,7 @@ OverlayTriangles Gui::end() {
 
 std::string Gui::take_refusal() {
   if (!std::exchange(refused_, false)) return {};
-  return fmt::format("Not pasted: a text of {} bytes is too long here", clipboard_text_.size());
+  return tr_format("Not pasted: a text of {} bytes is too long here", clipboard_text_.size());
 }
 
 bool Gui::typing() const {

@@ -23,6 +23,7 @@ struct GuiFrame {
   std::uint32_t width = 0, height = 0;          ///< of the picture [pixels]
   double seconds = 0.0;                         ///< since the frame before
   const platform::InputFrame* input = nullptr;  ///< null: the keys mean the world, not the screens
+  float scale = 1.0f;                           ///< times the usual sizes
 };
 
 /// Where copied text goes and comes from.
@@ -76,6 +77,7 @@ class Gui {
       queue_;  // that no frame of an ImGui without a queue has read yet
   Fonts fonts_;
   bool pressed_ = false;
+  float scale_ = 1.0f;  // stays while a slider is moved, or it would move away from the pointer
   bool fed_ = true;  // in the last frame; before the first, so that keys are mapped whatever comes
 };
 

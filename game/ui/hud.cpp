@@ -8,6 +8,7 @@
 #include "game/scene_file/parse.h"
 #include "game/ui/look.h"
 #include "game/ui/screens.h"
+#include "game/words/words.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -110,9 +111,39 @@ void draw_hotbar(ImDrawList& list, const HudFacts& facts, const Pictures& pictur
     write(list, ImVec2(0.5f * window.x, top - 22 * unit()), 0.5f, colour::kText, block_label(held));
 }
 
+constexpr double kCompassSpan = 60.0;  // degrees to either side
+
+/// Places within the compass' span, the one most ahead with its name below. Nearer ones over
+/// farther ones.
+void draw_marks(ImDrawList& list, const HudFacts& facts, float middle_x, float half, float top) {
+  constexpr double kNamed = 6.0;  // degrees
+  const double ahead = bearing_deg(facts.yaw_deg);
+  std::vector<const HudFacts::Mark*> marks;
+  for (const HudFacts::Mark& mark : facts.marks) marks.push_back(&mark);
+  std::sort(marks.begin(), marks.end(),
+            [](const auto* a, const auto* b) { return a->blocks > b->blocks; });
+  const HudFacts::Mark* named = nullptr;
+  const auto off = [&](const HudFacts::Mark& mark) {
+    return std::remainder(mark.bearing_deg - ahead, 360.0);
+  };
+  for (const HudFacts::Mark* mark : marks) {
+    const double degrees = off(*mark);
+    if (std::abs(degrees) >= kCompassSpan) continue;
+    const float x = middle_x + static_cast<float>(degrees / kCompassSpan) * half * 0.94f;
+    draw_place_mark(list, mark->kind, {x, top}, 6 * unit(),
+                    1.0 - std::pow(std::abs(degrees) / kCompassSpan, 3.0));
+    if (std::abs(degrees) < kNamed && (!named || std::abs(degrees) < std::abs(off(*named))))
+      named = mark;
+  }
+  if (!named || facts.choosing) return;
+  write(list, ImVec2(middle_x, top + 9 * unit()), 0.5f, colour::kText,
+        fmt::format("{}  {:.0f}", named->name, named->blocks));
+}
+
 void draw_compass(ImDrawList& list, double yaw_deg, float middle_x) {
-  constexpr double kSpan = 60.0;  // degrees to either side
-  constexpr const char* kNames[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+  constexpr double kSpan = kCompassSpan;
+  constexpr const char* kNames[] = {word("N"), word("NE"), word("E"), word("SE"),
+                                    word("S"), word("SW"), word("W"), word("NW")};
   const float half = 190 * unit(), top = 10 * unit(), height = 30 * unit();
   list.AddRectFilled(ImVec2(middle_x - half, top), ImVec2(middle_x + half, top + height), kGlass,
                      6 * unit());
@@ -124,7 +155,7 @@ void draw_compass(ImDrawList& list, double yaw_deg, float middle_x) {
     const double strength = 1.0 - std::pow(std::abs(off) / kSpan, 3.0);
     if (step % 3 == 0) {
       write(list, ImVec2(x, top + 0.5f * (height - ImGui::GetTextLineHeight())), 0.5f,
-            step == 0 ? colour::kAccent : colour::kText, kNames[step / 3], strength);
+            step == 0 ? colour::kAccent : colour::kText, tr(kNames[step / 3]), strength);
     } else {
       list.AddLine(ImVec2(x, top + 0.38f * height), ImVec2(x, top + 0.62f * height),
                    faded(colour::kFaint, strength), std::max(1.0f, unit()));
@@ -172,26 +203,27 @@ void show_hud(const HudFacts& facts, const Pictures& pictures) {
   draw_crosshair(list, ImVec2(0.5f * window.x, 0.5f * window.y));
   draw_hotbar(list, facts, pictures, window);
   draw_compass(list, facts.yaw_deg, 0.5f * window.x);
+  draw_marks(list, facts, 0.5f * window.x, 190 * unit(), 40 * unit());
   const float line = ImGui::GetTextLineHeight() + 3 * unit(), edge = 14 * unit();
   if (!facts.numbers) {
     write(list, ImVec2(window.x - edge, edge), 0.0f, colour::kText,
           format_time_of_day(facts.time_of_day_s).substr(0, 5));
     write(list, ImVec2(window.x - edge, edge + line), 0.0f, colour::kText, facts.place);
   }
-  const ImVec2 news(0.5f * window.x, 50 * unit());
+  const ImVec2 news(0.5f * window.x, (facts.marks.empty() ? 50 : 70) * unit());
   if (facts.steering && facts.steering->held)
     write_on_glass(list, news, colour::kWarning,
-                   fmt::format("At the helm of {}   held fast", facts.steering->island));
+                   tr_format("At the helm of {}   held fast", facts.steering->island));
   else if (facts.steering)
     write_on_glass(list, news, colour::kAccent,
-                   fmt::format("At the helm of {}   {:.1f} blocks/s", facts.steering->island,
-                               facts.steering->speed));
+                   tr_format("At the helm of {}   {:.1f} blocks/s", facts.steering->island,
+                             facts.steering->speed));
   else if (facts.islands_to_come != 0)
     write_on_glass(list, news, colour::kFaint,
-                   fmt::format("Islands come into view: {} parts left", facts.islands_to_come));
+                   tr_format("Islands come into view: {} parts left", facts.islands_to_come));
   else if (facts.shaders_to_come != 0)
     write_on_glass(list, news, colour::kFaint,
-                   fmt::format("Shaders are compiled: {} left", facts.shaders_to_come));
+                   tr_format("Shaders are compiled: {} left", facts.shaders_to_come));
   if (facts.hint && !facts.choosing)
     write_on_glass(list, ImVec2(news.x, news.y + 34 * unit()), colour::kText, *facts.hint);
   pop_size();

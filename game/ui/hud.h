@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "game/ui/pictures.h"
+#include "game/ui/place_mark.h"
 
 namespace skerry::game::ui {
 
@@ -24,10 +25,18 @@ struct HudFacts {
     bool held = false;   ///< it is driven, and something holds it
   };
   std::optional<Steering> steering;
+  /// A place to find again, on the compass.
+  struct Mark {
+    PlaceKind kind = PlaceKind::kWaypoint;
+    std::string name;          ///< as it is shown
+    double bearing_deg = 0.0;  ///< clockwise from north
+    double blocks = 0.0;       ///< away
+  };
+  std::vector<Mark> marks;
   std::optional<std::string> hint;  ///< a key that a new player may want to know
   bool torch = false;               ///< one is in the hand
   bool numbers = false;             ///< the overlay is on, which shows time and place, too
-  bool choosing = false;            ///< the palette lies over the name of what is held
+  bool choosing = false;            ///< a screen lies over the middle
   double hidden = 0.0;              ///< how much of the world black covers, 0 .. 1: after a fall
   std::size_t islands_to_come = 0;  ///< tasks left until the neighbourhood is there
   std::size_t shaders_to_come = 0;  ///< programs left until no view needs another

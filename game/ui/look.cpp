@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "game/words/words.h"
+
 namespace skerry::game::ui {
 namespace {
 
@@ -82,9 +84,9 @@ float unit() {
   return look.unit;
 }
 
-void begin_look(const Fonts& fonts, float width, float height) {
-  look = {&fonts, std::clamp(std::min(width / 1280.0f, height / 720.0f), kLeastUnit, kMostUnit), 0,
-          0.0f};
+void begin_look(const Fonts& fonts, float width, float height, float scale) {
+  const float usual = std::clamp(std::min(width / 1280.0f, height / 720.0f), kLeastUnit, kMostUnit);
+  look = {&fonts, std::clamp(usual * scale, kLeastUnit, kMostUnit), 0, 0.0f};
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
   set_colours(style);
@@ -171,11 +173,11 @@ void letter_buttons(char* text, std::size_t bytes, bool& upper) {
     }
   }
   const ImVec2 third(std::max(1.0f, (all - 2 * between) / 3), size.y);
-  if (ImGui::Button(upper ? "small letters" : "CAPITALS", third)) upper = !upper;
+  if (ImGui::Button(upper ? tr("small letters") : tr("CAPITALS"), third)) upper = !upper;
   ImGui::SameLine();
-  if (ImGui::Button("space", third)) append(text, bytes, ' ');
+  if (ImGui::Button(tr("space"), third)) append(text, bytes, ' ');
   ImGui::SameLine();
-  if (ImGui::Button("delete", third)) take_last(text);
+  if (ImGui::Button(tr("delete"), third)) take_last(text);
   ImGui::PopStyleVar(2);
 }
 

@@ -12,7 +12,7 @@
 
 namespace skerry::game::ui {
 
-/// Pixels of one unit of layout: 1 in a window of 1280x720.
+/// Pixels of one unit of layout: 1 in a window of 1280x720 at the usual scale.
 float unit();
 
 namespace colour {
@@ -25,8 +25,9 @@ inline constexpr ImU32 kShade = IM_COL32(8, 14, 18, 150);
 }  // namespace colour
 
 /// For the frame between Gui::begin and Gui::end: where the functions below find fonts and scale.
-/// @param fonts outlives the frame.
-void begin_look(const Fonts& fonts, float width, float height);
+/// @param fonts outlives the frame. @param width, height of the window [pixels]. @param scale of
+/// everything, times the usual.
+void begin_look(const Fonts& fonts, float width, float height, float scale);
 
 void push_size(TextSize size);
 void pop_size();

@@ -14,8 +14,9 @@ namespace {
 constexpr int kBlocksPerRow = Pictures::kWidth / kBlockPictureEdge;
 constexpr int kThumbnailsPerRow = Pictures::kWidth / kThumbnailWidth;
 constexpr int kThumbnailsTop = 512;  // room for 128 blocks above
-static_assert(kThumbnailsTop + Pictures::kThumbnails / kThumbnailsPerRow * kThumbnailHeight <=
-              Pictures::kHeight);
+constexpr int kMapTop =
+    kThumbnailsTop + Pictures::kThumbnails / kThumbnailsPerRow * kThumbnailHeight;
+static_assert(kMapTop + kMapEdge <= Pictures::kHeight && kMapEdge <= Pictures::kWidth);
 static_assert(world::block::kBuiltInCount <= kBlocksPerRow * (kThumbnailsTop / kBlockPictureEdge));
 
 constexpr float kClear = 0.06f;  // absorption of what looks like nothing [1/block]
@@ -206,6 +207,17 @@ void Pictures::set_thumbnail(int slot, const Rgba& picture) {
                 picture.height == kThumbnailHeight);
   put(slot % kThumbnailsPerRow * kThumbnailWidth,
       kThumbnailsTop + slot / kThumbnailsPerRow * kThumbnailHeight, picture);
+}
+
+PicturePart Pictures::map() const {
+  return {
+      {0.0f, static_cast<float>(kMapTop) / kHeight},
+      {static_cast<float>(kMapEdge) / kWidth, static_cast<float>(kMapTop + kMapEdge) / kHeight}};
+}
+
+void Pictures::set_map(const Rgba& picture) {
+  SKERRY_ASSERT(picture.width == kMapEdge && picture.height == kMapEdge);
+  put(0, kMapTop, picture);
 }
 
 void Pictures::put(int x, int y, const Rgba& picture) {

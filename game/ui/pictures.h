@@ -1,4 +1,4 @@
-// The coloured pictures on our screens: blocks in the hand, worlds in the list.
+// The coloured pictures on our screens: blocks in the hand, worlds in the list, the map.
 #pragma once
 #include <imgui.h>
 
@@ -43,10 +43,12 @@ struct HeldTexel {
   bool open_right = false, open_top = false;  ///< no texel is there
 };
 
-/// Both kinds, in one image.
+inline constexpr int kMapEdge = 512;  ///< pixels
+
+/// All kinds, in one image.
 class Pictures {
  public:
-  static constexpr int kWidth = 1024, kHeight = 2048;
+  static constexpr int kWidth = 1024, kHeight = 2464;
   /// How many thumbnails there is room for.
   static constexpr int kThumbnails = 40;
 
@@ -55,6 +57,9 @@ class Pictures {
   PicturePart thumbnail(int slot) const;
   /// @param slot 0 .. kThumbnails - 1. @param picture of a thumbnail's size.
   void set_thumbnail(int slot, const Rgba& picture);
+  PicturePart map() const;
+  /// @param picture kMapEdge each way.
+  void set_map(const Rgba& picture);
 
   /// A torch, texel by texel.
   std::span<const HeldTexel> torch() const { return torch_; }

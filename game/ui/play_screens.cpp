@@ -8,6 +8,7 @@
 #include "game/scene_file/parse.h"
 #include "game/ui/look.h"
 #include "game/ui/screens.h"
+#include "game/words/words.h"
 
 namespace skerry::game::ui {
 
@@ -40,35 +41,37 @@ std::vector<world::BlockId> find_blocks(std::string_view search) {
 
 void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();
-  begin_panel("pause", Place::kMiddle, 380, state.unsaved ? 620 : 426);
-  heading("Paused");
+  begin_panel("pause", Place::kMiddle, 380, state.unsaved ? 690 : 522);
+  heading(tr("Paused"));
   if (facts.world) text_in(colour::kFaint, *facts.world);
   gap(8);
-  if (first_button("Go on")) state.stack.clear();
-  if (button("Settings")) state.stack.open(Screen::kSettings);
-  if (button("Controls")) state.stack.open(Screen::kControls);
-  if (button("Photo mode")) state.stack.open(Screen::kPhoto);
-  if (button("Save and leave")) wishes.leave_world = true;
-  if (button("Save and quit Skerry")) wishes.quit = true;
+  if (first_button(tr("Go on"))) state.stack.clear();
+  if (button(tr("Map"))) state.stack.open(Screen::kMap);
+  if (button(tr("Settings"))) state.stack.open(Screen::kSettings);
+  if (button(tr("Controls"))) state.stack.open(Screen::kControls);
+  if (button(tr("Photo mode"))) state.stack.open(Screen::kPhoto);
+  if (button(tr("Gallery"))) state.stack.open(Screen::kGallery);
+  if (button(tr("Save and leave"))) wishes.leave_world = true;
+  if (button(tr("Save and quit Skerry"))) wishes.quit = true;
   if (state.unsaved) {
     gap(4);
     text_wrapped(colour::kWarning, *state.unsaved);
-    if (danger_button("Leave without saving")) wishes.leave_unsaved = true;
+    if (danger_button(tr("Leave without saving"))) wishes.leave_unsaved = true;
   }
   end_panel();
 }
 
 void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   begin_panel("palette", Place::kMiddle, 840, facts.pad ? 688 : 560);
-  heading("Blocks");
+  heading(tr("Blocks"));
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
-  const bool entered = text_field("##search", state.palette_search, "Search");
+  const bool entered = text_field("##search", state.palette_search, tr("Search"));
   if (facts.pad) letter_buttons(state.palette_search, state.capitals);
   const std::vector<world::BlockId> found = find_blocks(state.palette_search.data());
   if (entered && !found.empty()) wishes.take = found.front();
   gap(2);
-  std::string named = found.empty() ? "No block of that name" : "";
+  std::string named = found.empty() ? tr("No block of that name") : "";
   const float foot = ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
   begin_scroll("blocks", -foot);
   const float edge = 56 * unit(), spacing = 6 * unit();
@@ -91,7 +94,7 @@ void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
   }
   ImGui::PopStyleVar(2);
   end_scroll();
-  text_in(colour::kFaint, named.empty() ? "Choose one for the hand" : named);
+  text_in(colour::kFaint, named.empty() ? tr("Choose one for the hand") : named);
   end_panel();
   if (wishes.take) state.stack.back();
 }
@@ -100,30 +103,30 @@ void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   PhotoSettings& photo = *facts.photo;
   if (photo.bare) return;
   begin_panel("photo", Place::kLeft, 360, 496);
-  heading("Photo mode");
-  text_in(colour::kFaint, "Time of day");
+  heading(tr("Photo mode"));
+  text_in(colour::kFaint, tr("Time of day"));
   int ten_minutes = photo.time_of_day_s / 600;
   const std::string time = format_time_of_day(photo.time_of_day_s);
   if (slide("##time", ten_minutes, 0, 143, time.c_str())) photo.time_of_day_s = ten_minutes * 600;
-  text_in(colour::kFaint, "Exposure");
+  text_in(colour::kFaint, tr("Exposure"));
   bool adapts = !photo.exposure_ev;
-  if (ImGui::Checkbox("as the eye adapts", &adapts)) {
+  if (ImGui::Checkbox(tr("as the eye adapts"), &adapts)) {
     photo.exposure_ev.reset();
     if (!adapts) photo.exposure_ev = facts.adapted_ev;
   }
   ImGui::BeginDisabled(adapts);
   auto stops = static_cast<float>(photo.exposure_ev.value_or(facts.adapted_ev));
-  if (slide("##exposure", stops, -12.0f, 18.0f, 0.5f, "%.1f stops"))
+  if (slide("##exposure", stops, -12.0f, 18.0f, 0.5f, tr("%.1f stops")))
     photo.exposure_ev = std::round(double{stops} * 10.0) / 10.0;
   ImGui::EndDisabled();
-  text_in(colour::kFaint, "Field of view");
+  text_in(colour::kFaint, tr("Field of view"));
   auto fov = static_cast<float>(photo.fov_deg);
-  if (slide("##fov", fov, 5.0f, 120.0f, 5.0f, "%.0f degrees"))
+  if (slide("##fov", fov, 5.0f, 120.0f, 5.0f, tr("%.0f degrees")))
     photo.fov_deg = std::round(double{fov});
   gap(8);
-  if (first_button("Take the picture")) wishes.photograph = true;
-  if (button("Fly the camera")) photo.bare = true;
-  if (button("Back")) state.stack.back();
+  if (first_button(tr("Take the picture"))) wishes.photograph = true;
+  if (button(tr("Fly the camera"))) photo.bare = true;
+  if (button(tr("Back"))) state.stack.back();
   end_panel();
 }
 

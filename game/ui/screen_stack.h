@@ -14,6 +14,8 @@ enum class Screen : std::uint8_t {
   kPause,
   kPalette,
   kPhoto,
+  kMap,
+  kGallery,
 };
 
 /// Screens over one another; only the topmost is seen. None: the player has the world.

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "game/ui/look.h"
+#include "game/words/words.h"
 
 namespace skerry::game::ui {
 
@@ -37,6 +38,12 @@ void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) 
       break;
     case Screen::kPhoto:
       show_photo(state, facts, wishes);
+      break;
+    case Screen::kMap:
+      show_map(state, facts, wishes);
+      break;
+    case Screen::kGallery:
+      show_gallery(state, facts, wishes);
       break;
   }
   state.fresh = state.stack.top() != top;
@@ -84,15 +91,15 @@ std::string seed_from(std::uint64_t entropy) {
 }
 
 std::string ago(std::int64_t seconds) {
-  const auto some = [](std::int64_t count, const char* what) {
-    return fmt::format("{} {}{} ago", count, what, count == 1 ? "" : "s");
+  constexpr std::int64_t kMinute = 60, kHour = 60 * kMinute, kDay = 24 * kHour, kMonth = 30 * kDay;
+  const auto some = [](std::int64_t count, const char* one, const char* many) {
+    return count == 1 ? std::string(tr(one)) : tr_format(many, count);
   };
-  constexpr std::int64_t kMinute = 60, kHour = 60 * kMinute, kDay = 24 * kHour;
-  if (seconds < kMinute) return "just now";
-  if (seconds < kHour) return some(seconds / kMinute, "minute");
-  if (seconds < kDay) return some(seconds / kHour, "hour");
-  if (seconds < 60 * kDay) return some(seconds / kDay, "day");
-  return some(seconds / (30 * kDay), "month");
+  if (seconds < kMinute) return tr("just now");
+  if (seconds < kHour) return some(seconds / kMinute, word("1 minute ago"), word("{} minutes ago"));
+  if (seconds < kDay) return some(seconds / kHour, word("1 hour ago"), word("{} hours ago"));
+  if (seconds < 2 * kMonth) return some(seconds / kDay, word("1 day ago"), word("{} days ago"));
+  return some(seconds / kMonth, word("1 month ago"), word("{} months ago"));
 }
 
 }  // namespace skerry::game::ui

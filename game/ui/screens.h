@@ -12,6 +12,7 @@
 #include "game/input/actions.h"
 #include "game/scene_file/settings.h"
 #include "game/ui/knob_costs.h"
+#include "game/ui/map_facts.h"
 #include "game/ui/pictures.h"
 #include "game/ui/screen_stack.h"
 
@@ -24,6 +25,13 @@ struct WorldCard {
   std::uint64_t bytes = 0;
   int thumbnail = -1;   ///< slot of Pictures; -1: none
   std::string problem;  ///< not empty: why it cannot be played
+};
+
+/// A picture that the player took, as the gallery shows it.
+struct PictureCard {
+  std::string path, name;
+  int thumbnail = -1;   ///< slot of Pictures; -1: it is not read yet, or cannot be
+  std::string problem;  ///< not empty: why it cannot be entered
 };
 
 inline constexpr std::size_t kMaxNameBytes = 64, kMaxSeedBytes = 256;
@@ -62,6 +70,14 @@ struct ScreenState {
   std::optional<std::string> unsaved;
 
   Field<32> palette_search{};
+
+  std::size_t chosen_picture = 0;  ///< of the gallery
+
+  int map_radius = 1;            ///< index into kMapRadii
+  std::size_t chosen_place = 0;  ///< of MapFacts
+  std::size_t named_place = 0;   ///< whose name the field holds
+  Field<64> place_name{};
+
   bool calibrating = false;
 };
 
@@ -78,6 +94,7 @@ struct PhotoSettings {
 struct ScreenFacts {
   const Pictures* pictures = nullptr;
   std::span<const WorldCard> worlds;
+  std::span<const PictureCard> gallery;
   std::int64_t now_s = 0;            ///< Unix time
   std::optional<std::string> world;  ///< name of the one being played
   Quality* quality = nullptr;
@@ -87,6 +104,7 @@ struct ScreenFacts {
   Bindings* bindings = nullptr;
   KnobCosts* costs = nullptr;
   PhotoSettings* photo = nullptr;
+  const MapFacts* map = nullptr;                 ///< of the world being played
   double adapted_ev = 0.0;                       ///< what photo mode's exposure begins at
   platform::Key pressed = platform::Key::kNone;  ///< first key that went down in this frame
   bool control = false;     ///< while the key that makes chords was held (control_of)
@@ -112,6 +130,8 @@ struct Wishes {
   bool leave_unsaved = false;          ///< to the title, whatever is lost
   bool quit = false;
   bool photograph = false;
+  MapWishes map;
+  std::optional<std::string> enter;  ///< path of a picture
   bool settings_changed = false, bindings_changed = false;
 };
 
@@ -148,5 +168,7 @@ void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
 void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 void show_palette(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 void show_photo(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+void show_map(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
+void show_gallery(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 
 }  // namespace skerry::game::ui

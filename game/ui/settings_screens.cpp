@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "game/ui/look.h"
 #include "game/ui/screens.h"
+#include "game/words/words.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -24,7 +26,7 @@ class Rows {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    text(label);
+    text(tr(label));
     ImGui::TableNextColumn();
     ImGui::PushID(label);
     const bool changed = control();
@@ -42,15 +44,22 @@ class Rows {
     facts_.costs->turned(*knob);
   }
 
-  /// One of some values, by name.
+  /// One of some values, by name. @param names words of tr().
   template <class T, std::size_t kCount>
   void choice(const char* label, std::optional<Knob> knob, T& value, const T (&values)[kCount],
               const char* const (&names)[kCount]) {
+    choice(label, knob, value, values, [&](int at) { return std::string(tr(names[at])); });
+  }
+
+  /// The same. @param name_of the text of the value at an index, as printf takes it.
+  template <class T, std::size_t kCount, class NameOf>
+  void choice(const char* label, std::optional<Knob> knob, T& value, const T (&values)[kCount],
+              const NameOf& name_of) {
     row(label, knob, [&] {
       // What is between two of them shows as the lower.
       const auto above = std::upper_bound(std::begin(values), std::end(values), value);
       int at = std::max(0, static_cast<int>(above - std::begin(values)) - 1);
-      if (!slide("##", at, 0, static_cast<int>(kCount) - 1, names[at])) return false;
+      if (!slide("##", at, 0, static_cast<int>(kCount) - 1, name_of(at).c_str())) return false;
       value = values[at];
       return true;
     });
@@ -59,14 +68,13 @@ class Rows {
  private:
   void show_cost(Knob knob) const {
     if (facts_.costs->measuring(knob)) {
-      text_in(colour::kFaint, "measuring");
+      text_in(colour::kFaint, tr("measuring"));
       return;
     }
     const std::optional<KnobCosts::Cost> cost = facts_.costs->cost(knob);
     if (!cost) return;
-    if (!cost->certain()) return text_in(colour::kFaint, "alike");
-    text_in(cost->ms > 0.0 ? colour::kWarning : colour::kAccent,
-            fmt::format("{:+.1f} ms", cost->ms));
+    if (!cost->certain()) return text_in(colour::kFaint, tr("alike"));
+    text_in(cost->ms > 0.0 ? colour::kWarning : colour::kAccent, tr_format("{:+.1f} ms", cost->ms));
   }
   const ScreenFacts& facts_;
   Wishes& wishes_;
@@ -75,7 +83,7 @@ class Rows {
 
 bool slide_blocks(std::uint32_t& blocks, int least, int most) {
   int value = static_cast<int>(blocks);
-  if (!slide_by_eighths("##", value, least, most, "%d blocks")) return false;
+  if (!slide_by_eighths("##", value, least, most, tr("%d blocks"))) return false;
   blocks = static_cast<std::uint32_t>(value);
   return true;
 }
@@ -93,52 +101,82 @@ bool slide_part(double& value, float least, float most, const char* format) {
   return true;
 }
 
+std::string a_second(std::uint32_t rate) {
+  return tr_format("{} a second", rate);
+}
+
 /// How often, and when, frames are drawn.
 void show_frame_knobs(FrameSettings& frames, Rows& rows) {
   constexpr std::uint32_t kRates[] = {0, 20, 30, 40, 50, 60, 75, 90, 120, 144, 240};
-  constexpr const char* kRateNames[] = {"as suits the machine", "20 a second", "30 a second",
-                                        "40 a second",          "50 a second", "60 a second",
-                                        "75 a second",          "90 a second", "120 a second",
-                                        "144 a second",         "240 a second"};
   std::uint32_t wanted = frames.wanted.value_or(0);
-  rows.choice("Frames wanted by auto", std::nullopt, wanted, kRates, kRateNames);
+  rows.choice(word("Frames wanted by auto"), std::nullopt, wanted, kRates, [&](int at) {
+    return at == 0 ? std::string(tr("as suits the machine")) : a_second(kRates[at]);
+  });
   frames.wanted.reset();
   if (wanted != 0) frames.wanted = wanted;
   constexpr std::uint32_t kCaps[] = {
       FrameSettings::kNoCap, FrameSettings::kDisplayCap, 20, 30, 60, 90, 120, 144, 240};
-  constexpr const char* kCapNames[] = {"no limit",     "as the display", "20 a second",
-                                       "30 a second",  "60 a second",    "90 a second",
-                                       "120 a second", "144 a second",   "240 a second"};
-  rows.choice("Most frames", std::nullopt, frames.cap, kCaps, kCapNames);
+  rows.choice(word("Most frames"), std::nullopt, frames.cap, kCaps, [&](int at) {
+    return at == 0   ? std::string(tr("no limit"))
+           : at == 1 ? std::string(tr("as the display"))
+                     : a_second(kCaps[at]);
+  });
   constexpr std::uint32_t kUnfocused[] = {1, 5, 10, 30, 60, FrameSettings::kMostRate};
-  constexpr const char* kUnfocusedNames[] = {"1 a second",  "5 a second",  "10 a second",
-                                             "30 a second", "60 a second", "as with it"};
-  rows.choice("Most without focus", std::nullopt, frames.unfocused, kUnfocused, kUnfocusedNames);
+  rows.choice(word("Most without focus"), std::nullopt, frames.unfocused, kUnfocused, [&](int at) {
+    return kUnfocused[at] == FrameSettings::kMostRate ? std::string(tr("as with it"))
+                                                      : a_second(kUnfocused[at]);
+  });
   constexpr VerticalSync kSyncs[] = {VerticalSync::kOff, VerticalSync::kOn,
                                      VerticalSync::kAdaptive};
-  constexpr const char* kSyncNames[] = {"off", "on", "adaptive"};
-  rows.choice("Vertical sync", std::nullopt, frames.sync, kSyncs, kSyncNames);
+  constexpr const char* kSyncNames[] = {word("off"), word("on"), word("adaptive")};
+  rows.choice(word("Vertical sync"), std::nullopt, frames.sync, kSyncs, kSyncNames);
 }
 
 void show_sound_knobs(SoundSettings& sound, Rows& rows) {
   const auto volume = [&rows](const char* label, float& value) {
     rows.row(label, std::nullopt, [&] { return slide_part(value, 0.0f, 1.0f, "%.2f"); });
   };
-  volume("Sound", sound.master);
-  volume("Sound: effects", sound.effects);
-  volume("Sound: wind, fire, water", sound.ambience);
-  volume("Sound: clicks", sound.interface);
+  volume(word("Sound"), sound.master);
+  volume(word("Sound: effects"), sound.effects);
+  volume(word("Sound: wind, fire, water"), sound.ambience);
+  volume(word("Sound: clicks"), sound.interface);
   constexpr bool kCaptions[] = {false, true};
-  constexpr const char* kCaptionNames[] = {"off", "on"};
-  rows.choice("Captions of sounds", std::nullopt, sound.captions, kCaptions, kCaptionNames);
+  constexpr const char* kCaptionNames[] = {word("off"), word("on")};
+  rows.choice(word("Captions of sounds"), std::nullopt, sound.captions, kCaptions, kCaptionNames);
+}
+
+void show_language(UiSettings& ui, Rows& rows) {
+  int language = ui.language ? static_cast<int>(*ui.language) : -1;
+  constexpr int kChoices[] = {-1, 0, 1, 2, 3, 4, 5, 6};
+  static_assert(std::size(kChoices) == kLanguages + 1);
+  rows.choice(word("Language"), std::nullopt, language, kChoices, [&](int at) {
+    return std::string(at == 0 ? tr("as the system")
+                               : kLanguageNames[static_cast<std::size_t>(at) - 1]);
+  });
+  ui.language.reset();
+  if (language >= 0) ui.language = static_cast<Language>(language);
+}
+
+void show_play_knobs(Settings& settings, Rows& rows) {
+  constexpr float kScales[] = {0.75f, 1.0f, 1.25f, 1.5f, 1.75f, 2.0f};
+  rows.choice(word("Size of text and buttons"), std::nullopt, settings.ui.scale, kScales,
+              [&](int at) { return fmt::format("{:.0f}%%", kScales[at] * 100.0f); });
+  show_language(settings.ui, rows);
+  constexpr bool kModes[] = {false, true};
+  constexpr const char* kHoldNames[] = {word("while held"), word("by a press")};
+  rows.choice(word("Sprint"), std::nullopt, settings.play.toggle_sprint, kModes, kHoldNames);
+  rows.choice(word("Crouch"), std::nullopt, settings.play.toggle_crouch, kModes, kHoldNames);
+  constexpr const char* kRepeatNames[] = {word("once a press"), word("goes on while held")};
+  rows.choice(word("Dig and place"), std::nullopt, settings.play.repeat, kModes, kRepeatNames);
 }
 
 void show_level(const ScreenFacts& facts, Rows& rows) {
   constexpr int kLevels[] = {-1, 0, 1, 2, 3};
-  constexpr const char* kLevelNames[] = {"auto", "low", "medium", "high", "ultra"};
+  constexpr const char* kLevelNames[] = {word("auto"), word("low"), word("medium"), word("high"),
+                                         word("ultra")};
   const int before = *facts.quality_auto ? -1 : static_cast<int>(*facts.quality);
   int level = before;
-  rows.choice("Quality", Knob::kQuality, level, kLevels, kLevelNames);
+  rows.choice(word("Quality"), Knob::kQuality, level, kLevels, kLevelNames);
   *facts.quality_auto = level < 0;
   if (level != before && level >= 0) {
     *facts.quality = static_cast<Quality>(level);
@@ -149,59 +187,65 @@ void show_level(const ScreenFacts& facts, Rows& rows) {
 void show_light_knobs(Settings& settings, Rows& rows) {
   int shadows = settings.render.shadow_enabled ? settings.render.shadow_size : 0;
   constexpr int kShadows[] = {0, 512, 1024, 2048, 4096};
-  constexpr const char* kShadowNames[] = {"off", "coarse", "fair", "fine", "finest"};
+  constexpr const char* kShadowNames[] = {word("off"), word("coarse"), word("fair"), word("fine"),
+                                          word("finest")};
   const int shadows_before = shadows;
-  rows.choice("Shadows", Knob::kShadows, shadows, kShadows, kShadowNames);
+  rows.choice(word("Shadows"), Knob::kShadows, shadows, kShadows, kShadowNames);
   if (shadows != shadows_before) {
     settings.render.shadow_enabled = shadows != 0;
     if (shadows != 0) settings.render.shadow_size = shadows;
   }
   constexpr std::uint32_t kWalls[] = {0, 1, 2, 4, 8, render::kEveryLight};
-  constexpr const char* kWallNames[] = {"none",      "1 a pixel", "2 a pixel",
-                                        "4 a pixel", "8 a pixel", "all"};
-  rows.choice("Lights that walls stop", Knob::kLightShadows, settings.render.lights_shadows, kWalls,
-              kWallNames);
-  rows.row("Dark corners", Knob::kAo,
+  rows.choice(word("Lights that walls stop"), Knob::kLightShadows, settings.render.lights_shadows,
+              kWalls, [&](int at) {
+                return at == 0                             ? std::string(tr("none"))
+                       : kWalls[at] == render::kEveryLight ? std::string(tr("all"))
+                                                           : tr_format("{} a pixel", kWalls[at]);
+              });
+  rows.row(word("Dark corners"), Knob::kAo,
            [&] { return slide_part(settings.render.ao_strength, 0.0f, 0.9f, "%.2f"); });
   constexpr render::Indirect kIndirect[] = {render::Indirect::kOff, render::Indirect::kSky,
                                             render::Indirect::kFull};
-  constexpr const char* kIndirectNames[] = {"off", "of the sky", "of sky and glow"};
-  rows.choice("Light in the shade", Knob::kIndirect, settings.render.indirect, kIndirect,
+  constexpr const char* kIndirectNames[] = {word("off"), word("of the sky"),
+                                            word("of sky and glow")};
+  rows.choice(word("Light in the shade"), Knob::kIndirect, settings.render.indirect, kIndirect,
               kIndirectNames);
-  rows.row("Glow of bright things", Knob::kBloom,
+  rows.row(word("Glow of bright things"), Knob::kBloom,
            [&] { return slide_part(settings.render.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
 }
 
 void show_knobs(const ScreenFacts& facts, Rows& rows) {
   Settings& settings = *facts.settings;
   show_level(facts, rows);
-  rows.row("View distance", Knob::kViewDistance,
+  rows.row(word("View distance"), Knob::kViewDistance,
            [&] { return slide_blocks(settings.view_distance, kMinViewDistance, 4096); });
-  rows.row("Full detail up to", Knob::kViewDetail,
+  rows.row(word("Full detail up to"), Knob::kViewDetail,
            [&] { return slide_blocks(settings.view_detail, 32, 1024); });
-  rows.row("Drawn size", Knob::kScale, [&] {
-    return slide_part(settings.render.render_scale, 0.25f, 1.0f, "%.2f of the window");
+  rows.row(word("Drawn size"), Knob::kScale, [&] {
+    return slide_part(settings.render.render_scale, 0.25f, 1.0f, tr("%.2f of the window"));
   });
   show_light_knobs(settings, rows);
   constexpr int kSamples[] = {1, 4, 16};
-  constexpr const char* kSampleNames[] = {"off", "4 samples", "16 samples"};
-  rows.choice("Smooth edges", Knob::kAntialiasing, settings.render.aa_samples, kSamples,
-              kSampleNames);
+  rows.choice(word("Smooth edges"), Knob::kAntialiasing, settings.render.aa_samples, kSamples,
+              [&](int at) {
+                return at == 0 ? std::string(tr("off")) : tr_format("{} samples", kSamples[at]);
+              });
   constexpr int kLayers[] = {1, 2, 3, 4};
-  constexpr const char* kLayerNames[] = {"1 layer", "2 layers", "3 layers", "4 layers"};
-  rows.choice("Water and glass", Knob::kWater, settings.render.water_layers, kLayers, kLayerNames);
-  rows.row("Clouds", Knob::kClouds, [&] {
-    return slide_part(settings.render.clouds.coverage, 0.0f, 1.0f, "%.2f of the sky");
+  rows.choice(word("Layers of water and glass"), Knob::kWater, settings.render.water_layers,
+              kLayers, [&](int at) { return std::to_string(kLayers[at]); });
+  rows.row(word("Clouds"), Knob::kClouds, [&] {
+    return slide_part(settings.render.clouds.coverage, 0.0f, 1.0f, tr("%.2f of the sky"));
   });
-  rows.row("Field of view", std::nullopt,
-           [&] { return slide_part(*facts.fov_deg, 40.0f, 110.0f, "%.0f degrees"); });
+  rows.row(word("Field of view"), std::nullopt,
+           [&] { return slide_part(*facts.fov_deg, 40.0f, 110.0f, tr("%.0f degrees")); });
+  show_play_knobs(settings, rows);
   show_sound_knobs(settings.sound, rows);
   show_frame_knobs(settings.frames, rows);
   render::DisplaySettings& display = settings.render.display;
-  rows.row("Display: white", std::nullopt, [&] {
+  rows.row(word("Display: white"), std::nullopt, [&] {
     return slide_part(display.peak, static_cast<float>(kMinDisplayPeak), 1.0f, "%.2f");
   });
-  rows.row("Display: black", std::nullopt, [&] {
+  rows.row(word("Display: black"), std::nullopt, [&] {
     return slide_part(display.black, 0.0f, static_cast<float>(kMaxDisplayBlack), "%.3f");
   });
 }
@@ -233,7 +277,7 @@ void binding_button(ScreenState& state, const ScreenFacts& facts, Action action,
   const Binding& binding = (*facts.bindings)[action];
   const bool waits =
       state.listening && state.listening->action == action && state.listening->pad == pad;
-  const std::string label = (waits ? std::string(pad ? "press a button" : "press a key")
+  const std::string label = (waits ? std::string(pad ? tr("press a button") : tr("press a key"))
                                    : chord_label(pad ? binding.pad : binding.key)) +
                             (pad ? "##pad" : "##key");
   if (ImGui::Button(label.c_str(), ImVec2(-1.0f, 0.0f)) && !state.listening)
@@ -245,7 +289,7 @@ void binding_row(ScreenState& state, const ScreenFacts& facts, Action action) {
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   const std::vector<Action> conflicts = conflicts_of(*facts.bindings, action);
-  text_in(conflicts.empty() ? colour::kText : colour::kWarning, action_type(action).label);
+  text_in(conflicts.empty() ? colour::kText : colour::kWarning, action_label(action));
   ImGui::PushID(static_cast<int>(action));
   binding_button(state, facts, action, false);
   binding_button(state, facts, action, true);
@@ -254,7 +298,7 @@ void binding_row(ScreenState& state, const ScreenFacts& facts, Action action) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TableNextColumn();
-  text_in(colour::kWarning, fmt::format("also: {}", action_type(conflicts.front()).label));
+  text_in(colour::kWarning, tr_format("also: {}", action_label(conflicts.front())));
 }
 
 }  // namespace
@@ -262,7 +306,7 @@ void binding_row(ScreenState& state, const ScreenFacts& facts, Action action) {
 void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   // No shade: the picture behind is what the knobs change.
   begin_panel("settings", Place::kLeft, 680, 660);
-  heading("Settings");
+  heading(tr("Settings"));
   const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
   begin_scroll("knobs", -foot);
   if (ImGui::BeginTable("rows", 3)) {
@@ -275,11 +319,11 @@ void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
   }
   end_scroll();
   gap(0);
-  if (button("Back", 150)) state.stack.back();
+  if (button(tr("Back"), 150)) state.stack.back();
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  text_in(colour::kFaint, fmt::format("GPU {:.1f} ms a frame{}", facts.costs->now_ms(),
-                                      by_keys() ? "   left, right: change" : ""));
+  text_in(colour::kFaint, tr_format("GPU {:.1f} ms a frame", facts.costs->now_ms()) +
+                              (by_keys() ? std::string("   ") + tr("left, right: change") : ""));
   end_panel();
 }
 
@@ -287,7 +331,7 @@ void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
   shade();
   listen(state, facts, wishes);
   begin_panel("controls", Place::kMiddle, 860, 660);
-  heading("Controls");
+  heading(tr("Controls"));
   Bindings& bindings = *facts.bindings;
   const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
   begin_scroll("actions", -foot);
@@ -298,25 +342,25 @@ void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       ImGui::AlignTextToFramePadding();
-      text(label);
+      text(tr(label));
       ImGui::TableNextColumn();
       ImGui::PushID(label);
       wishes.bindings_changed |= slide_part(value, static_cast<float>(kMinTurnSpeed),
                                             static_cast<float>(kMaxTurnSpeed), "%.2f");
       ImGui::PopID();
     };
-    speed("Mouse speed", bindings.mouse_speed);
-    speed("Gamepad speed", bindings.pad_speed);
+    speed(word("Mouse speed"), bindings.mouse_speed);
+    speed(word("Gamepad speed"), bindings.pad_speed);
     ImGui::EndTable();
   }
-  wishes.bindings_changed |= ImGui::Checkbox("Up looks down", &bindings.inverted);
+  wishes.bindings_changed |= ImGui::Checkbox(tr("Up looks down"), &bindings.inverted);
   gap(4);
   if (ImGui::BeginTable("bindings", 3)) {
     ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch, 1.1f);
     ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthStretch, 1.0f);
     ImGui::TableSetupColumn("pad", ImGuiTableColumnFlags_WidthStretch, 1.0f);
     ImGui::TableNextRow();
-    for (const char* title : {"", "Keyboard and mouse", "Gamepad"}) {
+    for (const char* title : {"", tr("Keyboard and mouse"), tr("Gamepad")}) {
       ImGui::TableNextColumn();
       text_in(colour::kAccent, title);
     }
@@ -325,9 +369,9 @@ void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
   }
   end_scroll();
   gap(0);
-  if (first_button("Back", 150)) state.stack.back();
+  if (first_button(tr("Back"), 150)) state.stack.back();
   ImGui::SameLine();
-  if (button("Back to the usual keys", 260)) {
+  if (button(tr("Back to the usual keys"), 340)) {
     bindings = default_bindings();
     wishes.bindings_changed = true;
   }

@@ -5,6 +5,7 @@
 
 #include "game/ui/look.h"
 #include "game/ui/screens.h"
+#include "game/words/words.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -59,7 +60,7 @@ bool world_row(ScreenState& state, const ScreenFacts& facts, const WorldCard& wo
   list.AddText(ImVec2(x, at.y + 0.5f * height - 1.25f * line), colour::kText,
                shortened(world.name, room).c_str());
   const std::string below =
-      world.problem.empty() ? fmt::format("seed {}  ·  {}  ·  {}", world.seed_text,
+      world.problem.empty() ? fmt::format("{}  ·  {}  ·  {}", tr_format("seed {}", world.seed_text),
                                           ago(facts.now_s - world.played_s), megabytes(world.bytes))
                             : world.problem;
   list.AddText(ImVec2(x, at.y + 0.5f * height + 0.25f * line),
@@ -91,12 +92,12 @@ void ask_to_delete(ScreenState& state, const WorldCard& world, bool back, Wishes
                               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
                                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings))
     return;
-  text_wrapped(colour::kText, fmt::format("Delete \"{}\" for good?", world.name));
-  text_wrapped(colour::kFaint, "What was built in it cannot be brought back.");
+  text_wrapped(colour::kText, tr_format("Delete \"{}\" for good?", world.name));
+  text_wrapped(colour::kFaint, tr("What was built in it cannot be brought back."));
   gap(8);
-  if (first_button("Keep it", 190) || back) ImGui::CloseCurrentPopup();
+  if (first_button(tr("Keep it"), 190) || back) ImGui::CloseCurrentPopup();
   ImGui::SameLine();
-  if (danger_button("Delete", 190)) {
+  if (danger_button(tr("Delete"), 190)) {
     wishes.remove = world.path;
     ImGui::CloseCurrentPopup();
   }
@@ -113,21 +114,22 @@ void show_title(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
       IM_COL32(6, 12, 16, 0), IM_COL32(6, 12, 16, 0), IM_COL32(6, 12, 16, 205));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, 0u);
   ImGui::PushStyleColor(ImGuiCol_Border, 0u);
-  begin_panel("title", Place::kLeft, 420, 560);
+  begin_panel("title", Place::kLeft, 420, 600);
   push_size(TextSize::kTitle);
   text("Skerry");
   pop_size();
-  text_in(colour::kAccent, "Islands in the air");
+  text_in(colour::kAccent, tr("Islands in the air"));
   gap(26);
   if (facts.worlds.empty()) {
-    if (first_button("New world", 300)) state.stack.open(Screen::kNewWorld);
+    if (first_button(tr("New world"), 300)) state.stack.open(Screen::kNewWorld);
   } else {
-    if (first_button("Worlds", 300)) state.stack.open(Screen::kWorlds);
-    if (button("New world", 300)) state.stack.open(Screen::kNewWorld);
+    if (first_button(tr("Worlds"), 300)) state.stack.open(Screen::kWorlds);
+    if (button(tr("New world"), 300)) state.stack.open(Screen::kNewWorld);
   }
-  if (button("Settings", 300)) state.stack.open(Screen::kSettings);
-  if (button("Controls", 300)) state.stack.open(Screen::kControls);
-  if (button("Quit", 300)) wishes.quit = true;
+  if (button(tr("Settings"), 300)) state.stack.open(Screen::kSettings);
+  if (button(tr("Controls"), 300)) state.stack.open(Screen::kControls);
+  if (button(tr("Gallery"), 300)) state.stack.open(Screen::kGallery);
+  if (button(tr("Quit"), 300)) wishes.quit = true;
   end_panel();
   ImGui::PopStyleColor(2);
   push_size(TextSize::kSmall);
@@ -143,7 +145,7 @@ void show_title(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
 void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();
   begin_panel("worlds", Place::kMiddle, 900, 620);
-  heading("Worlds");
+  heading(tr("Worlds"));
   const std::string problem = problem_of_chosen(state, facts);
   float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
   if (!problem.empty())
@@ -151,7 +153,7 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
         ImGui::GetStyle().ItemSpacing.y +
         ImGui::CalcTextSize(problem.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y;
   begin_scroll("list", -foot);
-  if (facts.worlds.empty()) text_in(colour::kFaint, "None yet. Make one.");
+  if (facts.worlds.empty()) text_in(colour::kFaint, tr("None yet. Make one."));
   const WorldCard* chosen = nullptr;
   if (!state.chosen_world && !facts.worlds.empty()) {
     const auto sound = std::find_if(facts.worlds.begin(), facts.worlds.end(),
@@ -166,44 +168,44 @@ void show_worlds(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   if (!problem.empty()) text_wrapped(colour::kWarning, problem);
   gap(0);
   ImGui::BeginDisabled(!chosen || !chosen->problem.empty());
-  if (first_button("Play", 190) && chosen) wishes.play = chosen->path;
+  if (first_button(tr("Play"), 190) && chosen) wishes.play = chosen->path;
   ImGui::EndDisabled();
   ImGui::SameLine();
-  if (button("New world", 190)) state.stack.open(Screen::kNewWorld);
+  if (button(tr("New world"), 190)) state.stack.open(Screen::kNewWorld);
   ImGui::SameLine();
   ImGui::BeginDisabled(!chosen);
-  if (button("Delete", 150)) state.asks_to_delete = true;
+  if (button(tr("Delete"), 150)) state.asks_to_delete = true;
   ImGui::EndDisabled();
   ImGui::SameLine();
-  if (button("Back", 150)) state.stack.back();
+  if (button(tr("Back"), 150)) state.stack.back();
   if (chosen) ask_to_delete(state, *chosen, facts.back, wishes);
   end_panel();
 }
 
 void show_new_world(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   begin_panel("new_world", Place::kLeft, 440, facts.pad ? 650 : 464);
-  heading("New world");
-  text_in(colour::kFaint, "Name");
+  heading(tr("New world"));
+  text_in(colour::kFaint, tr("Name"));
   ImGui::SetNextItemWidth(-1.0f);
   if (state.fresh) ImGui::SetKeyboardFocusHere();
   const bool entered = text_field("##name", state.new_name);
   if (ImGui::IsItemFocused()) state.types_seed = false;
-  if (button("Another name", 184)) wishes.draw_name = true;
+  if (button(tr("Another name"), 184)) wishes.draw_name = true;
   gap(4);
-  text_in(colour::kFaint, "Seed");
+  text_in(colour::kFaint, tr("Seed"));
   ImGui::SetNextItemWidth(-1.0f);
   const std::string before = state.new_seed.data();
   const bool seed_entered = text_field("##seed", state.new_seed);
   if (ImGui::IsItemFocused()) state.types_seed = true;
-  if (button("Another seed", 184)) wishes.draw_lots = true;
+  if (button(tr("Another seed"), 184)) wishes.draw_lots = true;
   text_wrapped(colour::kFaint,
-               "Any text or number. The same seed makes the same islands; to the right is what you "
-               "will see first.");
+               tr("Any text or number. The same seed makes the same islands; to the right is what "
+                  "you will see first."));
   gap(12);
-  if (first_button("Create", 184) || entered || seed_entered)
+  if (first_button(tr("Create"), 184) || entered || seed_entered)
     wishes.create = Wishes::NewWorld{state.new_name.data(), state.new_seed.data()};
   ImGui::SameLine();
-  if (button("Back", 184)) state.stack.back();
+  if (button(tr("Back"), 184)) state.stack.back();
   if (facts.pad) {
     gap(4);
     state.types_seed ? letter_buttons(state.new_seed, state.capitals)

@@ -44,5 +44,5 @@ void main() {
   vec3 light = lights_reflected(list, b, way_start(s, word), to_eye) * s.ao;
   vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb + light * clear_air(s.position);
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
-  if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
+  if (here) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));
 }

@@ -96,5 +96,5 @@ void main() {
     colour = light_count(word, pixel, depth);
   else if (word != 0u)
     colour = channel(word, ivec2(pixel), surface_depth(depth), pixel_ray(pixel));
-  imageStore(picture, ivec2(pixel), vec4(clamp(colour, 0.0, 1.0), 1.0));
+  imageStore(picture, ivec2(pixel), vec4(floor(clamp(colour, 0.0, 1.0) * 255.0 + 0.5) / 255.0, 1.0));
 }

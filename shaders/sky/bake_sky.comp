@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // Fills the sky-view table, kSkyLutWidth x kSkyLutHeight, once whenever sun or moon have moved: the
 // sky's own light and, by night, the Milky Way.
+#include "include/frame/halves.glsl"
 #include "include/sky/sky.glsl"
 #include "shared/bindings.h"
 
@@ -44,5 +45,5 @@ void main() {
   vec3 dir = dir_from_sky_lut(vec2(texel) / vec2(size - 1u));
   vec3 d = vec3(dot(sky.sky_x, dir), dot(sky.sky_y, dir), dot(sky.sky_z, dir));
   vec3 night = milky_way(d) * (sky.stars * smoothstep(-0.05, 0.20, dir.y));
-  imageStore(sky_lut, ivec2(texel), vec4(sky_radiance(dir, sky) + night, 1.0));
+  imageStore(sky_lut, ivec2(texel), vec4(as_halves(sky_radiance(dir, sky) + night), 1.0));
 }

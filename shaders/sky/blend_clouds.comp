@@ -58,7 +58,7 @@ void blend() {
   if (shares > 0.0) seen = Clouded(known.rgb, known.a);
   vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb * seen.clear + seen.light;
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
-  if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
+  if (here) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));
 }
 
 void main() {

@@ -24,7 +24,7 @@ layout(scalar, binding = kListedPixelsBinding) writeonly buffer Pixels { uint pi
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 layout(constant_id = kStepConstant) const uint kStep = 4u;  // pixels between the grid's points
 layout(constant_id = kEveryPixelConstant) const bool kEveryPixel = false;  // the second pass
-layout(constant_id = kToleranceConstant) const float kTolerance = 0.1;  // how much the four may differ, of the brightest
+layout(constant_id = kToleranceConstant) const float kTolerance = 0.3;  // how much the four may differ, of the brightest
 
 #include "include/scene/tiles.glsl"
 #include "include/surface/surface.glsl"
@@ -111,7 +111,7 @@ void main() {
     Taker by = Taker(alike_key(word), normal, dot(normal, ray * t), t, apart, is_plant(word), albedo);
     mat2x3 light;
     shared_light = light_between(pixel, by, light) && surface;
-    if (shared_light) imageStore(radiance, ivec2(pixel), vec4(sanitised(radiance_at(light, by.albedo)), 1.0));
+    if (shared_light) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(radiance_at(light, by.albedo))), 1.0));
   } else if (here && !surface) {
     imageStore(samples, ivec2(gl_GlobalInvocationID.xy), uvec4(kNoSurface));
   }

@@ -99,7 +99,7 @@ void main() {
   sent = mat2x3(sanitised(sent[0]), sanitised(sent[1]));
   if (kEveryPixel) {
     vec3 albedo = surface_texel(word, ray, z, kTextureTaps).rgb;
-    if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(radiance_at(sent, albedo)), 1.0));
+    if (here) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(radiance_at(sent, albedo))), 1.0));
   } else {
     if (here) imageStore(samples, ivec2(pixel / kStep), packed_sample(sent, place_code(word, z)));
   }

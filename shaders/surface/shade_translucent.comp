@@ -65,5 +65,5 @@ void main() {
   vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
   vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
-  if (here) imageStore(radiance, ivec2(pixel), vec4(sanitised(colour), 1.0));
+  if (here) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));
 }

@@ -205,6 +205,39 @@ TEST_F(CompareCommandLine, TheToleranceCanBeStated) {
   expect_refusal(compare({"--tolerance", "tight"}), 2, {"--tolerance"}, "no JSON");
 }
 
+TEST_F(CompareCommandLine, RegionsAndShiftsAreInTheRow) {
+  write_both("square", 90);
+  const std::string square =
+      R"({"shift": 1, "regions": [{"name": "square", "rectangle": [20, 12, 8, 8], "flip_mean": 1,
+          "flip_p99": 1, "pixels_over": PART}]})";
+  const auto with_share = [&](const std::string& share) {
+    std::string text = square;
+    return text.replace(text.find("PART"), 4, share);
+  };
+  // FLIP's filters reach over the region's border.
+  const std::string around = R"({"flip_mean": 1, "flip_p99": 1, )";
+  const auto both = [&](const std::string& share) { return around + with_share(share).substr(1); };
+  EXPECT_EQ(compare({"--tolerance", both("1"), "--json", out("rows.json").string(), "--html",
+                     out("html").string()})
+                .status,
+            0);
+  const json row = rows("rows.json").at(0);
+  EXPECT_EQ(row["shift"], json({0, 0}));
+  ASSERT_EQ(row["regions"].size(), 2u);
+  EXPECT_EQ(row["regions"][0]["name"], "square");
+  EXPECT_EQ(row["regions"][0]["pixels_over"], 1.0);
+  EXPECT_EQ(row["regions"][1]["name"], "elsewhere");
+  EXPECT_EQ(row["regions"][1]["pixels_over"], 0.0);
+  EXPECT_NE(text_of(out("html/index.html")).find("elsewhere"), std::string::npos);
+  const Outcome tight = compare({"--tolerance", both("0.5")});
+  EXPECT_EQ(tight.status, 1);
+  EXPECT_NE(tight.out.find("square: share of pixels"), std::string::npos) << tight.out;
+  const Outcome outside =
+      compare({"--tolerance", R"({"regions": [{"name": "far", "rectangle": [40, 0, 9, 1]}]})"});
+  EXPECT_EQ(outside.status, 1);
+  EXPECT_NE(outside.out.find("leaves the picture of 48x32"), std::string::npos) << outside.out;
+}
+
 TEST_F(CompareCommandLine, WhatCannotBeComparedIsRefused) {
   write_picture(before(), "one");
   expect_refusal(compare(), 1, {"after", "no folder"}, "one folder");
@@ -324,6 +357,40 @@ TEST_F(TestCommandLine, ABaselineKeepsReferencesOutsideTheScenes) {
   EXPECT_EQ(other.status, 1);
   EXPECT_NE(other.out.find("no reference yet"), std::string::npos) << other.out;
   expect_refusal(test({"run", "sky", "--dir", dir}), 1, {"'sky' is not what was planned"}, "run");
+}
+
+TEST_F(TestCommandLine, AFailureNamesTheChannelInWhichItBegins) {
+  const auto write = [&](const std::string& time, const std::string& settings) {
+    ASSERT_TRUE(write_text(scenes() / "isle.json",
+                           R"({"seed": 7, "size": "64x36", "tolerance": {"flip_mean": 0, )"
+                           R"("flip_p99": 0, "flip_max": 0, "pixels_over": 0}, "time": ")" +
+                               time +
+                               R"(", "settings": {"world.islands": 1, "view.distance": 100, )" +
+                               R"("indirect": "off", "shadow.enabled": 0)" + settings + "}}"));
+  };
+  const std::string baseline = out("baseline").string();
+  const auto cause = [&] {
+    EXPECT_EQ(test({scenes().string(), "--baseline", baseline, "--json", out("rows.json").string(),
+                    "--history", out("history").string()})
+                  .status,
+              1);
+    return rows("rows.json").at(0)["cause"];
+  };
+  write("12:00", "");
+  ASSERT_EQ(test({scenes().string(), "--baseline", baseline, "--approve"}).status, 0);
+  write("12:00", R"(, "gbuffer.depth": "d16")");
+  const json depth = cause();
+  EXPECT_EQ(depth["channel"], "depth");
+  EXPECT_EQ(depth["pass"], "draw_geometry");
+  write("15:00", "");
+  EXPECT_NE(cause()["pass"], "draw_geometry");  // the surfaces are the same
+  write("12:00", "");
+  EXPECT_EQ(test({scenes().string(), "--baseline", baseline, "--history", out("history").string(),
+                  "--html", out("html").string()})
+                .status,
+            0);
+  EXPECT_NE(text_of(out("html/index.html")).find("3 runs: 1 passed, 2 failed; 3 different"),
+            std::string::npos);
 }
 
 }  // namespace

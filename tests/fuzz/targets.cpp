@@ -21,6 +21,8 @@
 #include "game/pace/quality_front.h"
 #include "game/scene_file/options.h"
 #include "game/scene_file/setting_keys.h"
+#include "game/session/journal.h"
+#include "game/worlds/gallery.h"
 #include "tools/skerry/farm/plan.h"
 #include "tools/skerry/farm/record.h"
 #include "tools/skerry/test/hashes.h"
@@ -51,6 +53,8 @@ void scene(std::span<const std::uint8_t> input) {
   const Result<game::SceneOptions> scene = game::make_scene(*text, {});
   if (!scene) return check_line(scene.error());
   SKERRY_ASSERT(!game::shot_command(*scene).empty());
+  const Result<void> fits = game::check_expectations(text->expectations, scene->size);
+  if (!fits) check_line(fits.error());
 }
 
 void setting(std::span<const std::uint8_t> input) {
@@ -284,6 +288,28 @@ void hints(std::span<const std::uint8_t> input) {
   SKERRY_ASSERT(game::Hints::read(printed).print() == printed);
 }
 
+void journal(std::span<const std::uint8_t> input) {
+  world::ByteReader in(std::as_bytes(input));
+  const std::optional<game::Journal> read = game::decode_journal(in);
+  if (!read) return;
+  SKERRY_ASSERT(game::fits_file(*read));
+  world::ByteWriter out;
+  game::encode_journal(*read, out);
+  world::ByteReader again(out.bytes());
+  SKERRY_ASSERT(game::decode_journal(again) == read && again.done());
+}
+
+/// A picture from anywhere may hold any text.
+void picture_command(std::span<const std::uint8_t> input) {
+  const Result<game::SceneText> place = game::place_of_command(text_of(input));
+  if (!place) return check_line(place.error());
+  const Result<game::SceneOptions> scene = game::make_scene(*place, {});
+  if (!scene) return check_line(scene.error());
+  // What leads somewhere leads there again.
+  const Result<game::SceneText> again = game::place_of_command(game::shot_command(*scene));
+  SKERRY_ASSERT(again && game::make_scene(*again, {}));
+}
+
 void hashes(std::span<const std::uint8_t> input) {
   const std::filesystem::path path = written(input);
   const Result<tools::Hashes> read = tools::read_hashes(path);
@@ -292,7 +318,7 @@ void hashes(std::span<const std::uint8_t> input) {
   SKERRY_ASSERT(*tools::read_hashes(path) == *read);
 }
 
-constexpr std::array<Target, 16> kTargets{{{"scene", scene},
+constexpr std::array<Target, 18> kTargets{{{"scene", scene},
                                            {"setting", setting},
                                            {"camera", camera},
                                            {"time_and_size", time_and_size},
@@ -307,6 +333,8 @@ constexpr std::array<Target, 16> kTargets{{{"scene", scene},
                                            {"farm_row", farm_row},
                                            {"learnt_costs", learnt_costs},
                                            {"hints", hints},
+                                           {"journal", journal},
+                                           {"picture_command", picture_command},
                                            {"hashes", hashes}}};
 
 }  // namespace

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <random>
 
 #include "tools/measure/color.h"
 #include "tools/measure/flip_filters.h"
+#include "tools/measure/flip_kernel.h"
+#include "tools/measure/image.h"
 
 namespace skerry::measure {
 namespace {
@@ -42,8 +45,8 @@ double hyab_hunt(const glm::dvec3& a, const glm::dvec3& b) {
 /// The paper's error of a HyAB difference without features. The largest difference, green to blue,
 /// from their tabulated L*a*b*: Hunt-adjusted (87.735, -75.612, 72.977) and (32.297, 25.575,
 /// -34.836), so 55.438 + |(101.187, 107.813)| = 203.30.
-double error_of(double hyab) {
-  const double largest = std::pow(203.30, 0.7), knee = 0.4 * largest, d = std::pow(hyab, 0.7);
+double error_of(double hyab, double largest_hyab = 203.30) {
+  const double largest = std::pow(largest_hyab, 0.7), knee = 0.4 * largest, d = std::pow(hyab, 0.7);
   return d < knee ? 0.95 * d / knee : 0.95 + 0.05 * (d - knee) / (largest - knee);
 }
 
@@ -121,7 +124,8 @@ class Definition {
   Definition(const Picture& a, const Picture& b, double ppd) : a_(a), b_(b), ppd_(ppd) {}
 
   double error_at(int x, int y) const {
-    const double color = error_of(hyab_hunt(blurred(a_, x, y), blurred(b_, x, y)));
+    const double color =
+        error_of(hyab_hunt(blurred(a_, x, y), blurred(b_, x, y)), hyab_hunt({0, 1, 0}, {0, 0, 1}));
     const double feature = std::max(std::abs(edge(a_, x, y) - edge(b_, x, y)),
                                     std::abs(point(a_, x, y) - point(b_, x, y)));
     return std::pow(color, 1.0 - std::sqrt(feature / std::sqrt(2.0)));
@@ -195,20 +199,88 @@ class Definition {
   double ppd_;
 };
 
-TEST(Flip, SeparatedFiltersGiveWhatTheDefinitionGives) {
-  // Taller than a band of rows, so that the bands' seams are seen, narrower than the filters.
-  Picture a = random_picture(15, 70, 5), b = a;
+/// Two pictures that differ in a few pixels, and a little in many.
+std::pair<Picture, Picture> unlike(std::uint32_t width, std::uint32_t height) {
+  Picture a = random_picture(width, height, 5), b = a;
   std::mt19937 random(6);
   for (int i = 0; i < 60; ++i) b.pixels[random() % b.pixels.size()] = glm::vec3(0.9f, 0.1f, 0.3f);
-  for (const double ppd : {kPixelsPerDegree, 20.0}) {
-    const Definition definition(a, b, ppd);
-    const ErrorMap map = flip_ldr(a, b, ppd);
-    for (const int y : {0, 1, 33, 62, 63, 64, 65, 69})
-      for (const int x : {0, 7, 14})
-        EXPECT_NEAR(map.errors[static_cast<std::size_t>(y) * 15 + x], definition.error_at(x, y),
-                    1e-4)
-            << x << " " << y;
+  for (std::size_t i = 0; i < b.pixels.size(); i += 3) b.pixels[i] *= 0.999f;
+  return {a, b};
+}
+
+TEST(Flip, SeparatedFiltersGiveWhatTheDefinitionGives) {
+  // Taller and wider than a tile, so that the seams are seen, and narrower than the filters.
+  for (const std::uint32_t width : {15u, 70u}) {
+    const auto [a, b] = unlike(width, 70);
+    for (const double ppd : {kPixelsPerDegree, 20.0}) {
+      const Definition definition(a, b, ppd);
+      const ErrorMap map = flip_ldr(a, b, ppd);
+      for (const int y : {0, 33, 63, 64, 69})
+        for (const int x : {0, 7, 14, 63, 64, 69}) {
+          if (x >= static_cast<int>(width)) continue;
+          EXPECT_NEAR(map.errors[static_cast<std::size_t>(y) * width + x],
+                      definition.error_at(x, y), 2e-6)
+              << x << " " << y;
+        }
+    }
   }
+}
+
+TEST(Flip, SmallDifferencesKeepTheirPower) {
+  // Where features are equal, so that the error is the 0.7th power of the colours' difference
+  // alone.
+  for (const double step : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const auto a = static_cast<float>(0.3), b = static_cast<float>(0.3 + step);
+    const double expected = error_of(hyab_hunt(glm::dvec3(a), glm::dvec3(b)));
+    expect_constant(flip_ldr(grey(a), grey(b)), expected, expected * 1e-4);
+  }
+}
+
+TEST(Flip, EveryKernelGivesTheSameBits) {
+  const std::span<const flip_detail::Kernel* const> kernels = flip_detail::kernels();
+  for (const std::uint32_t width : {1u, 7u, 64u, 131u}) {
+    auto [a, b] = unlike(width, 67);
+    b.pixels[0] = glm::vec3(std::numeric_limits<float>::quiet_NaN(), -1.0f, 2.0f);
+    for (const double ppd : {kPixelsPerDegree, 20.0, 150.0}) {
+      const std::vector<float> portable =
+          errors_with(*kernels.back(), flip_detail::pair_of(a, b), ppd);
+      EXPECT_GT(*std::max_element(portable.begin(), portable.end()), 0.1f);
+      for (const flip_detail::Kernel* kernel : kernels) {
+        const std::vector<float> errors = errors_with(*kernel, flip_detail::pair_of(a, b), ppd);
+        EXPECT_EQ(0, std::memcmp(errors.data(), portable.data(), errors.size() * sizeof(float)))
+            << kernel->name;
+      }
+    }
+  }
+}
+
+TEST(Flip, BytesHaveTheErrorsOfThePictureThatTheyDecodeTo) {
+  std::mt19937 random(8);
+  Image a{131, 67, {}}, b{131, 67, {}};
+  for (std::size_t i = 0; i < std::size_t{131} * 67 * 4; ++i) {
+    a.rgba.push_back(static_cast<std::uint8_t>(random() % 256));
+    b.rgba.push_back(random() % 4 != 0 ? a.rgba[i] : static_cast<std::uint8_t>(random() % 256));
+  }
+  EXPECT_EQ(flip_srgb(131, 67, a.rgba, b.rgba).errors,
+            flip_ldr(picture_from(a), picture_from(b)).errors);
+}
+
+TEST(Flip, ADifferenceIsSeenInTheTilesAroundItAndInNoOther) {
+  // One pixel beside the corner of four tiles: filters carry it into all of them, 10 pixels far.
+  const Picture a = constant(200, 200, glm::vec3(0.2f));
+  Picture b = a;
+  b.pixels[64 * 200 + 63] = glm::vec3(1.0f);
+  const ErrorMap map = flip_ldr(a, b);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) {
+      const float error = map.errors[static_cast<std::size_t>(y) * 200 + x];
+      const int distance = std::max(std::abs(x - 63), std::abs(y - 64));
+      if (distance <= 5) {
+        EXPECT_GT(error, 0.0f) << x << " " << y;
+      } else if (distance > 10) {
+        EXPECT_EQ(error, 0.0f) << x << " " << y;
+      }
+    }
 }
 
 TEST(FlipFilters, WeightsSumToOne) {

@@ -50,7 +50,7 @@ MUTANTS = (
            "if (opaque && voxel != spared) return true;",
            "if (opaque && voxel != spared && distance(vec3(voxel) + 0.5, to) > 2.0) return true;", "rays"),
     Mutant("columns_of_no_number", "every 32nd column is no number", "shaders/include/post/output.glsl",
-           "imageStore(target, ivec2(pixel), vec4(sanitised(colour), 1.0));",
+           "imageStore(target, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));",
            "imageStore(target, ivec2(pixel), vec4(pixel.x % 32u == 7u ? vec3(uintBitsToFloat(0x7fc00000u))"
            " : sanitised(colour), 1.0));",
            "rays.turns worlds.solid"),

@@ -56,6 +56,25 @@ TEST(ReferencePicture, OneSampleTellsNothingOfItsError) {
   EXPECT_TRUE(one.standard_error.empty());
 }
 
+TEST(ReferencePicture, BatchesDrawnApartAreThePictureToTheLastBit) {
+  const Scene scene = busy_scene();
+  for (const std::uint32_t count : {1u, 3u, 11u}) {
+    const ReferenceSettings settings = samples(count);
+    const ReferencePicture whole = render(scene, settings);
+    const std::uint32_t batches = batches_of(settings);
+    EXPECT_EQ(batches, std::min(count, 8u));
+    std::vector<ReferenceBatches> parts;  // of one, two, one, two batches ..., the last first
+    for (std::uint32_t first = 0, size = 1; first < batches; first += size, size = 3 - size) {
+      size = std::min(size, batches - first);
+      parts.insert(parts.begin(), render_batches(scene, settings, first, size));
+    }
+    const ReferencePicture merged = merge_batches(parts);
+    EXPECT_EQ(merged.radiance.pixels, whole.radiance.pixels);
+    EXPECT_EQ(merged.standard_error, whole.standard_error);
+    EXPECT_EQ(merged.mean_error, whole.mean_error);
+  }
+}
+
 TEST(ReferencePicture, ThreadsChangeNoBit) {
   const Scene scene = busy_scene();
   const ReferencePicture one = render(scene, samples(8, 1)), four = render(scene, samples(8, 4));

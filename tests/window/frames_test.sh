@@ -13,7 +13,7 @@ learnt=$work/cache/skerry/quality.json
 
 quit() {
   key Escape 1
-  for _ in 1 2 3 4 5 6 7; do key Down 0.2; done
+  for _ in 1 2 3 4 5 6 7 8 9; do key Down 0.2; done
   xdotool key Return
   expect_end
 }

@@ -105,7 +105,7 @@ awk -v d="$(walked 1 2 4 5)" 'BEGIN { exit !(d < 0.5) }' || fail "it walks on wi
 press $START
 press $B  # back to the world
 press $START
-for _ in 1 2 3 4 5 6; do press $DOWN; done
+for _ in 1 2 3 4 5 6 7 8; do press $DOWN; done
 hold "button $A"
 rest
 expect_end

@@ -71,9 +71,9 @@ walked=$(camera)
 before=$(last_shot)
 awk -v d="$(apart "$spawn" "$walked")" 'BEGIN { exit !(d > 0.3) }' || fail "it did not walk: $spawn, then $walked"
 
-# Pause: the fifth button saves and leaves.
+# Pause: the seventh button saves and leaves.
 key Escape 1
-for _ in 1 2 3 4; do key Down; done
+for _ in 1 2 3 4 5 6; do key Down; done
 key Return 1
 until_true "the world has been left" left
 [ -n "$(find "$work/data/skerry/worlds" -name '*.png')" ] || fail "the world has no picture"
@@ -91,7 +91,7 @@ difference=$(compare -metric RMSE "$before" "$after" null: 2>&1 | sed 's/.*(\(.*
 awk -v d="$difference" 'BEGIN { exit !(d < 0.15) }' || fail "the world looks another: RMSE $difference"
 
 key Escape 1
-for _ in 1 2 3 4 5 6 7; do key Down; done
+for _ in 1 2 3 4 5 6 7 8 9; do key Down; done
 xdotool key Return
 expect_end
 [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q 'controls.json' "$work/err" || fail "it complained of more than the controls"

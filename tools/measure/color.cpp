@@ -1,7 +1,6 @@
 #include "tools/measure/color.h"
 
 #include <cmath>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 namespace skerry::measure {
@@ -41,23 +40,31 @@ double lab_curve(double t) {
 
 }  // namespace
 
+const glm::dmat3& relative_from_linear() {
+  return matrices().relative_from_linear;
+}
+
+const glm::dmat3& linear_from_relative() {
+  return matrices().linear_from_relative;
+}
+
 double luminance(const glm::dvec3& linear) {
-  const glm::dmat3& m = matrices().relative_from_linear;
+  const glm::dmat3& m = relative_from_linear();
   return m[0].y * linear.x + m[1].y * linear.y + m[2].y * linear.z;
 }
 
 glm::dvec3 ycxcz_from_linear(const glm::dvec3& linear) {
-  const glm::dvec3 t = matrices().relative_from_linear * linear;
+  const glm::dvec3 t = relative_from_linear() * linear;
   return {116.0 * t.y - 16.0, 500.0 * (t.x - t.y), 200.0 * (t.y - t.z)};
 }
 
 glm::dvec3 linear_from_ycxcz(const glm::dvec3& ycxcz) {
   const double y = (ycxcz.x + 16.0) / 116.0;
-  return matrices().linear_from_relative * glm::dvec3(y + ycxcz.y / 500.0, y, y - ycxcz.z / 200.0);
+  return linear_from_relative() * glm::dvec3(y + ycxcz.y / 500.0, y, y - ycxcz.z / 200.0);
 }
 
 glm::dvec3 lab_from_linear(const glm::dvec3& linear) {
-  const glm::dvec3 t = matrices().relative_from_linear * linear;
+  const glm::dvec3 t = relative_from_linear() * linear;
   const double x = lab_curve(t.x), y = lab_curve(t.y), z = lab_curve(t.z);
   return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
 }
@@ -70,6 +77,16 @@ double srgb_from_linear(double linear) {
 double linear_from_srgb(double srgb) {
   if (srgb <= 0.04045) return srgb / 12.92;
   return std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+const std::array<float, 256>& linear_of_bytes() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> made{};
+    for (std::size_t i = 0; i < made.size(); ++i)
+      made[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / 255.0));
+    return made;
+  }();
+  return table;
 }
 
 }  // namespace skerry::measure

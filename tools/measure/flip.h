@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tools/measure/picture.h"
@@ -20,6 +22,12 @@ struct ErrorMap {
 ErrorMap flip_ldr(const Picture& reference, const Picture& test,
                   double pixels_per_degree = kPixelsPerDegree);
 
+/// flip_ldr of 8-bit sRGB pixels, four bytes each of which the last is left out, without making
+/// pictures of them: the same errors. @pre sizes are width * height * 4, and not 0 (asserted).
+ErrorMap flip_srgb(std::uint32_t width, std::uint32_t height,
+                   std::span<const std::uint8_t> reference, std::span<const std::uint8_t> test,
+                   double pixels_per_degree = kPixelsPerDegree);
+
 /// Exposures of HDR-FLIP [stops]: pictures are multiplied by 2^stop.
 struct ExposureRange {
   double first = 0.0, last = 0.0;
@@ -39,7 +47,7 @@ ExposureRange exposure_range(const Picture& reference, const Picture& test);
 ErrorMap flip_hdr(const Picture& reference, const Picture& test, const ExposureRange& range,
                   double pixels_per_degree = kPixelsPerDegree);
 
-/// Mean, quantile (nearest rank, 0..1) and largest of a map. @pre not empty.
+/// Mean, quantile (nearest rank, 0..1) and largest of a map. @pre not empty; no error below 0.
 double mean_of(const ErrorMap& map);
 double quantile_of(const ErrorMap& map, double share);
 double max_of(const ErrorMap& map);

@@ -5,8 +5,6 @@
 #include <numbers>
 #include <span>
 
-#include "engine/core/check.h"
-
 namespace skerry::measure {
 namespace {
 
@@ -22,6 +20,9 @@ constexpr Gaussian kAchromatic{1.0, 0.0047};
 constexpr Gaussian kRedGreen{1.0, 0.0053};
 constexpr Gaussian kBlueYellow[] = {{34.1, 0.04}, {13.5, 0.025}};
 constexpr double kWidest = 0.04;
+
+/// Of a tap that counts, relative to the centre's.
+constexpr double kLeastWeight = 1e-9;
 
 /// Distance between the peaks of the feature detectors [degrees].
 constexpr double kFeatureWidth = 0.082;
@@ -46,7 +47,9 @@ SpatialFilter sum_of_gaussians(std::span<const Gaussian> gaussians, double pixel
     SpatialFilter::Part part;
     for (int i = 0; i <= radius; ++i) {
       const double x = i / pixels_per_degree;
-      part.taps.weights.push_back(std::exp(-kPi * kPi * x * x / gaussian.b));
+      const double weight = std::exp(-kPi * kPi * x * x / gaussian.b);
+      if (weight < kLeastWeight) break;
+      part.taps.weights.push_back(weight);
     }
     const double sum = sum_of(part.taps);
     scale(part.taps, 1.0 / sum);
@@ -83,56 +86,11 @@ FlipFilters::FlipFilters(double pixels_per_degree)
 }
 
 int FlipFilters::radius() const {
-  return std::max(achromatic.parts.front().taps.radius(), smooth.radius());
-}
-
-Plane filter_rows(const Plane& in, const Taps& taps) {
-  const int radius = taps.radius();
-  const double sign = taps.odd ? -1.0 : 1.0;
-  Plane out(in.width, in.height);
-  std::vector<double> padded(static_cast<std::size_t>(in.width + 2 * radius));
-  for (int y = 0; y < in.height; ++y) {
-    const double* from = in.row(y);
-    double* centre = padded.data() + radius;
-    std::copy(from, from + in.width, centre);
-    std::fill(padded.data(), centre, from[0]);
-    std::fill(centre + in.width, padded.data() + padded.size(), from[in.width - 1]);
-    double* to = out.row(y);
-    for (int x = 0; x < in.width; ++x) to[x] = taps.weights[0] * centre[x];
-    // Taps outside, pixels inside: the inner loop has no dependence and becomes vector code.
-    for (int i = 1; i <= radius; ++i) {
-      const double weight = taps.weights[static_cast<std::size_t>(i)];
-      const double *before = centre - i, *after = centre + i;
-      for (int x = 0; x < in.width; ++x) to[x] += weight * (after[x] + sign * before[x]);
-    }
-  }
-  return out;
-}
-
-Plane filter_columns(const Plane& in, const Taps& taps, int margin) {
-  SKERRY_ASSERT(margin >= taps.radius() && in.height > 2 * margin);
-  const double sign = taps.odd ? -1.0 : 1.0;
-  Plane out(in.width, in.height - 2 * margin);
-  for (int y = 0; y < out.height; ++y) {
-    double* to = out.row(y);
-    const double* centre = in.row(y + margin);
-    for (int x = 0; x < in.width; ++x) to[x] = taps.weights[0] * centre[x];
-    for (int i = 1; i <= taps.radius(); ++i) {
-      const double weight = taps.weights[static_cast<std::size_t>(i)];
-      const double *before = in.row(y + margin - i), *after = in.row(y + margin + i);
-      for (int x = 0; x < in.width; ++x) to[x] += weight * (after[x] + sign * before[x]);
-    }
-  }
-  return out;
-}
-
-Plane filter(const Plane& in, const SpatialFilter& spatial, int margin) {
-  Plane sum(in.width, in.height - 2 * margin);
-  for (const SpatialFilter::Part& part : spatial.parts) {
-    const Plane one = filter_columns(filter_rows(in, part.taps), part.taps, margin);
-    for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += part.share * one.values[i];
-  }
-  return sum;
+  int widest = smooth.radius();
+  for (const SpatialFilter* filter : {&achromatic, &red_green, &blue_yellow})
+    for (const SpatialFilter::Part& part : filter->parts)
+      widest = std::max(widest, part.taps.radius());
+  return widest;
 }
 
 }  // namespace skerry::measure

@@ -11,7 +11,8 @@ struct Taps {
   int radius() const { return static_cast<int>(weights.size()) - 1; }
 };
 
-/// A round filter: a sum of separable ones, each `share` times taps(x) taps(y).
+/// A round filter: a sum of separable ones, each `share` times taps(x) taps(y). Taps of less than
+/// 1e-9 of the centre are left out: they change no error by more than 1e-6.
 struct SpatialFilter {
   struct Part {
     double share = 0.0;
@@ -33,23 +34,5 @@ struct FlipFilters {
   /// Of the widest filter [pixels].
   int radius() const;
 };
-
-/// Rows of numbers, side by side.
-struct Plane {
-  int width = 0, height = 0;
-  std::vector<double> values;
-
-  Plane(int w, int h) : width(w), height(h), values(static_cast<std::size_t>(w) * h) {}
-  double* row(int y) { return values.data() + static_cast<std::size_t>(width) * y; }
-  const double* row(int y) const { return values.data() + static_cast<std::size_t>(width) * y; }
-};
-
-/// Along x, the plane's first and last columns repeated beyond it.
-Plane filter_rows(const Plane& in, const Taps& taps);
-/// Along y. The result is 2 * margin rows lower: `margin` rows at each end only feed the filter.
-/// @pre margin >= taps.radius().
-Plane filter_columns(const Plane& in, const Taps& taps, int margin);
-/// Both ways, parts summed.
-Plane filter(const Plane& in, const SpatialFilter& spatial, int margin);
 
 }  // namespace skerry::measure

@@ -11,17 +11,6 @@
 namespace skerry::measure {
 namespace {
 
-/// Linear light of each encoded byte.
-const std::array<float, 256>& decoded_bytes() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> made{};
-    for (std::size_t i = 0; i < made.size(); ++i)
-      made[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / 255.0));
-    return made;
-  }();
-  return table;
-}
-
 std::uint8_t byte_of(double encoded) {
   const double clamped = encoded > 0.0 ? std::min(encoded, 1.0) : 0.0;
   return static_cast<std::uint8_t>(std::lround(clamped * 255.0));
@@ -36,12 +25,11 @@ void append(Image& image, const glm::vec3& linear) {
 }  // namespace
 
 Picture picture_from(const Image& image) {
-  const std::array<float, 256>& linear = decoded_bytes();
-  Picture out{image.width, image.height, {}};
-  out.pixels.reserve(image.rgba.size() / 4);
-  for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4)
-    out.pixels.emplace_back(linear[image.rgba[i]], linear[image.rgba[i + 1]],
-                            linear[image.rgba[i + 2]]);
+  const std::array<float, 256>& linear = linear_of_bytes();
+  const std::vector<std::uint8_t>& rgba = image.rgba;
+  Picture out{image.width, image.height, std::vector<glm::vec3>(rgba.size() / 4)};
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] = {linear[rgba[4 * i]], linear[rgba[4 * i + 1]], linear[rgba[4 * i + 2]]};
   return out;
 }
 

@@ -2,7 +2,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -19,7 +18,6 @@ struct Image {
 
 /// Decoded; alpha is left out.
 Picture picture_from(const Image& image);
-
 /// Errors as colours, from black over blue-violet, red and orange to white; equally bright steps.
 Image heat_map(const ErrorMap& map);
 /// The colour of one error, 0..1.

@@ -232,23 +232,10 @@ Result<void> add_clouds(const game::SceneOptions& options, world::WorldPos camer
   return {};
 }
 
-}  // namespace
-
-ReferenceSettings settings_from(const game::SceneOptions& options) {
-  ReferenceSettings settings;
-  settings.samples = options.settings.reference_samples;
-  settings.filter = options.settings.reference_filter;
-  settings.threads = static_cast<int>(options.settings.jobs_threads);
-  return settings;
-}
-
-Darkroom darkroom_from(const game::Settings& settings) {
-  return {settings.render.tone, settings.render.display, settings.render.bloom};
-}
-
-Result<ReferencePicture> render_reference(const game::SceneOptions& options,
-                                          const ReferenceSettings& settings,
-                                          const Progress& progress) {
+/// Calls draw(scene) with the scene that options name.
+template <class Draw>
+Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettings& settings,
+                        const Draw& draw) {
   if (options.settings.render.debug_view != render::DebugView::kNone)
     return Error{"debug.view has no reference picture: use debug.view=none or renderer=deferred"};
   if (options.settings.render.leave_out != render::FeatureSet{})
@@ -272,10 +259,56 @@ Result<ReferencePicture> render_reference(const game::SceneOptions& options,
   add_sky(options, sky, settings.body_radius, scene);
   if (Result<void> added = add_clouds(options, camera.position, world.origin(), scene); !added)
     return added.error();
-  ReferencePicture picture = render(scene, settings, progress);
-  picture.ev = options.settings.exposure_ev
-                   ? *options.settings.exposure_ev
-                   : metered_ev(picture.radiance, options.settings.render.meter).value_or(0.0);
+  draw(scene);
+  return {};
+}
+
+double ev_of(const game::SceneOptions& options, const measure::Picture& radiance) {
+  if (options.settings.exposure_ev) return *options.settings.exposure_ev;
+  return metered_ev(radiance, options.settings.render.meter).value_or(0.0);
+}
+
+}  // namespace
+
+ReferenceSettings settings_from(const game::SceneOptions& options) {
+  ReferenceSettings settings;
+  settings.samples = options.settings.reference_samples;
+  settings.filter = options.settings.reference_filter;
+  settings.threads = static_cast<int>(options.settings.jobs_threads);
+  return settings;
+}
+
+Darkroom darkroom_from(const game::Settings& settings) {
+  return {settings.render.tone, settings.render.display, settings.render.bloom};
+}
+
+Result<ReferencePicture> render_reference(const game::SceneOptions& options,
+                                          const ReferenceSettings& settings,
+                                          const Progress& progress) {
+  ReferencePicture picture;
+  const Result<void> drawn = with_scene(
+      options, settings, [&](const Scene& scene) { picture = render(scene, settings, progress); });
+  if (!drawn) return drawn.error();
+  picture.ev = ev_of(options, picture.radiance);
+  return picture;
+}
+
+Result<ReferenceBatches> render_reference_batches(const game::SceneOptions& options,
+                                                  const ReferenceSettings& settings,
+                                                  std::uint32_t first, std::uint32_t count,
+                                                  const Progress& progress) {
+  ReferenceBatches batches;
+  const Result<void> drawn = with_scene(options, settings, [&](const Scene& scene) {
+    batches = render_batches(scene, settings, first, count, progress);
+  });
+  if (!drawn) return drawn.error();
+  return batches;
+}
+
+ReferencePicture merge_reference(const game::SceneOptions& options,
+                                 std::span<const ReferenceBatches> parts) {
+  ReferencePicture picture = merge_batches(parts);
+  picture.ev = ev_of(options, picture.radiance);
   return picture;
 }
 

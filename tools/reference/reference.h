@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/core/jobs.h"
@@ -40,6 +41,18 @@ struct ReferencePicture {
   double seconds = 0.0;
 };
 
+/// A picture is the mean of so many independent estimates, or of fewer if it has fewer samples.
+inline constexpr std::uint32_t kBatches = 8;
+std::uint32_t batches_of(const ReferenceSettings& settings);
+
+/// Batches [first, first + count) of a picture: what some machine has drawn of it.
+struct ReferenceBatches {
+  std::uint32_t width = 0, height = 0;
+  std::uint32_t first = 0, count = 0;
+  std::vector<glm::dvec3> means;  ///< of each batch's samples, a pixel; batch after batch
+  double seconds = 0.0;
+};
+
 /// Told the share done, 0..1, now and then, from one thread at a time.
 using Progress = std::function<void(double share)>;
 
@@ -47,11 +60,29 @@ using Progress = std::function<void(double share)>;
 ReferencePicture render(const Scene& scene, const ReferenceSettings& settings,
                         const Progress& progress = {});
 
+/// Draws some batches of it. @pre first + count <= batches_of(settings), count >= 1.
+ReferenceBatches render_batches(const Scene& scene, const ReferenceSettings& settings,
+                                std::uint32_t first, std::uint32_t count,
+                                const Progress& progress = {});
+/// The picture that `render` draws, to the last bit, whoever drew the batches: they are added in
+/// their order. Its islands and chunks are not known; its
+/// seconds are those of all batches together.
+/// @pre the parts are of one size and are all batches, each once; in any order.
+ReferencePicture merge_batches(std::span<const ReferenceBatches> parts);
+
 /// Draws what `skerry shot` draws. The camera's place is exact; islands are at full detail.
 /// Errors: a debug view is asked for, or a feature left out; more than 2^26 pixels.
 Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const ReferenceSettings& settings,
                                           const Progress& progress = {});
+
+/// The same, of some batches; and the picture of all of them, which is that of render_reference.
+Result<ReferenceBatches> render_reference_batches(const game::SceneOptions& options,
+                                                  const ReferenceSettings& settings,
+                                                  std::uint32_t first, std::uint32_t count,
+                                                  const Progress& progress = {});
+ReferencePicture merge_reference(const game::SceneOptions& options,
+                                 std::span<const ReferenceBatches> parts);
 
 /// The exposure that a picture asks for [stops]: docs/exposure.md, from every pixel's luminance, in
 /// order, without a histogram. None: all pixels are as good as black.

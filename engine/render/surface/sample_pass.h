@@ -17,12 +17,13 @@ struct SampleIn {
 struct SampledLight {
   const ClusteredLights* lights;  ///< null: the frame has none
   const RenderSettings& settings;
-  std::uint32_t rate;  ///< pixels along a block that is lit once where its neighbours agree: 2, 4
+  std::uint32_t rate;  ///< pixels along a square of the grid, 2 to 4
 };
 
 /// Light of sun, moon and lamps on opaque surfaces, worked out at one pixel of each rate x rate and
-/// wherever its neighbours on the same plane do not agree. Textures are sampled at every pixel.
-/// docs/decisions/0030-light-at-fewer-pixels.md. @pre normals and positions are not kept.
+/// wherever too few of the four around a pixel are lit alike or those differ. Textures are sampled
+/// at every pixel. docs/decisions/0030-light-at-fewer-pixels.md. @pre normals and positions are not
+/// kept.
 /// @return the last version of `radiance`.
 gpu::ImageRef add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                                 const SampleIn& on, const SampledLight& light,

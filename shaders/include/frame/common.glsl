@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/frame.h"
 #include "shared/geometry.h"
+#include "include/frame/halves.glsl"
 
 // G-buffer word: Quad.material (bits 0-15 block id, 16-18 face, 19-30 island), and bit 31 set where there is a surface.
 const uint kSurfaceHere = 0x80000000u;

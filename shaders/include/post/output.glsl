@@ -13,7 +13,7 @@ void put_pixel(uvec2 pixel, vec3 colour, bool here) {
     put_in_picture(pixel, colour, vec3(0.0), here);
   } else if (here) {
     if (!finite3(colour)) atomicAdd(stats.non_finite, 1u);
-    imageStore(target, ivec2(pixel), vec4(sanitised(colour), 1.0));
+    imageStore(target, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));
   }
 }
 #endif

@@ -15,7 +15,8 @@ layout(constant_id = kCalibratedConstant) const bool kCalibrated = false;  // th
 vec4 developed(vec3 exposed, uvec2 pixel) {
   vec3 encoded = srgb_encode(tone_map(exposed));
   if (kCalibrated) encoded = displayed(encoded, frame.display_peak, frame.display_black);
-  return vec4(dithered(encoded, pixel), 1.0);
+  // Rounded here: how a store rounds differs from driver to driver.
+  return vec4(floor(dithered(encoded, pixel) * 255.0 + 0.5) / 255.0, 1.0);
 }
 
 // Every invocation calls this once; `here` says which have a pixel. What is stored is finite.

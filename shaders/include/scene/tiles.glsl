@@ -3,7 +3,7 @@
 #define SKERRY_TILES_GLSL
 #include "shared/bindings.h"
 
-layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // x | y << 16: an integer division for each pixel costs lavapipe more than its light
+layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // x | y << 16
 layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[2]; };
 layout(push_constant) uniform Push { uint kind; } push;  // of tiles: 0 covered, 1 open
 

@@ -17,6 +17,8 @@ TEST(Preferences, ComeBackFromAFile) {
   scene.settings.view_distance = 444;
   scene.settings.render.display.black = 0.05f;
   scene.settings.world_offset[0] = 7;  // of a scene, not of a player
+  scene.settings.ui.scale = 1.25f;
+  scene.settings.play = {true, true, false};
   scene.fov_deg = 85.0;
   ASSERT_TRUE(save_preferences(folder / "settings.json", scene));
   const ReadPreferences read = load_preferences(folder / "settings.json");

@@ -38,6 +38,47 @@ TEST(Controls, AJumpTappedBetweenFramesStillJumps) {
   EXPECT_FALSE(intent_after(input).jump);
 }
 
+TEST(Controls, SprintAndCrouchByAPressStayOnUntilTheNext) {
+  Input input;
+  Toggles toggles;
+  PlaySettings settings{true, true, true};
+  const auto frame = [&](bool walking = true) {
+    const ActionFrame actions(input.take(), default_bindings());
+    Intent intent = intent_of(actions);
+    toggles.apply(settings, actions, walking, intent);
+    return intent;
+  };
+  const auto tap = [&](Key key) {
+    input.set_key(key, true);
+    input.set_key(key, false);
+  };
+  input.set_key(Key::kW, true);
+  tap(Key::kControl);
+  EXPECT_TRUE(frame().fast);
+  EXPECT_TRUE(frame().fast);
+  tap(Key::kControl);
+  EXPECT_FALSE(frame().fast);
+  tap(Key::kControl);
+  EXPECT_TRUE(frame().fast);
+  input.set_key(Key::kW, false);  // standing still ends it
+  EXPECT_FALSE(frame().fast);
+  input.set_key(Key::kW, true);
+  EXPECT_FALSE(frame().fast);
+  tap(Key::kShift);
+  EXPECT_TRUE(frame().crouch);
+  EXPECT_TRUE(frame().crouch);
+  EXPECT_FALSE(frame(false).crouch);  // flying, the key sinks while it is held
+  EXPECT_FALSE(frame().crouch);
+  input.set_key(Key::kShift, true);
+  EXPECT_LT(frame(false).rise, 0.0);
+  input.set_key(Key::kShift, false);
+  settings = {};
+  input.set_key(Key::kControl, true);
+  EXPECT_TRUE(frame().fast);
+  input.set_key(Key::kControl, false);
+  EXPECT_FALSE(frame().fast);
+}
+
 TEST(Controls, HandsDigPlaceChooseAndTakeBack) {
   Input input;
   const auto hands = [&] { return hand_intent_of(ActionFrame(input.take(), default_bindings())); };

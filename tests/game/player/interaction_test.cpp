@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "game/player/edit_rules.h"
@@ -62,6 +63,32 @@ TEST_F(InteractionTest, DiggingTakesTheBlocksTimeWhateverTheFrameLength) {
     ASSERT_LT(seconds, 5.0);
   }
   EXPECT_NEAR(seconds, world::dig_seconds(block::kStone), 0.2);
+}
+
+TEST_F(InteractionTest, WithoutRepeatingOneBlockIsDugAndOnePlacedAPress) {
+  look(0.0, -45.0);
+  const auto hold = [&](const HandIntent& intent) {
+    const std::size_t before = world_.islands[0].edits.size();
+    for (int i = 0; i < 120; ++i) frame(intent);
+    return world_.islands[0].edits.size() - before;
+  };
+  EXPECT_EQ(hold({.dig = true, .repeats = false}), 1u);
+  EXPECT_EQ(hold({}), 0u);
+  EXPECT_EQ(hold({.dig = true, .repeats = false}), 1u);
+  EXPECT_GT(hold({.dig = true}), 1u);
+  hands_.hotbar().take(block::kGlass);
+  look(90.0, -30.0);
+  const auto glass = [&] {
+    return std::count_if(world_.islands[0].edits.begin(), world_.islands[0].edits.end(),
+                         [](const auto& edit) { return edit.second == block::kGlass; });
+  };
+  hold({.place = true, .repeats = false});
+  EXPECT_EQ(glass(), 1);
+  hold({.place = true, .repeats = false});
+  EXPECT_EQ(glass(), 1);  // still held
+  hold({});
+  hold({.place = true, .repeats = false});
+  EXPECT_EQ(glass(), 2);
 }
 
 TEST_F(InteractionTest, LettingGoOrLookingElsewhereBeginsAnew) {

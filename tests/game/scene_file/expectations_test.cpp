@@ -27,6 +27,12 @@ std::string error_of(const std::string& fields) {
   return found ? "" : found.error().message;
 }
 
+bool fits(const std::vector<Mask>& masks, const PictureSize& size) {
+  Expectations expected;
+  expected.masks = masks;
+  return static_cast<bool>(check_expectations(expected, size));
+}
+
 TEST(Expectations, EveryFieldOfAFileArrives) {
   const auto found = expectations_of(
       R"("tolerance": {"flip_mean": 0.25, "flip_p99": 0.5, "flip_max": 1, "pixels_over": 0,
@@ -98,7 +104,9 @@ TEST(Expectations, TheDocumentTellsTheDefaults) {
       {"tolerance.flip_p99", fmt::format("{}", t.flip_p99)},
       {"tolerance.flip_max", fmt::format("{}", t.flip_max)},
       {"tolerance.pixels_over", fmt::format("{}", t.pixels_over)},
-      {"tolerance.channel_threshold", fmt::format("{}", t.channel_threshold)}};
+      {"tolerance.channel_threshold", fmt::format("{}", t.channel_threshold)},
+      {"tolerance.shift", "0"},
+      {"tolerance.regions", ""}};
   EXPECT_EQ(documented, expected);
 }
 
@@ -114,11 +122,84 @@ TEST(Expectations, HugeListsAreRefused) {
 
 TEST(Expectations, MasksStayInsideThePicture) {
   const PictureSize size{320, 180};
-  EXPECT_TRUE(check_masks({}, size));
-  EXPECT_TRUE(check_masks(std::vector<Mask>{{319, 179, 1, 1}}, size));
-  EXPECT_FALSE(check_masks(std::vector<Mask>{{319, 179, 2, 1}}, size));
-  EXPECT_FALSE(check_masks(std::vector<Mask>{{319, 179, 1, 2}}, size));
-  EXPECT_FALSE(check_masks(std::vector<Mask>{{65535, 65535, 65535, 65535}}, size));
+  EXPECT_TRUE(fits({}, size));
+  EXPECT_TRUE(fits({{319, 179, 1, 1}}, size));
+  EXPECT_FALSE(fits({{319, 179, 2, 1}}, size));
+  EXPECT_FALSE(fits({{319, 179, 1, 2}}, size));
+  EXPECT_FALSE(fits({{65535, 65535, 65535, 65535}}, size));
+}
+
+TEST(Expectations, RegionsBeginWithTheScenesTolerance) {
+  // The file's order does not matter: what a region leaves out is the scene's.
+  const auto found = expectations_of(
+      R"("tolerance": {"shift": 2, "regions": [
+          {"name": "leaves", "rectangle": [1, 2, 30, 40], "pixels_over": 0.5},
+          {"flip_max": 0.25, "channel_threshold": 0, "rectangle": [0, 0, 1, 1], "name": "x"}],
+         "flip_mean": 0.125})");
+  ASSERT_TRUE(found) << found.error().message;
+  Tolerance scene;
+  scene.flip_mean = 0.125;
+  Tolerance leaves = scene, other = scene;
+  leaves.pixels_over = 0.5;
+  other.flip_max = 0.25;
+  other.channel_threshold = 0;
+  EXPECT_EQ(found->tolerance, scene);
+  EXPECT_EQ(found->shift, 2u);
+  EXPECT_EQ(found->regions,
+            (std::vector<Region>{{"leaves", {1, 2, 30, 40}, leaves}, {"x", {0, 0, 1, 1}, other}}));
+}
+
+TEST(Expectations, MistakesInRegionsAreNamedInOneLine) {
+  const auto region = [](const std::string& fields) {
+    return error_of(R"("tolerance": {"regions": [{"name": "a", "rectangle": [0, 0, 9, 9]}, {)" +
+                    fields + "}]}");
+  };
+  const std::string place = R"("rectangle": [0, 0, 9, 9])";
+  EXPECT_NE(region(R"("name": "b", "flip_maen": 0, )" + place).find("'flip_mean'"),
+            std::string::npos);
+  EXPECT_NE(region(R"("name": "b", "regions": [], )" + place).find("region has an unknown"),
+            std::string::npos);
+  EXPECT_NE(region(R"("name": "a", )" + place).find("another name"), std::string::npos);
+  EXPECT_NE(region(R"("name": "elsewhere", )" + place).find("another name"), std::string::npos);
+  for (const std::string& fields :
+       {std::string(), place, std::string(R"("name": "b")"), R"("name": 5, )" + place,
+        R"("name": "", )" + place, R"("name": "two\nlines", )" + place,
+        "\"name\": \"" + std::string(41, 'x') + "\", " + place,
+        std::string(R"("name": "b", "rectangle": [0, 0, 0, 1])"),
+        std::string(R"("name": "b", "rectangle": [0, 0, 1])"),
+        std::string(R"("name": "b", "rectangle": [0, 0, 1e9, 1])"),
+        std::string(R"("name": "b", "rectangle": "all")"),
+        R"("name": "b", "flip_mean": 2, )" + place,
+        R"("name": "b", "channel_threshold": 256, )" + place})
+    EXPECT_EQ(region(fields).find('\n'), std::string::npos) << fields;
+  for (const char* fields : {R"("tolerance": {"shift": 17})", R"("tolerance": {"shift": -1})",
+                             R"("tolerance": {"shift": 0.5})", R"("tolerance": {"shift": "1"})",
+                             R"("tolerance": {"regions": {}})", R"("tolerance": {"regions": [1]})"})
+    EXPECT_EQ(error_of(fields).find('\n'), std::string::npos) << fields;
+  std::string many;
+  for (std::size_t i = 0; i <= kMaxRegions; ++i)
+    many += fmt::format(R"({}{{"name": "{}", {}}})", i == 0 ? "" : ",", i, place);
+  EXPECT_NE(error_of(R"("tolerance": {"regions": [)" + many + "]}").find("at most 64"),
+            std::string::npos);
+}
+
+TEST(Expectations, RegionsStayInsideThePicture) {
+  Expectations expected;
+  expected.regions = {{"a", {319, 179, 1, 1}, {}}};
+  EXPECT_TRUE(check_expectations(expected, {320, 180}));
+  EXPECT_FALSE(check_expectations(expected, {319, 180}));
+  EXPECT_FALSE(check_expectations(expected, {320, 179}));
+}
+
+TEST(Expectations, AShiftLeavesSomethingToCompare) {
+  Expectations expected;
+  expected.shift = 4;
+  EXPECT_TRUE(check_expectations(expected, {9, 9}));
+  EXPECT_FALSE(check_expectations(expected, {8, 90}));
+  EXPECT_FALSE(check_expectations(expected, {90, 8}));
+  expected.masks = {{4, 4, 1, 1}};  // the one pixel that has a partner wherever the picture lies
+  EXPECT_FALSE(check_expectations(expected, {9, 9}));
+  EXPECT_TRUE(check_expectations(expected, {10, 9}));
 }
 
 TEST(Expectations, MasksLeaveSomethingToCompare) {
@@ -137,7 +218,7 @@ TEST(Expectations, MasksLeaveSomethingToCompare) {
     bool something = false;  // pixel by pixel
     for (std::uint32_t pixel = 0; pixel < size.width * size.height; ++pixel)
       something = something || !is_masked(masks, pixel % size.width, pixel / size.width);
-    EXPECT_EQ(static_cast<bool>(check_masks(masks, size)), something);
+    EXPECT_EQ(fits(masks, size), something);
     covered += something ? 0 : 1;
   }
   EXPECT_GT(covered, 50);

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "game/ui/gui.h"
 #include "game/ui/look.h"
@@ -99,6 +102,60 @@ TEST(Hud, TheHelmSaysWhetherItsIslandMoves) {
     EXPECT_LT(glass.top, 50.0f);
     EXPECT_EQ(drawn_in(triangles, colour::kWarning).right > 0.0f, held);
   }
+}
+
+/// Vertices of what marks of places are drawn with.
+std::vector<glm::vec2> mark_at(PlaceKind kind, double bearing) {
+  static const Pictures pictures;
+  const auto drawn = [&](bool with) {
+    Gui gui;
+    gui.begin({1280, 720, 0.02, nullptr});
+    HudFacts facts;
+    facts.yaw_deg = 180.0;  // north
+    facts.choosing = true;  // no name
+    facts.numbers = true;   // nothing after the marks
+    if (with) facts.marks = {{kind, "Here", bearing, 100.0}};
+    show_hud(facts, pictures);
+    return gui.end();
+  };
+  const OverlayTriangles without = drawn(false), with = drawn(true);
+  // The HUD is the same up to where marks begin.
+  std::vector<glm::vec2> out;
+  for (std::size_t i = without.vertices.size(); i < with.vertices.size(); ++i)
+    out.push_back(with.vertices[i].position);
+  return out;
+}
+
+TEST(Hud, PlacesAreMarkedWhereTheyAre) {
+  const auto middle = [](const std::vector<glm::vec2>& vertices) {
+    float left = 1e9f, right = -1e9f;
+    for (const glm::vec2& v : vertices) {
+      left = std::min(left, v.x);
+      right = std::max(right, v.x);
+    }
+    return 0.5f * (left + right);
+  };
+  for (const PlaceKind kind : {PlaceKind::kHome, PlaceKind::kGround, PlaceKind::kWaypoint}) {
+    ASSERT_FALSE(mark_at(kind, 0.0).empty());
+    EXPECT_NEAR(middle(mark_at(kind, 0.0)), 640.0f, 1.0f);
+    EXPECT_NEAR(middle(mark_at(kind, 30.0)), 640.0f + 0.5f * 0.94f * 190.0f, 1.0f);
+    EXPECT_NEAR(middle(mark_at(kind, 345.0)), 640.0f - 0.25f * 0.94f * 190.0f, 1.0f);
+    EXPECT_TRUE(mark_at(kind, 90.0).empty());
+    EXPECT_TRUE(mark_at(kind, 180.0).empty());
+  }
+}
+
+/// Where colours cannot be told apart, shapes can.
+TEST(Hud, MarksOfPlacesDifferInShape) {
+  const auto shape = [](PlaceKind kind) {
+    std::set<std::pair<int, int>> cells;
+    for (const glm::vec2& v : mark_at(kind, 0.0))
+      cells.emplace(static_cast<int>(v.x), static_cast<int>(v.y));
+    return cells;
+  };
+  EXPECT_NE(shape(PlaceKind::kHome), shape(PlaceKind::kGround));
+  EXPECT_NE(shape(PlaceKind::kHome), shape(PlaceKind::kWaypoint));
+  EXPECT_NE(shape(PlaceKind::kGround), shape(PlaceKind::kWaypoint));
 }
 
 TEST(Messages, OverScreensTheyTakeTheFootAndPanelsKeepClearOfIt) {

@@ -10,6 +10,7 @@
 
 #include "game/ui/gui.h"
 #include "game/ui/look.h"
+#include "game/words/words.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -22,9 +23,9 @@ struct Size {
   std::uint32_t width, height;
 };
 constexpr Size kSizes[] = {{640, 360}, {1280, 720}, {2560, 1440}};
-constexpr Screen kScreens[] = {Screen::kTitle,    Screen::kWorlds,   Screen::kNewWorld,
-                               Screen::kSettings, Screen::kControls, Screen::kPause,
-                               Screen::kPalette,  Screen::kPhoto};
+constexpr Screen kScreens[] = {
+    Screen::kTitle, Screen::kWorlds,  Screen::kNewWorld, Screen::kSettings, Screen::kControls,
+    Screen::kPause, Screen::kPalette, Screen::kPhoto,    Screen::kMap,      Screen::kGallery};
 
 /// A person at the screens.
 class Sitting {
@@ -41,6 +42,13 @@ class Sitting {
     facts.bindings = &bindings;
     facts.costs = &costs;
     facts.photo = &photo;
+    facts.map = &map;
+    facts.gallery = gallery;
+    map.radius = 300.0;
+    map.places = {{PlaceKind::kHome, "", {10.0, -20.0}, 3.0},
+                  {PlaceKind::kGround, "", {1.0, 2.0}, 0.0},
+                  {PlaceKind::kWaypoint, "Skarholm 1", {5000.0, 0.0}, -40.0}};
+    map.islands = {{"Skarholm", "volcano, tropical", {30.0, 40.0}, 120.0, 5.0, {0.2, -0.1}}};
     facts.version = "1.2.3";
   }
 
@@ -51,7 +59,7 @@ class Sitting {
     if (facts.back) go_back(state);
     take_keys(state, taken, facts);
     const bool fed = !state.listening;
-    gui.begin({size_.width, size_.height, 0.05, fed ? &taken : nullptr});
+    gui.begin({size_.width, size_.height, 0.05, fed ? &taken : nullptr, scale});
     show_screens(state, facts, wishes);
     return gui.end();
   }
@@ -96,41 +104,96 @@ class Sitting {
   Bindings bindings = default_bindings();
   KnobCosts costs;
   PhotoSettings photo;
+  float scale = 1.0f;
+  MapFacts map;
+  std::vector<PictureCard> gallery{{"/a.png", "skerry-20261125-031500", 0, ""},
+                                   {"/b.png", "b", -1, "cannot enter the picture"}};
 
  private:
   Size size_;
 };
 
-TEST(Screens, NothingLeavesItsWindowAtAnySize) {
-  for (const Size size : kSizes) {
-    for (const Screen screen : kScreens) {
-      Sitting sitting(screen, size);
-      sitting.settle();
-      const ImGuiContext& context = *ImGui::GetCurrentContext();
-      const std::string where =
-          std::to_string(static_cast<int>(screen)) + " at " + std::to_string(size.height);
-      bool any = false;
-      for (const ImGuiWindow* window : context.Windows) {
-        if (!window->Active || window->Flags & ImGuiWindowFlags_Tooltip ||
-            std::string_view(window->Name).starts_with("Debug"))
-          continue;
-        any = true;
-        EXPECT_GE(window->Pos.x, 0.0f) << where;
-        EXPECT_GE(window->Pos.y, 0.0f) << where;
-        EXPECT_LE(window->Pos.x + window->Size.x, static_cast<float>(size.width)) << where;
-        EXPECT_LE(window->Pos.y + window->Size.y, static_cast<float>(size.height)) << where;
-        // Sideways nothing scrolls, so nothing may be wider than what holds it.
-        EXPECT_LE(window->ContentSize.x, window->WorkRect.GetWidth() + 0.5f)
-            << window->Name << where;
-        // What has no scrolling part of its own must fit in height as well.
-        const bool scrolls = std::string_view(window->Name).find('/') != std::string_view::npos;
-        if (!scrolls && size.height >= 720) {
-          EXPECT_EQ(window->ScrollMax.y, 0.0f) << window->Name << where;
-        }
-      }
-      EXPECT_TRUE(any) << where;
+void expect_to_fit(Screen screen, Size size, Language language = Language::kEnglish) {
+  Sitting sitting(screen, size);
+  if (language != Language::kEnglish) {
+    sitting.gui.expect(words_of(language));
+    sitting.gui.fit_font();
+  }
+  sitting.settle();
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  const std::string where = std::to_string(static_cast<int>(screen)) + " at " +
+                            std::to_string(size.height) + " in " +
+                            std::string(kLanguageCodes[static_cast<std::size_t>(language)]);
+  bool any = false;
+  for (const ImGuiWindow* window : context.Windows) {
+    if (!window->Active || window->Flags & ImGuiWindowFlags_Tooltip ||
+        std::string_view(window->Name).starts_with("Debug"))
+      continue;
+    any = true;
+    EXPECT_GE(window->Pos.x, 0.0f) << where;
+    EXPECT_GE(window->Pos.y, 0.0f) << where;
+    EXPECT_LE(window->Pos.x + window->Size.x, static_cast<float>(size.width)) << where;
+    EXPECT_LE(window->Pos.y + window->Size.y, static_cast<float>(size.height)) << where;
+    // Sideways nothing scrolls, so nothing may be wider than what holds it.
+    EXPECT_LE(window->ContentSize.x, window->WorkRect.GetWidth() + 0.5f) << window->Name << where;
+    // What has no scrolling part of its own must fit in height as well.
+    const bool scrolls = std::string_view(window->Name).find('/') != std::string_view::npos;
+    if (!scrolls && size.height >= 720) {
+      EXPECT_EQ(window->ScrollMax.y, 0.0f) << window->Name << where;
     }
   }
+  EXPECT_TRUE(any) << where;
+}
+
+TEST(Screens, NothingLeavesItsWindowAtAnySize) {
+  for (const Size size : kSizes)
+    for (const Screen screen : kScreens) expect_to_fit(screen, size);
+}
+
+TEST(Screens, NothingLeavesItsWindowInAnyLanguage) {
+  for (std::size_t i = 1; i < kLanguages; ++i) {
+    const auto language = static_cast<Language>(i);
+    speak(language);
+    for (const Screen screen : kScreens) expect_to_fit(screen, kSizes[i % 2], language);
+  }
+  speak(Language::kEnglish);
+}
+
+TEST(Screens, TheMapAsksForThePlaceThatIsChosen) {
+  Sitting sitting(Screen::kMap);
+  sitting.state.chosen_place = 2;
+  sitting.settle();
+  sitting.tap(Key::kEnter);  // the first button
+  EXPECT_EQ(sitting.wishes.map.travel, 2u);
+  EXPECT_FALSE(sitting.wishes.map.remove);
+  sitting.map.places.clear();
+  sitting.wishes = {};
+  sitting.tap(Key::kEnter);
+  EXPECT_FALSE(sitting.wishes.map.travel);
+}
+
+TEST(Screens, TheGalleryEntersThePictureThatIsChosenUnlessItLeadsNowhere) {
+  Sitting sitting(Screen::kGallery);
+  sitting.settle();
+  sitting.tap(Key::kEnter);
+  EXPECT_EQ(sitting.wishes.enter, "/a.png");
+  Sitting other(Screen::kGallery);
+  other.state.chosen_picture = 1;
+  other.settle();
+  other.tap(Key::kEnter);
+  EXPECT_FALSE(other.wishes.enter);
+}
+
+TEST(Screens, EverythingGrowsWithItsScale) {
+  const auto height = [](float scale) {
+    Sitting sitting(Screen::kPause);
+    sitting.scale = scale;
+    sitting.settle();
+    const ImGuiWindow* pause = ImGui::FindWindowByName("pause");
+    return pause ? pause->Size.y : 0.0f;
+  };
+  EXPECT_NEAR(height(1.25f), 1.25f * height(1.0f), 2.0f);
+  EXPECT_NEAR(height(0.75f), 0.75f * height(1.0f), 2.0f);
 }
 
 TEST(Screens, TextIsNeverSmallerThanItReads) {
@@ -220,7 +283,7 @@ TEST(Screens, KnobsTurnByArrowsAloneFromTheFirstOnDown) {
   sitting.tap(Key::kRight);
   EXPECT_EQ(sitting.quality, Quality::kMedium);
   const Settings before = sitting.settings;
-  for (int row = 1; row < 24; ++row) {
+  for (int row = 1; row < 29; ++row) {
     sitting.tap(Key::kDown);
     sitting.tap(Key::kLeft);
     EXPECT_FALSE(sitting.gui.typing()) << row;
@@ -230,6 +293,7 @@ TEST(Screens, KnobsTurnByArrowsAloneFromTheFirstOnDown) {
   EXPECT_LT(sitting.settings.render.shadow_size, before.render.shadow_size);
   EXPECT_LT(sitting.settings.render.water_layers, before.render.water_layers);
   EXPECT_LT(sitting.fov_deg, 70.0);
+  EXPECT_LT(sitting.settings.ui.scale, before.ui.scale);
   EXPECT_LT(sitting.settings.sound.master, before.sound.master);
   EXPECT_LT(sitting.settings.sound.interface, before.sound.interface);
   EXPECT_LT(sitting.settings.render.display.peak, before.render.display.peak);
@@ -477,7 +541,7 @@ TEST(Pause, SaysThatSavingFailedAndLeavesAnywayOnlyIfTold) {
     Sitting sitting(Screen::kPause);
     if (failed) sitting.state.unsaved = "cannot save the world '/a': the disk is full; make room";
     sitting.settle();
-    for (int i = 0; i < 6; ++i) sitting.tap(Key::kDown);  // past the six that are always there
+    for (int i = 0; i < 8; ++i) sitting.tap(Key::kDown);  // past the eight that are always there
     sitting.tap(Key::kEnter);
     EXPECT_EQ(sitting.wishes.leave_unsaved, failed);
   }

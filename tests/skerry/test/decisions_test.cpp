@@ -9,11 +9,11 @@
 #include "engine/platform/files.h"
 #include "tests/folder.h"
 #include "tests/tools/farm/one_line.h"
+#include "tools/skerry/compare/report_pictures.h"
 #include "tools/skerry/farm/plan.h"
 #include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/test/judge.h"
 #include "tools/skerry/test/page.h"
-#include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
 namespace {

@@ -5,8 +5,8 @@
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "tests/folder.h"
+#include "tools/skerry/compare/report_pictures.h"
 #include "tools/skerry/scene/draw_scene.h"
-#include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
 namespace {

@@ -231,17 +231,17 @@ TEST(Merge, OfAnyPartitionHasTheSameBytes) {
     const skerry::Outcome done = run(words);
     EXPECT_EQ(done.status, 1) << done.err;  // scenes failed
     if (round == 0) {
-      page = text_of(folder / "page/index.html");
-      rows = text_of(folder / "rows.json");
-      junit = text_of(folder / "rows.xml");
+      page = skerry::text_of(folder / "page/index.html");
+      rows = skerry::text_of(folder / "rows.json");
+      junit = skerry::text_of(folder / "rows.xml");
       const ordered_json merged = ordered_json::parse(rows)["rows"];
       ASSERT_EQ(merged.size(), kTasks);
       for (int task = 0; task < kTasks; ++task)
         EXPECT_EQ(merged[static_cast<std::size_t>(task)], row_json(row(task)));
     }
-    EXPECT_EQ(text_of(folder / "page/index.html"), page) << "round " << round;
-    EXPECT_EQ(text_of(folder / "rows.json"), rows) << "round " << round;
-    EXPECT_EQ(text_of(folder / "rows.xml"), junit) << "round " << round;
+    EXPECT_EQ(skerry::text_of(folder / "page/index.html"), page) << "round " << round;
+    EXPECT_EQ(skerry::text_of(folder / "rows.json"), rows) << "round " << round;
+    EXPECT_EQ(skerry::text_of(folder / "rows.xml"), junit) << "round " << round;
   }
 }
 

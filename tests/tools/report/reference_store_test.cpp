@@ -221,7 +221,7 @@ constexpr const char* kUnread[] = {
     "gbuffer.depth=d16",   "exposure.stride=1", "bloom.intensity=0.5",   "bloom.threshold=3",
     "bloom.levels=2",      "clouds.steps=100",  "clouds.shadow_steps=8", "clouds.resolution=full",
     "clouds.precision=32", "tone=agx",          "display.peak=0.5",      "display.black=0.1",
-    "renderer=deferred",   "shading.rate=4",    "shading.tolerance=0.3", "lights.shadows=off",
+    "renderer=deferred",   "shading.rate=4",    "shading.tolerance=0.2", "lights.shadows=off",
     "lights.softness=8",   "lights.tile=64",    "lights.oracle=1",       "upload.path=mapped",
     "upload.budget=65536", "memory.budget=256", "jobs.threads=1",        "frames.cap=30",
     "water.layers=4"};

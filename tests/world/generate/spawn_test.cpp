@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 #include <set>
@@ -84,6 +85,30 @@ double open_sky(Voxels& voxels, glm::dvec3 eye) {
   return static_cast<double>(open) / kRays;
 }
 
+/// Whether an eye sees, past its own island, some of a ball of half another island's size.
+bool sees(Voxels& voxels, glm::dvec3 eye, glm::dvec3 other, double radius) {
+  constexpr double kOwn = 260.0, kStep = 0.5;  // blocks: beyond is no rock of a first island
+  constexpr int kRays = 24;
+  constexpr double kGolden = 2.399963229728653;
+  for (int i = 0; i < kRays; ++i) {
+    const double up = 1.0 - 2.0 * (i + 0.5) / kRays, flat = std::sqrt(1.0 - up * up);
+    const glm::dvec3 point =
+        other +
+        0.5 * radius * glm::dvec3(flat * std::cos(kGolden * i), up, flat * std::sin(kGolden * i));
+    const glm::dvec3 way = glm::normalize(point - eye);
+    bool blocked = false;
+    for (double t = kStep; t < kOwn && !blocked; t += kStep) {
+      const glm::dvec3 p = eye + t * way;
+      const BlockId block =
+          voxels.at({static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)),
+                     static_cast<int>(std::floor(p.z))});
+      blocked = block != kAir && block_kind(block) != BlockKind::kPlant;
+    }
+    if (!blocked) return true;
+  }
+  return false;
+}
+
 void expect_good_spawn(std::uint64_t seed) {
   const Spawn spawn = spawn_of(seed);
   const auto near = islands_within(seed, spawn.feet, 10.0);
@@ -104,13 +129,18 @@ void expect_good_spawn(std::uint64_t seed) {
   EXPECT_GE(open_sky(voxels, lattice + glm::dvec3(0.0, 1.62, 0.0)), 0.34) << seed;
   EXPECT_GE(spawn.yaw_deg, 0.0);
   EXPECT_LT(spawn.yaw_deg, 360.0);
-  // A view: some island stands within 45 degrees of the way the player looks.
+  // A view: some island is seen within 45 degrees of the way the player looks.
+  const glm::dvec3 eye = lattice + glm::dvec3(0.0, 1.62, 0.0);
   const auto around = islands_within(seed, spawn.feet, 1000.0);
   EXPECT_TRUE(std::any_of(around.begin(), around.end(), [&](const IslandSpec& other) {
     if (other.id == spawn.island) return false;
     const glm::dvec3 d = difference_blocks(other.origin, spawn.feet);
     const double yaw = spawn.yaw_deg * 3.14159265358979 / 180.0;
-    return d.x * std::sin(yaw) + d.z * std::cos(yaw) > 0.707 * std::hypot(d.x, d.z);
+    const bool ahead = d.x * std::sin(yaw) + d.z * std::cos(yaw) > 0.707 * std::hypot(d.x, d.z);
+    return ahead &&
+           sees(voxels, eye,
+                glm::conjugate(pose.rotation) * difference_blocks(other.origin, pose.origin),
+                other.bounding_radius);
   })) << seed;
 }
 

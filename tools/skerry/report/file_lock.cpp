@@ -47,15 +47,27 @@ FileLock::~FileLock() {
 }
 
 Result<FileLock> FileLock::take(const fs::path& file) {
+  Result<std::optional<FileLock>> lock = take(file, LOCK_EX);
+  if (!lock) return lock.error();
+  return **std::move(lock);
+}
+
+Result<std::optional<FileLock>> FileLock::try_take(const fs::path& file) {
+  return take(file, LOCK_EX | LOCK_NB);
+}
+
+Result<std::optional<FileLock>> FileLock::take(const fs::path& file, int operation) {
   while (true) {
     const int descriptor =
         ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
     if (descriptor < 0) return lock_error(file, errno);
     int code = 0;
-    while ((code = ::flock(descriptor, LOCK_EX) == 0 ? 0 : errno) == EINTR) {
+    while ((code = ::flock(descriptor, operation) == 0 ? 0 : errno) == EINTR) {
     }
-    if (code == 0 && is_named(descriptor, file)) return FileLock(file, descriptor);
+    if (code == 0 && is_named(descriptor, file))
+      return std::optional<FileLock>(FileLock(file, descriptor));
     ::close(descriptor);
+    if (code == EWOULDBLOCK) return std::optional<FileLock>();
     if (code != 0) return lock_error(file, code);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 
 #include "engine/core/result.h"
 
@@ -12,12 +13,15 @@ class FileLock {
  public:
   /// Waits until nobody else has it. Errors: the file cannot be made; the file system has no locks.
   static Result<FileLock> take(const std::filesystem::path& file);
+  /// The same, but none if somebody has it.
+  static Result<std::optional<FileLock>> try_take(const std::filesystem::path& file);
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&&) = delete;
 
  private:
   FileLock(std::filesystem::path file, int descriptor);
+  static Result<std::optional<FileLock>> take(const std::filesystem::path& file, int operation);
 
   std::filesystem::path file_;
   int descriptor_;  // -1: moved from

@@ -94,6 +94,11 @@ fs::path ReferenceStore::entry(const std::string& id) const {
   return folder_ / (id + ".reference");
 }
 
+bool ReferenceStore::has(const std::string& id) const {
+  std::error_code code;
+  return fs::exists(entry(id), code);
+}
+
 Result<KeptReference> ReferenceStore::get(const std::string& id, const Make& make) const {
   const fs::path file = entry(id);
   if (std::optional<KeptReference> kept = read_entry(file, false)) return *std::move(kept);

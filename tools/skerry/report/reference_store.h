@@ -36,6 +36,10 @@ class ReferenceStore {
   /// written is a warning. Errors: those of `make`.
   Result<KeptReference> get(const std::string& id, const Make& make) const;
 
+  /// Whether there is an entry, whole or not.
+  bool has(const std::string& id) const;
+
+  const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path entry(const std::string& id) const;
 
  private:

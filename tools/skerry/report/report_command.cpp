@@ -7,6 +7,7 @@
 
 #include "engine/platform/files.h"
 #include "game/scene_file/parse.h"
+#include "tools/reference/reference.h"
 #include "tools/skerry/report/left_out_topic.h"
 #include "tools/skerry/report/report.h"
 #include "tools/skerry/report/report_folder.h"
@@ -68,6 +69,10 @@ ReportCommand::ReportCommand(CLI::App& app)
         ->add_option("--references", references_,
                      "Folder that keeps references for other runs (run: in the plan's folder)")
         ->type_name("DIR");
+  verbs_->plan()
+      .add_option("--reference-parts", reference_parts_,
+                  "Parts that each reference is drawn in, by any of the processes that need it")
+      ->type_name("1..8");
   verbs_->run()
       .add_option("--devices", devices_, "All devices of the best one's kind at once")
       ->type_name("all");
@@ -107,6 +112,12 @@ std::optional<Refusal> ReportCommand::read(ReportRequest& request, ReportTasks& 
   if (auto refusal = read_topics(request)) return refusal;
   if (auto refusal = resolve(scene_, false, request.scene)) return refusal;
   if (auto refusal = check_draws_frames(request.scene)) return refusal;
+  if (reference_parts_) {
+    const Result<std::int64_t> parts =
+        game::parse_integer(*reference_parts_, "--reference-parts", 1, reference::kBatches);
+    if (!parts) return usage(parts.error());
+    request.reference_parts = static_cast<std::uint32_t>(*parts);
+  }
   request.typed = scene_.text;
   if (scene_.renderer) request.typed.settings.push_back("renderer=" + *scene_.renderer);
   if (scene_.shading) request.typed.settings.push_back("shading=" + *scene_.shading);

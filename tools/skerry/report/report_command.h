@@ -44,7 +44,7 @@ class ReportCommand {
   CLI::App* report_;
   std::unique_ptr<Verbs> verbs_;
   std::vector<std::string> topics_;
-  std::optional<std::string> out_, references_, devices_;
+  std::optional<std::string> out_, references_, devices_, reference_parts_;
   SceneArguments scene_;
 };
 

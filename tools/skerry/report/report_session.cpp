@@ -7,6 +7,7 @@
 #include "engine/core/check.h"
 #include "game/scene_file/setting_keys.h"
 #include "tools/reference/reference.h"
+#include "tools/skerry/report/reference_parts.h"
 #include "world/vdb/worker.h"
 
 namespace skerry::tools {
@@ -14,6 +15,10 @@ namespace {
 
 constexpr game::PictureSize kCpuSize{160, 90}, kGpuSize{1920, 1080};
 constexpr const char* kOwnScene = "given";
+
+KeptReference kept_of(reference::ReferencePicture made) {
+  return {std::move(made.radiance), made.ev, made.mean_error, made.seconds};
+}
 
 }  // namespace
 
@@ -80,12 +85,25 @@ Result<KeptReference> ReportSession::radiance_of(
     Result<reference::ReferencePicture> made =
         reference::render_reference(scene, reference::settings_from(scene), progress);
     if (!made) return made.error();
-    return KeptReference{std::move(made->radiance), made->ev, made->mean_error, made->seconds};
+    return kept_of(*std::move(made));
   };
   if (!request_.references) return render();
   const Result<std::string> id = reference_id(scene);
   if (!id) return id.error();
-  return ReferenceStore(*request_.references).get(*id, render);
+  const ReferenceStore store(*request_.references);
+  if (request_.reference_parts < 2) return store.get(*id, render);
+  const reference::ReferenceSettings settings = reference::settings_from(scene);
+  const std::vector<BatchRange> parts =
+      split_batches(reference::batches_of(settings), request_.reference_parts);
+  return get_in_parts(
+      store, *id, parts,
+      [&](const BatchRange& range) {
+        return reference::render_reference_batches(scene, settings, range.first, range.count,
+                                                   progress);
+      },
+      [&](std::span<const reference::ReferenceBatches> all) {
+        return kept_of(merge_reference(scene, all));
+      });
 }
 
 Result<void> apply_point(std::string_view settings, game::Settings& into) {

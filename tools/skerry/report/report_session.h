@@ -27,6 +27,7 @@ struct ReportRequest {
   bool own_scene = false;    ///< judge every topic in `scene` instead of the topic's own
   bool own_size = false;     ///< a size was given
   std::optional<std::filesystem::path> references;  ///< folder that keeps references
+  std::uint32_t reference_parts = 1;                ///< that each is drawn in, by any process
 };
 
 /// Names of the scenes a topic is judged in.

@@ -7,7 +7,7 @@
 #include "engine/core/clock.h"
 #include "engine/core/jobs.h"
 #include "game/scene_file/parse.h"
-#include "tools/skerry/test/report_pictures.h"
+#include "tools/skerry/compare/report_pictures.h"
 
 namespace skerry::tools {
 namespace {
@@ -40,12 +40,17 @@ std::optional<Result<platform::PngImage>> picture_of(const fs::path& folder,
 
 /// Why a row fails before anything is compared; empty if both pictures are there.
 std::string missing(const std::optional<Result<platform::PngImage>>& reference,
-                    const std::optional<Result<platform::PngImage>>& actual) {
+                    const std::optional<Result<platform::PngImage>>& actual,
+                    const game::Expectations& expected) {
   if (!reference) return "there is no reference of this name";
   if (!actual) return "there is a reference alone";
   if (!*reference) return reference->error().message;
   if (!*actual) return actual->error().message;
-  if (same_size(**reference, **actual)) return {};
+  if (same_size(**reference, **actual)) {
+    const auto checked =
+        game::check_expectations(expected, {(*reference)->width, (*reference)->height});
+    return checked ? std::string() : checked.error().message;
+  }
   return fmt::format("the reference has {}x{} pixels, the picture {}x{}", (*reference)->width,
                      (*reference)->height, (*actual)->width, (*actual)->height);
 }
@@ -60,15 +65,13 @@ Row compared_row(const CompareOptions& options, const std::string& name) {
   if (reference && *reference) shown.reference = &**reference;
   if (actual && *actual) shown.actual = &**actual;
   row.pictures = shown.actual ? 1 : 0;
-  row.message = missing(reference, actual);
+  row.message = missing(reference, actual, options.expected);
   Comparison compared;
   if (row.message.empty()) {
-    game::Expectations expected;
-    expected.tolerance = options.tolerance;
-    compared = compare(*shown.reference, *shown.actual, expected);
+    compared = compare(*shown.reference, *shown.actual, options.expected);
     shown.compared = &compared;
-    row.found = compared.difference;
-    row.message = beyond(compared.difference, options.tolerance);
+    row.take(compared);
+    row.message = beyond(compared.difference, compared.parts, options.expected);
   }
   if (row.message.empty()) row.verdict = Verdict::kPass;
   if (const auto written = write_report_pictures(options.html, name, shown); !written) {

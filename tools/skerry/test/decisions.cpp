@@ -8,10 +8,10 @@
 #include "engine/platform/files.h"
 #include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
+#include "tools/skerry/compare/report_pictures.h"
 #include "tools/skerry/farm/plan.h"
 #include "tools/skerry/report/report_folder.h"
 #include "tools/skerry/test/judge.h"
-#include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "engine/platform/files.h"
+#include "tools/skerry/compare/report_pictures.h"
 #include "tools/skerry/scene/draw_scene.h"
-#include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
 namespace {
@@ -51,7 +51,7 @@ void pass_or_fail(Row& row, const TestScene& scene, const Result<platform::PngIm
                               reference->height, picture.width, picture.height);
     return;
   }
-  if (row.hash_equal != true) row.message = beyond(*row.found, scene.expected.tolerance);
+  if (row.hash_equal != true) row.message = beyond(*row.found, row.parts, scene.expected);
   if (row.message.empty()) row.verdict = Verdict::kPass;
 }
 
@@ -63,7 +63,7 @@ Result<std::string> approve(const TestScene& scene, const Shown& shown,
   if (comparable && row.found->equal()) return std::string("its hash is approved");
   const std::string driver = reference ? driver_of(*reference) : std::string();
   const bool foreign = comparable && !driver.empty() && driver != shown.driver;
-  if (foreign && beyond(*row.found, scene.expected.tolerance).empty())
+  if (foreign && beyond(*row.found, row.parts, scene.expected).empty())
     return std::string("within the tolerance of another driver's reference; its hash is approved");
   const std::array<platform::PngText, 3> text{{{"Software", "Skerry"},
                                                {"Command", game::shot_command(scene.scene)},
@@ -95,6 +95,7 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
   Row& row = outcome.row;
   row.driver = shown.driver;
   row.pictures = 1;
+  row.picture = outcome.hash;
   const auto known = approved.find(scene.name);
   if (known != approved.end()) row.hash_equal = known->second == outcome.hash;
 
@@ -102,7 +103,7 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
   std::optional<Comparison> compared;
   if (reference && same_size(*reference, shown.picture)) {
     compared = compare(*reference, shown.picture, scene.expected);
-    row.found = compared->difference;
+    row.take(*compared);
   }
   const Result<void> written = write_report_pictures(
       options.html, scene.name,

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tools/measure/html.h"
+#include "tools/skerry/compare/report_pictures.h"
 #include "tools/skerry/farm/plan.h"
-#include "tools/skerry/test/report_pictures.h"
 
 namespace skerry::tools {
 namespace {
@@ -22,6 +22,10 @@ constexpr std::string_view kStyle = R"(
 @keyframes blink { 50% { opacity: 0; } }
 .pictures { grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); }
 .decide [aria-pressed=true] { font-weight: 700; outline: 2px solid var(--link); }
+.strip { white-space: nowrap; line-height: 1; }
+.strip i { display: inline-block; width: .5rem; height: 1rem; margin-right: 1px; background: currentColor; }
+.strip i.changed { border-left: 3px solid var(--link); }
+.strip i.differs { background: none; border: 2px dashed currentColor; box-sizing: border-box; }
 .decisions { position: sticky; bottom: 0; padding: .5rem; background: var(--soft); }
 )";
 
@@ -70,13 +74,18 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.5f}", value) : std::string("equal");
 }
 
+/// As tables of differences list them.
+constexpr double Difference::*kQuantities[] = {&Difference::flip_mean, &Difference::flip_p99,
+                                               &Difference::flip_max, &Difference::psnr_db,
+                                               &Difference::pixels_over};
+
 std::string_view hash_word(const Row& row) {
   if (!row.hash_equal) return "none approved";
   return *row.hash_equal ? "equal" : "different";
 }
 
-std::string css_class(const Row& row) {
-  switch (row.verdict) {
+std::string css_class(Verdict verdict) {
+  switch (verdict) {
     case Verdict::kPass:
       return "good";
     case Verdict::kApproved:
@@ -90,15 +99,37 @@ std::string link(const std::string& target, std::string_view markup) {
   return measure::element("a", {{"href", target}}, markup);
 }
 
-measure::TableRow table_row(const Row& row) {
+/// Earlier runs and this one as a strip of the last kShownRuns: one is marked where its picture is
+/// another one than before, and where it gave several.
+std::string strip(std::span<const PastRun> runs) {
+  constexpr std::size_t kShownRuns = 60;
+  std::string marks;
+  for (std::size_t i = runs.size() - std::min(runs.size(), kShownRuns); i < runs.size(); ++i) {
+    const PastRun& run = runs[i];
+    const bool changed = i > 0 && run.picture != runs[i - 1].picture;
+    const std::string says = fmt::format("{}: {}, {} of {} failed, {} {}{}", run.date,
+                                         verdict_name(run.verdict), run.failed_runs, run.runs,
+                                         run.pictures, run.pictures == 1 ? "picture" : "pictures",
+                                         changed ? ", another one than before" : "");
+    marks += measure::element(
+        "i",
+        {{"class", fmt::format("{}{}{}", css_class(run.verdict), changed ? " changed" : "",
+                               run.pictures > 1 ? " differs" : "")},
+         {"title", says}},
+        "");
+  }
+  return measure::element(
+      "span", {{"class", "strip"}, {"role", "img"}, {"aria-label", summary_of(runs)}}, marks);
+}
+
+measure::TableRow table_row(const Row& row, const History* history) {
   measure::TableRow out{{link(fmt::format("#{}", address(row.scene)), measure::escape(row.scene)),
                          std::string(verdict_name(row.verdict)), std::string(hash_word(row))},
-                        css_class(row)};
-  for (double Difference::*quantity :
-       {&Difference::flip_mean, &Difference::flip_p99, &Difference::flip_max, &Difference::psnr_db,
-        &Difference::pixels_over})
+                        css_class(row.verdict)};
+  for (double Difference::*quantity : kQuantities)
     out.cells.push_back(row.found ? number((*row.found).*quantity) : std::string());
   out.cells.push_back(fmt::format("{:.2f} s", row.seconds));
+  if (history) out.cells.push_back(strip(history->of(row.scene, row.driver)));
   return out;
 }
 
@@ -179,16 +210,40 @@ std::string decisions_bar(std::string_view sections) {
          measure::element("script", kScript);
 }
 
-std::string section(const Row& row, const fs::path& folder) {
-  std::string out =
-      measure::element("h2", {{"id", address(row.scene)}},
-                       measure::escape(row.scene) + " " +
-                           measure::labelled("span", css_class(row), verdict_name(row.verdict)));
+/// What a scene's own tolerances found: regions, and where the picture lies.
+std::string measured_parts(const Row& row) {
+  std::string out;
+  if (row.shift && *row.shift != Shift{})
+    out += measure::element(
+        "p", fmt::format("compared at an offset of ({}, {}) pixels", row.shift->dx, row.shift->dy));
+  if (row.parts.empty()) return out;
+  constexpr std::string_view kHeadings[] = {"region", "FLIP mean", "p99",
+                                            "max",    "PSNR",      "pixels over"};
+  std::vector<measure::TableRow> table;
+  for (const PartDifference& part : row.parts) {
+    measure::TableRow line{{measure::escape(part.name)}, {}};
+    for (double Difference::*quantity : kQuantities)
+      line.cells.push_back(number(part.difference.*quantity));
+    table.push_back(std::move(line));
+  }
+  return out + measure::table(kHeadings, table);
+}
+
+std::string section(const Row& row, const fs::path& folder, const History* history) {
+  std::string out = measure::element(
+      "h2", {{"id", address(row.scene)}},
+      measure::escape(row.scene) + " " +
+          measure::labelled("span", css_class(row.verdict), verdict_name(row.verdict)));
   out += buttons(row, folder);
-  if (!row.message.empty()) out += measure::element("p", measure::escape(row.message));
+  if (!row.message.empty()) out += measure::element("p", measure::escape(row.explanation()));
+  out += measured_parts(row);
   if (row.runs > 1) {
     out += measure::element("p", fmt::format("{} of {} runs failed; {} different pictures",
                                              row.failed_runs, row.runs, row.pictures));
+  }
+  if (history) {
+    const std::span<const PastRun> runs = history->of(row.scene, row.driver);
+    out += measure::element("p", strip(runs) + " " + measure::escape(summary_of(runs)));
   }
   out += pictures_of(row, folder);
   if (!row.command.empty())
@@ -204,7 +259,7 @@ int rank(const Row& row) {
 
 }  // namespace
 
-std::string test_page(const Results& results, const fs::path& folder) {
+std::string test_page(const Results& results, const fs::path& folder, const History* history) {
   std::vector<const Row*> rows;
   for (const Row& row : results.rows) rows.push_back(&row);
   std::stable_sort(rows.begin(), rows.end(),
@@ -212,17 +267,18 @@ std::string test_page(const Results& results, const fs::path& folder) {
   std::vector<measure::TableRow> table;
   std::string sections;
   for (const Row* row : rows) {
-    table.push_back(table_row(*row));
-    sections += section(*row, folder);
+    table.push_back(table_row(*row, history));
+    sections += section(*row, folder, history);
   }
   const auto failures =
       std::count_if(rows.begin(), rows.end(), [](const Row* row) { return row->failed(); });
   const std::string title =
       fmt::format("skerry test: {} of {} scenes failed", failures, rows.size());
-  constexpr std::string_view kHeadings[] = {"scene", "verdict", "hash",        "FLIP mean", "p99",
-                                            "max",   "PSNR",    "pixels over", "time"};
+  std::vector<std::string_view> headings{"scene", "verdict", "hash",        "FLIP mean", "p99",
+                                         "max",   "PSNR",    "pixels over", "time"};
+  if (history) headings.push_back("history");
   return measure::page(title, measure::element("style", kStyle) + measure::element("h1", title) +
-                                  measure::table(kHeadings, table) + sections +
+                                  measure::table(headings, table) + sections +
                                   decisions_bar(sections));
 }
 

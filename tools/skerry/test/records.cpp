@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tools/skerry/test/cause.h"
 #include "tools/skerry/test/hashes.h"
 
 namespace skerry::tools {
@@ -54,6 +55,7 @@ Result<void> add_files(const TestScene& scene, std::vector<std::string>& inputs)
   for (const std::string& driver : drivers_of(scene)) {
     if (scene.baseline) inputs.push_back(driver);
     files.push_back(scene.reference(driver));
+    for (fs::path& channel : channel_files(scene, driver)) files.push_back(std::move(channel));
   }
   if (scene.scene.world) files.emplace_back(*scene.scene.world);
   for (const game::CloudFile& cloud : scene.scene.clouds) files.emplace_back(cloud.path);

@@ -22,9 +22,29 @@ using nlohmann::ordered_json;
 constexpr Verdict kVerdicts[] = {Verdict::kPass, Verdict::kFail, Verdict::kApproved};
 constexpr std::uint64_t kMaxResultBytes = 64u << 20;
 
-/// nlohmann writes infinity as null; reads come back through number_or_infinity.
-ordered_json number_or_null(const std::optional<Difference>& found, double Difference::*member) {
-  return found ? ordered_json((*found).*member) : ordered_json(nullptr);
+/// Adds the numbers of a difference, which are null if there is none. The PSNR of equal pictures,
+/// infinity, is null as well; reads come back through number_or_infinity.
+void add_numbers(ordered_json& out, const std::optional<Difference>& found) {
+  const auto number = [&](double Difference::*member) {
+    const bool known = found && std::isfinite((*found).*member);
+    return known ? ordered_json((*found).*member) : ordered_json(nullptr);
+  };
+  out["flip_mean"] = number(&Difference::flip_mean);
+  out["flip_p99"] = number(&Difference::flip_p99);
+  out["flip_max"] = number(&Difference::flip_max);
+  out["psnr"] = number(&Difference::psnr_db);
+  out["pixels_over"] = number(&Difference::pixels_over);
+  out["largest"] = found ? ordered_json(found->largest) : ordered_json(nullptr);
+}
+
+ordered_json regions_json(const std::vector<PartDifference>& parts) {
+  ordered_json out = ordered_json::array();
+  for (const PartDifference& part : parts) {
+    ordered_json region{{"name", part.name}};
+    add_numbers(region, part.difference);
+    out.push_back(std::move(region));
+  }
+  return out;
 }
 
 double number_or_infinity(const json& value) {
@@ -43,10 +63,19 @@ Difference difference_from_json(const json& row) {
 }
 
 Verdict verdict_from_name(const std::string& name) {
-  for (const Verdict verdict : kVerdicts) {
-    if (verdict_name(verdict) == name) return verdict;
-  }
+  if (const std::optional<Verdict> verdict = verdict_of_name(name)) return *verdict;
   throw json::other_error::create(501, "unknown verdict", nullptr);
+}
+
+Cause cause_or_throw(const json& from) {
+  const auto corner = [&](std::size_t i) {
+    return from.at("rectangle").at(i).get<std::uint32_t>();
+  };
+  return {from.at("channel").get<std::string>(),
+          from.at("pass").get<std::string>(),
+          from.at("pixels").get<std::uint64_t>(),
+          {corner(0), corner(1), corner(2), corner(3)},
+          from.at("largest").get<int>()};
 }
 
 /// Throws nlohmann's errors.
@@ -56,6 +85,11 @@ Row row_or_throw(const json& from) {
   row.verdict = verdict_from_name(from.at("verdict").get<std::string>());
   if (!from.at("hash_equal").is_null()) row.hash_equal = from.at("hash_equal").get<bool>();
   if (!from.at("flip_mean").is_null()) row.found = difference_from_json(from);
+  for (const json& region : from.at("regions").get_ref<const json::array_t&>())
+    row.parts.push_back({region.at("name").get<std::string>(), difference_from_json(region)});
+  if (const json& shift = from.at("shift"); !shift.is_null())
+    row.shift = Shift{shift.at(0).get<int>(), shift.at(1).get<int>()};
+  if (!from.at("cause").is_null()) row.cause = cause_or_throw(from.at("cause"));
   row.seconds = from.at("seconds").get<double>();
   row.message = from.at("message").get<std::string>();
   row.driver = from.at("driver").get<std::string>();
@@ -65,7 +99,17 @@ Row row_or_throw(const json& from) {
   row.runs = from.at("runs").get<int>();
   row.failed_runs = from.at("failed_runs").get<int>();
   row.pictures = from.at("pictures").get<int>();
+  row.picture = from.at("picture").get<std::string>();
   return row;
+}
+
+ordered_json cause_json(const Cause& cause) {
+  const game::Mask& around = cause.around;
+  return {{"channel", cause.channel},
+          {"pass", cause.pass},
+          {"pixels", cause.pixels},
+          {"rectangle", {around.x, around.y, around.width, around.height}},
+          {"largest", cause.largest}};
 }
 
 Results results_or_throw(const json& from) {
@@ -109,7 +153,7 @@ std::string junit_case(const Row& row) {
                   measure::escape(row.scene), row.seconds);
   if (!row.failed()) return head + "/>\n";
   return head + fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
-                            measure::escape(row.message), measure::escape(row.command));
+                            measure::escape(row.explanation()), measure::escape(row.command));
 }
 
 }  // namespace
@@ -125,18 +169,33 @@ std::string_view verdict_name(Verdict verdict) {
   }
 }
 
+std::optional<Verdict> verdict_of_name(std::string_view name) {
+  for (const Verdict verdict : kVerdicts) {
+    if (verdict_name(verdict) == name) return verdict;
+  }
+  return std::nullopt;
+}
+
+std::string Row::explanation() const {
+  if (!cause) return message;
+  return fmt::format("{}; {}", message, text_of(*cause));
+}
+
+void Row::take(const Comparison& compared) {
+  found = compared.difference;
+  parts = compared.parts;
+  shift = compared.shift;
+}
+
 ordered_json row_json(const Row& row) {
   ordered_json out;
   out["scene"] = row.scene;
   out["verdict"] = verdict_name(row.verdict);
   out["hash_equal"] = row.hash_equal ? ordered_json(*row.hash_equal) : ordered_json(nullptr);
-  out["flip_mean"] = number_or_null(row.found, &Difference::flip_mean);
-  out["flip_p99"] = number_or_null(row.found, &Difference::flip_p99);
-  out["flip_max"] = number_or_null(row.found, &Difference::flip_max);
-  out["psnr"] = row.found && std::isfinite(row.found->psnr_db) ? ordered_json(row.found->psnr_db)
-                                                               : ordered_json(nullptr);
-  out["pixels_over"] = number_or_null(row.found, &Difference::pixels_over);
-  out["largest"] = row.found ? ordered_json(row.found->largest) : ordered_json(nullptr);
+  add_numbers(out, row.found);
+  out["regions"] = regions_json(row.parts);
+  out["shift"] = row.shift ? ordered_json({row.shift->dx, row.shift->dy}) : ordered_json(nullptr);
+  out["cause"] = row.cause ? cause_json(*row.cause) : ordered_json(nullptr);
   out["seconds"] = row.seconds;
   out["message"] = row.message;
   out["driver"] = row.driver;
@@ -146,6 +205,7 @@ ordered_json row_json(const Row& row) {
   out["runs"] = row.runs;
   out["failed_runs"] = row.failed_runs;
   out["pictures"] = row.pictures;
+  out["picture"] = row.picture;
   return out;
 }
 

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "tools/skerry/compare/verdict.h"
+#include "tools/skerry/test/cause.h"
 #include "tools/skerry/test/scene_set.h"
-#include "tools/skerry/test/verdict.h"
 
 namespace skerry::tools {
 
@@ -19,6 +20,8 @@ enum class Verdict : std::uint8_t {
   kApproved  ///< the picture has become the reference
 };
 std::string_view verdict_name(Verdict verdict);
+/// None: no verdict has the name.
+std::optional<Verdict> verdict_of_name(std::string_view name);
 
 /// One scene's result; of several runs, the first that failed.
 struct Row {
@@ -27,15 +30,23 @@ struct Row {
   std::string message;              ///< one line; empty when there is nothing to say
   std::optional<bool> hash_equal;   ///< none: no hash is approved for the driver, or no picture
   std::optional<Difference> found;  ///< none: there was nothing to compare
+  std::vector<PartDifference> parts;
+  std::optional<Shift> shift;
+  std::optional<Cause> cause;  ///< none: it did not fail, or no channels are kept
   double seconds = 0.0;
   std::string driver;                   ///< key of approved hashes
   std::optional<std::uint32_t> device;  ///< that drew it, as `skerry devices` counts; none: unknown
   std::string command;                  ///< draws the picture again
   bool sound = false;  ///< there is a picture, finite, and not black unless it may be
   int runs = 1, failed_runs = 0;
-  int pictures = 0;  ///< distinct ones over all runs
+  int pictures = 0;     ///< distinct ones over all runs
+  std::string picture;  ///< SHA-256 of its pixels; empty: none was drawn
 
   bool failed() const { return verdict == Verdict::kFail; }
+  /// The message, and the cause if one is known. One line.
+  std::string explanation() const;
+  /// Takes in the numbers of a comparison.
+  void take(const Comparison& compared);
 };
 
 /// All rows of a run, sorted by scene.

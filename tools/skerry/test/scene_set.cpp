@@ -93,8 +93,8 @@ Result<TestScene> read_scene(const fs::path& file) {
   game::find_beside(file.string(), parsed->clouds);
   Result<game::SceneOptions> scene = game::make_scene(*parsed, {});
   if (!scene) return wrong(scene.error());
-  const Result<void> masked = game::check_masks(parsed->expectations.masks, scene->size);
-  if (!masked) return wrong(masked.error());
+  const Result<void> checked = game::check_expectations(parsed->expectations, scene->size);
+  if (!checked) return wrong(checked.error());
   return TestScene{file.stem().string(), file, *std::move(scene), parsed->expectations, {}};
 }
 

@@ -1,9 +1,11 @@
 #include "tools/skerry/test/test_command.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <ctime>
 #include <set>
 
 #include "engine/core/clock.h"
@@ -14,12 +16,12 @@
 #include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 #include "game/scene_file/vdb_options.h"
+#include "tools/skerry/compare/report_pictures.h"
 #include "tools/skerry/scene/progress.h"
 #include "tools/skerry/scene/scene_device.h"
 #include "tools/skerry/test/compare_folders.h"
 #include "tools/skerry/test/page.h"
 #include "tools/skerry/test/records.h"
-#include "tools/skerry/test/report_pictures.h"
 #include "world/vdb/worker.h"
 
 namespace skerry::tools {
@@ -54,7 +56,7 @@ void add_run(Outcome& sum, const Outcome& run) {
 void print_row(const Row& row) {
   if (row.failed() || row.verdict == Verdict::kApproved)
     fmt::print("{}: {}: {}\n", verdict_name(row.verdict), one_line(row.scene),
-               one_line(row.message));
+               one_line(row.explanation()));
 }
 
 /// @return how many scenes failed.
@@ -119,6 +121,10 @@ void TestCommand::add_output_options(CLI::App& command) {
   command.add_option("--html", html_, "Write a report with pictures")->type_name("DIR");
   command.add_option("--json", json_, "Write the rows as JSON")->type_name("FILE");
   command.add_option("--junit", junit_, "Write the rows as JUnit XML")->type_name("FILE");
+  command
+      .add_option("--history", history_path_,
+                  "Add the rows to those of earlier runs, which the report shows")
+      ->type_name("FILE");
 }
 
 void TestCommand::add_jobs(CLI::App& command) {
@@ -192,6 +198,11 @@ std::optional<Refusal> TestCommand::check_outputs() {
     if (!report) return usage(report.error());
     report_.emplace(*std::move(report));
     pool_.judge.html = report_->path();
+  }
+  if (history_path_) {
+    Result<History> history = History::open(*history_path_);
+    if (!history) return usage(history.error());
+    history_.emplace(*std::move(history));
   }
   if (auto refusal = check_output(json_)) return refusal;
   return check_output(junit_);
@@ -283,7 +294,14 @@ int TestCommand::draw_and_judge() {
   return end.validation_messages > 0 ? kValidationMessage : kDone;
 }
 
-Result<void> TestCommand::write_outputs(Results results) {
+/// @param date of the run, if it was an earlier one that may be in the history already.
+Result<void> TestCommand::write_outputs(Results results, const std::optional<std::string>& date) {
+  if (history_) {
+    const std::string now =
+        date.value_or(fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr))));
+    for (const Row& row : results.rows)
+      date ? history_->add_new(past_run(row, now)) : history_->add(past_run(row, now));
+  }
   const auto json_text = [&] {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     return results_json(results).dump(2, ' ', false, replace) + "\n";
@@ -292,7 +310,7 @@ Result<void> TestCommand::write_outputs(Results results) {
   if (junit_)
     if (auto added = files.add(*junit_, junit_xml(results)); !added) return added;
   if (report_) {
-    const std::string page = test_page(results, report_->path());
+    const std::string page = test_page(results, report_->path(), history_ ? &*history_ : nullptr);
     if (auto done = write_text(report_->path() / "index.html", page); !done) return done;
     results.html = ".";
     if (auto done = write_text(report_->path() / kReportFile, json_text()); !done) return done;
@@ -305,7 +323,8 @@ Result<void> TestCommand::write_outputs(Results results) {
   }
   if (report_)
     if (auto done = report_->publish(); !done) return done;
-  return files.publish();
+  if (auto done = files.publish(); !done) return done;
+  return history_ ? history_->append() : Result<void>();
 }
 
 /// Brings the pictures of the shards' reports together. @param shards in the order of the files.
@@ -376,7 +395,7 @@ int TestCommand::compare_pictures() {
   if (const auto refusal = check_outputs()) return refuse(*refusal);
   const Stopwatch watch;
   Result<std::vector<Row>> rows =
-      compare_folders({paths_[0], paths_[1], expected.tolerance, pool_.judge.html});
+      compare_folders({paths_[0], paths_[1], expected, pool_.judge.html});
   if (!rows) return fail(kFailed, rows.error());
   Results results;
   results.scenes_in_set = rows->size();
@@ -467,7 +486,7 @@ int TestCommand::merge_rows() {
   int runs = 1;
   for (const Row& row : results.rows) runs = std::max(runs, row.runs);
   const std::ptrdiff_t failed = print_summary(results.rows, runs, seconds);
-  if (const Result<void> written = write_outputs(std::move(results)); !written)
+  if (const Result<void> written = write_outputs(std::move(results), plan.date); !written)
     return fail(kFailed, written.error());
   return failed > 0 ? kFailed : kDone;
 }

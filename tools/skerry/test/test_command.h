@@ -11,6 +11,7 @@
 #include "tools/skerry/report/report_folder.h"
 #include "tools/skerry/scene/arguments.h"
 #include "tools/skerry/test/approve_command.h"
+#include "tools/skerry/test/history.h"
 #include "tools/skerry/test/pool.h"
 
 namespace CLI {
@@ -48,7 +49,7 @@ class TestCommand {
   PoolResult draw(const std::vector<TestScene>& scenes,
                   const std::function<Result<void>(std::size_t, const Outcome&)>& finished) const;
   std::optional<Refusal> read_set(std::vector<TestScene>& scenes, std::size_t& in_set) const;
-  Result<void> write_outputs(Results results);
+  Result<void> write_outputs(Results results, const std::optional<std::string>& date = {});
   Result<void> copy_pictures(const std::vector<Results>& shards) const;
   Result<void> copy_pictures_of(const std::string& scene, const std::filesystem::path& from) const;
 
@@ -57,11 +58,12 @@ class TestCommand {
   std::unique_ptr<ApproveCommand> approve_command_;
   std::vector<std::string> paths_;
   std::optional<std::string> shard_text_, html_, json_, junit_, device_text_, devices_text_,
-      jobs_text_, repeat_text_, tolerance_text_, baseline_;
+      jobs_text_, repeat_text_, tolerance_text_, baseline_, history_path_;
   bool approve_ = false, merge_ = false, compare_ = false, validate_ = false;
   Shard shard_;
   PoolOptions pool_;
   std::optional<ReportFolder> report_;  // for html_
+  std::optional<History> history_;      // for history_path_
 };
 
 }  // namespace skerry::tools

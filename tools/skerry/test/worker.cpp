@@ -12,6 +12,7 @@
 #include "engine/core/clock.h"
 #include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/scene/scene_device.h"
+#include "tools/skerry/test/cause.h"
 
 namespace skerry::tools {
 namespace {
@@ -55,7 +56,35 @@ class Artist {
     shown.picture = {drawn->size.width, drawn->size.height, std::move(drawn->rgba), {}};
     shown.non_finite = drawn->report.pixels.non_finite;
     shown.driver = driver_;
-    return judge(scene, shown, *approved, options_);
+    Outcome outcome = judge(scene, shown, *approved, options_);
+    if (const Result<void> done = explain(scene, *approved, **drawer, outcome); !done) {
+      outcome.row.verdict = Verdict::kFail;
+      outcome.row.failed_runs = 1;
+      outcome.row.message = done.error().message;
+    }
+    return outcome;
+  }
+
+  /// Finds the cause of a failure, or keeps the channels that it will be found by.
+  Result<void> explain(const TestScene& scene, const Hashes& approved, SceneDrawer& drawer,
+                       Outcome& outcome) {
+    if (!scene.baseline) return {};
+    const auto draw = [&](render::DebugView view) -> Result<platform::PngImage> {
+      drawer.view().settings().render.debug_view = view;
+      Result<Drawn> drawn = drawer.draw();
+      if (!drawn) return drawn.error();
+      return platform::PngImage{drawn->size.width, drawn->size.height, std::move(drawn->rgba), {}};
+    };
+    if (outcome.row.failed()) {
+      const auto known = approved.find(scene.name);
+      if (known == approved.end() || !outcome.row.found) return {};
+      const Result<std::optional<Cause>> cause = find_cause(scene, driver_, known->second, draw);
+      if (!cause) return cause.error();
+      outcome.row.cause = *cause;
+      return {};
+    }
+    if (!options_.approve || has_channels(scene, driver_, outcome.hash)) return {};
+    return keep_channels(scene, driver_, outcome.hash, draw);
   }
 
   gpu::Device& device_;

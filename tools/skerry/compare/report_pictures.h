@@ -7,7 +7,7 @@
 
 #include "engine/core/result.h"
 #include "engine/platform/image_file.h"
-#include "tools/skerry/test/verdict.h"
+#include "tools/skerry/compare/verdict.h"
 
 namespace skerry::tools {
 

@@ -1,11 +1,15 @@
 // Whether a picture is its reference's, in numbers and in words. Plain values; no device.
 #pragma once
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/platform/image_file.h"
 #include "game/scene_file/expectations.h"
 #include "tools/measure/flip.h"
+#include "tools/skerry/compare/shift.h"
 
 namespace skerry::tools {
 
@@ -19,18 +23,33 @@ struct Difference {
   bool equal() const { return largest == 0; }
 };
 
-/// A difference, and the picture of it.
-struct Comparison {
+/// The difference of a region of a picture, or of what lies in none (game::kElsewhere).
+struct PartDifference {
+  std::string name;
   Difference difference;
-  measure::ErrorMap flip;  ///< masked pixels are 0
 };
 
-/// @pre both have the same size, and masks leave something of it.
+/// A difference, and the picture of it.
+struct Comparison {
+  Difference difference;              ///< of the whole picture; share over the scene's threshold
+  std::vector<PartDifference> parts;  ///< none: the scene states no region
+  std::optional<Shift> shift;         ///< none: the scene allows none
+  measure::ErrorMap flip;             ///< pixels that are not compared are 0
+};
+
+/// Compares a picture with a reference as a scene expects it: at the offset within the stated shift
+/// that has the least mean difference of bytes, of equal ones the nearest; what then lies beyond an
+/// edge of the picture does not count. FLIP's filters reach 10 pixels over the border of a region.
+/// @pre both have the same size, which check_expectations has accepted.
 Comparison compare(const platform::PngImage& reference, const platform::PngImage& actual,
                    const game::Expectations& expected);
 
 /// What is over the tolerance, in words; empty if nothing is.
 std::string beyond(const Difference& found, const game::Tolerance& tolerance);
+/// The same of all parts, each by its own tolerance.
+/// @param parts of a comparison with the same expectations; without any, all is one part.
+std::string beyond(const Difference& found, std::span<const PartDifference> parts,
+                   const game::Expectations& expected);
 
 /// Whether hardly a pixel can be told from black.
 bool is_black(const platform::PngImage& picture);

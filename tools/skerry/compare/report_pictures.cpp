@@ -1,4 +1,4 @@
-#include "tools/skerry/test/report_pictures.h"
+#include "tools/skerry/compare/report_pictures.h"
 
 #include <fmt/format.h>
 
@@ -42,8 +42,9 @@ Result<void> write_report_pictures(const std::optional<fs::path>& folder, const 
   if (auto done = copy(ReportPicture::kActual, pair.actual); !done) return done;
   if (auto done = copy(ReportPicture::kReference, pair.reference); !done) return done;
   if (!pair.compared || pair.compared->difference.equal()) return {};
+  const Shift shift = pair.compared->shift.value_or(Shift{});
   const measure::Image difference = measure::amplified_difference(
-      image_of(*pair.reference), image_of(*pair.actual), kAmplification);
+      image_of(*pair.reference), image_of(moved(*pair.actual, shift)), kAmplification);
   if (auto done =
           write(ReportPicture::kDifference, difference.width, difference.height, difference.rgba);
       !done)

@@ -1,0 +1,37 @@
+// Pictures that the player took, and the way back into them.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/platform/image_file.h"
+#include "game/scene_file/options.h"
+
+namespace skerry::game {
+
+inline constexpr std::size_t kMaxCommandBytes = 1 << 16;
+
+/// The words of a shell command as shell_word() writes them: plain ones, parts in single quotes,
+/// and characters behind a backslash. Errors: a quote or a backslash without an end.
+Result<std::vector<std::string>> shell_words(std::string_view command);
+
+/// Where a picture was taken, of the command that draws it (shot_command): its world, camera, time
+/// and view, the settings of world and sky, clouds. How it was drawn is left to the player's own
+/// settings. Errors: no such command, an option or a value that it does not have.
+Result<SceneText> place_of_command(std::string_view command);
+
+/// The same of what a picture has stored, checked. Errors: those of place_of_command and
+/// make_scene.
+Result<SceneOptions> place_of_picture(std::span<const platform::PngText> text);
+/// What is played, moved to another place; how it is drawn stays.
+SceneOptions at_place(const SceneOptions& played, const SceneOptions& place);
+
+/// Screenshots in the player's folder, newest first. A folder that is not there has none.
+std::vector<std::filesystem::path> list_pictures(const std::filesystem::path& folder);
+/// Where screenshots are; empty if there is no folder for data.
+std::filesystem::path pictures_dir();
+
+}  // namespace skerry::game
