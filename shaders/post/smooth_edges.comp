@@ -18,14 +18,12 @@ layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kPictureBinding, rgba8) uniform image2D picture;
-layout(scalar, binding = kListedBinding) readonly buffer Listed { TileDispatch listed; };
+layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[2]; };  // 1: pixels
 layout(scalar, binding = kEdgePixelsBinding) buffer Pixels { EdgePixel pixels[]; };
 
 layout(constant_id = kStoreConstant) const bool kStore = false;
 
 #include "include/post/edge_lines.glsl"
-
-const ivec2 kBeside[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
 
 ivec2 in_picture(ivec2 pixel) { return clamp(pixel, ivec2(0), ivec2(frame.size) - 1); }
 
@@ -41,50 +39,57 @@ struct Cover {
   vec4 beside;
 };
 
-Cover cover_of(ivec2 pixel) {
-  vec3 ray = pixel_ray(pixel);
+// What a pixel shows.
+struct Seen {
+  float depth;
+  uint word;
+};
+
+Seen seen_at(ivec2 pixel) {
+  pixel = in_picture(pixel);
   float depth = texelFetch(depths, pixel, 0).r;
-  uint word = covered_word(imageLoad(surfaces, pixel).r, depth);
-  vec4 depths_beside;
-  uvec4 words;
-  uint island = surface_island(word), other_island = island;
-  for (int i = 0; i < 4; ++i) {
-    ivec2 beside = in_picture(pixel + kBeside[i]);
-    depths_beside[i] = texelFetch(depths, beside, 0).r;
-    words[i] = covered_word(imageLoad(surfaces, beside).r, depths_beside[i]);
-    if (words[i] != 0u && surface_island(words[i]) != island) other_island = surface_island(words[i]);
-  }
-  // Loads of islands are what this costs on lavapipe. Where three meet, one of them is left as it is.
-  Sight own_sight = sight_in(island, ray), other_sight = sight_in(other_island, ray);
-  SeenFace own = face_at(vec2(0.0), depth, word, own_sight), cut_out = own;
-  vec2 cut_out_seen = vec2(0.0);
-  vec4 shares, holes, tips;
-  for (int i = 0; i < 4; ++i) {
-    uint its_island = surface_island(words[i]);
-    Sight sight = own_sight;
-    if (words[i] != 0u && its_island != island) sight = other_sight;
-    SeenFace other = face_at(vec2(kBeside[i]), depths_beside[i], words[i], sight);
-    Side side = side_of(own, other, vec2(kBeside[i]));
-    bool known = words[i] == 0u || its_island == island || its_island == other_island;
-    shares[i] = known ? side.share : 0.0;
-    holes[i] = known ? side.hole : 0.0;
-    tips[i] = known ? side.tip : 0.0;
-    if (tips[i] > 0.0) {
-      cut_out = other;
-      cut_out_seen = vec2(kBeside[i]);
-    }
-  }
+  return Seen(depth, covered_word(imageLoad(surfaces, pixel).r, depth));
+}
+
+bool is_of(Seen seen, uint island) { return seen.word != 0u && surface_island(seen.word) == island; }
+
+Cover cover_of(ivec2 pixel) {
+  Seen own = seen_at(pixel), left = seen_at(pixel - ivec2(1, 0)), right = seen_at(pixel + ivec2(1, 0));
+  Seen above = seen_at(pixel - ivec2(0, 1)), below = seen_at(pixel + ivec2(0, 1));
+  // Where islands meet, lines are the nearest one's.
+  Seen nearest = own;
+  if (left.depth > nearest.depth) nearest = left;
+  if (right.depth > nearest.depth) nearest = right;
+  if (above.depth > nearest.depth) nearest = above;
+  if (below.depth > nearest.depth) nearest = below;
+  uint island = surface_island(nearest.word);
+  Sight sight = sight_in(island, pixel_ray(pixel));
+  bool own_of = is_of(own, island);
+  const vec2 kLeft = vec2(-1.0, 0.0), kRight = vec2(1.0, 0.0), kAbove = vec2(0.0, -1.0), kBelow = vec2(0.0, 1.0);
+  SeenFace face = face_at(vec2(0.0), own.depth, own.word, sight, own_of);
+#define side_to(other, towards) \
+  side_of(face, face_at(towards, other.depth, other.word, sight, is_of(other, island)), towards, own_of || is_of(other, island))
+  Side at_left = side_to(left, kLeft), at_right = side_to(right, kRight), at_above = side_to(above, kAbove), at_below = side_to(below, kBelow);
+  vec4 shares = vec4(at_left.share, at_right.share, at_above.share, at_below.share);
+  vec4 holes = vec4(at_left.hole, at_right.hole, at_above.hole, at_below.hole);
+  vec4 tips = vec4(at_left.tip, at_right.tip, at_above.tip, at_below.tip);
   float hole_count = dot(holes, vec4(1.0)), tip_count = dot(tips, vec4(1.0));
-  if (hole_count > 0.0) {
-    cut_out = own;
-    cut_out_seen = vec2(0.0);
+  // The leaf or plant that covers a part of the pixel.
+  Seen cut_out = own;
+  vec2 seen = vec2(0.0);
+  if (hole_count == 0.0) {
+    if (tips.x > 0.0) { cut_out = left; seen = kLeft; }
+    if (tips.y > 0.0) { cut_out = right; seen = kRight; }
+    if (tips.z > 0.0) { cut_out = above; seen = kAbove; }
+    if (tips.w > 0.0) { cut_out = below; seen = kBelow; }
   }
   // One line that leaves through two sides of the pixel is found twice.
   vec2 by_axis = vec2(shares.x + shares.y, shares.z + shares.w);
   Cover cover;
   cover.own = 1.0 - min(max(by_axis.x, by_axis.y), 1.0);
   cover.beside = shares * ((1.0 - cover.own) / max(by_axis.x + by_axis.y, 1e-6));
-  float solid = texture_share(cut_out, cut_out_seen);
+  int places = hole_count + tip_count > 0.0 ? 4 : 1;
+  float solid = texture_share(face_at(seen, cut_out.depth, cut_out.word, sight, is_of(cut_out, island)), seen, places);
   if (hole_count > 0.0) {
     cover.beside += holes * (cover.own * (1.0 - solid) / hole_count);
     cover.own *= solid;
@@ -97,7 +102,7 @@ Cover cover_of(ivec2 pixel) {
 
 void main() {
   uint index = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
-  bool here = index < listed.tiles;
+  bool here = index < dispatches[1].tiles;
   EdgePixel edge = pixels[here ? index : 0u];
   ivec2 pixel = ivec2(edge.place & 0xffffu, edge.place >> 16);
   if (kStore) {
@@ -106,6 +111,7 @@ void main() {
   }
   Cover cover = cover_of(pixel);
   vec3 light = cover.own * light_at(pixel);
-  for (int i = 0; i < 4; ++i) light += cover.beside[i] * light_at(pixel + kBeside[i]);
+  light += cover.beside.x * light_at(pixel - ivec2(1, 0)) + cover.beside.y * light_at(pixel + ivec2(1, 0));
+  light += cover.beside.z * light_at(pixel - ivec2(0, 1)) + cover.beside.w * light_at(pixel + ivec2(0, 1));
   if (here) pixels[index].colour = packUnorm4x8(vec4(sqrt(light), 1.0));
 }

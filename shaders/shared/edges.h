@@ -5,8 +5,7 @@
 #include "types.h"
 SHARED_BEGIN
 
-SHARED_CONST uint kEdgeColumns = 4u;  // pixels that an invocation of find_edges.comp looks at
-SHARED_CONST uint kEdgeRows = 8u;
+SHARED_CONST uint kEdgeParts = 2u;  // of a tile, four columns each: what an invocation looks at
 
 // A pixel at an edge. Its picture is read before any is written.
 struct EdgePixel {

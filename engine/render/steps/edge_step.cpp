@@ -19,7 +19,7 @@ const char* needs_smooth_edges(const FramePlan& plan) {
 }  // namespace
 
 FrameStep smooth_edges_step() {
-  return {{{needs_smooth_edges, {"find_edges", "smooth_edges", "store_edges"}}},
+  return {{{needs_smooth_edges, {"find_edge_tiles", "find_edges", "smooth_edges", "store_edges"}}},
           [](FrameAssembly& f) {
             f.developed = EdgePass::add(f.graph, f.pipelines, f.scene, *f.geometry,
                                         *std::move(f.developed), f.plan.tables.constants);
