@@ -34,8 +34,8 @@ struct EdgeLists {
 
 EdgeLists make_lists(gpu::FrameGraph& graph, VkExtent2D size) {
   EdgeLists out;
-  out.dispatches = graph.create(gpu::BufferDesc{
-      "edge dispatches", 2 * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
+  out.dispatches = graph.create(gpu::BufferDesc{"edge dispatches", 2 * sizeof(shared::TileDispatch),
+                                                0, gpu::Memory::kDevice});
   out.tiles = graph.create(
       gpu::BufferDesc{"edge tiles", std::uint64_t{tiles_of(size)} * 4, 0, gpu::Memory::kDevice});
   out.pixels = graph.create(gpu::BufferDesc{
@@ -70,9 +70,9 @@ void find(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& sc
         lists.pixels = b.write(lists.pixels, Use::kComputeWrite);
       },
       [scene, depth, lists, bend, groups, every_pixel,
-       program = gpu::compute(
-           pipelines, programs::kFindEdges,
-           {{shared::kEveryPixelConstant, every_pixel ? 1u : 0u}})](gpu::Commands& c) {
+       program =
+           gpu::compute(pipelines, programs::kFindEdges,
+                        {{shared::kEveryPixelConstant, every_pixel ? 1u : 0u}})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(lists.dispatches),
@@ -88,7 +88,8 @@ void find(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& sc
 
 /// @param store the second step, which writes the picture that the first has read.
 gpu::ImageRef smooth(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                     const Geometry& geometry, gpu::ImageRef picture, EdgeLists& lists, bool store) {
+                     const Geometry& geometry, gpu::ImageRef picture, EdgeLists& lists,
+                     bool store) {
   const gpu::ImageRef words = geometry.surfaces(), depth = geometry.depth();
   graph.add_pass(
       store ? "store_edges" : "smooth_edges",
