@@ -62,25 +62,23 @@ float positive_share(Linear value) {
   return clamp((r.x - r.y - r.z + r.w) / (2.0 * slope.x * slope.y), 0.0, 1.0);
 }
 
-float place_along(Axis axis, Linear inverse, vec2 place) {
-  return axis.x + (axis.y + place.x * axis.z + place.y * axis.w) / at(inverse, place);
-}
-
 // Where one of a face's coordinates comes to the border of the cell that it is in at `from`, on the way to `to`.
 struct Crossing {
-  Linear line;  // 0 there, positive beyond
-  float place;  // from 0 to 1 on the way; more if it is not crossed
+  Linear line;          // 0 there, positive beyond
+  float before, after;  // how far the ways' ends lie from it, each positive on its side
 };
 
-Crossing crossing_of(Axis axis, Linear inverse, vec2 from, vec2 to, vec2 within) {
-  float cell = place_along(axis, inverse, within), beyond = place_along(axis, inverse, to);
+// @param within a place in the cell. @param distances from the eye to the plane, there and at `to`.
+Crossing crossing_of(Axis axis, Linear inverse, vec2 from, vec2 to, vec2 within, vec2 distances) {
+  float cell = axis.x + at(axis.yzw, within) * distances.x, beyond = axis.x + at(axis.yzw, to) * distances.y;
   bool up = beyond > cell;
   float border = up ? floor(cell) + 1.0 : ceil(cell) - 1.0;
   Linear line = (axis.x - border) * inverse + axis.yzw;
   line = up ? line : -line;
-  float first = at(line, from), second = at(line, to);
-  return Crossing(line, second > 0.0 ? first / (first - second) : 2.0);
+  return Crossing(line, -at(line, from), at(line, to));
 }
+
+bool is_crossed(Crossing c) { return c.after > 0.0 && c.before + c.after > 0.0; }
 
 // Quads are drawn a little larger than faces (draw_quads.vert): a pixel may show a surface that ends so far before its centre.
 const float kGrown = 1.0 / 64.0;
@@ -102,10 +100,13 @@ Side side_of(SeenFace own, SeenFace other, vec2 towards, bool known) {
   if (own_ends) nearer = own;
   // Where the nearer one ends between the pixel that shows it and the one that does not.
   vec2 from = own_ends ? vec2(0.0) : towards, to = own_ends ? towards : vec2(0.0), within = from - kGrown * (to - from);
-  Crossing u = crossing_of(nearer.u, nearer.inverse, from, to, within), v = crossing_of(nearer.v, nearer.inverse, from, to, within);
-  if (v.place < u.place) u = v;
+  vec2 distances = 1.0 / vec2(at(nearer.inverse, within), at(nearer.inverse, to));
+  Crossing u = crossing_of(nearer.u, nearer.inverse, from, to, within, distances);
+  Crossing v = crossing_of(nearer.v, nearer.inverse, from, to, within, distances);
+  // The first of the two: before / (before + after) is the less.
+  if (is_crossed(v) && (!is_crossed(u) || v.before * u.after < u.before * v.after)) u = v;
   // A plant ends by its texture, at the border of its voxel at the latest.
-  bool ends = at(nearer.inverse, to) > 0.0 && u.place <= 1.0 && surface_face(nearer.word) < kFaceCount;
+  bool ends = distances.y > 0.0 && is_crossed(u) && surface_face(nearer.word) < kFaceCount;
   float side = abs(there) > abs(here) ? sign(there) : sign(here);
   Linear line = crease ? side * (own.inverse - other.inverse) : own_ends ? u.line : -u.line;
   bool in_texture = apart && !ends && !crease;
@@ -120,11 +121,12 @@ float texture_share(SeenFace s, vec2 seen, int places) {
   uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
   bool plant = face >= kFaceCount, level_face = (face >> 1) == 1u;
   float down_v = level_face ? 1.0 : -1.0;  // v runs downwards
-  vec2 middle = vec2(place_along(s.u, s.inverse, vec2(0.0)), place_along(s.v, s.inverse, vec2(0.0)));
-  vec2 shown = vec2(place_along(s.u, s.inverse, seen), place_along(s.v, s.inverse, seen));
+  float distance = 1.0 / s.inverse.x, distance_seen = 1.0 / at(s.inverse, seen);
+  vec2 middle = vec2(s.u.x + s.u.y * distance, s.v.x + s.v.y * distance);
+  vec2 shown = vec2(s.u.x + at(s.u.yzw, seen) * distance_seen, s.v.x + at(s.v.yzw, seen) * distance_seen);
   // A pixel further, on the plane.
   vec2 way = middle - vec2(s.u.x, s.v.x);
-  vec2 right = (vec2(s.u.z, s.v.z) - way * s.inverse.y) / s.inverse.x, down = (vec2(s.u.w, s.v.w) - way * s.inverse.z) / s.inverse.x;
+  vec2 right = (vec2(s.u.z, s.v.z) - way * s.inverse.y) * distance, down = (vec2(s.u.w, s.v.w) - way * s.inverse.z) * distance;
   float texels = kTextureEdge * sqrt(max(dot(right, right), dot(down, down)));
   // Each place stands for a quarter of the pixel; its edges are as soft as that is wide.
   float level = round(max(log2(texels) - 1.0, 0.0)), steep = max(2.0 / max(texels, 1e-3), 1.0);
