@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // The listed pixels (find_edges.comp) by what covers them: the pixel's own surface and those of its four neighbours, each by its share of the
 // pixel. Surfaces are faces of voxels, so that the line between two of them is known exactly: where their planes meet, or the lattice line at
-// which the nearer one ends. Of leaves and plants, the share that their texture covers is asked at four places of the pixel. A second step
+// which the nearer one ends. Of leaves and plants, the share that their texture covers is asked at two places of the pixel. A second step
 // stores what the first has found. docs/decisions/0043.
 #include "include/frame/common.glsl"
 #include "shared/edges.h"
@@ -88,7 +88,7 @@ Cover cover_of(ivec2 pixel) {
   Cover cover;
   cover.own = 1.0 - min(max(by_axis.x, by_axis.y), 1.0);
   cover.beside = shares * ((1.0 - cover.own) / max(by_axis.x + by_axis.y, 1e-6));
-  int places = hole_count + tip_count > 0.0 ? 4 : 1;
+  int places = hole_count + tip_count > 0.0 ? 2 : 1;
   float solid = texture_share(face_at(seen, cut_out.depth, cut_out.word, sight, is_of(cut_out, island)), seen, places);
   if (hole_count > 0.0) {
     cover.beside += holes * (cover.own * (1.0 - solid) / hole_count);

@@ -114,7 +114,7 @@ Side side_of(SeenFace own, SeenFace other, vec2 towards, bool known) {
 }
 
 // Share of the pixel that a leaf's or a plant's texture covers; of any other surface 1. @param seen a pixel that shows it.
-// @param places of the pixel that are asked, 1 to 4.
+// @param places of the pixel that are asked, 1 or 2.
 float texture_share(SeenFace s, vec2 seen, int places) {
   uint face = surface_face(s.word);
   Material material = materials[surface_block(s.word)];
@@ -128,18 +128,18 @@ float texture_share(SeenFace s, vec2 seen, int places) {
   vec2 way = middle - vec2(s.u.x, s.v.x);
   vec2 right = (vec2(s.u.z, s.v.z) - way * s.inverse.y) * distance, down = (vec2(s.u.w, s.v.w) - way * s.inverse.z) * distance;
   float texels = kTextureEdge * sqrt(max(dot(right, right), dot(down, down)));
-  // Each place stands for a quarter of the pixel; its edges are as soft as that is wide.
+  // Each place stands for half the pixel; its edges are as soft as that is wide.
   float level = round(max(log2(texels) - 1.0, 0.0)), steep = max(2.0 / max(texels, 1e-3), 1.0);
   // A plant's texture is that of one voxel and ends with it.
   middle -= plant ? floor(shown + vec2(0.0, 0.001)) : floor(middle);
-  vec2 place = vec2(-0.125, 0.375);
+  vec2 place = vec2(-0.125, 0.25);
   float sum = 0.0;
   for (int i = 0; i < places; ++i) {
     vec2 hit = middle + place.x * right + place.y * down, inside = abs(hit - 0.5), uv = vec2(hit.x, down_v * hit.y);
     if (plant) uv = plant_uv(uv);
     float alpha = clamp((textureLod(block_textures, vec3(uv, float(layer)), level).a - 0.5) * steep + 0.5, 0.0, 1.0);
     sum += plant && max(inside.x, inside.y) > 0.5 ? 0.0 : alpha;
-    place = vec2(place.y, -place.x);  // a quarter of a turn further
+    place = -place;  // across the centre
   }
   return s.word != 0u && s.inverse.x > 0.0 ? sum / float(places) : 0.0;
 }
