@@ -99,6 +99,12 @@ TEST_F(UprightEdge, AFaceThatEndsBeforeTheSkyCoversItsShare) {
   for (int i = 0; i < 12; ++i) expect_shares(0.013 * i - 0.07);
 }
 
+TEST_F(UprightEdge, IsFoundInEachColumnOfATile) {
+  add(corner, {0, -1, 0}, {1, 1, 1});
+  const double column = 10.0 * std::tan(35.0 * M_PI / 180.0) / kSize.height;  // blocks
+  for (int i = 0; i < 8; ++i) expect_shares((0.3 + i) * column);
+}
+
 TEST_F(UprightEdge, TwoFacesThatMeetCoverTheirShares) {
   place(35.0);
   add(corner, {0, -1, 0}, {1, 1, 1});
