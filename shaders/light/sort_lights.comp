@@ -65,10 +65,20 @@ void find_depths() {
       float depth = texelFetch(depths, pixel, 0).r;
       if (kDepth16 && imageLoad(surfaces, pixel).r != 0u) depth = max(depth, 0.5 / 65535.0);
       if (depth > 0.0) take(t, depth);
-      if (kWaterLayers > 0u && (depth = layer_depth_at(layer_depths_0, pixel, grid.layers_area)) > 0.0) take(t, depth);
-      if (kWaterLayers > 1u && (depth = layer_depth_at(layer_depths_1, pixel, grid.layers_area)) > 0.0) take(t, depth);
-      if (kWaterLayers > 2u && (depth = layer_depth_at(layer_depths_2, pixel, grid.layers_area)) > 0.0) take(t, depth);
-      if (kWaterLayers > 3u && (depth = layer_depth_at(layer_depths_3, pixel, grid.layers_area)) > 0.0) take(t, depth);
+    }
+  }
+  if (kWaterLayers > 0u) {
+    // A loop of its own, over what shows layers at all: lavapipe skips a loop that ends, never a branch.
+    ivec2 first = max(low, ivec2(grid.layers_area.xy)), end = min(min(low + int(kTileEdge), ivec2(grid.layers_area.zw)), ivec2(grid.size));
+    for (int y = first.y; y < end.y && first.x < end.x; ++y) {
+      for (int x = first.x; x < end.x; ++x) {
+        ivec2 pixel = ivec2(x, y);
+        float depth = texelFetch(layer_depths_0, pixel, 0).r;
+        if (depth > 0.0) take(t, depth);
+        if (kWaterLayers > 1u && (depth = texelFetch(layer_depths_1, pixel, 0).r) > 0.0) take(t, depth);
+        if (kWaterLayers > 2u && (depth = texelFetch(layer_depths_2, pixel, 0).r) > 0.0) take(t, depth);
+        if (kWaterLayers > 3u && (depth = texelFetch(layer_depths_3, pixel, 0).r) > 0.0) take(t, depth);
+      }
     }
   }
   small_tiles[tile] = t;

@@ -5,7 +5,6 @@
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "include/scene/coverage.glsl"
-#include "include/scene/layers.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -13,7 +12,8 @@ layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[2]; };  // 0 covered, 1 open
 layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };           // [kind][tile]: x | y << 16
-layout(push_constant) uniform Push { uvec2 size; uvec2 tile_count; uvec4 area; } push;  // area: what is outside shows no surface
+// Pixels outside the area show no surface; tiles from first_tile on are looked at, others are in no list.
+layout(push_constant) uniform Push { uvec4 area; uvec2 size; uvec2 tile_count; uvec2 first_tile; uvec2 looked_at; } push;
 
 void list_tile(uint kind, uvec2 tile) {
   uint slot = atomicAdd(dispatches[kind].tiles, 1u);
@@ -25,15 +25,15 @@ void list_tile(uint kind, uvec2 tile) {
 // One invocation a tile: no barriers, which lavapipe pays for dearly.
 void main() {
   uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-  if (tile >= push.tile_count.x * push.tile_count.y) return;
-  uvec2 at = uvec2(tile % push.tile_count.x, tile / push.tile_count.x);
-  ivec2 low = ivec2(at * kTileEdge);
-  ivec2 last = ivec2(push.size) - 1;
+  if (tile >= push.looked_at.x * push.looked_at.y) return;
+  uvec2 at = push.first_tile + uvec2(tile % push.looked_at.x, tile / push.looked_at.x);
+  ivec2 low = ivec2(at * kTileEdge), last = ivec2(push.size) - 1;
   bool covered = false, open = false;
   for (int y = 0; y < int(kTileEdge); ++y) {
     for (int x = 0; x < int(kTileEdge); ++x) {
       ivec2 pixel = min(low + ivec2(x, y), last);
-      bool here = is_covered(imageLoad(surfaces, pixel).r, layer_depth_at(depths, pixel, push.area));
+      bool within = all(greaterThanEqual(uvec2(pixel), push.area.xy)) && all(lessThan(uvec2(pixel), push.area.zw));
+      bool here = within && is_covered(imageLoad(surfaces, pixel).r, texelFetch(depths, pixel, 0).r);
       covered = covered || here;
       open = open || !here;
     }

@@ -14,16 +14,24 @@ namespace skerry::render {
 
 using gpu::Use;
 
+namespace {
+
+/// Whole tiles and a last part that lie before a pixel.
+glm::uvec2 tiles_before(glm::uvec2 pixel) {
+  return (pixel + (shared::kTileEdge - 1)) / shared::kTileEdge;
+}
+
+}  // namespace
+
 Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      const char* name, const Coverage& coverage) {
   const VkExtent2D size = scene.size;
-  const std::uint32_t columns = gpu::Commands::groups(size.width, shared::kTileEdge);
-  const std::uint32_t rows = gpu::Commands::groups(size.height, shared::kTileEdge);
+  const glm::uvec2 all = tiles_before({size.width, size.height});
   Tiles out;
   out.dispatches = graph.create(gpu::BufferDesc{"tile dispatches", 2 * sizeof(shared::TileDispatch),
                                                 0, gpu::Memory::kDevice});
-  out.lists = graph.create(gpu::BufferDesc{"tile lists", std::uint64_t{2} * columns * rows * 4, 0,
-                                           gpu::Memory::kDevice});
+  out.lists = graph.create(
+      gpu::BufferDesc{"tile lists", std::uint64_t{2} * all.x * all.y * 4, 0, gpu::Memory::kDevice});
   graph.add_pass(
       std::string(name) + "_clear",
       [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
@@ -43,20 +51,24 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
         out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
-      [coverage, out, columns, rows, size, sampler = scene.point_sampler,
+      [coverage, out, all, size, sampler = scene.point_sampler,
        program = gpu::compute(pipelines, programs::kClassifyTiles,
                               coverage.kept == DepthStore::kD16
                                   ? std::vector<gpu::SpecConstant>{{shared::kDepth16Constant, 1}}
                                   : std::vector<gpu::SpecConstant>{})](gpu::Commands& c) {
+        const glm::uvec2 first =
+            coverage.area_alone ? glm::uvec2(coverage.area) / shared::kTileEdge : glm::uvec2(0);
+        const glm::uvec2 looked_at =
+            coverage.area_alone ? tiles_before({coverage.area.z, coverage.area.w}) - first : all;
         const struct {
-          std::uint32_t width, height, columns, rows;
           glm::uvec4 area;
-        } push{size.width, size.height, columns, rows, coverage.area};
+          glm::uvec2 size, tile_count, first_tile, looked_at;
+        } push{coverage.area, {size.width, size.height}, all, first, looked_at};
         gpu::bind(c, program, gpu::storage<shared::kSurfacesBinding>(coverage.words),
                   gpu::sampled<shared::kDepthsBinding>(coverage.depth, sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
                   gpu::storage<shared::kTilesBinding>(out.lists), gpu::constants(push));
-        const std::uint32_t groups = gpu::Commands::groups(columns * rows, 64);
+        const std::uint32_t groups = gpu::Commands::groups(looked_at.x * looked_at.y, 64);
         c.dispatch(std::min(groups, shared::kTileRow),
                    gpu::Commands::groups(groups, shared::kTileRow), 1);
       });

@@ -30,6 +30,7 @@ struct Coverage {
   gpu::ImageRef depth;                 ///< reverse-Z, 0 where there is none
   DepthStore kept = DepthStore::kD32;  ///< of `depth`; with 16 bits its words decide
   glm::uvec4 area;                     ///< from xy to before zw: pixels outside have none
+  bool area_alone = false;             ///< tiles without a pixel of the area are not listed
 };
 
 /// Sorts tiles by whether any of their pixels has, or has not, a surface. @param name of the pass.

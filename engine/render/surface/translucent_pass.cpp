@@ -133,9 +133,11 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
                             const In& in, Shaded shaded) {
   // Inside a medium every pixel is looked at through it; else only those with a translucent
   // surface.
-  const Tiles tiles = classify_tiles(
-      graph, pipelines, scene, "classify_translucent_tiles",
-      {.words = in.layers.surfaces[0], .depth = in.layers.depth[0], .area = scene.layers_area});
+  const Tiles tiles = classify_tiles(graph, pipelines, scene, "classify_translucent_tiles",
+                                     {.words = in.layers.surfaces[0],
+                                      .depth = in.layers.depth[0],
+                                      .area = scene.layers_area,
+                                      .area_alone = !in.inside_medium});
   gpu::ImageRef radiance = shaded.radiance();
   const LayerReads reads(scene, in);
   graph.add_pass(
