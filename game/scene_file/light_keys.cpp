@@ -9,6 +9,7 @@
 namespace skerry::game {
 namespace {
 
+constexpr std::array<std::string_view, 2> kAntialiasingNames{"off", "edge"};
 constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct16",
@@ -29,6 +30,13 @@ Result<void> parse_shadow_size(std::string_view text, Settings& s) {
 }
 
 constexpr SettingKey kLightKeys[] = {
+    {"aa", "off or edge",
+     "Smooth edges of blocks, leaves and plants. edge: each pixel at an edge shows both sides by "
+     "the share that they cover.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "aa", kAntialiasingNames), s.render.aa);
+     },
+     [](const Settings& s) { return name_of(kAntialiasingNames, s.render.aa); }},
     {"aa.samples", "1, 4 or 16",
      "Samples a pixel: the picture is drawn twice or four times as wide and high, and averaged. "
      "For stills; the time grows alike.",

@@ -106,5 +106,8 @@ SHARED_CONST uint kMadeBloomBinding = 75u;      // the level that a step of bloo
 SHARED_CONST uint kMarchedCloudsBinding = 76u;  // the coarse image as it is made
 SHARED_CONST uint kMeteredBinding = 77u;        // luminance of the pixels that the meter looks at
 
+// Pixels at edges of surfaces: EdgePixel[].
+SHARED_CONST uint kEdgePixelsBinding = 78u;
+
 SHARED_END
 #endif

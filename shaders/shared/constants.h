@@ -54,10 +54,11 @@ SHARED_CONST uint kLightStepConstant = 50u;       // uint: kLightDepths to kLigh
 SHARED_CONST uint kShowConstant = 51u;            // bool: the meter's histogram is drawn
 SHARED_CONST uint kFilterConstant = 52u;  // uint: kFilterAverage, kFilterShrink or kFilterSpread
 SHARED_CONST uint kToRadianceConstant = 53u;   // bool: pixels may go to an image of radiance
+SHARED_CONST uint kMeterStrideConstant = 54u;  // uint: of Metering, where luminance is kept; or 0
 SHARED_CONST uint kCountPixelsConstant = 55u;  // bool: counts of PixelStats are wanted
 SHARED_CONST uint kRunConstant = 56u;          // uint: pixels of a row that an invocation takes
 SHARED_CONST uint kGroupSizeConstant = 57u;    // uint: invocations of a work group
-SHARED_CONST uint kMeterStrideConstant = 54u;  // uint: of Metering, where luminance is kept; or 0
+SHARED_CONST uint kStoreConstant = 58u;        // bool: what was found is stored
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

@@ -18,6 +18,7 @@
 #include "shaders/shared/bloom.h"
 #include "shaders/shared/clouds.h"
 #include "shaders/shared/clusters.h"
+#include "shaders/shared/edges.h"
 #include "shaders/shared/exposure.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
@@ -159,6 +160,7 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(MarkerConstants, size), MEMBER(MarkerConstants, first),
              MEMBER(MarkerConstants, end), MEMBER(MarkerConstants, half_width),
              MEMBER(MarkerConstants, dug)),
+      STRUCT(EdgePixel, MEMBER(EdgePixel, place), MEMBER(EdgePixel, colour)),
       STRUCT(OverlayConstants, MEMBER(OverlayConstants, ndc_from_pixel)),
   };
 #undef STRUCT

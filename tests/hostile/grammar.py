@@ -13,7 +13,7 @@ NUMBERS = ["0", "-0", "1", "-1", "+1", "1e308", "1e309", "-1e309", "nan", "-nan"
            "٣", "2147483648", "-2147483649", "4294967296", "9223372036854775808", "18446744073709551616", "9" * 400, "0." + "0" * 400 + "1",
            "1e", "e1", "--1", "1 ", " 1", "", "١", "½", "true", "null", "1\n", "0b1", "1f", ".", "+", "-"]
 KEYS = ["world.offset", "world.islands", "sky.moon_phase", "lights.random", "lights.oracle", "lights.shadows", "shadow.enabled",
-        "shadow.size", "clouds.coverage", "exposure", "renderer", "shading", "ao.strength", "bloom.intensity", "aa.samples",
+        "shadow.size", "clouds.coverage", "exposure", "renderer", "shading", "ao.strength", "bloom.intensity", "aa", "aa.samples",
         "water.layers", "display.peak", "jobs.threads", "debug.view", "upload.budget", "world.time", "reference.samples",
         "view.distance", "no.such.key", "", "=", "VIEW.DISTANCE", "view.distance.", "view..distance"]
 JSONS = ["{", "[]", "3", "null", "{}", '{"seed": 1, "seed": 2}', '{"world": 3}', '{"world": null}', '{"world": ""}', '{"sead": 1}',

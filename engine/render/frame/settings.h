@@ -38,6 +38,12 @@ struct GBufferStore {
   bool operator==(const GBufferStore&) const = default;
 };
 
+/// How edges of surfaces are smoothed where a pixel has one sample. docs/decisions/0043.
+enum class Antialiasing : std::uint8_t {
+  kOff,
+  kEdge  ///< by the share of a pixel that each side of an edge covers
+};
+
 /// From exposed radiance to what a display can show.
 enum class ToneCurve : std::uint8_t { kAces, kAgx };
 
@@ -96,6 +102,7 @@ inline constexpr std::uint32_t kEveryLight = ~0u;  ///< of RenderSettings::light
 /// Knobs of the picture, named as the keys of docs/settings.md. Defaults are those of quality
 /// medium.
 struct RenderSettings {
+  Antialiasing aa = Antialiasing::kOff;
   int aa_samples = 1;  ///< of a pixel, drawn and averaged: 1, 4 or 16
   /// Of the edges of the picture that is shown, 0.25..1: below 1 the scene is drawn smaller, and
   /// the picture is enlarged.

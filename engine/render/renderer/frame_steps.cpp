@@ -4,6 +4,7 @@
 
 #include "engine/render/steps/bloom_step.h"
 #include "engine/render/steps/cloud_steps.h"
+#include "engine/render/steps/edge_step.h"
 #include "engine/render/steps/geometry_steps.h"
 #include "engine/render/steps/light_steps.h"
 #include "engine/render/steps/measure_steps.h"
@@ -42,6 +43,7 @@ std::span<const FrameStep> frame_steps() {
       meter_step(),
       bloom_step(),
       develop_step(),
+      smooth_edges_step(),
       show_exposure_step(),
       draw_marker_step(),
       enlarge_step(),

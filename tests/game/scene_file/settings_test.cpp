@@ -96,6 +96,7 @@ TEST(Settings, EveryKeyReadsBackWhatItPrints) {
                                  "shadow.taps=32",
                                  "shadow.split=0.5",
                                  "shadow.samples=7",
+                                 "aa=edge",
                                  "aa.samples=4",
                                  "shadow.blur=0.25",
                                  "texture.taps=16",

@@ -131,6 +131,19 @@ TEST(PlanFrame, LeavesShadowsOutWithTheirSetting) {
   EXPECT_STREQ(why_not(plan, "draw_shadow_sun"), "shadow.enabled=0");
 }
 
+TEST(PlanFrame, SaysWhyEdgesAreNotSmoothed) {
+  Planned scene;
+  EXPECT_STREQ(why_not(scene.plan(), "smooth_edges"), "aa=off");
+  scene.settings.aa = Antialiasing::kEdge;
+  EXPECT_EQ(why_not(scene.plan(), "smooth_edges"), nullptr);
+  scene.settings.gbuffer.depth = DepthStore::kD16;
+  EXPECT_STREQ(why_not(scene.plan(), "smooth_edges"), "gbuffer.depth=d16");
+  scene.settings.aa_samples = 4;
+  EXPECT_STREQ(why_not(scene.plan(), "smooth_edges"), "aa.samples smooths the edges");
+  scene.settings.debug_view = DebugView::kNormal;
+  EXPECT_STREQ(why_not(scene.plan(), "smooth_edges"), "a debug view is shown");
+}
+
 TEST(PlanFrame, LeavesCloudsOutThatAreNotInView) {
   Planned scene;
   scene.settings.clouds.coverage = 0.5f;

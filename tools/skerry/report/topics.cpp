@@ -58,6 +58,10 @@ constexpr TopicPoint kShadowSamples[] = {
     {"filter", "shadow.samples=1"}, {"4", "shadow.samples=4"}, {"16", "shadow.samples=16"}};
 constexpr TopicPoint kSamples[] = {
     {"1", "aa.samples=1"}, {"4", "aa.samples=4"}, {"16", "aa.samples=16"}};
+constexpr TopicPoint kAntialiasing[] = {{"off", "aa=off"},
+                                        {"edge", "aa=edge"},
+                                        {"4 samples", "aa.samples=4"},
+                                        {"16 samples", "aa.samples=16"}};
 constexpr TopicPoint kShadowCascades[] = {{"1", "shadow.cascades=1"},
                                           {"2", "shadow.cascades=2"},
                                           {"3", "shadow.cascades=3"},
@@ -153,6 +157,7 @@ constexpr TopicPoint kCloudPrecisions[] = {
 constexpr std::string_view kShadowScenes[] = {"day", "low_sun", "water"};
 constexpr std::string_view kLitScenes[] = {"day", "low_sun", "water", "torches"};
 constexpr std::string_view kSkyScenes[] = {"day", "low_sun", "cave_mouth"};
+constexpr std::string_view kEdgeScenes[] = {"day", "low_sun", "far"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kGlow[] = {"lava"};
@@ -174,6 +179,8 @@ constexpr Topic kTopics[] = {
     {"shadow_samples", "places on the sun's disc that light comes from", kShadowSamples, kWater},
     {"aa_samples", "samples of a pixel", kSamples, kDay, Judge::kReference, CostOf::kFrame, false,
      "reference.filter=pixel"},
+    {"aa", "smooth edges from one sample of a pixel", kAntialiasing, kEdgeScenes, Judge::kLimit,
+     CostOf::kShading},
     {"gbuffer_normal", "how normals are kept between drawing and shading", kNormals, kDay,
      Judge::kLimit, CostOf::kShading},
     {"gbuffer_position", "where shading takes positions from", kPositions, kDay, Judge::kLimit,

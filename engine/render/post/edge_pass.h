@@ -1,0 +1,20 @@
+#pragma once
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
+#include "engine/render/frame/phases.h"
+#include "engine/render/frame/scene_refs.h"
+#include "shaders/shared/frame.h"
+
+namespace skerry::render {
+
+/// Smooth edges from one sample a pixel (`aa=edge`): pixels at edges of surfaces are listed, and
+/// show the surfaces around them by the share that each covers, which planes and lattice lines give
+/// exactly. docs/decisions/0043.
+struct EdgePass {
+  /// @param developed a picture of the G-buffer's size. @param frame of the same frame.
+  static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                       const Geometry& geometry, Developed developed,
+                       const shared::FrameConstants& frame);
+};
+
+}  // namespace skerry::render

@@ -1,0 +1,9 @@
+#pragma once
+#include "engine/render/steps/frame_step.h"
+
+namespace skerry::render {
+
+/// `aa=edge`: each pixel at an edge shows both sides of it.
+FrameStep smooth_edges_step();
+
+}  // namespace skerry::render

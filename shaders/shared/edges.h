@@ -1,0 +1,17 @@
+// Edges of surfaces in the picture, smoothed by the share of a pixel that each side covers.
+// docs/decisions/0043.
+#ifndef SKERRY_SHARED_EDGES_H
+#define SKERRY_SHARED_EDGES_H
+#include "types.h"
+SHARED_BEGIN
+
+SHARED_CONST uint kEdgeParts = 2u;  // of a tile, four columns each: what an invocation looks at
+
+// A pixel at an edge. Its picture is read before any is written.
+struct EdgePixel {
+  uint place;   // x in bits 0-15, y in bits 16-31
+  uint colour;  // what it becomes, RGBA8
+};
+
+SHARED_END
+#endif
