@@ -69,7 +69,8 @@ Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
                              .array = true});
   if (!image) return image.error();
   block_textures_ = *std::move(image);
-  if (Result<void> ok = uploader.fill_image(block_textures_, linear_texels(textures)); !ok) return ok;
+  if (Result<void> ok = uploader.fill_image(block_textures_, linear_texels(textures)); !ok)
+    return ok;
 
   image = device_->create_image({.name = "sky table",
                                  .format = VK_FORMAT_R16G16B16A16_SFLOAT,

@@ -33,8 +33,9 @@ double linear_from_srgb(std::byte encoded);
 /// header says.
 Result<BlockTextures> parse_block_textures(std::span<const std::byte> file);
 
-/// The texels as shaders sample them: four halves each, linear light and coverage, in the same order.
-/// Drivers decode sRGB formats differently, by up to half a code value; halves they all filter alike.
+/// The texels as shaders sample them: four halves each, linear light and coverage, in the same
+/// order. Drivers decode sRGB formats differently, by up to half a code value; halves they all
+/// filter alike.
 std::vector<std::byte> linear_texels(const BlockTextures& textures);
 
 /// The textures embedded in the program, kBlockTextureLayers layers.

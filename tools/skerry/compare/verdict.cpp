@@ -193,7 +193,8 @@ Sums sums_of(const Compared& pair, const game::Tolerance& tolerance, const Count
   Offs offs;
   for (std::size_t first = 0; first < pixels; first += kBlock) {
     const std::size_t count = block_size(first, pixels);
-    const std::uint8_t *a = &pair.reference->pixels[4 * first], *b = &pair.actual->pixels[4 * first];
+    const std::uint8_t *a = &pair.reference->pixels[4 * first],
+                       *b = &pair.actual->pixels[4 * first];
     find_offs(a, b, count, offs);
     sums.counted += count;
     for (std::size_t i = 0; !kEvery && i < count; ++i) {

@@ -20,8 +20,9 @@ struct Difference {
   double pixels_over = 0.0;  ///< share of pixels off by more than the tolerance's channel_threshold
   int largest = 0;           ///< largest difference of a channel, of 255
   double pixels_rounded = 0.0;  ///< share of pixels off by no more than the tolerance's code_values
-  double bias = 0.0;  ///< of the channel where it is largest: sum of what those are off by, over the
-                      ///< number of all pixels [code values]; above 0: brighter than the reference
+  double bias =
+      0.0;  ///< of the channel where it is largest: sum of what those are off by, over the
+            ///< number of all pixels [code values]; above 0: brighter than the reference
 
   bool equal() const { return largest == 0; }
 };
