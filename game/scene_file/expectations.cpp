@@ -22,8 +22,15 @@ struct ShareField {
 constexpr ShareField kShares[] = {{"flip_mean", &Tolerance::flip_mean},
                                   {"flip_p99", &Tolerance::flip_p99},
                                   {"flip_max", &Tolerance::flip_max},
-                                  {"pixels_over", &Tolerance::pixels_over}};
-constexpr std::string_view kThreshold = "channel_threshold";
+                                  {"pixels_over", &Tolerance::pixels_over},
+                                  {"pixels_rounded", &Tolerance::pixels_rounded},
+                                  {"bias", &Tolerance::bias}};
+struct ValueField {
+  std::string_view name;
+  std::uint32_t Tolerance::*value;
+};
+constexpr ValueField kValues[] = {{"channel_threshold", &Tolerance::channel_threshold},
+                                  {"code_values", &Tolerance::code_values}};
 constexpr std::string_view kShift = "shift", kRegions = "regions";
 constexpr std::string_view kName = "name", kRectangle = "rectangle";
 constexpr std::string_view kInTolerance = "tolerance.";
@@ -46,10 +53,11 @@ std::optional<std::uint32_t> whole_number(const json& value, std::uint32_t max) 
 /// The largest share or threshold, of the scene or of the region that `field` begins with.
 Result<void> read_limit(const std::string& field, const std::string& name, const json& value,
                         Tolerance& into) {
-  if (name == kThreshold) {
-    const auto threshold = whole_number(value, 255);
-    if (!threshold) return kind_error(field + name, "a whole number from 0 to 255");
-    into.channel_threshold = *threshold;
+  for (const ValueField& known : kValues) {
+    if (known.name != name) continue;
+    const auto number = whole_number(value, 255);
+    if (!number) return kind_error(field + name, "a whole number from 0 to 255");
+    into.*known.value = *number;
     return {};
   }
   for (const ShareField& known : kShares) {
@@ -60,7 +68,8 @@ Result<void> read_limit(const std::string& field, const std::string& name, const
     return {};
   }
   const bool of_region = field != kInTolerance;
-  std::vector<std::string_view> names{kThreshold};
+  std::vector<std::string_view> names;
+  for (const ValueField& known : kValues) names.push_back(known.name);
   for (const ShareField& known : kShares) names.push_back(known.name);
   if (of_region) {
     names.insert(names.end(), {kName, kRectangle});

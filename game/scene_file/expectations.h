@@ -20,6 +20,11 @@ struct Tolerance {
   double flip_max = 1.0;                ///< one pixel on an edge may be anything
   double pixels_over = 0.005;           ///< share of pixels off by more than the next in a channel
   std::uint32_t channel_threshold = 8;  ///< of 255
+  /// A pixel off by no more than this in each channel [of 255] is *rounded* otherwise: for FLIP it
+  /// is the reference's. Such pixels have limits of their own.
+  std::uint32_t code_values = 1;
+  double pixels_rounded = 0.4;  ///< share of them
+  double bias = 0.1;  ///< of a channel: mean of their differences over all pixels [code values]
   bool operator==(const Tolerance&) const = default;
 };
 

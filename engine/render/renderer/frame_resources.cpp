@@ -61,7 +61,7 @@ Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
   const BlockTextures textures = render::block_textures();
   Result<gpu::Image> image =
       device_->create_image({.name = "block textures",
-                             .format = VK_FORMAT_R8G8B8A8_SRGB,
+                             .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                              .extent = {textures.edge, textures.edge},
                              .mips = textures.mips,
                              .layers = textures.layers,
@@ -69,7 +69,8 @@ Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
                              .array = true});
   if (!image) return image.error();
   block_textures_ = *std::move(image);
-  if (Result<void> ok = uploader.fill_image(block_textures_, textures.texels); !ok) return ok;
+  if (Result<void> ok = uploader.fill_image(block_textures_, linear_texels(textures)); !ok)
+    return ok;
 
   image = device_->create_image({.name = "sky table",
                                  .format = VK_FORMAT_R16G16B16A16_SFLOAT,

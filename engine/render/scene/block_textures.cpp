@@ -1,7 +1,10 @@
 #include "engine/render/scene/block_textures.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.h"
 #include "engine/core/words.h"
@@ -49,6 +52,21 @@ Result<BlockTextures> parse_block_textures(std::span<const std::byte> file) {
 double linear_from_srgb(std::byte encoded) {
   const double value = std::to_integer<int>(encoded) / 255.0;
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+std::vector<std::byte> linear_texels(const BlockTextures& textures) {
+  std::array<std::uint16_t, 256> light, share;
+  for (std::size_t i = 0; i < 256; ++i) {
+    light[i] = glm::packHalf1x16(static_cast<float>(linear_from_srgb(std::byte(i))));
+    share[i] = glm::packHalf1x16(static_cast<float>(i) / 255.0f);
+  }
+  std::vector<std::byte> out(textures.texels.size() * sizeof(std::uint16_t));
+  for (std::size_t i = 0; i < textures.texels.size(); ++i) {
+    const auto byte = std::to_integer<std::size_t>(textures.texels[i]);
+    const std::uint16_t half = i % kTexelBytes == 3 ? share[byte] : light[byte];
+    std::memcpy(&out[i * sizeof half], &half, sizeof half);
+  }
+  return out;
 }
 
 BlockTextures block_textures() {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "engine/core/result.h"
 
@@ -31,6 +32,11 @@ double linear_from_srgb(std::byte encoded);
 /// @return an Error if it is no block texture file, of another version, or of another size than its
 /// header says.
 Result<BlockTextures> parse_block_textures(std::span<const std::byte> file);
+
+/// The texels as shaders sample them: four halves each, linear light and coverage, in the same
+/// order. Drivers decode sRGB formats differently, by up to half a code value; halves they all
+/// filter alike.
+std::vector<std::byte> linear_texels(const BlockTextures& textures);
 
 /// The textures embedded in the program, kBlockTextureLayers layers.
 BlockTextures block_textures();

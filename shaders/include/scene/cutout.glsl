@@ -7,12 +7,19 @@
 layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 
+// Level of a texture whose coordinates change from pixel to pixel as `uv` does. Drivers work theirs out each in their own way, by up to half a
+// level apart, and leaves would have other edges.
+float texture_level(vec2 uv) {
+  vec2 dx = dFdxFine(uv) * kTextureEdge, dy = dFdyFine(uv) * kTextureEdge;
+  return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-12));
+}
+
 void discard_uncovered(uint surface) {
   Material material = materials[surface_block(surface)];
   uint face = surface_face(surface);
   uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
-  vec3 uv = vec3(face >= 6u ? plant_uv(in_uv) : in_uv, float(layer));
-  float alpha = kFinestCoverage ? textureLod(block_textures, uv, 0.0).a : texture(block_textures, uv).a;
+  vec2 uv = face >= 6u ? plant_uv(in_uv) : in_uv;
+  float alpha = textureLod(block_textures, vec3(uv, float(layer)), kFinestCoverage ? 0.0 : texture_level(uv)).a;
   // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.
   bool behind = face < kFaceCount && !gl_FrontFacing;
   if (behind || alpha < 0.5) discard;

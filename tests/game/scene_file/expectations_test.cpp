@@ -36,10 +36,11 @@ bool fits(const std::vector<Mask>& masks, const PictureSize& size) {
 TEST(Expectations, EveryFieldOfAFileArrives) {
   const auto found = expectations_of(
       R"("tolerance": {"flip_mean": 0.25, "flip_p99": 0.5, "flip_max": 1, "pixels_over": 0,
-          "channel_threshold": 3}, "expects_dark": true, "masks": [[1, 2, 3, 4], [0, 0, 65535, 1]],
+          "channel_threshold": 3, "code_values": 2, "pixels_rounded": 0.125, "bias": 0.75},
+         "expects_dark": true, "masks": [[1, 2, 3, 4], [0, 0, 65535, 1]],
          "description": "A cave")");
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_EQ(found->tolerance, (Tolerance{0.25, 0.5, 1.0, 0.0, 3}));
+  EXPECT_EQ(found->tolerance, (Tolerance{0.25, 0.5, 1.0, 0.0, 3, 2, 0.125, 0.75}));
   EXPECT_TRUE(found->expects_dark);
   EXPECT_EQ(found->masks, (std::vector<Mask>{{1, 2, 3, 4}, {0, 0, 65535, 1}}));
   EXPECT_EQ(found->description, "A cave");
@@ -105,6 +106,9 @@ TEST(Expectations, TheDocumentTellsTheDefaults) {
       {"tolerance.flip_max", fmt::format("{}", t.flip_max)},
       {"tolerance.pixels_over", fmt::format("{}", t.pixels_over)},
       {"tolerance.channel_threshold", fmt::format("{}", t.channel_threshold)},
+      {"tolerance.code_values", fmt::format("{}", t.code_values)},
+      {"tolerance.pixels_rounded", fmt::format("{}", t.pixels_rounded)},
+      {"tolerance.bias", fmt::format("{}", t.bias)},
       {"tolerance.shift", "0"},
       {"tolerance.regions", ""}};
   EXPECT_EQ(documented, expected);

@@ -59,16 +59,109 @@ TEST(Verdict, TheShareOfPixelsCountsThoseOverTheThresholdInOneChannel) {
 }
 
 TEST(Verdict, TheAmountOfEveryQuantityIsLimited) {
-  const Difference found{0.1, 0.2, 0.3, 40.0, 0.4, 50};
-  const game::Tolerance at{0.1, 0.2, 0.3, 0.4, 8};
+  const Difference found{0.1, 0.2, 0.3, 40.0, 0.4, 50, 0.5, -0.6};
+  const game::Tolerance at{0.1, 0.2, 0.3, 0.4, 8, 1, 0.5, 0.6};
   EXPECT_EQ(beyond(found, at), "");  // at the limit is within
   for (double game::Tolerance::*field :
        {&game::Tolerance::flip_mean, &game::Tolerance::flip_p99, &game::Tolerance::flip_max,
-        &game::Tolerance::pixels_over}) {
+        &game::Tolerance::pixels_over, &game::Tolerance::pixels_rounded, &game::Tolerance::bias}) {
     game::Tolerance tighter = at;
     tighter.*field *= 0.999;
     EXPECT_NE(beyond(found, tighter), "");
   }
+}
+
+/// Of a picture, with so much added to each channel of every n-th pixel.
+platform::PngImage with_added(const platform::PngImage& picture, std::size_t n, int by) {
+  platform::PngImage out = picture;
+  for (std::size_t i = 0; i < out.pixels.size(); i += 4 * n)
+    for (std::size_t c = 0; c < 3; ++c)
+      out.pixels[i + c] = static_cast<std::uint8_t>(out.pixels[i + c] + by);
+  return out;
+}
+
+TEST(Verdict, APixelWithinOneCodeValueIsNoErrorOfFlip) {
+  const platform::PngImage reference = plain(40, 20, 100);
+  game::Expectations expected;
+  for (const int by : {1, -1}) {
+    const platform::PngImage actual = with_added(reference, 16, by);
+    const Difference found = compare(reference, actual, expected).difference;
+    EXPECT_EQ(found.flip_mean, 0.0);
+    EXPECT_EQ(found.flip_max, 0.0);
+    EXPECT_EQ(found.pixels_rounded, 1.0 / 16.0);
+    EXPECT_EQ(found.bias, by / 16.0);
+    EXPECT_EQ(found.largest, 1);
+    EXPECT_FALSE(found.equal());  // it is another picture all the same
+    EXPECT_TRUE(std::isfinite(found.psnr_db));
+    EXPECT_EQ(beyond(found, expected.tolerance), "");
+    game::Expectations strict = expected;
+    strict.tolerance.code_values = 0;
+    const Difference exact = compare(reference, actual, strict).difference;
+    EXPECT_GT(exact.flip_mean, 0.0);
+    EXPECT_EQ(exact.pixels_rounded, 0.0);
+    EXPECT_EQ(exact.bias, 0.0);
+  }
+}
+
+TEST(Verdict, APixelOffByMoreInOneChannelIsNotRounded) {
+  const platform::PngImage reference = plain(40, 20, 100);
+  platform::PngImage actual = with_added(reference, 4, 1);
+  put(actual, 8, 3, 2, 102);  // is one of each fourth
+  const Comparison found = compare(reference, actual, {});
+  EXPECT_EQ(found.difference.pixels_rounded, 199.0 / 800.0);
+  EXPECT_EQ(found.difference.bias, 199.0 / 800.0);
+  EXPECT_GT(found.flip.errors[3 * 40 + 8], 0.0f);
+  // By itself it gives the same error: what is rounded beside it adds nothing.
+  platform::PngImage alone = reference;
+  for (const int c : {0, 1}) put(alone, 8, 3, c, 101);
+  put(alone, 8, 3, 2, 102);
+  EXPECT_EQ(compare(reference, alone, {}).flip.errors, found.flip.errors);
+}
+
+TEST(Verdict, AWholePictureThatIsBrighterByLessThanACodeValueFails) {
+  const platform::PngImage reference = plain(40, 20, 100);
+  for (const int by : {1, -1}) {
+    const auto message = [&](std::size_t n) {
+      return beyond(compare(reference, with_added(reference, n, by), {}).difference, {});
+    };
+    EXPECT_EQ(message(10), "");
+    EXPECT_EQ(message(8).rfind("bias", 0), 0u) << message(8);
+  }
+  // Both ways: no bias, but hardly a pixel is as it was.
+  platform::PngImage both = with_added(reference, 1, 1);
+  both = with_added(both, 2, -2);
+  const Difference found = compare(reference, both, {}).difference;
+  EXPECT_EQ(found.bias, 0.0);
+  EXPECT_EQ(found.pixels_rounded, 1.0);
+  EXPECT_EQ(beyond(found, {}).rfind("share of pixels off by at most 1", 0), 0u);
+}
+
+TEST(Verdict, TheBiasIsOfTheChannelThatHasMost) {
+  const platform::PngImage reference = plain(40, 20, 100);
+  platform::PngImage actual = reference;
+  for (std::uint32_t x = 0; x < 40; ++x) {
+    put(actual, x, 0, 0, 101);
+    put(actual, x, 1, 1, 99);
+    put(actual, x, 2, 1, 99);
+  }
+  EXPECT_EQ(compare(reference, actual, {}).difference.bias, -80.0 / 800.0);
+}
+
+TEST(Verdict, ARegionHasItsOwnCodeValues) {
+  const platform::PngImage reference = plain(100, 60, 100);
+  const platform::PngImage actual = with_added(reference, 2, 2);
+  game::Expectations expected;
+  game::Tolerance loose;
+  loose.code_values = 2;
+  loose.bias = 1.0;
+  expected.regions = {{"left", {0, 0, 50, 60}, loose}};
+  const Comparison found = compare(reference, actual, expected);
+  ASSERT_EQ(found.parts.size(), 2u);
+  EXPECT_EQ(found.parts[0].difference.pixels_rounded, 0.5);
+  EXPECT_EQ(found.parts[0].difference.bias, 1.0);
+  EXPECT_EQ(found.parts[1].difference.pixels_rounded, 0.0);
+  EXPECT_EQ(found.flip.errors[30 * 100 + 20], 0.0f);
+  EXPECT_GT(found.flip.errors[30 * 100 + 80], 0.0f);
 }
 
 TEST(Verdict, WhatIsMaskedDoesNotCount) {

@@ -23,7 +23,7 @@ Row row_of(const std::string& scene, Verdict verdict = Verdict::kPass) {
   row.scene = scene;
   row.verdict = verdict;
   row.hash_equal = false;
-  row.found = Difference{0.125, 0.25, 0.5, 33.5, 0.0625, 17};
+  row.found = Difference{0.125, 0.25, 0.5, 33.5, 0.0625, 17, 0.625, -0.0625};
   row.seconds = 1.5;
   row.message = "a message";
   row.driver = "a_driver";
@@ -67,6 +67,8 @@ TEST(Rows, TheContractsFieldsAreThere) {
   EXPECT_EQ(json["flip_p99"], 0.25);
   EXPECT_EQ(json["flip_max"], 0.5);
   EXPECT_EQ(json["psnr"], 33.5);
+  EXPECT_EQ(json["pixels_rounded"], 0.625);
+  EXPECT_EQ(json["bias"], -0.0625);
 }
 
 TEST(Rows, WhatIsNoRowIsAnError) {

@@ -19,6 +19,10 @@ struct Difference {
   double psnr_db = 0.0;      ///< of linear light, peak 1; infinity for equal pictures
   double pixels_over = 0.0;  ///< share of pixels off by more than the tolerance's channel_threshold
   int largest = 0;           ///< largest difference of a channel, of 255
+  double pixels_rounded = 0.0;  ///< share of pixels off by no more than the tolerance's code_values
+  double bias =
+      0.0;  ///< of the channel where it is largest: sum of what those are off by, over the
+            ///< number of all pixels [code values]; above 0: brighter than the reference
 
   bool equal() const { return largest == 0; }
 };
@@ -31,7 +35,7 @@ struct PartDifference {
 
 /// A difference, and the picture of it.
 struct Comparison {
-  Difference difference;              ///< of the whole picture; share over the scene's threshold
+  Difference difference;              ///< of the whole picture, with the scene's own limits
   std::vector<PartDifference> parts;  ///< none: the scene states no region
   std::optional<Shift> shift;         ///< none: the scene allows none
   measure::ErrorMap flip;             ///< pixels that are not compared are 0
@@ -39,7 +43,8 @@ struct Comparison {
 
 /// Compares a picture with a reference as a scene expects it: at the offset within the stated shift
 /// that has the least mean difference of bytes, of equal ones the nearest; what then lies beyond an
-/// edge of the picture does not count. FLIP's filters reach 10 pixels over the border of a region.
+/// edge of the picture does not count. FLIP sees the reference's pixel in place of one that is off
+/// by no more than code_values. Its filters reach 10 pixels over the border of a region.
 /// @pre both have the same size, which check_expectations has accepted.
 Comparison compare(const platform::PngImage& reference, const platform::PngImage& actual,
                    const game::Expectations& expected);

@@ -75,9 +75,10 @@ std::string number(double value) {
 }
 
 /// As tables of differences list them.
-constexpr double Difference::*kQuantities[] = {&Difference::flip_mean, &Difference::flip_p99,
-                                               &Difference::flip_max, &Difference::psnr_db,
-                                               &Difference::pixels_over};
+constexpr double Difference::*kQuantities[] = {
+    &Difference::flip_mean, &Difference::flip_p99,    &Difference::flip_max,
+    &Difference::psnr_db,   &Difference::pixels_over, &Difference::pixels_rounded,
+    &Difference::bias};
 
 std::string_view hash_word(const Row& row) {
   if (!row.hash_equal) return "none approved";
@@ -217,8 +218,8 @@ std::string measured_parts(const Row& row) {
     out += measure::element(
         "p", fmt::format("compared at an offset of ({}, {}) pixels", row.shift->dx, row.shift->dy));
   if (row.parts.empty()) return out;
-  constexpr std::string_view kHeadings[] = {"region", "FLIP mean", "p99",
-                                            "max",    "PSNR",      "pixels over"};
+  constexpr std::string_view kHeadings[] = {"region", "FLIP mean",   "p99",     "max",
+                                            "PSNR",   "pixels over", "rounded", "bias"};
   std::vector<measure::TableRow> table;
   for (const PartDifference& part : row.parts) {
     measure::TableRow line{{measure::escape(part.name)}, {}};
@@ -274,8 +275,9 @@ std::string test_page(const Results& results, const fs::path& folder, const Hist
       std::count_if(rows.begin(), rows.end(), [](const Row* row) { return row->failed(); });
   const std::string title =
       fmt::format("skerry test: {} of {} scenes failed", failures, rows.size());
-  std::vector<std::string_view> headings{"scene", "verdict", "hash",        "FLIP mean", "p99",
-                                         "max",   "PSNR",    "pixels over", "time"};
+  std::vector<std::string_view> headings{"scene",   "verdict", "hash", "FLIP mean",
+                                         "p99",     "max",     "PSNR", "pixels over",
+                                         "rounded", "bias",    "time"};
   if (history) headings.push_back("history");
   return measure::page(title, measure::element("style", kStyle) + measure::element("h1", title) +
                                   measure::table(headings, table) + sections +

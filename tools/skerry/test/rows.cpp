@@ -34,6 +34,8 @@ void add_numbers(ordered_json& out, const std::optional<Difference>& found) {
   out["flip_max"] = number(&Difference::flip_max);
   out["psnr"] = number(&Difference::psnr_db);
   out["pixels_over"] = number(&Difference::pixels_over);
+  out["pixels_rounded"] = number(&Difference::pixels_rounded);
+  out["bias"] = number(&Difference::bias);
   out["largest"] = found ? ordered_json(found->largest) : ordered_json(nullptr);
 }
 
@@ -58,6 +60,8 @@ Difference difference_from_json(const json& row) {
   found.flip_max = row.at("flip_max").get<double>();
   found.psnr_db = number_or_infinity(row.at("psnr"));
   found.pixels_over = row.at("pixels_over").get<double>();
+  found.pixels_rounded = row.at("pixels_rounded").get<double>();
+  found.bias = row.at("bias").get<double>();
   found.largest = row.at("largest").get<int>();
   return found;
 }
