@@ -28,5 +28,5 @@ void main() {
   count_non_finite(here && !finite3(colour));
   colour = sanitised(colour);
   count_black(here && colour == vec3(0.0));
-  if (here) put_developed(pixel, developed(colour * exp2(-exposure.ev) + glow));
+  if (here) put_developed(pixel, developed(colour, glow));
 }

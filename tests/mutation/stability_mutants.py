@@ -50,9 +50,9 @@ MUTANTS = (
            "if (opaque && voxel != spared) return true;",
            "if (opaque && voxel != spared && distance(vec3(voxel) + 0.5, to) > 2.0) return true;", "rays"),
     Mutant("columns_of_no_number", "every 32nd column is no number", "shaders/include/post/output.glsl",
-           "imageStore(target, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));",
-           "imageStore(target, ivec2(pixel), vec4(pixel.x % 32u == 7u ? vec3(uintBitsToFloat(0x7fc00000u))"
-           " : sanitised(colour), 1.0));",
+           "imageStore(radiance, ivec2(pixel), vec4(what.radiance, 1.0));",
+           "imageStore(radiance, ivec2(pixel), vec4(pixel.x % 32u == 7u ? vec3(uintBitsToFloat(0x7fc00000u))"
+           " : what.radiance, 1.0));",
            "rays.turns worlds.solid"),
     # Shadows
     Mutant("cascades_unsnapped", "cascades follow the camera by less than their grid",
@@ -92,8 +92,8 @@ MUTANTS = (
            "shaders/scene/cull.comp", "DrawCommand(6u * quads,",
            "DrawCommand(6u * quads - 6u,", "projection.near_and_far projection.close_surfaces worlds.many_islands worlds.full_arena"),
     Mutant("picture_half_written", "the first column is not written", "shaders/include/post/picture.glsl",
-           "imageStore(target, ivec2(pixel), developed(",
-           "if (pixel.x > 0u) imageStore(target, ivec2(pixel), developed(", "projection.sizes"),
+           "imageStore(target, ivec2(pixel), vec4(floor(",
+           "if (pixel.x > 0u) imageStore(target, ivec2(pixel), vec4(floor(", "projection.sizes"),
     Mutant("sizes_mended", "a picture without pixels is drawn as one of a pixel", "engine/render/renderer/renderer.cpp",
            "plan_frame({input, settings, size}, s.facts(), s.history);",
            "plan_frame({input, settings, {std::max(size.width, 1u), std::max(size.height, 1u)}}, s.facts(), s.history);",

@@ -127,11 +127,12 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
   for (const std::uint32_t bodies : {3u, 1u, 2u, 0u}) {
     for (const Water water : {Water::kNone, Water::kInView, Water::kAroundEye})
       for (const std::uint32_t lights : kinds) visit_with({bodies, lights, water, false, false});
-    // Stars and discs concern the sky alone, which goes to the picture or, for water or lights, to
-    // an image of radiance.
+    // Stars and discs concern the sky alone, which goes to the picture, or for lights to an image
+    // of radiance, or for water to both.
     for (const bool stars : {false, true})
       for (const bool discs : {false, true}) {
         visit_with({bodies, 0, Water::kNone, stars, discs});
+        visit_with({bodies, 0, Water::kInView, stars, discs});
         visit_with({bodies, kTorches, Water::kInView, stars, discs});
       }
   }

@@ -22,7 +22,8 @@ using gpu::Use;
 constexpr std::uint32_t kSkyRun = 4;
 
 std::vector<gpu::SpecConstant> constants_of_sky(const ShadeIn& in) {
-  const bool plain = in.sampled && !in.stars && !in.discs;
+  const bool may_differ = in.sampled && in.sampled->settings.shading_tolerance > 0.0f;
+  const bool plain = may_differ && !in.stars && !in.discs;
   const std::uint32_t run = plain ? kSkyRun : 1;
   return {{shared::kStarsConstant, in.stars ? 1u : 0u},
           {shared::kDiscsConstant, in.discs ? 1u : 0u},

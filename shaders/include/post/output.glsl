@@ -28,7 +28,7 @@ struct Shown {
 Shown shown(vec3 colour, bool here) {
   count_non_finite(here && !finite3(colour));
   colour = as_halves(sanitised(colour));
-  return Shown(colour, kToPicture ? developed(colour * exp2(-exposure.ev)) : vec3(0.0));
+  return Shown(colour, kToPicture ? developed(colour, vec3(0.0)) : vec3(0.0));
 }
 
 // Every invocation calls this once a pixel; `here` says which have one.

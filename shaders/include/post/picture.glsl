@@ -13,7 +13,9 @@ layout(scalar, binding = kExposureBinding) uniform Chosen { Exposure exposure; }
 
 layout(constant_id = kCalibratedConstant) const bool kCalibrated = false;  // the display takes other than 0 to 1
 
-vec3 developed(vec3 exposed) {
+// @param glow exposed light that the lens adds.
+vec3 developed(vec3 radiance, vec3 glow) {
+  vec3 exposed = radiance * exp2(-exposure.ev) + glow;
   vec3 encoded = srgb_encode(tone_map(exposed));
   return kCalibrated ? displayed(encoded, frame.display_peak, frame.display_black) : encoded;
 }

@@ -58,7 +58,7 @@ class Meter : public PostOnGpu {
                                        bool decides = true) {
     gpu::Buffer counts = room("counts", shared::kHistogramBins * 4);
     run(picture, {kGiven, 0.0f, 0, 0, 0, 0}, [&](SceneRefs& scene, gpu::ImageRef radiance) {
-      keep(MeterPass::add(graph(), pipelines(), scene, radiance, settings, decides).histogram,
+      keep(MeterPass::add(graph(), pipelines(), scene, {radiance, {}}, settings, decides).histogram,
            counts);
     });
     return contents<std::uint32_t>(counts);

@@ -1,0 +1,121 @@
+// Pixels that go to the picture at once against those that go through an image of radiance, and a
+// sky that is worked out at some pixels against one at every pixel.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/render/renderer_on_gpu.h"
+
+namespace skerry::render {
+namespace {
+
+constexpr VkExtent2D kSize{203, 121};  // no multiple of a tile, a run or a stride
+
+/// A meadow with a pond.
+world::BlockId pond(int x, int y, int z) {
+  if (y >= 0)
+    return (x * 5 + z * 3) % 17 == 0 && y == 0 ? world::block::kFern : world::block::kAirBlock;
+  const bool water = y > -3 && x > 18 && x < 27 && z > 22 && z < 31;
+  return water ? world::block::kWater : world::block::kGrass;
+}
+
+class ShadeTargets : public RendererOnGpu {
+ protected:
+  const std::vector<IslandPlacement> islands_{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
+
+  FrameInput view() const {
+    FrameInput in;
+    in.islands = islands_;
+    in.reach_blocks = 200.0;
+    in.sky = sun_at(35.0, 200.0);
+    in.camera = camera_at({22.0, 7.0, 2.0}, 10.0, -12.0, 80.0);
+    in.exposure_ev = -1.0f;
+    in.meter = true;
+    return in;
+  }
+  std::vector<std::uint8_t> picture_of(const FrameInput& input, int rate) {
+    RenderSettings settings;
+    settings.shading_rate = rate;
+    settings.meter.stride = 3;
+    report_ = drawn(input, settings, kSize);
+    return picture();
+  }
+  FrameReport report_;
+};
+
+int most_apart(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  int most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(int{a[i]} - int{b[i]}));
+  return most;
+}
+
+TEST_F(ShadeTargets, TheWayToThePictureDoesNotShow) {
+  add(pond, {0, -1, 0}, {1, 0, 1});
+  for (const bool water : {true, false}) {
+    for (const int rate : {1, 2, 4}) {
+      SCOPED_TRACE(testing::Message() << water << ", " << rate);
+      FrameInput in = view();
+      if (!water) in.camera = camera_at({22.0, 7.0, 40.0}, 10.0, -12.0, 80.0);
+      const std::vector<std::uint8_t> at_once = picture_of(in, rate);
+      EXPECT_EQ(has_pass("develop"), water) << "no pixel, or water's part of the picture";
+      const std::optional<float> ev = report_.metered_ev;
+      const shared::PixelStats counts = report_.pixels;
+      in.capture = true;
+      const std::vector<std::uint8_t> by_radiance = picture_of(in, rate);
+      EXPECT_TRUE(has_pass("develop"));
+      // A sky of fewer pixels is mixed as it is encoded there, and as radiance here.
+      EXPECT_LE(most_apart(at_once, by_radiance), rate == 1 ? 0 : 1);
+      ASSERT_TRUE(ev.has_value());
+      ASSERT_TRUE(report_.metered_ev.has_value());
+      EXPECT_EQ(*ev, *report_.metered_ev);
+      EXPECT_EQ(counts.black, report_.pixels.black);
+      EXPECT_EQ(counts.non_finite, 0u);
+    }
+  }
+}
+
+TEST_F(ShadeTargets, CountsThatNobodyWantsDoNotChangeThePicture) {
+  add(pond, {0, -1, 0}, {1, 0, 1});
+  FrameInput in = view();
+  in.sky = celestial_at(0.0, 0.0);  // a new moon: most of it is black
+  const std::vector<std::uint8_t> counted = picture_of(in, 1);
+  EXPECT_GT(report_.pixels.black, 0u);
+  in.count_pixels = false;
+  EXPECT_EQ(picture_of(in, 1), counted);
+  EXPECT_EQ(report_.pixels.black, 0u);
+}
+
+TEST_F(ShadeTargets, ASkyOfFewerPixelsIsThatOfAll) {
+  add(pond, {0, -1, 0}, {1, 0, 1});
+  for (const double altitude : {-4.0, 0.5, 12.0, 60.0}) {
+    for (const double azimuth : {180.0, 70.0, 5.0}) {
+      SCOPED_TRACE(testing::Message() << altitude << ", " << azimuth);
+      FrameInput in = view();
+      in.sky = sun_at(altitude, azimuth);
+      in.camera = camera_at({22.0, 7.0, 40.0}, 10.0, 30.0, 100.0);
+      in.exposure_ev.reset();
+      RenderSettings every, fewer;
+      fewer.shading_rate = 4;
+      const std::vector<glm::vec4> truth = radiance(in, every, kSize);
+      const std::vector<glm::vec4> some = radiance(in, fewer, kSize);
+      const Captured depth = renderer().captured(Capture::kDepth);
+      double most = 0.0;
+      int sky = 0;
+      for (std::size_t i = 0; i < truth.size(); ++i) {
+        float surface = 0.0f;
+        std::memcpy(&surface, depth.texels.data() + 4 * i, 4);
+        if (surface != 0.0f) continue;
+        ++sky;
+        for (int c = 0; c < 3; ++c)
+          if (truth[i][c] > 1e-4f)
+            most = std::max(most, double{std::abs(some[i][c] - truth[i][c])} / double{truth[i][c]});
+      }
+      EXPECT_GT(sky, 203 * 121 / 3);
+      // Half floats keep 11 bits; the disc is drawn at every pixel.
+      EXPECT_LT(most, 0.01);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skerry::render
