@@ -92,6 +92,7 @@ bool light_between(Cell c, uvec2 pixel, Taker by, out vec3 colour) {
   vec4 same = vec4(alike(c.p00, by), alike(c.p10, by), alike(c.p01, by), alike(c.p11, by));
   vec2 f = vec2(beside) / float(kStep);
   vec4 weight = same * vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+  same = vec4(greaterThan(weight, vec4(0.0)));  // a pixel in line with two points has no use for the others
   float sum = dot(weight, vec4(1.0));
   vec3 c00 = radiance_at(c.p00.sent, by.albedo), c10 = radiance_at(c.p10.sent, by.albedo);
   vec3 c01 = radiance_at(c.p01.sent, by.albedo), c11 = radiance_at(c.p11.sent, by.albedo);

@@ -87,11 +87,13 @@ TEST_F(ShadeTargets, CountsThatNobodyWantsDoNotChangeThePicture) {
 
 TEST_F(ShadeTargets, ASkyOfFewerPixelsIsThatOfAll) {
   add(pond, {0, -1, 0}, {1, 0, 1});
+  int plain_skies = 0;
   for (const double altitude : {-4.0, 0.5, 12.0, 60.0}) {
-    for (const double azimuth : {180.0, 70.0, 5.0}) {
+    for (const double azimuth : {180.0, 85.0, 78.0}) {
       SCOPED_TRACE(testing::Message() << altitude << ", " << azimuth);
       FrameInput in = view();
       in.sky = sun_at(altitude, azimuth);
+      in.sky.to_moon = {0.0, -1.0, 0.0};
       in.camera = camera_at({22.0, 7.0, 40.0}, 10.0, 30.0, 100.0);
       in.exposure_ev.reset();
       RenderSettings every, fewer;
@@ -111,10 +113,11 @@ TEST_F(ShadeTargets, ASkyOfFewerPixelsIsThatOfAll) {
             most = std::max(most, double{std::abs(some[i][c] - truth[i][c])} / double{truth[i][c]});
       }
       EXPECT_GT(sky, 203 * 121 / 3);
-      // Half floats keep 11 bits; the disc is drawn at every pixel.
-      EXPECT_LT(most, 0.01);
+      EXPECT_LT(most, 0.005);  // one column too far is an error of 0.03 to 0.1
+      plain_skies += most > 0.0 ? 1 : 0;
     }
   }
+  EXPECT_GT(plain_skies, 6) << "with a disc or stars it is that of all, exactly";
 }
 
 }  // namespace
