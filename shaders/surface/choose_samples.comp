@@ -1,5 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 // Lists the pixels whose light has to be worked out: in a first pass all points of a grid that show a surface; then the pixels between that cannot
 // take light from the four points around them. A list's order follows threads, what is stored for a pixel does not.
 // docs/decisions/0030-light-at-fewer-pixels.md.
@@ -40,6 +42,13 @@ const float kLeastShare = 0.25;
 const uint kRun = kTileEdge * kTileEdge / kChooseGroup;  // pixels of an invocation
 
 uvec2 grid_size() { return (frame.size + (kStep - 1u)) / kStep; }
+
+// Room in the list for `count` pixels of each invocation. Every invocation calls it once.
+uint first_slot(uint count) {
+  uint before = subgroupExclusiveAdd(count), all = subgroupAdd(count), first = 0u;
+  if (subgroupElect()) first = atomicAdd(listed.tiles, all);  // one for all: GPUs take turns at an address
+  return subgroupBroadcastFirst(first) + before;
+}
 
 void list_pixel(uint slot, uvec2 pixel) { pixels[slot] = pixel.x | (pixel.y << 16); }
 
@@ -119,7 +128,7 @@ void choose_points() {
   float stored_depth;
   bool surface = surface_at(pixel, word, stored_depth) && here;
   if (here && !surface) imageStore(samples, ivec2(at), uvec4(kNoSurface));
-  uint slot = atomicAdd(listed.tiles, surface ? 1u : 0u);
+  uint slot = first_slot(surface ? 1u : 0u);
   if (surface) list_pixel(slot, pixel);
 }
 
@@ -149,7 +158,7 @@ void choose_pixels() {
     put_pixel(pixel, colour, shared_light);
     if (surface && !shared_light) without |= 1u << i;
   }
-  uint slot = atomicAdd(listed.tiles, uint(bitCount(without)));
+  uint slot = first_slot(uint(bitCount(without)));
   for (uint i = 0u; i < kRun; ++i) {
     if ((without & (1u << i)) == 0u) continue;
     list_pixel(slot, first + uvec2(i, 0u));

@@ -40,8 +40,8 @@ struct MeterStep {
 };
 
 /// Bound where a step has no use for an image.
-gpu::ImageRef unread(gpu::FrameGraph& graph, VkFormat format) {
-  return graph.create(gpu::ImageDesc{.name = "unread", .format = format, .extent = {1, 1}});
+gpu::ImageRef unread(gpu::FrameGraph& graph, const char* name, VkFormat format) {
+  return graph.create(gpu::ImageDesc{.name = name, .format = format, .extent = {1, 1}});
 }
 
 /// What each step declares, whether it reads and writes it or not.
@@ -63,15 +63,16 @@ void declare(gpu::PassBuilder& b, MeterStep& in) {
 
 Metered MeterPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                        const MeterIn& in, const MeterSettings& settings, bool decides) {
-  MeterStep m{scene.frame,
-              {},
-              scene.exposure,
-              in.radiance ? in.radiance : unread(graph, VK_FORMAT_R16G16B16A16_SFLOAT),
-              unread(graph, VK_FORMAT_R8G8B8A8_UNORM),
-              in.cells ? in.cells : unread(graph, VK_FORMAT_R32_SFLOAT),
-              metering_of(settings, decides),
-              bool{in.radiance},
-              bool{in.cells}};
+  MeterStep m{
+      scene.frame,
+      {},
+      scene.exposure,
+      in.radiance ? in.radiance : unread(graph, "no radiance", VK_FORMAT_R16G16B16A16_SFLOAT),
+      unread(graph, "no picture", VK_FORMAT_R8G8B8A8_UNORM),
+      in.cells ? in.cells : unread(graph, "no cells", VK_FORMAT_R32_SFLOAT),
+      metering_of(settings, decides),
+      bool{in.radiance},
+      bool{in.cells}};
   m.histogram =
       graph.create(gpu::BufferDesc{"histogram", shared::kHistogramBins * sizeof(std::uint32_t)});
   std::vector<gpu::SpecConstant> cells;
@@ -111,7 +112,7 @@ Developed MeterPass::show(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sce
               scene.exposure,
               metered.radiance,
               developed.picture(),
-              unread(graph, VK_FORMAT_R32_SFLOAT),
+              unread(graph, "no cells", VK_FORMAT_R32_SFLOAT),
               metering_of(settings, false)};
   graph.add_pass(
       "show_exposure", [&](gpu::PassBuilder& b) { declare(b, m); },
