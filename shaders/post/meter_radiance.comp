@@ -36,8 +36,7 @@ void fill_histogram() {
   if (all(lessThan(cell * stride, frame.picture_size))) {
     uvec2 pixel = metered_pixel(cell, stride, frame.picture_size);
     float y = exact_luminance(imageLoad(radiance, ivec2(pixel)).rgb);
-    bool within = all(greaterThanEqual(pixel, frame.radiance_area.xy)) && all(lessThan(pixel, frame.radiance_area.zw));
-    if (kFromCells && !within) y = imageLoad(metered, ivec2(cell)).r;
+    if (kFromCells && !in_area(pixel, frame.radiance_area)) y = imageLoad(metered, ivec2(cell)).r;
     if (counts_as_light(y)) atomicAdd(here[bin_of(y)], 1u);
   }
   barrier();

@@ -5,6 +5,7 @@
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "include/scene/coverage.glsl"
+#include "include/scene/layers.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -32,8 +33,7 @@ void main() {
   for (int y = 0; y < int(kTileEdge); ++y) {
     for (int x = 0; x < int(kTileEdge); ++x) {
       ivec2 pixel = min(low + ivec2(x, y), last);
-      bool within = all(greaterThanEqual(uvec2(pixel), push.area.xy)) && all(lessThan(uvec2(pixel), push.area.zw));
-      bool here = within && is_covered(imageLoad(surfaces, pixel).r, texelFetch(depths, pixel, 0).r);
+      bool here = is_covered(imageLoad(surfaces, pixel).r, layer_depth_at(depths, pixel, push.area));
       covered = covered || here;
       open = open || !here;
     }

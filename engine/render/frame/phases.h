@@ -81,7 +81,6 @@ class Developed {
   friend struct DevelopPass;
   friend struct MeterPass;
   friend struct MarkerPass;
-  friend struct ShadePass;
   friend struct EnlargePass;
   friend struct EdgePass;
   explicit Developed(gpu::ImageRef picture) : picture_(picture) {}

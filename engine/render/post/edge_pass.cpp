@@ -3,10 +3,10 @@
 #include <shader_names.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <glm/geometric.hpp>
 
 #include "engine/gpu/graph/bindings.h"
+#include "engine/render/scene/tiles.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/edges.h"
@@ -45,12 +45,8 @@ EdgeLists make_lists(gpu::FrameGraph& graph, VkExtent2D size) {
       "find_edges_clear",
       [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
       [dispatches = out.dispatches](gpu::Commands& c) {
-        for (std::uint64_t list = 0; list < 2; ++list) {
-          const std::uint64_t base = list * sizeof(shared::TileDispatch);
-          c.fill(dispatches, base + offsetof(shared::TileDispatch, groups_x), 4, 0);
-          c.fill(dispatches, base + offsetof(shared::TileDispatch, groups_y), 8, 1);
-          c.fill(dispatches, base + offsetof(shared::TileDispatch, tiles), 4, 0);
-        }
+        for (std::uint64_t list = 0; list < 2; ++list)
+          clear_dispatch(c, dispatches, list * sizeof(shared::TileDispatch));
       });
   return out;
 }

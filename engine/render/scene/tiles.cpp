@@ -23,6 +23,12 @@ glm::uvec2 tiles_before(glm::uvec2 pixel) {
 
 }  // namespace
 
+void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uint64_t offset) {
+  commands.fill(dispatches, offset + offsetof(shared::TileDispatch, groups_x), 4, 0);
+  commands.fill(dispatches, offset + offsetof(shared::TileDispatch, groups_y), 8, 1);
+  commands.fill(dispatches, offset + offsetof(shared::TileDispatch, tiles), 4, 0);
+}
+
 Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      const char* name, const Coverage& coverage) {
   const VkExtent2D size = scene.size;
@@ -36,12 +42,8 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
       std::string(name) + "_clear",
       [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
       [dispatches = out.dispatches](gpu::Commands& c) {
-        for (std::uint64_t kind = 0; kind < 2; ++kind) {
-          const std::uint64_t base = kind * sizeof(shared::TileDispatch);
-          c.fill(dispatches, base + offsetof(shared::TileDispatch, groups_x), 4, 0);
-          c.fill(dispatches, base + offsetof(shared::TileDispatch, groups_y), 8, 1);
-          c.fill(dispatches, base + offsetof(shared::TileDispatch, tiles), 4, 0);
-        }
+        for (std::uint64_t kind = 0; kind < 2; ++kind)
+          clear_dispatch(c, dispatches, kind * sizeof(shared::TileDispatch));
       });
   graph.add_pass(
       name,

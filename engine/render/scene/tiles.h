@@ -33,6 +33,9 @@ struct Coverage {
   bool area_alone = false;             ///< tiles without a pixel of the area are not listed
 };
 
+/// Before tiles or pixels are listed: a shared::TileDispatch of none, at `offset` bytes.
+void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uint64_t offset);
+
 /// Sorts tiles by whether any of their pixels has, or has not, a surface. @param name of the pass.
 Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      const char* name, const Coverage& coverage);

@@ -47,6 +47,9 @@ struct Surface {
   float ao;  // share of light that the corners of its face leave to it, 0..1
 };
 
+// Whether a pixel lies in an area, from xy to before zw.
+bool in_area(uvec2 pixel, uvec4 area) { return all(greaterThanEqual(pixel, area.xy)) && all(lessThan(pixel, area.zw)); }
+
 // Ray through a pixel's centre, scaled to one block along the view axis.
 #define pixel_ray(pixel) \
   (frame.ray_forward + frame.ray_right * ((float((pixel).x) + 0.5) * frame.pixel_to_ndc.x - 1.0) - \

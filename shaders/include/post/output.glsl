@@ -15,8 +15,7 @@ layout(binding = kRadianceBinding) writeonly uniform image2D radiance;
 layout(binding = kMeteredBinding) writeonly uniform image2D metered;  // [cell of stride x stride pixels]
 
 bool has_radiance(uvec2 pixel) {
-  uvec4 area = frame.radiance_area;
-  return kToRadiance && (!kToPicture || (all(greaterThanEqual(pixel, area.xy)) && all(lessThan(pixel, area.zw))));
+  return kToRadiance && (!kToPicture || in_area(pixel, frame.radiance_area));
 }
 
 // What a pixel shows: radiance, finite, and how that is encoded for the picture.
