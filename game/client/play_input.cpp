@@ -65,14 +65,9 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
   Settings& settings = view_->settings();
   if (actions.pressed(Action::kOverlay)) overlay_shown_ = !overlay_shown_;
   if (actions.pressed(Action::kTorch)) settings.lights_held = !settings.lights_held;
-  if (actions.pressed(Action::kCalibrate)) calibrating_ = !calibrating_;
   if (actions.pressed(Action::kFreezeCulling)) culling_frozen_ = !culling_frozen_;
-  using platform::Key;
   const render::DisplaySettings display = settings.render.display;
-  if (calibrating_)
-    settings.render.display =
-        stepped_display(display, input.presses(Key::kRight) - input.presses(Key::kLeft),
-                        input.presses(Key::kUp) - input.presses(Key::kDown));
+  calibrate(input, actions, settings.render.display);
   const auto steps = [&](Action more, Action less) {
     return actions.presses(more) - actions.presses(less);
   };
@@ -90,6 +85,22 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
   if (actions.pressed(Action::kStopDay)) day_stands_ = !day_stands_;
   if (later != 0.0) day_.turn(later * kDayTurn * seconds);
   if (later == 0.0 && !day_stands_) day_.turn(kDayRate * seconds);
+}
+
+/// In the order of the events: in a long frame the screen may close after its keys.
+void PlayLoop::calibrate(const platform::InputFrame& input, const ActionFrame& actions,
+                         render::DisplaySettings& display) {
+  using platform::Key;
+  const Binding& toggle = (*bindings_)[Action::kCalibrate];
+  for (const platform::InputEvent& event : input.events) {
+    if (!event.down) continue;
+    const bool toggles = event.key == toggle.key.key || event.key == toggle.pad.key;
+    if (toggles && actions.pressed(Action::kCalibrate)) calibrating_ = !calibrating_;
+    const auto is = [&](Key key) { return event.key == key ? 1 : 0; };
+    if (calibrating_)
+      display =
+          stepped_display(display, is(Key::kRight) - is(Key::kLeft), is(Key::kUp) - is(Key::kDown));
+  }
 }
 
 void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& actions, double seconds) {

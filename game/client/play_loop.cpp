@@ -128,20 +128,17 @@ Result<bool> PlayLoop::draw(const Layout& layout) {
         presenter_.record(commands, picture, *frame, overlay.vertices.empty() ? nullptr : &overlay);
   };
   view_->renderer().time_passes(overlay_shown_);
-  // A command meters what it draws and adapts to nothing, so F2 names the exposure; and its picture
-  // is drawn by the way that a command with an exposure takes.
-  Settings& settings = view_->settings();
-  const std::optional<double> asked_ev = settings.exposure_ev;
-  if (screenshot_wanted_ && !asked_ev) settings.exposure_ev = now.exposure_ev;
   const Result<std::uint64_t> value =
       view_->draw(now, size, bring_to_window, {&frame->wait, 1}, {&frame->signal, 1});
   if (!value) return value.error();
   presenter_.present(*frame, *value);
   if (!recorded) return recorded.error();
   scene_.size = {size.width, size.height};
-  scene_.settings = settings;
+  scene_.settings = view_->settings();
   scene_.settings.world_time_s = now.world_time_s;
-  settings.exposure_ev = asked_ev;
+  // A command meters what it draws and adapts to nothing, so F2 names the exposure.
+  if (screenshot_wanted_ && !scene_.settings.exposure_ev)
+    scene_.settings.exposure_ev = now.exposure_ev;
   if (std::exchange(screenshot_wanted_, false)) take_screenshot();
   return true;
 }

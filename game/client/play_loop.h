@@ -109,6 +109,8 @@ class PlayLoop {
   void adapt_eye(double seconds);
   void act_on_picture(const platform::InputFrame& input, const ActionFrame& actions,
                       double seconds);
+  void calibrate(const platform::InputFrame& input, const ActionFrame& actions,
+                 render::DisplaySettings& display);
   void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
   Intent steer(const ActionFrame& actions, const Intent& intent);
   void go_on(double seconds, const Intent& intent);

@@ -61,16 +61,46 @@ def wait_until(what, holds):
         time.sleep(0.3)
 
 
-def lose_a_node(cluster):
-    """Kills a node that runs a job. @return the job, which the dead node cannot have ended."""
-    for _ in range(20):
-        for node in cluster.running():
-            cluster.call("kill", node)
-            time.sleep(0.5)
-            job = cluster.running().get(node)
-            if job and job.split("_")[1].isdigit():
+def processes_with(word):
+    """Ids of the processes that have a word in their command line."""
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            if word in (folder / "cmdline").read_bytes().decode().split("\0"):
+                yield int(folder.name)
+        except OSError:
+            pass  # it has ended
+
+
+def job_of(process):
+    """(node, job) of a process that Slurm started; none if it has ended."""
+    try:
+        lines = (Path("/proc") / str(process) / "environ").read_bytes().decode().split("\0")
+    except OSError:
+        return None
+    of = dict(line.split("=", 1) for line in lines if "=" in line)
+    if "SLURMD_NODENAME" not in of:
+        return None
+    return of["SLURMD_NODENAME"], f"{of['SLURM_ARRAY_JOB_ID']}_{of['SLURM_ARRAY_TASK_ID']}"
+
+
+def lose_a_node(cluster, plan):
+    """Kills a node that runs a task. @return the job, which the dead node cannot have ended: its
+    process is stopped first, however quick tasks are."""
+    end = time.monotonic() + SECONDS
+    while time.monotonic() < end:
+        for process in processes_with(str(plan)):
+            found = job_of(process)
+            if not found:
+                continue
+            try:
+                os.kill(process, signal.SIGSTOP)
+            except ProcessLookupError:
+                continue
+            node, job = found
+            if cluster.running().get(node) == job:
+                cluster.call("kill", node)
                 return job
-            cluster.call("start", node)
+            os.kill(process, signal.SIGCONT)
     sys.exit("FAILED: no node was lost while it ran a job")
 
 
@@ -94,7 +124,7 @@ def check_jobs(cluster, plan):
     done = cluster.skerry("farm", "submit", plan, status=1)
     check("has not ended" in done.stderr, done)
     wait_until("the first row", lambda: rows_of(plan))
-    lost = lose_a_node(cluster)
+    lost = lose_a_node(cluster, plan)
     done = cluster.skerry("farm", "status", plan)
     check(" 0 failed" in done.stdout and f"{SCENES} tasks: " in done.stdout, done)
     cluster.call("controller", "stop")
@@ -128,16 +158,6 @@ def check_alone(cluster, plan):
     wait_until("the end of its job", lambda: not cluster.running())
     check(rows_of(plan)[task]["result"] == row["result"], "it gave another row")
     check(lines_in_logs(plan, "1 tasks run") == runs + 1, "other tasks ran again")
-
-
-def processes_with(word):
-    """Ids of the processes that have a word in their command line."""
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            if word in (folder / "cmdline").read_bytes().decode().split("\0"):
-                yield int(folder.name)
-        except OSError:
-            pass  # it has ended
 
 
 def kill_a_task(cluster, plan):

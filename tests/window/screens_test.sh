@@ -61,7 +61,7 @@ until_true "a world is played" playing
 made=$(xdotool getwindowname "$window")
 [[ $made =~ ^'Skerry - '(Harbour|1)', seed 1 - ' ]] || fail "another world was made: $made"
 [ "$(find "$work/data/skerry/worlds" -name '*.skerry' | wc -l)" = 1 ] || fail "no world file was made"
-sleep 4
+wait_until_quick
 key p  # the day stands still, so that pictures can be compared
 screenshot
 spawn=$(camera)
