@@ -7,6 +7,7 @@
 // docs/decisions/0030-light-at-fewer-pixels.md.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
+#include "shared/clusters.h"
 #include "shared/constants.h"
 
 layout(local_size_x = kChooseGroup) in;
@@ -19,18 +20,23 @@ layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSamplesBinding, rgba32ui) uniform uimage2D samples;  // at the grid's points
-layout(scalar, binding = kListedBinding) buffer Listed { TileDispatch listed; };
-layout(scalar, binding = kListedPixelsBinding) writeonly buffer Pixels { uint pixels[]; };
+layout(scalar, binding = kListedBinding) buffer Listed { TileDispatch listed[2]; };         // of pixels that ask no light, and of those that ask some
+layout(scalar, binding = kListedPixelsBinding) writeonly buffer Pixels { uint pixels[]; };  // the former from its beginning, the latter from its end
+layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
+layout(scalar, binding = kClustersBinding) readonly buffer Clusters { Cluster clusters[]; };
 
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 layout(constant_id = kStepConstant) const uint kStep = 4u;  // pixels between the grid's points
 layout(constant_id = kEveryPixelConstant) const bool kEveryPixel = false;  // the second pass
+layout(constant_id = kLitConstant) const bool kLit = false;        // the frame has lights; if not, buffers are bound that are never read
+layout(constant_id = kOracleConstant) const bool kOracle = false;  // every pixel asks every light
 layout(constant_id = kToleranceConstant) const float kTolerance = 0.3;  // how much the four may differ, of the brightest
 
 #include "include/scene/tiles.glsl"
 #include "include/post/output.glsl"
 #include "include/surface/surface.glsl"
 #include "include/surface/light_samples.glsl"
+#include "include/light/clusters.glsl"
 
 // How far apart planes may lie that are lit alike: by rounding; a plant above its foot; and pixels, which far planes lie closer than.
 const float kAlikeBlocks = 0.05, kAlikePlants = 1.05, kAlikePixels = 1.0;
@@ -43,14 +49,35 @@ const uint kRun = kTileEdge * kTileEdge / kChooseGroup;  // pixels of an invocat
 
 uvec2 grid_size() { return (frame.size + (kStep - 1u)) / kStep; }
 
-// Room in the list for `count` pixels of each invocation. Every invocation calls it once.
-uint first_slot(uint count) {
-  uint before = subgroupExclusiveAdd(count), all = subgroupAdd(count), first = 0u;
-  if (subgroupElect()) first = atomicAdd(listed.tiles, all);  // one for all: GPUs take turns at an address
-  return subgroupBroadcastFirst(first) + before;
+// Where an invocation's next pixels go: of the list of those that ask no light, and of the other.
+struct Slots {
+  uint unlit;
+  uint lit;
+};
+
+// Room for pixels of each invocation, fewer than 2^10. Every invocation calls it once.
+Slots first_slots(uint unlit, uint lit) {
+  uint counts = unlit | (lit << 16);  // both sums at once
+  uint before = subgroupExclusiveAdd(counts), all = subgroupAdd(counts);
+  Slots first = Slots(0u, 0u);
+  if (subgroupElect()) {  // one for all: GPUs take turns at an address
+    first.unlit = atomicAdd(listed[0].tiles, all & 0xffffu);
+    if (kLit) first.lit = atomicAdd(listed[1].tiles, all >> 16);
+  }
+  return Slots(subgroupBroadcastFirst(first.unlit) + (before & 0xffffu), subgroupBroadcastFirst(first.lit) + (before >> 16));
 }
 
-void list_pixel(uint slot, uvec2 pixel) { pixels[slot] = pixel.x | (pixel.y << 16); }
+void list_pixel(inout Slots next, bool lit, uvec2 pixel) {
+  pixels[lit ? uint(pixels.length()) - 1u - next.lit : next.unlit] = pixel.x | (pixel.y << 16);
+  next.unlit += lit ? 0u : 1u;
+  next.lit += lit ? 1u : 0u;
+}
+
+// Whether some light may reach what a pixel shows.
+bool asks_lights(uvec2 pixel, float stored_depth) {
+  float z = view_distance(surface_depth(stored_depth), frame.near_plane);
+  return kLit && (kOracle || clusters[cluster_of(tile_at(pixel), slice_at(z))].count != 0u);
+}
 
 // A pixel's surface, as far as it decides whose light it can take.
 struct Taker {
@@ -79,13 +106,13 @@ Point point_at(uvec2 at) {
 }
 
 // The four around a pixel.
-struct Cell {
+struct Four {
   Point p00, p10, p01, p11;
 };
 
-Cell cell_around(uvec2 pixel) {
+Four four_around(uvec2 pixel) {
   uvec2 low = pixel / kStep, beside = pixel % kStep, high = min(low + (kStep == kRun ? uvec2(1u, min(beside.y, 1u)) : min(beside, 1u)), grid_size() - 1u);
-  return Cell(point_at(low), point_at(uvec2(high.x, low.y)), point_at(uvec2(low.x, high.y)), point_at(high));
+  return Four(point_at(low), point_at(uvec2(high.x, low.y)), point_at(uvec2(low.x, high.y)), point_at(high));
 }
 
 // 1 if a point of the grid shows what is lit as the pixel is, else 0.
@@ -96,7 +123,7 @@ float alike(Point p, Taker by) {
 }
 
 // Light between the four points around a pixel. @return false where too few of them are alike, or those that are differ too much.
-bool light_between(Cell c, uvec2 pixel, Taker by, out vec3 colour) {
+bool light_between(Four c, uvec2 pixel, Taker by, out vec3 colour) {
   uvec2 beside = pixel % kStep;
   vec4 same = vec4(alike(c.p00, by), alike(c.p10, by), alike(c.p01, by), alike(c.p11, by));
   vec2 f = vec2(beside) / float(kStep);
@@ -128,8 +155,9 @@ void choose_points() {
   float stored_depth;
   bool surface = surface_at(pixel, word, stored_depth) && here;
   if (here && !surface) imageStore(samples, ivec2(at), uvec4(kNoSurface));
-  uint slot = first_slot(surface ? 1u : 0u);
-  if (surface) list_pixel(slot, pixel);
+  bool lit = surface && asks_lights(pixel, stored_depth);
+  Slots slots = first_slots(surface && !lit ? 1u : 0u, surface && lit ? 1u : 0u);
+  if (surface) list_pixel(slots, lit, pixel);
 }
 
 // An invocation takes kRun pixels of a row: at a step of as many they have their four points, and a place in the list, in common.
@@ -137,7 +165,7 @@ void choose_pixels() {
   uvec2 first;
   bool tile = listed_tile(first);
   first += uvec2(gl_LocalInvocationIndex % (kTileEdge / kRun) * kRun, gl_LocalInvocationIndex / (kTileEdge / kRun));
-  Cell cell = cell_around(min(first, frame.size - 1u));
+  Four four = four_around(min(first, frame.size - 1u));
   uint without = 0u;  // a bit a pixel
   for (uint i = 0u; i < kRun; ++i) {
     uvec2 pixel = first + uvec2(i, 0u);
@@ -152,18 +180,20 @@ void choose_pixels() {
     float apart = kAlikeBlocks + kAlikePixels * t * frame.pixel_to_ndc.y * length(frame.ray_up);
     vec3 albedo = surface_texel(word, ray, t, kTextureTaps).rgb;
     Taker by = Taker(alike_key(word), normal, dot(normal, ray * t), t, apart, is_plant(word), albedo);
-    if (kStep != kRun) cell = cell_around(pixel);
+    if (kStep != kRun) four = four_around(pixel);
     vec3 colour;
-    bool shared_light = light_between(cell, pixel, by, colour) && surface;
+    bool shared_light = light_between(four, pixel, by, colour) && surface;
     put_pixel(pixel, colour, shared_light);
     if (surface && !shared_light) without |= 1u << i;
   }
-  uint slot = first_slot(uint(bitCount(without)));
-  for (uint i = 0u; i < kRun; ++i) {
-    if ((without & (1u << i)) == 0u) continue;
-    list_pixel(slot, first + uvec2(i, 0u));
-    ++slot;
+  uint lit = 0u;
+  for (uint left = kLit ? without : 0u; left != 0u; left &= left - 1u) {
+    uvec2 pixel = first + uvec2(uint(findLSB(left)), 0u);
+    if (asks_lights(pixel, texelFetch(depths, ivec2(pixel), 0).r)) lit |= left & -left;
   }
+  Slots slots = first_slots(uint(bitCount(without & ~lit)), uint(bitCount(lit)));
+  for (uint left = without; left != 0u; left &= left - 1u)
+    list_pixel(slots, (lit & left & -left) != 0u, first + uvec2(uint(findLSB(left)), 0u));
 }
 
 void main() {

@@ -19,7 +19,7 @@ layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 layout(binding = kSamplesBinding, rgba32ui) writeonly uniform uimage2D samples;  // of the first
-layout(scalar, binding = kListedBinding) readonly buffer Listed { TileDispatch listed; };
+layout(scalar, binding = kListedBinding) readonly buffer Listed { TileDispatch listed[2]; };  // see choose_samples.comp
 layout(scalar, binding = kListedPixelsBinding) readonly buffer Pixels { uint pixels[]; };
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
 
@@ -27,7 +27,7 @@ layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 
 layout(constant_id = kEveryPixelConstant) const bool kEveryPixel = false;  // the second pass
 layout(constant_id = kStepConstant) const uint kStep = 4u;  // pixels between the grid's points
-layout(constant_id = kLitConstant) const bool kLit = false;  // the frame has lights; if not, buffers are bound that are never read
+layout(constant_id = kLitConstant) const bool kLit = false;  // listed pixels that ask lights; of the others, buffers are bound that are never read
 
 #define SKERRY_ANY_ALBEDO
 #include "include/post/output.glsl"
@@ -81,8 +81,9 @@ mat2x3 light_sent(Surface s, uint word, uvec2 pixel, float z, bool here) {
 
 void main() {
   uint slot = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
-  bool here = slot < listed.tiles;
-  uint packed = pixels[here ? slot : 0u];
+  bool here = slot < listed[kLit ? 1u : 0u].tiles;
+  slot = here ? slot : 0u;
+  uint packed = pixels[kLit ? uint(pixels.length()) - 1u - slot : slot];
   uvec2 pixel = uvec2(packed & 0xffffu, packed >> 16);
   float stored_depth = texelFetch(depths, ivec2(pixel), 0).r;
   uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, stored_depth);

@@ -137,6 +137,11 @@ ClusteredLights ClusteredLights::none(const SceneRefs& scene) {
   return out;
 }
 
+void ClusteredLights::declare_counts(gpu::PassBuilder& builder) const {
+  builder.read(grid, Use::kComputeRead);
+  builder.read(oracle ? lights : clusters, Use::kComputeRead);
+}
+
 void ClusteredLights::declare(gpu::PassBuilder& builder) const {
   builder.read(grid, Use::kComputeRead);
   builder.read(lights, Use::kComputeRead);

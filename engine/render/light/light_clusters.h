@@ -65,6 +65,12 @@ struct ClusteredLights {
                       gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters),
                       gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
   }
+  /// Of a pass that asks only how many lights a cluster has.
+  void declare_counts(gpu::PassBuilder& builder) const;
+  auto count_bindings() const {
+    return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
+                      gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters)};
+  }
   /// Of a pass that includes shaders/include/light/blocked_lights.glsl, beside bindings().
   auto reach_binding() const { return gpu::storage<shared::kLightReachBinding>(reaches); }
 };

@@ -24,11 +24,13 @@ using gpu::Use;
 
 /// One of two passes: the points of a grid, then all pixels.
 struct SamplePass {
-  std::uint32_t step;             ///< pixels between the grid's points
-  bool every_pixel;               ///< the second pass
-  gpu::ImageRef samples;          ///< light at the grid's points
-  ShadeTarget into;               ///< of the second pass
-  gpu::BufferRef listed, pixels;  ///< shared::TileDispatch in groups of 64, and x | y << 16
+  std::uint32_t step;     ///< pixels between the grid's points
+  bool every_pixel;       ///< the second pass
+  gpu::ImageRef samples;  ///< light at the grid's points
+  ShadeTarget into;       ///< of the second pass
+  /// shared::TileDispatch[2] in groups of 64: of pixels that ask no light, of those that ask some;
+  /// x | y << 16 of the first from the beginning, of the others from the end.
+  gpu::BufferRef listed, pixels;
 
   std::string name(const char* what) const { return what + std::to_string(every_pixel ? 1 : step); }
   /// The second pass reads samples, and writes none: they stand in where the shader may write.
@@ -40,7 +42,8 @@ constexpr VkExtent2D points(VkExtent2D size, std::uint32_t step) {
 }
 
 std::vector<gpu::SpecConstant> choosing_constants(const SamplePass& pass, const SampleIn& on,
-                                                  const RenderSettings& settings) {
+                                                  const SampledLight& light) {
+  const RenderSettings& settings = light.settings;
   std::vector<gpu::SpecConstant> constants{{shared::kStepConstant, pass.step}};
   if (pass.every_pixel) {
     constants.push_back({shared::kEveryPixelConstant, 1});
@@ -51,6 +54,9 @@ std::vector<gpu::SpecConstant> choosing_constants(const SamplePass& pass, const 
   }
   if (on.geometry.store().depth == DepthStore::kD16)
     constants.push_back({shared::kDepth16Constant, 1});
+  if (!light.lights) return constants;
+  constants.push_back({shared::kLitConstant, 1});
+  if (light.lights->oracle) constants.push_back({shared::kOracleConstant, 1});
   return constants;
 }
 
@@ -58,9 +64,7 @@ void add_clear(gpu::FrameGraph& graph, SamplePass& pass) {
   graph.add_pass(
       pass.name("choose_samples_") + "_clear",
       [&](gpu::PassBuilder& b) { pass.listed = b.write(pass.listed, Use::kTransferWrite); },
-      [listed = pass.listed](gpu::Commands& c) {
-        c.fill(listed, offsetof(shared::TileDispatch, tiles), 4, 0);
-      });
+      [listed = pass.listed](gpu::Commands& c) { c.fill(listed, 0, VK_WHOLE_SIZE, 0); });
 }
 
 void add_sizing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SamplePass& pass) {
@@ -76,8 +80,9 @@ void add_sizing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SamplePass& p
 
 /// Lists the pixels that need light of their own; the others get it at once.
 void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                  const SampleIn& on, SamplePass& pass, std::vector<gpu::SpecConstant> constants) {
+                  const SampleIn& on, const SampledLight& light, SamplePass& pass) {
   const SurfaceReads surfaces(on.geometry);
+  const ClusteredLights lights = light.lights ? *light.lights : ClusteredLights::none(scene);
   graph.add_pass(
       pass.name("choose_samples_"),
       [&](gpu::PassBuilder& b) {
@@ -87,15 +92,16 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
         b.read(scene.block_textures, Use::kComputeSampled);
         pass.declare_samples(b);
         declare_tiles(b, on.tiles);
+        lights.declare_counts(b);
         pass.listed = b.write(pass.listed, Use::kComputeWrite);
         pass.pixels = b.write(pass.pixels, Use::kComputeWrite);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         pass.into.declare(b, scene);
       },
-      [scene, surfaces, pass, tiles = on.tiles,
-       program =
-           gpu::compute(pipelines, programs::kChooseSamples,
-                        pass.into.with_output(std::move(constants), scene))](gpu::Commands& c) {
+      [scene, surfaces, pass, lights, tiles = on.tiles,
+       program = gpu::compute(pipelines, programs::kChooseSamples,
+                              pass.into.with_output(choosing_constants(pass, on, light), scene))](
+          gpu::Commands& c) {
         gpu::bind(
             c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::storage<shared::kIslandsBinding>(scene.islands),
@@ -106,7 +112,7 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats), pass.into.bindings(scene),
             gpu::storage<shared::kSamplesBinding>(pass.samples),
             gpu::storage<shared::kListedBinding>(pass.listed),
-            gpu::storage<shared::kListedPixelsBinding>(pass.pixels),
+            gpu::storage<shared::kListedPixelsBinding>(pass.pixels), lights.count_bindings(),
             tiles.bindings(TileKind::kCovered));
         if (pass.every_pixel) return dispatch_tiles(c, tiles, TileKind::kCovered);
         const VkExtent2D size = points(scene.size, pass.step);
@@ -114,8 +120,10 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
       });
 }
 
+/// @param lights those that its pixels ask; null: none.
 auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const SampleIn& on,
-                     const SampledLight& light, const SamplePass& pass) {
+                     const SampledLight& light, const ClusteredLights* lights,
+                     const SamplePass& pass) {
   const bool maps{on.shadows.maps()};
   std::vector<gpu::SpecConstant> constants = with_light(
       {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(light.settings.texture_taps)},
@@ -124,9 +132,9 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
   if (pass.every_pixel) constants.push_back({shared::kEveryPixelConstant, 1});
   constants = clouds_before_light(scene).with_clouds(
       with_ao(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.ao));
-  if (light.lights) {
+  if (lights) {
     constants = WallReads(scene, light.settings, scene.ao)
-                    .with_walls(light.lights->with_lights(std::move(constants)));
+                    .with_walls(lights->with_lights(std::move(constants)));
   }
   return gpu::compute(pipelines, programs::kShadeSamples,
                       pass.into.with_output(std::move(constants), scene));
@@ -160,24 +168,34 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         pass.into.declare(b, scene);
       },
-      [program = shading_program(pipelines, scene, on, light, pass), scene, surfaces, walls, clouds,
-       lights, maps, pass](gpu::Commands& c) {
-        gpu::bind(
-            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+      [unlit = shading_program(pipelines, scene, on, light, nullptr, pass),
+       lit = shading_program(pipelines, scene, on, light, light.lights, pass),
+       some_lit = light.lights != nullptr, scene, surfaces, walls, clouds, lights, maps,
+       pass](gpu::Commands& c) {
+        const std::tuple bindings{
+            gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::storage<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
-            surfaces.bindings(scene.point_sampler), walls.bindings(),
-            gpu::texels<shared::kIndirectBinding>(scene.indirect), clouds.light_bindings(),
-            lights.bindings(), lights.reach_binding(),
+            surfaces.bindings(scene.point_sampler),
+            walls.bindings(),
+            gpu::texels<shared::kIndirectBinding>(scene.indirect),
+            clouds.light_bindings(),
+            lights.bindings(),
+            lights.reach_binding(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
-            pass.into.bindings(scene), gpu::storage<shared::kSamplesBinding>(pass.samples),
+            pass.into.bindings(scene),
+            gpu::storage<shared::kSamplesBinding>(pass.samples),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler),
             gpu::storage<shared::kListedBinding>(pass.listed),
-            gpu::storage<shared::kListedPixelsBinding>(pass.pixels));
+            gpu::storage<shared::kListedPixelsBinding>(pass.pixels)};
+        gpu::bind(c, unlit, bindings);
         c.dispatch_indirect(pass.listed, 0);
+        if (!some_lit) return;
+        gpu::bind(c, lit, bindings);
+        c.dispatch_indirect(pass.listed, sizeof(shared::TileDispatch));
       });
 }
 
@@ -197,12 +215,12 @@ void add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneR
   for (const bool every_pixel : {false, true}) {
     pass.every_pixel = every_pixel;
     const VkExtent2D size = points(scene.size, every_pixel ? 1 : light.rate);
-    pass.listed = graph.create(
-        gpu::BufferDesc{"sample dispatch", sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
+    pass.listed = graph.create(gpu::BufferDesc{"sample dispatch", 2 * sizeof(shared::TileDispatch),
+                                               0, gpu::Memory::kDevice});
     pass.pixels = graph.create(gpu::BufferDesc{
         "sample list", std::uint64_t{size.width} * size.height * 4, 0, gpu::Memory::kDevice});
     add_clear(graph, pass);
-    add_choosing(graph, pipelines, scene, on, pass, choosing_constants(pass, on, light.settings));
+    add_choosing(graph, pipelines, scene, on, light, pass);
     add_sizing(graph, pipelines, pass);
     add_shading(graph, pipelines, scene, on, light, pass);
   }

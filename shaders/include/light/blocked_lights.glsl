@@ -56,8 +56,8 @@ Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to
   }
   Reflected arrived = Reflected(0.0);
   float asked = 0.0, through = 0.0;
-  for (uint k = 0u; k < min(kLightsShadows, kMostLightsShadows); ++k) {
-    if (strongest.strengths[k] <= 0.0) continue;
+  uint found = lights_found(strongest);  // not a branch within: lavapipe goes through rounds that the compiler can count
+  for (uint k = 0u; k < found; ++k) {
     Light light = lights[strongest.lights[k]];
     Reflected part = sent_to_eye(light, b, start, to_eye);
     float visibility = traced_visibility(start, light);

@@ -42,6 +42,13 @@ void add_strength(inout Strongest s, float strength, uint light) {
   }
 }
 
+// How many there are.
+uint lights_found(Strongest s) {
+  uint found = 0u;
+  for (uint k = 0u; k < min(kLightsShadows, kMostLightsShadows); ++k) found += s.strengths[k] > 0.0 ? 1u : 0u;
+  return found;
+}
+
 // Where ways to lights begin.
 struct WayStart {
   vec3 position;  // world
@@ -63,7 +70,8 @@ FacePlace settled(VoxelGrid grid, FacePlace at, uint face) {
   bool corner = all(lessThan(min(at.in_face, 1.0 - at.in_face), vec2(kNearCorner)));
   FacePlace found = at;
   bool known = false;
-  for (uint i = 0u; corner && !known && i < 4u; ++i) {
+  uint most = corner ? 4u : 0u;  // a number that the compiler does not know: lavapipe leaves no loop early that it has unrolled
+  for (uint i = 0u; i < most && !known; ++i) {
     found = at;
     if ((i & 1u) != 0u) found = beside_u(found);
     if ((i & 2u) != 0u) found = beside_v(found);

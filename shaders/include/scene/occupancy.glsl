@@ -140,8 +140,10 @@ float corner_ao(uint island, uint face, vec3 lattice) {
   VoxelGrid grid = voxel_grid(island);
   FacePlace at = face_place(face, lattice * grid.per_block);
   float ao = 1.0;
-  // The second round is only for points rounded off their face.
-  for (uint round = 0u; round < 2u; ++round) {
+  // The second round is only for points rounded off their face, which lie in some chunk: a number that the compiler does not know, since
+  // lavapipe leaves no loop early that it has unrolled.
+  uint rounds = grid.size.x > 0 ? 2u : 1u;
+  for (uint round = 0u; round < rounds; ++round) {
     int n = at.axis == 0u ? at.voxel.x : at.axis == 1u ? at.voxel.y : at.voxel.z;
     int u = at.axis == 0u ? at.voxel.z : at.voxel.x, v = at.axis == 1u ? at.voxel.z : at.voxel.y;
     AxisLayout along_x = layout_x(grid), along_y = layout_y(grid), along_z = layout_z(grid);

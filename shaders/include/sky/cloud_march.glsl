@@ -121,8 +121,8 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
   // What arrives of the strongest stands for the others, as on surfaces.
   vec3 arrived = vec3(0.0);
   float asked = 0.0, through = 0.0;
-  for (uint k = 0u; k < min(kLightsShadows, kMostLightsShadows); ++k) {
-    if (strongest.strengths[k] <= 0.0) continue;
+  uint found = lights_found(strongest);
+  for (uint k = 0u; k < found; ++k) {
     Light light = lights[strongest.lights[k]];
     vec3 part = lit_by_light(light, dir, t, length_blocks, extinction);
     float visibility = traced_visibility(start, light);
