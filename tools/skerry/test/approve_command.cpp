@@ -17,7 +17,10 @@ ApproveCommand::ApproveCommand(CLI::App& test)
       ->type_name("FILE")
       ->required();
   approve_->add_option("SCENES", paths_, "Scene files, or folders of them, as they were judged");
-  approve_->add_option("--report", report_, "Folder of the page")->type_name("DIR")->required();
+  approve_
+      ->add_option("--report", report_,
+                   "Folder of the page; needed for pictures that it had no room for")
+      ->type_name("DIR");
   approve_->add_option("--baseline", baseline_, "As the scenes were judged")->type_name("DIR");
 }
 

@@ -28,9 +28,9 @@ class ApproveCommand {
   std::optional<Refusal> read_scenes(std::vector<TestScene>& scenes) const;
 
   CLI::App* approve_;
-  std::string file_, report_;
+  std::string file_;
   std::vector<std::string> paths_;
-  std::optional<std::string> baseline_;
+  std::optional<std::string> report_, baseline_;
 };
 
 }  // namespace skerry::tools
