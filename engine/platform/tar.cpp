@@ -125,10 +125,18 @@ class Unpacking {
                         quoted_path(archive_), why)};
   }
 
+  std::uint64_t bytes_left() {
+    std::error_code code;
+    const std::uintmax_t bytes = fs::file_size(archive_, code);
+    const auto at = static_cast<std::uintmax_t>(in_.tellg());
+    return code || at > bytes ? 0 : bytes - at;
+  }
+
   Result<void> take(const Header& header) {
     const std::optional<std::uint64_t> size = number_of(header.size);
     if (!size || number_of(header.sum) != sum_of(header)) return failed("it is damaged, or no tar");
     if (*size > kMostBytes) return failed("it has a file of more than 256 MiB");
+    if (*size > bytes_left()) return failed("it is cut short");  // before memory is taken
     std::string content(*size, '\0');
     in_.read(content.data(), static_cast<std::streamsize>(*size));
     in_.ignore(static_cast<std::streamsize>((kBlock - *size % kBlock) % kBlock));
