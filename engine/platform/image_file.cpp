@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include <algorithm>
 #include <csetjmp>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "engine/core/check.h"
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "engine/platform/png_plain.h"
 
 namespace skerry::platform {
 namespace {
@@ -21,9 +22,8 @@ namespace {
 // owns memory lives in the caller of the functions that call setjmp, and those hold plain values
 // only.
 
-/// What a libpng call needs to reach: the bytes, a cursor, and the message of a failure.
+/// What a libpng call needs to reach: the bytes left, and the message of a failure.
 struct Stream {
-  std::vector<std::byte> out;
   std::string_view in;
   char message[128] = {};
 };
@@ -36,62 +36,11 @@ void on_error(png_structp png, png_const_charp message) {
 
 void on_warning(png_structp, png_const_charp) {}
 
-void on_write(png_structp png, png_bytep data, std::size_t size) {
-  auto* stream = static_cast<Stream*>(png_get_io_ptr(png));
-  const auto* bytes = reinterpret_cast<const std::byte*>(data);
-  stream->out.insert(stream->out.end(), bytes, bytes + size);
-}
-
 void on_read(png_structp png, png_bytep data, std::size_t size) {
   auto* stream = static_cast<Stream*>(png_get_io_ptr(png));
   if (size > stream->in.size()) png_error(png, "the file ends too early");
   std::memcpy(data, stream->in.data(), size);
   stream->in.remove_prefix(size);
-}
-
-bool is_ascii(std::string_view text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](char c) { return c == '\n' || (c >= 32 && c < 127); });
-}
-
-/// libpng's view of the texts; points into them.
-std::vector<png_text> png_texts(std::span<const PngText> texts) {
-  std::vector<png_text> out;
-  for (const PngText& text : texts) {
-    SKERRY_ASSERT(!text.key.empty() && text.key.size() < 80 && is_ascii(text.key));
-    png_text entry{};
-    entry.compression = is_ascii(text.text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-    entry.key = const_cast<char*>(text.key.c_str());
-    entry.text = const_cast<char*>(text.text.c_str());
-    entry.text_length = text.text.size();
-    entry.lang = const_cast<char*>("");
-    entry.lang_key = const_cast<char*>("");
-    out.push_back(entry);
-  }
-  return out;
-}
-
-bool encode(png_structp png, png_infop info, const PixelView& image,
-            std::span<const png_text> texts, Stream& stream) {
-  if (setjmp(png_jmpbuf(png))) return false;
-  png_set_write_fn(png, &stream, on_write, nullptr);
-  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-  // Level 4 with one cheap filter: three times as fast as the defaults for a tenth more bytes on
-  // rendered pictures.
-  png_set_compression_level(png, 4);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
-  png_set_IHDR(png, info, image.width, image.height, 8,
-               image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
-  png_write_info(png, info);
-  const std::size_t stride = std::size_t{image.width} * image.channels;
-  for (std::uint32_t row = 0; row < image.height; ++row) {
-    png_write_row(png, image.pixels.data() + row * stride);
-  }
-  png_write_end(png, info);
-  return true;
 }
 
 /// First half of decoding: header and size, with every format turned into RGBA8.
@@ -102,12 +51,11 @@ bool decode_header(png_structp png, png_infop info, Stream& stream) {
   png_set_chunk_malloc_max(png, 1 << 20);
   png_set_chunk_cache_max(png, 64);
   png_read_info(png, info);
-  // Deflate makes at most 1032 bytes of one (zlib's technical details), so a short file cannot hold
-  // a large picture, whatever it states: refused before memory is taken.
+  // A short file cannot hold a large picture, whatever it states: refused before memory is taken.
   const std::uint64_t width = png_get_image_width(png, info);
   const std::uint64_t height = png_get_image_height(png, info);
   const std::uint64_t row_bits = width * png_get_bit_depth(png, info) * png_get_channels(png, info);
-  if ((row_bits + 7) / 8 * height > 1032 * stream.in.size())
+  if ((row_bits + 7) / 8 * height > kMaxDeflateRatio * stream.in.size())
     png_error(png, "it is too short for the size it states");
   if (width * height > kMaxPngPixels) png_error(png, "it has more than 2^27 pixels");
   png_set_expand(png);
@@ -162,16 +110,10 @@ Result<std::vector<std::byte>> encode_png(const PixelView& image, std::span<cons
   SKERRY_ASSERT(image.pixels.size() == std::size_t{image.width} * image.height * image.channels);
   if (image.width == 0 || image.height == 0)
     return Error{"cannot make a PNG: the picture has no pixels; ask for at least 1x1"};
-  Stream stream;
-  const std::vector<png_text> texts = png_texts(text);
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &stream, on_error, on_warning);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
-  const bool done = info && encode(png, info, image, texts, stream);
-  png_destroy_write_struct(&png, &info);
-  if (!done)
-    return Error{fmt::format("cannot make a PNG: {}; free some memory or ask for a smaller picture",
-                             stream.message)};
-  return std::move(stream.out);
+  std::optional<std::vector<std::byte>> bytes = encode_plain_png(image, text);
+  if (!bytes)
+    return Error{"cannot make a PNG: out of memory; free some or ask for a smaller picture"};
+  return *std::move(bytes);
 }
 
 Result<void> write_png(const std::filesystem::path& path, const PixelView& image,
@@ -184,15 +126,19 @@ Result<void> write_png(const std::filesystem::path& path, const PixelView& image
 Result<PngImage> read_png(const std::filesystem::path& path) {
   const Result<std::string> file = read_text(path, kMaxPngFileBytes);
   if (!file) return file.error();
+  return decode_png(*file, quoted_path(path));
+}
+
+Result<PngImage> decode_png(std::string_view file, std::string_view name) {
+  if (std::optional<PngImage> image = read_plain_png(file)) return *std::move(image);
   const auto failed = [&](const char* why) {
-    return Error{fmt::format("cannot read {}: {}; give an undamaged PNG", quoted_path(path), why)};
+    return Error{fmt::format("cannot read {}: {}; give an undamaged PNG", name, why)};
   };
-  if (file->size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(file->data()), 0, 8) != 0) {
+  if (file.size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) != 0)
     return failed("it is not a PNG");
-  }
-  if (!chunks_fit(*file)) return failed("it is cut short, or a chunk states a wrong length");
+  if (!chunks_fit(file)) return failed("it is cut short, or a chunk states a wrong length");
   Stream stream;
-  stream.in = *file;
+  stream.in = file;
   Reader reader(stream);
   if (!reader.info) return failed("out of memory");
   if (!decode_header(reader.png, reader.info, stream)) return failed(stream.message);

@@ -9,12 +9,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 
 #include "engine/core/check.h"
 #include "engine/core/output.h"
 #include "engine/platform/image_file.h"
+#include "engine/platform/tar.h"
 #include "game/input/actions.h"
 #include "game/input/hints.h"
 #include "game/pace/learnt_costs.h"
@@ -108,6 +110,20 @@ void png(std::span<const std::uint8_t> input) {
   std::filesystem::remove(path);
   if (!image) return check_line(image.error());
   SKERRY_ASSERT(image->pixels.size() == std::size_t{image->width} * image->height * 4);
+}
+
+void tar(std::span<const std::uint8_t> input) {
+  const std::filesystem::path path = written(input), into = path.parent_path() / "unpacked";
+  std::filesystem::remove_all(into);
+  std::filesystem::create_directories(into);
+  const auto entries = [&] {
+    return std::distance(std::filesystem::directory_iterator(path.parent_path()),
+                         std::filesystem::directory_iterator());
+  };
+  const auto before = entries();
+  const Result<void> done = platform::unpack_tar(path, into);
+  SKERRY_ASSERT(entries() == before);
+  if (!done) check_line(done.error());
 }
 
 void vdb_answer(std::span<const std::uint8_t> input) {
@@ -318,12 +334,13 @@ void hashes(std::span<const std::uint8_t> input) {
   SKERRY_ASSERT(*tools::read_hashes(path) == *read);
 }
 
-constexpr std::array<Target, 18> kTargets{{{"scene", scene},
+constexpr std::array<Target, 19> kTargets{{{"scene", scene},
                                            {"setting", setting},
                                            {"camera", camera},
                                            {"time_and_size", time_and_size},
                                            {"bindings", bindings},
                                            {"png", png},
+                                           {"tar", tar},
                                            {"vdb_answer", vdb_answer},
                                            {"chunk_blob", chunk_blob},
                                            {"world_rows", world_rows},

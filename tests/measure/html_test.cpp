@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+#include <string>
+#include <utility>
+
 #include "tests/measure/xml.h"
 
 namespace skerry::measure {
@@ -32,6 +36,14 @@ TEST(Html, KeepsUtf8AndReplacesWhatIsNot) {
   EXPECT_EQ(escape("\xc3"), replacement);                                      // cut off
   EXPECT_EQ(escape("\xc0\xaf"), replacement + replacement);                    // overlong '/'
   EXPECT_EQ(escape("\xed\xa0\x80"), replacement + replacement + replacement);  // a surrogate
+}
+
+TEST(Html, AddressesOfDataAreBase64) {
+  // Of RFC 4648, section 10.
+  for (const auto& [bytes, text] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}})
+    EXPECT_EQ(data_address("image/png", bytes), std::string("data:image/png;base64,") + text);
+  EXPECT_EQ(data_address("a/b", "\xff\xef\xbe"), "data:a/b;base64,/+++");
 }
 
 TEST(Html, PageIsWellFormedWhateverTheTextsAre) {

@@ -11,6 +11,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tarfile
 from pathlib import Path
 
 from page_links import faults_of, read_page
@@ -74,6 +75,26 @@ def check_test(run, folder):
     check_page(folder / "merged", len(SCENES))
 
 
+def check_archive(run, folder):
+    """References in a tar archive, which Python reads as well."""
+    scenes, archive = folder / "scenes", folder / "baseline.tar"
+    run("test", scenes, "--baseline", archive, status=2)
+    run("test", scenes, "--baseline", archive, "--approve")
+    with tarfile.open(archive) as tar:
+        names = [name for name in tar.getnames() if name.endswith("a.png")]
+    check(names and not any(file.is_dir() for file in folder.glob("*baseline*")), names)
+    run("test", scenes, "--baseline", archive)
+    (scenes / "a.json").write_text(json.dumps(SKY | {"fov": 20}), encoding="utf-8")
+    done = run("test", scenes, "--baseline", archive, status=1)
+    check("is the first to differ" in done.stdout, done)
+    run("test", "plan", scenes, "--baseline", archive, "--dir", folder / "plan")
+    run("test", "run", "--dir", folder / "plan")
+    run("test", "merge", "--dir", folder / "plan", status=1)
+    archive.write_bytes(archive.read_bytes()[:2000])
+    done = run("test", scenes, "--baseline", archive, status=2)
+    check("cut short" in done.stderr and done.stderr.count("\n") == 1, done)
+
+
 def check_report(run, folder):
     out = folder / "report"
     run("report", "water_layers", "lights_oracle", "--size", "24x16", "--set",
@@ -96,7 +117,7 @@ def main(program, folder):
     # Pictures of drivers that no one approved, and pipelines that no one else needs.
     os.environ["XDG_CACHE_HOME"] = str(folder / "cache")
     run = Runs(program)
-    for part in (check_test, check_report, check_stability):
+    for part in (check_test, check_archive, check_report, check_stability):
         part(run, folder)
 
 

@@ -4,9 +4,10 @@
     page_links.py PAGE...       exit status: 1 if there is a fault; one line each
 
 A link to '#x' needs an element of that id on the page; any other needs its file beside the page,
-as does the source of a picture. An id is well-formed as HTML says: at least one character and no
+as does the source of a picture unless it is a PNG or SVG itself, in base64. An id is well-formed as HTML says: at least one character and no
 white space; and none of the characters that stand for bytes which are no text.
 """
+import base64
 import re
 import sys
 from html.parser import HTMLParser
@@ -27,6 +28,18 @@ class Page(HTMLParser):
                 self.links.append(value or "")
             elif name == "src":
                 self.sources.append(value or "")
+
+
+HEADS = {"data:image/png;base64": b"\x89PNG\r\n\x1a\n", "data:image/svg+xml;base64": b"<svg "}
+
+
+def is_picture(source):
+    """Of an address that is the picture itself."""
+    kind, _, data = source.partition(",")
+    try:
+        return base64.b64decode(data, validate=True).startswith(HEADS[kind])
+    except (KeyError, ValueError):
+        return False
 
 
 def read_page(path):
@@ -50,8 +63,9 @@ def faults_of(path):
                 found.append(f"link {link!r} has no target")
         elif not link or not (path.parent / unquote(link)).is_file():
             found.append(f"link {link!r} leads to no file")
-    found += [f"picture {source!r} is no file" for source in page.sources
-              if not (path.parent / unquote(source)).is_file()]
+    found += [f"picture {source[:100]!r} is no file" for source in page.sources
+              if not (is_picture(source) if source.startswith("data:")
+                      else (path.parent / unquote(source)).is_file())]
     return [f"{path}: {fault}" for fault in found]
 
 

@@ -26,7 +26,11 @@ std::string element(std::string_view name, std::string_view markup);
 /// A text in an element with a class.
 std::string labelled(std::string_view name, std::string_view css_class, std::string_view text);
 
-/// A file beside the page, shown with its pixels unsmoothed. @param source a relative path.
+/// A file's content as an address, "data:image/png;base64,...", for pages that need no other file.
+/// Source: RFC 2397; RFC 4648, section 4. @param type as in "image/png".
+std::string data_address(std::string_view type, std::string_view bytes);
+
+/// A picture, shown with its pixels unsmoothed. @param source a relative path or a data_address.
 std::string image(std::string_view source, std::string_view alternative);
 /// A picture with a line of text below, that leads to `target` (the same picture, larger).
 std::string figure(std::string_view source, std::string_view target, std::string_view caption);

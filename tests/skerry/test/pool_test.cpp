@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <map>
 #include <set>
+#include <string>
+#include <thread>
 
 #include "tests/folder.h"
 
@@ -41,7 +43,8 @@ class FakeDevices {
         outcome.row.scene = std::to_string(scene);
         outcome.row.verdict = alone ? Verdict::kPass : Verdict::kFail;
         outcome.row.device = seat.device;
-        outcome.row.message = std::to_string(::getpid()) + " " + std::to_string(seat.threads);
+        outcome.row.message = std::to_string(::getpid()) + " ";
+        outcome.row.message += std::to_string(cpus_ ? seat.threads : seat.host_threads);
         say(line_of(outcome));
       }
       say(line_of(Farewell{1}));
@@ -126,6 +129,23 @@ TEST(Pool, StartsAsManyProcessesADeviceAsAreWanted) {
   const Ran ran = run(gpus.serve(), options, 40);
   EXPECT_EQ(ran.result.validation_messages, 6);
   EXPECT_EQ(ran.processes.size(), 2u);
+}
+
+TEST(Pool, SharesTheCoresAmongItsProcesses) {
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  const auto expect_threads = [](const Ran& ran, unsigned threads) {
+    for (const auto& [device, processes] : ran.processes)
+      for (const std::string& process : processes)
+        EXPECT_EQ(process.substr(process.find(' ') + 1), std::to_string(std::max(1u, threads)));
+  };
+  PoolOptions options;
+  options.devices = {0};
+  expect_threads(run(FakeDevices(false).serve(), options, 9), cores);
+  expect_threads(run(FakeDevices(true).serve(), options, 9), cores / std::min(cores, 9u));
+  options.devices = {0, 1};
+  expect_threads(run(FakeDevices(false).serve(), options, 9), cores / 2);
+  options.processes = 2;
+  expect_threads(run(FakeDevices(true).serve(), options, 9), cores / 4);
 }
 
 }  // namespace

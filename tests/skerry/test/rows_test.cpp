@@ -11,6 +11,7 @@
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "tests/folder.h"
+#include "tests/tools/farm/one_line.h"
 #include "tools/skerry/test/page.h"
 
 namespace skerry::tools {
@@ -135,6 +136,15 @@ TEST(Rows, FilesThatHoldNoResultsAreRefused) {
   EXPECT_FALSE(read_results(folder / "none.json"));
 }
 
+TEST(Rows, OfAnotherVersionAreSaidToBe) {
+  const Folder folder;
+  nlohmann::json results = results_json(shard(1, 1, 1, {"a"}));
+  results["rows"][0].erase("regions");  // as rows of versions without regions are
+  ASSERT_TRUE(write_text(folder / "old.json", results.dump()));
+  expect_one_line(read_results(folder / "old.json"), {"old.json", "another version", "'regions'"});
+  expect_one_line(row_from_json(results["rows"][0]), {"another version", "'regions'"});
+}
+
 /// Whether Python's parsers take the text; they are other people's code.
 bool parses(const char* script, const std::string& text) {
   const Folder folder;
@@ -175,6 +185,29 @@ TEST(Rows, EveryLinkOfThePageHasItsTarget) {
   ASSERT_TRUE(write_text(page, test_page(results, folder.path())));
   const std::string command = SKERRY_SOURCE_DIR "/tests/tools/page_links.py " + page.string();
   EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST(Rows, ThePageHoldsPicturesUntilItIsFull) {
+  Results results = shard(1, 1, 2, {"alpha", "beta"});
+  results.rows.push_back(row_of("omega", Verdict::kFail));
+  const Folder folder;
+  const auto write = [&](const std::string& name, std::size_t bytes) {
+    ASSERT_TRUE(write_text(folder / (name + ".png"), std::string(bytes, name.front())));
+  };
+  write("omega.actual", 47 << 20);
+  write("alpha.actual", 2 << 20);
+  write("beta.reference", 1000);
+  write("beta.actual", 1000);
+  const std::string page = test_page(results, folder.path());
+  EXPECT_LT(page.size(), std::size_t{64} << 20);
+  const auto count = [&](const std::string& text) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = page.find(text, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("src=\"data:image/png;base64,"), 2u) << "omega, and beta's two, which are equal";
+  EXPECT_EQ(count("src=\"alpha.actual.png\""), 1u);
+  EXPECT_EQ(count("pictures of 2 scenes are in this file; those of 1 lie beside it"), 1u);
 }
 
 TEST(Rows, ThePageShowsFailuresFirst) {

@@ -49,7 +49,7 @@ Result<Record> read_record(const fs::path& file, const std::string& id) {
     if (record.task != id) return wrong("it is of another task");
     return record;
   } catch (const ordered_json::exception& why) {
-    return wrong(game::quote_text(why.what()));
+    return wrong(fault_of_row(why));
   }
 }
 
@@ -133,6 +133,15 @@ Result<Collected> collect(const Plan& plan, std::span<const fs::path> folders) {
   }
   if (Result<void> same = check_devices(devices); !same) return same.error();
   return out;
+}
+
+std::string fault_of_row(const ordered_json::exception& why) {
+  constexpr int kMissingKey = 403;  // "... key 'NAME' not found"
+  const std::string_view text = why.what();
+  if (why.id != kMissingKey) return game::quote_text(text);
+  const std::size_t first = text.find('\''), last = text.rfind('\'');
+  return fmt::format("another version of skerry wrote it, which has no {}",
+                     game::quote_text(text.substr(first + 1, last - first - 1)));
 }
 
 double measured_number(const Record& record, const char* name) {

@@ -16,8 +16,7 @@ namespace {
 using nlohmann::ordered_json;
 
 Error not_a_record(const Record& record, std::string_view why) {
-  return {fmt::format("cannot use the row {}: {}; run its task again", record.task,
-                      game::quote_text(why))};
+  return {fmt::format("cannot use the row {}: {}; plan and run its task again", record.task, why)};
 }
 
 /// What decides the row of a topic in a scene, but for the topic, which is part of the program.
@@ -211,7 +210,7 @@ Result<SceneRows> scene_from(const Record& record, const Topic& topic) {
     judge_standing(scene.rows);
     return scene;
   } catch (const ordered_json::exception& why) {
-    return not_a_record(record, why.what());
+    return not_a_record(record, fault_of_row(why));
   }
 }
 
@@ -222,7 +221,7 @@ Result<LeftOutRow> left_out_from(const Record& record) {
         record.result.at("same_picture").get<bool>(), side_from(record.measured.at("as_is")),
         side_from(record.measured.at("without"))};
   } catch (const ordered_json::exception& why) {
-    return not_a_record(record, why.what());
+    return not_a_record(record, fault_of_row(why));
   }
 }
 

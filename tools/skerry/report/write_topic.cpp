@@ -348,8 +348,8 @@ Result<std::string> write_topic(const TopicResult& result, const std::filesystem
   if (Result<void> done = write_text(dir / (name + ".json"), topic_json(result).dump(2) + "\n");
       !done)
     return done.error();
-  if (Result<void> done = write_text(dir / (name + ".svg"), topic_svg(result)); !done)
-    return done.error();
+  const std::string chart = topic_svg(result);
+  if (Result<void> done = write_text(dir / (name + ".svg"), chart); !done) return done.error();
 
   std::string out = element("h2", {{"id", name}}, escape(name)) + "\n";
   out +=
@@ -357,7 +357,9 @@ Result<std::string> write_topic(const TopicResult& result, const std::filesystem
                                       judge_name(topic.judge), cost_name(topic.cost))));
   for (const Defect& defect : defects_of(result))
     out += labelled("p", defect.certain ? "bad" : "warn", defect.text) + "\n";
-  out += measure::image(name + ".svg", name + ": error against time") + "\n";
+  out +=
+      measure::image(measure::data_address("image/svg+xml", chart), name + ": error against time") +
+      "\n";
   if (result.scenes.size() > 1) out += rows_table(result.rows);
   out += fmt::format(
       "<p class=\"faint\"><a href=\"{0}.csv\">{0}.csv</a>, <a href=\"{0}.json\">{0}.json</a>. "

@@ -46,8 +46,8 @@ Result<std::vector<Outcome>> outcomes_from(const Record& record) {
                           {row.at("quantity").get<std::string>(), any_number_from(row.at("bound")),
                            any_number_from(row.at("observed"))}});
   } catch (const ordered_json::exception& why) {
-    return Error{fmt::format("cannot use the row {}: {}; run its task again", record.task,
-                             game::quote_text(why.what()))};
+    return Error{fmt::format("cannot use the row {}: {}; plan and run its task again", record.task,
+                             fault_of_row(why))};
   }
   return outcomes;
 }

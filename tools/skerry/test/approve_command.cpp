@@ -17,11 +17,16 @@ ApproveCommand::ApproveCommand(CLI::App& test)
       ->type_name("FILE")
       ->required();
   approve_->add_option("SCENES", paths_, "Scene files, or folders of them, as they were judged");
-  approve_->add_option("--report", report_, "Folder of the page")->type_name("DIR")->required();
-  approve_->add_option("--baseline", baseline_, "As the scenes were judged")->type_name("DIR");
+  approve_
+      ->add_option("--report", report_,
+                   "Folder of the page; needed for pictures that it had no room for")
+      ->type_name("DIR");
+  approve_->add_option("--baseline", baseline_, "As the scenes were judged")
+      ->type_name("DIR|FILE.tar");
 }
 
-std::optional<Refusal> ApproveCommand::read_scenes(std::vector<TestScene>& scenes) const {
+std::optional<Refusal> ApproveCommand::read_scenes(const std::optional<Baseline>& baseline,
+                                                   std::vector<TestScene>& scenes) const {
   if (paths_.empty())
     return Refusal{kUsage, {"there is no scene: give SCENES behind the decisions"}};
   const Result<std::vector<std::filesystem::path>> files = find_scenes(paths_);
@@ -29,7 +34,7 @@ std::optional<Refusal> ApproveCommand::read_scenes(std::vector<TestScene>& scene
   for (const std::filesystem::path& file : *files) {
     Result<TestScene> scene = read_scene(file);
     if (!scene) return Refusal{kUsage, scene.error()};
-    scene->baseline = baseline_;
+    if (baseline) scene->baseline = baseline->folder();
     scenes.push_back(*std::move(scene));
   }
   return std::nullopt;
@@ -38,8 +43,14 @@ std::optional<Refusal> ApproveCommand::read_scenes(std::vector<TestScene>& scene
 int ApproveCommand::run() const {
   const Result<std::vector<Decision>> decisions = read_decisions(file_);
   if (!decisions) return fail(kFailed, decisions.error());
+  std::optional<Baseline> baseline;
+  if (baseline_) {
+    Result<Baseline> opened = Baseline::open(*baseline_, true);
+    if (!opened) return fail(kUsage, opened.error());
+    baseline.emplace(*std::move(opened));
+  }
   std::vector<TestScene> scenes;
-  if (const auto refusal = read_scenes(scenes)) return refuse(*refusal);
+  if (const auto refusal = read_scenes(baseline, scenes)) return refuse(*refusal);
   const Result<std::vector<Approval>> approvals = check_decisions(*decisions, report_, scenes);
   if (!approvals) return fail(kFailed, approvals.error());
   for (const Approval& approval : *approvals) {
@@ -47,6 +58,8 @@ int ApproveCommand::run() const {
     if (!done) return fail(kFailed, done.error());
     fmt::print("approved: {}: {}\n", one_line(approval.scene.name), one_line(*done));
   }
+  if (baseline)
+    if (const Result<void> saved = baseline->save(); !saved) return fail(kFailed, saved.error());
   for (const Decision& decision : *decisions)
     if (!decision.approve) fmt::print("rejected: {}\n", one_line(decision.scene));
   return kDone;

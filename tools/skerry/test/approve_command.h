@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/skerry/compare/baseline.h"
 #include "tools/skerry/scene/arguments.h"
 #include "tools/skerry/test/scene_set.h"
 
@@ -25,12 +26,13 @@ class ApproveCommand {
   int run() const;
 
  private:
-  std::optional<Refusal> read_scenes(std::vector<TestScene>& scenes) const;
+  std::optional<Refusal> read_scenes(const std::optional<Baseline>& baseline,
+                                     std::vector<TestScene>& scenes) const;
 
   CLI::App* approve_;
-  std::string file_, report_;
+  std::string file_;
   std::vector<std::string> paths_;
-  std::optional<std::string> baseline_;
+  std::optional<std::string> report_, baseline_;
 };
 
 }  // namespace skerry::tools

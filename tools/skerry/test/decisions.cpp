@@ -1,6 +1,7 @@
 #include "tools/skerry/test/decisions.h"
 
 #include <fmt/format.h>
+#include <openssl/evp.h>
 
 #include <algorithm>
 #include <set>
@@ -11,6 +12,7 @@
 #include "tools/skerry/compare/report_pictures.h"
 #include "tools/skerry/farm/plan.h"
 #include "tools/skerry/report/report_folder.h"
+#include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/test/judge.h"
 
 namespace skerry::tools {
@@ -19,12 +21,35 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::uint64_t kMaxDecisionBytes = 16u << 20;
+constexpr std::uint64_t kMaxDecisionBytes = 128u << 20;  // more than a page's pictures as base64
+
+/// None: the text is no base64.
+std::optional<std::string> from_base64(const std::string& text) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  // OpenSSL takes white space and fillers in more places.
+  const std::size_t fillers = text.ends_with("==") ? 2 : text.ends_with("=") ? 1 : 0;
+  const std::string_view digits = std::string_view(text).substr(0, text.size() - fillers);
+  if (text.empty() || text.size() % 4 != 0 ||
+      digits.find_first_not_of(kDigits) != std::string_view::npos)
+    return std::nullopt;
+  std::string bytes(text.size() / 4 * 3, '\0');
+  const int got = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data()),
+                                  reinterpret_cast<const unsigned char*>(text.data()),
+                                  static_cast<int>(text.size()));
+  if (got < 0) return std::nullopt;
+  bytes.resize(bytes.size() - fillers);
+  return bytes;
+}
 
 /// Throws nlohmann's errors.
 Decision decision_from(const json& from) {
   Decision one{from.at("scene").get<std::string>(), from.at("driver").get<std::string>(),
-               from.at("picture").get<std::string>(), false};
+               from.at("picture").get<std::string>(), false, std::nullopt};
+  if (from.contains("png")) {
+    one.png = from_base64(from.at("png").get<std::string>());
+    if (!one.png) throw json::other_error::create(501, "a picture is no base64", nullptr);
+  }
   const auto word = from.at("decision").get<std::string>();
   one.approve = word == "approve";
   if (!one.approve && word != "reject")
@@ -65,25 +90,35 @@ Result<const Row*> row_of(const Decision& decision, const Results& results) {
     return cannot(decision.scene, "the report is of another driver; give the one that was judged");
   if (!row->failed() || !row->sound)
     return cannot(decision.scene, "it did not fail, or its picture is black or not finite");
-  if (row->driver.empty() || file_name_part(row->driver) != row->driver)
-    return cannot(decision.scene, "the report names no driver; draw it again");
   return &*row;
 }
 
-Result<Approval> approval_of(const Decision& decision, const fs::path& report,
+/// The file of the picture that was looked at.
+Result<std::string> picture_file(const Decision& decision, const std::optional<fs::path>& report) {
+  if (!report && !decision.png)
+    return cannot(decision.scene, "the decisions have no picture of it; give --report DIR");
+  if (!report) return *decision.png;
+  return platform::read_text(*report / report_picture_name(decision.scene, ReportPicture::kActual),
+                             platform::kMaxPngFileBytes);
+}
+
+Result<Approval> approval_of(const Decision& decision, const std::optional<fs::path>& report,
                              std::span<const TestScene> scenes) {
+  if (decision.driver.empty() || file_name_part(decision.driver) != decision.driver)
+    return cannot(decision.scene, "it names no driver; draw it again");
   const auto scene = std::ranges::find(scenes, decision.scene, &TestScene::name);
   if (scene == scenes.end())
     return cannot(decision.scene, "it is not among SCENES; give those that were judged");
-  const fs::path file = report / report_picture_name(scene->name, ReportPicture::kActual);
-  const Result<std::string> hash = file_hash(file);
-  if (!hash) return hash.error();
-  if (*hash != decision.picture)
-    return cannot(decision.scene,
-                  "the report's picture is not the one that was judged; look at "
-                  "the report again");
-  Result<platform::PngImage> picture = platform::read_png(file);
-  if (!picture) return picture.error();
+  const Result<std::string> file = picture_file(decision, report);
+  if (!file) return file.error();
+  if (sha256_hex({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()}) !=
+      decision.picture)
+    return cannot(
+        decision.scene,
+        fmt::format("the {} picture is not the one that was judged; look at the page again",
+                    report ? "report's" : "decisions'"));
+  Result<platform::PngImage> picture = platform::decode_png(*file, "its picture");
+  if (!picture) return cannot(decision.scene, picture.error().message);
   const fs::path hashes = hash_file(scene->approved(decision.driver), decision.driver);
   for (const std::string& why :
        {not_replaceable(hashes), not_a_reference(scene->reference(decision.driver))})
@@ -120,14 +155,19 @@ Result<std::vector<Decision>> read_decisions(const fs::path& file) {
 }
 
 Result<std::vector<Approval>> check_decisions(std::span<const Decision> decisions,
-                                              const fs::path& report,
+                                              const std::optional<fs::path>& report,
                                               std::span<const TestScene> scenes) {
-  const Result<Results> results = read_results(report / kReportFile);
-  if (!results) return results.error();
+  Results results;
+  if (report) {
+    Result<Results> read = read_results(*report / kReportFile);
+    if (!read) return read.error();
+    results = *std::move(read);
+  }
   std::vector<Approval> approvals;
   for (const Decision& decision : decisions) {
     if (!decision.approve) continue;
-    if (const Result<const Row*> row = row_of(decision, *results); !row) return row.error();
+    if (report)
+      if (const auto row = row_of(decision, results); !row) return row.error();
     Result<Approval> approval = approval_of(decision, report, scenes);
     if (!approval) return approval.error();
     approvals.push_back(*std::move(approval));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/platform/files.h"
+#include "engine/platform/image_file.h"
 #include "tools/measure/html.h"
 #include "tools/skerry/compare/report_pictures.h"
 #include "tools/skerry/farm/plan.h"
@@ -15,9 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Pictures in the page, before base64 makes four bytes of three.
+constexpr std::uint64_t kMostInlinedBytes = 48u << 20;
+
 // What measure's pages do not have: two pictures in turn.
 constexpr std::string_view kStyle = R"(
 .blink { position: relative; }
+.inlined { cursor: zoom-in; }
+.full { cursor: zoom-out; grid-column: 1 / -1; overflow-x: auto; }
+.full img { width: auto; }
 .blink img + img { position: absolute; left: 0; top: 0; animation: blink 1s steps(1) infinite; }
 @keyframes blink { 50% { opacity: 0; } }
 .pictures { grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); }
@@ -29,19 +37,35 @@ constexpr std::string_view kStyle = R"(
 .decisions { position: sticky; bottom: 0; padding: .5rem; background: var(--soft); }
 )";
 
-// What was decided is kept by the page alone until it is saved. Well-formed as XML, too: without
-// the characters that markup begins with.
-constexpr std::string_view kScript = R"(
+// Scripts are well-formed as XML, too: without the characters that markup begins with. Pictures in
+// turn are those that the page has; a click shows one in all its pixels, as a link to its file does
+// where it is not in the page.
+constexpr std::string_view kShowScript = R"(
+"use strict";
+for (const box of document.querySelectorAll(".blink"))
+  for (const kind of [".reference", ".actual"])
+    box.append(box.closest(".pictures").querySelector(kind + " img").cloneNode());
+for (const figure of document.querySelectorAll(".inlined"))
+  figure.addEventListener("click", () => figure.classList.toggle("full"));
+)";
+
+// What was decided is kept by the page alone until it is saved: with the pictures that are
+// approved, if the page has them, so that the file is all that `skerry test approve` needs.
+constexpr std::string_view kDecideScript = R"(
 "use strict";
 const decisions = new Map();
 const count = document.querySelector(".decisions output");
 const save = document.querySelector(".decisions button");
+function png(box, decision) {
+  const [head, bytes] = box.closest("section").querySelector(".actual img").src.split(";base64,");
+  return decision === "approve" ? { png: bytes } : {};
+}
 function decide(box, button) {
   const { scene, driver, picture } = box.dataset;
   const decision = button.dataset.decision;
   const withdrawn = decisions.get(scene)?.decision === decision;
   if (withdrawn) decisions.delete(scene);
-  else decisions.set(scene, { scene, driver, picture, decision });
+  else decisions.set(scene, { scene, driver, picture, decision, ...png(box, decision) });
   for (const other of box.querySelectorAll("button"))
     other.setAttribute("aria-pressed", String(other === button ? !withdrawn : false));
   count.textContent = decisions.size + " decided";
@@ -134,49 +158,100 @@ measure::TableRow table_row(const Row& row, const History* history) {
   return out;
 }
 
-class Figures {
+/// What of a page's size is left for pictures.
+class Room {
  public:
-  Figures(const fs::path& folder, const std::string& scene) : folder_(folder), scene_(scene) {}
-
-  bool has(ReportPicture kind) const {
-    std::error_code code;
-    return fs::exists(folder_ / report_picture_name(scene_, kind), code);
+  /// @return whether these bytes have room as well.
+  bool take(std::uint64_t bytes) {
+    if (bytes == 0) return false;
+    const bool fits = bytes <= left_;
+    if (fits) left_ -= bytes;
+    ++(fits ? inside_ : beside_);
+    return fits;
   }
-  std::string figure(ReportPicture kind, std::string_view caption) const {
-    if (!has(kind)) return {};
-    const std::string source = address(report_picture_name(scene_, kind));
-    return with_caption(link(source, measure::image(source, caption)), caption);
-  }
-  /// The two pictures in turn.
-  std::string blink() const {
-    return with_caption(
-        measure::element("div", {{"class", "blink"}},
-                         image(ReportPicture::kReference) + image(ReportPicture::kActual)),
-        "blink");
+  /// What a reader has to know before the page is sent elsewhere; empty: nothing.
+  std::string note() const {
+    if (beside_ == 0) return {};
+    return measure::labelled(
+        "p", "faint",
+        fmt::format("The pictures of {} scenes are in this file; those of {} lie beside it.",
+                    inside_, beside_));
   }
 
  private:
-  std::string image(ReportPicture kind) const {
-    return measure::image(address(report_picture_name(scene_, kind)), "blink");
+  std::uint64_t left_ = kMostInlinedBytes;
+  std::size_t inside_ = 0, beside_ = 0;  // scenes
+};
+
+/// The pictures of a scene: in the page, or files beside it where there is no room.
+class Figures {
+ public:
+  Figures(const fs::path& folder, const std::string& scene, Room& room)
+      : folder_(folder), scene_(scene) {
+    std::uint64_t bytes = 0;
+    for (const ReportPicture kind : kReportPictures) bytes += bytes_of(kind);
+    same_ = has(ReportPicture::kActual) &&
+            bytes_of(ReportPicture::kReference) == bytes_of(ReportPicture::kActual) &&
+            content(ReportPicture::kReference) == content(ReportPicture::kActual);
+    if (same_) bytes /= 2;
+    inlined_ = room.take(bytes);
   }
-  static std::string with_caption(const std::string& markup, std::string_view caption) {
-    return measure::element("figure",
+
+  bool has(ReportPicture kind) const { return bytes_of(kind) > 0; }
+  /// Whether the picture is its reference in every byte, so that one is enough.
+  bool same() const { return same_; }
+  std::string figure(ReportPicture kind, std::string_view caption) const {
+    if (!has(kind)) return {};
+    const std::string file = address(report_picture_name(scene_, kind));
+    std::string css_class(kind == ReportPicture::kReference ? "reference"
+                          : kind == ReportPicture::kActual  ? "actual"
+                                                            : "error");
+    if (!inlined_)
+      return with_caption(css_class, link(file, measure::image(file, caption)), caption);
+    const std::string bytes = measure::data_address("image/png", content(kind));
+    return with_caption(css_class + " inlined", measure::image(bytes, caption), caption);
+  }
+  /// The two pictures in turn.
+  static std::string blink() {
+    return with_caption("both", measure::element("div", {{"class", "blink"}}, ""), "blink");
+  }
+
+ private:
+  fs::path file(ReportPicture kind) const { return folder_ / report_picture_name(scene_, kind); }
+  /// 0: there is none.
+  std::uint64_t bytes_of(ReportPicture kind) const {
+    std::error_code code;
+    const std::uintmax_t bytes = fs::file_size(file(kind), code);
+    return code ? 0 : bytes;
+  }
+  std::string content(ReportPicture kind) const {
+    Result<std::string> bytes = platform::read_text(file(kind), platform::kMaxPngFileBytes);
+    return bytes ? *std::move(bytes) : std::string();
+  }
+  static std::string with_caption(const std::string& css_class, const std::string& markup,
+                                  std::string_view caption) {
+    return measure::element("figure", {{"class", css_class}},
                             markup + measure::element("figcaption", measure::escape(caption)));
   }
 
   const fs::path& folder_;
   const std::string& scene_;
+  bool same_ = false, inlined_ = false;
 };
 
-std::string pictures_of(const Row& row, const fs::path& folder) {
-  const Figures figures(folder, row.scene);
+std::string pictures_of(const Row& row, const fs::path& folder, Room& room) {
+  const Figures figures(folder, row.scene, room);
   const bool approved = row.verdict == Verdict::kApproved;
   std::string out;
-  out += figures.figure(ReportPicture::kReference, approved ? "reference before" : "reference");
-  out += figures.figure(ReportPicture::kActual, approved ? "reference now" : "actual");
+  if (figures.same()) {
+    out = figures.figure(ReportPicture::kActual, "reference and actual, which are equal");
+  } else {
+    out = figures.figure(ReportPicture::kReference, approved ? "reference before" : "reference") +
+          figures.figure(ReportPicture::kActual, approved ? "reference now" : "actual");
+  }
   out += figures.figure(ReportPicture::kDifference, "difference, 8 times");
   out += figures.figure(ReportPicture::kFlip, "FLIP");
-  if (figures.has(ReportPicture::kDifference)) out += figures.blink();
+  if (figures.has(ReportPicture::kDifference)) out += Figures::blink();
   return measure::element("div", {{"class", "pictures"}}, out);
 }
 
@@ -208,7 +283,13 @@ std::string decisions_bar(std::string_view sections) {
                  measure::element("button", {{"type", "button"}, {"disabled", "disabled"}},
                                   "save decisions.json") +
                  " " + measure::labelled("span", "faint", "then: skerry test approve")) +
-         measure::element("script", kScript);
+         measure::element("script", kDecideScript);
+}
+
+/// What pictures need to be looked at, if there are any.
+std::string show_script(std::string_view sections) {
+  if (sections.find("<figure") == std::string_view::npos) return {};
+  return measure::element("script", kShowScript);
 }
 
 /// What a scene's own tolerances found: regions, and where the picture lies.
@@ -230,7 +311,7 @@ std::string measured_parts(const Row& row) {
   return out + measure::table(kHeadings, table);
 }
 
-std::string section(const Row& row, const fs::path& folder, const History* history) {
+std::string section(const Row& row, const fs::path& folder, const History* history, Room& room) {
   std::string out = measure::element(
       "h2", {{"id", address(row.scene)}},
       measure::escape(row.scene) + " " +
@@ -246,11 +327,11 @@ std::string section(const Row& row, const fs::path& folder, const History* histo
     const std::span<const PastRun> runs = history->of(row.scene, row.driver);
     out += measure::element("p", strip(runs) + " " + measure::escape(summary_of(runs)));
   }
-  out += pictures_of(row, folder);
+  out += pictures_of(row, folder, room);
   if (!row.command.empty())
     out += measure::element("p", measure::element("code", measure::escape(row.command)) + " on " +
                                      measure::escape(row.driver));
-  return out + "\n";
+  return measure::element("section", out) + "\n";
 }
 
 int rank(const Row& row) {
@@ -267,9 +348,10 @@ std::string test_page(const Results& results, const fs::path& folder, const Hist
                    [](const Row* a, const Row* b) { return rank(*a) < rank(*b); });
   std::vector<measure::TableRow> table;
   std::string sections;
+  Room room;
   for (const Row* row : rows) {
     table.push_back(table_row(*row, history));
-    sections += section(*row, folder, history);
+    sections += section(*row, folder, history, room);
   }
   const auto failures =
       std::count_if(rows.begin(), rows.end(), [](const Row* row) { return row->failed(); });
@@ -280,8 +362,8 @@ std::string test_page(const Results& results, const fs::path& folder, const Hist
                                          "rounded", "bias",    "time"};
   if (history) headings.push_back("history");
   return measure::page(title, measure::element("style", kStyle) + measure::element("h1", title) +
-                                  measure::table(headings, table) + sections +
-                                  decisions_bar(sections));
+                                  measure::table(headings, table) + room.note() + sections +
+                                  show_script(sections) + decisions_bar(sections));
 }
 
 }  // namespace skerry::tools

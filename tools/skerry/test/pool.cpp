@@ -71,6 +71,7 @@ class Pool {
  private:
   void start_worker(std::optional<std::uint32_t> device);
   [[noreturn]] void become_worker(int jobs, int results, std::optional<std::uint32_t> device);
+  int processes(bool on_cpu) const;
   void wait_for_lines();
   bool take_in(Worker& worker);
   void take_line(Worker& worker, const std::string& line);
@@ -127,9 +128,17 @@ void Pool::become_worker(int jobs, int results, std::optional<std::uint32_t> dev
     ::close(sibling.jobs);
     ::close(sibling.results);
   }
-  serve_(jobs, results, {device, std::max(1, cores_ / planned_)});
+  // Worlds are made on the processor whatever draws them: more threads than cores only contend.
+  serve_(jobs, results,
+         {device, std::max(1, cores_ / planned_), std::max(1, cores_ / processes(false))});
   std::fflush(nullptr);
   ::_exit(0);
+}
+
+/// How many processes there are to be.
+int Pool::processes(bool on_cpu) const {
+  if (on_cpu || options_.processes) return planned_;
+  return std::min(planned_, static_cast<int>(devices_.size()));
 }
 
 void Pool::wait_for_lines() {
@@ -182,8 +191,7 @@ void Pool::greet(const Greeting& greeting) {
   }
   if (std::exchange(met_, true)) return;
   const auto devices = static_cast<int>(devices_.size());
-  const int wanted = greeting.on_cpu || options_.processes ? planned_ : std::min(planned_, devices);
-  for (int i = 1; i < wanted && !result_.refusal; ++i)
+  for (int i = 1; i < processes(greeting.on_cpu) && !result_.refusal; ++i)
     start_worker(devices_[static_cast<std::size_t>(i % devices)]);
 }
 

@@ -12,6 +12,7 @@
 #include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 #include "tools/measure/html.h"
+#include "tools/skerry/farm/record.h"
 
 namespace skerry::tools {
 namespace {
@@ -217,7 +218,8 @@ Result<Row> row_from_json(const json& from) {
   try {
     return row_or_throw(from);
   } catch (const json::exception& why) {
-    return Error{fmt::format("it holds no row of skerry test ({})", why.what())};
+    return Error{
+        fmt::format("cannot use a row: {}; plan and run its task again", fault_of_row(why))};
   }
 }
 
@@ -234,7 +236,7 @@ Result<Results> read_results(const std::filesystem::path& file) {
   const Result<std::string> text = platform::read_text(file, kMaxResultBytes);
   if (!text) return text.error();
   const auto wrong = [&](std::string_view why) {
-    return Error{fmt::format("cannot merge {}: {}; give files that skerry test --json wrote",
+    return Error{fmt::format("cannot merge {}: {}; give files that this version of skerry wrote",
                              game::quote_text(file.string()), why)};
   };
   const Result<json> from = game::parse_json(*text);
@@ -242,7 +244,7 @@ Result<Results> read_results(const std::filesystem::path& file) {
   try {
     return results_or_throw(*from);
   } catch (const json::exception& why) {
-    return wrong(game::quote_text(why.what()));
+    return wrong(fault_of_row(why));
   }
 }
 

@@ -111,7 +111,7 @@ void TestCommand::add_drawing_options(CLI::App& command) {
   command
       .add_option("--baseline", baseline_,
                   "References and hashes are here, a folder a driver, not beside the scenes")
-      ->type_name("DIR");
+      ->type_name("DIR|FILE.tar");
   command.add_option("--repeat", repeat_text_, "Draw every scene so many times (default 1)")
       ->type_name("N");
   command.add_flag("--validate", validate_, "Turn the Vulkan validation layer on");
@@ -178,11 +178,12 @@ std::optional<Refusal> TestCommand::check_typed() {
   if (const auto refusal = read_count(repeat_text_, "--repeat", 100000, pool_.runs)) return refusal;
   if (const auto refusal = parse_devices(devices_text_, device_text_, pool_.devices))
     return refusal;
-  std::error_code code;
-  if (baseline_ && !approve_ && !fs::is_directory(*baseline_, code))
-    return usage({fmt::format("there is no folder {}: --baseline needs one that --approve made",
-                              game::quote_text(*baseline_))});
   if (approve_ && pool_.runs > 1) return usage({"--approve needs one run: leave out --repeat"});
+  if (baseline_) {
+    Result<Baseline> opened = Baseline::open(*baseline_, approve_);
+    if (!opened) return usage(opened.error());
+    opened_baseline_.emplace(*std::move(opened));
+  }
   pool_.validate = validate_;
   pool_.judge.approve = approve_;
   return std::nullopt;
@@ -219,7 +220,7 @@ std::optional<Refusal> TestCommand::read_set(std::vector<TestScene>& scenes,
       fmt::print("skipped: {}: this build has no OpenVDB\n", one_line(scene->name));
       continue;
     }
-    scene->baseline = baseline_;
+    if (opened_baseline_) scene->baseline = opened_baseline_->folder();
     scenes.push_back(*std::move(scene));
   }
   in_set = scenes.size();
@@ -281,6 +282,9 @@ int TestCommand::draw_and_judge() {
     if (outcomes[i].row.verdict == Verdict::kApproved)
       if (const Result<void> stored = store_hash(scenes[i], outcomes[i]); !stored)
         return fail(kFailed, stored.error());
+  if (approve_ && opened_baseline_)
+    if (const Result<void> saved = opened_baseline_->save(); !saved)
+      return fail(kFailed, saved.error());
   const std::ptrdiff_t failed = print_summary(results.rows, pool_.runs, watch.seconds());
   if (const Result<void> written = write_outputs(std::move(results)); !written)
     return fail(kFailed, written.error());
@@ -434,6 +438,8 @@ std::optional<Refusal> TestCommand::read_planned(const Plan& plan, std::vector<T
   if (Result<void> same = check_same_tasks(plan, *tasks); !same)
     return Refusal{kFailed, same.error()};
   pool_ = planned.pool_;
+  if (planned.opened_baseline_)  // the scenes' references are there
+    opened_baseline_.emplace(*std::move(planned.opened_baseline_));
   return std::nullopt;
 }
 

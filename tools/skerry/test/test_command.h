@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/skerry/compare/baseline.h"
 #include "tools/skerry/farm/devices.h"
 #include "tools/skerry/farm/verbs.h"
 #include "tools/skerry/report/report_folder.h"
@@ -62,8 +63,9 @@ class TestCommand {
   bool approve_ = false, merge_ = false, compare_ = false, validate_ = false;
   Shard shard_;
   PoolOptions pool_;
-  std::optional<ReportFolder> report_;  // for html_
-  std::optional<History> history_;      // for history_path_
+  std::optional<Baseline> opened_baseline_;  // for baseline_
+  std::optional<ReportFolder> report_;       // for html_
+  std::optional<History> history_;           // for history_path_
 };
 
 }  // namespace skerry::tools

@@ -46,7 +46,7 @@ class Artist {
     if (!approved) return {failed_row(scene, approved.error().message), {}, false};
     game::SceneOptions options = scene.scene;
     // TBB warns when a single thread is asked for; two of two processes on two cores do no harm.
-    if (options.settings.jobs_threads == 0 && threads_ > 0)
+    if (options.settings.jobs_threads == 0)
       options.settings.jobs_threads = static_cast<std::uint32_t>(std::max(threads_, 2));
     Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device_, options);
     if (!drawer) return {failed_row(scene, drawer.error().message), {}, false};
@@ -89,7 +89,7 @@ class Artist {
 
   gpu::Device& device_;
   const JudgeOptions& options_;
-  int threads_;  // 0: one a core
+  int threads_;
   std::string driver_;
 };
 
@@ -125,7 +125,7 @@ void serve(int jobs, int results, std::span<const TestScene> scenes, const PoolO
   }
   const bool on_cpu = (*device)->info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
   out.write(line_of(Greeting{{}, on_cpu}));
-  Artist artist(**device, options.judge, on_cpu ? seat.threads : 0);
+  Artist artist(**device, options.judge, on_cpu ? seat.threads : seat.host_threads);
   std::FILE* in = ::fdopen(jobs, "r");
   SKERRY_ASSERT(in);
   for (unsigned long index = 0; std::fscanf(in, "%lu", &index) == 1;) {

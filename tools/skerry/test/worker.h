@@ -19,6 +19,7 @@ struct Farewell {
 struct Seat {
   std::optional<std::uint32_t> device;  ///< none: the best
   int threads = 1;                      ///< of the processor, when the device is the CPU
+  int host_threads = 1;                 ///< when it is not: fewer processes are started then
 };
 
 /// The body of a drawing process: reads indices of scenes from `jobs`, a line each, until that
