@@ -41,7 +41,8 @@ key b
 grab "$work/world.png"
 key m 1
 differs() { [ "$(compare -metric AE -fuzz 10% "$1" "$2" null: 2>&1 || true)" -gt 2000 ]; }
-square() { grab "$work/now.png" && convert "$work/now.png" -crop 240x240+50+60 +repage "$1"; }
+# The upper part of the map: messages lie over the lower one.
+square() { grab "$work/now.png" && convert "$work/now.png" -crop 240x160+50+60 +repage "$1"; }
 drawn() {
   square "$work/map.png"
   [ "$(convert "$work/map.png" -format '%k' info:)" -gt 300 ]
@@ -61,7 +62,7 @@ square "$work/back.png"
 differs "$work/wide.png" "$work/back.png" && fail "the map does not come back to the player"
 key Escape 1
 grab "$work/again.png"
-convert "$work/again.png" -crop 240x240+50+60 +repage "$work/closed.png"
+convert "$work/again.png" -crop 240x160+50+60 +repage "$work/closed.png"
 differs "$work/wide.png" "$work/closed.png" || fail "the map did not close"
 
 # Home, by its key; and back to the waypoint, by the map: the list begins with home, the ground stood on last, the waypoint.
