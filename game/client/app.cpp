@@ -23,6 +23,7 @@ constexpr double kScreensShare =
     5.0;  // times what the world behind takes, for the screen before it
 constexpr double kBehindScreens = 1.0 / 30.0;  // seconds, the fewest, between frames of the world
                                                // behind a screen
+constexpr double kMapSpeed = 1.0;              // radii a second
 constexpr double kUnfocusedUntilPause = 0.3;   // seconds
 
 ui::Clipboard clipboard_of(platform::Window& window) {
@@ -148,7 +149,7 @@ Result<void> App::show_new_images(const platform::InputFrame& input) {
 }
 
 void App::act(const platform::InputFrame& input, double seconds) {
-  const ActionFrame actions(input, bindings_);
+  const ActionFrame actions(input, bindings_, seconds);
   if (actions.pressed(Action::kFullscreen) && !gui_.typing()) window_.toggle_fullscreen();
   if (world_ && screens_.stack.empty()) hints_.note(actions);
   act_on_screens(input, actions);
@@ -174,10 +175,13 @@ void App::act(const platform::InputFrame& input, double seconds) {
   else
     world_->set_photo(std::nullopt);
   if (screens_.stack.top() == Screen::kMap) {
-    if (const auto picture =
-            world_->take_map(ui::kMapRadii[static_cast<std::size_t>(screens_.map_radius)]))
+    if (!gui_.typing()) move_map(input, seconds);
+    if (const auto picture = world_->take_map(
+            ui::kMapRadii[static_cast<std::size_t>(screens_.map_radius)], screens_.map_shift))
       pictures_.set_map(*picture);
     map_ = world_->map_facts();
+  } else {
+    screens_.map_shift = {};
   }
   for (std::string& line : world_->take_messages()) messages_.say(std::move(line));
   if (!world_->take_settings_changed()) return;
@@ -230,6 +234,23 @@ void App::pause_unattended(double seconds) {
   if (!attended_ || unfocused_s_ < kUnfocusedUntilPause) return;
   attended_ = false;
   if (world_ && world_goes_on(screens_.stack)) open(Screen::kPause);
+}
+
+/// The keys that walk and the stick that looks move the map; its own key brings it back to the
+/// player. The stick that walks goes through the buttons.
+void App::move_map(const platform::InputFrame& input, double seconds) {
+  Bindings bindings = bindings_;
+  for (const Action walks : {Action::kForward, Action::kBack, Action::kLeft, Action::kRight})
+    bindings[walks].pad = {};
+  const ActionFrame actions(input, bindings, seconds);
+  const auto axis = [&](Action plus, Action minus, Action more, Action less) {
+    return actions.value(plus) + actions.value(more) - actions.value(minus) - actions.value(less);
+  };
+  const glm::dvec2 way{axis(Action::kRight, Action::kLeft, Action::kLookRight, Action::kLookLeft),
+                       axis(Action::kBack, Action::kForward, Action::kLookDown, Action::kLookUp)};
+  const double radius = ui::kMapRadii[static_cast<std::size_t>(screens_.map_radius)];
+  ui::shift_map(screens_, way * (kMapSpeed * radius * seconds));
+  if (actions.pressed(Action::kMap)) screens_.map_shift = {};
 }
 
 void App::fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,

@@ -48,6 +48,7 @@ class App {
   void sound(double seconds);
   void act_on_screens(const platform::InputFrame& input, const ActionFrame& actions);
   void pause_unattended(double seconds);
+  void move_map(const platform::InputFrame& input, double seconds);
   void fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
                         double seconds);
   Result<void> show_new_images(const platform::InputFrame& input);

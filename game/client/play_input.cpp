@@ -28,7 +28,7 @@ constexpr double kFlySpeedNotch = 1.25;               // factor a notch of the w
 }  // namespace
 
 void PlayLoop::act(const platform::InputFrame& input, double seconds) {
-  const ActionFrame actions(input, *bindings_);
+  const ActionFrame actions(input, *bindings_, seconds);
   rests_ = false;
   act_on_picture(input, actions, seconds);
   if (actions.pressed(Action::kFly)) {
@@ -78,7 +78,8 @@ void PlayLoop::act_on_picture(const platform::InputFrame& input, const ActionFra
     scene_.quality_auto = false;
     scene_.quality = stepped_quality(scene_.quality, better);
     set_quality(scene_.quality, settings);
-    said_.push_back(tr_format("Quality: {}", quality_level(scene_.quality).name));
+    said_.push_back(
+        tr_format("Quality: {}", tr(std::string(quality_level(scene_.quality).name).c_str())));
   }
   settings_changed_ |= farther != 0 || better != 0 || settings.render.display != display;
   const double later = actions.value(Action::kLater) - actions.value(Action::kEarlier);

@@ -97,9 +97,10 @@ class PlayLoop {
   /// Good until the next frame.
   ui::HudFacts hud() const;
 
-  /// Once a frame while the map is open. @param radius blocks from its middle to an edge. @return a
+  /// Once a frame while the map is open. @param radius blocks from its middle to an edge.
+  /// @param shift of its middle from the player: blocks east and south. @return a
   /// new picture of it, if there is one.
-  std::optional<ui::Rgba> take_map(double radius);
+  std::optional<ui::Rgba> take_map(double radius, glm::dvec2 shift);
   /// What lies over the picture that was taken last.
   ui::MapFacts map_facts() const;
   /// What was asked for on the map.
@@ -123,7 +124,7 @@ class PlayLoop {
   void mark_place();
   void travel_to(const Wayfinder::Place& place);
   void keep_journal();
-  void ask_for_map(double radius);
+  void ask_for_map(double radius, world::WorldPos middle);
   std::vector<ui::HudFacts::Mark> compass_marks() const;
   void tell_session();
   void take_screenshot();
@@ -146,6 +147,7 @@ class PlayLoop {
   MapMaker::Map map_;                  // the last one taken, without its picture
   bool map_taken_ = false;             // there is one
   double map_asked_s_ = 0.0;           // the world's time then
+  glm::dvec2 map_view_{};              // what it is to show, from its middle [blocks]
   std::optional<std::uint64_t> helm_;  // the island that is steered
   bool helm_driven_ = false;           // by what is pressed now
   double helm_speed_ = 0.0;            // of it, as its place changes [blocks/s]

@@ -15,9 +15,10 @@
 namespace skerry::game {
 namespace {
 
-constexpr double kMapPeriod = 2.0;   // seconds after which a map is drawn anew: islands drift
-constexpr double kDriftSpan = 60.0;  // seconds over which drift is measured
-constexpr double kMarkedHere = 4.0;  // blocks: no mark is shown of a place where one is
+constexpr double kMapPeriod = 2.0;    // seconds after which a map is drawn anew: islands drift
+constexpr double kMapFollows = 0.02;  // of its radius: it is drawn anew when moved by more
+constexpr double kDriftSpan = 60.0;   // seconds over which drift is measured
+constexpr double kMarkedHere = 4.0;   // blocks: no mark is shown of a place where one is
 
 glm::dvec2 flat(const glm::dvec3& v) {
   return {v.x, v.z};
@@ -96,10 +97,10 @@ void PlayLoop::fulfil(const ui::MapWishes& wishes) {
   keep_journal();
 }
 
-/// Islands around the player, nearest first, as the map shows them.
-void PlayLoop::ask_for_map(double radius) {
+/// Islands around a place, nearest first, as the map shows them.
+void PlayLoop::ask_for_map(double radius, world::WorldPos middle) {
   MapMaker::Request request;
-  request.middle = player_.feet();
+  request.middle = middle;
   request.radius = radius;
   const double time_s = session_->time_s();
   const world::World& world = view_->world();
@@ -116,18 +117,22 @@ void PlayLoop::ask_for_map(double radius) {
   map_maker_.ask(std::move(request));
 }
 
-std::optional<ui::Rgba> PlayLoop::take_map(double radius) {
+std::optional<ui::Rgba> PlayLoop::take_map(double radius, glm::dvec2 shift) {
+  const world::WorldPos middle = world::moved(player_.feet(), {shift.x, 0.0, shift.y});
+  map_view_ = flat(world::difference_blocks(middle, map_.middle));
   const double since_s = session_->time_s() - map_asked_s_;
   const bool due = !map_taken_ || map_.to_come != 0 || map_.radius != radius ||
-                   since_s > kMapPeriod || since_s < 0.0;
+                   glm::length(map_view_) > kMapFollows * radius || since_s > kMapPeriod ||
+                   since_s < 0.0;
   std::optional<MapMaker::Map> drawn = map_maker_.take();
   if (!drawn) {
-    if (due && map_maker_.idle()) ask_for_map(radius);
+    if (due && map_maker_.idle()) ask_for_map(radius, middle);
     return std::nullopt;
   }
   ui::Rgba picture = std::move(drawn->picture);
   map_ = *std::move(drawn);
   map_taken_ = true;
+  map_view_ = flat(world::difference_blocks(middle, map_.middle));
   return picture;
 }
 
@@ -139,6 +144,7 @@ ui::MapFacts PlayLoop::map_facts() const {
     return flat(world::difference_blocks(place, map_.middle));
   };
   facts.radius = map_taken_ ? map_.radius : 0.0;
+  facts.view = map_view_;
   facts.to_come = map_.to_come;
   facts.player = from_middle(feet);
   facts.yaw_deg = scene_.camera->yaw_deg;

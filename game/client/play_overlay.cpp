@@ -8,6 +8,7 @@
 #include "game/client/island_name.h"
 #include "game/client/play_loop.h"
 #include "game/ui/gui.h"
+#include "game/words/words.h"
 
 namespace skerry::game {
 namespace {
@@ -29,7 +30,7 @@ std::string PlayLoop::world_label() const {
   if (!saved && scene_.world) return brief(std::filesystem::path(*scene_.world).filename());
   const std::string& seed = saved ? info.seed_text : scene_.seed_text;
   std::string label = brief(info.name);
-  if (!seed.empty()) label += (saved ? ", seed " : "seed ") + brief(seed);
+  if (!seed.empty()) label += (saved ? ", " : "") + tr_format("seed {}", brief(seed));
   return label;
 }
 
@@ -95,6 +96,7 @@ void PlayLoop::show_numbers() const {
   facts.memory = memory;
   facts.numbers = overlay_shown_;
   if (calibrating_) facts.calibration = view_->settings().render.display;
+  facts.calibration_key = chord_label((*bindings_)[Action::kCalibrate].key);
   show_overlay(facts);
 }
 

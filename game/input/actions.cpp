@@ -69,6 +69,39 @@ constexpr ActionType kTypes[] = {
 };
 static_assert(std::size(kTypes) == kActions);
 
+/// Keys from kSpace on, as people read them. Marks are those of a US layout.
+constexpr const char* kKeyLabels[] = {
+    // clang-format off
+    word("Space"), word("Shift"), word("Ctrl"), word("Alt"), word("Tab"), word("Enter"),
+    word("Backspace"), word("Escape"), word("Caps Lock"),
+    word("Insert"), word("Del"), word("Home key"), word("End"), word("Page up"),
+    word("Page down"), word("Arrow up"), word("Arrow down"), word("Arrow left"),
+    word("Arrow right"),
+    "-", "+", "[", "]", "\\", ";", "'", ",", ".", "/", "`",
+    word("Left click"), word("Right click"), word("Middle click"), word("Mouse {}"),
+    word("Mouse {}"), word("Wheel up"), word("Wheel down"),
+    "A", "B", "X", "Y", word("Left bumper"), word("Right bumper"), word("Back button"),
+    word("Start button"), word("Guide button"), word("Left stick pressed"),
+    word("Right stick pressed"), word("D-pad up"), word("D-pad right"), word("D-pad down"),
+    word("D-pad left"),
+    word("Left stick left"), word("Left stick right"), word("Left stick up"),
+    word("Left stick down"), word("Right stick left"), word("Right stick right"),
+    word("Right stick up"), word("Right stick down"), word("Left trigger"), word("Right trigger"),
+    // clang-format on
+};
+constexpr auto kFirstLabelled = static_cast<std::size_t>(Key::kSpace);
+static_assert(std::size(kKeyLabels) == static_cast<std::size_t>(Key::kCount) - kFirstLabelled);
+
+/// Letters and digits as they are on their keys.
+std::string key_label(Key key) {
+  const auto number = static_cast<std::size_t>(key);
+  if (number >= kFirstLabelled)
+    return tr_format(kKeyLabels[number - kFirstLabelled], key == Key::kMouse5 ? 5 : 4);
+  std::string label(platform::key_name(key));
+  for (char& c : label) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return label;
+}
+
 constexpr std::string_view kControlPrefix = "ctrl+", kPadPrefix = "pad_back+";
 
 bool is_bound(const Bindings& bindings, Chord chord) {
@@ -118,12 +151,8 @@ std::optional<Chord> parse_chord(std::string_view text) {
 
 std::string chord_label(Chord chord) {
   if (chord.key == Key::kNone) return "-";
-  std::string label = print_chord(chord);
-  constexpr std::string_view kPad = "pad_";
-  for (std::size_t at; (at = label.find(kPad)) != std::string::npos;) label.erase(at, kPad.size());
-  std::replace(label.begin(), label.end(), '_', ' ');
-  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  return label;
+  const std::string label = key_label(chord.key);
+  return chord.control ? key_label(control_of(chord.key)) + "+" + label : label;
 }
 
 Bindings default_bindings() {
@@ -147,7 +176,7 @@ std::vector<Action> conflicts_of(const Bindings& bindings, Action action) {
 }
 
 ActionFrame::State ActionFrame::state_of(Chord chord, const InputFrame& input,
-                                         const Bindings& bindings) {
+                                         const Bindings& bindings, double seconds) {
   State state;
   if (chord.key == Key::kNone) return state;
   // A key that went up does so for every chord it is in: nothing is left held.
@@ -163,16 +192,18 @@ ActionFrame::State ActionFrame::state_of(Chord chord, const InputFrame& input,
     if (event.key == chord.key && event.down && meant(control)) notches += event.amount;
   }
   if (notches > 0.0) state.presses = std::max(1, static_cast<int>(std::lround(notches)));
+  if (!input.down(chord.key))
+    state.value = std::min(state.presses * kTapSeconds / std::max(seconds, kTapSeconds), 1.0);
   if (!meant(input.down(with))) return state;
   state.down = input.down(chord.key);
-  state.value = std::min(double{input.value(chord.key)}, 1.0);
+  state.value = std::max(state.value, std::min(double{input.value(chord.key)}, 1.0));
   return state;
 }
 
-ActionFrame::ActionFrame(const InputFrame& input, const Bindings& bindings) {
+ActionFrame::ActionFrame(const InputFrame& input, const Bindings& bindings, double seconds) {
   for (std::size_t i = 0; i < kActions; ++i) {
-    const State key = state_of(bindings.of_action[i].key, input, bindings);
-    const State pad = state_of(bindings.of_action[i].pad, input, bindings);
+    const State key = state_of(bindings.of_action[i].key, input, bindings, seconds);
+    const State pad = state_of(bindings.of_action[i].pad, input, bindings, seconds);
     State& state = states_[i];
     state.down = key.down || pad.down;
     state.presses = key.presses + pad.presses;
@@ -181,7 +212,8 @@ ActionFrame::ActionFrame(const InputFrame& input, const Bindings& bindings) {
   }
   State& pause = states_[index(Action::kPause)];
   for (const Key key : {Key::kEscape, Key::kPadStart})
-    if (!is_bound(bindings, {key})) pause.presses += state_of({key}, input, bindings).presses;
+    if (!is_bound(bindings, {key}))
+      pause.presses += state_of({key}, input, bindings, seconds).presses;
 }
 
 }  // namespace skerry::game

@@ -95,7 +95,7 @@ struct Chord {
 platform::Key control_of(platform::Key key);
 std::string print_chord(Chord chord);
 std::optional<Chord> parse_chord(std::string_view text);
-/// As people read it: "Ctrl+z", "Left stick up"; "-" for none.
+/// As people read it, in their language: "Ctrl+Z", "Left stick up"; "-" for none.
 std::string chord_label(Chord chord);
 
 /// How one action is reached.
@@ -130,7 +130,12 @@ std::vector<Action> conflicts_of(const Bindings& bindings, Action action);
 class ActionFrame {
  public:
   ActionFrame() = default;  ///< no action is pressed
-  ActionFrame(const platform::InputFrame& input, const Bindings& bindings);
+  /// @param seconds that the frame lasts: how much of it a tap is worth (kTapSeconds).
+  ActionFrame(const platform::InputFrame& input, const Bindings& bindings, double seconds = 0.0);
+
+  /// What went down and up between two frames counts as held for so long, or for the whole frame if
+  /// that is shorter: else slow frames would lose every tap.
+  static constexpr double kTapSeconds = 0.1;
 
   bool down(Action action) const { return states_[index(action)].down; }
   /// Went down during the frame, even if it is up again.
@@ -138,7 +143,7 @@ class ActionFrame {
   /// How often: a wheel may turn by several notches.
   int presses(Action action) const { return states_[index(action)].presses; }
   bool released(Action action) const { return states_[index(action)].released; }
-  /// How far, 0 .. 1.
+  /// How far, 0 .. 1; of what was tapped, the share of the frame for which it counts as held.
   double value(Action action) const { return states_[index(action)].value; }
 
  private:
@@ -148,7 +153,8 @@ class ActionFrame {
     double value = 0.0;
   };
   static std::size_t index(Action action) { return static_cast<std::size_t>(action); }
-  static State state_of(Chord chord, const platform::InputFrame& input, const Bindings& bindings);
+  static State state_of(Chord chord, const platform::InputFrame& input, const Bindings& bindings,
+                        double seconds);
   std::array<State, kActions> states_{};
 };
 

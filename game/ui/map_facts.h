@@ -11,6 +11,7 @@
 namespace skerry::game::ui {
 
 inline constexpr double kMapRadii[] = {150.0, 300.0, 600.0, 1200.0, 2400.0};  ///< blocks
+inline constexpr double kMostMapShift = 4800.0;  ///< blocks east or south, and west or north
 
 /// Places in blocks east and south of the map's middle.
 struct MapFacts {
@@ -30,6 +31,7 @@ struct MapFacts {
   std::vector<Place> places;  ///< waypoints last, in the journal's order
   std::vector<Island> islands;
   double radius = 0.0;  ///< blocks from the middle to an edge of the picture; 0: none is there yet
+  glm::dvec2 view{};    ///< what is to be shown in the middle; the picture follows
   glm::dvec2 player{};
   double yaw_deg = 0.0;
   std::size_t to_come = 0;  ///< islands that the picture does not have yet

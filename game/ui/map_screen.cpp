@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <numbers>
@@ -23,11 +24,12 @@ struct Sheet {
   ImVec2 low;
   float edge = 0.0f;    // pixels
   double radius = 1.0;  // blocks
+  glm::dvec2 view{};    // blocks: what lies in its middle
   ImVec2 at(glm::dvec2 blocks) const {
     const auto axis = [&](float from, double b) {
       return from + static_cast<float>((b / radius + 1.0) * 0.5) * edge;
     };
-    return {axis(low.x, blocks.x), axis(low.y, blocks.y)};
+    return {axis(low.x, blocks.x - view.x), axis(low.y, blocks.y - view.y)};
   }
   float pixels(double blocks) const { return static_cast<float>(blocks / radius * 0.5) * edge; }
   /// A place beyond the edge is shown at the edge.
@@ -49,7 +51,7 @@ void write(ImDrawList& list, ImVec2 top_middle, ImU32 colour, const std::string&
 void draw_grid(ImDrawList& list, const Sheet& sheet) {
   const double step = sheet.radius / 3.0;
   for (int i = -2; i <= 2; ++i) {
-    const ImVec2 at = sheet.at({i * step, i * step});
+    const ImVec2 at = sheet.at(sheet.view + glm::dvec2(i * step));
     list.AddLine({at.x, sheet.low.y}, {at.x, sheet.low.y + sheet.edge}, kGrid);
     list.AddLine({sheet.low.x, at.y}, {sheet.low.x + sheet.edge, at.y}, kGrid);
   }
@@ -152,6 +154,17 @@ const MapFacts::Island* pointed_at(const Sheet& sheet, const MapFacts& map) {
   return found;
 }
 
+/// The mouse takes the map along.
+void drag_sheet(ScreenState& state, const Sheet& sheet) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImVec2 from = io.MouseClickedPos[0];
+  const bool on_sheet = from.x >= sheet.low.x && from.x < sheet.low.x + sheet.edge &&
+                        from.y >= sheet.low.y && from.y < sheet.low.y + sheet.edge;
+  if (!ImGui::IsMouseDragging(0) || !on_sheet) return;
+  const double blocks = 2.0 * sheet.radius / std::max(sheet.edge, 1.0f);
+  shift_map(state, glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) * -blocks);
+}
+
 void draw_sheet(const ScreenState& state, const ScreenFacts& facts, const Sheet& sheet) {
   const MapFacts& map = *facts.map;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -160,7 +173,8 @@ void draw_sheet(const ScreenState& state, const ScreenFacts& facts, const Sheet&
   list.AddRectFilled(sheet.low, high, kVoid);
   if (map.radius > 0.0) {
     const PicturePart part = facts.pictures->map();
-    list.AddImage(pictures_id(), sheet.low, high, part.low, part.high);
+    const glm::dvec2 corner(map.radius);
+    list.AddImage(pictures_id(), sheet.at(-corner), sheet.at(corner), part.low, part.high);
     draw_grid(list, sheet);
     draw_islands(list, sheet, map);
     for (std::size_t i = 0; i < map.places.size(); ++i) {
@@ -248,6 +262,10 @@ void show_map_buttons(ScreenState& state, const MapFacts& map, MapWishes& wishes
 
 }  // namespace
 
+void shift_map(ScreenState& state, glm::dvec2 blocks) {
+  state.map_shift = glm::clamp(state.map_shift + blocks, -kMostMapShift, kMostMapShift);
+}
+
 std::string compass_point(glm::dvec2 to) {
   constexpr const char* kNames[] = {word("N"), word("NE"), word("E"), word("SE"),
                                     word("S"), word("SW"), word("W"), word("NW")};
@@ -263,7 +281,8 @@ void show_map(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   const ImVec2 room = ImGui::GetContentRegionAvail(), low = ImGui::GetCursorScreenPos();
   const float side = kSideWidth * unit(), between = 20 * unit();
   const Sheet sheet{low, std::min(room.y, room.x - side - between),
-                    map.radius > 0.0 ? map.radius : 1.0};
+                    map.radius > 0.0 ? map.radius : 1.0, map.view};
+  drag_sheet(state, sheet);
   push_size(TextSize::kSmall);
   draw_sheet(state, facts, sheet);
   ImGui::SetCursorScreenPos({low.x + sheet.edge + between, low.y});
@@ -280,7 +299,11 @@ void show_map(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
                        ImGui::GetContentRegionAvail().y - foot));
   if (!map.places.empty()) show_name_field(state, map, wishes.map);
   show_map_buttons(state, map, wishes.map);
-  if (button(tr("Back"))) state.stack.back();
+  ImGui::BeginDisabled(state.map_shift == glm::dvec2(0.0));
+  if (button(tr("Show the player"), (kSideWidth - 10.0f) * 0.5f)) state.map_shift = {};
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (button(tr("Back"), (kSideWidth - 10.0f) * 0.5f)) state.stack.back();
   show_details(map, sheet,
                state.chosen_place < map.places.size() ? &map.places[state.chosen_place] : nullptr);
   end_scroll();

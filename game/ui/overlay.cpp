@@ -8,6 +8,7 @@
 
 #include "engine/render/frame/display.h"
 #include "game/ui/look.h"
+#include "game/words/words.h"
 
 namespace skerry::game {
 namespace {
@@ -122,7 +123,8 @@ void patch(double encoded, double around, const render::DisplaySettings& display
 }
 
 /// Dark squares on black and bright ones on white: what the display can keep apart.
-void show_calibration(const render::DisplaySettings& display, const ImVec2& picture) {
+void show_calibration(const OverlayFacts& facts, const ImVec2& picture) {
+  const render::DisplaySettings& display = *facts.calibration;
   const float edge = 56.0f * ui::unit();
   ImGui::SetNextWindowPos(ImVec2(0.5f * picture.x, 0.5f * picture.y), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
@@ -131,7 +133,7 @@ void show_calibration(const render::DisplaySettings& display, const ImVec2& pict
   ImGui::Begin("calibration", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings);
-  text("Up, Down: until the square on the left is just seen");
+  text(tr("Up, Down: until the square on the left is just seen"));
   const auto squares = [&](std::span<const int> codes, double around) {
     for (std::size_t i = 0; i < codes.size(); ++i) {
       if (i != 0) ImGui::SameLine();
@@ -140,10 +142,10 @@ void show_calibration(const render::DisplaySettings& display, const ImVec2& pict
   };
   constexpr int kDark[] = {1, 2, 4, 8, 16}, kBright[] = {254, 252, 248, 240, 224};
   squares(kDark, 0.0);
-  text("Left, Right: as bright as is pleasant, all squares seen");
+  text(tr("Left, Right: as bright as is pleasant, all squares seen"));
   squares(kBright, 1.0);
-  text(fmt::format("display.black {:.3f}   display.peak {:.2f}   F9 closes", display.black,
-                   display.peak));
+  text(fmt::format("display.black {:.3f}   display.peak {:.2f}   {}", display.black, display.peak,
+                   tr_format("{} closes", facts.calibration_key)));
   ImGui::End();
   ImGui::PopStyleColor();
 }
@@ -176,7 +178,7 @@ void show_overlay(const OverlayFacts& facts) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(6 * ui::unit(), 2 * ui::unit()));
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(4 * ui::unit(), 0.0f));
   if (facts.numbers) show_numbers(facts, picture);
-  if (facts.calibration) show_calibration(*facts.calibration, picture);
+  if (facts.calibration) show_calibration(facts, picture);
   ImGui::PopStyleVar(3);
   ui::pop_size();
 }

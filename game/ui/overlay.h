@@ -26,7 +26,8 @@ struct OverlayFacts {
   std::span<const gpu::MemoryUse> memory;  ///< largest first
   bool numbers = true;                     ///< whether anything of the above is shown
   std::optional<render::DisplaySettings>
-      calibration;  ///< the calibration screen (F9) is, with these
+      calibration;              ///< the calibration screen (F9) is, with these
+  std::string calibration_key;  ///< closes it, as people read it
 };
 
 /// The developer's overlay (F3) and the calibration screen, between ui::Gui::begin and

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "game/scene_file/parse.h"
@@ -11,33 +10,6 @@
 #include "game/words/words.h"
 
 namespace skerry::game::ui {
-
-std::string block_label(world::BlockId block) {
-  std::string label(world::block_types()[block].name);
-  std::replace(label.begin(), label.end(), '_', ' ');
-  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  return label;
-}
-
-std::vector<world::BlockId> find_blocks(std::string_view search) {
-  const auto lower = [](std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  };
-  const std::string wanted = lower(std::string(search));
-  std::vector<world::BlockId> out;
-  for (world::BlockId block = 1; block < world::block::kBuiltInCount; ++block) {
-    const std::string name = lower(block_label(block));
-    bool all = true;
-    for (std::size_t at = 0; at < wanted.size();) {
-      const std::size_t end = std::min(wanted.find(' ', at), wanted.size());
-      all &= name.find(wanted.substr(at, end - at)) != std::string::npos;
-      at = end + 1;
-    }
-    if (all) out.push_back(block);
-  }
-  return out;
-}
 
 void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -74,6 +75,7 @@ struct ScreenState {
   std::size_t chosen_picture = 0;  ///< of the gallery
 
   int map_radius = 1;            ///< index into kMapRadii
+  glm::dvec2 map_shift{};        ///< of the map's middle from the player: blocks east and south
   std::size_t chosen_place = 0;  ///< of MapFacts
   std::size_t named_place = 0;   ///< whose name the field holds
   Field<64> place_name{};
@@ -141,6 +143,8 @@ void show_screens(ScreenState& state, const ScreenFacts& facts, Wishes& wishes);
 /// Whether Escape, or its like on a gamepad, went down. A binding that waits for a gamepad's button
 /// takes that one, too.
 bool goes_back(const ScreenState& state, const platform::InputFrame& input);
+/// Moves the map, by no more than kMostMapShift from the player.
+void shift_map(ScreenState& state, glm::dvec2 blocks);
 /// Fills in which keys went down and up, as a binding that waits for one wants them.
 void take_keys(const ScreenState& state, const platform::InputFrame& input, ScreenFacts& facts);
 
@@ -154,9 +158,9 @@ std::string seed_from(std::uint64_t entropy);
 std::string ago(std::int64_t seconds);
 
 /// Blocks of the palette that a search finds, in the table's order: all words must occur in the
-/// name, in any case. No air.
+/// label or in the English one, in any case. No air.
 std::vector<world::BlockId> find_blocks(std::string_view search);
-/// "stone_mossy" as "Stone mossy".
+/// "stone_mossy" as "Mossy stone", in the player's language.
 std::string block_label(world::BlockId block);
 
 // One function a screen.

@@ -1,6 +1,7 @@
 // Tone curves and display: properties, and values that others have published.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/render/frame/display.h"
@@ -29,6 +30,47 @@ TEST(ToneCurves, OfGreyRiseAllTheWayAndStayWithinTheDisplay) {
     }
     EXPECT_GT(last, 0.98);
   }
+}
+
+/// Light of things that glow: lava and its crust, crystals and their dark parts, a flame from the
+/// rim to its core, each as the texels of one block have it.
+constexpr glm::dvec3 kGlowing[][2] = {{{0.9, 0.30, 0.06}, {0.45, 0.10, 0.02}},
+                                      {{0.45, 0.72, 0.92}, {0.22, 0.45, 0.75}},
+                                      {{0.60, 0.35, 0.90}, {0.30, 0.15, 0.60}},
+                                      {{1.0, 0.745, 0.254}, {0.64, 0.095, 0.014}}};
+
+TEST(ToneCurves, ShowTheShapeOfWhatIsFarBrighterThanWhite) {
+  const auto encoded = [](glm::dvec3 light) {
+    const glm::dvec3 c = tone_mapped(light, ToneCurve::kAces);
+    return glm::dvec3(render::srgb_encoded(c.x), render::srgb_encoded(c.y),
+                      render::srgb_encoded(c.z));
+  };
+  for (const auto& [bright, dark] : kGlowing)
+    for (double stops = 2.0; stops <= 14.0; stops += 0.25) {
+      const double light = std::exp2(stops);
+      const glm::dvec3 a = encoded(bright * light), b = encoded(dark * light);
+      // Its parts differ by 16 of 255 in a channel.
+      EXPECT_GT(std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}), 0.06)
+          << stops;
+      // And it is no white: its weakest channel stays a twentieth below its strongest.
+      for (const glm::dvec3& c : {a, b})
+        EXPECT_LT(std::min({c.x, c.y, c.z}), 0.95 * std::max({c.x, c.y, c.z})) << stops;
+    }
+}
+
+TEST(ToneCurves, OfAColourNeverDarkenAndKeepTheOrderOfItsChannels) {
+  for (const auto& pair : kGlowing)
+    for (const glm::dvec3& light : pair) {
+      double last = 0.0;
+      for (double stops = -10.0; stops < 24.0; stops += 0.02) {
+        const glm::dvec3 c = tone_mapped(light * std::exp2(stops), ToneCurve::kAces);
+        const double y = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+        ASSERT_GE(y, last - 1e-6) << stops;
+        ASSERT_LT(y, last + 0.01) << stops;  // no step where the brightest are drawn together
+        EXPECT_EQ(light.x > light.z, c.x > c.z) << stops;
+        last = y;
+      }
+    }
 }
 
 TEST(ToneCurves, KeepAnyColourWithinTheDisplay) {

@@ -40,7 +40,9 @@ key b
 # The map shows land, at every scale another picture: many colours in its square, and none before it opened.
 grab "$work/world.png"
 key m 1
-square() { grab "$work/now.png" && convert "$work/now.png" -crop 240x240+50+60 +repage "$1"; }
+differs() { [ "$(compare -metric AE -fuzz 10% "$1" "$2" null: 2>&1 || true)" -gt 2000 ]; }
+# The upper part of the map: messages lie over the lower one.
+square() { grab "$work/now.png" && convert "$work/now.png" -crop 240x160+50+60 +repage "$1"; }
 drawn() {
   square "$work/map.png"
   [ "$(convert "$work/map.png" -format '%k' info:)" -gt 300 ]
@@ -50,11 +52,17 @@ sleep 2
 square "$work/wide.png"
 key Up 0.3
 key Up 0.3  # some ImGui starts at the first button, some at the slider
-differs() { [ "$(compare -metric AE -fuzz 10% "$1" "$2" null: 2>&1 || true)" -gt 2000 ]; }
 cp "$work/now.png" "${SKERRY_KEEP:-$work}/map.png"
+# The keys that walk move it, and its own brings it back.
+xdotool keydown d; sleep 1; xdotool keyup d; sleep 1
+square "$work/moved.png"
+differs "$work/wide.png" "$work/moved.png" || fail "the map does not move"
+key m 1.5
+square "$work/back.png"
+differs "$work/wide.png" "$work/back.png" && fail "the map does not come back to the player"
 key Escape 1
 grab "$work/again.png"
-convert "$work/again.png" -crop 240x240+50+60 +repage "$work/closed.png"
+convert "$work/again.png" -crop 240x160+50+60 +repage "$work/closed.png"
 differs "$work/wide.png" "$work/closed.png" || fail "the map did not close"
 
 # Home, by its key; and back to the waypoint, by the map: the list begins with home, the ground stood on last, the waypoint.

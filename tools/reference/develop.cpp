@@ -12,7 +12,7 @@ namespace {
 /// ACES as S. Hill fits it (BakingLab, 2016): to the display transform's primaries, a rational
 /// curve for the reference and output transforms, and back. The curve's constant of -0.000090537 is
 /// left out, so that black stays black.
-glm::dvec3 aces(glm::dvec3 exposed) {
+glm::dvec3 aces_fit(glm::dvec3 exposed) {
   // Rows as published; glm takes columns, so vectors multiply from the left.
   constexpr glm::dmat3 kInput{0.59719, 0.35458, 0.04823, 0.07600, 0.90834,
                               0.01566, 0.02840, 0.13383, 0.83777};
@@ -21,6 +21,19 @@ glm::dvec3 aces(glm::dvec3 exposed) {
   const glm::dvec3 v = exposed * kInput;
   const glm::dvec3 curve = v * (v + 0.0245786) / (v * (0.983729 * v + 0.4329510) + 0.238081);
   return glm::clamp(curve * kOutput, 0.0, 1.0);
+}
+
+/// That fit, of light whose brightest channel is drawn together beyond 1.5, and which keeps most of
+/// its ratios there: docs/exposure.md.
+glm::dvec3 aces(glm::dvec3 exposed) {
+  constexpr double kBright = 1.5, kEnd = 12.0, kRatiosKept = 0.75;
+  const double b = std::max({exposed.x, exposed.y, exposed.z});
+  if (!(b > kBright)) return aces_fit(exposed);
+  const double y = b / kBright - 1.0;
+  const double u = 0.4 * y / (y + 2.88) + 0.6 * y / (y + 150.0), w = y / (y + 0.4);
+  const glm::dvec3 ratios = exposed / b;
+  const glm::dvec3 c = aces_fit(ratios * (kBright + (kEnd - kBright) * u));
+  return glm::mix(c, ratios * std::max({c.x, c.y, c.z}), kRatiosKept * w);
 }
 
 /// AgX's curve as T. Sobotka words it in his generator (AgX.py, 2022): a hyperbola scaled so that

@@ -248,7 +248,9 @@ Canvas paint_kelp() {
 
 Canvas paint_torch() {
   Canvas canvas = empty_canvas();
-  const Ramp post = ramp(hex(0x7b5b3e), 0.7f), iron = ramp(hex(0x54514f), 0.6f);
+  // Dark, as soot is: a block sends out light in proportion to its colours, and this is the part
+  // that should not glow.
+  const Ramp post = ramp(hex(0x38281b), 0.4f), iron = ramp(hex(0x2e2d2c), 0.4f);
   for (int y = 13; y < kEdge; ++y)
     for (int x = 14; x < 18; ++x) {
       const float grain =

@@ -93,7 +93,7 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     {"glass", kTranslucent, T::kGlass, T::kGlass, T::kGlass, 0.0f, 0.05f, {0.05f, 0.02f, 0.03f}},
     sided("planks", T::kPlanks, T::kPlanks, T::kPlanks, 0.8f),
     opaque("bricks", T::kBricks, 0.85f),
-    plant("torch", T::kTorch, 20.0f),
+    plant("torch", T::kTorch, 24.0f),
     opaque("lamp", T::kLamp, 0.5f, 8.0f),
 }};
 

@@ -8,16 +8,32 @@ layout(constant_id = kToneConstant) const uint kTone = 0u;  // render::ToneCurve
 // ACES, the fit of reference and output transforms by S. Hill (BakingLab), with its matrices from
 // and to linear Rec. 709. The fit's constant term of -0.00009 is left out, so that 0 gives 0,
 // darkness is not crushed, and the curve never falls. Result 0..1, linear.
-vec3 aces(vec3 exposed) {
+vec3 aces_fit(vec3 exposed) {
   vec3 v = vec3(dot(exposed, vec3(0.59719, 0.35458, 0.04823)),
                 dot(exposed, vec3(0.07600, 0.90834, 0.01566)),
                 dot(exposed, vec3(0.02840, 0.13383, 0.83777)));
-  v = min(v, 1e6);  // beyond, the quotient of squares would overflow
   v = v * (v + 0.0245786) / (v * (0.983729 * v + 0.4329510) + 0.238081);
   vec3 c =
       vec3(dot(v, vec3(1.60475, -0.53108, -0.07367)), dot(v, vec3(-0.10208, 1.10813, -0.00605)),
            dot(v, vec3(-0.00327, -0.07276, 1.07602)));
   return clamp(c, 0.0, 1.0);
+}
+
+// The fit sends all that is far brighter than white to white, flames and crystals at night without any shape. So the brightest channel, b,
+// is drawn together beyond kBright: b becomes kBright + 10.5 u, which begins with slope 1, still rises after ten stops and ends at 12; and of
+// the result 0.75 w takes the ratios of the channels that the light has. Up to kBright nothing changes, and luminance never falls as light
+// rises. Result 0..1, linear. docs/exposure.md has the formula.
+vec3 aces(vec3 exposed) {
+  const float kBright = 1.5;
+  vec3 e = min(exposed, 1e9);
+  float b = max(max(e.r, e.g), e.b);
+  float y = max(b / kBright - 1.0, 0.0), p = y + 2.88, q = y + 150.0, r = y + 0.4;
+  float pq = p * q, rb = r * b, share = 1.0 / (pq * rb);  // one division for all
+  float u = y * (0.4 * q + 0.6 * p) * rb * share, w = y * pq * b * share;
+  vec3 ratios = e * (pq * r * share);
+  bool bright = b > kBright;
+  vec3 c = aces_fit(bright ? ratios * (kBright + 10.5 * u) : e);
+  return bright ? mix(c, ratios * max(max(c.r, c.g), c.b), 0.75 * w) : c;
 }
 
 // AgX (T. Sobotka, 2022): primaries drawn together, log2 over 16.5 stops about middle grey, a sigmoid with its pivot at grey, slope 2 and

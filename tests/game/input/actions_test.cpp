@@ -9,6 +9,7 @@
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
 #include "game/input/controls.h"
+#include "game/words/words.h"
 #include "tests/folder.h"
 
 namespace skerry::game {
@@ -90,6 +91,25 @@ TEST(Actions, AGamepadsBackMakesChordsAsControlDoes) {
   const ActionFrame both = actions_of(input);
   EXPECT_TRUE(both.pressed(Action::kNoclip) && !both.pressed(Action::kFly));
   EXPECT_TRUE(both.down(Action::kForward));  // nothing is bound to Back and the stick
+}
+
+TEST(Actions, KeysAreNamedInThePlayersLanguageAndNoTwoAlike) {
+  EXPECT_EQ(chord_label({Key::kZ, true}), "Ctrl+Z");
+  EXPECT_EQ(chord_label({Key::kPadY, true}), "Back button+Y");
+  EXPECT_EQ(chord_label({}), "-");
+  for (std::size_t language = 0; language < kLanguages; ++language) {
+    speak(static_cast<Language>(language));
+    std::set<std::string> keys, buttons;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(Key::kCount); ++i) {
+      const Chord chord{static_cast<Key>(i)};
+      auto& labels = platform::is_pad(chord.key) ? buttons : keys;
+      EXPECT_TRUE(labels.insert(chord_label(chord)).second) << chord_label(chord);
+    }
+  }
+  speak(Language::kGerman);
+  EXPECT_EQ(chord_label({Key::kZ, true}), "Strg+Z");
+  EXPECT_EQ(chord_label({Key::kMouse5}), "Maus 5");
+  speak(Language::kEnglish);
 }
 
 TEST(Actions, ChordsAreOfOneDevice) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+#include <vector>
+
 namespace skerry::game {
 namespace {
 
@@ -36,6 +39,49 @@ TEST(Controls, AJumpTappedBetweenFramesStillJumps) {
   input.set_key(Key::kSpace, false);
   EXPECT_TRUE(intent_after(input).jump);
   EXPECT_FALSE(intent_after(input).jump);
+}
+
+class Air : public Surroundings {
+  void islands_near(world::WorldPos, double, double,
+                    std::vector<std::uint64_t>& out) const override {
+    out.clear();
+  }
+  std::optional<world::Pose> pose(std::uint64_t, double) const override { return std::nullopt; }
+  std::optional<world::BlockId> block(std::uint64_t, world::IVec3) const override {
+    return std::nullopt;
+  }
+};
+
+/// Blocks that a key moves a player who flies freely, in so many frames of so many seconds each.
+double moved_by(const std::vector<bool>& events, double seconds, int frames) {
+  const Air air;
+  Player player({}, 0.0, 0.0, 0.0);
+  player.set_mode(MoveMode::kNoclip);
+  Input input;
+  for (const bool down : events) input.set_key(Key::kW, down);
+  for (int i = 0; i < frames; ++i)
+    player.advance(seconds, intent_of(ActionFrame(input.take(), default_bindings(), seconds)), air);
+  return glm::length(world::difference_blocks(player.feet(), {}));
+}
+
+TEST(Controls, ATapBetweenTwoFramesMovesAsFarAsATenthOfASecondAtMost) {
+  const double tenth = 0.1 * moved_by({true}, 0.5, 20) / 10.0;  // at the speed that it gets to
+  ASSERT_GT(tenth, 0.1);
+  for (const double seconds : {0.1, 0.2, 0.5, 1.0}) {
+    const double tapped = moved_by({true, false}, seconds, 1);
+    EXPECT_GT(tapped, 0.3 * tenth) << seconds;
+    EXPECT_LT(tapped, 1.05 * tenth) << seconds;
+    EXPECT_GT(moved_by({true, false, true, false}, seconds, 1), tapped * 0.99) << seconds;
+  }
+  // Never more than the key held, and nothing of it is left for the next frame.
+  EXPECT_LE(moved_by({true, false}, 0.01, 1), moved_by({true}, 0.01, 1));
+  Input input;
+  for (const bool down : {true, false}) input.set_key(Key::kW, down);
+  const auto forward = [&] {
+    return ActionFrame(input.take(), default_bindings(), 0.4).value(Action::kForward);
+  };
+  EXPECT_DOUBLE_EQ(forward(), 0.25);
+  EXPECT_EQ(forward(), 0.0);
 }
 
 TEST(Controls, SprintAndCrouchByAPressStayOnUntilTheNext) {
@@ -145,16 +191,7 @@ TEST(Controls, ThePointerTurnsTheHeadTheWayItMoves) {
   const platform::InputFrame frame = input.take();
   const ActionFrame actions(frame, bindings);
   look(player, {&actions, &bindings, frame.mouse_delta, 0.01}, 70.0);
-  class Nothing : public Surroundings {
-    void islands_near(world::WorldPos, double, double,
-                      std::vector<std::uint64_t>& out) const override {
-      out.clear();
-    }
-    std::optional<world::Pose> pose(std::uint64_t, double) const override { return std::nullopt; }
-    std::optional<world::BlockId> block(std::uint64_t, world::IVec3) const override {
-      return std::nullopt;
-    }
-  } nothing;
+  const Air nothing;
   EXPECT_LT(player.eye(nothing).yaw_deg, 0.0);    // right of south is west: yaw falls
   EXPECT_LT(player.eye(nothing).pitch_deg, 0.0);  // down
 }

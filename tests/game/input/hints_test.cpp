@@ -30,7 +30,7 @@ TEST(Hints, ComeOneByOneAndGoOnceUsed) {
   EXPECT_EQ(line(), "Space: jump");
   press(hints, Key::kMouseLeft);  // before its turn
   press(hints, Key::kSpace);
-  EXPECT_EQ(line(), "Mouse right: place what is in the hand");
+  EXPECT_EQ(line(), "Right click: place what is in the hand");
   for (const Key key : {Key::kMouseRight, Key::kE, Key::kL, Key::kEscape}) press(hints, key);
   EXPECT_EQ(line(), "none");
 }
@@ -39,7 +39,7 @@ TEST(Hints, NameTheKeysThatAreBound) {
   Bindings bindings = default_bindings();
   bindings[Action::kForward].key = {Key::kUp};
   bindings[Action::kBack].key = {};
-  EXPECT_EQ(Hints().line(bindings, false), "Up, A, D: walk");
+  EXPECT_EQ(Hints().line(bindings, false), "Arrow up, A, D: walk");
   for (const Action action : {Action::kForward, Action::kLeft, Action::kRight})
     bindings[action].key = {};
   EXPECT_EQ(Hints().line(bindings, false), "Space: jump");  // one without a key is skipped

@@ -22,7 +22,7 @@ OverlayFacts some_facts() {
   static const std::vector<gpu::PassTime> passes{{"sky", 1.25}, {"shadow_sun", 0.5}};
   static const std::vector<OverlayFacts::Count> counts{{"quads", 123456}};
   static const std::vector<gpu::MemoryUse> memory(40, {"quads", 1000});
-  return {frames, lines, 1.75, passes, counts, memory, true, {}};
+  return {frames, lines, 1.75, passes, counts, memory, true, {}, {}};
 }
 
 ui::OverlayTriangles lay_out(ui::Gui& gui, const OverlayFacts& facts, std::uint32_t width,

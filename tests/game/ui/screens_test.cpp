@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <set>
+#include <tuple>
 
 #include "game/ui/gui.h"
 #include "game/ui/look.h"
@@ -170,6 +172,31 @@ TEST(Screens, TheMapAsksForThePlaceThatIsChosen) {
   sitting.wishes = {};
   sitting.tap(Key::kEnter);
   EXPECT_FALSE(sitting.wishes.map.travel);
+}
+
+TEST(Screens, TheMouseTakesTheMapAlongAndNoFartherThanItsBound) {
+  Sitting sitting(Screen::kMap);
+  sitting.settle();
+  const auto drag = [&](glm::dvec2 from, glm::dvec2 to) {
+    sitting.input.move_pointer(from);
+    sitting.frame();
+    sitting.input.set_key(Key::kMouseLeft, true);
+    sitting.frame();
+    for (int i = 1; i <= 4; ++i) {
+      sitting.input.move_pointer(glm::mix(from, to, i / 4.0));
+      sitting.frame();
+    }
+    sitting.input.set_key(Key::kMouseLeft, false);
+    sitting.frame();
+  };
+  drag({400.0, 400.0}, {340.0, 430.0});  // to the left and down: the view goes east and north
+  EXPECT_GT(sitting.state.map_shift.x, 20.0);
+  EXPECT_NEAR(sitting.state.map_shift.y, -0.5 * sitting.state.map_shift.x, 1e-3);
+  const glm::dvec2 before = sitting.state.map_shift;
+  drag({1000.0, 400.0}, {900.0, 400.0});  // beside the map
+  EXPECT_EQ(sitting.state.map_shift, before);
+  shift_map(sitting.state, {1e9, -1e9});
+  EXPECT_EQ(sitting.state.map_shift, glm::dvec2(kMostMapShift, -kMostMapShift));
 }
 
 TEST(Screens, TheGalleryEntersThePictureThatIsChosenUnlessItLeadsNowhere) {
@@ -627,6 +654,28 @@ TEST(Palette, FindsBlocksByAllWordsInAnyCase) {
   for (const world::BlockId block : find_blocks("leaves oak"))
     EXPECT_EQ(block, world::block::kOakLeaves);
   EXPECT_TRUE(find_blocks("no such thing").empty());
+}
+
+TEST(Palette, FindsBlocksInThePlayersLanguageAndInEnglish) {
+  using world::block::kBlossomLeaves, world::block::kMud, world::block::kIce;
+  const std::tuple<Language, const char*, world::BlockId> searches[] = {
+      {Language::kGerman, "SCHLAMM", kMud},
+      {Language::kGerman, "BLÜTEN", kBlossomLeaves},
+      {Language::kRussian, "ЛЁД", kIce},
+      {Language::kJapanese, "花の", kBlossomLeaves},
+      {Language::kFrench, "BLOSSOM", kBlossomLeaves}};
+  for (const auto& [language, typed, block] : searches) {
+    speak(language);
+    EXPECT_EQ(find_blocks(typed), std::vector<world::BlockId>{block}) << typed;
+  }
+  // Two blocks that look alike in a list could not be told apart.
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    speak(static_cast<Language>(i));
+    std::set<std::string> labels;
+    for (world::BlockId block = 0; block < world::block::kBuiltInCount; ++block)
+      EXPECT_TRUE(labels.insert(block_label(block)).second) << block_label(block);
+  }
+  speak(Language::kEnglish);
 }
 
 TEST(Palette, EnterTakesTheFirstThatWasFound) {
