@@ -6,6 +6,7 @@
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
@@ -40,6 +41,18 @@ std::size_t allowed_parallelism(int threads) {
   return static_cast<std::size_t>(threads) + 1;
 }
 
+/// How many threads a Jobs has that is asked for so many. TBB lets no arena have more workers than
+/// the least that any control allows, and warns on stderr when one is asked for more.
+int threads_for(int asked, bool others_live) {
+  const int wanted = asked > 0 ? asked : tbb::info::default_concurrency();
+  if (!others_live) return wanted;
+  const std::size_t allowed =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::min(wanted, static_cast<int>(allowed) - 1);
+}
+
+std::atomic<int> living{0};
+
 }  // namespace
 
 struct Jobs::Impl {
@@ -59,13 +72,14 @@ struct Jobs::Impl {
   long pending = 0;  // jobs submitted and not ended; guarded by mutex
 };
 
-Jobs::Jobs(int threads) : threads_(threads > 0 ? threads : tbb::info::default_concurrency()) {
+Jobs::Jobs(int threads) : threads_(threads_for(threads, living++ > 0)) {
   impl_ = new Impl(threads_);
 }
 
 Jobs::~Jobs() {
   wait();
   delete impl_;
+  --living;
 }
 
 void Jobs::submit(std::function<void()> job) {

@@ -80,6 +80,19 @@ TEST(Jobs, TheDestructorFinishesWhatWasSubmitted) {
   EXPECT_EQ(done, 100);
 }
 
+TEST(Jobs, OneBesideAnotherHasNoMoreThreadsAndTbbSaysNothing) {
+  const Jobs outer(2);
+  testing::internal::CaptureStderr();
+  std::atomic<int> done = 0;
+  {
+    Jobs inner(64);
+    EXPECT_EQ(inner.threads(), 2);
+    inner.parallel_for(100, [&](int) { ++done; });
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(done, 100);
+}
+
 TEST(Jobs, ParallelForOfNothingReturns) {
   Jobs jobs(1);
   jobs.parallel_for(0, [](int) { FAIL(); });

@@ -5,6 +5,7 @@
 
 #include "engine/render/light/lights.h"
 #include "game/view/materials.h"
+#include "tools/measure/color.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
 
@@ -29,7 +30,17 @@ render::FrameInput input_of(std::span<const render::IslandPlacement> islands) {
   return in;
 }
 
-/// How often a brighter light makes a channel darker, and what is not finite on the way.
+/// Of a pixel of a picture, as 8 bits would encode it.
+double luminance_of(const std::uint8_t* rgba) {
+  const auto& linear = measure::linear_of_bytes();
+  const glm::dvec3 colour{linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]};
+  return 255.0 * measure::srgb_from_linear(measure::luminance(colour));
+}
+
+/// How often a brighter light makes a channel of radiance or a pixel's luminance darker, and what
+/// is not finite on the way. A channel of the picture may fall, as what is brighter than white
+/// takes its colour (docs/exposure.md); luminance may by one step, where that channel alone is
+/// rounded.
 struct Course {
   double falls = 0.0, non_finite = 0.0;
   double rises = 0.0;  ///< channels of radiance that were made brighter: what must not be none
@@ -44,7 +55,8 @@ struct Course {
         // By more than half: a decade brighter, and no longer lost in what else is there.
         rises += frame.radiance[i][c] > 1.5f * last[i][c];
       }
-    for (std::size_t i = 0; i < last_picture.size(); ++i) falls += frame.rgba[i] < last_picture[i];
+    for (std::size_t i = 0; i < last_picture.size(); i += 4)
+      falls += luminance_of(&frame.rgba[i]) < luminance_of(&last_picture[i]) - 1.0;
     last = frame.radiance;
     last_picture = frame.rgba;
   }

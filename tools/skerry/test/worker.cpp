@@ -45,9 +45,8 @@ class Artist {
     const Result<Hashes> approved = read_hashes(hash_file(scene.approved(driver_), driver_));
     if (!approved) return {failed_row(scene, approved.error().message), {}, false};
     game::SceneOptions options = scene.scene;
-    // TBB warns when a single thread is asked for; two of two processes on two cores do no harm.
     if (options.settings.jobs_threads == 0)
-      options.settings.jobs_threads = static_cast<std::uint32_t>(std::max(threads_, 2));
+      options.settings.jobs_threads = static_cast<std::uint32_t>(threads_);
     Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device_, options);
     if (!drawer) return {failed_row(scene, drawer.error().message), {}, false};
     Result<Drawn> drawn = (*drawer)->draw();
