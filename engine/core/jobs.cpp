@@ -48,7 +48,7 @@ int threads_for(int asked, bool others_live) {
   if (!others_live) return wanted;
   const std::size_t allowed =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return std::min(wanted, static_cast<int>(allowed) - 1);
+  return std::clamp(static_cast<int>(allowed) - 1, 1, wanted);
 }
 
 std::atomic<int> living{0};

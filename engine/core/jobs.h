@@ -6,8 +6,8 @@ namespace skerry {
 /// Worker threads for everything that may run beside the frame. Wraps one TBB arena.
 class Jobs {
  public:
-  /// @param threads 1.. ; 0 takes one a core. While another one lives, no more than that has: TBB
-  /// limits the workers of a process.
+  /// @param threads 1.. ; 0 takes one a core. While others live, no more than the least of
+  /// them has: TBB limits the workers of a process.
   explicit Jobs(int threads = 0);
   ~Jobs();
   Jobs(const Jobs&) = delete;

@@ -24,7 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kBlock = 512;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;  // of a file
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;        // of a file
+constexpr std::uint64_t kMostHeaderBytes = std::uint64_t{1} << 16;  // of a pax or GNU header
+constexpr std::size_t kMostName = 4096;
 
 /// A header's block.
 struct Header {
@@ -59,7 +61,7 @@ std::optional<std::uint64_t> number_of(const char (&field)[N]) {
 template <std::size_t N>
 void set_number(char (&field)[N], std::uint64_t value) {
   const std::string text = fmt::format("{:0{}o}", value, N - 1);
-  std::copy_n(text.begin(), N, field);  // with its zero byte
+  std::copy_n(text.c_str(), N, field);  // with its zero byte
 }
 
 /// Of the header's bytes, the sum's own taken as spaces.
@@ -70,9 +72,15 @@ std::uint64_t sum_of(Header header) {
   return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
 }
 
-/// The path of a pax header: records of "LENGTH KEY=VALUE\n". None: there is none.
-std::optional<std::string> pax_path(std::string_view records) {
+/// What a pax header says of the file behind it.
+struct PaxFacts {
   std::optional<std::string> path;
+  bool other_size = false;  // than the file's own header states, as of sparse files
+};
+
+/// Of records of "LENGTH KEY=VALUE\n". None: they are damaged.
+std::optional<PaxFacts> pax_facts(std::string_view records) {
+  PaxFacts facts;
   while (!records.empty()) {
     const std::size_t space = records.find(' ');
     if (space == std::string_view::npos || space == 0 || space > 9) return std::nullopt;
@@ -83,15 +91,17 @@ std::optional<std::string> pax_path(std::string_view records) {
     }
     if (length <= space + 1 || length > records.size()) return std::nullopt;
     const std::string_view record = records.substr(space + 1, length - space - 2);
-    if (record.starts_with("path=")) path = std::string(record.substr(5));
+    if (record.starts_with("path=")) facts.path = std::string(record.substr(5));
+    facts.other_size |= record.starts_with("size=") || record.starts_with("GNU.sparse.");
     records.remove_prefix(length);
   }
-  return path;
+  return facts;
 }
 
-/// A name below a folder. None: it leads elsewhere, or to the folder itself.
+/// A name below a folder. None: it is too long, or leads elsewhere or to the folder itself.
 std::optional<fs::path> inside(std::string_view name) {
-  if (name.starts_with('/') || name.find('\0') != std::string_view::npos) return std::nullopt;
+  if (name.size() > kMostName || name.starts_with('/') || name.find('\0') != std::string_view::npos)
+    return std::nullopt;
   fs::path path;
   while (!name.empty()) {
     const std::size_t end = std::min(name.find('/'), name.size());
@@ -136,6 +146,8 @@ class Unpacking {
     const std::optional<std::uint64_t> size = number_of(header.size);
     if (!size || number_of(header.sum) != sum_of(header)) return failed("it is damaged, or no tar");
     if (*size > kMostBytes) return failed("it has a file of more than 256 MiB");
+    const bool names = header.type == 'x' || header.type == 'L' || header.type == 'g';
+    if (names && *size > kMostHeaderBytes) return failed("a header in it is longer than 64 KiB");
     if (*size > bytes_left()) return failed("it is cut short");  // before memory is taken
     std::string content(*size, '\0');
     in_.read(content.data(), static_cast<std::streamsize>(*size));
@@ -143,8 +155,7 @@ class Unpacking {
     if (!in_) return failed("it is cut short");
     switch (header.type) {
       case 'x':
-        next_name_ = pax_path(content);
-        return {};
+        return take_pax(content);
       case 'L':  // GNU
         next_name_ = content.substr(0, content.find('\0'));
         return {};
@@ -161,6 +172,14 @@ class Unpacking {
     }
   }
 
+  Result<void> take_pax(const std::string& records) {
+    std::optional<PaxFacts> facts = pax_facts(records);
+    if (!facts) return failed("it is damaged");
+    if (facts->other_size) return failed("it holds a sparse file, or one of more than 8 GiB");
+    next_name_ = std::move(facts->path);
+    return {};
+  }
+
   std::string name_of(const Header& header) {
     if (next_name_) return *std::exchange(next_name_, std::nullopt);
     const std::string name(text_of(header.name));
@@ -171,7 +190,7 @@ class Unpacking {
 
   Result<void> write(const std::string& name, const std::string& content) const {
     const std::optional<fs::path> path = inside(name);
-    if (!path) return failed("a name in it leads elsewhere");
+    if (!path) return failed("a name in it is too long or leads elsewhere");
     if (Result<void> made = make_dirs((into_ / *path).parent_path()); !made) return made;
     return write_text(into_ / *path, content);
   }

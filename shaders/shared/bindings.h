@@ -93,7 +93,7 @@ SHARED_CONST uint kIndirectBinding = 69u;  // texels of shared/indirect.h
 
 // Light at fewer pixels than are drawn.
 SHARED_CONST uint kSamplesBinding = 70u;       // of light, at the points of a grid
-SHARED_CONST uint kListedBinding = 71u;        // TileDispatch of the pixels that are listed
+SHARED_CONST uint kListedBinding = 71u;        // TileDispatch[2], see choose_samples.comp
 SHARED_CONST uint kListedPixelsBinding = 72u;  // x in bits 0-15, y in bits 16-31
 
 // Past walls: LightReach[].

@@ -55,7 +55,7 @@ struct Slots {
   uint lit;
 };
 
-// Room for pixels of each invocation, fewer than 2^10. Every invocation calls it once.
+// Room for pixels of each invocation, at most 511: 128 lanes sum to 16 bits. Every invocation calls it once.
 Slots first_slots(uint unlit, uint lit) {
   uint counts = unlit | (lit << 16);  // both sums at once
   uint before = subgroupExclusiveAdd(counts), all = subgroupAdd(counts);

@@ -99,6 +99,19 @@ TEST_F(Tar, NothingLeadsOutOfTheFolder) {
   EXPECT_TRUE(files_below(to()).empty());
 }
 
+TEST_F(Tar, SparseFilesAndDamagedLongNamesAreRefused) {
+  ASSERT_TRUE(run("truncate -s 1M from/hole && printf x >> from/hole"));
+  ASSERT_TRUE(run("tar -C from --format=pax --sparse -cf archive.tar hole"));
+  expect_refused("sparse");
+  ASSERT_TRUE(run("tar -C from --format=pax -cf archive.tar driver"));
+  std::string bytes = *read_text(archive(), 1 << 20);
+  const std::size_t path = bytes.find(" path=");
+  ASSERT_NE(path, std::string::npos);
+  bytes[path - 1] = 'z';  // of the record's length, which no sum covers
+  ASSERT_TRUE(write_text(archive(), bytes));
+  expect_refused("damaged");
+}
+
 TEST_F(Tar, DamageIsSaidAndNamesThatAreTooLongAsWell) {
   ASSERT_TRUE(pack_tar(from(), archive()));
   const std::string whole = *read_text(archive(), 1 << 20);

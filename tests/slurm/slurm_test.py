@@ -78,7 +78,7 @@ def job_of(process):
     except OSError:
         return None
     of = dict(line.split("=", 1) for line in lines if "=" in line)
-    if "SLURMD_NODENAME" not in of:
+    if "SLURMD_NODENAME" not in of or "SLURM_ARRAY_TASK_ID" not in of:
         return None
     return of["SLURMD_NODENAME"], f"{of['SLURM_ARRAY_JOB_ID']}_{of['SLURM_ARRAY_TASK_ID']}"
 

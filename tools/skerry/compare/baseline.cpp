@@ -1,6 +1,7 @@
 #include "tools/skerry/compare/baseline.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <system_error>
 
@@ -20,8 +21,11 @@ Result<Baseline> Baseline::open(const fs::path& path, bool make) {
     return Error{fmt::format("there is no {} {}: --baseline needs one that --approve made",
                              archive ? "archive" : "folder", quoted_path(path))};
   if (!archive) return Baseline(path, std::nullopt);
-  Result<Draft> draft =
-      Draft::create(fs::temp_directory_path(code) / "skerry_baseline", Draft::What::kFolder);
+  const fs::path temporary = fs::temp_directory_path(code);
+  if (code) return Error{fmt::format("cannot unpack {}: {}", quoted_path(path), code.message())};
+  // Of this process alone: others may unpack theirs at the same time.
+  Result<Draft> draft = Draft::create(temporary / fmt::format("skerry_baseline_{}", ::getpid()),
+                                      Draft::What::kFolder);
   if (!draft)
     return Error{fmt::format("cannot unpack {}: {}", quoted_path(path), draft.error().message)};
   if (Result<void> made = platform::make_dirs(draft->path()); !made) return made.error();
