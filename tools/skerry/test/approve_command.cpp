@@ -53,13 +53,20 @@ int ApproveCommand::run() const {
   if (const auto refusal = read_scenes(baseline, scenes)) return refuse(*refusal);
   const Result<std::vector<Approval>> approvals = check_decisions(*decisions, report_, scenes);
   if (!approvals) return fail(kFailed, approvals.error());
+  std::vector<std::string> lines;
+  std::optional<Error> failure;
   for (const Approval& approval : *approvals) {
     const Result<std::string> done = apply(approval);
-    if (!done) return fail(kFailed, done.error());
-    fmt::print("approved: {}: {}\n", one_line(approval.scene.name), one_line(*done));
+    if (!done) failure = done.error();
+    if (!done) break;
+    lines.push_back(
+        fmt::format("approved: {}: {}\n", one_line(approval.scene.name), one_line(*done)));
   }
-  if (baseline)
+  // An archive keeps what was approved before another one failed, as a folder does.
+  if (baseline && !lines.empty())
     if (const Result<void> saved = baseline->save(); !saved) return fail(kFailed, saved.error());
+  for (const std::string& line : lines) fmt::print("{}", line);
+  if (failure) return fail(kFailed, *failure);
   for (const Decision& decision : *decisions)
     if (!decision.approve) fmt::print("rejected: {}\n", one_line(decision.scene));
   return kDone;
