@@ -143,11 +143,10 @@ void ClusteredLights::declare_counts(gpu::PassBuilder& builder) const {
 }
 
 void ClusteredLights::declare(gpu::PassBuilder& builder) const {
-  builder.read(grid, Use::kComputeRead);
-  builder.read(lights, Use::kComputeRead);
+  declare_counts(builder);
   builder.read(reaches, Use::kComputeRead);
   if (oracle) return;
-  builder.read(clusters, Use::kComputeRead);
+  builder.read(lights, Use::kComputeRead);
   builder.read(entries, Use::kComputeRead);
 }
 

@@ -56,20 +56,18 @@ struct ClusteredLights {
   /// For a frame without lights: buffers that are never read.
   static ClusteredLights none(const SceneRefs& scene);
   std::vector<gpu::SpecConstant> with_lights(std::vector<gpu::SpecConstant> own) const;
-  void declare(gpu::PassBuilder& builder) const;
-  auto bindings() const {
-    // The oracle reads no lists; its lights are bound in their place so that every binding is
-    // valid.
-    return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
-                      gpu::storage<shared::kLightsBinding>(lights),
-                      gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters),
-                      gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
-  }
   /// Of a pass that asks only how many lights a cluster has.
   void declare_counts(gpu::PassBuilder& builder) const;
   auto count_bindings() const {
+    // The oracle reads no lists; its lights are bound in their place so that every binding is
+    // valid.
     return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
                       gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters)};
+  }
+  void declare(gpu::PassBuilder& builder) const;
+  auto bindings() const {
+    return std::tuple{count_bindings(), gpu::storage<shared::kLightsBinding>(lights),
+                      gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
   }
   /// Of a pass that includes shaders/include/light/blocked_lights.glsl, beside bindings().
   auto reach_binding() const { return gpu::storage<shared::kLightReachBinding>(reaches); }
