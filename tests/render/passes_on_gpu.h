@@ -158,8 +158,9 @@ class PassesOnGpu : public gpu::GpuTest {
   }
 
   struct DrawnMaps {
-    std::vector<bool> redrawn;  ///< a cascade
-    std::vector<float> texels;  ///< of all layers
+    std::vector<bool> redrawn;    ///< a cascade
+    std::vector<VkRect2D> areas;  ///< of each, what was drawn of it
+    std::vector<float> texels;    ///< of all layers
   };
   /// Brings the shadow maps up to date and reads all of them.
   DrawnMaps shadow_maps(const FrameInput& input, const RenderSettings& settings) {
@@ -168,8 +169,10 @@ class PassesOnGpu : public gpu::GpuTest {
     std::vector<ShadowDraw> redraw;
     for (const ActiveCascade& c : cascades) {
       out.redrawn.push_back(c.redraw);
+      out.areas.push_back(c.area);
       if (c.redraw)
-        redraw.push_back({static_cast<std::uint32_t>(redraw.size()) + 1, c.layer, "draw_shadow"});
+        redraw.push_back(
+            {static_cast<std::uint32_t>(redraw.size()) + 1, c.layer, "draw_shadow", false, c.area});
     }
     constexpr VkExtent2D kSize{8, 8};
     const FrameTables tables = build_tables(input, settings, kSize, cascades);

@@ -83,7 +83,8 @@ class PassBuilder {
   /// extent, or what area() says.
   [[nodiscard]] ImageRef color(ImageRef image, Load load);
   [[nodiscard]] ImageRef depth(ImageRef image, Load load, std::uint32_t layer = 0);
-  /// Part of the attachments that the pass clears and draws to; nothing is kept outside of it.
+  /// Part of the attachments that the pass clears and draws to. Outside of it, images that live on
+  /// keep what they hold; those of the frame hold nothing.
   /// @param area not empty, within the images.
   void area(VkRect2D area);
   /// The pass runs even when no pass reads what it writes.

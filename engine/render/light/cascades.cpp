@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 
 #include "engine/core/check.h"
 #include "engine/render/frame/celestial.h"
@@ -137,6 +138,22 @@ Cascade make_cascade(const CascadeInput& in, const std::array<glm::dvec3, 3>& ax
 }
 
 }  // namespace
+
+std::array<glm::vec4, 6> planes_about(const Cascade& cascade, const VkRect2D& part) {
+  std::array<glm::vec4, 6> planes = cascade.planes;
+  const float texel = 2.0f / static_cast<float>(cascade.key.map_size);  // in clip coordinates
+  const std::array<int, 2> first{part.offset.x, part.offset.y};
+  const std::array<std::uint32_t, 2> count{part.extent.width, part.extent.height};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const glm::vec4 row = glm::row(cascade.clip_from_world, static_cast<int>(i));
+    const float low = texel * static_cast<float>(first[i] - 1) - 1.0f;
+    const float high = low + texel * static_cast<float>(count[i] + 2);
+    const float length = glm::length(glm::vec3(row));
+    planes[2 * i] = glm::vec4(glm::vec3(row), row.w - low) / length;
+    planes[2 * i + 1] = glm::vec4(-glm::vec3(row), high - row.w) / length;
+  }
+  return planes;
+}
 
 std::vector<double> cascade_radii(double near_blocks, double far_blocks, int count, double split) {
   // F. Zhang et al., Parallel-Split Shadow Maps for Large-Scale Virtual Environments, VRCIA 2006.

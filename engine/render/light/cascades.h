@@ -1,4 +1,5 @@
 #pragma once
+#include <volk.h>
 #include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -60,6 +61,10 @@ struct Cascade {
   std::array<glm::vec4, 6> planes{};
   CascadeKey key;
 };
+
+/// The planes of a part of the map, in the order of Cascade::planes, a texel outside of it: what
+/// can show in the part is inside. @param part texels, within the map.
+std::array<glm::vec4, 6> planes_about(const Cascade& cascade, const VkRect2D& part);
 
 /// Radii of the cascades [blocks]: the practical split (Zhang 2006) between near and far; the last
 /// is far exactly. @param split lambda: 0 evenly spaced .. 1 each a constant multiple of the last.

@@ -50,6 +50,7 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
             b.read(scene.block_textures, Use::kFragmentRead);
           }
           maps = b.depth(maps, gpu::Load::cleared({}), cascade.layer);
+          b.area(cascade.area);
         },
         [scene, draws, view = cascade.view, opaque_program, cutout_program](gpu::Commands& c) {
           gpu::bind(c, opaque_program, draw_bindings(scene, draws, view));

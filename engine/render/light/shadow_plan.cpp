@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <limits>
+#include <optional>
 
 #include "engine/render/frame/frame_choices.h"
 
@@ -26,26 +29,81 @@ double movement(const IslandPlacement& a, const FixedPos& anchor_a, const Island
   return glm::length(shift) + 4.0 * quarter * std::max(a.bounding_radius, b.bounding_radius);
 }
 
-/// Whether a section may show in a cascade's map. Errs on the side of yes.
-bool may_touch(const shared::Section& section, const IslandPlacement& island,
-               const FixedPos& camera, const Cascade& cascade) {
+/// Camera-relative ball [blocks].
+struct Ball {
+  glm::dvec3 middle{};
+  double radius = 0.0;
+};
+
+glm::dvec3 from_camera(const FixedPos& place, const FixedPos& camera) {
+  glm::dvec3 out;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out[i] = static_cast<double>(place[k] - camera[k]) / 65536.0;
+  }
+  return out;
+}
+
+/// Texels of a map, [low, high) along each axis.
+struct TexelBox {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return !(low.x < high.x && low.y < high.y); }
+  /// Adds where a box of half extents `half` along `axes` about `middle` can show. Errs on the side
+  /// of more: by what rounding, the growth of edges and a quarter texel of motion come to.
+  void add(const Cascade& cascade, const glm::dvec3& middle, const glm::dmat3& axes,
+           const glm::dvec3& half) {
+    constexpr double kSpareTexels = 2.0;
+    const double size = cascade.key.map_size;
+    const double spare =
+        kSpareTexels + 1e-5 * glm::length(middle) / static_cast<double>(cascade.texel_blocks);
+    for (int i = 0; i < 2; ++i) {
+      const glm::dvec4 row = glm::row(glm::dmat4(cascade.clip_from_world), i);
+      const glm::dvec3 along(row);
+      const double at = 0.5 * size * (glm::dot(along, middle) + row.w + 1.0);
+      double reach = 0.0;
+      for (int axis = 0; axis < 3; ++axis)
+        reach += std::abs(glm::dot(along, axes[axis])) * half[axis];
+      reach = 0.5 * size * reach + spare;
+      low[i] = std::min(low[i], std::max(0.0, std::floor(at - reach)));
+      high[i] = std::max(high[i], std::min(size, std::ceil(at + reach)));
+    }
+  }
+};
+
+/// Whether what lies in a ball may show in a cascade's map. Errs on the side of yes.
+bool may_touch(const Ball& ball, const Cascade& cascade) {
+  // What rounding and a quarter texel of the island's motion can add.
+  const double radius =
+      ball.radius + static_cast<double>(cascade.texel_blocks) + 1e-5 * glm::length(ball.middle);
+  return std::ranges::all_of(cascade.planes, [&](const glm::vec4& plane) {
+    return glm::dot(glm::dvec3(plane), ball.middle) + static_cast<double>(plane.w) >= -radius;
+  });
+}
+
+/// Adds the texels that a section may show in.
+void add_section(TexelBox& box, const shared::Section& section, const IslandPlacement& island,
+                 const FixedPos& camera, const Cascade& cascade) {
   const auto corner = [&](std::uint32_t packed) {
     const glm::dvec3 voxels(packed & 127, packed >> 7 & 127, packed >> 14 & 127);
     return glm::dvec3(section.origin) +
            std::ldexp(1.0, static_cast<int>(section.voxel_size_log2)) * voxels;
   };
   const glm::dvec3 low = corner(section.bounds_min), high = corner(section.bounds_max);
-  glm::dvec3 middle = island.rotation * (0.5 * (low + high));
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    middle[i] += static_cast<double>(island.origin[k] - camera[k]) / 65536.0;
-  }
-  // What rounding and a quarter texel of the island's motion can add.
-  const double slack = static_cast<double>(cascade.texel_blocks) + 1e-5 * glm::length(middle);
-  const double radius = 0.5 * glm::length(high - low) + slack;
-  return std::ranges::all_of(cascade.planes, [&](const glm::vec4& plane) {
-    return glm::dot(glm::dvec3(plane), middle) + static_cast<double>(plane.w) >= -radius;
-  });
+  const glm::dvec3 half = 0.5 * (high - low);
+  const glm::dvec3 middle =
+      island.rotation * (0.5 * (low + high)) + from_camera(island.origin, camera);
+  if (may_touch({middle, glm::length(half)}, cascade))
+    box.add(cascade, middle, glm::mat3_cast(island.rotation), half);
+}
+
+/// Adds the texels that an island may show in.
+void add_island(TexelBox& box, const IslandPlacement& island, const FixedPos& camera,
+                const Cascade& cascade) {
+  const Ball ball{from_camera(island.origin, camera), island.bounding_radius};
+  if (may_touch(ball, cascade))
+    box.add(cascade, ball.middle, glm::dmat3(1.0), glm::dvec3(ball.radius));
 }
 
 /// Casters further than this above a cascade are flattened onto the map's near side by depth
@@ -54,24 +112,47 @@ double caster_reach(const FrameInput& input) {
   return 2.0 * input.reach_blocks + 512.0;
 }
 
-/// Whether a kept map shows what `cascade` asks for. Notes, in `kept`, changes that do not touch
-/// it.
-bool still_right(ShadowHistory::Kept& kept, const Cascade& cascade, const FrameInput& input,
-                 const GeometryChanges& geometry) {
-  if (!kept.valid || kept.key != cascade.key || kept.islands.size() != input.islands.size())
-    return false;
-  for (std::size_t i = 0; i < input.islands.size(); ++i)
-    if (movement(kept.islands[i], kept.anchor, input.islands[i], input.anchor) >
-        0.25 * static_cast<double>(cascade.texel_blocks))
-      return false;
+/// The texels in which a kept map does not show what `cascade` asks for; none if it is of no use.
+/// Notes in `kept` what it shows once these have been drawn.
+std::optional<TexelBox> outdated(ShadowHistory::Kept& kept, const Cascade& cascade,
+                                 const FrameInput& input, const GeometryChanges& geometry) {
+  if (!kept.valid || kept.key != cascade.key || kept.islands.size() > input.islands.size())
+    return std::nullopt;
   const auto changed = geometry.since(kept.geometry_version);
-  if (!changed) return false;
-  for (const shared::Section& section : *changed)
-    if (section.island >= input.islands.size() ||
-        may_touch(section, input.islands[section.island], input.camera.position, cascade))
-      return false;
+  if (!changed) return std::nullopt;
+  const FixedPos& camera = input.camera.position;
+  // To places from the anchor that the map was drawn with.
+  const auto rebased = [](IslandPlacement island, const FixedPos& from, const FixedPos& to) {
+    for (std::size_t i = 0; i < 3; ++i) island.origin[i] += to[i] - from[i];
+    return island;
+  };
+  TexelBox box;
+  for (std::size_t i = 0; i < input.islands.size(); ++i) {
+    const IslandPlacement& now = input.islands[i];
+    // What has come of a new island stands among the changes.
+    if (i == kept.islands.size()) {
+      kept.islands.push_back(rebased(now, input.anchor, kept.anchor));
+      continue;
+    }
+    if (movement(kept.islands[i], kept.anchor, now, input.anchor) <=
+        0.25 * static_cast<double>(cascade.texel_blocks))
+      continue;
+    add_island(box, rebased(kept.islands[i], kept.anchor, input.anchor), camera, cascade);
+    add_island(box, now, camera, cascade);
+    kept.islands[i] = rebased(now, input.anchor, kept.anchor);
+  }
+  for (const shared::Section& section : *changed) {
+    if (section.island >= input.islands.size()) return std::nullopt;
+    add_section(box, section, input.islands[section.island], camera, cascade);
+  }
   kept.geometry_version = geometry.version();
-  return true;
+  return box;
+}
+
+VkRect2D rect_of(const TexelBox& box) {
+  const glm::ivec2 low(box.low), high(box.high);
+  return {{low.x, low.y},
+          {static_cast<std::uint32_t>(high.x - low.x), static_cast<std::uint32_t>(high.y - low.y)}};
 }
 
 CascadeInput cascade_input(const FrameInput& input, const RenderSettings& settings, int body) {
@@ -117,14 +198,19 @@ ShadowPlan plan_shadows(const FrameInput& input, const RenderSettings& settings,
     int index = 0;
     for (const Cascade& cascade : make_cascades(cascade_input(input, settings, body))) {
       ShadowHistory::Kept& kept = plan.next.kept[layer];
-      const bool redraw = !still_right(kept, cascade, input, geometry);
-      if (redraw)
-        kept = {true,
-                cascade.key,
-                geometry.version(),
-                {input.islands.begin(), input.islands.end()},
-                input.anchor};
-      plan.cascades.push_back({body, index++, layer++, redraw, cascade});
+      const std::optional<TexelBox> box = outdated(kept, cascade, input, geometry);
+      if (box) {
+        const VkRect2D area = box->empty() ? VkRect2D{} : rect_of(*box);
+        plan.cascades.push_back({body, index++, layer++, !box->empty(), area, cascade});
+        continue;
+      }
+      kept = {true,
+              cascade.key,
+              geometry.version(),
+              {input.islands.begin(), input.islands.end()},
+              input.anchor};
+      const VkRect2D whole{{0, 0}, {plan.layout.edge, plan.layout.edge}};
+      plan.cascades.push_back({body, index++, layer++, true, whole, cascade});
     }
   }
   return plan;

@@ -24,6 +24,7 @@ struct ActiveCascade {
   int index = 0;            ///< in its body
   std::uint32_t layer = 0;  ///< of the map array, and index in FrameConstants::cascades
   bool redraw = false;      ///< false: the kept map still shows the same
+  VkRect2D area{};          ///< texels to draw if so; outside of them the kept map is right
   Cascade cascade;
 };
 
@@ -48,8 +49,9 @@ struct ShadowPlan {
 };
 
 /// Decides a frame's cascades and which of the kept maps still show what they should. Bodies below
-/// the horizon have none. A map is kept while its window, its light, the geometry in the window and
-/// the islands stay: islands may have moved by a quarter of a texel.
+/// the horizon have none. A map is kept while its window and its light stay: islands may have moved
+/// by a quarter of a texel. Where sections came or went, or islands moved further, only the texels
+/// that these can show in are drawn again.
 /// @param generation of the array that exists now. A function of its arguments alone.
 ShadowPlan plan_shadows(const FrameInput& input, const RenderSettings& settings,
                         const GeometryChanges& geometry, const ShadowHistory& history,

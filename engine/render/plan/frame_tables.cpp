@@ -97,8 +97,8 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
     f.cascades[active.layer] = shader_cascade(active, settings.shadow_size);
     if (!active.redraw) continue;
     shared::CullView light{};
-    for (std::size_t i = 0; i < active.cascade.planes.size(); ++i)
-      light.planes[i] = active.cascade.planes[i];
+    const std::array<glm::vec4, 6> planes = planes_about(active.cascade, active.area);
+    for (std::size_t i = 0; i < planes.size(); ++i) light.planes[i] = planes[i];
     light.planes[5] = glm::vec4(
         0, 0, 0, 1);  // casters beyond the range are flattened onto it, so none may be culled there
     light.eye = glm::vec3(active.body == 0 ? input.sky.to_sun : input.sky.to_moon);

@@ -233,8 +233,9 @@ void Renderer::State::add_never_drawn(const FramePlan& supposed, LightClusters& 
                       .scene = import_scene(to, supposed),
                       .shadow_maps = {}};
   frame.scene.section_slots = std::max(frame.scene.section_slots, kUsualSections);
-  if (const std::uint32_t layers = supposed.shadows.layout.layers; layers != 0)
-    frame.shadow_maps = to.create({.name = "shadow maps", .layers = layers});
+  if (const ShadowLayout& maps = supposed.shadows.layout; maps.layers != 0)
+    frame.shadow_maps =
+        to.create({.name = "shadow maps", .extent = {maps.edge, maps.edge}, .layers = maps.layers});
   for (const std::size_t step : supposed.steps) frame_steps()[step].add(frame);
   FrameReadback unread;
   add_readback(frame, unread);

@@ -11,8 +11,8 @@ void draw_shadows(FrameAssembly& f) {
   std::uint32_t view = 1;
   for (const ActiveCascade& c : f.plan.shadows.cascades) {
     if (!c.redraw) continue;
-    redraw.push_back(
-        {view, c.layer, shadow_pass_name(c.body, c.index), f.plan.contents.cutouts_in_view[view]});
+    redraw.push_back({view, c.layer, shadow_pass_name(c.body, c.index),
+                      f.plan.contents.cutouts_in_view[view], c.area});
     ++view;
   }
   f.shadows = ShadowPass::add(f.graph, f.pipelines, f.scene, *f.draws, f.shadow_maps, redraw);

@@ -23,7 +23,8 @@ std::vector<ActiveCascade> cascades_of(const FrameInput& input, const RenderSett
   std::vector<ActiveCascade> out;
   for (const Cascade& cascade : make_cascades(in)) {
     const auto index = static_cast<std::uint32_t>(out.size());
-    out.push_back({0, static_cast<int>(index), index, index != 1, cascade});
+    const auto edge = static_cast<std::uint32_t>(settings.shadow_size);
+    out.push_back({0, static_cast<int>(index), index, index != 1, {{0, 0}, {edge, edge}}, cascade});
   }
   return out;
 }
