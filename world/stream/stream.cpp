@@ -83,6 +83,7 @@ void Streamer::update(const StreamView& view, const StreamSettings& settings) {
     s.world.release_voxels(id);
     s.world.release_plan(id);
   }
+  s.make_edited();
   s.submit_jobs();
 }
 
@@ -171,7 +172,7 @@ void Streamer::State::change_level(StreamIsland& island, int level) {
       if (slot.phase != Phase::kIdle) continue;
       slot.phase = Phase::kQueued;
       ++island.shown.unmade;
-      queue_chunk(id, island.shown, chunk);
+      queue_chunk(id, island.shown, chunk, false);
     }
     return;
   }
@@ -190,11 +191,11 @@ void Streamer::State::apply_edit(const EditedBox& edit) {
   if (found == islands.end()) return;
   StreamIsland& island = found->second;
   for (const IVec3& chunk : chunks_showing(edit, island.shown.level)) {
-    remake(edit.island, island.shown, chunk);
+    remake(edit.island, island.shown, chunk, true);
   }
   if (!island.coming) return;
   for (const IVec3& chunk : chunks_showing(edit, island.coming->level)) {
-    remake(edit.island, *island.coming, chunk);
+    remake(edit.island, *island.coming, chunk, true);
   }
 }
 

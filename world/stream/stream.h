@@ -60,7 +60,9 @@ enum class StreamOf : std::uint8_t { kMeshes, kMeshesAndOccupancy };
 /// view distance, as a whole at one level of detail, so that it has no cracks.
 ///
 /// The frame thread calls everything here; generation and meshing run on jobs, what is near and in
-/// view first, and no call but wait_until_complete waits for them. An island that changes its level
+/// view first, and no call but wait_until_complete waits for them. Chunks near the camera that were
+/// edited are the exception: update() makes the first few itself, so that they are shown by the
+/// frame of the edit. An island that changes its level
 /// keeps the old one until all of the new one can replace it in one update. While the camera moves,
 /// islands near a limit keep their state (5% of the distance). A streamer that has not yet seen
 /// another view has no state to keep: what it delivers depends on the view and the settings alone.

@@ -12,6 +12,10 @@ using Phase = StreamSlot::Phase;
 // What lies outside a cone about the view direction waits as if it were this much further away.
 constexpr double kOutOfViewFactor = 3.0;
 constexpr double kViewConeCos = 0.5;
+constexpr double kEditedCost = -1.0;
+// A block at the corner of a chunk shows in four. What is more, such as an island that was cut in
+// two, comes from the workers.
+constexpr int kEditedAFrame = 8;
 
 bool costlier(const StreamTask& a, const StreamTask& b) {
   return a.cost > b.cost;
@@ -35,7 +39,7 @@ StreamLevel Streamer::State::start_level(std::uint64_t island, int level) {
   StreamLevel started;
   started.level = level;
   started.serial = ++last_serial;
-  push_task({island, started.serial, std::nullopt, level, 0.0});
+  push_task({island, started.serial, std::nullopt, level});
   return started;
 }
 
@@ -48,6 +52,7 @@ StreamLevel* Streamer::State::find_level(std::uint64_t island, std::uint64_t ser
 }
 
 double Streamer::State::cost_of(const StreamTask& task) const {
+  if (task.edited) return kEditedCost;
   const auto found = islands.find(task.island);
   if (found == islands.end()) return 0.0;
   const StreamIsland& island = found->second;
@@ -73,12 +78,13 @@ void Streamer::State::score_tasks() {
   std::make_heap(tasks.begin(), tasks.end(), costlier);
 }
 
-void Streamer::State::queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk) {
-  push_task({island, level.serial, chunk, level.level, 0.0});
+void Streamer::State::queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk,
+                                  bool edited) {
+  push_task({island, level.serial, chunk, level.level, edited && level.level == 0});
 }
 
 // Makes a chunk once more, or for the first time.
-void Streamer::State::remake(std::uint64_t island, StreamLevel& level, IVec3 chunk) {
+void Streamer::State::remake(std::uint64_t island, StreamLevel& level, IVec3 chunk, bool edited) {
   if (!level.planned) {
     level.edited_early.push_back(chunk);
     return;
@@ -95,7 +101,7 @@ void Streamer::State::remake(std::uint64_t island, StreamLevel& level, IVec3 chu
   }
   slot.phase = Phase::kQueued;
   ++level.unmade;
-  queue_chunk(island, level, chunk);
+  queue_chunk(island, level, chunk, edited);
 }
 
 void Streamer::State::submit_jobs() {
@@ -137,12 +143,27 @@ void Streamer::State::run_task() {
   StreamTask task;
   if (!stopping && take_task(task)) {
     ++running;
+    running_edited += task.edited;
+    run(task, lock);
+    --running;
+    running_edited -= task.edited;
+  }
+  if (all_made() || running_edited == 0 || (stopping && running == 0)) idle.notify_all();
+  lock.unlock();
+  submit_jobs();
+}
+
+void Streamer::State::make_edited() {
+  std::unique_lock lock(mutex);
+  StreamTask task;
+  for (int i = 0; i < kEditedAFrame && !tasks.empty() && tasks.front().edited; ++i) {
+    if (!take_task(task)) break;
+    ++running;
     run(task, lock);
     --running;
   }
-  if (all_made() || (stopping && running == 0)) idle.notify_all();
-  lock.unlock();
-  submit_jobs();
+  // Those that a worker took first take it as long.
+  idle.wait(lock, [this] { return running_edited == 0; });
 }
 
 // Does a task's work without the lock, then takes it again and notes the result.
@@ -193,9 +214,9 @@ void Streamer::State::note_planned(const StreamTask& task, const std::vector<IVe
   StreamLevel* level = find_level(task.island, task.serial);
   if (!level) return;
   level->planned = true;
-  for (const IVec3& chunk : chunks) remake(task.island, *level, chunk);
+  for (const IVec3& chunk : chunks) remake(task.island, *level, chunk, false);
   for (const IVec3& chunk : std::exchange(level->edited_early, {})) {
-    remake(task.island, *level, chunk);
+    remake(task.island, *level, chunk, false);
   }
 }
 
@@ -207,7 +228,7 @@ void Streamer::State::note_made(const StreamTask& task, MadeChunk&& chunk) {
   StreamSlot& slot = level->slots.at(*task.chunk);
   if (std::exchange(slot.stale, false)) {
     slot.phase = Phase::kQueued;
-    queue_chunk(task.island, *level, *task.chunk);
+    queue_chunk(task.island, *level, *task.chunk, true);
     return;
   }
   --level->unmade;

@@ -57,7 +57,8 @@ struct StreamTask {
   std::uint64_t island = 0, serial = 0;
   std::optional<IVec3> chunk;  // none: list the island's chunks
   int level = 0;
-  double cost = 0.0;  // least first: distance, longer for what is out of view
+  bool edited = false;  // a chunk of level 0 that a player has changed: before all others
+  double cost = 0.0;    // least first: distance, longer for what is out of view
 };
 
 /// Working memory of one job.
@@ -95,8 +96,8 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   StreamLevel start_level(std::uint64_t island, int level);
   StreamLevel* find_level(std::uint64_t island, std::uint64_t serial);
   void push_task(const StreamTask& task);
-  void queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk);
-  void remake(std::uint64_t island, StreamLevel& level, IVec3 chunk);
+  void queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk, bool edited);
+  void remake(std::uint64_t island, StreamLevel& level, IVec3 chunk, bool edited);
   void score_tasks();
   double cost_of(const StreamTask& task) const;
   bool plan_unused(std::uint64_t id) const;
@@ -108,6 +109,9 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   /// Starts one job for each task pushed since the last call. Without the mutex.
   void submit_jobs();
   void run_task();
+  /// Makes the first few edited chunks on this thread, so that the frame shows them. Without the
+  /// mutex.
+  void make_edited();
   void run(const StreamTask& task, std::unique_lock<std::mutex>& lock);
 
   World& world;
@@ -123,7 +127,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   mutable std::mutex mutex;  // guards everything below; held for bookkeeping only
   std::condition_variable idle;
   bool stopping = false;
-  int running = 0;
+  int running = 0, running_edited = 0;
   std::size_t to_submit = 0;
   std::uint64_t last_serial = 0;
   std::size_t chunks_made = 0;
