@@ -9,7 +9,7 @@
 
 namespace skerry::game {
 
-/// One look at an island. Made by the frame thread, worked on by jobs, read when `done`.
+/// One look at an island. Made by the frame thread, worked on in the background, read when `done`.
 struct IslandLight::Search {
   world::LightChunks chunks;
   std::uint64_t version = 0;
@@ -26,7 +26,8 @@ struct IslandLight::Search {
   std::atomic<bool> done = false;
 };
 
-IslandLight::IslandLight(Jobs& jobs, Finds finds) : jobs_(jobs), finds_(finds) {}
+IslandLight::IslandLight(BackgroundThreads& threads, Finds finds)
+    : threads_(threads), finds_(finds) {}
 
 void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
   Island& island = islands_[key.island];
@@ -48,8 +49,8 @@ void IslandLight::remove(const world::SectionKey& key) {
   ++found->second.version;
 }
 
-void IslandLight::run(Jobs& jobs, std::shared_ptr<Search> search) {
-  jobs.submit([search] {
+void IslandLight::run(BackgroundThreads& threads, std::shared_ptr<Search> search) {
+  threads.submit([search] {
     const bool any = std::any_of(search->chunks.begin(), search->chunks.end(),
                                  [](const auto& one) { return !one.second->strong.empty(); });
     if (any) {
@@ -61,28 +62,29 @@ void IslandLight::run(Jobs& jobs, std::shared_ptr<Search> search) {
     search->reach_done = true;
   });
   if (search->sky)
-    look_at_sky(jobs, search);
+    look_at_sky(threads, search);
   else
     search->done = true;
 }
 
 // Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
-void IslandLight::look_at_sky(Jobs& jobs, std::shared_ptr<Search> search) {
-  jobs.submit([&jobs, search] {
+void IslandLight::look_at_sky(BackgroundThreads& threads, std::shared_ptr<Search> search) {
+  threads.submit([&threads, search] {
     search->transfer = std::make_unique<world::SkyTransfer>(search->chunks, search->albedo);
     for (int part = 0; part <= world::kOctants; ++part)
-      jobs.submit([&jobs, search, part] {
+      threads.submit([&threads, search, part] {
         if (part < world::kOctants)
           search->transfer->look(part);
         else
           search->transfer->spread_lamps();
-        if (search->parts_left.fetch_sub(1) == 1) follow_bounces(jobs, search, 0);
+        if (search->parts_left.fetch_sub(1) == 1) follow_bounces(threads, search, 0);
       });
   });
 }
 
 // A step needs all of the step before it.
-void IslandLight::follow_bounces(Jobs& jobs, std::shared_ptr<Search> search, int step) {
+void IslandLight::follow_bounces(BackgroundThreads& threads, std::shared_ptr<Search> search,
+                                 int step) {
   if (!search->transfer->has_bounces() || step == world::BounceLight::kSteps) {
     search->found = search->transfer->faces();
     search->transfer.reset();
@@ -91,9 +93,9 @@ void IslandLight::follow_bounces(Jobs& jobs, std::shared_ptr<Search> search, int
   }
   search->parts_left = world::BounceLight::kParts;
   for (int part = 0; part < world::BounceLight::kParts; ++part)
-    jobs.submit([&jobs, search, step, part] {
+    threads.submit([&threads, search, step, part] {
       search->transfer->follow_bounces(step, part);
-      if (search->parts_left.fetch_sub(1) == 1) follow_bounces(jobs, search, step + 1);
+      if (search->parts_left.fetch_sub(1) == 1) follow_bounces(threads, search, step + 1);
     });
 }
 
@@ -106,7 +108,7 @@ void IslandLight::start(const world::Streamer& streamer) {
     island.search->level = island.level;
     island.search->sky = finds_ != Finds::kReach;
     if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
-    run(jobs_, island.search);
+    run(threads_, island.search);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/core/jobs.h"
+#include "engine/core/background_threads.h"
 #include "world/light/lamp_reach.h"
 #include "world/light/sky_transfer.h"
 #include "world/stream/stream.h"
@@ -13,9 +13,9 @@
 namespace skerry::game {
 
 /// The light of the sky on the islands that are resident, what their faces reflect to each other,
-/// and where their lamps can arrive, found on jobs. An island is looked at as a whole, anew
-/// whenever one of its chunks has changed; what is found depends on its voxels alone. The frame
-/// thread calls everything here.
+/// and where their lamps can arrive, found on threads in the background. An island is looked at as
+/// a whole, anew whenever one of its chunks has changed; what is found depends on its voxels alone.
+/// The frame thread calls everything here.
 class IslandLight {
  public:
   enum class Finds : std::uint8_t {
@@ -23,7 +23,7 @@ class IslandLight {
     kSky,      ///< and the sky's light and that of weak lamps
     kBounces,  ///< and what faces reflect to each other
   };
-  IslandLight(Jobs& jobs, Finds finds);
+  IslandLight(BackgroundThreads& threads, Finds finds);
   Finds finds() const { return finds_; }
 
   /// Takes in a chunk. An island's chunks are of one level at a time. One that takes the place of
@@ -37,7 +37,7 @@ class IslandLight {
   /// let light into rooms that it closes.
   void start(const world::Streamer& streamer);
   /// Waits until all that was started has been found.
-  void wait() { jobs_.wait(); }
+  void wait() { threads_.wait(); }
 
   struct FoundChunk {
     world::IVec3 at;
@@ -75,11 +75,11 @@ class IslandLight {
     std::set<world::IVec3> guessed;  // of `known`, since poll() last said
   };
   static Found guesses(std::uint64_t id, Island& island);
-  static void run(Jobs& jobs, std::shared_ptr<Search> search);
-  static void look_at_sky(Jobs& jobs, std::shared_ptr<Search> search);
-  static void follow_bounces(Jobs& jobs, std::shared_ptr<Search> search, int step);
+  static void run(BackgroundThreads& threads, std::shared_ptr<Search> search);
+  static void look_at_sky(BackgroundThreads& threads, std::shared_ptr<Search> search);
+  static void follow_bounces(BackgroundThreads& threads, std::shared_ptr<Search> search, int step);
 
-  Jobs& jobs_;
+  BackgroundThreads& threads_;
   const Finds finds_;
   std::map<std::uint64_t, Island> islands_;
 };

@@ -287,7 +287,9 @@ Result<void> SceneView::follow_settings() {
     if (!made) return made.error();
     occupancy_ = *made;
   }
-  if (light) island_light_ = std::make_unique<IslandLight>(*jobs_, finds);
+  if (light && !light_threads_)
+    light_threads_ = std::make_unique<BackgroundThreads>(jobs_->threads());
+  if (light) island_light_ = std::make_unique<IslandLight>(*light_threads_, finds);
   weak_lamps_kept_ = full;
   streamer_ =
       std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);

@@ -1,0 +1,64 @@
+#include "engine/core/background_threads.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+#include <utility>
+
+#include "engine/core/check.h"
+
+namespace skerry {
+namespace {
+
+// A third of the share of a thread of usual priority: light follows an edit within some seconds on
+// two busy cores, and frames take a third longer meanwhile.
+constexpr int kNice = 5;
+
+/// Of this thread alone: Linux keeps the value by thread. Without effect where it is refused.
+void lower_priority() {
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
+}
+
+}  // namespace
+
+BackgroundThreads::BackgroundThreads(int threads) {
+  SKERRY_ASSERT(threads >= 1);
+  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+}
+
+BackgroundThreads::~BackgroundThreads() {
+  wait();
+  const std::lock_guard lock(mutex_);
+  stopping_ = true;
+  wanted_.notify_all();
+}
+
+void BackgroundThreads::submit(std::function<void()> job) {
+  SKERRY_ASSERT(job != nullptr);
+  const std::lock_guard lock(mutex_);
+  jobs_.push_back(std::move(job));
+  wanted_.notify_one();
+}
+
+void BackgroundThreads::wait() {
+  std::unique_lock lock(mutex_);
+  idle_.wait(lock, [this] { return jobs_.empty() && running_ == 0; });
+}
+
+void BackgroundThreads::work() {
+  lower_priority();
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wanted_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
+    if (jobs_.empty()) return;
+    const std::function<void()> job = std::move(jobs_.front());
+    jobs_.pop_front();
+    ++running_;
+    lock.unlock();
+    job();
+    lock.lock();
+    --running_;
+    if (jobs_.empty() && running_ == 0) idle_.notify_all();
+  }
+}
+
+}  // namespace skerry

@@ -1,0 +1,60 @@
+#include "engine/core/background_threads.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <functional>
+#include <latch>
+#include <vector>
+
+namespace skerry {
+namespace {
+
+TEST(BackgroundThreads, WaitCoversJobsThatJobsSubmit) {
+  for (const int threads : {1, 2, 8}) {
+    BackgroundThreads background(threads);
+    std::atomic<int> done = 0;
+    const std::function<void(int)> split = [&](int depth) {
+      if (depth > 0) {
+        background.submit([&split, depth] { split(depth - 1); });
+        background.submit([&split, depth] { split(depth - 1); });
+      }
+      ++done;
+    };
+    background.submit([&] { split(8); });
+    background.wait();
+    EXPECT_EQ(done, (1 << 9) - 1);
+  }
+}
+
+TEST(BackgroundThreads, AsManyAsAskedForWorkAtOnce) {
+  BackgroundThreads background(3);
+  std::latch together(3);
+  for (int i = 0; i < 3; ++i) background.submit([&] { together.arrive_and_wait(); });
+  background.wait();
+}
+
+TEST(BackgroundThreads, OneThreadKeepsTheOrderAndTheEndWaitsForAll) {
+  std::vector<int> order;
+  {
+    BackgroundThreads background(1);
+    for (int i = 0; i < 100; ++i) background.submit([&, i] { order.push_back(i); });
+  }
+  ASSERT_EQ(order.size(), 100u);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
+}
+
+TEST(BackgroundThreads, GiveWayToOthersAndLeaveThemAsTheyAre) {
+  const int before = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
+  BackgroundThreads background(1);
+  int there = before;
+  background.submit([&] { there = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); });
+  background.wait();
+  EXPECT_TRUE(there > before || before > 14) << there;
+  EXPECT_EQ(getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())), before);
+}
+
+}  // namespace
+}  // namespace skerry
