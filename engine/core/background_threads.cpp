@@ -9,13 +9,14 @@
 namespace skerry {
 namespace {
 
-// A third of the share of a thread of usual priority: light follows an edit within some seconds on
+// Against others, a third of the share of a thread of usual priority: light follows an edit within some seconds on
 // two busy cores, and frames take a third longer meanwhile.
 constexpr int kNice = 5;
 
 /// Of this thread alone: Linux keeps the value by thread. Without effect where it is refused.
 void lower_priority() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
+  const auto thread = static_cast<id_t>(gettid());
+  setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kNice);
 }
 
 }  // namespace
