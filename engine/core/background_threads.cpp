@@ -9,8 +9,8 @@
 namespace skerry {
 namespace {
 
-// Against others, a third of the share of a thread of usual priority: light follows an edit within some seconds on
-// two busy cores, and frames take a third longer meanwhile.
+// Against others, a third of the share of a thread of usual priority: light follows an edit within
+// some seconds on two busy cores, and frames take a third longer meanwhile.
 constexpr int kNice = 5;
 
 /// Of this thread alone: Linux keeps the value by thread. Without effect where it is refused.
