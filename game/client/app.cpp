@@ -340,7 +340,9 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
   const bool fed = !screens_.stack.empty() && !screens_.listening && !bare;
   const Settings& settings = world_ ? world_->settings() : base_.settings;
   gui_.begin({size.width, size.height, seconds, fed ? &input : nullptr, settings.ui.scale});
-  if (world_ && !hud_hidden_ && world_goes_on(screens_.stack)) {
+  // The map lies over most of it, and lets it shine through.
+  const bool mapped = screens_.stack.top() == Screen::kMap;
+  if (world_ && !hud_hidden_ && !mapped && world_goes_on(screens_.stack)) {
     ui::HudFacts facts = world_->hud();
     facts.hint = hints_.line(bindings_, input.pad);
     facts.choosing = !screens_.stack.empty();

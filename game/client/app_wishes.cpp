@@ -126,6 +126,14 @@ Result<void> App::enter_picture(const std::string& path) {
   auto client = std::make_unique<SessionClient>(*std::move(session));
   if (!options.world) client->advance(options.settings.world_time_s - client->time_s());
   options.settings.world_time_s = client->time_s();
+  // A saved world has gone on since.
+  if (const auto view = island_view_of(image->text); view && options.world && options.camera) {
+    world::World& world = *client->world();
+    (void)world.islands_near(options.camera->position, 2.0 * world::kMaxIslandDriftBlocks,
+                             client->time_s());  // makes the island known
+    if (const auto pose = world.pose(view->island, client->time_s()))
+      options.camera = seen_in_world(*view, *pose);
+  }
   return play(options, std::move(client));
 }
 

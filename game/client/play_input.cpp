@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <utility>
 
 #include "engine/core/log.h"
 #include "engine/render/frame/exposure.h"
-#include "game/client/island_name.h"
 #include "game/client/play_loop.h"
 #include "game/words/words.h"
 
@@ -19,11 +17,7 @@ namespace {
 constexpr double kDayTurn = 1800.0;  // seconds of day a second that T or Y is held
 constexpr double kDayRate =
     24.0;  // seconds of day a second when it is left alone: a day is an hour
-// An island that is driven and slower than these is held; engines bring it beyond them in 0.1 s.
-constexpr double kHeldSpeed = 0.05;                   // blocks/s
-constexpr double kHeldTurn = 1e-12;                   // 1 - cos of half the angle of a frame
-constexpr double kHeldAfter = 0.6, kBumpSpeed = 1.5;  // seconds; blocks/s
-constexpr double kFlySpeedNotch = 1.25;               // factor a notch of the wheel
+constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
 
 }  // namespace
 
@@ -115,34 +109,26 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
   const double reach = glm::length(player_.velocity()) * kLongestFrame;
   around_.refresh(player_.feet(), reach, player_.world_time_s());
   Intent intent = intent_of(actions);
-  toggles_.apply(settings().play, actions, player_.mode() == MoveMode::kWalk && !helm_, intent);
+  toggles_.apply(settings().play, actions, player_.mode() == MoveMode::kWalk && !helm_.island(),
+                 intent);
   go_on(seconds, steer(actions, intent));
 }
 
 /// At the helm, what would move the player moves the island. @return what is left to the player.
 Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
   if (actions.pressed(Action::kHelm)) {
-    if (helm_) {
-      session_->send(Steer{*helm_, {}, 0.0});
-      helm_.reset();
-    } else if (player_.frame_island()) {
-      helm_ = player_.frame_island();
-      helm_speed_ = helm_held_s_ = 0.0;
+    if (helm_.island()) {
+      helm_.leave(*session_);
+    } else if (const std::optional<std::uint64_t> island = player_.frame_island()) {
+      helm_.take(*island);
       said_.emplace_back(tr("At the helm: forward and back drive, left and right turn"));
     } else {
       said_.emplace_back(tr("Stand on an island to take its helm"));
     }
   }
-  if (!helm_) return intent;
-  const double yaw = glm::radians(player_.state().yaw_deg);  // in the island's axes
-  const glm::dvec3 ahead{std::sin(yaw), 0.0, std::cos(yaw)};
-  helm_driven_ = intent.move != glm::dvec2(0.0) || intent.rise != 0.0;
-  session_->send(
-      Steer{*helm_, ahead * intent.move.y + glm::dvec3{0.0, intent.rise, 0.0}, -intent.move.x});
-  if (player_.frame_island() != helm_) {  // fell off, or was taken off
-    session_->send(Steer{*helm_, {}, 0.0});
-    helm_.reset();
-  }
+  if (!helm_.island()) return intent;
+  helm_.steer(intent, player_.state().yaw_deg, *session_);
+  if (player_.frame_island() != helm_.island()) helm_.leave(*session_);  // fell or was taken off
   return {};
 }
 
@@ -151,10 +137,13 @@ void PlayLoop::go_on(double seconds, const Intent& intent) {
   // First the islands, then the player by the time that has passed for them: their ticks ask where
   // islands are at their ends.
   const double before_s = session_->time_s();
-  const auto helm_before = helm_ ? view_->world().pose(*helm_, before_s) : std::nullopt;
+  const std::optional<world::Pose> helm_before = helm_pose();
   session_->advance(seconds);
   hear_session();
-  watch_helm(helm_before, session_->time_s() - before_s);
+  if (const auto helm_now = helm_pose(); helm_before && helm_now) {
+    if (auto line = helm_.watch(*helm_before, *helm_now, session_->time_s() - before_s))
+      said_.push_back(*std::move(line));
+  }
   const int returns = player_.returns();
   player_.advance(session_->time_s() - before_s, intent, around_);
   if (player_.returns() != returns)
@@ -164,27 +153,9 @@ void PlayLoop::go_on(double seconds, const Intent& intent) {
                    // player is now
 }
 
-bool PlayLoop::held_fast() const {
-  return helm_held_s_ >= kHeldAfter;
-}
-
-/// What an island that is steered does, told by its place: one that another bars the way keeps the
-/// speed that its engines gave it, and stays where it is.
-void PlayLoop::watch_helm(const std::optional<world::Pose>& before, double seconds) {
-  const auto now = helm_ ? view_->world().pose(*helm_, session_->time_s()) : std::nullopt;
-  if (!before || !now || seconds <= 0.0) return;
-  const double speed = glm::length(world::difference_blocks(now->origin, before->origin)) / seconds;
-  const double turned = 1.0 - std::abs(glm::dot(now->rotation, before->rotation));
-  const bool stands = speed < kHeldSpeed && turned < kHeldTurn;
-  if (helm_speed_ > kBumpSpeed && speed < 0.25 * helm_speed_)
-    said_.push_back(
-        tr_format("{} bumped into something at {:.0f} blocks/s", island_name(*helm_), helm_speed_));
-  helm_speed_ = speed;
-  const bool was_held = held_fast();
-  helm_held_s_ = stands && helm_driven_ ? helm_held_s_ + seconds : 0.0;
-  if (held_fast() && !was_held)
-    said_.push_back(tr_format("{} is held fast by another island: back off, rise or turn",
-                              island_name(*helm_)));
+std::optional<world::Pose> PlayLoop::helm_pose() const {
+  if (!helm_.island()) return std::nullopt;
+  return view_->world().pose(*helm_.island(), session_->time_s());
 }
 
 /// Where the player is, and all else that a saved play keeps.
@@ -201,13 +172,8 @@ void PlayLoop::tell_session() {
 
 void PlayLoop::hear_session() {
   for (const Answer& answer : session_->hear()) {
-    if (const auto* notice = std::get_if<Notice>(&answer)) {
-      log_warning(notice->text);
-      said_.push_back(notice->text);
-    }
-    if (const auto* island = std::get_if<IslandIs>(&answer); island && island->blocks > 1)
-      said_.push_back(tr_format("{} blocks broke off and drift away: {}, an island of its own",
-                                island->blocks, island_name(island->spec.id)));
+    if (const auto* notice = std::get_if<Notice>(&answer)) log_warning(notice->text);
+    if (std::optional<std::string> line = line_of(answer)) said_.push_back(*std::move(line));
   }
 }
 

@@ -151,7 +151,12 @@ void PlayLoop::take_screenshot() {
     taken.fov_deg = photo_->fov_deg;
     taken.time_of_day_s = photo_->time_of_day_s;
   }
-  const auto path = save_screenshot(device_, view_->renderer().picture(), taken);
+  std::optional<IslandView> from;
+  const std::optional<std::uint64_t> island = player_.frame_island();
+  if (const auto pose =
+          island ? view_->world().pose(*island, taken.settings.world_time_s) : std::nullopt)
+    from = seen_from(*island, *pose, *taken.camera);
+  const auto path = save_screenshot(device_, view_->renderer().picture(), taken, from);
   if (!path) {
     log_error(path.error().message);
     said_.push_back(path.error().message);

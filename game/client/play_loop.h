@@ -11,6 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device/device.h"
 #include "engine/platform/window.h"
+#include "game/client/helm.h"
 #include "game/client/presenter.h"
 #include "game/client/session_client.h"
 #include "game/input/actions.h"
@@ -115,9 +116,8 @@ class PlayLoop {
   void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
   Intent steer(const ActionFrame& actions, const Intent& intent);
   void go_on(double seconds, const Intent& intent);
-  bool held_fast() const;
+  std::optional<world::Pose> helm_pose() const;
   PlayMoment sound_moment(double seconds) const;
-  void watch_helm(const std::optional<world::Pose>& before, double seconds);
   void hear_session();
   void use_hands(const ActionFrame& actions, double seconds);
   void act_on_places(const ActionFrame& actions);
@@ -144,14 +144,11 @@ class PlayLoop {
   WorldSurroundings around_;
   Wayfinder wayfinder_;
   MapMaker map_maker_;
-  MapMaker::Map map_;                  // the last one taken, without its picture
-  bool map_taken_ = false;             // there is one
-  double map_asked_s_ = 0.0;           // the world's time then
-  glm::dvec2 map_view_{};              // what it is to show, from its middle [blocks]
-  std::optional<std::uint64_t> helm_;  // the island that is steered
-  bool helm_driven_ = false;           // by what is pressed now
-  double helm_speed_ = 0.0;            // of it, as its place changes [blocks/s]
-  double helm_held_s_ = 0.0;           // for so long it has been driven and not moved
+  MapMaker::Map map_;         // the last one taken, without its picture
+  bool map_taken_ = false;    // there is one
+  double map_asked_s_ = 0.0;  // the world's time then
+  glm::dvec2 map_view_{};     // what it is to show, from its middle [blocks]
+  Helm helm_;
   Toggles toggles_;
   Interaction hands_;
   bool hands_free_ = false;  // captured, and no button held from before that

@@ -67,10 +67,7 @@ void PlayLoop::mark_place() {
 }
 
 void PlayLoop::travel_to(const Wayfinder::Place& place) {
-  if (helm_) {
-    session_->send(Steer{*helm_, {}, 0.0});
-    helm_.reset();
-  }
+  helm_.leave(*session_);
   wayfinder_.travel(place.spot, player_, around_);
   scene_.camera = player_.eye(around_);
   tell_session();

@@ -114,7 +114,8 @@ ui::HudFacts PlayLoop::hud() const {
   facts.time_of_day_s = day_.time_of_day_s();
   facts.place = fmt::format("{}  {}  {}", whole(feet.x), whole(feet.y), whole(feet.z));
   facts.numbers = overlay_shown_;
-  if (helm_) facts.steering = ui::HudFacts::Steering{island_name(*helm_), helm_speed_, held_fast()};
+  if (helm_.island())
+    facts.steering = {island_name(*helm_.island()), helm_.speed(), helm_.held_fast()};
   facts.marks = compass_marks();
   facts.torch = view_->settings().lights_held;
   if (!view_->complete()) facts.islands_to_come = view_->streamer().stats().tasks_left;

@@ -49,7 +49,7 @@ SoundFrame PlayLoop::sound_frame(double seconds) {
   frame.listener = {eye.position, player_.frame_island(), player_.world_time_s()};
   frame.yaw_deg = eye.yaw_deg;
   frame.air_speed = glm::length(player_.velocity());
-  frame.strains = helm_ && held_fast();
+  frame.strains = helm_.held_fast();
   std::vector<EditHeard> heard;
   for (const EditAnswer& done : session_->take_edits()) {
     const Edit& edit = done.edit;

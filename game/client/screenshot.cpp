@@ -3,8 +3,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <ctime>
+#include <vector>
 
 #include "engine/gpu/transfer/readback.h"
 #include "engine/platform/files.h"
@@ -23,7 +23,8 @@ std::filesystem::path free_screenshot_path(const std::filesystem::path& folder,
 }
 
 Result<std::filesystem::path> save_screenshot(gpu::Device& device, gpu::Image& picture,
-                                              const SceneOptions& scene) {
+                                              const SceneOptions& scene,
+                                              const std::optional<IslandView>& from) {
   const std::filesystem::path data = platform::data_dir();
   if (data.empty())
     return Error{"cannot save a screenshot: there is no data folder; set HOME or XDG_DATA_HOME"};
@@ -35,8 +36,8 @@ Result<std::filesystem::path> save_screenshot(gpu::Device& device, gpu::Image& p
   const VkExtent2D size = picture.desc().extent;
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(pixels->data()),
                                             pixels->size());
-  const std::array<platform::PngText, 2> text{
-      {{"Software", "Skerry"}, {"Command", shot_command(scene)}}};
+  std::vector<platform::PngText> text{{"Software", "Skerry"}, {"Command", shot_command(scene)}};
+  if (from) text.push_back(text_of(*from));
   const std::filesystem::path path = free_screenshot_path(folder, std::time(nullptr));
   if (const auto written = platform::write_png(path, {size.width, size.height, 4, bytes}, text);
       !written) {

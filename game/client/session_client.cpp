@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "game/client/island_name.h"
+#include "game/words/words.h"
+
 namespace skerry::game {
 
 SessionClient::SessionClient(std::unique_ptr<Session> session)
@@ -40,6 +43,14 @@ void SessionClient::take_in() {
       heard_.push_back(std::move(answer));
     }
   }
+}
+
+std::optional<std::string> line_of(const Answer& answer) {
+  if (const auto* notice = std::get_if<Notice>(&answer)) return notice->text;
+  if (const auto* island = std::get_if<IslandIs>(&answer); island && island->blocks > 1)
+    return tr_format("{} blocks broke off and drift away: {}, an island of its own", island->blocks,
+                     island_name(island->spec.id));
+  return std::nullopt;
 }
 
 }  // namespace skerry::game

@@ -1,5 +1,7 @@
 #pragma once
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -46,5 +48,8 @@ class SessionClient : public BlockEditor {
   std::vector<EditAnswer> edits_;
   std::vector<Answer> heard_;
 };
+
+/// What the player is told of an answer. None: nothing.
+std::optional<std::string> line_of(const Answer& answer);
 
 }  // namespace skerry::game

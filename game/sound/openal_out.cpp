@@ -48,16 +48,16 @@ struct OpenAlOut::Calls {
 
 namespace {
 
-/// libasound writes to stderr about every card that it does not find.
+/// libasound writes to stderr about every card that it does not find. OpenAL may load it only when
+/// a device is opened, so it is loaded here, and stays.
 void be_silent(const char*, int, const char*, int, const char*, ...) {}
 void silence_alsa() {
-  void* alsa = dlopen("libasound.so.2", RTLD_NOW | RTLD_NOLOAD);
+  void* alsa = dlopen("libasound.so.2", RTLD_NOW | RTLD_LOCAL);
   if (!alsa) return;
   using Handler = void (*)(const char*, int, const char*, int, const char*, ...);
   using SetHandler = int (*)(Handler);
   if (const auto set = reinterpret_cast<SetHandler>(dlsym(alsa, "snd_lib_error_set_handler")))
     set(be_silent);
-  dlclose(alsa);
 }
 
 }  // namespace

@@ -230,8 +230,11 @@ bool slide(const char* id, float& value, float least, float most, float step, co
 }
 
 bool button(const char* label, float width) {
-  const float pixels = width > 0.0f ? width * unit() : -1.0f;
-  return ImGui::Button(label, ImVec2(pixels, 40 * unit()));
+  // Text keeps a readable size in small windows; better too wide a button than half a word.
+  const float words =
+      ImGui::CalcTextSize(label, nullptr, true).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+  const float pixels = width > 0.0f ? width * unit() : ImGui::GetContentRegionAvail().x;
+  return ImGui::Button(label, ImVec2(std::max(pixels, words), 40 * unit()));
 }
 
 bool first_button(const char* label, float width) {

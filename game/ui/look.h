@@ -58,7 +58,8 @@ void letter_buttons(std::array<char, kBytes>& text, bool& upper) {
 /// Bytes that the field being shown has room for; for the clipboard.
 std::size_t paste_room();
 
-/// A button as wide as `width` units; 0: as wide as what is left. @return whether it was pressed.
+/// A button as wide as `width` units, or what is left with 0, and as its label needs at least.
+/// @return whether it was pressed.
 bool button(const char* label, float width = 0.0f);
 /// The one that Enter, or its like on a gamepad, presses before another has been gone to.
 bool first_button(const char* label, float width = 0.0f);

@@ -242,10 +242,15 @@ void show_name_field(ScreenState& state, const MapFacts& map, MapWishes& wishes)
   wishes.name = state.place_name.data();
 }
 
+/// Of two buttons side by side [units].
+float half_width() {
+  return 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / unit();
+}
+
 void show_map_buttons(ScreenState& state, const MapFacts& map, MapWishes& wishes) {
   const bool any = state.chosen_place < map.places.size();
   const PlaceKind kind = any ? map.places[state.chosen_place].kind : PlaceKind::kHome;
-  const float half = (kSideWidth - 10.0f) * 0.5f;
+  const float half = half_width();
   ImGui::BeginDisabled(!any);
   if (first_button(tr("Go there"), half) && any) wishes.travel = state.chosen_place;
   ImGui::SameLine();
@@ -299,11 +304,12 @@ void show_map(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
                        ImGui::GetContentRegionAvail().y - foot));
   if (!map.places.empty()) show_name_field(state, map, wishes.map);
   show_map_buttons(state, map, wishes.map);
+  const float half = half_width();
   ImGui::BeginDisabled(state.map_shift == glm::dvec2(0.0));
-  if (button(tr("Show the player"), (kSideWidth - 10.0f) * 0.5f)) state.map_shift = {};
+  if (button(tr("Show the player"), half)) state.map_shift = {};
   ImGui::EndDisabled();
   ImGui::SameLine();
-  if (button(tr("Back"), (kSideWidth - 10.0f) * 0.5f)) state.stack.back();
+  if (button(tr("Back"), half)) state.stack.back();
   show_details(map, sheet,
                state.chosen_place < map.places.size() ? &map.places[state.chosen_place] : nullptr);
   end_scroll();

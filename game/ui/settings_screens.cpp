@@ -14,7 +14,21 @@
 namespace skerry::game::ui {
 namespace {
 
-constexpr float kLabelWidth = 230.0f, kCostWidth = 104.0f;  // units
+/// As wide as the longest label of the language: text stays readable where a window is small, so no
+/// width in units of layout holds it.
+void label_column() {
+  ImGui::TableSetupColumn("label",
+                          ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_NoResize);
+}
+
+/// As wide as anything that it may say, so that sliders do not move when it does.
+void cost_column() {
+  float width = 0.0f;
+  for (const std::string& said :
+       {std::string(tr("measuring")), std::string(tr("alike")), tr_format("{:+.1f} ms", -999.9)})
+    width = std::max(width, ImGui::CalcTextSize(said.c_str()).x);
+  ImGui::TableSetupColumn("cost", ImGuiTableColumnFlags_WidthFixed, width);
+}
 
 /// Label to the left, a control in the middle, what it cost to the right.
 class Rows {
@@ -310,9 +324,9 @@ void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
   const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
   begin_scroll("knobs", -foot);
   if (ImGui::BeginTable("rows", 3)) {
-    ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, kLabelWidth * unit());
+    label_column();
     ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("cost", ImGuiTableColumnFlags_WidthFixed, kCostWidth * unit());
+    cost_column();
     Rows rows(facts, wishes);
     show_knobs(facts, rows);
     ImGui::EndTable();
@@ -336,7 +350,7 @@ void show_controls(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
   const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
   begin_scroll("actions", -foot);
   if (ImGui::BeginTable("turning", 2)) {
-    ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, kLabelWidth * unit());
+    label_column();
     ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthStretch);
     const auto speed = [&](const char* label, double& value) {
       ImGui::TableNextRow();

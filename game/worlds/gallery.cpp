@@ -3,15 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <functional>
+#include <glm/trigonometric.hpp>
 #include <iterator>
 #include <optional>
 
 #include "engine/platform/files.h"
 #include "game/scene_file/cloud_files.h"
+#include "game/scene_file/parse.h"
 
 namespace skerry::game {
 namespace {
+
+constexpr std::string_view kIslandKey = "Island";
+
+/// Islands turn about the vertical only, so pitch stays.
+double turned_yaw(const glm::dquat& rotation, double yaw_deg) {
+  const double yaw = glm::radians(yaw_deg);
+  const glm::dvec3 ahead = rotation * glm::dvec3{std::sin(yaw), 0.0, std::cos(yaw)};
+  return glm::degrees(std::atan2(ahead.x, ahead.z));
+}
 
 Error no_command(std::string_view why) {
   return Error{fmt::format(
@@ -134,6 +147,40 @@ SceneOptions at_place(const SceneOptions& played, const SceneOptions& place) {
   to.render.clouds.resolution = kept.resolution;
   to.render.clouds.precision = kept.precision;
   return out;
+}
+
+IslandView seen_from(std::uint64_t island, const world::Pose& pose, const CameraPlace& eye) {
+  const glm::dquat lattice_from_world = glm::conjugate(pose.rotation);
+  const glm::dvec3 from_origin = world::difference_blocks(eye.position, pose.origin);
+  return {island,
+          {world::moved({}, lattice_from_world * from_origin),
+           turned_yaw(lattice_from_world, eye.yaw_deg), eye.pitch_deg}};
+}
+
+CameraPlace seen_in_world(const IslandView& view, const world::Pose& pose) {
+  const glm::dvec3 from_origin = world::difference_blocks(view.eye.position, {});
+  return {world::moved(pose.origin, pose.rotation * from_origin),
+          turned_yaw(pose.rotation, view.eye.yaw_deg), view.eye.pitch_deg};
+}
+
+platform::PngText text_of(const IslandView& view) {
+  return {std::string(kIslandKey), fmt::format("{} {}", view.island, format_camera(view.eye))};
+}
+
+std::optional<IslandView> island_view_of(std::span<const platform::PngText> text) {
+  const auto entry = std::find_if(
+      text.begin(), text.end(), [](const platform::PngText& one) { return one.key == kIslandKey; });
+  if (entry == text.end()) return std::nullopt;
+  const std::string_view words = entry->text;
+  const std::size_t space = words.find(' ');
+  if (space == std::string_view::npos || words.size() > kMaxCommandBytes) return std::nullopt;
+  IslandView view;
+  const char* const end = words.data() + space;
+  const auto read = std::from_chars(words.data(), end, view.island);
+  const Result<CameraPlace> eye = parse_camera(words.substr(space + 1));
+  if (read.ec != std::errc() || read.ptr != end || !eye) return std::nullopt;
+  view.eye = *eye;
+  return view;
 }
 
 std::vector<std::filesystem::path> list_pictures(const std::filesystem::path& folder) {

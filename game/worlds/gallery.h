@@ -1,6 +1,8 @@
 // Pictures that the player took, and the way back into them.
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/platform/image_file.h"
 #include "game/scene_file/options.h"
+#include "world/voxel/island.h"
 
 namespace skerry::game {
 
@@ -28,6 +31,20 @@ Result<SceneText> place_of_command(std::string_view command);
 Result<SceneOptions> place_of_picture(std::span<const platform::PngText> text);
 /// What is played, moved to another place; how it is drawn stays.
 SceneOptions at_place(const SceneOptions& played, const SceneOptions& place);
+
+/// Where a picture was taken as seen from the island that the player was on: in a world that goes
+/// on, islands drift away from the camera of the command, and can be steered and turned.
+struct IslandView {
+  std::uint64_t island = 0;
+  CameraPlace eye;  ///< in the island's frame
+};
+IslandView seen_from(std::uint64_t island, const world::Pose& pose, const CameraPlace& eye);
+/// The inverse, wherever the island is now.
+CameraPlace seen_in_world(const IslandView& view, const world::Pose& pose);
+/// The text that a picture keeps of it, besides its command.
+platform::PngText text_of(const IslandView& view);
+/// None: the picture has no such text, or another one.
+std::optional<IslandView> island_view_of(std::span<const platform::PngText> text);
 
 /// Screenshots in the player's folder, newest first. A folder that is not there has none.
 std::vector<std::filesystem::path> list_pictures(const std::filesystem::path& folder);

@@ -1,6 +1,7 @@
 // Runs the program itself, as scripts do: exit statuses and the one line on stderr are its
 // contract.
 #include <gtest/gtest.h>
+#include <skerry_version.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -44,6 +45,13 @@ TEST(CommandLine, HelpIsThereOnEveryLevel) {
     EXPECT_NE(outcome.out.find("Usage: skerry"), std::string::npos) << joined(arguments);
     EXPECT_TRUE(outcome.err.empty());
   }
+}
+
+TEST(CommandLine, SaysItsVersionInOneLine) {
+  const Outcome outcome = run({"--version"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, std::string("skerry ") + kSkerryVersion + "\n");
+  EXPECT_TRUE(outcome.err.empty());
 }
 
 TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {

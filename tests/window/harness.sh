@@ -11,9 +11,9 @@ cleanup() {
   rm -rf "$work"
 }
 trap cleanup EXIT
-fail() {
-  echo "FAILED: $1"
-  cat "$work/out" "$work/err" 2>/dev/null || true
+fail() {  # on stderr: it may be called where the output is taken for a value
+  echo "FAILED: $1" >&2
+  cat "$work/out" "$work/err" >&2 2>/dev/null || true
   exit 1
 }
 alive() { kill -0 "$game" 2>/dev/null || fail "the game ended $1"; }

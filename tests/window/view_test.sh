@@ -11,7 +11,7 @@ sleep 1
 
 play --seed 1 --time 12:00 --set view.distance=48
 wait_for_frames
-sleep 2
+wait_until_quick
 
 cameras() { { grep -o -- '--camera [^ ]*' "$work/out" || true; } | cut -d ' ' -f 2; }
 commands() { grep -c '^skerry shot' "$work/out" || true; }
@@ -20,7 +20,7 @@ direction() {
   local before
   before=$(commands)
   xdotool key --window 0 F2
-  for _ in $(seq 100); do [ "$(commands)" -gt "$before" ] && break; sleep 0.1; alive "while taking a screenshot"; done
+  for _ in $(seq 300); do [ "$(commands)" -gt "$before" ] && break; sleep 0.1; alive "while taking a screenshot"; done
   [ "$(commands)" -gt "$before" ] || fail "no screenshot $1"
   cameras | tail -n 1 | cut -d , -f 4,5
 }

@@ -1,6 +1,7 @@
 #include "tools/skerry/command_line.h"
 
 #include <fmt/format.h>
+#include <skerry_version.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -56,6 +57,8 @@ struct CommandLine {
 
 CommandLine::CommandLine() {
   app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("skerry ") + kSkerryVersion,
+                       "Print the version and exit");
   app.footer("Without a command, skerry plays. 'skerry COMMAND --help' tells more.");
   play = add("play", "Walk and fly through a world in a window (docs/controls.md)");
   add_scene_options(*play, scene);
@@ -127,7 +130,7 @@ int CommandLine::run() {
 Result<std::vector<std::string>> with_command(const CLI::App& app,
                                               std::vector<std::string> arguments) {
   const std::string first = arguments.empty() ? "" : arguments.front();
-  if (first == "-h" || first == "--help") return arguments;
+  if (first == "-h" || first == "--help" || first == "--version") return arguments;
   if (first.empty() || first.starts_with("-")) {
     arguments.insert(arguments.begin(), "play");
     return arguments;
@@ -150,8 +153,8 @@ int run_command_line(std::vector<std::string> typed) {
   std::reverse(arguments->begin(), arguments->end());  // as CLI11 wants it
   try {
     line.app.parse(*arguments);
-  } catch (const CLI::CallForHelp& help) {
-    return line.app.exit(help);
+  } catch (const CLI::Success& asked) {  // for help, or the version
+    return line.app.exit(asked);
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     std::replace(what.begin(), what.end(), '\n', ' ');

@@ -9,6 +9,8 @@ namespace {
 constexpr double kBounce = 0.2, kFriction = 0.3;
 // How fast islands that overlapped before are pushed apart, at most [blocks/s].
 constexpr double kPushSpeed = 0.5;
+// Of the spin of one island against another, what is lost in a tick in which they bar each other.
+constexpr double kSpinLost = 0.25;
 // Rounds of impulses: each contact undoes a little of what the others did.
 constexpr int kRounds = 4;
 
@@ -61,11 +63,27 @@ void resolve(Body& a, Body& b, const Contact& contact, const glm::dvec3& between
   push(b, arm_b, -impulse);
 }
 
+/// Two that bar each other's way do not turn against each other either. Contacts alone do not see
+/// that: an island whose engines press it on a corner would turn about that corner faster and
+/// faster without moving, and leap away once it is free. A torque between the two keeps the angular
+/// momentum, and takes energy.
+template <class Body>
+void brake_spin(Body& a, Body& b) {
+  const double along = a.inverse_inertia() + b.inverse_inertia();
+  if (along <= 0.0) return;
+  const double torque = kSpinLost * (a.now.spin - b.now.spin) / along;
+  a.now.spin -= torque * a.inverse_inertia();
+  b.now.spin += torque * b.inverse_inertia();
+}
+
 }  // namespace
 
 /// Islands that touch exchange impulses: momentum is kept, and energy does not grow, but for those
 /// that overlapped before: they are pushed apart slowly.
 void IslandMotion::exchange_impulses(std::vector<Pair>& pairs) {
+  for (Pair& pair : pairs)
+    if (!pair.touch.contacts.empty() && pair.touch.overlap > pair.before)
+      brake_spin(*pair.a, *pair.b);
   for (int round = 0; round < kRounds; ++round) {
     for (Pair& pair : pairs) {
       if (pair.touch.contacts.empty()) continue;

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "tests/folder.h"
+#include "tests/world/made_islands.h"
 
 namespace skerry::game {
 namespace {
@@ -76,6 +80,35 @@ TEST(Gallery, AWorldsPictureNamesTheWorld) {
   const auto place = place_of_picture(text);
   ASSERT_TRUE(place) << place.error().message;
   EXPECT_EQ(place->world, taken.world);
+}
+
+/// What the camera saw from its island it sees again, wherever that has gone and turned to.
+TEST(Gallery, APictureOfASavedWorldFollowsItsIsland) {
+  const auto turned = [](double degrees) {
+    return glm::angleAxis(glm::radians(degrees), glm::dvec3{0.0, 1.0, 0.0});
+  };
+  const world::Pose then{world::blocks(1000.0, -20.0, 1 << 20), turned(30.0)};
+  const CameraPlace eye{world::moved(then.origin, {3.0, 5.0, -7.0}), -100.0, 12.5};
+  const platform::PngText text[] = {{"Software", "Skerry"}, text_of(seen_from(77, then, eye))};
+  const std::optional<IslandView> view = island_view_of(text);
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->island, 77u);
+  const auto expect_near = [](const CameraPlace& a, const CameraPlace& b) {
+    EXPECT_LT(glm::length(world::difference_blocks(a.position, b.position)), 1e-6);
+    EXPECT_NEAR(std::remainder(a.yaw_deg - b.yaw_deg, 360.0), 0.0, 1e-9);
+    EXPECT_EQ(a.pitch_deg, b.pitch_deg);
+  };
+  expect_near(seen_in_world(*view, then), eye);
+  // A quarter to the left, from 30 to 120 degrees: +z goes to +x, +x to -z; and so far away.
+  const world::Pose now{world::moved(then.origin, {-40.0, 1.0, 8.0}), turned(120.0)};
+  expect_near(seen_in_world(*view, now),
+              {world::moved(now.origin, {-7.0, 5.0, -3.0}), -10.0, 12.5});
+  for (const char* damaged : {"", "77", "x 1,2,3,4,5", "77 1,2,3", "77 1,2,3,4,nan", "-1 1,2,3,4,5",
+                              "99999999999999999999 1,2,3,4,5"}) {
+    const platform::PngText other[] = {{text[1].key, damaged}};
+    EXPECT_FALSE(island_view_of(other)) << damaged;
+  }
+  EXPECT_FALSE(island_view_of({}));
 }
 
 TEST(Gallery, WhatLeadsNowhereSaysWhyInOneLine) {

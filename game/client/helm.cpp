@@ -1,0 +1,62 @@
+#include "game/client/helm.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "game/client/island_name.h"
+#include "game/words/words.h"
+
+namespace skerry::game {
+namespace {
+
+// An island that is driven and slower than these is held; engines bring it beyond them in 0.1 s.
+constexpr double kHeldSpeed = 0.05;                   // blocks/s
+constexpr double kHeldTurn = 1e-12;                   // 1 - cos of half the angle of a frame
+constexpr double kHeldAfter = 0.6, kBumpSpeed = 1.5;  // seconds; blocks/s
+
+}  // namespace
+
+bool Helm::held_fast() const {
+  return held_s_ >= kHeldAfter;
+}
+
+void Helm::take(std::uint64_t island) {
+  *this = {};
+  island_ = island;
+}
+
+void Helm::leave(SessionClient& session) {
+  if (island_) session.send(Steer{*island_, {}, 0.0});
+  *this = {};
+}
+
+void Helm::steer(const Intent& intent, double yaw_deg, SessionClient& session) {
+  if (!island_) return;
+  const double yaw = glm::radians(yaw_deg);
+  const glm::dvec3 ahead{std::sin(yaw), 0.0, std::cos(yaw)};
+  driven_ = intent.move != glm::dvec2(0.0) || intent.rise != 0.0;
+  session.send(
+      Steer{*island_, ahead * intent.move.y + glm::dvec3{0.0, intent.rise, 0.0}, -intent.move.x});
+}
+
+/// Told by the island's place: one that another bars the way keeps the speed that its engines gave
+/// it, and stays where it is.
+std::optional<std::string> Helm::watch(const world::Pose& before, const world::Pose& now,
+                                       double seconds) {
+  if (!island_ || seconds <= 0.0) return std::nullopt;
+  const double was = speed_;
+  const bool was_held = held_fast();
+  speed_ = glm::length(world::difference_blocks(now.origin, before.origin)) / seconds;
+  const double turned = 1.0 - std::abs(glm::dot(now.rotation, before.rotation));
+  const bool stands = speed_ < kHeldSpeed && turned < kHeldTurn;
+  held_s_ = stands && driven_ ? held_s_ + seconds : 0.0;
+  if (held_fast() && !was_held)
+    return tr_format("{} is held fast by another island: back off, rise or turn",
+                     island_name(*island_));
+  if (was > kBumpSpeed && speed_ < 0.25 * was)
+    return tr_format("{} bumped into something at {:.0f} blocks/s", island_name(*island_), was);
+  return std::nullopt;
+}
+
+}  // namespace skerry::game
