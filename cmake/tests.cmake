@@ -140,4 +140,5 @@ set_tests_properties(tools.examples PROPERTIES TIMEOUT 120)
 
 # Each deliberate breakage of tests/mutation still fits the code; the run of all of them builds for a quarter of an hour and is no part of this.
 add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --check)
+add_test(NAME mutation.programs COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/programs_test.py)
 add_test(NAME mutation.stability COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/stability --check)
