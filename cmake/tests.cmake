@@ -36,7 +36,7 @@ set(fuzz_sources tests/fuzz/targets.cpp game/input/actions.cpp game/input/bindin
 list(TRANSFORM fuzz_sources PREPEND ${CMAKE_SOURCE_DIR}/)
 function(skerry_fuzz_program name main)
   add_executable(${name} EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/${main} ${fuzz_sources})
-  target_link_libraries(${name} PRIVATE skerry_world skerry_words_en skerry_words_de skerry_words_fr skerry_words_es skerry_words_ru skerry_words_zh skerry_words_ja nlohmann_json::nlohmann_json OpenSSL::Crypto PNG::PNG deflate::deflate)
+  target_link_libraries(${name} PRIVATE skerry_world skerry_words_en skerry_words_de skerry_words_fr skerry_words_es skerry_words_ru skerry_words_zh skerry_words_ja nlohmann_json::nlohmann_json OpenSSL::Crypto PNG::PNG deflate::deflate LibArchive::LibArchive)
 endfunction()
 skerry_fuzz_program(skerry_fuzz_short mutate_main.cpp)
 if(SKERRY_SANITIZE MATCHES fuzzer)  # Clang's
@@ -140,4 +140,5 @@ set_tests_properties(tools.examples PROPERTIES TIMEOUT 120)
 
 # Each deliberate breakage of tests/mutation still fits the code; the run of all of them builds for a quarter of an hour and is no part of this.
 add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --check)
+add_test(NAME mutation.programs COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/programs_test.py)
 add_test(NAME mutation.stability COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/stability --check)

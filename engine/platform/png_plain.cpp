@@ -2,15 +2,12 @@
 
 #include <libdeflate.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string>
-
-#include "engine/core/check.h"
 
 namespace skerry::platform {
 namespace {
@@ -24,8 +21,6 @@ std::uint32_t big_endian(std::string_view bytes) {
   for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[i]);
   return value;
 }
-
-// --- reading ------------------------------------------------------------------------------------
 
 /// A pixel's bytes as they lie in memory, so that one operation does all channels.
 using Word = std::uint32_t;
@@ -217,90 +212,6 @@ bool take_apart(std::string_view file, Parts& parts) {
   return false;
 }
 
-// --- writing ------------------------------------------------------------------------------------
-
-/// Writes a row behind the filter of the two that leaves the smaller differences.
-/// @param above the row above; of the first, zeros.
-void filter_row(const std::uint8_t* row, const std::uint8_t* above, std::size_t stride,
-                std::size_t channels, std::uint8_t* to) {
-  const auto cost_of = [](std::uint8_t difference) {
-    return std::min<std::uint8_t>(difference, static_cast<std::uint8_t>(-difference));
-  };
-  std::uint32_t sub = 0, up = 0;
-  for (std::size_t i = 0; i < channels; ++i) sub += cost_of(row[i]);
-  for (std::size_t i = channels; i < stride; ++i)
-    sub += cost_of(static_cast<std::uint8_t>(row[i] - row[i - channels]));
-  for (std::size_t i = 0; i < stride; ++i)
-    up += cost_of(static_cast<std::uint8_t>(row[i] - above[i]));
-  *to++ = sub <= up ? kSub : kUp;
-  if (sub > up) {
-    for (std::size_t i = 0; i < stride; ++i) to[i] = static_cast<std::uint8_t>(row[i] - above[i]);
-    return;
-  }
-  std::copy_n(row, channels, to);
-  for (std::size_t i = channels; i < stride; ++i)
-    to[i] = static_cast<std::uint8_t>(row[i] - row[i - channels]);
-}
-
-void add_big_endian(std::vector<std::byte>& out, std::uint32_t value) {
-  for (int shift = 24; shift >= 0; shift -= 8)
-    out.push_back(static_cast<std::byte>(value >> shift));
-}
-
-void add_chunk(std::vector<std::byte>& out, std::string_view type, std::string_view data) {
-  add_big_endian(out, static_cast<std::uint32_t>(data.size()));
-  const std::size_t checked = out.size();
-  for (const std::string_view part : {type, data}) {
-    const auto* bytes = reinterpret_cast<const std::byte*>(part.data());
-    out.insert(out.end(), bytes, bytes + part.size());
-  }
-  add_big_endian(out, libdeflate_crc32(0, out.data() + checked, out.size() - checked));
-}
-
-std::string header_of(const PixelView& image) {
-  std::string data;
-  for (const std::uint32_t edge : {image.width, image.height})
-    for (int shift = 24; shift >= 0; shift -= 8) data += static_cast<char>(edge >> shift);
-  data += {8, static_cast<char>(image.channels == 4 ? 6 : 2), 0, 0, 0};
-  return data;
-}
-
-bool is_ascii(std::string_view text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](char c) { return c == '\n' || (c >= 32 && c < 127); });
-}
-
-void add_text(std::vector<std::byte>& out, const PngText& text) {
-  SKERRY_ASSERT(!text.key.empty() && text.key.size() < 80 && is_ascii(text.key));
-  if (is_ascii(text.text))
-    add_chunk(out, "tEXt", text.key + '\0' + text.text);
-  else
-    add_chunk(out, "iTXt", text.key + std::string(5, '\0') + text.text);
-}
-
-/// The rows, filtered and deflated. None: too little memory.
-std::optional<std::string> deflated_rows(const PixelView& image) {
-  // Twice as fast as zlib's level 4, for as many bytes on rendered pictures.
-  constexpr int kLevel = 3;
-  const std::size_t stride = std::size_t{image.width} * image.channels;
-  const std::size_t bytes = (1 + stride) * image.height;
-  const auto filtered = std::make_unique_for_overwrite<std::uint8_t[]>(bytes);
-  const std::vector<std::uint8_t> none(stride);
-  const std::uint8_t* above = none.data();
-  for (std::uint32_t y = 0; y < image.height; ++y) {
-    const std::uint8_t* row = image.pixels.data() + y * stride;
-    filter_row(row, above, stride, image.channels, filtered.get() + y * (1 + stride));
-    above = row;
-  }
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-  if (!compressor) return std::nullopt;
-  std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes), '\0');
-  out.resize(
-      libdeflate_zlib_compress(compressor.get(), filtered.get(), bytes, out.data(), out.size()));
-  return out;
-}
-
 }  // namespace
 
 std::optional<PngImage> read_plain_png(std::string_view file) {
@@ -320,24 +231,6 @@ std::optional<PngImage> read_plain_png(std::string_view file) {
                                         : undo_filters<4>(rows.get(), parts.image);
   if (!read) return std::nullopt;
   return std::move(parts.image);
-}
-
-std::optional<std::vector<std::byte>> encode_plain_png(const PixelView& image,
-                                                       std::span<const PngText> texts) {
-  // A chunk's length has 31 bits.
-  constexpr std::size_t kMostInChunk = std::size_t{1} << 30;
-  const std::optional<std::string> pixels = deflated_rows(image);
-  if (!pixels) return std::nullopt;
-  std::vector<std::byte> out;
-  out.reserve(pixels->size() + (std::size_t{1} << 12));
-  for (const char c : kSignature) out.push_back(static_cast<std::byte>(c));
-  add_chunk(out, "IHDR", header_of(image));
-  add_chunk(out, "sRGB", std::string_view("\0", 1));  // perceptual
-  for (const PngText& text : texts) add_text(out, text);
-  for (std::size_t at = 0; at < pixels->size(); at += kMostInChunk)
-    add_chunk(out, "IDAT", std::string_view(*pixels).substr(at, kMostInChunk));
-  add_chunk(out, "IEND", {});
-  return out;
 }
 
 }  // namespace skerry::platform

@@ -1,11 +1,8 @@
-// PNG as nearly all pictures are: RGB or RGBA, 8 bits a channel, not interlaced. Read and written
-// whole with libdeflate, in a third of the time that libpng takes with zlib.
+// PNG as nearly all pictures are: RGB or RGBA, 8 bits a channel, not interlaced. Read whole with
+// libdeflate, in a third of the time that libpng takes with zlib.
 #pragma once
-#include <cstddef>
 #include <optional>
-#include <span>
 #include <string_view>
-#include <vector>
 
 #include "engine/platform/png_image.h"
 
@@ -16,9 +13,5 @@ namespace skerry::platform {
 /// reads it with libpng or says what is wrong.
 /// Source: W3C, Portable Network Graphics, Third Edition, sections 5 (chunks) and 9 (filters).
 std::optional<PngImage> read_plain_png(std::string_view file);
-
-/// What encode_png gives. None: there is too little memory. @pre those of encode_png.
-std::optional<std::vector<std::byte>> encode_plain_png(const PixelView& image,
-                                                       std::span<const PngText> texts);
 
 }  // namespace skerry::platform

@@ -10,6 +10,7 @@
 #include <test_paths.h>
 #include "engine/core/output.h"
 #include "engine/platform/image_file.h"
+#include "engine/platform/tar.h"
 #include "tests/cli/run_program.h"
 #include "tools/measure/html.h"
 
@@ -362,6 +363,35 @@ TEST_F(TestCommandLine, ABaselineKeepsReferencesOutsideTheScenes) {
   EXPECT_EQ(other.status, 1);
   EXPECT_NE(other.out.find("no reference yet"), std::string::npos) << other.out;
   expect_refusal(test({"run", "sky", "--dir", dir}), 1, {"'sky' is not what was planned"}, "run");
+}
+
+TEST_F(TestCommandLine, AnArchiveKeepsWhatWasApprovedBeforeAnotherApprovalFailed) {
+  write_scene("a");
+  write_scene("b");
+  const std::string archive = out("baseline.tar").string();
+  ASSERT_EQ(test({scenes().string(), "--baseline", archive, "--approve"}).status, 0);
+  // Damage in the hashes of a driver that shares the references is noticed once one is replaced.
+  const fs::path folder = out("unpacked");
+  fs::create_directories(folder);
+  ASSERT_TRUE(platform::unpack_tar(archive, folder));
+  const fs::path hashes = fs::directory_iterator(folder)->path() / "hashes";
+  ASSERT_TRUE(write_text(hashes / "other.json", "{"));
+  for (const auto& file : fs::directory_iterator(hashes))
+    if (file.path().filename() != "other.json") {
+      ASSERT_TRUE(write_text(file.path(), "{}"));
+    }
+  ASSERT_TRUE(platform::pack_tar(folder, archive));
+  write_scene("b", R"(, "fov": 30)");
+
+  expect_refusal(test({scenes().string(), "--baseline", archive, "--approve"}), 1,
+                 {"cannot use the approved hashes"}, "damaged");
+  const auto row = [&](const std::string& scene) {
+    test({(scenes() / (scene + ".json")).string(), "--baseline", archive, "--json",
+          out("rows.json").string()});
+    return rows("rows.json").at(0);
+  };
+  EXPECT_EQ(row("a")["hash_equal"], true) << "approved before";
+  EXPECT_EQ(row("b")["verdict"], "pass") << "its reference and its hash, as in a folder";
 }
 
 TEST_F(TestCommandLine, AFailureNamesTheChannelInWhichItBegins) {

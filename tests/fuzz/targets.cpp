@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <sstream>
 #include <string>
 
@@ -112,7 +113,8 @@ void png(std::span<const std::uint8_t> input) {
   SKERRY_ASSERT(image->pixels.size() == std::size_t{image->width} * image->height * 4);
 }
 
-void tar(std::span<const std::uint8_t> input) {
+/// Nothing but regular files comes out, in the folder, and no more than the archive has.
+void check_tar(std::span<const std::uint8_t> input) {
   const std::filesystem::path path = written(input), into = path.parent_path() / "unpacked";
   std::filesystem::remove_all(into);
   std::filesystem::create_directories(into);
@@ -123,7 +125,39 @@ void tar(std::span<const std::uint8_t> input) {
   const auto before = entries();
   const Result<void> done = platform::unpack_tar(path, into);
   SKERRY_ASSERT(entries() == before);
+  std::uintmax_t bytes = 0;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(into)) {
+    SKERRY_ASSERT(!file.is_symlink() && (file.is_regular_file() || file.is_directory()));
+    if (file.is_regular_file()) bytes += file.file_size();
+  }
+  SKERRY_ASSERT(bytes <= input.size());
   if (!done) check_line(done.error());
+}
+
+/// An archive with checksums that fit its headers: nothing behind them would be reached otherwise.
+/// Source: POSIX.1-2017, pax, "ustar Interchange Format".
+std::vector<std::uint8_t> with_header_sums(std::span<const std::uint8_t> input) {
+  constexpr std::size_t kBlock = 512, kSize = 124, kSum = 148, kFieldBytes = 12, kSumBytes = 8;
+  std::vector<std::uint8_t> tar(input.begin(), input.end());
+  for (std::size_t at = 0; tar.size() - at >= kBlock;) {
+    const std::span header = std::span(tar).subspan(at, kBlock);
+    at += kBlock;
+    if (std::ranges::all_of(header, [](std::uint8_t byte) { return byte == 0; })) continue;
+    std::ranges::fill(header.subspan(kSum, kSumBytes), ' ');
+    const std::string sum =
+        fmt::format("{:06o}", std::accumulate(header.begin(), header.end(), 0u));
+    std::ranges::copy_n(sum.c_str(), 7, header.begin() + kSum);
+    std::size_t bytes = 0;
+    for (const std::uint8_t digit : header.subspan(kSize, kFieldBytes))
+      if (digit >= '0' && digit <= '7') bytes = bytes * 8 + (digit - '0');
+    at += std::min((bytes + kBlock - 1) / kBlock * kBlock, tar.size() - at);
+  }
+  return tar;
+}
+
+void tar(std::span<const std::uint8_t> input) {
+  check_tar(input);
+  check_tar(with_header_sums(input));
 }
 
 void vdb_answer(std::span<const std::uint8_t> input) {

@@ -1,14 +1,19 @@
 #include "engine/platform/image_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "engine/core/output.h"
 #include "engine/platform/files.h"
+#include "engine/platform/png_plain.h"
 #include "tests/folder.h"
 
 namespace skerry::platform {
@@ -54,6 +59,40 @@ TEST_F(ImageFile, RgbComesBackOpaque) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(image->pixels[i * 4 + c], pixels[i * 3 + c]);
     EXPECT_EQ(image->pixels[i * 4 + 3], 255);
   }
+}
+
+TEST(EncodePng, WhatLibpngWroteIsReadByLibdeflate) {
+  std::mt19937 random(2);
+  for (const std::uint32_t channels : {3u, 4u}) {
+    std::vector<std::uint8_t> pixels(331 * 210 * channels);
+    for (std::size_t i = 0; i < pixels.size(); ++i)  // smooth in part, as pictures are
+      pixels[i] = static_cast<std::uint8_t>(i % 7 == 0 ? random() : i / 50);
+    const auto written = encode_png({331, 210, channels, pixels}, {});
+    ASSERT_TRUE(written);
+    const auto read =
+        read_plain_png({reinterpret_cast<const char*>(written->data()), written->size()});
+    ASSERT_TRUE(read);
+    for (std::size_t i = 0; i < 331 * 210; ++i)
+      for (std::size_t c = 0; c < 4; ++c)
+        ASSERT_EQ(read->pixels[i * 4 + c], c < channels ? pixels[i * channels + c] : 255);
+  }
+}
+
+TEST(EncodePng, ALargePictureTakesLittleMemoryBesideItsFile) {
+  const std::vector<std::uint8_t> pixels(std::size_t{4096} * 4096 * 4);  // 64 MiB, 64 KiB as PNG
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t limit = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + (8u << 20);
+    const rlimit most{limit, limit};
+    if (::setrlimit(RLIMIT_AS, &most) != 0) ::_exit(2);
+    ::_exit(encode_png({4096, 4096, 4, pixels}) ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0) << "of 8 MiB";
 }
 
 TEST_F(ImageFile, TheFileSaysItIsSrgbAndTheSamePixelsGiveTheSameBytes) {

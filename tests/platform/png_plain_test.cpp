@@ -91,22 +91,6 @@ TEST(PlainPng, EveryFilterIsReadAsLibpngReadsIt) {
   }
 }
 
-TEST(PlainPng, WhatIsWrittenIsReadByLibpng) {
-  std::mt19937 random(2);
-  for (const std::uint32_t channels : {3u, 4u}) {
-    std::vector<std::uint8_t> pixels(33 * 21 * channels);
-    for (std::size_t i = 0; i < pixels.size(); ++i)  // smooth in part, so that both filters serve
-      pixels[i] = static_cast<std::uint8_t>(i % 7 == 0 ? random() : i / 50);
-    const auto written = encode_plain_png({33, 21, channels, pixels}, {});
-    ASSERT_TRUE(written);
-    const auto read = by_libpng({reinterpret_cast<const char*>(written->data()), written->size()});
-    ASSERT_TRUE(read);
-    for (std::size_t i = 0; i < 33 * 21; ++i)
-      for (std::size_t c = 0; c < 4; ++c)
-        ASSERT_EQ((*read)[i * 4 + c], c < channels ? pixels[i * channels + c] : 255);
-  }
-}
-
 TEST(PlainPng, AnotherKindAndWhatIsDamagedAreLeftToLibpng) {
   std::mt19937 random(3);
   File file = random_file(random, 3);

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 
 using Files = std::map<std::string, std::string>;
 
+const std::string kUtf8Name = "m\xc3\xb6wn \xe6\x98\x8e";
+
 Files files_below(const fs::path& folder) {
   Files out;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -37,6 +39,7 @@ class Tar : public testing::Test {
               {"a", std::string(511, 'a')},
               {"b", std::string(512, 'b')},
               {"driver/hashes/mine.json", "{}"},
+              {kUtf8Name, "."},
               {"driver/" + long_part + "/" + long_part, std::string(2000, '\0')}};
     for (const auto& [name, content] : files_) {
       fs::create_directories((from() / name).parent_path());
@@ -65,7 +68,7 @@ TEST_F(Tar, OfTheSystemIsUnpacked) {
   for (const char* format : {"ustar", "pax", "gnu", "v7"}) {
     const bool old = std::string(format) == "v7";  // has no long names
     ASSERT_TRUE(run(std::string("tar -C from --format=") + format + " -cf archive.tar " +
-                    (old ? "a b empty" : ".")));
+                    (old ? "a b empty '" + kUtf8Name + "'" : ".")));
     fs::remove_all(to());
     fs::create_directories(to());
     const Result<void> done = unpack_tar(archive(), to());
@@ -103,22 +106,45 @@ TEST_F(Tar, SparseFilesAndDamagedLongNamesAreRefused) {
   ASSERT_TRUE(run("truncate -s 1M from/hole && printf x >> from/hole"));
   ASSERT_TRUE(run("tar -C from --format=pax --sparse -cf archive.tar hole"));
   expect_refused("sparse");
+  ASSERT_TRUE(run("tar -C from --format=gnu --sparse -cf archive.tar hole"));
+  expect_refused("sparse");
   ASSERT_TRUE(run("tar -C from --format=pax -cf archive.tar driver"));
   std::string bytes = *read_text(archive(), 1 << 20);
   const std::size_t path = bytes.find(" path=");
   ASSERT_NE(path, std::string::npos);
   bytes[path - 1] = 'z';  // of the record's length, which no sum covers
   ASSERT_TRUE(write_text(archive(), bytes));
-  expect_refused("damaged");
+  expect_refused("give a tar archive");
+  EXPECT_TRUE(files_below(to()).empty());
+}
+
+TEST_F(Tar, NamesHeadersAndFilesBeyondReasonAreRefused) {
+  const auto python = [&](const std::string& entry) {
+    return run(
+        "python3 -c \"import tarfile; tar = tarfile.open('archive.tar', 'w', "
+        "format=tarfile.PAX_FORMAT); entry = tarfile.TarInfo('a'); " +
+        entry + "; tar.addfile(entry); tar.close()\"");
+  };
+  ASSERT_TRUE(python("entry.name = 'x/' * 2100 + 'x'"));
+  expect_refused("too long");
+  ASSERT_TRUE(python("entry.pax_headers = {'comment': 'x' * 2000000}"));
+  expect_refused("give a tar archive");
+  ASSERT_TRUE(
+      run("truncate -s 257M from/large && tar -C from -cf - large | head -c 1M > archive.tar"));
+  expect_refused("more than 256 MiB");
+  ASSERT_TRUE(run("tar -C from -czf archive.tar a"));
+  expect_refused("give a tar archive");  // what is compressed may become anything
+  EXPECT_TRUE(files_below(to()).empty());
 }
 
 TEST_F(Tar, DamageIsSaidAndNamesThatAreTooLongAsWell) {
   ASSERT_TRUE(pack_tar(from(), archive()));
   const std::string whole = *read_text(archive(), 1 << 20);
-  for (std::size_t bytes = 0; bytes + 1024 < whole.size(); bytes += 97) {
+  for (std::size_t bytes = 0; bytes + 1024 <= whole.size(); bytes += bytes % 512 == 0 ? 97 : 415) {
     ASSERT_TRUE(write_text(archive(), whole.substr(0, bytes)));
-    expect_refused("cut short");
+    expect_refused("give a tar archive");
   }
+  expect_refused("cut short");  // nothing is missing but the end, of which all is zero
   std::mt19937 random(1);
   for (int round = 0; round < 200; ++round) {
     std::string damaged = whole;
@@ -126,10 +152,10 @@ TEST_F(Tar, DamageIsSaidAndNamesThatAreTooLongAsWell) {
     damaged[byte < 148 ? byte : byte + 8] ^=
         static_cast<char>(1 + random() % 255);  // of the first header
     ASSERT_TRUE(write_text(archive(), damaged));
-    expect_refused("it is damaged");
+    expect_refused("give a tar archive");
   }
   fs::remove(archive());
-  expect_refused("cannot be opened");
+  expect_refused("No such file");
   ASSERT_TRUE(write_text(from() / std::string(150, 'y'), ""));
   EXPECT_FALSE(pack_tar(from(), archive()));
   EXPECT_FALSE(fs::exists(archive()));

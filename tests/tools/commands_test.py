@@ -92,7 +92,7 @@ def check_archive(run, folder):
     run("test", "merge", "--dir", folder / "plan", status=1)
     archive.write_bytes(archive.read_bytes()[:2000])
     done = run("test", scenes, "--baseline", archive, status=2)
-    check("cut short" in done.stderr and done.stderr.count("\n") == 1, done)
+    check("Truncated" in done.stderr and done.stderr.count("\n") == 1, done)
 
 
 def check_report(run, folder):

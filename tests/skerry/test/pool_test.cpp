@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -21,7 +23,9 @@ namespace {
 /// Devices that draw nothing: each tells when two processes use it at once.
 class FakeDevices {
  public:
-  explicit FakeDevices(bool cpus) : cpus_(cpus) {}
+  /// @param opened_together a device opens once so many processes are opening one.
+  explicit FakeDevices(bool cpus, std::ptrdiff_t opened_together = 1)
+      : cpus_(cpus), opened_together_(opened_together) {}
 
   /// @param killer index of a scene that ends the process, the first time it is drawn.
   Serve serve(std::optional<std::size_t> killer = {}) const {
@@ -34,7 +38,7 @@ class FakeDevices {
         std::fputs(line.c_str(), out);
         std::fflush(out);
       };
-      say(line_of(Greeting{{}, cpus_}));
+      say(line_of(Greeting{others_come() ? "" : "the others did not come", cpus_}));
       std::FILE* in = ::fdopen(jobs, "r");
       for (unsigned long scene = 0; std::fscanf(in, "%lu", &scene) == 1;) {
         if (scene == killer) ::kill(::getpid(), SIGKILL);
@@ -52,7 +56,21 @@ class FakeDevices {
   }
 
  private:
+  bool others_come() const {
+    const std::filesystem::path mark = folder_ / ("opening" + std::to_string(::getpid()));
+    ::close(::open(mark.c_str(), O_RDWR | O_CREAT, 0600));
+    for (int tries = 0; tries < 10000; ++tries, ::usleep(1000)) {
+      using Files = std::filesystem::directory_iterator;
+      const auto opening = std::count_if(Files(folder_.path()), Files(), [](const auto& file) {
+        return file.path().filename().string().starts_with("opening");
+      });
+      if (opening >= opened_together_) return true;
+    }
+    return false;
+  }
+
   bool cpus_;
+  std::ptrdiff_t opened_together_;
   Folder folder_;
 };
 
@@ -90,6 +108,14 @@ TEST(Pool, GivesEachDeviceOneTaskAtATime) {
   for (const std::uint32_t device : options.devices)
     EXPECT_EQ(ran.processes.at(device).size(), 1u) << device;
   EXPECT_EQ(ran.result.validation_messages, 4) << "each says farewell";
+}
+
+TEST(Pool, OpensItsDevicesAtOnce) {
+  PoolOptions options;
+  options.devices = {0, 1, 2};
+  EXPECT_EQ(run(FakeDevices(false, 3).serve(), options, 9).failures, 0);
+  options.processes = 2;
+  EXPECT_EQ(run(FakeDevices(true, 6).serve(), options, 9).failures, 0);
 }
 
 TEST(Pool, OpensNoMoreDevicesThanThereAreScenes) {

@@ -136,13 +136,16 @@ TEST(Rows, FilesThatHoldNoResultsAreRefused) {
   EXPECT_FALSE(read_results(folder / "none.json"));
 }
 
-TEST(Rows, OfAnotherVersionAreSaidToBe) {
+TEST(Rows, ThatLackAKeyAreSaidToBeDamagedOrOfAnotherVersion) {
   const Folder folder;
   nlohmann::json results = results_json(shard(1, 1, 1, {"a"}));
   results["rows"][0].erase("regions");  // as rows of versions without regions are
   ASSERT_TRUE(write_text(folder / "old.json", results.dump()));
-  expect_one_line(read_results(folder / "old.json"), {"old.json", "another version", "'regions'"});
-  expect_one_line(row_from_json(results["rows"][0]), {"another version", "'regions'"});
+  expect_one_line(read_results(folder / "old.json"),
+                  {"old.json", "damaged, or another version", "'regions'"});
+  expect_one_line(row_from_json(results["rows"][0]), {"damaged, or another version", "'regions'"});
+  results["rows"][0]["regions"] = 1;
+  expect_one_line(row_from_json(results["rows"][0]), {"it is damaged: "});
 }
 
 /// Whether Python's parsers take the text; they are other people's code.

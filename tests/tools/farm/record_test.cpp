@@ -81,20 +81,21 @@ TEST(RecordFile, IsRefusedIfAPartIsMissingOrWrong) {
     ASSERT_TRUE(write_text(file, damaged.dump()));
     expect_one_line(collect(plan_of(1), paths({folder.path()})), {id(0) + ".json", why});
   };
+  const std::string damage = "it is damaged: ";
   for (const auto& [key, value] : whole.items()) {
     ordered_json damaged = whole;
     damaged.erase(key);
-    expect_refused(damaged, key);
+    expect_refused(damaged, damage + "it has no '" + key + "'");
   }
   for (const char* key : {"task", "device", "driver"}) {
     ordered_json damaged = whole;
     damaged[key] = 7;
-    expect_refused(damaged, "");
+    expect_refused(damaged, damage);
   }
   ordered_json other = whole;
   other["task"] = id(1);
   expect_refused(other, "it is of another task");
-  expect_refused(ordered_json::array({whole}), "");
+  expect_refused(ordered_json::array({whole}), damage);
 }
 
 TEST(Collect, IgnoresRowsOfOtherPlansAndOtherFiles) {

@@ -128,7 +128,7 @@ Result<std::string> task_id(std::string_view command, std::string_view name,
   Hash hash;
   for (const std::string_view part : {command, name, std::string_view(*program)}) hash.add(part);
   for (const std::string& input : inputs) hash.add(input);
-  return "t" + hash.hex().substr(0, kIdDigits);
+  return fmt::format("t{:.{}}", hash.hex(), kIdDigits);
 }
 
 Result<void> write_plan(const fs::path& dir, const Plan& plan) {

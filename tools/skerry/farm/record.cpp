@@ -32,6 +32,15 @@ std::string text_of(const ordered_json& value) {
   return value.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+constexpr int kMissingKey = 403;  // nlohmann's, "... key 'NAME' not found"
+
+std::string fault_of_json(const ordered_json::exception& why) {
+  const std::string_view text = why.what();
+  if (why.id != kMissingKey) return game::quote_text(text);
+  const std::size_t first = text.find('\''), last = text.rfind('\'');
+  return fmt::format("it has no {}", game::quote_text(text.substr(first + 1, last - first - 1)));
+}
+
 /// @pre the file exists.
 Result<Record> read_record(const fs::path& file, const std::string& id) {
   const Result<std::string> text = platform::read_text(file, kMaxRecordBytes);
@@ -49,7 +58,7 @@ Result<Record> read_record(const fs::path& file, const std::string& id) {
     if (record.task != id) return wrong("it is of another task");
     return record;
   } catch (const ordered_json::exception& why) {
-    return wrong(fault_of_row(why));
+    return wrong("it is damaged: " + fault_of_json(why));
   }
 }
 
@@ -136,12 +145,9 @@ Result<Collected> collect(const Plan& plan, std::span<const fs::path> folders) {
 }
 
 std::string fault_of_row(const ordered_json::exception& why) {
-  constexpr int kMissingKey = 403;  // "... key 'NAME' not found"
-  const std::string_view text = why.what();
-  if (why.id != kMissingKey) return game::quote_text(text);
-  const std::size_t first = text.find('\''), last = text.rfind('\'');
-  return fmt::format("another version of skerry wrote it, which has no {}",
-                     game::quote_text(text.substr(first + 1, last - first - 1)));
+  const bool lacks = why.id == kMissingKey;
+  return (lacks ? "it is damaged, or another version of skerry wrote it: " : "it is damaged: ") +
+         fault_of_json(why);
 }
 
 double measured_number(const Record& record, const char* name) {

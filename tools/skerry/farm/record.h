@@ -41,8 +41,9 @@ struct Collected {
 /// Errors: a row's file is damaged; rows are of different devices, which do not belong on one page.
 Result<Collected> collect(const Plan& plan, std::span<const std::filesystem::path> folders);
 
-/// What keeps a row from being used that lacks something, or has it otherwise: rows of other
-/// versions lack keys.
+/// What keeps a row from being used that lacks something, or has it otherwise: it is damaged, or,
+/// if it lacks a key, another version may have written it. What is around a row, such as its task,
+/// is the same in all versions.
 std::string fault_of_row(const nlohmann::ordered_json::exception& why);
 
 /// A number among a record's measurements; 0 if there is none of that name.

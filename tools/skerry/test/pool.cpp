@@ -63,12 +63,13 @@ class Pool {
   }
 
   PoolResult run() {
-    start_worker(devices_.front());
+    start_workers(0, processes(false));
     while (!workers_.empty() && !result_.refusal) wait_for_lines();
     return result_;
   }
 
  private:
+  void start_workers(int first, int end);
   void start_worker(std::optional<std::uint32_t> device);
   [[noreturn]] void become_worker(int jobs, int results, std::optional<std::uint32_t> device);
   int processes(bool on_cpu) const;
@@ -93,6 +94,13 @@ class Pool {
   std::list<Worker> workers_;
   PoolResult result_;
 };
+
+/// All at once, each device's turn after the other's: opening a GPU takes up to a second.
+void Pool::start_workers(int first, int end) {
+  for (auto i = static_cast<std::size_t>(first);
+       i < static_cast<std::size_t>(end) && !result_.refusal; ++i)
+    start_worker(devices_[i % devices_.size()]);
+}
 
 void Pool::start_worker(std::optional<std::uint32_t> device) {
   int jobs[2], results[2];
@@ -183,16 +191,14 @@ void Pool::take_line(Worker& worker, const std::string& line) {
   }
 }
 
-/// The first greeting decides whether more processes are worth it.
+/// The first greeting says whether devices are CPUs, on which more processes draw at once.
 void Pool::greet(const Greeting& greeting) {
   if (!greeting.error.empty()) {
     result_.refusal = Refusal{kNoDevice, {greeting.error}};
     return;
   }
   if (std::exchange(met_, true)) return;
-  const auto devices = static_cast<int>(devices_.size());
-  for (int i = 1; i < processes(greeting.on_cpu) && !result_.refusal; ++i)
-    start_worker(devices_[static_cast<std::size_t>(i % devices)]);
+  start_workers(processes(false), processes(greeting.on_cpu));
 }
 
 void Pool::give_job(Worker& worker) {

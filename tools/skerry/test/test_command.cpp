@@ -259,6 +259,18 @@ PoolResult TestCommand::draw(
   return end;
 }
 
+/// Of scenes that were approved, until one fails. An archive keeps those before it, as a folder
+/// does.
+Result<void> TestCommand::store_approved(std::span<const TestScene> scenes,
+                                         std::span<const Outcome> outcomes) const {
+  Result<void> stored;
+  for (std::size_t i = 0; i < scenes.size() && stored; ++i)
+    if (outcomes[i].row.verdict == Verdict::kApproved) stored = store_hash(scenes[i], outcomes[i]);
+  if (opened_baseline_)
+    if (Result<void> saved = opened_baseline_->save(); !saved) return saved;
+  return stored;
+}
+
 int TestCommand::draw_and_judge() {
   Results results;
   results.shard = shard_;
@@ -278,13 +290,9 @@ int TestCommand::draw_and_judge() {
     if (!row) return fail(kFailed, row.error());
     results.rows.push_back(*std::move(row));
   }
-  for (std::size_t i = 0; i < scenes.size(); ++i)
-    if (outcomes[i].row.verdict == Verdict::kApproved)
-      if (const Result<void> stored = store_hash(scenes[i], outcomes[i]); !stored)
-        return fail(kFailed, stored.error());
-  if (approve_ && opened_baseline_)
-    if (const Result<void> saved = opened_baseline_->save(); !saved)
-      return fail(kFailed, saved.error());
+  if (approve_)
+    if (const Result<void> stored = store_approved(scenes, outcomes); !stored)
+      return fail(kFailed, stored.error());
   const std::ptrdiff_t failed = print_summary(results.rows, pool_.runs, watch.seconds());
   if (const Result<void> written = write_outputs(std::move(results)); !written)
     return fail(kFailed, written.error());

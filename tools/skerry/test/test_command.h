@@ -41,6 +41,8 @@ class TestCommand {
   std::optional<Refusal> check_typed();
   std::optional<Refusal> check_outputs();
   int draw_and_judge();
+  Result<void> store_approved(std::span<const TestScene> scenes,
+                              std::span<const Outcome> outcomes) const;
   int merge_shards();
   int compare_pictures();
   int write_plan(std::span<const std::string> typed);
