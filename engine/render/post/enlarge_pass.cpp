@@ -11,26 +11,20 @@ namespace skerry::render {
 using gpu::Use;
 
 Developed EnlargePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                           const SceneRefs& scene, Developed developed, VkExtent2D drawn, gpu::Image& shown) {
+                           const SceneRefs& scene, Developed developed, gpu::Image& shown) {
   const gpu::ImageRef small = developed.picture();
   gpu::ImageRef out = graph.import(shown);
-  const VkExtent2D from = drawn, to = shown.desc().extent;
   graph.add_pass(
       "enlarge_picture",
       [&](gpu::PassBuilder& b) {
-        b.read(small, Use::kFragmentRead);
-        out = b.color(out, gpu::Load::discarded());
+        b.read(small, Use::kComputeSampled);
+        out = b.write(out, Use::kComputeWrite);
       },
-      [small, sampler = scene.lut_sampler,
-       drawn_from_shown = glm::vec2(from.width, from.height) / glm::vec2(to.width, to.height),
-       program = gpu::graphics(pipelines, programs::kCoverPictureVert,
-                               programs::kEnlargePictureFrag,
-                               {.constants = {},
-                                .color_formats = {shown.desc().format},
-                                .cull = VK_CULL_MODE_NONE})](gpu::Commands& c) {
+      [small, out, sampler = scene.lut_sampler, size = shown.desc().extent,
+       program = gpu::compute(pipelines, programs::kEnlargePicture)](gpu::Commands& c) {
         gpu::bind(c, program, gpu::sampled<shared::kSmallPictureBinding>(small, sampler),
-                  gpu::constants(drawn_from_shown));
-        c.draw(3, 1);
+                  gpu::storage<shared::kPictureBinding>(out));
+        c.dispatch(gpu::Commands::groups(size.width, 8), gpu::Commands::groups(size.height, 8), 1);
       });
   return Developed(out);
 }

@@ -14,7 +14,7 @@ namespace skerry::render {
 struct EnlargePass {
   /// @param shown RGBA8 storage image.
   static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                       Developed developed, VkExtent2D drawn, gpu::Image& shown);
+                       Developed developed, gpu::Image& shown);
 };
 
 }  // namespace skerry::render

@@ -32,7 +32,6 @@ Result<void> Picture::resize(const Sizes& sizes, int samples, std::uint32_t part
                       .format = VK_FORMAT_R8G8B8A8_UNORM,
                       .extent = sizes.drawn,
                       .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
   if (Result<void> ok = remake(image_, desc); !ok) return ok;
   desc.name = "enlarged picture";

@@ -49,7 +49,7 @@ FrameStep draw_marker_step() {
 FrameStep enlarge_step() {
   return {{{needs_enlarging, {"enlarge_picture"}}}, [](FrameAssembly& f) {
             f.developed = EnlargePass::add(f.graph, f.pipelines, f.scene, *std::move(f.developed),
-                                           f.plan.drawn, f.owners.picture.shown());
+                                           f.owners.picture.shown());
           }};
 }
 

@@ -6,12 +6,16 @@
 #include "shared/bindings.h"
 #include "shared/constants.h"
 
+layout(local_size_x = 8, local_size_y = 8) in;
+
 layout(binding = kSmallPictureBinding) uniform sampler2D small_picture;
-layout(push_constant, scalar) uniform Constants { vec2 drawn_from_shown; };  // pixels
-layout(location = 0) out vec4 shown;
+layout(binding = kPictureBinding, rgba8) writeonly uniform image2D shown;
 
 void main() {
-  vec2 at = gl_FragCoord.xy * drawn_from_shown - 0.5, first = floor(at);
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(shown);
+  if (any(greaterThanEqual(pixel, size))) return;
+  vec2 drawn = vec2(textureSize(small_picture, 0));
+  vec2 at = (vec2(pixel) + 0.5) * (drawn / vec2(size)) - 0.5, first = floor(at);
   vec2 between = clamp((at - first - 0.5) * kEnlargeSlope + 0.5, vec2(0.0), vec2(1.0));
-  shown = textureLod(small_picture, (first + between + 0.5) / vec2(textureSize(small_picture, 0)), 0.0);
+  imageStore(shown, pixel, textureLod(small_picture, (first + between + 0.5) / drawn, 0.0));
 }
