@@ -13,6 +13,8 @@ namespace {
 // some seconds on two busy cores, and frames take a third longer meanwhile.
 constexpr int kNice = 5;
 
+thread_local const BackgroundThreads* working_for = nullptr;
+
 /// Of this thread alone: Linux keeps the value by thread. Without effect where it is refused.
 void lower_priority() {
   const auto thread = static_cast<id_t>(gettid());
@@ -36,7 +38,10 @@ BackgroundThreads::~BackgroundThreads() {
 void BackgroundThreads::submit(std::function<void()> job) {
   SKERRY_ASSERT(job != nullptr);
   const std::lock_guard lock(mutex_);
-  jobs_.push_back(std::move(job));
+  if (working_for == this)
+    jobs_.push_front(std::move(job));
+  else
+    jobs_.push_back(std::move(job));
   wanted_.notify_one();
 }
 
@@ -47,6 +52,7 @@ void BackgroundThreads::wait() {
 
 void BackgroundThreads::work() {
   lower_priority();
+  working_for = this;
   std::unique_lock lock(mutex_);
   for (;;) {
     wanted_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });

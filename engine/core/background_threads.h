@@ -20,7 +20,8 @@ class BackgroundThreads {
   BackgroundThreads(const BackgroundThreads&) = delete;
   BackgroundThreads& operator=(const BackgroundThreads&) = delete;
 
-  /// Runs on some thread later, jobs in the order of submission. Must not throw.
+  /// Runs on some thread later, in the order of submission; what a job submits comes before all
+  /// that waits, so that one piece of work ends before the next begins. Must not throw.
   void submit(std::function<void()> job);
   /// Returns when every job submitted so far, and those they submitted, has ended.
   void wait();

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <functional>
 #include <latch>
+#include <string>
 #include <vector>
 
 namespace skerry {
@@ -44,6 +45,22 @@ TEST(BackgroundThreads, OneThreadKeepsTheOrderAndTheEndWaitsForAll) {
   }
   ASSERT_EQ(order.size(), 100u);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
+}
+
+TEST(BackgroundThreads, WhatAJobSubmitsComesBeforeAllThatWaits) {
+  std::string order;
+  {
+    BackgroundThreads background(1);
+    std::latch all_there(1);
+    background.submit([&] { all_there.wait(); });
+    for (const char name : {'a', 'b'})
+      background.submit([&, name] {
+        order += name;
+        background.submit([&, name] { order += static_cast<char>(name - 'a' + 'A'); });
+      });
+    all_there.count_down();
+  }
+  EXPECT_EQ(order, "aAbB");
 }
 
 TEST(BackgroundThreads, GiveWayToOthersAndLeaveThemAsTheyAre) {
