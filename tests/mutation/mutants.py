@@ -79,7 +79,7 @@ MUTANTS = (
            "return light.intensity * (kCloudAlbedo * mean", "return vec3(0.0) * (kCloudAlbedo * mean", "cloud_on_fire"),
     Mutant("thin_bricks_lost", "bricks of small values are taken for empty", "shaders/include/sky/cloud_volumes.glsl",
            "return cell_found.a > 0.0 ? value : 0.0;", "return cell_found.a > 0.5 ? value : 0.0;",
-           "cloud_on_fire cloud_of_a_file"),
+           "thin_cloud"),
     # Corners
     Mutant("corners_lost", "corners are as bright as faces", "shaders/include/light/corners.glsl",
            "1.0 - frame.ao_strength * (1.0 - ao)", "1.0 - 1e-6 * frame.ao_strength * (1.0 - ao)", "mesa tropical"),
