@@ -104,6 +104,20 @@ void finish(Streamer& streamer, Consumer& consumer) {
   while (!streamer.complete()) consumer.take(streamer.poll(kAllQuads));
 }
 
+/// The home island of seed 1 alone, handed out in full detail.
+struct LoadedHome {
+  Scene scene{{.seed = 1, .island_limit = 1}};
+  World world{scene.desc};
+  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
+  Jobs jobs;
+  Streamer streamer{world, jobs};
+  Consumer consumer;
+  explicit LoadedHome(int threads) : jobs(threads) {
+    streamer.update(scene.view, scene.settings);
+    finish(streamer, consumer);
+  }
+};
+
 TEST(StreamLevel, DoublesWithDistance) {
   EXPECT_EQ(level_at(-50.0, 100.0), 0);  // inside the sphere
   EXPECT_EQ(level_at(99.9, 100.0), 0);
@@ -182,15 +196,8 @@ TEST(Stream, TheQuadBudgetHoldsUpToOneSection) {
 }
 
 TEST(Stream, ALevelIsReplacedInOneUpdate) {
-  Scene scene;
-  scene.desc.island_limit = 1;
-  World world(scene.desc);
-  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
-  Jobs jobs(4);
-  Streamer streamer(world, jobs);
-  Consumer consumer;
-  streamer.update(scene.view, scene.settings);
-  finish(streamer, consumer);
+  LoadedHome loaded(4);
+  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
   EXPECT_EQ(consumer.levels_of(home), std::set<std::int32_t>{0});
   scene.settings.detail_distance_blocks = 0.0;  // everything at the coarsest level
   const glm::dvec3 out{0.0, 400.0, 0.0};
@@ -280,15 +287,8 @@ TEST(Stream, DriftBringsIslandsIn) {
 }
 
 TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
-  Scene scene;
-  scene.desc.island_limit = 1;
-  World world(scene.desc);
-  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
-  Jobs jobs(2);
-  Streamer streamer(world, jobs);
-  Consumer consumer;
-  streamer.update(scene.view, scene.settings);
-  finish(streamer, consumer);
+  LoadedHome loaded(2);
+  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
   // Dig out the first solid voxel found on a chunk's border, and put a lamp high in the air.
   IVec3 solid{63, 0, 0};
   for (solid.y = 80; world.block_at(home, solid).value_or(kAir) == kAir; --solid.y) {
@@ -298,6 +298,7 @@ TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
   ASSERT_TRUE(world.set_block(home, {5, 640, 5}, block::kLamp));
   EXPECT_EQ(world.block_at(home, solid), kAir);
   streamer.update(scene.view, scene.settings);
+  EXPECT_FALSE(streamer.complete());
   streamer.wait_until_complete();
   StreamUpdate update = streamer.poll(kAllQuads);
   std::set<IVec3> changed;
@@ -317,15 +318,8 @@ TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
 }
 
 TEST(Stream, AnEditIsHandedOutByTheFrameThatMadeItHoweverBusyTheWorkersAre) {
-  Scene scene;
-  scene.desc.island_limit = 1;
-  World world(scene.desc);
-  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
-  Jobs jobs(1);
-  Streamer streamer(world, jobs);
-  Consumer consumer;
-  streamer.update(scene.view, scene.settings);
-  finish(streamer, consumer);
+  LoadedHome loaded(1);
+  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
   std::latch busy(1);
   jobs.submit([&] { busy.wait(); });
   ASSERT_TRUE(world.set_block(home, {5, 640, 5}, block::kLamp));
