@@ -148,7 +148,8 @@ void Streamer::State::run_task() {
     --running;
     running_edited -= task.edited;
   }
-  if (all_made() || running_edited == 0 || (stopping && running == 0)) idle.notify_all();
+  const bool last_edited = task.edited && running_edited == 0;
+  if (all_made() || last_edited || (stopping && running == 0)) idle.notify_all();
   lock.unlock();
   submit_jobs();
 }
