@@ -15,7 +15,7 @@ constexpr std::size_t kMostKnown = 512;  // islands; a large one takes 300 KiB
 
 void MapMaker::ask(Request request) {
   busy_ = true;
-  thread_.add([this, request = std::move(request)]() mutable {
+  thread_.submit([this, request = std::move(request)]() mutable {
     Map map = draw(request);
     {
       const std::lock_guard lock(mutex_);

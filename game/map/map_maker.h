@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/worker_threads.h"
 #include "game/map/map_picture.h"
-#include "game/session/task_thread.h"
 #include "world/voxel/island.h"
 
 namespace skerry::game {
@@ -55,7 +55,7 @@ class MapMaker {
   std::atomic<bool> busy_ = false;
   std::mutex mutex_;
   std::optional<Map> done_;
-  TaskThread thread_;  // last, so that it ends first
+  WorkerThreads thread_{1};  // last, so that it ends first
 };
 
 }  // namespace skerry::game

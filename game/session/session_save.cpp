@@ -43,7 +43,7 @@ void Session::State::save_soon() {
   }
   if (save_under_way.exchange(true)) return;
   saved_at = Clock::now();
-  saver.add([this, now = snapshot()] {
+  saver.submit([this, now = snapshot()] {
     if (const Result<void> done = write(now); !done) {
       const std::lock_guard lock(problem_mutex);
       problem = done.error().message;

@@ -45,7 +45,7 @@ void Session::State::follow_edit(const Edit& edit, world::BlockId was) {
   motion.edited(edit.island, {&edit.voxel, 1}, solid);
   if (const auto way = shapes.find(edit.island); way != shapes.end())
     way->second.edits[edit.voxel] = solid;
-  worker.add([this, edit, solid, at_s = time_s] { look_for_fragments(edit, solid, at_s); });
+  worker.submit([this, edit, solid, at_s = time_s] { look_for_fragments(edit, solid, at_s); });
 }
 
 /// @param at_s the world's time; where the island is decides where its pieces are first seen.
@@ -165,7 +165,7 @@ std::unique_ptr<world::Shape> Session::State::shape_for(std::uint64_t island) {
   }
   ShapeOnItsWay& way = shapes[island];
   way.box = std::make_shared<Mailbox<std::unique_ptr<world::Shape>>>();
-  shaper.add([this, island, box = way.box] {
+  shaper.submit([this, island, box = way.box] {
     if (leaving) return;
     box->put(std::make_unique<world::Shape>(world::SolidGrid::of_island(*world, island, &leaving)));
   });

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <set>
 
+#include "engine/core/worker_threads.h"
 #include "game/session/session.h"
-#include "game/session/task_thread.h"
 #include "world/motion/motion.h"
 #include "world/motion/split.h"
 #include "world/store/chunk_blob.h"
@@ -144,7 +144,7 @@ struct Session::State {
   std::array<KnownGrid, 4> grids;  // of the islands edited last, newest first
 
   // Last, so that they end first.
-  TaskThread worker, shaper, saver;
+  WorkerThreads worker{1}, shaper{1}, saver{1};
 };
 
 }  // namespace skerry::game

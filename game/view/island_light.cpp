@@ -26,8 +26,7 @@ struct IslandLight::Search {
   std::atomic<bool> done = false;
 };
 
-IslandLight::IslandLight(BackgroundThreads& threads, Finds finds)
-    : threads_(threads), finds_(finds) {}
+IslandLight::IslandLight(WorkerThreads& threads, Finds finds) : threads_(threads), finds_(finds) {}
 
 void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
   Island& island = islands_[key.island];
@@ -49,7 +48,7 @@ void IslandLight::remove(const world::SectionKey& key) {
   ++found->second.version;
 }
 
-void IslandLight::run(BackgroundThreads& threads, std::shared_ptr<Search> search) {
+void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
   threads.submit([search] {
     const bool any = std::any_of(search->chunks.begin(), search->chunks.end(),
                                  [](const auto& one) { return !one.second->strong.empty(); });
@@ -68,7 +67,7 @@ void IslandLight::run(BackgroundThreads& threads, std::shared_ptr<Search> search
 }
 
 // Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
-void IslandLight::look_at_sky(BackgroundThreads& threads, std::shared_ptr<Search> search) {
+void IslandLight::look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search) {
   threads.submit([&threads, search] {
     search->transfer = std::make_unique<world::SkyTransfer>(search->chunks, search->albedo);
     for (int part = 0; part <= world::kOctants; ++part)
@@ -83,8 +82,7 @@ void IslandLight::look_at_sky(BackgroundThreads& threads, std::shared_ptr<Search
 }
 
 // A step needs all of the step before it.
-void IslandLight::follow_bounces(BackgroundThreads& threads, std::shared_ptr<Search> search,
-                                 int step) {
+void IslandLight::follow_bounces(WorkerThreads& threads, std::shared_ptr<Search> search, int step) {
   if (!search->transfer->has_bounces() || step == world::BounceLight::kSteps) {
     search->found = search->transfer->faces();
     search->transfer.reset();

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/core/background_threads.h"
+#include "engine/core/worker_threads.h"
 #include "world/light/lamp_reach.h"
 #include "world/light/sky_transfer.h"
 #include "world/stream/stream.h"
@@ -23,7 +23,7 @@ class IslandLight {
     kSky,      ///< and the sky's light and that of weak lamps
     kBounces,  ///< and what faces reflect to each other
   };
-  IslandLight(BackgroundThreads& threads, Finds finds);
+  IslandLight(WorkerThreads& threads, Finds finds);
   Finds finds() const { return finds_; }
 
   /// Takes in a chunk. An island's chunks are of one level at a time. One that takes the place of
@@ -75,11 +75,11 @@ class IslandLight {
     std::set<world::IVec3> guessed;  // of `known`, since poll() last said
   };
   static Found guesses(std::uint64_t id, Island& island);
-  static void run(BackgroundThreads& threads, std::shared_ptr<Search> search);
-  static void look_at_sky(BackgroundThreads& threads, std::shared_ptr<Search> search);
-  static void follow_bounces(BackgroundThreads& threads, std::shared_ptr<Search> search, int step);
+  static void run(WorkerThreads& threads, std::shared_ptr<Search> search);
+  static void look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search);
+  static void follow_bounces(WorkerThreads& threads, std::shared_ptr<Search> search, int step);
 
-  BackgroundThreads& threads_;
+  WorkerThreads& threads_;
   const Finds finds_;
   std::map<std::uint64_t, Island> islands_;
 };

@@ -288,7 +288,8 @@ Result<void> SceneView::follow_settings() {
     occupancy_ = *made;
   }
   if (light && !light_threads_)
-    light_threads_ = std::make_unique<BackgroundThreads>(jobs_->threads());
+    light_threads_ =
+        std::make_unique<WorkerThreads>(jobs_->threads(), WorkerThreads::Priority::kLowered);
   if (light) island_light_ = std::make_unique<IslandLight>(*light_threads_, finds);
   weak_lamps_kept_ = full;
   streamer_ =

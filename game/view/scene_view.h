@@ -142,14 +142,14 @@ class SceneView {
   ViewFit::Distances asked_before_;
   int frames_since_lowered_ = 0;
   std::vector<std::string> notices_;
-  render::OccupancyStore* occupancy_ = nullptr;       // the renderer's; null: not wanted so far
-  render::IndirectStore* indirect_ = nullptr;         // the renderer's; null: no light so far
-  std::unique_ptr<BackgroundThreads> light_threads_;  // of island_light_
-  std::unique_ptr<IslandLight> island_light_;         // none: not wanted so far
-  SkyLightFeed sky_light_;                            // what island_light_ has found
-  bool light_refused_ = false;                        // for want of memory, and that has been said
-  bool weak_lamps_kept_ = false;                      // by island_light_, not by light_field_
-  bool cloud_volumes_ = false;                        // what lamps light in the air, too
+  render::OccupancyStore* occupancy_ = nullptr;   // the renderer's; null: not wanted so far
+  render::IndirectStore* indirect_ = nullptr;     // the renderer's; null: no light so far
+  std::unique_ptr<WorkerThreads> light_threads_;  // of island_light_
+  std::unique_ptr<IslandLight> island_light_;     // none: not wanted so far
+  SkyLightFeed sky_light_;                        // what island_light_ has found
+  bool light_refused_ = false;                    // for want of memory, and that has been said
+  bool weak_lamps_kept_ = false;                  // by island_light_, not by light_field_
+  bool cloud_volumes_ = false;                    // what lamps light in the air, too
   LightField light_field_;
   FrameLights lights_;  // of the last frame
   double gather_ms_ = 0.0;

@@ -1,5 +1,6 @@
 #pragma once
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -8,17 +9,22 @@
 
 namespace skerry {
 
-/// Worker threads for long work that no frame waits for. The system gives them less of the
-/// processors than others where all are busy (nice, on Linux), so that frames of a CPU driver keep
-/// their pace meanwhile.
-class BackgroundThreads {
+/// Threads of their own for work that no frame waits for. One thread does its jobs one after the
+/// other.
+class WorkerThreads {
  public:
+  enum class Priority : std::uint8_t {
+    kUsual,
+    /// Less of the processors where all are busy (nice, on Linux), so that frames of a CPU driver
+    /// keep their pace.
+    kLowered,
+  };
   /// @param threads 1..
-  explicit BackgroundThreads(int threads);
+  explicit WorkerThreads(int threads, Priority priority = Priority::kUsual);
   /// Waits for all jobs.
-  ~BackgroundThreads();
-  BackgroundThreads(const BackgroundThreads&) = delete;
-  BackgroundThreads& operator=(const BackgroundThreads&) = delete;
+  ~WorkerThreads();
+  WorkerThreads(const WorkerThreads&) = delete;
+  WorkerThreads& operator=(const WorkerThreads&) = delete;
 
   /// Runs on some thread later, in the order of submission; what a job submits comes before all
   /// that waits, so that one piece of work ends before the next begins. Must not throw.
@@ -27,7 +33,7 @@ class BackgroundThreads {
   void wait();
 
  private:
-  void work();
+  void work(Priority priority);
   std::mutex mutex_;  // guards all below but the threads
   std::condition_variable wanted_, idle_;
   std::deque<std::function<void()>> jobs_;

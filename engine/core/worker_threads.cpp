@@ -1,4 +1,4 @@
-#include "engine/core/background_threads.h"
+#include "engine/core/worker_threads.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace {
 // some seconds on two busy cores, and frames take a third longer meanwhile.
 constexpr int kNice = 5;
 
-thread_local const BackgroundThreads* working_for = nullptr;
+thread_local const WorkerThreads* working_for = nullptr;
 
 /// Of this thread alone: Linux keeps the value by thread. Without effect where it is refused.
 void lower_priority() {
@@ -23,19 +23,19 @@ void lower_priority() {
 
 }  // namespace
 
-BackgroundThreads::BackgroundThreads(int threads) {
+WorkerThreads::WorkerThreads(int threads, Priority priority) {
   SKERRY_ASSERT(threads >= 1);
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  for (int i = 0; i < threads; ++i) threads_.emplace_back([this, priority] { work(priority); });
 }
 
-BackgroundThreads::~BackgroundThreads() {
+WorkerThreads::~WorkerThreads() {
   wait();
   const std::lock_guard lock(mutex_);
   stopping_ = true;
   wanted_.notify_all();
 }
 
-void BackgroundThreads::submit(std::function<void()> job) {
+void WorkerThreads::submit(std::function<void()> job) {
   SKERRY_ASSERT(job != nullptr);
   const std::lock_guard lock(mutex_);
   if (working_for == this)
@@ -45,13 +45,13 @@ void BackgroundThreads::submit(std::function<void()> job) {
   wanted_.notify_one();
 }
 
-void BackgroundThreads::wait() {
+void WorkerThreads::wait() {
   std::unique_lock lock(mutex_);
   idle_.wait(lock, [this] { return jobs_.empty() && running_ == 0; });
 }
 
-void BackgroundThreads::work() {
-  lower_priority();
+void WorkerThreads::work(Priority priority) {
+  if (priority == Priority::kLowered) lower_priority();
   working_for = this;
   std::unique_lock lock(mutex_);
   for (;;) {

@@ -1,4 +1,4 @@
-#include "engine/core/background_threads.h"
+#include "engine/core/worker_threads.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -13,9 +13,9 @@
 namespace skerry {
 namespace {
 
-TEST(BackgroundThreads, WaitCoversJobsThatJobsSubmit) {
+TEST(WorkerThreads, WaitCoversJobsThatJobsSubmit) {
   for (const int threads : {1, 2, 8}) {
-    BackgroundThreads background(threads);
+    WorkerThreads background(threads);
     std::atomic<int> done = 0;
     const std::function<void(int)> split = [&](int depth) {
       if (depth > 0) {
@@ -30,27 +30,27 @@ TEST(BackgroundThreads, WaitCoversJobsThatJobsSubmit) {
   }
 }
 
-TEST(BackgroundThreads, AsManyAsAskedForWorkAtOnce) {
-  BackgroundThreads background(3);
+TEST(WorkerThreads, AsManyAsAskedForWorkAtOnce) {
+  WorkerThreads background(3);
   std::latch together(3);
   for (int i = 0; i < 3; ++i) background.submit([&] { together.arrive_and_wait(); });
   background.wait();
 }
 
-TEST(BackgroundThreads, OneThreadKeepsTheOrderAndTheEndWaitsForAll) {
+TEST(WorkerThreads, OneThreadKeepsTheOrderAndTheEndWaitsForAll) {
   std::vector<int> order;
   {
-    BackgroundThreads background(1);
+    WorkerThreads background(1);
     for (int i = 0; i < 100; ++i) background.submit([&, i] { order.push_back(i); });
   }
   ASSERT_EQ(order.size(), 100u);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
 }
 
-TEST(BackgroundThreads, WhatAJobSubmitsComesBeforeAllThatWaits) {
+TEST(WorkerThreads, WhatAJobSubmitsComesBeforeAllThatWaits) {
   std::string order;
   {
-    BackgroundThreads background(1);
+    WorkerThreads background(1);
     std::latch all_there(1);
     background.submit([&] { all_there.wait(); });
     for (const char name : {'a', 'b'})
@@ -63,9 +63,9 @@ TEST(BackgroundThreads, WhatAJobSubmitsComesBeforeAllThatWaits) {
   EXPECT_EQ(order, "aAbB");
 }
 
-TEST(BackgroundThreads, GiveWayToOthersAndLeaveThemAsTheyAre) {
+TEST(WorkerThreads, OfLoweredPriorityGiveWayToOthersAndLeaveThemAsTheyAre) {
   const int before = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
-  BackgroundThreads background(1);
+  WorkerThreads background(1, WorkerThreads::Priority::kLowered);
   int there = before;
   background.submit([&] { there = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); });
   background.wait();
