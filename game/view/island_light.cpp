@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -20,11 +21,18 @@ struct IslandLight::Search {
       reach;  // of chunks with strong lamps
   std::atomic<bool> reach_done = false;
   bool reach_taken = false;
-  std::unique_ptr<world::SkyTransfer> transfer;
+  std::unique_ptr<world::SkyTransfer> transfer;  // of an earlier look, to be brought up to date
+  bool keep = false;                             // for the next one
   std::atomic<int> parts_left = world::kOctants + 1;  // octants, and lamps; then of a step
-  std::map<world::IVec3, world::ChunkSky> found;
+  Skies found;
   std::atomic<bool> done = false;
 };
+
+namespace {
+// Nearest islands of which enough is kept for edits. A giant takes some 100 MB.
+constexpr std::size_t kKept = 2;
+constexpr int kCallsToWait = 64;  // start() with nothing new, before it asks who is near
+}  // namespace
 
 IslandLight::IslandLight(WorkerThreads& threads, Finds finds) : threads_(threads), finds_(finds) {}
 
@@ -69,6 +77,7 @@ void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
 // Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
 void IslandLight::look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search) {
   threads.submit([&threads, search] {
+    if (search->transfer && search->transfer->edit(search->chunks)) return end_look(*search);
     search->transfer = std::make_unique<world::SkyTransfer>(search->chunks, search->albedo);
     for (int part = 0; part <= world::kOctants; ++part)
       threads.submit([&threads, search, part] {
@@ -84,10 +93,8 @@ void IslandLight::look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> se
 // A step needs all of the step before it.
 void IslandLight::follow_bounces(WorkerThreads& threads, std::shared_ptr<Search> search, int step) {
   if (!search->transfer->has_bounces() || step == world::BounceLight::kSteps) {
-    search->found = search->transfer->faces();
-    search->transfer.reset();
-    search->done = true;
-    return;
+    search->transfer->make_faces();
+    return end_look(*search);
   }
   search->parts_left = world::BounceLight::kParts;
   for (int part = 0; part < world::BounceLight::kParts; ++part)
@@ -97,17 +104,64 @@ void IslandLight::follow_bounces(WorkerThreads& threads, std::shared_ptr<Search>
     });
 }
 
-void IslandLight::start(const world::Streamer& streamer) {
+void IslandLight::end_look(Search& search) {
+  search.found = search.transfer->faces();
+  if (!search.keep) search.transfer.reset();
+  search.done = true;
+}
+
+struct IslandLight::Rank {
+  double distance = 0.0;
+  std::uint64_t id = 0;
+  Island* island = nullptr;
+};
+
+/// Islands, the nearest first; those without a distance last.
+std::vector<IslandLight::Rank> IslandLight::by_distance(const Distances& distances) {
+  std::vector<Rank> out;
   for (auto& [id, island] : islands_) {
-    if (island.search || island.asked == island.version || !streamer.settled(id)) continue;
-    island.search = std::make_shared<Search>();
-    island.search->chunks = island.chunks;
-    island.search->version = island.asked = island.version;
-    island.search->level = island.level;
-    island.search->sky = finds_ != Finds::kReach;
-    if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
-    run(threads_, island.search);
+    const auto found = distances.find(id);
+    out.push_back(
+        {found == distances.end() ? std::numeric_limits<double>::infinity() : found->second, id,
+         &island});
   }
+  std::ranges::sort(out, {}, [](const Rank& rank) { return std::pair(rank.distance, rank.id); });
+  return out;
+}
+
+void IslandLight::begin(Island& island, bool keep) {
+  island.search = std::make_shared<Search>();
+  island.search->chunks = island.chunks;
+  island.search->version = island.asked = island.version;
+  island.search->level = island.level;
+  island.search->sky = finds_ != Finds::kReach;
+  island.search->keep = keep && island.search->sky && island.level == 0;
+  island.search->transfer = std::move(island.kept);
+  if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
+  run(threads_, island.search);
+}
+
+void IslandLight::start(const world::Streamer& streamer,
+                        const std::function<Distances()>& distances) {
+  const bool is_new = std::ranges::any_of(islands_, [](const auto& one) {
+    return !one.second.search && one.second.asked != one.second.version;
+  });
+  if (!is_new && ++calls_with_nothing_new_ < kCallsToWait) return;
+  calls_with_nothing_new_ = 0;
+  const std::vector<Rank> ranks = by_distance(distances());
+  bool busy = false;
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    Island& island = *ranks[i].island;
+    if (i > kKept) island.kept.reset();
+    busy |= island.search || island.asked != island.version;
+    if (island.search || island.asked == island.version || !streamer.settled(ranks[i].id)) continue;
+    begin(island, i < kKept);
+  }
+  // When there is nothing else to do, the nearest one is looked at once more for edits to come.
+  if (busy || ranks.empty() || finds_ == Finds::kReach) return;
+  Island& nearest = *ranks.front().island;
+  if (!nearest.kept && nearest.level == 0 && streamer.settled(ranks.front().id))
+    begin(nearest, true);
 }
 
 IslandLight::Found IslandLight::guesses(std::uint64_t id, Island& island) {
@@ -138,6 +192,7 @@ std::vector<IslandLight::Found> IslandLight::poll() {
       continue;
     }
     const std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
+    if (search->keep && search->level == island.level) island.kept = std::move(search->transfer);
     if (finds_ == Finds::kReach) continue;
     Found found{id, search->level, {}};
     Skies skies;
@@ -146,11 +201,13 @@ std::vector<IslandLight::Found> IslandLight::poll() {
       const auto now = island.chunks.find(at);
       if (now != island.chunks.end() && search->level == island.level &&
           now->second != search->chunks[at])
-        sky = world::inherit_faces(sky, now->second->quads);
+        sky =
+            std::make_shared<const world::ChunkSky>(world::inherit_faces(*sky, now->second->quads));
       const auto before = island.known.find(at);
       const bool same = island.known_level == search->level && before != island.known.end() &&
-                        !island.guessed.contains(at) && *before->second == sky;
-      skies[at] = same ? before->second : std::make_shared<const world::ChunkSky>(std::move(sky));
+                        !island.guessed.contains(at) &&
+                        (before->second == sky || *before->second == *sky);
+      skies[at] = same ? before->second : std::move(sky);
       found.chunks.push_back({at, skies[at], !same});
     }
     island.guessed.clear();

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -14,8 +15,9 @@ namespace skerry::game {
 
 /// The light of the sky on the islands that are resident, what their faces reflect to each other,
 /// and where their lamps can arrive, found on threads in the background. An island is looked at as
-/// a whole, anew whenever one of its chunks has changed; what is found depends on its voxels alone.
-/// The frame thread calls everything here.
+/// a whole at first; of the nearest ones enough is kept that an edit has only that looked at again
+/// which it changes. What is found depends on the voxels alone. The frame thread calls everything
+/// here.
 class IslandLight {
  public:
   enum class Finds : std::uint8_t {
@@ -34,8 +36,10 @@ class IslandLight {
   /// Removes an island and its light.
   void end_island(std::uint64_t island) { islands_.erase(island); }
   /// Looks at islands that have changed and whose chunks have all come: what is not there yet would
-  /// let light into rooms that it closes.
-  void start(const world::Streamer& streamer);
+  /// let light into rooms that it closes. The nearest one first.
+  /// @param distances called when they are needed: of islands from the camera, by id.
+  using Distances = std::map<std::uint64_t, double>;
+  void start(const world::Streamer& streamer, const std::function<Distances()>& distances);
   /// Waits until all that was started has been found.
   void wait() { threads_.wait(); }
 
@@ -62,7 +66,7 @@ class IslandLight {
   std::vector<FoundReach> poll_reach();
 
  private:
-  using Skies = std::map<world::IVec3, std::shared_ptr<const world::ChunkSky>>;
+  using Skies = world::SkyTransfer::Skies;
   struct Search;
   struct Island {
     int level = 0;
@@ -70,7 +74,8 @@ class IslandLight {
     std::uint64_t version = 0;  // grows with every change
     std::uint64_t asked = 0;    // version that was looked at last
     std::shared_ptr<Search> search;
-    Skies known;  // as poll() last said, or says next
+    std::unique_ptr<world::SkyTransfer> kept;  // of the version that was asked last
+    Skies known;                               // as poll() last said, or says next
     int known_level = -1;
     std::set<world::IVec3> guessed;  // of `known`, since poll() last said
   };
@@ -78,9 +83,14 @@ class IslandLight {
   static void run(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void follow_bounces(WorkerThreads& threads, std::shared_ptr<Search> search, int step);
+  static void end_look(Search& search);
+  struct Rank;
+  std::vector<Rank> by_distance(const Distances& distances);
+  void begin(Island& island, bool keep);
 
   WorkerThreads& threads_;
   const Finds finds_;
+  int calls_with_nothing_new_ = 0;
   std::map<std::uint64_t, Island> islands_;
 };
 

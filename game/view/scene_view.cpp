@@ -193,10 +193,10 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
     add_waiting(UINT64_MAX);
   } while (!waiting_.empty() && show_less(camera));
   renderer_->set_upload_budget(UINT64_MAX);
-  find_light();
+  find_light(camera, world_time_s);
   if (!island_light_) return {};
   island_light_->wait();
-  find_light();
+  find_light(camera, world_time_s);
   while (hand_over_light(camera, world_time_s, UINT64_MAX)) renderer_->reclaim();
   if (sky_light_.idle()) return {};
   // Which islands have light must not depend on what was lit before.
@@ -223,7 +223,7 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
   } else if (!waiting_.empty() && !more_next_frame_ && frames_since_lowered_ > kFramesToLetGo) {
     show_less(camera);
   }
-  find_light();
+  find_light(camera, world_time_s);
   hand_over_light(camera, world_time_s, settings_.upload_budget_bytes);
   return {};
 }
@@ -335,14 +335,33 @@ bool SceneView::is_full() const {
 }
 
 /// Has workers look for light where something has changed, and takes in what they have found.
-void SceneView::find_light() {
+void SceneView::find_light(const render::Camera& camera, double world_time_s) {
   if (!island_light_) return;
   // What waits for memory would let light in.
-  if (waiting_.empty()) island_light_->start(*streamer_);
+  if (waiting_.empty())
+    island_light_->start(*streamer_, [&] {
+      IslandLight::Distances distances;
+      for (const auto& [id, island] : near_islands(camera, world_time_s))
+        distances[id] = island.distance;
+      return distances;
+    });
   for (IslandLight::FoundReach& found : island_light_->poll_reach())
     light_field_.set_reach(found.section, std::move(found.reach));
   for (IslandLight::Found& found : island_light_->poll())
     if (island_slots_.contains(found.island)) sky_light_.add(std::move(found));
+}
+
+std::map<std::uint64_t, SkyLightFeed::NearIsland> SceneView::near_islands(
+    const render::Camera& camera, double world_time_s) const {
+  std::map<std::uint64_t, SkyLightFeed::NearIsland> islands;
+  for (const auto& [id, slot] : island_slots_) {
+    const IslandEntry& entry = islands_[slot];
+    const world::Pose pose = pose_of(entry, world_time_s);
+    const double centre =
+        glm::length(world::difference_blocks(place(camera.position), pose.origin));
+    islands[id] = {slot, std::max(0.0, centre - entry.spec.bounding_radius)};
+  }
+  return islands;
 }
 
 /// Hands light of the sky to the renderer until `most_bytes` wait to be copied. @return whether
@@ -358,15 +377,8 @@ bool SceneView::hand_over_light(const render::Camera& camera, double world_time_
     }
     indirect_ = *made;
   }
-  std::map<std::uint64_t, SkyLightFeed::NearIsland> islands;
-  for (const auto& [id, slot] : island_slots_) {
-    const world::Pose pose = pose_of(islands_[slot], world_time_s);
-    const double centre =
-        glm::length(world::difference_blocks(place(camera.position), pose.origin));
-    islands[id] = {slot, std::max(0.0, centre - islands_[slot].spec.bounding_radius)};
-  }
-  const bool more =
-      sky_light_.hand_over(*indirect_, renderer_->mesh_uploader(), islands, most_bytes);
+  const bool more = sky_light_.hand_over(*indirect_, renderer_->mesh_uploader(),
+                                         near_islands(camera, world_time_s), most_bytes);
   if (const std::optional<std::string> why = sky_light_.refusal()) refuse_light(*why);
   return more;
 }

@@ -108,7 +108,9 @@ class SceneView {
   Result<void> restart_with_less(const render::Camera& camera, const std::string& why);
   Result<void> add_section(const world::ReadySection& ready);
   void release_island(std::uint64_t island);
-  void find_light();
+  void find_light(const render::Camera& camera, double world_time_s);
+  std::map<std::uint64_t, SkyLightFeed::NearIsland> near_islands(const render::Camera& camera,
+                                                                 double world_time_s) const;
   bool hand_over_light(const render::Camera& camera, double world_time_s, std::uint64_t most_bytes);
   void refuse_light(const std::string& why);
   void remove_section(const world::SectionKey& key);

@@ -1,6 +1,8 @@
 #include "world/light/air_volume.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "engine/core/check.h"
 #include "shaders/shared/occupancy.h"
@@ -75,9 +77,11 @@ bool VoxelBits::at(IVec3 voxel) const {
   return row(p.x, p.y)[p.z / 64] >> p.z % 64 & 1;
 }
 
-void VoxelBits::set(IVec3 voxel) {
+void VoxelBits::set(IVec3 voxel, bool value) {
   const IVec3 p{voxel.x - low_.x, voxel.y - low_.y, voxel.z - low_.z};
-  row(p.x, p.y)[p.z / 64] |= std::uint64_t{1} << p.z % 64;
+  const std::uint64_t bit = std::uint64_t{1} << p.z % 64;
+  std::uint64_t& word = row(p.x, p.y)[p.z / 64];
+  word = value ? word | bit : word & ~bit;
 }
 
 AirVolume air_volume_of(const LightChunks& chunks) {
@@ -111,6 +115,42 @@ AirVolume air_volume_of(const LightChunks& chunks) {
     fill(out.opaque, corner_of(at), chunk->opaque);
     if (out.has_leaves) fill(out.leaves, corner_of(at), chunk->leaves);
   }
+  return out;
+}
+
+std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& chunk) {
+  if (!air.has_leaves && chunk.leaves.fill != ChunkOccupancy::Fill::kEmpty) return std::nullopt;
+  const IVec3 corner = corner_of(at), size{kChunkEdge, kChunkEdge, kChunkEdge};
+  std::array<VoxelBits*, 2> kinds{&air.opaque, air.has_leaves ? &air.leaves : nullptr};
+  const std::array<const ChunkOccupancy*, 2> now{&chunk.opaque, &chunk.leaves};
+  struct Word {
+    VoxelBits* of;
+    int x, y, word;  // from the volume's lowest voxel
+    std::uint64_t bits;
+  };
+  std::vector<Word> words;  // that change
+  std::vector<IVec3> out;
+  for (std::size_t kind = 0; kind < kinds.size() && kinds[kind]; ++kind) {
+    VoxelBits bits(corner, size, false);
+    fill(bits, corner, *now[kind]);
+    VoxelBits& before = *kinds[kind];
+    const IVec3 low = before.low();
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const int in_x = corner.x + x - low.x, in_y = corner.y + y - low.y,
+                  word = (corner.z - low.z) / 64;
+        const bool has_room =
+            before.has_row(in_x, in_y) && corner.z >= low.z && word < before.row_words();
+        const std::uint64_t old = has_room ? before.row(in_x, in_y)[word] : 0;
+        const std::uint64_t new_bits = *bits.row(x, y);
+        if (old == new_bits) continue;
+        if (!has_room) return std::nullopt;
+        words.push_back({&before, in_x, in_y, word, new_bits});
+        for (std::uint64_t left = old ^ new_bits; left != 0; left &= left - 1)
+          out.push_back({corner.x + x, corner.y + y, corner.z + std::countr_zero(left)});
+      }
+  }
+  for (const Word& word : words) word.of->row(word.x, word.y)[word.word] = word.bits;
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "shaders/shared/geometry.h"
@@ -50,8 +51,8 @@ class VoxelBits {
   IVec3 low() const { return low_; }
   IVec3 size() const { return size_; }
   int row_words() const { return size_.z / 64; }
-  bool at(IVec3 voxel) const;  ///< false outside
-  void set(IVec3 voxel);       ///< @pre inside
+  bool at(IVec3 voxel) const;                ///< false outside
+  void set(IVec3 voxel, bool value = true);  ///< @pre inside
   /// Words of a row, with one more of `outside` readable before and after. @param x, y from low.
   std::uint64_t* row(int x, int y) { return words_.data() + index(x, y); }
   const std::uint64_t* row(int x, int y) const { return words_.data() + index(x, y); }
@@ -87,5 +88,10 @@ struct AirVolume {
   bool has_leaves = false;
 };
 AirVolume air_volume_of(const LightChunks& chunks);
+
+/// Takes the voxels of a chunk that has changed into a volume that was made with it.
+/// @return those whose bits have changed; none, and nothing is taken in: the volume has no room for
+/// them, or knew no leaves.
+std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& chunk);
 
 }  // namespace skerry::world

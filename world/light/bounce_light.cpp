@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
+#include <utility>
 
+#include "engine/core/shared_exponent.h"
 #include "world/light/face_records.h"
 
 namespace skerry::world {
@@ -12,6 +13,8 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kIrradianceOfOctant = kPi / 4.0f;  // under radiance 1
+constexpr float kShapeSteps = 127.0f;
+constexpr std::uint32_t kFirstEvery = 4, kLastEvery = 2;
 
 /// Octants in front of a face, and what each pattern of theirs weighs.
 struct Hemisphere {
@@ -57,15 +60,6 @@ vector_harmonics() {
   return kAll;
 }
 
-VoxelBits solid_of(const AirVolume& air) {
-  VoxelBits solid = air.opaque;
-  if (!air.has_leaves) return solid;
-  for (int y = 0; y < solid.size().y; ++y)
-    for (int x = 0; x < solid.size().x; ++x)
-      for (int w = 0; w < solid.row_words(); ++w) solid.row(x, y)[w] |= air.leaves.row(x, y)[w];
-  return solid;
-}
-
 }  // namespace
 
 BounceLight::Light& BounceLight::Light::add(const Light& other, float weight) {
@@ -82,118 +76,104 @@ BounceLight::Light& BounceLight::Light::operator*=(float factor) {
   return *this;
 }
 
-// --- Lines ---
-
-BounceLight::Way BounceLight::way_along(IVec3 vector) const {
-  struct Place {
-    int enter = 0, leave = 0, steps = 0;
-    IVec3 offset{};
-    auto order() const { return std::tuple(enter, leave, steps); }
-  };
-  const std::array<int, 3> n{std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)};
-  std::vector<IVec3> offsets = voxels_between(vector);
-  offsets.push_back(vector);
-  std::vector<Place> places;
-  for (const IVec3& o : offsets) {
-    const std::array<int, 3> at{std::abs(o.x), std::abs(o.y), std::abs(o.z)};
-    Place place{0, 8, at[0] + at[1] + at[2], o};
-    for (std::size_t a = 0; a < 3; ++a) {
-      place.enter = std::max(place.enter, (2 * at[a] - 1) * 4 / n[a]);
-      place.leave = std::min(place.leave, (2 * at[a] + 1) * 4 / n[a]);
-    }
-    places.push_back(place);
-  }
-  std::ranges::stable_sort(places, {}, &Place::order);
-  Way way{vector, {}};
-  int group = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (i != 0 && places[i].order() != places[i - 1].order()) ++group;
-    Touched touched{places[i].offset, solid_.bit_step(places[i].offset), group, {-1, -1, -1}};
-    // It can be entered from what the line touches before it, or from where the line begins.
-    std::size_t entries = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::array<int, 3> d{vector.x, vector.y, vector.z};
-      const int sign = d[static_cast<std::size_t>(axis)] > 0 ? 1 : -1;
-      const IVec3 from = places[i].offset + axis_vector(axis, -sign);
-      const bool passed =
-          from == IVec3{} ||
-          std::any_of(way.touched.begin(), way.touched.end(),
-                      [&](const Touched& t) { return t.group < group && t.offset == from; });
-      if (passed)
-        touched.entered[entries++] = static_cast<std::int8_t>(2 * axis + (sign > 0 ? 1 : 0));
-    }
-    way.touched.push_back(touched);
-  }
-  return way;
+BounceLight::PackedLight BounceLight::packed(const Light& light) {
+  PackedLight out{pack_shared_exponent(light.mean), pack_shared_exponent(light.lamps), {}};
+  const float most = luminance(light.mean) * shared::kMostBounceShape;
+  if (most <= 0.0f) return out;
+  for (std::size_t i = 0; i < out.shape.size(); ++i)
+    out.shape[i] = static_cast<std::int8_t>(
+        std::lround(std::clamp(light.shape[i] / most, -1.0f, 1.0f) * kShapeSteps));
+  return out;
 }
 
-/// To the ways of a leaf set.
-bool BounceLight::open(IVec3 voxel, int leaf_set) const {
-  if (air_.opaque.at(voxel)) return false;
-  if (!air_.has_leaves || !air_.leaves.at(voxel)) return true;
-  const auto word = static_cast<int>(floor_div(voxel.z, 64));
-  return (leaves_that_stop(leaf_set, voxel.x, voxel.y, word) >> (voxel.z & 63) & 1u) == 0;
-}
-
-/// Whether a line from a voxel along a vector touches what is not open.
-bool BounceLight::stopped(IVec3 from, const Way& way, int leaf_set) const {
-  constexpr int kLongest = 4;  // component of a vector
-  const IVec3 low = solid_.low(), size = solid_.size();
-  const int x = from.x - low.x, y = from.y - low.y;
-  const auto closed = [&](const Touched& t) { return !open(from + t.offset, leaf_set); };
-  if (x < kLongest || y < kLongest || x >= size.x - kLongest || y >= size.y - kLongest)
-    return std::any_of(way.touched.begin(), way.touched.end(), closed);
-  const std::ptrdiff_t at = solid_.bit_at(from);
-  bool any = false;
-  for (const Touched& t : way.touched) any |= solid_.bit(at + t.step);
-  if (!any || !air_.has_leaves) return any;
-  return std::any_of(way.touched.begin(), way.touched.end(), closed);
+BounceLight::Light BounceLight::unpacked(const PackedLight& light) {
+  Light out{unpack_shared_exponent(light.mean), {}, unpack_shared_exponent(light.lamps)};
+  const float step = luminance(out.mean) * (shared::kMostBounceShape / kShapeSteps);
+  for (std::size_t i = 0; i < out.shape.size(); ++i)
+    out.shape[i] = step * static_cast<float>(light.shape[i]);
+  return out;
 }
 
 // --- Faces ---
 
-BounceLight::BounceLight(const LightChunks& chunks, const AirVolume& air, const VoxelIndex& wanted,
-                         std::span<const FaceAlbedo> albedo)
-    : air_(air), wanted_(wanted), albedo_(albedo) {
-  if (wanted_.size() == 0) return;
-  solid_ = solid_of(air_);
+BounceLight::BounceLight(const LightChunks& chunks, const LatticeLines& lines,
+                         const VoxelIndex& wanted, std::span<const FaceAlbedo> albedo)
+    : lines_(lines), wanted_(wanted), albedo_(albedo) {
   numbers_.assign(wanted_.size() * 6, 0);
-  // Plants come last: they share the light of the ground that they stand on.
-  for (const bool plants : {false, true})
-    for (const auto& [at, chunk] : chunks) {
-      const IVec3 corner = corner_of(at);
-      for (const shared::Quad& quad : chunk->quads)
-        for_each_face(quad, [&](const DrawnFace& drawn) {
-          if (drawn.plant != plants) return;
-          const FaceAxes axes(drawn.direction);
-          const IVec3 front = drawn.plant ? IVec3{} : axis_vector(axes.own, axes.sign);
-          add_face({corner + drawn.voxel + front,
-                    static_cast<std::uint16_t>(drawn.plant ? 0 : quad.material & 0xffffu),
-                    static_cast<std::uint8_t>(drawn.direction)});
-        });
-    }
-  for (std::vector<Light>& light : leaving_) light.resize(faces_.size());
-  for (int octant = 0; octant < kOctants; ++octant)
-    for (int pattern = 0; pattern < static_cast<int>(shared::kSkyPatternCount); ++pattern)
-      ways_.push_back(way_along(sky_direction(octant, pattern)));
+  for (const auto& [at, chunk] : chunks) {
+    const IVec3 corner = corner_of(at);
+    for (const shared::Quad& quad : chunk->quads)
+      for_each_face(quad, [&](const DrawnFace& drawn) {
+        set_face(corner + drawn.voxel + to_front(drawn), drawn.direction,
+                 static_cast<std::uint16_t>(quad.material & 0xffffu), drawn.plant);
+      });
+  }
+  relit_.clear();
+  sources_.resize(faces_.size());
+  for (std::vector<PackedLight>& light : leaving_) light.resize(faces_.size());
 }
 
-void BounceLight::add_face(Face face) {
-  if (!wanted_.has(face.front)) return;
-  std::uint32_t& number = numbers_[wanted_.of(face.front) * 6 + face.direction];
-  if (number != 0) return;
-  faces_.push_back(face);
-  number = static_cast<std::uint32_t>(faces_.size());
-}
-
-std::uint32_t BounceLight::number_of(IVec3 front, int face) const {
+BounceLight::Number BounceLight::number_of(IVec3 front, int direction) const {
   if (!wanted_.has(front)) return 0;
-  return numbers_[wanted_.of(front) * 6 + static_cast<std::size_t>(face)];
+  return numbers_[wanted_.of(front) * 6 + static_cast<std::size_t>(direction)];
 }
 
-const BounceLight::Light* BounceLight::received(IVec3 front, int face) const {
-  const std::uint32_t number = number_of(front, face);
-  return number == 0 ? nullptr : &leaving_[(kSteps - 1) % 2][number - 1];
+std::optional<BounceLight::Light> BounceLight::received(IVec3 front, int direction) const {
+  const Number number = number_of(front, direction);
+  if (number == 0) return std::nullopt;
+  return unpacked(leaving_[kSteps - 1][number - 1]);
+}
+
+bool BounceLight::set_face(IVec3 front, int direction, std::uint16_t block, bool plant) {
+  if (!wanted_.has(front)) return false;
+  Number& number = numbers_[wanted_.of(front) * 6 + static_cast<std::size_t>(direction)];
+  const bool is_new = number == 0;
+  if (is_new) {
+    if (free_faces_.empty()) {
+      faces_.emplace_back();
+      number = static_cast<Number>(faces_.size());
+    } else {
+      number = 1 + free_faces_.back();
+      free_faces_.pop_back();
+    }
+    faces_[number - 1] = {front, 0, static_cast<std::uint8_t>(direction), false, false};
+    relit_.add(number - 1);
+  }
+  Face& face = faces_[number - 1];
+  face.plant |= plant;
+  if (plant || (face.ground && face.block == block)) return is_new;
+  face.ground = true;
+  face.block = block;
+  relit_.add(number - 1);
+  return is_new;
+}
+
+void BounceLight::remove_face(IVec3 front, int direction, bool plant) {
+  if (!wanted_.has(front)) return;
+  Number& number = numbers_[wanted_.of(front) * 6 + static_cast<std::size_t>(direction)];
+  if (number == 0) return;
+  Face& face = faces_[number - 1];
+  if (plant) {
+    face.plant = false;
+  } else {
+    face.ground = false;
+    face.block = 0;
+    relit_.add(number - 1);
+  }
+  if (face.ground || face.plant) return;
+  free_faces_.push_back(number - 1);
+  number = 0;
+}
+
+void BounceLight::move_voxels(std::span<const VoxelIndex::Moved> moved) {
+  numbers_.resize(wanted_.size() * 6, 0);
+  for (const VoxelIndex::Moved& m : moved)
+    std::copy_n(numbers_.begin() + static_cast<std::ptrdiff_t>(m.from * 6), 6,
+                numbers_.begin() + static_cast<std::ptrdiff_t>(m.to * 6));
+}
+
+void BounceLight::forget_voxel(std::size_t number) {
+  for (std::size_t i = number * 6; i < number * 6 + 6; ++i) numbers_[i] = 0;
 }
 
 BounceLight::Light BounceLight::reflected(const Face& face, Light light) const {
@@ -205,6 +185,113 @@ BounceLight::Light BounceLight::reflected(const Face& face, Light light) const {
   const float kept = before > 0.0f ? luminance(light.mean) / before : luminance(share);
   for (float& shape : light.shape) shape *= kept;
   return light;
+}
+
+// --- Lines ---
+
+/// The face of a voxel that the line can come in by.
+BounceLight::Number BounceLight::entered(IVec3 voxel, const LatticeLines::Touched& touched) const {
+  for (const std::int8_t direction : touched.entered) {
+    if (direction < 0) break;
+    const FaceAxes axes(direction);
+    const Number number = number_of(voxel + axis_vector(axes.own, axes.sign), direction);
+    if (number != 0) return number;
+  }
+  return 0;
+}
+
+// Voxels that are touched at once stop a line together.
+BounceLight::Source BounceLight::source_at(IVec3 last, std::size_t way, std::size_t part) {
+  const std::vector<LatticeLines::Touched>& touched = lines_.way(way).touched;
+  std::array<const LatticeLines::Touched*, 3> stops{};
+  std::size_t count = 0;
+  for (const LatticeLines::Touched& t : touched) {
+    if (count == stops.size() || (count != 0 && t.group != stops[0]->group)) break;
+    if (!lines_.open(last + t.offset, way)) stops[count++] = &t;
+  }
+  Several several;
+  several.share = 1.0f / static_cast<float>(count);
+  bool any = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    several.faces[k] = entered(last + stops[k]->offset, *stops[k]);
+    any |= several.faces[k] != 0;
+  }
+  if (!any) return kNothing;
+  if (count == 1) return several.faces[0];
+  several_[part].push_back(several);
+  return kSeveral | static_cast<Source>(part + kParts * (several_[part].size() - 1));
+}
+
+/// Which of the vectors of an octant a face looks along: every so many from there, others than its
+/// neighbours do.
+std::uint32_t BounceLight::first_of(const Face& face, std::uint32_t every) const {
+  const FaceAxes axes(face.direction);
+  const std::array<int, 3> at{face.front.x, face.front.y, face.front.z};
+  const int b = at[static_cast<std::size_t>(axes.b)], c = at[static_cast<std::size_t>(axes.c)];
+  return static_cast<std::uint32_t>(b + (every == 2 ? c : 2 * c)) % every;
+}
+
+void BounceLight::look_along(Number number, const SeenSky& seen, std::size_t part) {
+  const Face& face = faces_[number];
+  std::array<Source, kLines>& sources = sources_[number];
+  const std::uint32_t first4 = first_of(face, kFirstEvery), first2 = first_of(face, kLastEvery);
+  std::size_t quarter = 0;
+  for (const int octant : hemisphere(face.direction).octants) {
+    const std::uint32_t bits = seen[static_cast<std::size_t>(octant)];
+    for (std::size_t k = 0; k < kPatterns; ++k) {
+      const bool is_first = k % kFirstEvery == first4, is_last = k % kLastEvery == first2;
+      if (!is_first && !is_last) continue;
+      Source source = kNothing;
+      const std::size_t way = LatticeLines::way_number(octant, k);
+      if ((bits >> k & 1u) == 0)
+        if (const std::optional<IVec3> last = lines_.end_of(face.front, way))
+          source = source_at(*last, way, part);
+      if (is_first) sources[quarter * (kPatterns / kFirstEvery) + k / kFirstEvery] = source;
+      if (is_last)
+        sources[kFirstLines + quarter * (kPatterns / kLastEvery) + k / kLastEvery] = source;
+    }
+    ++quarter;
+  }
+}
+
+void BounceLight::set_line(IVec3 voxel, std::size_t way, Source source) {
+  const std::size_t base = wanted_.of(voxel) * 6;
+  sources_.resize(faces_.size());
+  const auto octant = static_cast<int>(way / kPatterns);
+  const std::size_t k = way % kPatterns;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int direction = 2 * axis + (octant >> axis & 1);
+    const Number number = numbers_[base + static_cast<std::size_t>(direction)];
+    if (number == 0) continue;
+    const Face& face = faces_[number - 1];
+    const auto& octants = hemisphere(direction).octants;
+    const auto quarter = static_cast<std::size_t>(
+        std::find(octants.begin(), octants.end(), octant) - octants.begin());
+    const auto set = [&](std::size_t line) {
+      if (std::exchange(sources_[number - 1][line], source) != source) relooked_.add(number - 1);
+    };
+    if (k % kFirstEvery == first_of(face, kFirstEvery))
+      set(quarter * (kPatterns / kFirstEvery) + k / kFirstEvery);
+    if (k % kLastEvery == first_of(face, kLastEvery))
+      set(kFirstLines + quarter * (kPatterns / kLastEvery) + k / kLastEvery);
+  }
+}
+
+void BounceLight::look_from(IVec3 voxel, const SeenSky& seen) {
+  const std::size_t base = wanted_.of(voxel) * 6;
+  sources_.resize(faces_.size());
+  for (std::size_t direction = 0; direction < 6; ++direction) {
+    const Number number = numbers_[base + direction];
+    if (number == 0) continue;
+    look_along(number - 1, seen, 0);
+    relooked_.add(number - 1);
+  }
+}
+
+void BounceLight::relight(IVec3 voxel) {
+  const std::size_t base = wanted_.of(voxel) * 6;
+  for (std::size_t direction = 0; direction < 6; ++direction)
+    if (const Number number = numbers_[base + direction]) relit_.add(number - 1);
 }
 
 // --- Light ---
@@ -232,82 +319,117 @@ BounceLight::Light BounceLight::direct_of(const Face& face, std::span<const Seen
   return out;
 }
 
-/// Adds the light of a face of the voxel that the line can come in by.
-void BounceLight::add_entered(IVec3 voxel, const Touched& touched, float weight,
-                              std::span<const Light> leaving, Light& sum) const {
-  for (const std::int8_t face : touched.entered) {
-    if (face < 0) break;
-    const FaceAxes axes(face);
-    const std::uint32_t number = number_of(voxel + axis_vector(axes.own, axes.sign), face);
-    if (number == 0) continue;
-    sum.add(leaving[number - 1], weight);
-    return;
-  }
-}
-
-void BounceLight::add_from(IVec3 from, std::size_t which, float weight,
-                           std::span<const Light> leaving, Light& sum) const {
-  const Way& way = ways_[which];
-  const int leaf_set = static_cast<int>(which % shared::kSkyPatternCount) % kLeafSets;
-  const IVec3 low = air_.opaque.low(), size = air_.opaque.size();
-  const auto inside = [&](IVec3 v) {
-    return v.x >= low.x && v.x < low.x + size.x && v.y >= low.y && v.y < low.y + size.y &&
-           v.z >= low.z && v.z < low.z + size.z;
-  };
-  while (!stopped(from, way, leaf_set)) {
-    from = from + way.vector;
-    if (!inside(from)) return;
-  }
-  // Voxels that are touched at once stop it together.
-  std::array<const Touched*, 3> stops{};
-  std::size_t count = 0;
-  for (const Touched& touched : way.touched) {
-    if (count == stops.size() || (count != 0 && touched.group != stops[0]->group)) break;
-    if (!open(from + touched.offset, leaf_set)) stops[count++] = &touched;
-  }
-  for (std::size_t k = 0; k < count; ++k)
-    add_entered(from + stops[k]->offset, *stops[k], weight / static_cast<float>(count), leaving,
-                sum);
-}
-
-/// @param every looks along one vector in so many, others than its neighbours do.
-BounceLight::Light BounceLight::gathered_by(const Face& face, const SeenSky& seen,
-                                            std::span<const Light> leaving,
-                                            std::uint32_t every) const {
-  Light sum;
+/// What comes along a face's lines of what left other faces at the step before.
+BounceLight::Light BounceLight::gathered(Number number, int step) const {
+  const Face& face = faces_[number];
   const Hemisphere& way = hemisphere(face.direction);
-  const FaceAxes axes(face.direction);
-  const std::array<int, 3> at{face.front.x, face.front.y, face.front.z};
-  const int b = at[static_cast<std::size_t>(axes.b)], c = at[static_cast<std::size_t>(axes.c)];
-  const std::uint32_t first = static_cast<std::uint32_t>(b + (every == 2 ? c : 2 * c)) % every;
+  const bool last = step == kSteps - 1;
+  const std::uint32_t every = last ? kLastEvery : kFirstEvery, first = first_of(face, every);
+  const std::vector<PackedLight>& leaving = leaving_[static_cast<std::size_t>(step - 1)];
   float looked = 0.0f;
-  for (std::size_t k = first; k < shared::kSkyPatternCount; k += every) looked += way.weight[k];
-  for (const int octant : way.octants) {
-    const std::uint32_t bits = seen[static_cast<std::size_t>(octant)];
-    for (std::size_t k = first; k < shared::kSkyPatternCount; k += every)
-      if ((bits >> k & 1u) == 0)
-        add_from(face.front, static_cast<std::size_t>(octant) * shared::kSkyPatternCount + k,
-                 way.weight[k] * (kIrradianceOfOctant / looked), leaving, sum);
-  }
+  for (std::size_t k = first; k < kPatterns; k += every) looked += way.weight[k];
+  const float whole = kIrradianceOfOctant / looked;
+  const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
+  Light sum;
+  for (std::size_t quarter = 0; quarter < 4; ++quarter)
+    for (std::size_t k = first; k < kPatterns; k += every, ++source) {
+      if (*source == kNothing) continue;
+      const float weight = way.weight[k] * whole;
+      if ((*source & kSeveral) == 0) {
+        sum.add(unpacked(leaving[*source - 1]), weight);
+        continue;
+      }
+      const Source place = *source & ~kSeveral;
+      const Several& several = several_[place % kParts][place / kParts];
+      for (const Number from : several.faces)
+        if (from != 0) sum.add(unpacked(leaving[from - 1]), weight * several.share);
+    }
   return sum;
+}
+
+BounceLight::PackedLight BounceLight::light_of(Number number, int step,
+                                               std::span<const SeenSky> seen,
+                                               const LampLightMap& lamps) const {
+  const Face& face = faces_[number];
+  Light light;
+  if (step > 0) light = gathered(number, step);
+  if (step == kSteps - 1) return packed(light);
+  light += direct_of(face, seen, lamps);
+  return packed(reflected(face, light));
 }
 
 void BounceLight::follow(int step, int part, std::span<const SeenSky> seen,
                          const LampLightMap& lamps) {
-  std::vector<Light>& to = leaving_[static_cast<std::size_t>(step % 2)];
-  const std::vector<Light>& from = leaving_[static_cast<std::size_t>(1 - step % 2)];
   const std::size_t count = faces_.size(), p = static_cast<std::size_t>(part);
   for (std::size_t i = count * p / kParts; i < count * (p + 1) / kParts; ++i) {
-    const Face& face = faces_[i];
-    Light light;
-    if (step > 0)
-      light = gathered_by(face, seen[wanted_.of(face.front)], from, step == kSteps - 1 ? 2 : 4);
-    if (step < kSteps - 1) {
-      light += direct_of(face, seen, lamps);
-      light = reflected(face, light);
-    }
-    to[i] = light;
+    const auto number = static_cast<Number>(i);
+    if (step == 0) look_along(number, seen[wanted_.of(faces_[i].front)], p);
+    leaving_[static_cast<std::size_t>(step)][i] = light_of(number, step, seen, lamps);
   }
+  if (step == 0 && part == 0) first_several_ = several_[0].size();
+}
+
+std::size_t BounceLight::bytes() const {
+  std::size_t bytes = numbers_.size() * sizeof(Number) + faces_.size() * sizeof(Face) +
+                      sources_.size() * sizeof(sources_[0]);
+  for (const std::vector<Several>& several : several_) bytes += several.size() * sizeof(Several);
+  for (const std::vector<PackedLight>& light : leaving_)
+    bytes += light.size() * sizeof(PackedLight);
+  return bytes;
+}
+
+/// Whether a face receives at a step what has changed at the step before.
+bool BounceLight::comes_from(Number number, int step, const Marked& changed) const {
+  const bool last = step == kSteps - 1;
+  const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
+  for (const Source* end = source + (last ? kLastLines : kFirstLines); source != end; ++source) {
+    if (*source == kNothing) continue;
+    if ((*source & kSeveral) == 0) {
+      if (changed.has(*source - 1)) return true;
+      continue;
+    }
+    const Source place = *source & ~kSeveral;
+    for (const Number from : several_[place % kParts][place / kParts].faces)
+      if (from != 0 && changed.has(from - 1)) return true;
+  }
+  return false;
+}
+
+std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const SeenSky> seen,
+                                                              const LampLightMap& lamps) {
+  const auto exists = [&](Number number) { return faces_[number].ground || faces_[number].plant; };
+  std::array<Marked, 2> changed;  // by parity of the step
+  for (std::size_t step = 0; step < kSteps; ++step) {
+    std::vector<PackedLight>& leaving = leaving_[step];
+    leaving.resize(faces_.size());
+    const Marked& before = changed[1 - step % 2];
+    Marked& now = changed[step % 2];
+    now.clear();
+    const auto look = [&](Number number) {
+      if (!exists(number)) return;
+      const PackedLight light = light_of(number, static_cast<int>(step), seen, lamps);
+      if (light == std::exchange(leaving[number], light)) return;
+      now.add(number);
+    };
+    const bool last = step == kSteps - 1;
+    if (!last)
+      for (const Number number : relit_.all()) look(number);
+    if (step == 0) continue;
+    const auto done = [&](Number number) { return !last && relit_.has(number); };
+    for (const Number number : relooked_.all())
+      if (!done(number)) look(number);
+    if (before.empty()) continue;
+    for (Number number = 0; number < faces_.size(); ++number)
+      if (!done(number) && !relooked_.has(number) &&
+          comes_from(number, static_cast<int>(step), before))
+        look(number);
+  }
+  relit_.clear();
+  relooked_.clear();
+  std::vector<Changed> out;
+  for (const Number number : changed[(kSteps - 1) % 2].all())
+    out.push_back({faces_[number].front, faces_[number].direction});
+  return out;
 }
 
 }  // namespace skerry::world

@@ -2,13 +2,15 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/core/harmonics.h"
 #include "world/light/air_volume.h"
 #include "world/light/lamp_light.h"
-#include "world/light/sky_rays.h"
+#include "world/light/lattice_lines.h"
+#include "world/light/marked.h"
 #include "world/light/voxel_index.h"
 
 namespace skerry::world {
@@ -35,6 +37,10 @@ using LampLightMap = std::unordered_map<std::size_t, LampLight>;
 /// hemisphere, its neighbours along the other half, and for all reflections but the last along a
 /// quarter. A line that does not end at the sky ends at the first voxel that it touches, and what
 /// comes from there is the light of the face that it enters through, from the air that it came by.
+///
+/// Where lines end and what leaves each face at each step are kept, so that after an edit only that
+/// is worked out again which it changes. What leaves a face is rounded between the steps
+/// (PackedLight): what an edit changes far away by less than that has no effect at all.
 class BounceLight {
  public:
   /// Of a face: irradiance if light of harmonics e (RGB) comes from infinity is
@@ -48,10 +54,11 @@ class BounceLight {
     Light& operator*=(float factor);
     Light& add(const Light& other, float weight);
   };
+  using Number = std::uint32_t;  ///< of a face
 
-  /// @param wanted holds the voxel before each face and that of each plant. Both must outlive this.
-  /// @param albedo by block id.
-  BounceLight(const LightChunks& chunks, const AirVolume& air, const VoxelIndex& wanted,
+  /// @param wanted holds the voxel before each face and that of each plant. All but the chunks must
+  /// outlive this. @param albedo by block id.
+  BounceLight(const LightChunks& chunks, const LatticeLines& lines, const VoxelIndex& wanted,
               std::span<const FaceAlbedo> albedo);
 
   /// Times that light is reflected before it reaches a face for good.
@@ -63,47 +70,94 @@ class BounceLight {
   void follow(int step, int part, std::span<const SeenSky> seen, const LampLightMap& lamps);
   /// After all steps: what a face receives that was reflected at least once. @param front the voxel
   /// before the face; of a plant, its own, and the face looks up. None: there is no such face.
-  const Light* received(IVec3 front, int face) const;
+  std::optional<Light> received(IVec3 front, int face) const;
+
+  // --- After an edit: first voxels, then faces, then lines, then light ---
+
+  /// Numbers of voxels have changed, or there are more of them.
+  void move_voxels(std::span<const VoxelIndex::Moved> moved);
+  /// A number has been handed out, or its voxel has become opaque: no face is before it.
+  void forget_voxel(std::size_t number);
+  /// A drawn face has come, or its block has changed. @return whether it is new.
+  bool set_face(IVec3 front, int direction, std::uint16_t block, bool plant);
+  void remove_face(IVec3 front, int direction, bool plant);
+
+  /// What comes along a line, for set_line(): the faces at which it ends.
+  using Source = std::uint32_t;
+  static constexpr Source kNothing = 0;
+  /// @param last as LatticeLines::end_of has it.
+  Source source_at(IVec3 last, std::size_t way) { return source_at(last, way, 0); }
+  /// Sets it for the faces before which a voxel is.
+  void set_line(IVec3 voxel, std::size_t way, Source source);
+  /// Looks along all lines of the faces before which a voxel is.
+  void look_from(IVec3 voxel, const SeenSky& seen);
+  /// The direct light of the faces before which a voxel is has changed.
+  void relight(IVec3 voxel);
+
+  struct Changed {
+    IVec3 front{};
+    int direction = 0;
+  };
+  /// Works out what has changed since follow(). @return faces that receive other light.
+  std::vector<Changed> follow_changes(std::span<const SeenSky> seen, const LampLightMap& lamps);
+  /// Whether edits have left so much behind that it is time to begin anew.
+  bool is_worn() const { return several_[0].size() > 2 * first_several_ + kSpareSeveral; }
+  /// Memory that is kept for edits.
+  std::size_t bytes() const;
 
  private:
+  static constexpr std::size_t kPatterns = shared::kSkyPatternCount;
+  static constexpr std::size_t kFirstLines = kPatterns;     // of a face: a quarter of its 64
+  static constexpr std::size_t kLastLines = 2 * kPatterns;  // half of them
+  static constexpr std::size_t kLines = kFirstLines + kLastLines;
   struct Face {
     IVec3 front{};
     std::uint16_t block = 0;
     std::uint8_t direction = 0;
+    bool ground = false;  // a block's face
+    bool plant = false;   // a plant stands there; on a block's face it shares its light
   };
-  /// A voxel that a line touches after others.
-  struct Touched {
-    IVec3 offset{};
-    std::ptrdiff_t step = 0;  // between the numbers of their bits in `solid_`
-    int group = 0;            // those of a group are touched at once
-    std::array<std::int8_t, 3> entered{-1, -1, -1};  // faces that the line can come in by
+  /// Light in 16 bytes: to 1/512 of its brightest channel, shape to 1/254 of its greatest.
+  struct PackedLight {
+    std::uint32_t mean = 0, lamps = 0;
+    std::array<std::int8_t, kHarmonics - 1> shape{};
+    bool operator==(const PackedLight&) const = default;
   };
-  struct Way {
-    IVec3 vector{};
-    std::vector<Touched> touched;  // in the order of the line
+  static PackedLight packed(const Light& light);
+  static Light unpacked(const PackedLight& light);
+
+  /// Where lines of several faces end at once.
+  struct Several {
+    std::array<Number, 3> faces{};  // 1 + number, 0: none
+    float share = 0.0f;
   };
-  Way way_along(IVec3 vector) const;
-  void add_face(Face face);
-  std::uint32_t number_of(IVec3 front, int face) const;
-  bool open(IVec3 voxel, int leaf_set) const;
-  bool stopped(IVec3 from, const Way& way, int leaf_set) const;
+  static constexpr Source kSeveral = 1u << 31;  // then part + kParts * place in its list
+
+  Face* face_at(IVec3 front, int direction);
+  Number number_of(IVec3 front, int direction) const;
+  std::uint32_t first_of(const Face& face, std::uint32_t every) const;
+  Source source_at(IVec3 last, std::size_t way, std::size_t part);
+  Number entered(IVec3 voxel, const LatticeLines::Touched& touched) const;
+  void look_along(Number number, const SeenSky& seen, std::size_t part);
   Light direct_of(const Face& face, std::span<const SeenSky> seen, const LampLightMap& lamps) const;
-  Light gathered_by(const Face& face, const SeenSky& seen, std::span<const Light> leaving,
-                    std::uint32_t every) const;
-  void add_from(IVec3 from, std::size_t way, float weight, std::span<const Light> leaving,
-                Light& sum) const;
-  void add_entered(IVec3 voxel, const Touched& touched, float weight,
-                   std::span<const Light> leaving, Light& sum) const;
+  Light gathered(Number number, int step) const;
+  PackedLight light_of(Number number, int step, std::span<const SeenSky> seen,
+                       const LampLightMap& lamps) const;
+  bool comes_from(Number number, int step, const Marked& changed) const;
   Light reflected(const Face& face, Light light) const;
 
-  const AirVolume& air_;
+  const LatticeLines& lines_;
   const VoxelIndex& wanted_;
   std::span<const FaceAlbedo> albedo_;
-  VoxelBits solid_;        // opaque voxels and leaves
-  std::vector<Way> ways_;  // octant * kSkyPatternCount + pattern
   std::vector<Face> faces_;
-  std::vector<std::uint32_t> numbers_;           // 1 + of faces_, by voxel and direction; 0: none
-  std::array<std::vector<Light>, 2> leaving_{};  // by parity of the step; the last one's: received
+  std::vector<Number> free_faces_;
+  std::vector<Number> numbers_;  // 1 + of faces_, by voxel and direction; 0: none
+  std::vector<std::array<Source, kLines>> sources_;  // by face: of first reflections, of the last
+  std::array<std::vector<Several>, kParts> several_;
+  std::array<std::vector<PackedLight>, kSteps> leaving_;  // by step; the last one's: received
+  static constexpr std::size_t kSpareSeveral = 200'000;
+  std::size_t first_several_ = 0;  // in the first list, after follow()
+  Marked relit_, relooked_;        // faces whose direct light, whose lines have changed
 };
 
 }  // namespace skerry::world

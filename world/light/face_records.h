@@ -41,6 +41,16 @@ inline IVec3 operator+(IVec3 a, IVec3 b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
+/// To the voxel from which a face is lit: the one before it, of a plant its own.
+inline IVec3 to_front(const DrawnFace& face) {
+  const FaceAxes axes(face.direction);
+  return face.plant ? IVec3{} : axis_vector(axes.own, axes.sign);
+}
+
+inline bool is_of_plant(const shared::Quad& quad) {
+  return (quad.material >> 16 & 7u) == 6;
+}
+
 /// Calls fn(DrawnFace) for each voxel face of a quad; once for a plant's two quads.
 template <class Fn>
 void for_each_face(const shared::Quad& quad, const Fn& fn) {

@@ -16,4 +16,8 @@ using LampLight = std::array<glm::vec3, 6>;
 /// own voxel hides nothing. @param lamp place from the lattice's origin. @return zeros: none.
 LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel);
 
+inline bool is_dark(const LampLight& light) {
+  return light == LampLight{};
+}
+
 }  // namespace skerry::world

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
+#include "engine/core/shared_exponent.h"
 #include "world/light/sky_transfer.h"
 
 namespace skerry::world {
@@ -61,7 +61,7 @@ glm::uvec4 packed(const Corners& corners) {
   glm::uvec4 out(0);
   if (most <= 0.0f) return out;
   const float sum = luminance(all.mean);
-  out.x = glm::packF3x9_E1x5(all.mean * (most / sum));
+  out.x = pack_shared_exponent(all.mean * (most / sum));
   for (std::size_t i = 0; i < 4; ++i)
     out.y |= static_cast<std::uint32_t>(std::lround(luminance(corners[i].mean) / most * 255.0f))
              << (8 * i);
@@ -81,7 +81,7 @@ SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face) const 
     float count = 0.0f;
     BounceLight::Light& sum = out[corner];
     for (const std::size_t at : around.about(corner)) {
-      const BounceLight::Light* light = bounces_->received(around.voxels[at], face);
+      const std::optional<BounceLight::Light> light = bounces_->received(around.voxels[at], face);
       if (!light) continue;
       sum += *light;
       count += 1.0f;
@@ -122,7 +122,7 @@ void SkyTransfer::append_record(IVec3 front, int face, std::vector<glm::uvec4>& 
       words[2 * corner + lobe / 4] |= (sum / count + 128) >> 8 << (8 * (lobe % 4));
     }
     lamp_words[static_cast<int>(corner)] =
-        glm::packF3x9_E1x5(lamp_sum / static_cast<float>(count) + bounces[corner].lamps);
+        pack_shared_exponent(lamp_sum / static_cast<float>(count) + bounces[corner].lamps);
   }
   texels.emplace_back(words[0], words[1], words[2], words[3]);
   texels.emplace_back(words[4], words[5], words[6], words[7]);
@@ -133,17 +133,16 @@ void SkyTransfer::append_record(IVec3 front, int face, std::vector<glm::uvec4>& 
 ChunkSky SkyTransfer::faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const {
   const IVec3 corner = corner_of(chunk);
   return pack_faces(quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
-    const FaceAxes axes(face.direction);
-    const IVec3 front = face.plant ? IVec3{} : axis_vector(axes.own, axes.sign);
-    append_record(corner + face.voxel + front, face.direction, texels);
+    append_record(corner + face.voxel + to_front(face), face.direction, texels);
   });
 }
 
-std::map<IVec3, ChunkSky> SkyTransfer::faces() const {
-  std::map<IVec3, ChunkSky> out;
+const SkyTransfer::Skies& SkyTransfer::make_faces() {
+  skies_.clear();
   for (const auto& [at, chunk] : chunks_)
-    if (!chunk->quads.empty()) out.emplace(at, faces_of(at, chunk->quads));
-  return out;
+    if (!chunk->quads.empty())
+      skies_.emplace(at, std::make_shared<const ChunkSky>(faces_of(at, chunk->quads)));
+  return skies_;
 }
 
 }  // namespace skerry::world

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "world/voxel/chunk.h"
@@ -13,6 +14,9 @@ namespace {
 // Share of a strong lamp's range, whose end is where its light is the least that counts, within
 // which surfaces reflect it: beyond, it is less than ten times as much.
 constexpr float kBouncedShare = 0.316f;
+
+// Beyond a quarter more, numbers of voxels that edits may make before all is begun anew.
+constexpr std::size_t kSpareNumbers = 65536;
 
 /// Which voxels rays pass: air, and half of the leaves.
 VoxelBits open_to(const AirVolume& air, int leaf_set) {
@@ -46,8 +50,8 @@ inline void and_row(std::uint64_t* into, const std::uint64_t* row, int by, int w
 
 }  // namespace
 
-SkyTransfer::SkyTransfer(const LightChunks& chunks, std::span<const FaceAlbedo> albedo)
-    : chunks_(chunks), air_(air_volume_of(chunks)) {
+SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo)
+    : chunks_(std::move(chunks)), air_(air_volume_of(chunks_)), lines_(air_) {
   const IVec3 low = air_.opaque.low(), size = air_.opaque.size();
   if (size.x == 0) return;
   VoxelBits wanted(low, size, false);
@@ -59,16 +63,16 @@ SkyTransfer::SkyTransfer(const LightChunks& chunks, std::span<const FaceAlbedo> 
     for (const shared::Quad& quad : chunk->quads)
       for_each_face(quad, [&](const DrawnFace& face) {
         const FaceAxes axes(face.direction);
-        IVec3 front = corner + face.voxel;
-        if (!face.plant) front = front + axis_vector(axes.own, axes.sign);
+        const IVec3 front = corner + face.voxel + to_front(face);
         for (int b = -1; b <= 1; ++b)
           for (int c = -1; c <= 1; ++c)
             want(front + axis_vector(axes.b, b) + axis_vector(axes.c, c));
       });
   }
   wanted_ = VoxelIndex(std::move(wanted));
+  most_numbers_ = wanted_.size() + wanted_.size() / 4 + kSpareNumbers;
   seen_.assign(wanted_.size(), SeenSky{});
-  if (!albedo.empty()) bounces_.emplace(chunks_, air_, wanted_, albedo);
+  if (!albedo.empty()) bounces_.emplace(chunks_, lines_, wanted_, albedo);
 }
 
 void SkyTransfer::look(int octant) {
@@ -117,20 +121,25 @@ void SkyTransfer::look_along(int octant, int pattern, const VoxelBits& open, Vox
   }
 }
 
+std::vector<SkyTransfer::Lamp> SkyTransfer::lamps_of(const LightChunk& chunk, IVec3 at) {
+  const IVec3 corner = corner_of(at);
+  const glm::vec3 from(static_cast<float>(corner.x), static_cast<float>(corner.y),
+                       static_cast<float>(corner.z));
+  std::vector<Lamp> out;
+  for (const WeakLamp& lamp : chunk.lamps)
+    out.push_back({{lamp.place + from, lamp.intensity, lamp.range}, lamp.range, true});
+  for (const StrongLamp& lamp : chunk.strong)
+    out.push_back(
+        {{lamp.place + from, lamp.intensity, lamp.range}, lamp.range * kBouncedShare, false});
+  return out;
+}
+
 // In the order of chunks and their lamps: sums of floats depend on it.
 void SkyTransfer::spread_lamps() {
   if (seen_.empty()) return;
-  for (const auto& [at, chunk] : chunks_) {
-    const IVec3 corner = corner_of(at);
-    const glm::vec3 from(static_cast<float>(corner.x), static_cast<float>(corner.y),
-                         static_cast<float>(corner.z));
-    for (const WeakLamp& lamp : chunk->lamps)
-      spread({lamp.place + from, lamp.intensity, lamp.range}, lamp.range, lamp_light_);
-    if (!bounces_) continue;
-    for (const StrongLamp& lamp : chunk->strong)
-      spread({lamp.place + from, lamp.intensity, lamp.range}, lamp.range * kBouncedShare,
-             all_lamps_);
-  }
+  for (const auto& [at, chunk] : chunks_)
+    for (const Lamp& lamp : lamps_of(*chunk, at))
+      if (lamp.weak || bounces_) spread(lamp, lamp.weak ? lamp_light_ : all_lamps_);
   if (!bounces_) return;
   for (const auto& [voxel, light] : lamp_light_) {
     LampLight& sum = all_lamps_[voxel];
@@ -138,21 +147,23 @@ void SkyTransfer::spread_lamps() {
   }
 }
 
-/// @param lamp place from the lattice's origin. @param within distance at which it ends [voxels].
-void SkyTransfer::spread(const WeakLamp& lamp, float within, LampLightMap& into) const {
-  const auto voxel = [](float v) { return static_cast<int>(std::floor(v)); };
-  const glm::vec3 low = lamp.place - within, high = lamp.place + within;
-  for (int y = voxel(low.y); y <= voxel(high.y); ++y)
-    for (int x = voxel(low.x); x <= voxel(high.x); ++x)
-      for (int z = voxel(low.z); z <= voxel(high.z); ++z) {
+void SkyTransfer::spread(const Lamp& lamp, LampLightMap& into) const {
+  const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
+      high(glm::floor(lamp.lamp.place + lamp.within));
+  for (int y = low.y; y <= high.y; ++y)
+    for (int x = low.x; x <= high.x; ++x)
+      for (int z = low.z; z <= high.z; ++z) {
         const IVec3 at{x, y, z};
         if (!wanted_.has(at)) continue;
-        const LampLight light = light_of_lamp(air_, lamp, at);
-        if (std::ranges::all_of(light, [](const glm::vec3& l) { return l == glm::vec3(0.0f); }))
-          continue;
+        const LampLight light = light_of_lamp(air_, lamp.lamp, at);
+        if (is_dark(light)) continue;
         LampLight& sum = into[wanted_.of(at)];
         for (std::size_t face = 0; face < 6; ++face) sum[face] += light[face];
       }
+}
+
+std::size_t SkyTransfer::bytes() const {
+  return seen_.size() * sizeof(SeenSky) + (bounces_ ? bounces_->bytes() : 0);
 }
 
 void SkyTransfer::follow_bounces(int step, int part) {

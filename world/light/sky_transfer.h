@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,9 +25,11 @@ namespace skerry::world {
 /// that are in front of the face and connected to each other by their faces.
 class SkyTransfer {
  public:
-  /// @param albedo by block id; empty: no light is followed from face to face. Both must outlive
+  /// @param albedo by block id; empty: no light is followed from face to face. It must outlive
   /// this.
-  explicit SkyTransfer(const LightChunks& chunks, std::span<const FaceAlbedo> albedo = {});
+  explicit SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo = {});
+  SkyTransfer(const SkyTransfer&) = delete;  // its parts refer to each other
+  SkyTransfer& operator=(const SkyTransfer&) = delete;
   /// Looks along an octant's vectors. Octants may be looked along at once, each by one thread.
   void look(int octant);
   /// Spreads the light of weak lamps. Once, on any thread, beside octants too.
@@ -35,29 +38,52 @@ class SkyTransfer {
   /// see BounceLight::follow. Nothing without albedo.
   void follow_bounces(int step, int part);
   bool has_bounces() const { return bounces_.has_value(); }
+  using Skies = std::map<IVec3, std::shared_ptr<const ChunkSky>>;
   /// After all of that. Chunks without a face are left out.
-  std::map<IVec3, ChunkSky> faces() const;
+  const Skies& make_faces();
+  const Skies& faces() const { return skies_; }
+  /// Memory that is kept for edits.
+  std::size_t bytes() const;
+
+  /// After make_faces(): brings all of it up to date with chunks of which some have been edited.
+  /// What comes out is what a new one would find of them, bit for bit; what it costs depends on
+  /// what the edit changes. Chunks that are the same object have not changed.
+  /// @return false: this would be no less work than to begin anew; nothing can be asked any more.
+  bool edit(LightChunks chunks);
 
   /// Of one voxel beside a face, for tests: a bit a pattern. @pre it is beside one.
-  std::uint16_t seen(IVec3 voxel, int octant) const { return seen_[wanted_.of(voxel)][octant]; }
+  std::uint16_t seen(IVec3 voxel, int octant) const {
+    return seen_[wanted_.of(voxel)][static_cast<std::size_t>(octant)];
+  }
   bool asked(IVec3 voxel) const { return wanted_.has(voxel); }
 
  private:
   using Corners = std::array<BounceLight::Light, 4>;
+  /// A lamp that spreads its light. @see spread
+  struct Lamp {
+    WeakLamp lamp;        // from the lattice's origin
+    float within = 0.0f;  // voxels: beyond, along any axis, it gives nothing
+    bool weak = false;
+  };
   struct Around;
+  class Edit;
   void look_along(int octant, int pattern, const VoxelBits& open, VoxelBits& passed);
-  void spread(const WeakLamp& lamp, float within, LampLightMap& into) const;
+  static std::vector<Lamp> lamps_of(const LightChunk& chunk, IVec3 at);
+  void spread(const Lamp& lamp, LampLightMap& into) const;
   Corners bounced(const Around& around, int face) const;
   ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const;
   void append_record(IVec3 front, int face, std::vector<glm::uvec4>& texels) const;
 
-  const LightChunks& chunks_;
+  LightChunks chunks_;
   AirVolume air_;
+  LatticeLines lines_;
   VoxelIndex wanted_;          // voxels whose view is kept
   std::vector<SeenSky> seen_;  // by their numbers
   LampLightMap lamp_light_;    // of weak lamps
   LampLightMap all_lamps_;     // whose light is followed further
   std::optional<BounceLight> bounces_;
+  Skies skies_;
+  std::size_t most_numbers_ = 0;  // of voxels, that edits may make
 };
 
 }  // namespace skerry::world

@@ -143,7 +143,7 @@ class Found {
     transfer_.spread_lamps();
     for (int step = 0; step < BounceLight::kSteps; ++step)
       for (int part = 0; part < BounceLight::kParts; ++part) transfer_.follow_bounces(step, part);
-    faces_ = transfer_.faces();
+    faces_ = transfer_.make_faces();
   }
   /// What the GPU reads, in the middle of a face. @param harmonics of what comes from infinity.
   glm::dvec3 bounced(IVec3 voxel, int face, const std::array<double, kHarmonics>& harmonics) const {
@@ -160,13 +160,13 @@ class Found {
     const glm::dvec3 colour(c & 511u, c >> 9 & 511u, c >> 18 & 511u);
     return colour * (std::exp2(static_cast<double>(c >> 27) - 24.0) * std::max(0.0, seen) * share);
   }
-  const std::map<IVec3, ChunkSky>& faces() const { return faces_; }
+  const SkyTransfer::Skies& faces() const { return faces_; }
 
  private:
   LightChunks chunks_;
   std::vector<FaceAlbedo> albedo_;
   SkyTransfer transfer_;
-  std::map<IVec3, ChunkSky> faces_;
+  SkyTransfer::Skies faces_;
 };
 
 void fill(Voxels& stone, IVec3 low, IVec3 high) {
@@ -280,7 +280,7 @@ TEST(BounceLight, IsNearToLightFollowedAlongAllDirections) {
 }
 
 /// Shares of the open hemisphere's light, of pi, in the middle of a face: of the sky itself.
-double sky_share(const std::map<IVec3, ChunkSky>& faces, IVec3 voxel, int face) {
+double sky_share(const SkyTransfer::Skies& faces, IVec3 voxel, int face) {
   const LobeWeights& weights = lobe_weights(face / 2);
   std::array<double, 2> whole{};
   for (std::size_t k = 0; k < shared::kSkyPatternCount; ++k)

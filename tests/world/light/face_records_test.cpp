@@ -17,7 +17,7 @@ ChunkSky sky_of(const LightChunks& chunks) {
   SkyTransfer transfer(chunks);
   for (int octant = 0; octant < kOctants; ++octant) transfer.look(octant);
   transfer.spread_lamps();
-  return transfer.faces().at({0, 0, 0});
+  return *transfer.make_faces().at({0, 0, 0});
 }
 
 Voxels ground(std::mt19937& random) {

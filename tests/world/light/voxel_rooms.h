@@ -8,6 +8,7 @@
 
 #include "world/light/air_volume.h"
 #include "world/light/face_records.h"
+#include "world/light/sky_transfer.h"
 #include "world/mesh/mesh.h"
 #include "world/voxel/chunk.h"
 
@@ -69,12 +70,11 @@ inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {}) {
 
 /// What the GPU would read for a face: 8 words of the sky, 4 of lamps, 4 of bounces; empty: no such
 /// face.
-inline std::vector<std::uint32_t> record_of(const std::map<IVec3, ChunkSky>& sky, IVec3 voxel,
-                                            int face) {
+inline std::vector<std::uint32_t> record_of(const SkyTransfer::Skies& sky, IVec3 voxel, int face) {
   const IVec3 at = chunk_holding(voxel);
   const auto found = sky.find(at);
   if (found == sky.end()) return {};
-  const ChunkSky& chunk = found->second;
+  const ChunkSky& chunk = *found->second;
   const int x = voxel.x & 63, y = voxel.y & 63, z = voxel.z & 63;
   const std::uint32_t brick = chunk.table[static_cast<std::size_t>(z / 8 + x / 8 * 8 + y / 8 * 64)];
   if (brick == 0) return {};

@@ -1,0 +1,248 @@
+// Light after edits is what is found of the edited island from nothing, bit for bit.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstring>
+#include <random>
+
+#include "tests/world/light/voxel_rooms.h"
+#include "world/light/sky_transfer.h"
+#include "world/stream/stream.h"
+#include "world/voxel/blocks.h"
+
+namespace skerry::world {
+namespace {
+
+using test::chunks_of;
+using test::Lamps;
+using test::Voxels;
+
+/// Colours that differ from block to block and face to face.
+std::span<const FaceAlbedo> colours() {
+  static const std::vector<FaceAlbedo> kAll = [] {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> share(0.2f, 0.9f);
+    std::vector<FaceAlbedo> out(block_types().size());
+    for (FaceAlbedo& block : out)
+      for (glm::vec3& face : block) face = {share(random), share(random), share(random)};
+    return out;
+  }();
+  return kAll;
+}
+
+std::unique_ptr<SkyTransfer> looked_at(const LightChunks& chunks,
+                                       std::span<const FaceAlbedo> albedo = colours()) {
+  auto transfer = std::make_unique<SkyTransfer>(chunks, albedo);
+  for (int octant = 0; octant < kOctants; ++octant) transfer->look(octant);
+  transfer->spread_lamps();
+  for (int step = 0; step < BounceLight::kSteps; ++step)
+    for (int part = 0; part < BounceLight::kParts; ++part) transfer->follow_bounces(step, part);
+  transfer->make_faces();
+  return transfer;
+}
+
+/// Chunks that are as they were stay the same objects, as the game's do.
+LightChunks with_what_stays(const LightChunks& before, LightChunks after) {
+  for (auto& [at, chunk] : after) {
+    const auto old = before.find(at);
+    if (old == before.end()) continue;
+    const auto same = [](const auto& a, const auto& b) {
+      return std::ranges::equal(a, b, [](const auto& p, const auto& q) {
+        return std::memcmp(&p, &q, sizeof p) == 0;
+      });
+    };
+    const LightChunk &a = *old->second, &b = *chunk;
+    if (a.opaque.fill == b.opaque.fill && a.opaque.table == b.opaque.table &&
+        a.opaque.words == b.opaque.words && same(a.quads, b.quads) && same(a.lamps, b.lamps))
+      chunk = old->second;
+  }
+  return after;
+}
+
+/// How many records differ; a chunk that only one side has counts as one.
+std::size_t differences(const SkyTransfer::Skies& a, const SkyTransfer::Skies& b) {
+  std::size_t count = 0;
+  for (const auto& [at, sky] : b) {
+    const auto other = a.find(at);
+    if (other == a.end() || other->second->table != sky->table ||
+        other->second->texels.size() != sky->texels.size()) {
+      ++count;
+      continue;
+    }
+    for (std::size_t i = 0; i < sky->texels.size(); ++i)
+      count += sky->texels[i] != other->second->texels[i] ? 1 : 0;
+  }
+  for (const auto& [at, sky] : a) count += b.contains(at) ? 0 : 1;
+  return count;
+}
+
+TEST(SkyTransferEdit, FindsInRandomHeapsWhatALookFromNothingFinds) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    std::mt19937 random(seed);
+    // Over the corner of eight chunks.
+    const auto place = [&] {
+      const auto part = [&](unsigned size) {
+        return static_cast<int>(random() % size) - static_cast<int>(size / 2);
+      };
+      return IVec3{part(30), part(14), part(30)};
+    };
+    Voxels stone;
+    Lamps lamps;
+    for (int i = 0; i < 2500; ++i) stone.insert(place());
+    for (const IVec3 corner : {IVec3{-1, -1, -1}, IVec3{-1, -1, 0}, IVec3{-1, 0, -1},
+                               IVec3{-1, 0, 0}, IVec3{0, -1, -1}, IVec3{0, -1, 0}, IVec3{0, 0, -1},
+                               IVec3{0, 0, 0}})
+      stone.insert(corner);
+    for (int i = 0; i < 6; ++i) lamps.voxels.insert(place());
+    LightChunks chunks = chunks_of(stone, lamps);
+    const std::unique_ptr<SkyTransfer> kept = looked_at(chunks);
+    for (int round = 0; round < 12; ++round) {
+      for (int i = round % 4; i >= 0; --i) {
+        const IVec3 at = place();
+        if (stone.erase(at) == 0) stone.insert(at);
+        stone.insert({0, 0, 0});
+      }
+      if (round % 3 == 0) lamps.voxels.erase(lamps.voxels.begin());
+      if (round % 3 == 1) lamps.voxels.insert(place());
+      chunks = with_what_stays(chunks, chunks_of(stone, lamps));
+      ASSERT_TRUE(kept->edit(chunks)) << seed << ' ' << round;
+      EXPECT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u)
+          << seed << ' ' << round;
+    }
+  }
+}
+
+TEST(SkyTransferEdit, FindsTheSkyAloneAlike) {
+  Voxels stone;
+  for (int x = 0; x < 20; ++x)
+    for (int z = 0; z < 20; ++z) stone.insert({x, 0, z});
+  stone.insert({0, 8, 0});  // the volume has room for what follows
+  LightChunks chunks = chunks_of(stone, {{{5, 2, 5}}});
+  const std::unique_ptr<SkyTransfer> kept = looked_at(chunks, {});
+  for (int y = 1; y < 6; ++y) {
+    stone.insert({7, y, 6});
+    chunks = with_what_stays(chunks, chunks_of(stone, {{{5, 2, 5}}}));
+    ASSERT_TRUE(kept->edit(chunks));
+    EXPECT_EQ(differences(kept->faces(), looked_at(chunks, {})->faces()), 0u) << y;
+  }
+}
+
+TEST(SkyTransferEdit, ThatDoesTheSameAndUndoesItEndsWhereItBegan) {
+  Voxels stone;
+  for (int x = 0; x < 16; ++x)
+    for (int z = 0; z < 16; ++z) stone.insert({x, z % 5 == 0 ? 1 : 0, z}), stone.insert({x, 0, z});
+  const LightChunks before = chunks_of(stone);
+  const std::unique_ptr<SkyTransfer> kept = looked_at(before);
+  const SkyTransfer::Skies first = kept->faces();
+  stone.insert({8, 2, 8});
+  const LightChunks after = with_what_stays(before, chunks_of(stone));
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(kept->edit(i % 2 == 0 ? after : before));
+    if (i == 0) {
+      EXPECT_GT(differences(kept->faces(), first), 0u);
+    }
+  }
+  EXPECT_EQ(differences(kept->faces(), first), 0u);
+}
+
+TEST(SkyTransferEdit, SaysWhenItWouldNotBeLessWork) {
+  Voxels stone{{0, 0, 0}, {1, 0, 0}};
+  const LightChunks chunks = chunks_of(stone);
+  // A chunk more, and voxels beyond the volume.
+  stone.insert({70, 0, 0});
+  EXPECT_FALSE(looked_at(chunks)->edit(chunks_of(stone)));
+  EXPECT_FALSE(looked_at(chunks)->edit(chunks_of({{0, 0, 0}, {20, 0, 0}})));
+}
+
+/// An island as the game has it: leaves, plants, water, glowing plants.
+class RealIsland {
+ public:
+  explicit RealIsland(std::uint64_t seed)
+      : world_({.seed = seed, .island_limit = 1}),
+        id_(world_.islands_near(world_.origin(), 1000.0, 0.0).front().id),
+        jobs_(2),
+        streamer_(world_, jobs_, StreamOf::kMeshesAndOccupancy) {
+    view_.camera = moved(world_.origin(), {0.0, 60.0, 0.0});
+    take();
+  }
+  /// Puts a block somewhere on a surface, or takes one away, and everything round about.
+  void edit(std::mt19937& random, BlockId block, int size) {
+    std::vector<std::pair<IVec3, const LightChunk*>> chunks;
+    for (const auto& [at, chunk] : chunks_)
+      if (!chunk->quads.empty()) chunks.emplace_back(at, chunk.get());
+    std::vector<IVec3> places;
+    while (places.empty()) {
+      const auto& [at, chunk] = chunks[random() % chunks.size()];
+      for_each_face(chunk->quads[random() % chunk->quads.size()], [&](const DrawnFace& face) {
+        places.push_back(corner_of(at) + face.voxel +
+                         (block == kAir ? IVec3{} : to_front(face)));
+      });
+    }
+    const IVec3 middle = places[random() % places.size()];
+    for (int x = 0; x < size; ++x)
+      for (int y = 0; y < size; ++y)
+        for (int z = 0; z < size; ++z) world_.set_block(id_, middle + IVec3{x, y, z}, block);
+    take();
+  }
+  const LightChunks& chunks() const { return chunks_; }
+
+ private:
+  void take() {
+    do {
+      streamer_.update(view_, {.view_distance_blocks = 320.0, .detail_distance_blocks = 320.0});
+      streamer_.wait_until_complete();
+      StreamUpdate update = streamer_.poll(~std::size_t{0});
+      for (const SectionKey& key : update.removed) chunks_.erase(key.chunk);
+      for (ReadySection& ready : update.ready) {
+        LightChunk chunk{ready.occupancy, ready.leaves, ready.mesh.quads, {}, {}};
+        for (const Emitter& emitter : ready.emitters) {
+          if (emitter.block == block::kTorch)
+            chunk.strong.push_back({emitter.place, 15.0f, glm::vec3(3.0f, 2.0f, 1.0f)});
+          else
+            chunk.lamps.push_back({emitter.place, glm::vec3(0.3f, 0.5f, 0.2f), 6.0f});
+        }
+        chunks_[ready.key.chunk] = std::make_shared<const LightChunk>(std::move(chunk));
+      }
+    } while (!streamer_.complete());
+  }
+
+  World world_;
+  std::uint64_t id_;
+  Jobs jobs_;
+  Streamer streamer_;
+  StreamView view_;
+  LightChunks chunks_;
+};
+
+TEST(SkyTransferEdit, FindsOnARealIslandWhatALookFromNothingFinds) {
+  RealIsland island(1);
+  std::mt19937 random(1);
+  std::unique_ptr<SkyTransfer> kept = looked_at(island.chunks());
+  if (std::getenv("SKERRY_TIME")) {
+    using Clock = std::chrono::steady_clock;
+    auto ms = [](auto d) { return std::chrono::duration<double, std::milli>(d).count(); };
+    auto t = Clock::now();
+    kept = looked_at(island.chunks());
+    printf("full %.1f ms, %.1f MB\n", ms(Clock::now() - t), double(kept->bytes()) / 1e6);
+    for (int i = 0; i < 30; ++i) {
+      const BlockId block = std::array<BlockId, 3>{kAir, block::kStone, block::kTorch}[i % 3];
+      island.edit(random, block, 1);
+      t = Clock::now();
+      const bool ok = kept->edit(island.chunks());
+      printf("edit %d: %.1f ms %d\n", i, ms(Clock::now() - t), ok);
+      if (!ok) kept = looked_at(island.chunks());
+    }
+  }
+  constexpr std::array<BlockId, 8> kBlocks{kAir,          block::kStone,     block::kTorch, block::kOakLeaves,
+                               block::kWater, block::kGlowstone, block::kGlass, block::kFlowerRed};
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t i = 0; i < 12; ++i) {
+      island.edit(random, kBlocks[i % kBlocks.size()], i % 3 == 2 ? 3 : 1);
+      if (!kept->edit(island.chunks())) kept = looked_at(island.chunks());
+    }
+    EXPECT_EQ(differences(kept->faces(), looked_at(island.chunks())->faces()), 0u) << round;
+  }
+}
+
+}  // namespace
+}  // namespace skerry::world

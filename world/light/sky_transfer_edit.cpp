@@ -1,0 +1,477 @@
+// SkyTransfer after edits: what they change is followed from the voxels to the records.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <set>
+#include <unordered_set>
+#include <utility>
+
+#include "engine/core/check.h"
+#include "world/light/sky_transfer.h"
+#include "world/voxel/chunk.h"
+
+namespace skerry::world {
+namespace {
+
+// Beyond, an island is looked at as a whole.
+constexpr std::size_t kMostVoxels = 2048;
+
+/// A set of the faces of a chunk: six directions, then plants.
+class FaceBits {
+ public:
+  FaceBits() : bits_(7 * kChunkVoxels / 64, 0) {}
+  /// @return whether it was there.
+  bool set(const DrawnFace& face, bool value) {
+    const std::size_t at =
+        (static_cast<std::size_t>(face.plant ? 6 : face.direction) * kChunkVoxels +
+         static_cast<std::size_t>(face.voxel.z +
+                                  kChunkEdge * (face.voxel.x + kChunkEdge * face.voxel.y)));
+    std::uint64_t& word = bits_[at / 64];
+    const std::uint64_t bit = std::uint64_t{1} << at % 64;
+    const bool was = (word & bit) != 0;
+    word = value ? word | bit : word & ~bit;
+    return was;
+  }
+
+ private:
+  static constexpr std::size_t kChunkVoxels = std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge;
+  std::vector<std::uint64_t> bits_;
+};
+
+bool same_lamp(const WeakLamp& a, const WeakLamp& b) {
+  return a.place == b.place && a.intensity == b.intensity && a.range == b.range;
+}
+
+/// Of a lamp whose light reaches a voxel: whether the line between them can touch another voxel.
+bool may_touch(IVec3 from, const glm::vec3& to, IVec3 other) {
+  constexpr float kNear = 1.0f;  // more than half of a voxel's diagonal
+  const auto middle = [](IVec3 v) {
+    return glm::vec3(static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f,
+                     static_cast<float>(v.z) + 0.5f);
+  };
+  const glm::vec3 a = middle(from), way = to - a, p = middle(other) - a;
+  const float length2 = glm::dot(way, way);
+  const float t = length2 > 0.0f ? glm::clamp(glm::dot(p, way) / length2, 0.0f, 1.0f) : 0.0f;
+  const glm::vec3 off = p - t * way;
+  return glm::dot(off, off) <= kNear * kNear;
+}
+
+}  // namespace
+
+class SkyTransfer::Edit {
+ public:
+  Edit(SkyTransfer& of, LightChunks chunks)
+      : of_(of), before_(std::exchange(of.chunks_, std::move(chunks))) {}
+
+  bool run() {
+    if (of_.bounces_ && of_.bounces_->is_worn()) return false;
+    if (!find_chunks() || !take_voxels() || !want_voxels()) return false;
+    take_faces();
+    look_again();
+    spread_again();
+    if (of_.bounces_)
+      for (const BounceLight::Changed& face :
+           of_.bounces_->follow_changes(of_.seen_, of_.all_lamps_))
+        redo_about(face.front, face.direction);
+    redo_records();
+    return true;
+  }
+
+ private:
+  struct Face {
+    IVec3 front{};
+    DrawnFace drawn{};  // voxel from the lattice's origin
+    std::uint16_t block = 0;
+  };
+
+  /// Which chunks have changed. @return false: chunks have come or gone.
+  bool find_chunks() {
+    const LightChunks& now = of_.chunks_;
+    if (now.size() != before_.size() || of_.seen_.empty()) return false;
+    for (auto old = before_.begin(), at = now.begin(); at != now.end(); ++old, ++at) {
+      if (at->first != old->first) return false;
+      if (at->second != old->second) edited_.push_back(at->first);
+    }
+    return true;
+  }
+
+  bool take_voxels() {
+    std::set<IVec3> changed;
+    for (const IVec3& at : edited_) {
+      const std::optional<std::vector<IVec3>> voxels =
+          take_chunk(of_.air_, at, *of_.chunks_.at(at));
+      if (!voxels) return false;
+      changed.insert(voxels->begin(), voxels->end());
+      if (changed.size() > kMostVoxels) return false;
+    }
+    voxels_.assign(changed.begin(), changed.end());
+    for (const IVec3& voxel : voxels_) of_.lines_.changed(voxel);
+    return true;
+  }
+
+  /// Finds the faces that have come and gone, and numbers the voxels about those that have come.
+  bool want_voxels() {
+    for (const IVec3& at : edited_) compare_faces(at);
+    for (const IVec3& voxel : voxels_) {
+      const bool opaque = of_.air_.opaque.at(voxel);
+      if (opaque && of_.wanted_.has(voxel)) let_go(voxel);
+      if (!opaque && !want(voxel)) return false;
+    }
+    for (const Face& face : came_) {
+      const FaceAxes axes(face.drawn.direction);
+      for (int b = -1; b <= 1; ++b)
+        for (int c = -1; c <= 1; ++c)
+          if (!want(face.front + axis_vector(axes.b, b) + axis_vector(axes.c, c))) return false;
+    }
+    return true;
+  }
+
+  void compare_faces(IVec3 at) {
+    const IVec3 corner = corner_of(at);
+    const auto face_of = [&](DrawnFace drawn, std::uint32_t material) {
+      drawn.voxel = corner + drawn.voxel;
+      return Face{drawn.voxel + to_front(drawn), drawn,
+                  static_cast<std::uint16_t>(material & 0xffffu)};
+    };
+    FaceBits bits;
+    for (const shared::Quad& quad : before_.at(at)->quads)
+      for_each_face(quad, [&](const DrawnFace& drawn) { bits.set(drawn, true); });
+    FaceBits now;
+    for (const shared::Quad& quad : of_.chunks_.at(at)->quads)
+      for_each_face(quad, [&](const DrawnFace& drawn) {
+        if (now.set(drawn, true)) return;
+        (bits.set(drawn, false) ? stayed_ : came_).push_back(face_of(drawn, quad.material));
+      });
+    for (const shared::Quad& quad : before_.at(at)->quads)
+      for_each_face(quad, [&](const DrawnFace& drawn) {
+        if (bits.set(drawn, false)) went_.push_back(face_of(drawn, quad.material));
+      });
+  }
+
+  void move(std::span<const VoxelIndex::Moved> moved) {
+    of_.seen_.resize(of_.wanted_.size());
+    for (const VoxelIndex::Moved& m : moved) {
+      of_.seen_[m.to] = of_.seen_[m.from];
+      for (LampLightMap* lamps : {&of_.lamp_light_, &of_.all_lamps_}) {
+        auto node = lamps->extract(m.from);
+        if (!node) continue;
+        node.key() = m.to;
+        lamps->insert(std::move(node));
+      }
+    }
+    if (of_.bounces_) of_.bounces_->move_voxels(moved);
+  }
+
+  bool want(IVec3 voxel) {
+    if (of_.wanted_.has(voxel) || of_.air_.opaque.at(voxel)) return true;
+    if (!of_.lines_.inside(voxel)) return false;
+    move(of_.wanted_.add(voxel));
+    const std::size_t number = of_.wanted_.of(voxel);
+    of_.seen_[number] = {};
+    if (of_.bounces_) of_.bounces_->forget_voxel(number);
+    wanted_.push_back(voxel);
+    return of_.wanted_.size() <= of_.most_numbers_;
+  }
+
+  void let_go(IVec3 voxel) {
+    const std::size_t number = of_.wanted_.of(voxel);
+    of_.lamp_light_.erase(number);
+    of_.all_lamps_.erase(number);
+    if (of_.bounces_)
+      for (int direction = 0; direction < 6; ++direction)
+        for (const bool plant : {false, true}) of_.bounces_->remove_face(voxel, direction, plant);
+    move(of_.wanted_.remove(voxel));
+  }
+
+  void take_faces() {
+    for (const Face& face : went_) {
+      redo_about(face.front, face.drawn.direction);
+      if (of_.bounces_)
+        of_.bounces_->remove_face(face.front, face.drawn.direction, face.drawn.plant);
+    }
+    for (const std::vector<Face>* faces : {&came_, &stayed_})
+      for (const Face& face : *faces) {
+        if (faces == &came_) redo_about(face.front, face.drawn.direction);
+        if (!of_.bounces_ ||
+            !of_.bounces_->set_face(face.front, face.drawn.direction, face.block, face.drawn.plant))
+          continue;
+        fronts_.insert(face.front);
+      }
+    // Lines end at faces: where one comes or goes and no voxel does, all those to its voxel.
+    if (!of_.bounces_) return;
+    const std::set<IVec3> changed(voxels_.begin(), voxels_.end());
+    std::set<IVec3> behind;
+    for (const std::vector<Face>* faces : {&came_, &went_})
+      for (const Face& face : *faces)
+        if (!face.drawn.plant && !changed.contains(face.drawn.voxel) &&
+            !changed.contains(face.front))
+          behind.insert(face.drawn.voxel);
+    through_.assign(behind.begin(), behind.end());
+  }
+
+  /// Along all lines from new voxels, and along those from others that changed ones are on.
+  void look_again() {
+    for (const IVec3& voxel : wanted_) {
+      if (!of_.wanted_.has(voxel)) continue;
+      SeenSky& seen = of_.seen_[of_.wanted_.of(voxel)];
+      for (std::size_t way = 0; way < LatticeLines::kWays; ++way)
+        if (!of_.lines_.end_of(voxel, way))
+          seen[way / shared::kSkyPatternCount] |=
+              static_cast<std::uint16_t>(1u << way % shared::kSkyPatternCount);
+      changed_at(voxel);
+    }
+    for (const IVec3& voxel : voxels_) {
+      redo_around(voxel);  // whether it is air
+      look_through(voxel);
+    }
+    for (const IVec3& voxel : through_) look_through(voxel);
+    if (!of_.bounces_) return;
+    fronts_.insert(wanted_.begin(), wanted_.end());
+    for (const IVec3& front : fronts_)
+      if (of_.wanted_.has(front)) of_.bounces_->look_from(front, of_.seen_[of_.wanted_.of(front)]);
+  }
+
+  /// All lines that touch a voxel, from there backwards: what lies beyond it has not changed by it,
+  /// and whoever sees to the same place sees the same.
+  void look_through(IVec3 voxel) {
+    for (std::size_t number = 0; number < LatticeLines::kWays; ++number) {
+      const LatticeLines::Way& way = of_.lines_.way(number);
+      const IVec3 back{-way.vector.x, -way.vector.y, -way.vector.z};
+      for (const LatticeLines::Touched& touched : way.touched) {
+        IVec3 from{voxel.x - touched.offset.x, voxel.y - touched.offset.y,
+                   voxel.z - touched.offset.z};
+        if (!of_.lines_.inside(from)) continue;
+        std::optional<Ending> ending;
+        do {
+          if (of_.wanted_.has(from)) {
+            if (!ending) ending = ending_of(from, number);
+            set_line(from, number, *ending);
+          }
+          from = from + back;
+        } while (of_.lines_.inside(from) && !of_.lines_.stopped(from, number));
+      }
+    }
+  }
+
+  struct Ending {
+    bool sky = false;
+    BounceLight::Source source = BounceLight::kNothing;
+  };
+  Ending ending_of(IVec3 from, std::size_t way) {
+    const std::optional<IVec3> last = of_.lines_.end_of(from, way);
+    if (!last) return {true, BounceLight::kNothing};
+    return {false, of_.bounces_ ? of_.bounces_->source_at(*last, way) : BounceLight::kNothing};
+  }
+
+  void set_line(IVec3 voxel, std::size_t way, const Ending& ending) {
+    std::uint16_t& seen = of_.seen_[of_.wanted_.of(voxel)][way / shared::kSkyPatternCount];
+    const auto bit = static_cast<std::uint16_t>(1u << way % shared::kSkyPatternCount);
+    const std::uint16_t now = static_cast<std::uint16_t>(ending.sky ? seen | bit : seen & ~bit);
+    if (std::exchange(seen, now) != now) changed_at(voxel);
+    if (of_.bounces_) of_.bounces_->set_line(voxel, way, ending.source);
+  }
+
+  /// A voxel's direct light, or what it sees of the sky, has changed.
+  void changed_at(IVec3 voxel) {
+    if (!lit_.insert(voxel).second) return;
+    redo_around(voxel);
+    if (of_.bounces_) of_.bounces_->relight(voxel);
+  }
+
+  /// Sums of lamps' light at the voxels where a lamp has come or gone, or an edit is on the way.
+  void spread_again() {
+    std::vector<Lamp> all;
+    for (const auto& [at, chunk] : of_.chunks_)
+      for (const Lamp& lamp : lamps_of(*chunk, at))
+        if (lamp.weak || of_.bounces_) all.push_back(lamp);
+    std::set<IVec3> relit(wanted_.begin(), wanted_.end());
+    for (const IVec3& at : edited_) find_relit(at, relit);
+    for (const Lamp& lamp : all) find_relit(lamp, relit);
+    for (const IVec3& voxel : relit) {
+      if (!of_.wanted_.has(voxel)) continue;
+      LampLight weak{}, strong{};
+      for (const Lamp& lamp : all) {
+        if (!reaches(lamp, voxel)) continue;
+        const LampLight light = light_of_lamp(of_.air_, lamp.lamp, voxel);
+        for (std::size_t face = 0; face < 6; ++face)
+          (lamp.weak ? weak : strong)[face] += light[face];
+      }
+      for (std::size_t face = 0; face < 6; ++face) strong[face] += weak[face];
+      const bool is_new = set_light(of_.lamp_light_, voxel, weak);
+      if ((of_.bounces_ && set_light(of_.all_lamps_, voxel, strong)) || is_new) changed_at(voxel);
+    }
+  }
+
+  static bool reaches(const Lamp& lamp, IVec3 voxel) {
+    const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
+        high(glm::floor(lamp.lamp.place + lamp.within));
+    return voxel.x >= low.x && voxel.x <= high.x && voxel.y >= low.y && voxel.y <= high.y &&
+           voxel.z >= low.z && voxel.z <= high.z;
+  }
+
+  /// @return whether it was other.
+  bool set_light(LampLightMap& lights, IVec3 voxel, const LampLight& light) {
+    const std::size_t number = of_.wanted_.of(voxel);
+    if (is_dark(light)) return lights.erase(number) != 0;
+    const auto [at, is_new] = lights.try_emplace(number, light);
+    return std::exchange(at->second, light) != light || is_new;
+  }
+
+  template <class Fn>
+  void for_each_reached(const Lamp& lamp, const Fn& fn) const {
+    const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
+        high(glm::floor(lamp.lamp.place + lamp.within));
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        for (int z = low.z; z <= high.z; ++z)
+          if (of_.wanted_.has({x, y, z})) fn(IVec3{x, y, z});
+  }
+
+  /// Where lamps of a chunk that have come, gone or another place in the order of sums reach.
+  void find_relit(IVec3 at, std::set<IVec3>& relit) const {
+    std::vector<Lamp> old = lamps_of(*before_.at(at), at), now = lamps_of(*of_.chunks_.at(at), at);
+    const auto same = [](const Lamp& a, const Lamp& b) {
+      return a.weak == b.weak && same_lamp(a.lamp, b.lamp);
+    };
+    const auto start = std::ranges::mismatch(old, now, same);
+    old.erase(old.begin(), start.in1);
+    now.erase(now.begin(), start.in2);
+    while (!old.empty() && !now.empty() && same(old.back(), now.back()))
+      old.pop_back(), now.pop_back();
+    for (const std::vector<Lamp>* lamps : {&old, &now})
+      for (const Lamp& lamp : *lamps)
+        if (lamp.weak || of_.bounces_)
+          for_each_reached(lamp, [&](IVec3 voxel) { relit.insert(voxel); });
+  }
+
+  /// Where a lamp's light passes a voxel that has changed.
+  void find_relit(const Lamp& lamp, std::set<IVec3>& relit) const {
+    std::vector<IVec3> near;
+    for (const IVec3& voxel : voxels_)
+      if (reaches({lamp.lamp, lamp.within + 1.0f, lamp.weak}, voxel)) near.push_back(voxel);
+    if (near.empty()) return;
+    for_each_reached(lamp, [&](IVec3 voxel) {
+      if (std::ranges::any_of(
+              near, [&](IVec3 other) { return may_touch(voxel, lamp.lamp.place, other); }))
+        relit.insert(voxel);
+    });
+  }
+
+  // --- Records ---
+
+  /// The records of faces whose corners a face of that direction is at.
+  void redo_about(IVec3 front, int direction) {
+    const FaceAxes axes(direction);
+    for (int b = -1; b <= 1; ++b)
+      for (int c = -1; c <= 1; ++c)
+        redo_.insert(key_of(front + axis_vector(axes.b, b) + axis_vector(axes.c, c), direction));
+  }
+  void redo_around(IVec3 voxel) {
+    for (int direction = 0; direction < 6; ++direction) redo_about(voxel, direction);
+  }
+  std::uint64_t key_of(IVec3 front, int direction) const {
+    const IVec3 low = of_.air_.opaque.low();
+    const auto part = [](int v) { return static_cast<std::uint64_t>(v + 1); };
+    return ((part(front.x - low.x) << 20 | part(front.y - low.y)) << 20 | part(front.z - low.z)) *
+               6 +
+           static_cast<std::uint64_t>(direction);
+  }
+  std::pair<IVec3, int> place_of(std::uint64_t key) const {
+    const IVec3 low = of_.air_.opaque.low();
+    const std::uint64_t at = key / 6;
+    const auto part = [&](int shift) { return static_cast<int>(at >> shift & 0xfffffu) - 1; };
+    return {IVec3{part(40) + low.x, part(20) + low.y, part(0) + low.z}, static_cast<int>(key % 6)};
+  }
+
+  void redo_records() {
+    std::map<IVec3, std::vector<std::pair<IVec3, int>>> by_chunk;  // voxel and direction
+    const auto add = [&](IVec3 voxel, int direction) {
+      const auto chunk = [](int v) { return static_cast<int>(floor_div(v, kChunkEdge)); };
+      by_chunk[{chunk(voxel.x), chunk(voxel.y), chunk(voxel.z)}].emplace_back(voxel, direction);
+    };
+    for (const std::uint64_t key : redo_) {
+      const auto [front, direction] = place_of(key);
+      const FaceAxes axes(direction);
+      add(front + axis_vector(axes.own, -axes.sign), direction);
+      if (direction == 2) add(front, direction);  // a plant
+    }
+    const std::set<IVec3> edited(edited_.begin(), edited_.end());
+    for (const auto& [at, faces] : by_chunk) {
+      const auto known = of_.skies_.find(at);
+      if (edited.contains(at) || known == of_.skies_.end()) continue;
+      std::shared_ptr<ChunkSky> sky;  // made when the first record differs
+      for (const auto& [voxel, direction] : faces)
+        redo_record(at, voxel, direction, *known->second, sky);
+      if (sky) known->second = std::move(sky);
+    }
+    for (const IVec3& at : edited_) redo_chunk(at);
+  }
+
+  void redo_record(IVec3 at, IVec3 voxel, int direction, const ChunkSky& known,
+                   std::shared_ptr<ChunkSky>& sky) {
+    const IVec3 corner = corner_of(at);
+    const IVec3 local{voxel.x - corner.x, voxel.y - corner.y, voxel.z - corner.z};
+    const std::optional<std::size_t> record = find_record(known, local, direction);
+    if (!record) return;
+    const bool plant = direction == 2 && is_plant(at, local);
+    std::vector<glm::uvec4> texels;
+    of_.append_record(voxel + to_front({local, direction, plant}), direction, texels);
+    if (std::equal(texels.begin(), texels.end(),
+                   known.texels.begin() + static_cast<std::ptrdiff_t>(*record)))
+      return;
+    if (!sky) sky = std::make_shared<ChunkSky>(known);
+    std::ranges::copy(texels, sky->texels.begin() + static_cast<std::ptrdiff_t>(*record));
+  }
+
+  bool is_plant(IVec3 at, IVec3 local) {
+    auto [plants, is_new] = plants_.try_emplace(at);
+    if (is_new)
+      for (const shared::Quad& quad : of_.chunks_.at(at)->quads)
+        if (is_of_plant(quad))
+          for_each_face(quad, [&](const DrawnFace& face) { plants->second.insert(face.voxel); });
+    return plants->second.contains(local);
+  }
+
+  /// Of a chunk that has been edited: records that stay are copied.
+  void redo_chunk(IVec3 at) {
+    const std::vector<shared::Quad>& quads = of_.chunks_.at(at)->quads;
+    if (quads.empty()) {
+      of_.skies_.erase(at);
+      return;
+    }
+    const auto known = of_.skies_.find(at);
+    const std::shared_ptr<const ChunkSky> old = known == of_.skies_.end() ? nullptr : known->second;
+    const IVec3 corner = corner_of(at);
+    of_.skies_[at] = std::make_shared<const ChunkSky>(
+        pack_faces(quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
+          const IVec3 front = corner + face.voxel + to_front(face);
+          if (old && !redo_.contains(key_of(front, face.direction)))
+            if (const auto record = find_record(*old, face.voxel, face.direction)) {
+              const auto from = old->texels.begin() + static_cast<std::ptrdiff_t>(*record);
+              texels.insert(texels.end(), from, from + shared::kIndirectRecordTexels);
+              return;
+            }
+          of_.append_record(front, face.direction, texels);
+        }));
+  }
+
+  SkyTransfer& of_;
+  const LightChunks before_;
+  std::vector<IVec3> edited_;                // chunks
+  std::vector<IVec3> voxels_;                // whose bits have changed
+  std::vector<Face> came_, went_, stayed_;   // faces of edited chunks
+  std::vector<IVec3> wanted_;                // voxels whose view is kept from now on
+  std::vector<IVec3> through_;               // more voxels to which lines may have changed
+  std::set<IVec3> fronts_;                   // before new faces
+  std::set<IVec3> lit_;                      // see changed_at()
+  std::unordered_set<std::uint64_t> redo_;   // records: key_of() front and direction
+  std::map<IVec3, std::set<IVec3>> plants_;  // of chunks
+};
+
+bool SkyTransfer::edit(LightChunks chunks) {
+  return Edit(*this, std::move(chunks)).run();
+}
+
+}  // namespace skerry::world
