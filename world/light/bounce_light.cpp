@@ -268,7 +268,9 @@ void BounceLight::set_line(IVec3 voxel, std::size_t way, Source source) {
     const auto quarter = static_cast<std::size_t>(
         std::find(octants.begin(), octants.end(), octant) - octants.begin());
     const auto set = [&](std::size_t line) {
-      if (std::exchange(sources_[number - 1][line], source) != source) relooked_.add(number - 1);
+      if (std::exchange(sources_[number - 1][line], source) == source) return;
+      relooked_.add(number - 1);
+      add_reader(source, number - 1);
     };
     if (k % kFirstEvery == first_of(face, kFirstEvery))
       set(quarter * (kPatterns / kFirstEvery) + k / kFirstEvery);
@@ -285,6 +287,7 @@ void BounceLight::look_from(IVec3 voxel, const SeenSky& seen) {
     if (number == 0) continue;
     look_along(number - 1, seen, 0);
     relooked_.add(number - 1);
+    for (const Source source : sources_[number - 1]) add_reader(source, number - 1);
   }
 }
 
@@ -371,32 +374,59 @@ void BounceLight::follow(int step, int part, std::span<const SeenSky> seen,
 
 std::size_t BounceLight::bytes() const {
   std::size_t bytes = numbers_.size() * sizeof(Number) + faces_.size() * sizeof(Face) +
-                      sources_.size() * sizeof(sources_[0]);
+                      sources_.size() * sizeof(sources_[0]) + readers_.size() * sizeof(Number);
   for (const std::vector<Several>& several : several_) bytes += several.size() * sizeof(Several);
   for (const std::vector<PackedLight>& light : leaving_)
     bytes += light.size() * sizeof(PackedLight);
   return bytes;
 }
 
+template <class Fn>
+void BounceLight::for_each_face_of(Source source, const Fn& fn) const {
+  if (source == kNothing) return;
+  if ((source & kSeveral) == 0) return fn(source - 1);
+  const Source place = source & ~kSeveral;
+  for (const Number from : several_[place % kParts][place / kParts].faces)
+    if (from != 0) fn(from - 1);
+}
+
+/// By counting, then filling from the ends.
+void BounceLight::list_readers() {
+  if (!first_reader_.empty()) return;
+  first_reader_.assign(faces_.size() + 1, 0);
+  for (const std::array<Source, kLines>& sources : sources_)
+    for (const Source source : sources)
+      for_each_face_of(source, [&](Number from) { ++first_reader_[from]; });
+  std::uint32_t sum = 0;
+  for (std::uint32_t& first : first_reader_) first = sum += first;
+  readers_.resize(sum);
+  for (Number reader = 0; reader < sources_.size(); ++reader)
+    for (const Source source : sources_[reader])
+      for_each_face_of(source, [&](Number from) { readers_[--first_reader_[from]] = reader; });
+}
+
+void BounceLight::add_reader(Source source, Number reader) {
+  for_each_face_of(source, [&](Number from) {
+    std::vector<Number>& readers = more_readers_[from];
+    if (!readers.empty() && readers.back() == reader) return;
+    readers.push_back(reader);
+    ++more_count_;
+  });
+}
+
 /// Whether a face receives at a step what has changed at the step before.
 bool BounceLight::comes_from(Number number, int step, const Marked& changed) const {
   const bool last = step == kSteps - 1;
   const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
-  for (const Source* end = source + (last ? kLastLines : kFirstLines); source != end; ++source) {
-    if (*source == kNothing) continue;
-    if ((*source & kSeveral) == 0) {
-      if (changed.has(*source - 1)) return true;
-      continue;
-    }
-    const Source place = *source & ~kSeveral;
-    for (const Number from : several_[place % kParts][place / kParts].faces)
-      if (from != 0 && changed.has(from - 1)) return true;
-  }
-  return false;
+  bool any = false;
+  for (const Source* end = source + (last ? kLastLines : kFirstLines); source != end; ++source)
+    for_each_face_of(*source, [&](Number from) { any |= changed.has(from); });
+  return any;
 }
 
 std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const SeenSky> seen,
                                                               const LampLightMap& lamps) {
+  list_readers();
   const auto exists = [&](Number number) { return faces_[number].ground || faces_[number].plant; };
   std::array<Marked, 2> changed;  // by parity of the step
   for (std::size_t step = 0; step < kSteps; ++step) {
@@ -418,11 +448,21 @@ std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const Se
     const auto done = [&](Number number) { return !last && relit_.has(number); };
     for (const Number number : relooked_.all())
       if (!done(number)) look(number);
-    if (before.empty()) continue;
-    for (Number number = 0; number < faces_.size(); ++number)
-      if (!done(number) && !relooked_.has(number) &&
-          comes_from(number, static_cast<int>(step), before))
-        look(number);
+    Marked tried;
+    const auto try_all = [&](std::span<const Number> readers) {
+      for (const Number reader : readers) {
+        if (tried.has(reader) || done(reader) || relooked_.has(reader)) continue;
+        tried.add(reader);
+        if (comes_from(reader, static_cast<int>(step), before)) look(reader);
+      }
+    };
+    for (const Number number : before.all()) {
+      if (number + 1 < first_reader_.size())
+        try_all(
+            {readers_.data() + first_reader_[number], readers_.data() + first_reader_[number + 1]});
+      if (const auto more = more_readers_.find(number); more != more_readers_.end())
+        try_all(more->second);
+    }
   }
   relit_.clear();
   relooked_.clear();

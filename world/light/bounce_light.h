@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/core/harmonics.h"
@@ -101,7 +102,9 @@ class BounceLight {
   /// Works out what has changed since follow(). @return faces that receive other light.
   std::vector<Changed> follow_changes(std::span<const SeenSky> seen, const LampLightMap& lamps);
   /// Whether edits have left so much behind that it is time to begin anew.
-  bool is_worn() const { return several_[0].size() > 2 * first_several_ + kSpareSeveral; }
+  bool is_worn() const {
+    return several_[0].size() > 2 * first_several_ + kSpare || more_count_ > kSpare;
+  }
   /// Memory that is kept for edits.
   std::size_t bytes() const;
 
@@ -144,6 +147,10 @@ class BounceLight {
   PackedLight light_of(Number number, int step, std::span<const SeenSky> seen,
                        const LampLightMap& lamps) const;
   bool comes_from(Number number, int step, const Marked& changed) const;
+  template <class Fn>
+  void for_each_face_of(Source source, const Fn& fn) const;
+  void list_readers();
+  void add_reader(Source source, Number reader);
   Light reflected(const Face& face, Light light) const;
 
   const LatticeLines& lines_;
@@ -154,8 +161,14 @@ class BounceLight {
   std::vector<Number> numbers_;  // 1 + of faces_, by voxel and direction; 0: none
   std::vector<std::array<Source, kLines>> sources_;  // by face: of first reflections, of the last
   std::array<std::vector<Several>, kParts> several_;
+  // Of each face those with a line to it, and some that had one: from `first_reader_` to that of
+  // the next face; then what edits have added. Made when the first edit is followed.
+  std::vector<std::uint32_t> first_reader_;
+  std::vector<Number> readers_;
+  std::unordered_map<Number, std::vector<Number>> more_readers_;
+  std::size_t more_count_ = 0;
   std::array<std::vector<PackedLight>, kSteps> leaving_;  // by step; the last one's: received
-  static constexpr std::size_t kSpareSeveral = 200'000;
+  static constexpr std::size_t kSpare = 1'000'000;
   std::size_t first_several_ = 0;  // in the first list, after follow()
   Marked relit_, relooked_;        // faces whose direct light, whose lines have changed
 };

@@ -77,13 +77,15 @@ glm::uvec4 packed(const Corners& corners) {
 SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face) const {
   Corners out{};
   if (!bounces_) return out;
+  std::array<std::optional<BounceLight::Light>, 9> lights;
+  for (std::size_t at = 0; at < lights.size(); ++at)
+    if (around.air[at]) lights[at] = bounces_->received(around.voxels[at], face);
   for (std::size_t corner = 0; corner < 4; ++corner) {
     float count = 0.0f;
     BounceLight::Light& sum = out[corner];
     for (const std::size_t at : around.about(corner)) {
-      const std::optional<BounceLight::Light> light = bounces_->received(around.voxels[at], face);
-      if (!light) continue;
-      sum += *light;
+      if (!lights[at]) continue;
+      sum += *lights[at];
       count += 1.0f;
     }
     if (count > 0.0f) sum *= 1.0f / count;

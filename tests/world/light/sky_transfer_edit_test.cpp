@@ -1,7 +1,6 @@
 // Light after edits is what is found of the edited island from nothing, bit for bit.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstring>
 #include <random>
 
@@ -47,9 +46,8 @@ LightChunks with_what_stays(const LightChunks& before, LightChunks after) {
     const auto old = before.find(at);
     if (old == before.end()) continue;
     const auto same = [](const auto& a, const auto& b) {
-      return std::ranges::equal(a, b, [](const auto& p, const auto& q) {
-        return std::memcmp(&p, &q, sizeof p) == 0;
-      });
+      return std::ranges::equal(
+          a, b, [](const auto& p, const auto& q) { return std::memcmp(&p, &q, sizeof p) == 0; });
     };
     const LightChunk &a = *old->second, &b = *chunk;
     if (a.opaque.fill == b.opaque.fill && a.opaque.table == b.opaque.table &&
@@ -89,9 +87,9 @@ TEST(SkyTransferEdit, FindsInRandomHeapsWhatALookFromNothingFinds) {
     Voxels stone;
     Lamps lamps;
     for (int i = 0; i < 2500; ++i) stone.insert(place());
-    for (const IVec3 corner : {IVec3{-1, -1, -1}, IVec3{-1, -1, 0}, IVec3{-1, 0, -1},
-                               IVec3{-1, 0, 0}, IVec3{0, -1, -1}, IVec3{0, -1, 0}, IVec3{0, 0, -1},
-                               IVec3{0, 0, 0}})
+    for (const IVec3 corner :
+         {IVec3{-1, -1, -1}, IVec3{-1, -1, 0}, IVec3{-1, 0, -1}, IVec3{-1, 0, 0}, IVec3{0, -1, -1},
+          IVec3{0, -1, 0}, IVec3{0, 0, -1}, IVec3{0, 0, 0}})
       stone.insert(corner);
     for (int i = 0; i < 6; ++i) lamps.voxels.insert(place());
     LightChunks chunks = chunks_of(stone, lamps);
@@ -106,8 +104,7 @@ TEST(SkyTransferEdit, FindsInRandomHeapsWhatALookFromNothingFinds) {
       if (round % 3 == 1) lamps.voxels.insert(place());
       chunks = with_what_stays(chunks, chunks_of(stone, lamps));
       ASSERT_TRUE(kept->edit(chunks)) << seed << ' ' << round;
-      EXPECT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u)
-          << seed << ' ' << round;
+      EXPECT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u) << seed << ' ' << round;
     }
   }
 }
@@ -174,8 +171,7 @@ class RealIsland {
     while (places.empty()) {
       const auto& [at, chunk] = chunks[random() % chunks.size()];
       for_each_face(chunk->quads[random() % chunk->quads.size()], [&](const DrawnFace& face) {
-        places.push_back(corner_of(at) + face.voxel +
-                         (block == kAir ? IVec3{} : to_front(face)));
+        places.push_back(corner_of(at) + face.voxel + (block == kAir ? IVec3{} : to_front(face)));
       });
     }
     const IVec3 middle = places[random() % places.size()];
@@ -218,23 +214,9 @@ TEST(SkyTransferEdit, FindsOnARealIslandWhatALookFromNothingFinds) {
   RealIsland island(1);
   std::mt19937 random(1);
   std::unique_ptr<SkyTransfer> kept = looked_at(island.chunks());
-  if (std::getenv("SKERRY_TIME")) {
-    using Clock = std::chrono::steady_clock;
-    auto ms = [](auto d) { return std::chrono::duration<double, std::milli>(d).count(); };
-    auto t = Clock::now();
-    kept = looked_at(island.chunks());
-    printf("full %.1f ms, %.1f MB\n", ms(Clock::now() - t), double(kept->bytes()) / 1e6);
-    for (int i = 0; i < 30; ++i) {
-      const BlockId block = std::array<BlockId, 3>{kAir, block::kStone, block::kTorch}[i % 3];
-      island.edit(random, block, 1);
-      t = Clock::now();
-      const bool ok = kept->edit(island.chunks());
-      printf("edit %d: %.1f ms %d\n", i, ms(Clock::now() - t), ok);
-      if (!ok) kept = looked_at(island.chunks());
-    }
-  }
-  constexpr std::array<BlockId, 8> kBlocks{kAir,          block::kStone,     block::kTorch, block::kOakLeaves,
-                               block::kWater, block::kGlowstone, block::kGlass, block::kFlowerRed};
+  constexpr std::array<BlockId, 8> kBlocks{
+      kAir,          block::kStone,     block::kTorch, block::kOakLeaves,
+      block::kWater, block::kGlowstone, block::kGlass, block::kFlowerRed};
   for (int round = 0; round < 3; ++round) {
     for (std::size_t i = 0; i < 12; ++i) {
       island.edit(random, kBlocks[i % kBlocks.size()], i % 3 == 2 ? 3 : 1);

@@ -218,9 +218,9 @@ TEST(SkyTransfer, DoesNotDependOnTheOrderOfQuads) {
     std::shuffle(copy.quads.begin(), copy.quads.end(), random);
     shuffled[at] = std::make_shared<const LightChunk>(std::move(copy));
   }
-  EXPECT_TRUE(std::ranges::equal(sky_of(chunks), sky_of(shuffled), [](const auto& a, const auto& b) {
-    return a.first == b.first && *a.second == *b.second;
-  }));
+  EXPECT_TRUE(std::ranges::equal(
+      sky_of(chunks), sky_of(shuffled),
+      [](const auto& a, const auto& b) { return a.first == b.first && *a.second == *b.second; }));
 }
 
 // The weights of the lobes are integrals over the cells of the patterns: done again by a sum over a
