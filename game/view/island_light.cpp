@@ -164,6 +164,12 @@ void IslandLight::start(const world::Streamer& streamer,
     begin(nearest, true);
 }
 
+bool IslandLight::settled() const {
+  return std::ranges::all_of(islands_, [](const auto& one) {
+    return !one.second.search && one.second.asked == one.second.version;
+  });
+}
+
 IslandLight::Found IslandLight::guesses(std::uint64_t id, Island& island) {
   Found found{id, island.known_level, {}};
   for (const auto& [at, sky] : island.known)

@@ -43,6 +43,9 @@ class IslandLight {
   /// Waits until all that was started has been found.
   void wait() { threads_.wait(); }
 
+  /// Whether poll() has said all that follows from the chunks as they are.
+  bool settled() const;
+
   struct FoundChunk {
     world::IVec3 at;
     std::shared_ptr<const world::ChunkSky> sky;

@@ -56,6 +56,10 @@ class SceneView {
   Result<void> stream(const render::Camera& camera, double world_time_s);
   /// Whether everything within view distance has been handed to the renderer.
   bool complete() const { return streamer_->complete() && waiting_.empty(); }
+  /// Whether the light that stays on faces is that of the world as it is, and the renderer has it.
+  bool light_settled() const {
+    return (!island_light_ || island_light_->settled()) && sky_light_.idle();
+  }
   /// Lines for the player since the last call: that memory is full, and what is shown instead.
   std::vector<std::string> notices() { return std::exchange(notices_, {}); }
   /// Of the last draw: lights handed to the renderer, and what it took to gather them.

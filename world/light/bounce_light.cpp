@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/core/shared_exponent.h"
 #include "world/light/face_records.h"
+#include "world/light/shared_exponent.h"
 
 namespace skerry::world {
 namespace {

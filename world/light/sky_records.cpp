@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/core/shared_exponent.h"
+#include "world/light/shared_exponent.h"
 #include "world/light/sky_transfer.h"
 
 namespace skerry::world {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-namespace skerry {
+namespace skerry::world {
 
 /// Three non-negative numbers in a word: mantissas of 9 bits and an exponent that they share, as
 /// VK_FORMAT_E5B9G9R9_UFLOAT_PACK32 has them. To the nearest; what is beyond 65408 becomes that,
@@ -33,4 +33,4 @@ inline glm::vec3 unpack_shared_exponent(std::uint32_t word) {
                           static_cast<float>(word >> 18 & 511u));
 }
 
-}  // namespace skerry
+}  // namespace skerry::world
