@@ -16,9 +16,9 @@ struct IslandLight::Search {
   std::uint64_t version = 0;
   int level = 0;
   bool sky = false;
-  std::span<const world::FaceAlbedo> albedo;  // empty: bounces are not looked for
-  std::map<world::IVec3, std::vector<world::LampReach::Bricks>>
-      reach;  // of chunks with strong lamps
+  std::span<const world::FaceAlbedo> albedo;      // empty: bounces are not looked for
+  std::shared_ptr<const Reaches> reaches_before;  // none: of no chunks
+  std::shared_ptr<const Reaches> reaches;
   std::atomic<bool> reach_done = false;
   bool reach_taken = false;
   std::unique_ptr<world::SkyTransfer> transfer;  // of an earlier look, to be brought up to date
@@ -58,14 +58,10 @@ void IslandLight::remove(const world::SectionKey& key) {
 
 void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
   threads.submit([search] {
-    const bool any = std::any_of(search->chunks.begin(), search->chunks.end(),
-                                 [](const auto& one) { return !one.second->strong.empty(); });
-    if (any) {
-      const world::LampReach reach(search->chunks);
-      for (const auto& [at, chunk] : search->chunks)
-        for (const world::StrongLamp& lamp : chunk->strong)
-          search->reach[at].push_back(reach.of(at, lamp));
-    }
+    static const Reaches kNone;
+    const Reaches& before = search->reaches_before ? *search->reaches_before : kNone;
+    search->reaches = std::make_shared<const Reaches>(
+        Reaches{search->chunks, world::reaches_after(search->chunks, before.of, before.found)});
     search->reach_done = true;
   });
   if (search->sky)
@@ -137,6 +133,8 @@ void IslandLight::begin(Island& island, bool keep) {
   island.search->sky = finds_ != Finds::kReach;
   island.search->keep = keep && island.search->sky && island.level == 0;
   island.search->transfer = std::move(island.kept);
+  // Chunks of another level are other ones: nothing of what is known is taken.
+  island.search->reaches_before = island.reaches;
   if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
   run(threads_, island.search);
 }
@@ -183,9 +181,10 @@ std::vector<IslandLight::FoundReach> IslandLight::poll_reach() {
   for (auto& [id, island] : islands_) {
     if (!island.search || !island.search->reach_done || island.search->reach_taken) continue;
     island.search->reach_taken = true;
+    island.reaches = island.search->reaches;
     if (island.search->version != island.version) continue;
-    for (auto& [at, reach] : island.search->reach)
-      out.push_back({{id, at, island.search->level}, std::move(reach)});
+    for (const auto& [at, reach] : island.search->reaches->found)
+      out.push_back({{id, at, island.search->level}, reach});
   }
   return out;
 }

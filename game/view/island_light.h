@@ -71,6 +71,11 @@ class IslandLight {
  private:
   using Skies = world::SkyTransfer::Skies;
   struct Search;
+  /// Where the lamps of chunks can arrive.
+  struct Reaches {
+    world::LightChunks of;
+    world::LampReaches found;
+  };
   struct Island {
     int level = 0;
     world::LightChunks chunks;
@@ -78,6 +83,7 @@ class IslandLight {
     std::uint64_t asked = 0;    // version that was looked at last
     std::shared_ptr<Search> search;
     std::unique_ptr<world::SkyTransfer> kept;  // of the version that was asked last
+    std::shared_ptr<const Reaches> reaches;    // alike
     Skies known;                               // as poll() last said, or says next
     int known_level = -1;
     std::set<world::IVec3> guessed;  // of `known`, since poll() last said

@@ -4,7 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
+#include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -284,6 +287,101 @@ LampReach::Bricks LampReach::of(IVec3 chunk, const StrongLamp& lamp) const {
     lit.add(x, y, word, here);
   });
   return lit.bricks();
+}
+
+// --- All lamps ---
+
+namespace {
+
+/// Voxels, both ends included; empty: low is above high.
+struct EditBox {
+  glm::ivec3 low{INT32_MAX}, high{INT32_MIN};
+  void take(const glm::ivec3& from, const glm::ivec3& to) {
+    low = glm::min(low, from), high = glm::max(high, to);
+  }
+};
+
+/// Where what is drawn of a chunk has changed: an edit changes faces wherever light could tell.
+EditBox changed_in(const LightChunk& before, const LightChunk& now, IVec3 at) {
+  using Quad = std::pair<std::uint32_t, std::uint32_t>;
+  const auto sorted = [](const LightChunk& chunk) {
+    std::vector<Quad> out;
+    for (const shared::Quad& quad : chunk.quads) out.emplace_back(quad.geometry, quad.material);
+    std::ranges::sort(out);
+    return out;
+  };
+  std::vector<Quad> differ;
+  std::ranges::set_symmetric_difference(sorted(before), sorted(now), std::back_inserter(differ));
+  EditBox box;
+  const glm::ivec3 corner = vector_of(corner_of(at));
+  for (const Quad& quad : differ)
+    for_each_face({quad.first, quad.second}, [&](const DrawnFace& face) {
+      box.take(corner + vector_of(face.voxel), corner + vector_of(face.voxel + to_front(face)));
+      box.take(corner + vector_of(face.voxel + to_front(face)), corner + vector_of(face.voxel));
+    });
+  return box;
+}
+
+std::vector<EditBox> changed_boxes(const LightChunks& before, const LightChunks& now) {
+  std::vector<EditBox> out;
+  const auto whole = [](IVec3 at) {
+    const glm::ivec3 low = vector_of(corner_of(at));
+    return EditBox{low - 1, low + kChunkEdge};
+  };
+  for (const auto& [at, chunk] : now) {
+    const auto old = before.find(at);
+    if (old == before.end())
+      out.push_back(whole(at));
+    else if (old->second != chunk)
+      out.push_back(changed_in(*old->second, *chunk, at));
+  }
+  for (const auto& [at, chunk] : before)
+    if (!now.contains(at)) out.push_back(whole(at));
+  return out;
+}
+
+bool is_near(const EditBox& box, IVec3 chunk, const StrongLamp& lamp) {
+  const glm::vec3 place = glm::vec3(vector_of(corner_of(chunk))) + lamp.place;
+  const float reach = lamp.range + 1.0f;
+  return glm::all(glm::lessThanEqual(glm::vec3(box.low), place + reach)) &&
+         glm::all(glm::greaterThanEqual(glm::vec3(box.high), place - reach));
+}
+
+bool same_reach(const StrongLamp& a, const StrongLamp& b) {
+  return a.place == b.place && a.range == b.range;
+}
+
+}  // namespace
+
+LampReaches reaches_of(const LightChunks& chunks) {
+  return reaches_after(chunks, {}, {});
+}
+
+LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
+                          const LampReaches& known) {
+  const std::vector<EditBox> changed = changed_boxes(before, chunks);
+  std::optional<LampReach> reach;  // made for the first that has to be asked
+  LampReaches out;
+  for (const auto& [at, chunk] : chunks) {
+    const auto found = known.find(at);
+    for (const StrongLamp& lamp : chunk->strong) {
+      std::vector<LampReach::Bricks>& reaches = out[at];
+      const bool near =
+          std::ranges::any_of(changed, [&](const EditBox& box) { return is_near(box, at, lamp); });
+      if (!near && found != known.end()) {
+        const std::vector<StrongLamp>& old = before.at(at)->strong;
+        const auto same = std::ranges::find_if(
+            old, [&](const StrongLamp& other) { return same_reach(other, lamp); });
+        if (same != old.end()) {
+          reaches.push_back(found->second[static_cast<std::size_t>(same - old.begin())]);
+          continue;
+        }
+      }
+      if (!reach) reach.emplace(chunks);
+      reaches.push_back(reach->of(at, lamp));
+    }
+  }
+  return out;
 }
 
 }  // namespace skerry::world

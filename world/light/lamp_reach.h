@@ -2,6 +2,8 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
+#include <vector>
 
 #include "shaders/shared/light.h"
 #include "world/light/air_volume.h"
@@ -39,5 +41,13 @@ class LampReach {
   VoxelBits plants_;
   VoxelBits all_round_;  // both sides of faces that light passes
 };
+
+/// Of all strong lamps, in the order of LightChunk::strong; chunks without are left out.
+using LampReaches = std::map<IVec3, std::vector<LampReach::Bricks>>;
+LampReaches reaches_of(const LightChunks& chunks);
+/// The same of chunks some of which have been edited: only lamps whose range an edit is in are
+/// asked again. @param before, known chunks as they were, and what reaches_of() found of them.
+LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
+                          const LampReaches& known);
 
 }  // namespace skerry::world

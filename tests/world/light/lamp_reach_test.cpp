@@ -163,5 +163,50 @@ TEST(LampReach, ALongRangeHasCoarserBricks) {
   for (const IVec3& v : stone) EXPECT_TRUE(coarse.at(v) || !fine.at(v));
 }
 
+TEST(LampReach, AfterEditsIsThatOfTheChunksAsTheyAre) {
+  std::mt19937 random(8);
+  const auto place = [&] {
+    return IVec3{static_cast<int>(random() % 90), static_cast<int>(random() % 12),
+                 static_cast<int>(random() % 90)};
+  };
+  Voxels stone;
+  for (int i = 0; i < 9000; ++i) stone.insert(place());
+  std::vector<IVec3> lamps;
+  const auto chunks_now = [&] {
+    LightChunks chunks = chunks_of(stone);
+    for (const IVec3& v : lamps) {
+      const IVec3 at = chunk_holding(v);
+      LightChunk copy = *chunks.at(at);
+      const IVec3 low = corner_of(at);
+      copy.strong.push_back({glm::vec3(v.x - low.x, v.y - low.y, v.z - low.z) + 0.5f, 9.0f});
+      chunks[at] = std::make_shared<const LightChunk>(std::move(copy));
+    }
+    return chunks;
+  };
+  for (int i = 0; i < 20; ++i) {
+    lamps.push_back(place());
+    stone.insert(lamps.back());
+  }
+  LightChunks before = chunks_now();
+  LampReaches reaches = reaches_of(before);
+  bool any_other = false;
+  for (int round = 0; round < 40; ++round) {
+    const IVec3 at = place();
+    if (std::ranges::find(lamps, at) == lamps.end() && stone.erase(at) == 0) stone.insert(at);
+    if (round % 8 == 7) {
+      lamps.erase(lamps.begin() + static_cast<std::ptrdiff_t>(random() % lamps.size()));
+      lamps.push_back(place());
+      stone.insert(lamps.back());
+    }
+    const LightChunks now = chunks_now();
+    const LampReaches old = reaches;
+    reaches = reaches_after(now, before, reaches);
+    ASSERT_TRUE(reaches == reaches_of(now)) << round;
+    any_other |= reaches != old;
+    before = now;
+  }
+  EXPECT_TRUE(any_other);
+}
+
 }  // namespace
 }  // namespace skerry::world

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tests/world/light/voxel_rooms.h"
+#include "world/light/lamp_reach.h"
 #include "world/light/sky_transfer.h"
 #include "world/stream/stream.h"
 #include "world/voxel/blocks.h"
@@ -214,15 +215,19 @@ TEST(SkyTransferEdit, FindsOnARealIslandWhatALookFromNothingFinds) {
   RealIsland island(1);
   std::mt19937 random(1);
   std::unique_ptr<SkyTransfer> kept = looked_at(island.chunks());
+  LampReaches reaches = reaches_of(island.chunks());
   constexpr std::array<BlockId, 8> kBlocks{
       kAir,          block::kStone,     block::kTorch, block::kOakLeaves,
       block::kWater, block::kGlowstone, block::kGlass, block::kFlowerRed};
   for (int round = 0; round < 3; ++round) {
     for (std::size_t i = 0; i < 12; ++i) {
+      const LightChunks before = island.chunks();
       island.edit(random, kBlocks[i % kBlocks.size()], i % 3 == 2 ? 3 : 1);
+      reaches = reaches_after(island.chunks(), before, reaches);
       if (!kept->edit(island.chunks())) kept = looked_at(island.chunks());
     }
     EXPECT_EQ(differences(kept->faces(), looked_at(island.chunks())->faces()), 0u) << round;
+    EXPECT_TRUE(reaches == reaches_of(island.chunks())) << round;
   }
 }
 

@@ -167,7 +167,8 @@ int bench_edit(const BenchEditOptions& options) {
     return fail(kFailed, loaded.error());
 
   Editing editing(**device, **view, options.scene);
-  Kind dug{"dig", {}, {}, {}}, torch{"place a torch", {}, {}, {}}, taken{"take it back", {}, {}, {}};
+  Kind dug{"dig", {}, {}, {}}, torch{"place a torch", {}, {}, {}},
+      taken{"take it back", {}, {}, {}};
   for (int round = 0; round < kEditRounds; ++round) {
     if (Result<void> turned = editing.turn(); !turned) return fail(kFailed, turned.error());
     const auto timed = [&](const game::EditAct& act, Kind& kind) -> Result<bool> {
