@@ -6,13 +6,29 @@
 #include <span>
 #include <utility>
 
+#include "engine/core/clock.h"
 #include "game/view/materials.h"
 
 namespace skerry::game {
 
+namespace {
+
+/// Has a thread do a part of a look, and counts what it computes.
+template <class Fn>
+void submit(WorkerThreads& threads, std::shared_ptr<std::atomic<double>> work, Fn part) {
+  threads.submit([work = std::move(work), part = std::move(part)] {
+    const double begin = thread_seconds();
+    part();
+    work->fetch_add(thread_seconds() - begin);
+  });
+}
+
+}  // namespace
+
 /// One look at an island. Made by the frame thread, worked on in the background, read when `done`.
 struct IslandLight::Search {
   world::LightChunks chunks;
+  std::shared_ptr<std::atomic<double>> work;
   std::uint64_t version = 0;
   int level = 0;
   bool sky = false;
@@ -57,7 +73,7 @@ void IslandLight::remove(const world::SectionKey& key) {
 }
 
 void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
-  threads.submit([search] {
+  submit(threads, search->work, [search] {
     static const Reaches kNone;
     const Reaches& before = search->reaches_before ? *search->reaches_before : kNone;
     search->reaches = std::make_shared<const Reaches>(
@@ -72,11 +88,11 @@ void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
 
 // Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
 void IslandLight::look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search) {
-  threads.submit([&threads, search] {
+  submit(threads, search->work, [&threads, search] {
     if (search->transfer && search->transfer->edit(search->chunks)) return end_look(*search);
     search->transfer = std::make_unique<world::SkyTransfer>(search->chunks, search->albedo);
     for (int part = 0; part <= world::kOctants; ++part)
-      threads.submit([&threads, search, part] {
+      submit(threads, search->work, [&threads, search, part] {
         if (part < world::kOctants)
           search->transfer->look(part);
         else
@@ -94,7 +110,7 @@ void IslandLight::follow_bounces(WorkerThreads& threads, std::shared_ptr<Search>
   }
   search->parts_left = world::BounceLight::kParts;
   for (int part = 0; part < world::BounceLight::kParts; ++part)
-    threads.submit([&threads, search, step, part] {
+    submit(threads, search->work, [&threads, search, step, part] {
       search->transfer->follow_bounces(step, part);
       if (search->parts_left.fetch_sub(1) == 1) follow_bounces(threads, search, step + 1);
     });
@@ -128,6 +144,7 @@ std::vector<IslandLight::Rank> IslandLight::by_distance(const Distances& distanc
 void IslandLight::begin(Island& island, bool keep) {
   island.search = std::make_shared<Search>();
   island.search->chunks = island.chunks;
+  island.search->work = work_;
   island.search->version = island.asked = island.version;
   island.search->level = island.level;
   island.search->sky = finds_ != Finds::kReach;

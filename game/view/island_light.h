@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -45,6 +46,8 @@ class IslandLight {
 
   /// Whether poll() has said all that follows from the chunks as they are.
   bool settled() const;
+  /// Seconds that threads have computed so far.
+  double work_seconds() const { return work_->load(); }
 
   struct FoundChunk {
     world::IVec3 at;
@@ -99,6 +102,7 @@ class IslandLight {
 
   WorkerThreads& threads_;
   const Finds finds_;
+  std::shared_ptr<std::atomic<double>> work_ = std::make_shared<std::atomic<double>>(0.0);
   int calls_with_nothing_new_ = 0;
   std::map<std::uint64_t, Island> islands_;
 };

@@ -60,6 +60,8 @@ class SceneView {
   bool light_settled() const {
     return (!island_light_ || island_light_->settled()) && sky_light_.idle();
   }
+  /// Seconds that threads have looked for that light so far.
+  double light_seconds() const { return island_light_ ? island_light_->work_seconds() : 0.0; }
   /// Lines for the player since the last call: that memory is full, and what is shown instead.
   std::vector<std::string> notices() { return std::exchange(notices_, {}); }
   /// Of the last draw: lights handed to the renderer, and what it took to gather them.

@@ -129,7 +129,7 @@ MUTANTS = (
            "sum[channel] += dot(h_a,", "sum[channel] += 0.0 * dot(h_a,", "water cave_mouth"),
     Mutant("bounce_grey", "all faces reflect alike", "world/light/bounce_light.cpp",
            "albedo_[face.block][face.direction] / kPi", "glm::vec3(0.4f) / kPi", "water mesa"),
-    Mutant("bounce_other_side", "lines end at the far side of a block", "world/light/bounce_light.cpp",
+    Mutant("bounce_other_side", "lines end at the far side of a block", "world/light/lattice_lines.cpp",
            "2 * axis + (sign > 0 ? 1 : 0)", "2 * axis + (sign > 0 ? 0 : 1)", "water cave"),
     Mutant("bounce_lamps_lost", "the light of lamps is not reflected", "world/light/bounce_light.cpp",
            "out.lamps = lit->second[face.direction];", "{}", "cave_torches cave"),

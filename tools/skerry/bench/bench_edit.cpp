@@ -23,7 +23,7 @@ constexpr double kTurnDeg = 15.0, kPitchDeg = -50.0;
 /// Times of one kind of edit.
 struct Kind {
   std::string_view name;
-  std::vector<double> frames, ms, light_ms;
+  std::vector<double> frames, ms, light_ms, work_ms;
 };
 
 /// A loaded scene and someone who edits what lies before them.
@@ -73,6 +73,7 @@ class Editing {
   Result<bool> time(const game::EditAct& act, Kind& kind) {
     if (act.empty()) return false;
     const Stopwatch watch;
+    work_before_s_ = view_.light_seconds();
     const std::uint64_t shown = view_.renderer().geometry().changes().version();
     if (!history_.perform(act, editor_)) return false;
     for (int frames = 1; frames <= kMostFrames; ++frames) {
@@ -104,6 +105,7 @@ class Editing {
       device_.wait(*value);
       if (!settled) continue;
       kind.light_ms.push_back(watch.milliseconds());
+      kind.work_ms.push_back((view_.light_seconds() - work_before_s_) * 1e3);
       return true;
     }
     return Error{
@@ -126,18 +128,20 @@ class Editing {
   game::SceneView::Moment moment_;
   world::WorldPos eye_;
   std::vector<double> frame_ms_;
+  double work_before_s_ = 0.0;
 };
 
 nlohmann::ordered_json report(const Kind& kind, const gpu::Device& device, VkExtent2D size,
                               double frame_ms) {
   const Spread frames = spread_of(kind.frames), ms = spread_of(kind.ms),
-               light = spread_of(kind.light_ms);
+               light = spread_of(kind.light_ms), work = spread_of(kind.work_ms);
   const double most_frames = *std::max_element(kind.frames.begin(), kind.frames.end());
   const double most_ms = *std::max_element(kind.ms.begin(), kind.ms.end());
   fmt::print(
-      "{:<16} {:>5} {:>7.0f} {:>6.0f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n",
+      "{:<16} {:>5} {:>7.0f} {:>6.0f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} "
+      "{:>9.1f} {:>9.1f}\n",
       kind.name, kind.ms.size(), frames.median, most_frames, ms.median, ms.p90, most_ms,
-      light.median, light.p90, frame_ms);
+      light.median, light.p90, work.median, work.p90, frame_ms);
   return {{"name", kind.name},
           {"device", device.info().name},
           {"size", {size.width, size.height}},
@@ -149,6 +153,8 @@ nlohmann::ordered_json report(const Kind& kind, const gpu::Device& device, VkExt
           {"ms_most", most_ms},
           {"light_ms_median", light.median},
           {"light_ms_p90", light.p90},
+          {"light_work_ms_median", work.median},
+          {"light_work_ms_p90", work.p90},
           {"frame_ms_median", frame_ms}};
 }
 
@@ -167,8 +173,8 @@ int bench_edit(const BenchEditOptions& options) {
     return fail(kFailed, loaded.error());
 
   Editing editing(**device, **view, options.scene);
-  Kind dug{"dig", {}, {}, {}}, torch{"place a torch", {}, {}, {}},
-      taken{"take it back", {}, {}, {}};
+  Kind dug{"dig", {}, {}, {}, {}}, torch{"place a torch", {}, {}, {}, {}},
+      taken{"take it back", {}, {}, {}, {}};
   for (int round = 0; round < kEditRounds; ++round) {
     if (Result<void> turned = editing.turn(); !turned) return fail(kFailed, turned.error());
     const auto timed = [&](const game::EditAct& act, Kind& kind) -> Result<bool> {
