@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 #include <iterator>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -360,12 +359,19 @@ LampReaches reaches_of(const LightChunks& chunks) {
 LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
                           const LampReaches& known) {
   const std::vector<EditBox> changed = changed_boxes(before, chunks);
-  std::optional<LampReach> reach;  // made for the first that has to be asked
+  struct Asked {
+    IVec3 at;
+    std::size_t lamp;
+  };
+  std::vector<Asked> asked;
+  LightChunks around;  // chunks that those can reach
   LampReaches out;
   for (const auto& [at, chunk] : chunks) {
     const auto found = known.find(at);
-    for (const StrongLamp& lamp : chunk->strong) {
+    for (std::size_t i = 0; i < chunk->strong.size(); ++i) {
+      const StrongLamp& lamp = chunk->strong[i];
       std::vector<LampReach::Bricks>& reaches = out[at];
+      reaches.emplace_back();
       const bool near =
           std::ranges::any_of(changed, [&](const EditBox& box) { return is_near(box, at, lamp); });
       if (!near && found != known.end()) {
@@ -373,14 +379,20 @@ LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
         const auto same = std::ranges::find_if(
             old, [&](const StrongLamp& other) { return same_reach(other, lamp); });
         if (same != old.end()) {
-          reaches.push_back(found->second[static_cast<std::size_t>(same - old.begin())]);
+          reaches.back() = found->second[static_cast<std::size_t>(same - old.begin())];
           continue;
         }
       }
-      if (!reach) reach.emplace(chunks);
-      reaches.push_back(reach->of(at, lamp));
+      asked.push_back({at, i});
+      for (const auto& [other, its] : chunks) {
+        const glm::ivec3 low = vector_of(corner_of(other));
+        if (is_near({low - 1, low + kChunkEdge}, at, lamp)) around.emplace(other, its);
+      }
     }
   }
+  if (asked.empty()) return out;
+  const LampReach reach(around);
+  for (const Asked& a : asked) out[a.at][a.lamp] = reach.of(a.at, chunks.at(a.at)->strong[a.lamp]);
   return out;
 }
 
