@@ -151,7 +151,7 @@ Result<void> App::show_new_images(const platform::InputFrame& input) {
 void App::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, bindings_, seconds);
   if (actions.pressed(Action::kFullscreen) && !gui_.typing()) window_.toggle_fullscreen();
-  if (world_ && screens_.stack.empty()) hints_.note(actions);
+  if (world_ && screens_.stack.empty()) hints_.note(actions, seconds);
   act_on_screens(input, actions);
   pause_unattended(seconds);
   messages_.pass(seconds);
