@@ -135,6 +135,8 @@ set_tests_properties(tools.slurm PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 PROC
 # The buttons of a test's page, and what they save.
 add_test(NAME tools.decisions COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/decisions_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/decisions)
 set_tests_properties(tools.decisions PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
+add_test(NAME tools.decisions_browser COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/decisions_browser_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/decisions_browser)
+set_tests_properties(tools.decisions_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
 
 # The commands of docs/examples.
 add_test(NAME tools.examples COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/examples_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/examples)
