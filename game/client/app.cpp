@@ -418,7 +418,7 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
     ui::show_hud(facts, pictures_);
   }
   if (world_ && screens_.stack.empty()) world_->show_numbers();
-  if (!bare) ui::keep_foot_clear(ui::show_messages(messages_, !world_goes_on(screens_.stack)));
+  if (!bare) ui::keep_foot_clear(ui::show_messages(messages_, !screens_.stack.empty()));
   ui::show_screens(screens_, screen_facts(input), wishes_);
   if (std::string refusal = gui_.take_refusal(); !refusal.empty())
     messages_.say(std::move(refusal));
