@@ -418,7 +418,11 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
     ui::show_hud(facts, pictures_);
   }
   if (world_ && screens_.stack.empty()) world_->show_numbers();
-  if (!bare) ui::keep_foot_clear(ui::show_messages(messages_, !screens_.stack.empty()));
+  if (!bare) {
+    const float foot_px = ui::show_messages(messages_, !screens_.stack.empty());
+    // The blocks and the map do not move under the pointer when a message goes.
+    ui::keep_foot_clear(world_goes_on(screens_.stack) ? 0.0f : foot_px);
+  }
   ui::show_screens(screens_, screen_facts(input), wishes_);
   if (std::string refusal = gui_.take_refusal(); !refusal.empty())
     messages_.say(std::move(refusal));

@@ -59,7 +59,7 @@ void show_loading(const LoadingFacts& facts) {
                       : tr_format("Shaders are prepared for this device: {} of {}",
                                   facts.passes_done, facts.passes));
   write_in_middle(list, corner.y + height + 3 * line, colour::kFaint,
-                  tr("Only the first start takes this long."));
+                  tr("Later starts take less time."));
   pop_size();
 }
 

@@ -46,6 +46,7 @@ moves() {
   [ "$(compare -metric AE -fuzz 2% "$work/then.png" "$work/now.png" null: 2>&1 || true)" -gt 200 ]
 }
 until_true "the title is shown" shown
+until_true "it is loaded" loaded
 until_true "the island behind it turns" moves
 until_true "the island behind it goes on" moves
 key Return 8  # new world: there is none yet
