@@ -76,6 +76,8 @@ add_test(NAME window.dig COMMAND ${CMAKE_SOURCE_DIR}/tests/window/dig_test.sh $<
 set_tests_properties(window.dig PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_test(NAME window.view COMMAND ${CMAKE_SOURCE_DIR}/tests/window/view_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.view PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
+add_test(NAME window.loading COMMAND ${CMAKE_SOURCE_DIR}/tests/window/loading_test.sh $<TARGET_FILE:skerry>)
+set_tests_properties(window.loading PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_test(NAME window.map COMMAND ${CMAKE_SOURCE_DIR}/tests/window/map_test.sh $<TARGET_FILE:skerry>)
 set_tests_properties(window.map PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 RUN_SERIAL TRUE)
 add_library(skerry_virtual_pad MODULE EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/window/virtual_pad.cpp)
@@ -133,6 +135,8 @@ set_tests_properties(tools.slurm PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 PROC
 # The buttons of a test's page, and what they save.
 add_test(NAME tools.decisions COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/decisions_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/decisions)
 set_tests_properties(tools.decisions PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
+add_test(NAME tools.decisions_browser COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/decisions_browser_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/decisions_browser)
+set_tests_properties(tools.decisions_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
 
 # The commands of docs/examples.
 add_test(NAME tools.examples COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/examples_test.py $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/examples)

@@ -124,6 +124,18 @@ void Input::set_pad(const std::optional<PadState>& pad) {
   set_axis(9, beyond_dead_zone(0.5f + 0.5f * state.axes[5]));
 }
 
+void Input::drop_mouse() {
+  const auto of_mouse = [](Key key) { return key >= Key::kMouseLeft && key <= Key::kWheelDown; };
+  std::erase_if(frame_.events, [&](const InputEvent& event) { return of_mouse(event.key); });
+  for (std::size_t i = 0; i < frame_.down_.size(); ++i) {
+    if (!of_mouse(static_cast<Key>(i))) continue;
+    frame_.was_down_[i] = frame_.down_[i];
+    frame_.pressed_[i] = frame_.released_[i] = false;
+  }
+  frame_.scroll = 0.0;
+  frame_.mouse_delta = {};
+}
+
 void Input::lose_focus() {
   for (std::size_t i = 0; i < frame_.down_.size(); ++i)
     if (frame_.down_[i]) set_key(static_cast<Key>(i), false);

@@ -110,6 +110,8 @@ class Input {
   void type(char32_t character);
   /// How the gamepad is now; none: nothing is plugged in, and whatever was held goes up.
   void set_pad(const std::optional<PadState>& pad);
+  /// What the mouse has done since the last take() is not seen to happen. What it holds stays down.
+  void drop_mouse();
   /// Everything held goes up: the window that has the focus now receives the releases.
   void lose_focus();
   /// @return what was gathered; gathering starts anew, held keys stay down.

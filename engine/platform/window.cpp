@@ -189,6 +189,11 @@ void WindowEvents::move_pointer(glm::dvec2 place, double now_s) {
   recent_.push_back({input.move_pointer(place), now_s});
 }
 
+void WindowEvents::drop_mouse() {
+  input.drop_mouse();
+  recent_.clear();  // there is nothing left to take back
+}
+
 void WindowEvents::end_poll(double now_s) {
   polls_left_ = std::max(0, polls_left_ - 1);
   for (Motion& motion : recent_) ++motion.polls;
@@ -279,6 +284,11 @@ InputFrame Window::poll(double wait_s) {
     for (InputEvent& event : frame.events) event.pointer *= scale;
   }
   return frame;
+}
+
+void Window::keep_answering() {
+  glfwPollEvents();
+  events_.drop_mouse();
 }
 
 bool Window::should_close() const {

@@ -36,6 +36,8 @@ class WindowEvents {
   void disturb(double now_s);
   /// The pointer is at a place of the window.
   void move_pointer(glm::dvec2 place, double now_s);
+  /// What the mouse has done since the last poll counts as nothing.
+  void drop_mouse();
   /// All events of a poll have been taken in.
   void end_poll(double now_s);
 
@@ -70,6 +72,9 @@ class Window {
   /// Takes in what happened since the last call. @param wait_s waits up to so many seconds for
   /// something to happen; for when there is nothing to draw.
   InputFrame poll(double wait_s = 0.0);
+  /// Answers the display while something takes long that no input can act on. Keys and characters
+  /// are kept for the next poll() in their order; what the mouse does counts as nothing.
+  void keep_answering();
   bool should_close() const;
   void close();
   /// Cancels close(), or the user's press of the window's close button.

@@ -4,7 +4,9 @@
 #include <skerry_version.h>
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
+#include <thread>
 #include <utility>
 
 #include "engine/core/log.h"
@@ -25,6 +27,8 @@ constexpr double kBehindScreens = 1.0 / 30.0;  // seconds, the fewest, between f
                                                // behind a screen
 constexpr double kMapSpeed = 1.0;              // radii a second
 constexpr double kUnfocusedUntilPause = 0.3;   // seconds
+constexpr double kPatience = 0.5;  // seconds without a picture until it is said what is done
+constexpr double kLoadingFrame = 1.0 / 30.0;  // seconds
 
 ui::Clipboard clipboard_of(platform::Window& window) {
   return {[&window] { return window.clipboard(); },
@@ -151,7 +155,7 @@ Result<void> App::show_new_images(const platform::InputFrame& input) {
 void App::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, bindings_, seconds);
   if (actions.pressed(Action::kFullscreen) && !gui_.typing()) window_.toggle_fullscreen();
-  if (world_ && screens_.stack.empty()) hints_.note(actions);
+  if (world_ && screens_.stack.empty()) hints_.note(actions, seconds);
   act_on_screens(input, actions);
   pause_unattended(seconds);
   messages_.pass(seconds);
@@ -289,6 +293,8 @@ Result<bool> App::draw(double seconds, const PlayLoop::Layout& layout) {
     if (const auto done = set_backdrop(Backdrop::View::kSpawn, screens_.new_seed.data()); !done)
       return done.error();
   }
+  still_ = false;
+  if (first_frames_until_s_) return draw_first_frames(layout);
   still_ = !world_is_due(seconds);
   if (still_) return show_again(layout);
   since_drawn_s_ = 0.0;
@@ -300,6 +306,69 @@ Result<bool> App::draw(double seconds, const PlayLoop::Layout& layout) {
   if (const auto& report = view.renderer().report())
     costs_.note_frame(report->gpu_ms, view.complete() && !report->lagged);
   return drawn;
+}
+
+/// The first frames of a view, drawn pass by pass until all that belongs to it is there. Where
+/// programs are compiled this takes seconds; from then on the player sees how far it is instead of
+/// a world that stands still.
+Result<bool> App::draw_first_frames(const PlayLoop::Layout& layout) {
+  SceneView& view = world_ ? world_->view() : backdrop_->view();
+  const Stopwatch watch;
+  double next_s = kPatience;  // by the watch
+  bool shown = false;
+  Result<void> done;
+  const auto show_progress = [&](std::uint32_t passed, std::uint32_t all) {
+    window_.keep_answering();
+    if (!done || watch.seconds() < next_s) return;
+    if (!shown) window_.capture_pointer(false);
+    done = show_loading(
+        {passed, all, shown ? view.streamer().stats().tasks_left : 0, watch.seconds()});
+    next_s = watch.seconds() + kLoadingFrame;
+    shown = true;
+  };
+  const auto draw_one = [&](VkExtent2D size) -> Result<void> {
+    const int used = view.renderer().pipelines_created();
+    const SceneView::Moment now = world_ ? world_->moment() : backdrop_->moment();
+    if (auto in = view.stream(now.camera, now.world_time_s); !in) return in;
+    if (shown && !view.complete() && clock_.seconds() < *first_frames_until_s_) {
+      // A frame of half of a view would need programs that no later one does.
+      std::this_thread::sleep_for(std::chrono::duration<double>(kLoadingFrame));
+      show_progress(1, 1);
+      return done;
+    }
+    // Light is there some seconds later, and needs programs of its own.
+    if (shown && view.settings().render.indirect != render::Indirect::kOff)
+      (void)view.renderer().indirect();
+    const Result<std::uint64_t> drawn = view.draw(now, size);
+    if (!drawn) return drawn.error();
+    const bool more = !view.complete() || view.renderer().pipelines_created() != used;
+    if (!more || clock_.seconds() > *first_frames_until_s_) first_frames_until_s_.reset();
+    return done;
+  };
+  view.renderer().step_frames(show_progress);
+  Result<void> drawn;
+  platform::FramebufferSize px = window_.framebuffer_size();
+  do {
+    if (px.width == 0 || px.height == 0) break;
+    drawn = draw_one({px.width, px.height});
+    px = window_.framebuffer_size();
+  } while (drawn && shown && first_frames_until_s_ && !window_.should_close());
+  view.renderer().step_frames({});
+  if (!drawn) return drawn.error();
+  if (shown) began_s_ = world_began_s_ = clock_.seconds();
+  if (px.width == 0 || px.height == 0) return false;
+  return show_again(layout);
+}
+
+Result<void> App::show_loading(const ui::LoadingFacts& facts) {
+  const platform::FramebufferSize px = window_.framebuffer_size();
+  const std::optional<gpu::SwapchainFrame> frame = presenter_->acquire({px.width, px.height});
+  if (!frame) return {};
+  const VkExtent2D size = presenter_->extent();
+  const Settings& settings = world_ ? world_->settings() : base_.settings;
+  gui_.begin({size.width, size.height, kLoadingFrame, nullptr, settings.ui.scale});
+  ui::show_loading(facts);
+  return presenter_->show_alone(*frame, gui_.end());
 }
 
 Result<bool> App::show_again(const PlayLoop::Layout& layout) {
@@ -349,7 +418,11 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
     ui::show_hud(facts, pictures_);
   }
   if (world_ && screens_.stack.empty()) world_->show_numbers();
-  if (!bare) ui::keep_foot_clear(ui::show_messages(messages_, !world_goes_on(screens_.stack)));
+  if (!bare) {
+    const float foot_px = ui::show_messages(messages_, !screens_.stack.empty());
+    // The blocks and the map do not move under the pointer when a message goes.
+    ui::keep_foot_clear(world_goes_on(screens_.stack) ? 0.0f : foot_px);
+  }
   ui::show_screens(screens_, screen_facts(input), wishes_);
   if (std::string refusal = gui_.take_refusal(); !refusal.empty())
     messages_.say(std::move(refusal));

@@ -22,6 +22,7 @@
 #include "game/sound/game_sound.h"
 #include "game/ui/gui.h"
 #include "game/ui/hud.h"
+#include "game/ui/loading_screen.h"
 #include "game/ui/screens.h"
 #include "game/words/words.h"
 #include "game/worlds/world_list.h"
@@ -53,6 +54,8 @@ class App {
                         double seconds);
   Result<void> show_new_images(const platform::InputFrame& input);
   Result<bool> draw(double seconds, const PlayLoop::Layout& layout);
+  Result<bool> draw_first_frames(const PlayLoop::Layout& layout);
+  Result<void> show_loading(const ui::LoadingFacts& facts);
   Result<bool> draw_backdrop(const PlayLoop::Layout& layout);
   Result<bool> show_again(const PlayLoop::Layout& layout);
   bool world_is_due(double seconds);
@@ -131,6 +134,8 @@ class App {
   static constexpr int kMeasuringFrames = ui::KnobCosts::kSkipped + ui::KnobCosts::kFrames;
   int fresh_frames_ = 0;
   double since_drawn_s_ = 0.0;                                // since it was drawn
+  static constexpr double kFirstFrames = 20.0;                // seconds, the most
+  std::optional<double> first_frames_until_s_;                // see draw_first_frames()
   bool still_ = false;                                        // the last frame drew a screen alone
   bool settings_changed_ = false, bindings_changed_ = false;  // since they were saved
   bool hud_hidden_ = false;

@@ -153,6 +153,9 @@ Result<void> App::set_backdrop(Backdrop::View view, const std::string& seed_text
   }
   if (!made) return made.error();
   backdrop_ = *std::move(made);
+  first_frames_until_s_.reset();
+  if (view == Backdrop::View::kAround)  // previews follow what is typed at once
+    first_frames_until_s_ = clock_.seconds() + kFirstFrames;
   return {};
 }
 
@@ -210,6 +213,7 @@ Result<void> App::play(const SceneOptions& asked, std::unique_ptr<SessionClient>
   world_ = std::make_unique<PlayLoop>(Machine{window_, device_, *presenter_}, bindings_, options,
                                       std::move(session), *std::move(view));
   costs_ = {};
+  first_frames_until_s_ = clock_.seconds() + kFirstFrames;
   world_began_s_ = clock_.seconds();
   screens_.stack.clear();
   return {};

@@ -64,6 +64,8 @@ class PlayLoop {
   /// @return whether there was a window to draw to. Errors: no memory.
   using Layout = std::function<ui::OverlayTriangles(VkExtent2D)>;
   Result<bool> draw(const Layout& layout);
+  /// What the next draw() shows.
+  SceneView::Moment moment() const;
 
   /// Blocks until the world is saved as it is. Errors: those of its file; the play may go on.
   Result<void> save();
@@ -131,7 +133,6 @@ class PlayLoop {
   /// The world's name and seed, short enough for a title.
   std::string world_label() const;
   std::vector<std::string> overlay_lines() const;
-  SceneView::Moment moment() const;
 
   platform::Window& window_;
   gpu::Device& device_;

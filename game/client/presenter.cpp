@@ -49,22 +49,23 @@ Result<void> Presenter::fit_canvas(VkExtent2D size) {
   return {};
 }
 
-Result<void> Presenter::draw_overlay(VkCommandBuffer commands, gpu::Image& picture,
+Result<void> Presenter::draw_overlay(VkCommandBuffer commands, gpu::Image* picture,
                                      const ui::OverlayTriangles& triangles) {
-  const VkExtent2D size = picture.desc().extent;
+  const VkExtent2D size = picture ? picture->desc().extent : swapchain_->extent();
   if (auto done = fit_canvas(size); !done) return done;
   slot_ = (slot_ + 1) % OverlayPass::kSlots;
   device_.wait(slot_values_[slot_]);  // two frames ago: done long since
   graph_.begin();
-  const gpu::ImageRef from = graph_.import(picture);
+  const gpu::ImageRef from = picture ? graph_.import(*picture) : gpu::ImageRef{};
   gpu::ImageRef to = graph_.import(canvas_);
   graph_.add_pass(
-      "copy_picture",
+      picture ? "copy_picture" : "clear_canvas",
       [&](gpu::PassBuilder& b) {
-        b.read(from, gpu::Use::kTransferRead);
+        if (from) b.read(from, gpu::Use::kTransferRead);
         to = b.write(to, gpu::Use::kTransferWrite);
       },
       [from, &to, size](gpu::Commands& c) {
+        if (!from) return c.clear(to, {});
         VkImageCopy region{};
         region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         region.extent = {size.width, size.height, 1};
@@ -83,7 +84,7 @@ Result<void> Presenter::record(VkCommandBuffer commands, gpu::Image& picture,
                                const gpu::SwapchainFrame& frame,
                                const ui::OverlayTriangles* overlay) {
   Result<void> done;
-  if (overlay) done = draw_overlay(commands, picture, *overlay);
+  if (overlay) done = draw_overlay(commands, &picture, *overlay);
   swapchain_->show(commands, overlay && done ? canvas_ : picture, frame);
   swapchain_->finish(commands, frame);
   return done;
@@ -96,6 +97,17 @@ Result<void> Presenter::show_again(gpu::Image& picture, const gpu::SwapchainFram
       record(commands.commands, picture, frame, overlay.vertices.empty() ? nullptr : &overlay);
   present(frame, ring_.submit({&frame.wait, 1}, {&frame.signal, 1}));
   return recorded;
+}
+
+Result<void> Presenter::show_alone(const gpu::SwapchainFrame& frame,
+                                   const ui::OverlayTriangles& overlay) {
+  if (auto done = fit_canvas(swapchain_->extent()); !done) return done;
+  const gpu::FrameRing::Frame commands = ring_.begin();
+  const Result<void> drawn = draw_overlay(commands.commands, nullptr, overlay);
+  swapchain_->show(commands.commands, canvas_, frame);
+  swapchain_->finish(commands.commands, frame);
+  present(frame, ring_.submit({&frame.wait, 1}, {&frame.signal, 1}));
+  return drawn;
 }
 
 void Presenter::present(const gpu::SwapchainFrame& frame, std::uint64_t value) {

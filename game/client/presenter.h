@@ -48,6 +48,8 @@ class Presenter {
   /// it. Errors: no memory.
   Result<void> show_again(gpu::Image& picture, const gpu::SwapchainFrame& frame,
                           const ui::OverlayTriangles& overlay);
+  /// Presents triangles alone, over black. Errors: no memory.
+  Result<void> show_alone(const gpu::SwapchainFrame& frame, const ui::OverlayTriangles& overlay);
   /// After the submit. @param value the timeline value it signals.
   void present(const gpu::SwapchainFrame& frame, std::uint64_t value);
 
@@ -55,7 +57,8 @@ class Presenter {
   Presenter(gpu::Device& device, std::unique_ptr<gpu::Swapchain> swapchain,
             std::unique_ptr<OverlayPass> overlay_pass);
   Result<void> fit_canvas(VkExtent2D size);
-  Result<void> draw_overlay(VkCommandBuffer commands, gpu::Image& picture,
+  /// @param picture that lies under it; null: black.
+  Result<void> draw_overlay(VkCommandBuffer commands, gpu::Image* picture,
                             const ui::OverlayTriangles& triangles);
 
   gpu::Device& device_;

@@ -175,6 +175,11 @@ std::vector<Action> conflicts_of(const Bindings& bindings, Action action) {
   return out;
 }
 
+bool ActionFrame::any() const {
+  return std::any_of(states_.begin(), states_.end(),
+                     [](const State& state) { return state.down || state.presses != 0; });
+}
+
 ActionFrame::State ActionFrame::state_of(Chord chord, const InputFrame& input,
                                          const Bindings& bindings, double seconds) {
   State state;

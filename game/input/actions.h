@@ -140,6 +140,8 @@ class ActionFrame {
   bool down(Action action) const { return states_[index(action)].down; }
   /// Went down during the frame, even if it is up again.
   bool pressed(Action action) const { return states_[index(action)].presses != 0; }
+  /// Whether one is held or was pressed.
+  bool any() const;
   /// How often: a wheel may turn by several notches.
   int presses(Action action) const { return states_[index(action)].presses; }
   bool released(Action action) const { return states_[index(action)].released; }

@@ -38,16 +38,30 @@ std::span<const Action> actions_of(const Hint& hint) {
   return {hint.actions, hint.count};
 }
 
+std::size_t first_left(const std::bitset<Hints::kCount>& gone) {
+  std::size_t i = 0;
+  while (i < gone.size() && gone[i]) ++i;
+  return i;
+}
+
 }  // namespace
 
-void Hints::note(const ActionFrame& actions) {
+void Hints::note(const ActionFrame& actions, double seconds) {
+  std::bitset<kCount> gone = used_;
   for (std::size_t i = 0; i < kCount; ++i) {
     const std::span<const Action> own = actions_of(kHints[i]);
     const bool used =
         std::any_of(own.begin(), own.end(), [&](Action action) { return actions.pressed(action); });
-    changed_ |= used && !used_[i];
-    used_[i] = used_[i] || used;
+    gone[i] = gone[i] || used;
   }
+  if (actions.any()) shown_s_ += seconds;
+  if (first_left(gone) != first_left(used_)) shown_s_ = 0.0;
+  if (shown_s_ > kLongEnough && !gone.all()) {
+    gone.set(first_left(gone));
+    shown_s_ = 0.0;
+  }
+  changed_ |= gone != used_;
+  used_ = gone;
 }
 
 std::optional<std::string> Hints::line(const Bindings& bindings, bool pad) const {

@@ -12,26 +12,29 @@
 
 namespace skerry::game {
 
-/// The few keys that matter, one at a time; one that was used does not come again.
+/// The few keys that matter, one at a time. One that was used does not come again, nor one that was
+/// shown long enough to a player who has been doing other things.
 class Hints {
  public:
   static constexpr std::size_t kCount = 7;
+  static constexpr double kLongEnough = 30.0;  ///< seconds in which the player did something
 
-  /// What the player does in the world, in a frame.
-  void note(const ActionFrame& actions);
+  /// What the player does in the world, in a frame of so many seconds.
+  void note(const ActionFrame& actions, double seconds);
   /// "W, A, S, D: walk" of the first that was not used; none: all were.
   /// @param pad names a gamepad's buttons.
   std::optional<std::string> line(const Bindings& bindings, bool pad) const;
-  /// Whether one was used for the first time since the last call.
+  /// Whether one has gone since the last call.
   bool take_changed() { return std::exchange(changed_, false); }
 
-  /// As a file keeps it: names of the hints that were used. What is not understood is left out: the
+  /// As a file keeps it: names of the hints that have gone. What is not understood is left out: the
   /// hints then come again.
   static Hints read(std::string_view json_text);
   std::string print() const;
 
  private:
   std::bitset<kCount> used_;
+  double shown_s_ = 0.0;  // the first that was not used
   bool changed_ = false;
 };
 

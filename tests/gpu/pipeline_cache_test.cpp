@@ -75,6 +75,34 @@ TEST_F(PipelineCacheTest, IsWrittenAtTheEndAndTakenAtTheStart) {
   expect_replaced();
 }
 
+TEST_F(PipelineCacheTest, KeepsWhatProcessesCompiledThatRanAtOnce) {
+  const TestShader one("one.comp", kShader), two("two.comp", R"(
+    layout(local_size_x = 1) in;
+    layout(binding = 0) buffer A { uint a; };
+    void main() { a = a * 3 + 7; })");
+  const EmbeddedShader table[] = {one.embedded(), two.embedded()};
+  const auto open = [&] {
+    DeviceOptions options;
+    options.validate = true;
+    options.pipeline_cache_path = path_;
+    return *Device::create(options);
+  };
+  const auto compile = [&](Device& device, std::initializer_list<const char*> names) {
+    Pipelines pipelines(device, table);
+    for (const char* name : names) (void)pipelines.get(ComputeDesc{name, {}}).made();
+  };
+  compile(*open(), {"one.comp", "two.comp"});
+  const std::uintmax_t both = fs::file_size(path_);
+  fs::remove(path_);
+  {
+    const std::unique_ptr<Device> later = open(), sooner = open();
+    compile(*later, {"one.comp"});
+    compile(*sooner, {"two.comp"});
+    EXPECT_EQ(sooner->validation_message_count() + later->validation_message_count(), 0);
+  }
+  EXPECT_EQ(fs::file_size(path_), both);  // a driver that caches nothing has its header alone
+}
+
 TEST_F(PipelineCacheTest, ATruncatedFileIsReplaced) {
   start();
   std::vector<std::byte> bytes = file();

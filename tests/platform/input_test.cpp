@@ -124,6 +124,37 @@ TEST(WindowEvents, APointerThatAWindowsChangePutsElsewhereIsNoMotion) {
   EXPECT_EQ(poll({{63.0, 63.0}}), glm::dvec2(346.0, -68.0));
 }
 
+TEST(WindowEvents, WhatTheMouseDoesWhileNothingCanActOnItCountsAsNothingAndKeysAreKept) {
+  WindowEvents events;
+  events.move_pointer({100.0, 100.0}, 10.0);
+  events.end_poll(10.0);
+  (void)events.input.take();
+  events.move_pointer({400.0, 90.0}, 11.0);
+  events.input.add_scroll(3.0);
+  for (const bool down : {true, false}) events.input.set_key(Key::kMouseRight, down);
+  events.input.set_key(Key::kMouseLeft, true);
+  for (const bool down : {true, false}) events.input.set_key(Key::kEscape, down);
+  events.input.set_key(Key::kW, true);
+  events.input.type('x');
+  events.drop_mouse();
+  events.disturb(11.5);  // takes back nothing that was dropped
+  events.end_poll(11.5);
+  const InputFrame frame = events.input.take();
+  EXPECT_EQ(frame.mouse_delta, glm::dvec2(0.0));
+  EXPECT_EQ(frame.scroll, 0.0);
+  EXPECT_EQ(frame.pointer, glm::dvec2(400.0, 90.0));
+  for (const Key key : {Key::kMouseLeft, Key::kMouseRight, Key::kWheelUp}) {
+    EXPECT_FALSE(frame.pressed(key));
+    EXPECT_EQ(frame.presses(key), 0);
+  }
+  EXPECT_TRUE(frame.down(Key::kMouseLeft));
+  EXPECT_TRUE(frame.was_down(Key::kMouseLeft));
+  EXPECT_EQ(frame.presses(Key::kEscape), 1);
+  EXPECT_TRUE(frame.pressed(Key::kW));
+  EXPECT_TRUE(frame.down(Key::kW));
+  EXPECT_EQ(frame.events.back().character, U'x');
+}
+
 TEST(HeldBack, WhatWasHeldMeansNothingUntilItHasGoneUp) {
   Input input;
   HeldBack held_back;

@@ -67,6 +67,10 @@ wait_for_frames() {
   done
 }
 
+# Whether the window shows how far programs are compiled: its corner has the colour of that screen (game/ui/loading_screen.cpp).
+loading() { [ "$(import -silent -window "$window" -crop 1x1+2+2 -depth 8 rgb:- | od -An -tu1 | xargs)" = "16 26 32" ]; }
+loaded() { ! loading; }
+
 fps() { xdotool getwindowname "$window" | sed 's/.* \([0-9]*\) fps/\1/'; }
 # Shaders are compiled and the world is there: until then frames are few, and what the mouse does in one of them counts as a whole.
 wait_until_quick() {

@@ -46,6 +46,7 @@ moves() {
   [ "$(compare -metric AE -fuzz 2% "$work/then.png" "$work/now.png" null: 2>&1 || true)" -gt 200 ]
 }
 until_true "the island behind the title turns" moves
+until_true "it is loaded" loaded
 until_true "the island behind the title goes on" moves
 
 press $A  # new world

@@ -46,9 +46,11 @@ moves() {
   [ "$(compare -metric AE -fuzz 2% "$work/then.png" "$work/now.png" null: 2>&1 || true)" -gt 200 ]
 }
 until_true "the title is shown" shown
+until_true "it is loaded" loaded
 until_true "the island behind it turns" moves
 until_true "the island behind it goes on" moves
 key Return 8  # new world: there is none yet
+until_true "the view of its seed turns" moves  # its first frame may take seconds on a busy machine
 xdotool type --delay 200 Harbour
 # Seed 1, whose island stands still. Later versions of ImGui stop at the button between the fields, earlier ones come round to the name.
 for _ in 1 2; do

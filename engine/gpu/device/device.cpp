@@ -127,16 +127,23 @@ void Device::open() {
            "pipeline cache");
 }
 
+/// Adds to the file what this process has compiled. Processes that ended since this one began have
+/// written theirs there as well; two that end at once may lose what one of them compiled.
+void Device::keep_pipelines() {
+  const VkPipelineCache of_others = create_pipeline_cache(device_, physical_, state_->cache_path);
+  GPU_CHECK(vkMergePipelineCaches(device_, pipeline_cache_, 1, &of_others));
+  vkDestroyPipelineCache(device_, of_others, nullptr);
+  std::size_t size = 0;
+  GPU_CHECK(vkGetPipelineCacheData(device_, pipeline_cache_, &size, nullptr));
+  std::vector<std::byte> bytes(size);
+  GPU_CHECK(vkGetPipelineCacheData(device_, pipeline_cache_, &size, bytes.data()));
+  bytes.resize(size);
+  save_pipeline_cache(state_->cache_path, bytes);
+}
+
 Device::~Device() {
   vkDeviceWaitIdle(device_);
-  if (!state_->cache_path.empty()) {
-    std::size_t size = 0;
-    GPU_CHECK(vkGetPipelineCacheData(device_, pipeline_cache_, &size, nullptr));
-    std::vector<std::byte> bytes(size);
-    GPU_CHECK(vkGetPipelineCacheData(device_, pipeline_cache_, &size, bytes.data()));
-    bytes.resize(size);
-    save_pipeline_cache(state_->cache_path, bytes);
-  }
+  if (!state_->cache_path.empty()) keep_pipelines();
   destroy_retired(std::numeric_limits<std::uint64_t>::max());
   // Whoever is left holds a pointer to this device.
   if (!state_->memory_by_name.empty()) {

@@ -100,6 +100,7 @@ class Device final : public ResourceOwner {
  private:
   Device();
   void open();
+  void keep_pipelines();
   Result<void> check_buffer(const BufferDesc& desc) const;
   Result<void> check_image(const VkImageCreateInfo& info, const std::string& name) const;
   bool may_allocate(const std::string& name, std::uint64_t bytes) const;

@@ -195,8 +195,10 @@ class FrameGraph {
   /// be called. The next begin() starts afresh.
   std::optional<Error> allocation_failure() const;
   /// Records everything into `commands`. @param frame_slot which of the frames in flight (0, 1,
-  /// ...), for timer queries.
-  void execute(VkCommandBuffer commands, std::uint32_t frame_slot);
+  /// ...), for timer queries. @param before_pass is called before each kept pass, where `commands`
+  /// may be submitted and begun anew.
+  void execute(VkCommandBuffer commands, std::uint32_t frame_slot,
+               const std::function<void()>& before_pass = {});
 
   std::vector<std::string> pass_names() const;    ///< kept passes, in order
   std::vector<std::string> culled_names() const;  ///< added but unused

@@ -26,7 +26,8 @@ void end_label(VkCommandBuffer commands) {
 
 }  // namespace
 
-void FrameGraph::execute(VkCommandBuffer commands, std::uint32_t frame_slot) {
+void FrameGraph::execute(VkCommandBuffer commands, std::uint32_t frame_slot,
+                         const std::function<void()>& before_pass) {
   SKERRY_ASSERT(state_->compiled);
   // The uploader may have touched imported resources since compile(): plan with what is true now.
   state_->plan();
@@ -42,6 +43,7 @@ void FrameGraph::execute(VkCommandBuffer commands, std::uint32_t frame_slot) {
   for (std::uint32_t i = 0; i < state.passes.size(); ++i) {
     State::Pass& pass = state.passes[i];
     if (!pass.alive) continue;
+    if (before_pass) before_pass();
     if (real) begin_label(commands, pass.name);
     state.record_barriers(commands, pass.before);
     const bool rendering = real && state.begin_rendering(commands, pass, i);

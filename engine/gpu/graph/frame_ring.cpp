@@ -39,11 +39,20 @@ FrameRing::Frame FrameRing::begin() {
   const Slot& slot = slots_[current_];
   device_.wait(slot.value);
   device_.collect();
+  begin_commands(slot);
+  return {slot.commands, current_};
+}
+
+void FrameRing::begin_commands(const Slot& slot) {
   GPU_CHECK(vkResetCommandPool(device_.handle(), slot.pool, 0));
   auto begin = vk_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   GPU_CHECK(vkBeginCommandBuffer(slot.commands, &begin));
-  return {slot.commands, current_};
+}
+
+void FrameRing::flush() {
+  device_.wait(submit());
+  begin_commands(slots_[current_]);
 }
 
 std::uint64_t FrameRing::submit(std::span<const VkSemaphoreSubmitInfo> waits,

@@ -25,6 +25,8 @@ class FrameRing {
   /// Waits until the frame that last used the next slot is done, destroys what is retired by now,
   /// begins recording.
   Frame begin();
+  /// Submits what the frame begun has recorded so far and waits for it; recording goes on.
+  void flush();
   /// Ends and submits the frame begun. @return its timeline value.
   std::uint64_t submit(std::span<const VkSemaphoreSubmitInfo> waits = {},
                        std::span<const VkSemaphoreSubmitInfo> signals = {});
@@ -35,6 +37,7 @@ class FrameRing {
     VkCommandBuffer commands{};
     std::uint64_t value = 0;  ///< timeline value of its last submit
   };
+  void begin_commands(const Slot& slot);
   Device& device_;
   std::vector<Slot> slots_;
   std::uint32_t current_ = 0;

@@ -88,6 +88,7 @@ struct Renderer::State {
   void foresee(const FramePlan& plan);
   bool lacks_programs(const FramePlan& plan);
   void build(const FramePlan& plan, Slot& slot);
+  void execute(const gpu::FrameRing::Frame& frame);
   void advance(FramePlan& plan);
   void take_report(std::uint32_t slot_index);
 
@@ -111,6 +112,7 @@ struct Renderer::State {
   Captures captures;
   Picture picture;
   gpu::FrameRing ring;
+  std::function<void(std::uint32_t, std::uint32_t)> progress;  // see step_frames
   FrameHistory history;
   std::array<Slot, kFramesInFlight> slots;
   std::uint32_t last_slot = 0;
@@ -268,6 +270,15 @@ void Renderer::State::foresee(const FramePlan& plan) {
   light_clusters.reserve();
 }
 
+void Renderer::State::execute(const gpu::FrameRing::Frame& frame) {
+  if (!progress) return graph.execute(frame.commands, frame.slot);
+  std::uint32_t done = 0;
+  graph.execute(frame.commands, frame.slot, [&] {
+    ring.flush();
+    progress(done++, graph.counts().passes);
+  });
+}
+
 /// The frame has been submitted: what it leaves behind is so from now on.
 void Renderer::State::advance(FramePlan& plan) {
   history = std::move(plan.next);
@@ -345,7 +356,7 @@ Result<std::uint64_t> Renderer::draw(
     s.ring.submit();  // uploads are on their way; nothing has been drawn
     return *failure;
   }
-  s.graph.execute(frame.commands, frame.slot);
+  s.execute(frame);
   slot.part = plan.input.part;
   slot.counts = s.graph.counts();
   slot.pipelines_created = s.pipelines.used();
@@ -469,6 +480,9 @@ Captured Renderer::captured(Capture what) {
 }
 const std::optional<FrameReport>& Renderer::report() const {
   return state_->report;
+}
+void Renderer::step_frames(std::function<void(std::uint32_t, std::uint32_t)> progress) {
+  state_->progress = std::move(progress);
 }
 void Renderer::invalidate_shadows() {
   state_->history.shadows = {};

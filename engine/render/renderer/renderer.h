@@ -80,6 +80,12 @@ class Renderer {
   std::size_t programs_to_come() const;
   void wait_for_programs();  ///< until there are none
 
+  /// From now on each pass of a frame is submitted by itself and waited for: a driver that compiles
+  /// a program at its first use takes seconds for a first frame. @param progress is called before
+  /// each with the number of passes done and of all, and may submit work of its own; empty: frames
+  /// are submitted whole, as they are to begin with.
+  void step_frames(std::function<void(std::uint32_t done, std::uint32_t all)> progress);
+
   /// Records and submits one frame. Two are in flight; waits for the one before last.
   /// @param after records into the same command buffer behind the frame, e.g. the copy to a window;
   /// @param waits, signals for the swapchain.

@@ -10,10 +10,10 @@ namespace {
 using platform::Input;
 using platform::Key;
 
-void press(Hints& hints, Key key) {
+void press(Hints& hints, Key key, double seconds = 0.1) {
   Input input;
   input.set_key(key, true);
-  hints.note(ActionFrame(input.take(), default_bindings()));
+  hints.note(ActionFrame(input.take(), default_bindings()), seconds);
 }
 
 TEST(Hints, ComeOneByOneAndGoOnceUsed) {
@@ -33,6 +33,23 @@ TEST(Hints, ComeOneByOneAndGoOnceUsed) {
   EXPECT_EQ(line(), "Right click: place what is in the hand");
   for (const Key key : {Key::kMouseRight, Key::kE, Key::kL, Key::kEscape}) press(hints, key);
   EXPECT_EQ(line(), "none");
+}
+
+TEST(Hints, GoOnceShownLongEnoughToWhoDoesOtherThings) {
+  Hints hints;
+  press(hints, Key::kW);
+  const auto line = [&] { return hints.line(default_bindings(), false).value_or("none"); };
+  for (int i = 0; i < 1000; ++i) hints.note({}, 1.0);  // nobody is there
+  for (int i = 0; i < 30; ++i) press(hints, Key::kW, 1.0);
+  EXPECT_EQ(line(), "Space: jump");
+  press(hints, Key::kW, 1.0);
+  EXPECT_EQ(line(), "Left click: dig, held");
+  press(hints, Key::kMouseLeft);
+  for (int i = 0; i < 30; ++i) press(hints, Key::kW, 1.0);
+  EXPECT_EQ(line(), "Right click: place what is in the hand");  // each has its own time
+  for (int i = 0; i < 200; ++i) press(hints, Key::kW, 1.0);
+  EXPECT_EQ(line(), "none");
+  EXPECT_EQ(Hints::read(hints.print()).line(default_bindings(), false), std::nullopt);
 }
 
 TEST(Hints, NameTheKeysThatAreBound) {

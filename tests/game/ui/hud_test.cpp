@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "game/ui/gui.h"
+#include "game/ui/loading_screen.h"
 #include "game/ui/look.h"
+#include "game/words/words.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -47,6 +49,33 @@ TEST(Hud, DrawsWithinThePicture) {
     }
     EXPECT_TRUE(pictured);
   }
+}
+
+TEST(LoadingScreen, FitsInEveryLanguageAndShowsHowFarItIs) {
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    const auto language = static_cast<Language>(i);
+    speak(language);
+    for (const auto& [width, height] : {std::pair(640u, 360u), {320u, 180u}, {1280u, 720u}}) {
+      Gui gui;
+      gui.expect(words_of(language));
+      gui.fit_font();
+      const auto bar = [&](const LoadingFacts& facts) {
+        gui.begin({width, height, 0.02, nullptr});
+        show_loading(facts);
+        float right = 0.0f;
+        for (const shared::OverlayVertex& vertex : gui.end().vertices) {
+          EXPECT_TRUE(vertex.position.x >= -2.0f && vertex.position.y >= -2.0f &&
+                      vertex.position.x <= static_cast<float>(width) + 2.0f &&
+                      vertex.position.y <= static_cast<float>(height) + 2.0f);
+          if (vertex.color == colour::kAccent) right = std::max(right, vertex.position.x);
+        }
+        return right;
+      };
+      EXPECT_LT(bar({3, 42, 0, 1.0}), bar({41, 42, 0, 2.0}));
+      EXPECT_LE(bar({41, 42, 0, 2.0}), bar({42, 42, 7, 3.0}));
+    }
+  }
+  speak(Language::kEnglish);
 }
 
 /// Where a HUD draws in one colour: lowest and highest x and y; nothing: infinities.

@@ -1,6 +1,8 @@
 // Programs and memory of frames to come are made before they are needed.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "shaders/shared/light.h"
 #include "tests/render/renderer_on_gpu.h"
 
@@ -105,6 +107,32 @@ class ForeseenPrograms : public RendererOnGpu {
     return std::vector<shared::Light>{lamp};
   }();
 };
+
+TEST_F(ForeseenPrograms, AFrameInStepsTellsEachPassAndDrawsTheSamePicture) {
+  const RenderSettings settings;
+  FrameInput in = input(kDusk, 0.5);
+  drawn(in, settings, kSize);
+  const std::vector<std::uint8_t> whole = picture();
+  restart();
+  begin();
+  std::vector<std::uint32_t> told;
+  std::uint32_t all = 0;
+  renderer().step_frames([&](std::uint32_t done, std::uint32_t passes) {
+    told.push_back(done);
+    all = passes;
+    device().run_now([](VkCommandBuffer) {});  // as who shows how far it is
+    device().collect();
+  });
+  drawn(in, settings, kSize);
+  EXPECT_EQ(picture(), whole);
+  EXPECT_GT(all, 10u);
+  std::vector<std::uint32_t> each(all);
+  std::iota(each.begin(), each.end(), 0u);
+  EXPECT_EQ(told, each);
+  renderer().step_frames({});
+  drawn(in, settings, kSize);
+  EXPECT_EQ(told.size(), all);
+}
 
 TEST_F(ForeseenPrograms, WhatComesNewlyIntoViewNeedsNoProgramOrMemoryInItsFrame) {
   const Late unforeseen = made_late({}, false);
