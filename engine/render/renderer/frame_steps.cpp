@@ -14,6 +14,7 @@
 #include "engine/render/steps/shade_step.h"
 #include "engine/render/steps/shadow_step.h"
 #include "engine/render/steps/sky_table_step.h"
+#include "engine/render/steps/temporal_step.h"
 #include "engine/render/steps/water_steps.h"
 
 namespace skerry::render {
@@ -44,6 +45,7 @@ std::span<const FrameStep> frame_steps() {
       bloom_step(),
       develop_step(),
       smooth_edges_step(),
+      mix_frames_step(),
       show_exposure_step(),
       draw_marker_step(),
       enlarge_step(),

@@ -1,0 +1,167 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The picture of this frame mixed with what earlier frames saw of the same surfaces at other places of the pixel. What a pixel shows moves
+// exactly as its island or the sky does, so that it is known where the last frame had it; words and depths of the last frame say whether it is the
+// same surface. Where several surfaces share a pixel, colours from around it bound what is taken over, if they move apart. docs/decisions/0048.
+#include "include/frame/common.glsl"
+#include "include/scene/layers.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/temporal.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(binding = kMotionsBinding) uniform usamplerBuffer motions;
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(binding = kLayerDepthsBinding) uniform sampler2D water_depths;
+layout(binding = kFreshPictureBinding) uniform sampler2D fresh;
+layout(binding = kKeptSurfacesBinding, r32ui) readonly uniform uimage2D kept_surfaces;
+layout(binding = kKeptDepthsBinding) uniform sampler2D kept_depths;
+layout(binding = kKeptPictureBinding) uniform sampler2D kept_picture;
+layout(binding = kMixedPictureBinding, rgba16f) writeonly uniform image2D mixed;  // light of the display; alpha: see Mixed
+layout(binding = kPictureBinding, rgba8) writeonly uniform image2D picture;
+layout(push_constant, scalar) uniform Push { TemporalStep step; } push;
+
+layout(constant_id = kTranslucentConstant) const bool kTranslucent = false;  // there is water or glass
+layout(constant_id = kCloudLayerConstant) const bool kClouds = false;        // there are clouds before the sky
+
+#include "include/scene/coverage.glsl"
+
+const float kFramesInside = 8.0;   // frames that are mixed, where a pixel shows one surface
+const float kFramesAtEdges = 16.0;
+const float kApart = 0.1;          // pixels a frame: surfaces that move apart by more are bounded by colours
+const float kBounded = 64.0;       // added to the count where they do
+
+vec4 row_of(uint mover, uint row) { return uintBitsToFloat(texelFetch(motions, int(mover * kMotionTexels + row))); }
+
+struct Moved {
+  vec2 by;      // pixels, to the last frame
+  float depth;  // there; negative: it was not there
+};
+
+Moved moved(uint mover, vec2 place, float depth) {
+  vec4 at = vec4(place, 1.0, depth);
+  float w = dot(row_of(mover, 2u), at);
+  if (w <= 0.0) return Moved(vec2(0.0), -1.0);
+  return Moved(vec2(dot(row_of(mover, 0u), at), dot(row_of(mover, 1u), at)) / w - place, depth / w);
+}
+
+ivec2 in_picture(ivec2 pixel) { return clamp(pixel, ivec2(0), ivec2(frame.size) - 1); }
+vec3 light_of(vec3 encoded) { return encoded * encoded; }
+uint mover_of(uint word) { return word != 0u ? surface_island(word) : push.step.sky; }
+
+// The 3x3 pixels about one.
+struct Around {
+  uint words[9];
+  float depths[9];
+  vec3 low, high;  // of their light
+};
+
+Around around(ivec2 pixel) {
+  Around a;
+  a.low = vec3(1e9);
+  a.high = vec3(-1e9);
+  for (int i = 0; i < 9; ++i) {
+    ivec2 at = in_picture(pixel + ivec2(i % 3 - 1, i / 3 - 1));
+    a.depths[i] = texelFetch(depths, at, 0).r;
+    a.words[i] = covered_word(imageLoad(surfaces, at).r, a.depths[i]);
+    vec3 light = light_of(texelFetch(fresh, at, 0).rgb);
+    a.low = min(a.low, light);
+    a.high = max(a.high, light);
+  }
+  return a;
+}
+
+bool bends(float before, float here, float after) {
+  return abs((before - here) + (after - here)) > push.step.bend * max(max(before, after), here);
+}
+
+bool is_edge(Around a) {
+  bool same = true;
+  for (int i = 0; i < 9; ++i) same = same && a.words[i] == a.words[4];
+  return !same || bends(a.depths[3], a.depths[4], a.depths[5]) || bends(a.depths[1], a.depths[4], a.depths[7]) ||
+         bends(a.depths[0], a.depths[4], a.depths[8]) || bends(a.depths[2], a.depths[4], a.depths[6]);
+}
+
+// What was mixed so far: its light, of how many frames, and whether surfaces that move apart were among them.
+struct Mixed {
+  vec3 light;
+  float frames;
+  bool bounded;
+};
+
+const Mixed kNone = Mixed(vec3(0.0), 0.0, false);
+
+Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, out float apart) {
+  vec2 sampled = vec2(pixel) + frame.sample_in_pixel;
+  int nearest = 4, farthest = 4;
+  if (edge)
+    for (int i = 0; i < 9; ++i) {
+      if (a.depths[i] > a.depths[nearest]) nearest = i;
+      if (a.depths[i] < a.depths[farthest]) farthest = i;
+    }
+  vec2 to_nearest = vec2(nearest % 3 - 1, nearest / 3 - 1), to_farthest = vec2(farthest % 3 - 1, farthest / 3 - 1);
+  Moved motion = moved(mover_of(a.words[nearest]), sampled + to_nearest, a.depths[nearest]);
+  Moved behind = moved(mover_of(a.words[farthest]), sampled + to_farthest, a.depths[farthest]);
+  apart = edge ? length(motion.by - behind.by) : 0.0;
+  if (motion.depth < 0.0) return kNone;
+  vec2 from = vec2(pixel) + 0.5 + motion.by;
+  // Rounding does not blur what stands still.
+  if (all(lessThan(abs(motion.by), vec2(1.0 / 256.0)))) from = vec2(pixel) + 0.5;
+  if (any(lessThan(from, vec2(0.0))) || any(greaterThan(from, vec2(frame.size)))) return kNone;
+  vec2 slope = 0.5 * vec2(a.depths[5] - a.depths[3], a.depths[7] - a.depths[1]);
+  vec2 first = floor(from - 0.5), between = from - 0.5 - first;
+  vec4 sum = vec4(0.0);
+  float all = 0.0;
+  bool bounded = false;
+  for (int i = 0; i < 4; ++i) {
+    vec2 corner = vec2(i & 1, i >> 1);
+    float weight = (corner.x > 0.0 ? between.x : 1.0 - between.x) * (corner.y > 0.0 ? between.y : 1.0 - between.y);
+    ivec2 at = in_picture(ivec2(first + corner));
+    float depth = texelFetch(kept_depths, at, 0).r;
+    uint word = covered_word(imageLoad(kept_surfaces, at).r, depth);
+    vec4 texel = texelFetch(kept_picture, at, 0);
+    bool taken;
+    if (edge) {
+      taken = false;
+      for (int k = 0; k < 9; ++k) taken = taken || word == a.words[k];
+    } else {
+      vec2 away = vec2(at) + push.step.last_sample - (sampled + motion.by);
+      float expected = motion.depth + dot(slope, away);
+      taken = word == a.words[4] && abs(depth - expected) <= 4.0 * push.step.bend * max(depth, expected) + 0.25 * (abs(slope.x) + abs(slope.y));
+    }
+    // What the jitter has missed this time: it is as far, and has moved as this has.
+    if (!changed && mover_of(word) == mover_of(a.words[nearest]))
+      taken = taken || length(moved(mover_of(word), sampled, depth).by - motion.by) < 0.25;
+    if (!taken && !anything) continue;
+    if (weight > 0.02 && texel.a >= kBounded) bounded = true;
+    sum += vec4(texel.rgb, mod(texel.a, kBounded)) * weight;
+    all += weight;
+  }
+  if (all < 0.01) return kNone;
+  sum /= all;
+  return Mixed(sum.rgb, sum.a * min(1.0, all * 2.0), bounded);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, ivec2(frame.size)))) return;
+  Around a = around(pixel);
+  bool edge = is_edge(a);
+  bool seen_through = kTranslucent && layer_depth_at(water_depths, pixel, frame.layers_area) > 0.0;
+  seen_through = seen_through || (kClouds && a.words[4] == 0u);
+  bool changed = in_area(uvec2(pixel), push.step.changed_area);
+  float apart = 0.0;
+  Mixed so_far = kNone;
+  if (push.step.kept != 0u) so_far = taken_over(pixel, a, edge, seen_through, changed, apart);
+  // Light of the display under this frame's exposure, by a curve that bends as the tone curves do.
+  so_far.light = so_far.light * push.step.exposure_ratio / (1.0 + (push.step.exposure_ratio - 1.0) * so_far.light);
+  bool bounded = so_far.bounded || seen_through || changed || apart > kApart;
+  if (bounded) so_far.light = clamp(so_far.light, a.low, a.high);
+  float frames = min(so_far.frames, (edge ? kFramesAtEdges : kFramesInside) - 1.0) + 1.0;
+  vec3 light = mix(so_far.light, light_of(texelFetch(fresh, pixel, 0).rgb), 1.0 / frames);
+  imageStore(mixed, pixel, vec4(light, frames + (apart > kApart ? kBounded : 0.0)));
+  imageStore(picture, pixel, vec4(floor(sqrt(light) * 255.0 + 0.5) / 255.0, 1.0));
+}
