@@ -94,6 +94,19 @@ struct Mixed {
 
 const Mixed kNone = Mixed(vec3(0.0), 0.0, false);
 
+vec4 catmull_rom(float t) {
+  return vec4(t * (-0.5 + t * (1.0 - 0.5 * t)), 1.0 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2.0 - 1.5 * t)), t * t * (-0.5 + 0.5 * t));
+}
+
+// Sharper than linear: what is taken over again and again would blur. @param first pixel, of the four about the place.
+vec3 sharply(ivec2 first, vec2 between) {
+  vec4 x = catmull_rom(between.x), y = catmull_rom(between.y);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) sum += x[k] * y[i] * texelFetch(kept_picture, in_picture(first + ivec2(k - 1, i - 1)), 0).rgb;
+  return max(sum, vec3(0.0));
+}
+
 Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, out float apart) {
   vec2 sampled = vec2(pixel) + frame.sample_in_pixel;
   int nearest = 4, farthest = 4;
@@ -142,6 +155,7 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
   }
   if (all < 0.01) return kNone;
   sum /= all;
+  if (all > 0.999) sum.rgb = sharply(ivec2(first), between);
   return Mixed(sum.rgb, sum.a * min(1.0, all * 2.0), bounded);
 }
 

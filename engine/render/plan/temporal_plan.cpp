@@ -17,6 +17,8 @@ namespace skerry::render {
 namespace {
 
 constexpr std::uint32_t kJitterFrames = 16;
+/// Of a pixel: textures are filtered for less, since frames that are mixed filter them, too.
+constexpr float kTexelFootprint = 0.5f;
 constexpr float kMostExposureStep = 0.5f;  // stops between two frames that are mixed
 // Cosine of the angle that sun and moon may move between two frames that are mixed: 0.2 degrees,
 // more than half a minute of the day.
@@ -144,6 +146,7 @@ std::optional<TemporalPlan> plan_temporal(const FrameInput& input, const RenderS
 void jitter_view(FrameTables& tables, glm::vec2 jitter) {
   shared::FrameConstants& frame = tables.constants;
   frame.sample_in_pixel += jitter;
+  frame.texel_footprint *= kTexelFootprint;
   // What is sampled to the right of the centre is drawn to the left.
   glm::mat4& clip = tables.matrices[0];
   for (int column = 0; column < 3; ++column) {

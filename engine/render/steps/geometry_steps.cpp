@@ -27,7 +27,7 @@ FrameStep draw_geometry_step() {
             f.geometry = GeometryPass::add(
                 f.graph, f.pipelines, f.scene, *f.draws,
                 {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
-                 samples_per_edge(f.plan.settings) > 1, f.plan.input.capture, kept});
+                 samples_per_edge(f.plan.settings) > 1 || f.plan.temporal, f.plan.input.capture, kept});
           }};
 }
 
