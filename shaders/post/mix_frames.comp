@@ -29,8 +29,9 @@ layout(constant_id = kCloudLayerConstant) const bool kClouds = false;        // 
 
 #include "include/scene/coverage.glsl"
 
-const float kFramesInside = 8.0;   // frames that are mixed, where a pixel shows one surface
-const float kFramesAtEdges = 16.0;
+// Frames that are mixed, where a pixel shows one surface and where it shows several; and where nothing moves, so that nothing blurs.
+const float kFramesInside = 4.0, kFramesAtEdges = 8.0;
+const float kFramesInsideAtRest = 16.0, kFramesAtEdgesAtRest = 32.0;
 const float kApart = 0.1;          // pixels a frame: surfaces that move apart by more are bounded by colours
 const float kBounded = 64.0;       // added to the count where they do
 
@@ -107,7 +108,8 @@ vec3 sharply(ivec2 first, vec2 between) {
   return max(sum, vec3(0.0));
 }
 
-Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, out float apart) {
+Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, out float apart, out bool at_rest) {
+  at_rest = false;
   vec2 sampled = vec2(pixel) + frame.sample_in_pixel;
   int nearest = 4, farthest = 4;
   if (edge)
@@ -122,7 +124,8 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
   if (motion.depth < 0.0) return kNone;
   vec2 from = vec2(pixel) + 0.5 + motion.by;
   // Rounding does not blur what stands still.
-  if (all(lessThan(abs(motion.by), vec2(1.0 / 256.0)))) from = vec2(pixel) + 0.5;
+  at_rest = all(lessThan(abs(motion.by), vec2(1.0 / 256.0)));
+  if (at_rest) from = vec2(pixel) + 0.5;
   if (any(lessThan(from, vec2(0.0))) || any(greaterThan(from, vec2(frame.size)))) return kNone;
   vec2 slope = 0.5 * vec2(a.depths[5] - a.depths[3], a.depths[7] - a.depths[1]);
   vec2 first = floor(from - 0.5), between = from - 0.5 - first;
@@ -168,13 +171,15 @@ void main() {
   seen_through = seen_through || (kClouds && a.words[4] == 0u);
   bool changed = in_area(uvec2(pixel), push.step.changed_area);
   float apart = 0.0;
+  bool at_rest = false;
   Mixed so_far = kNone;
-  if (push.step.kept != 0u) so_far = taken_over(pixel, a, edge, seen_through, changed, apart);
+  if (push.step.kept != 0u) so_far = taken_over(pixel, a, edge, seen_through, changed, apart, at_rest);
   // Light of the display under this frame's exposure, by a curve that bends as the tone curves do.
   so_far.light = so_far.light * push.step.exposure_ratio / (1.0 + (push.step.exposure_ratio - 1.0) * so_far.light);
   bool bounded = so_far.bounded || seen_through || changed || apart > kApart;
   if (bounded) so_far.light = clamp(so_far.light, a.low, a.high);
-  float frames = min(so_far.frames, (edge ? kFramesAtEdges : kFramesInside) - 1.0) + 1.0;
+  float most = at_rest ? (edge ? kFramesAtEdgesAtRest : kFramesInsideAtRest) : edge ? kFramesAtEdges : kFramesInside;
+  float frames = min(so_far.frames, most - 1.0) + 1.0;
   vec3 light = mix(so_far.light, light_of(texelFetch(fresh, pixel, 0).rgb), 1.0 / frames);
   imageStore(mixed, pixel, vec4(light, frames + (apart > kApart ? kBounded : 0.0)));
   imageStore(picture, pixel, vec4(floor(sqrt(light) * 255.0 + 0.5) / 255.0, 1.0));
