@@ -37,16 +37,18 @@ const float kBounded = 64.0;       // added to the count where they do
 
 vec4 row_of(uint mover, uint row) { return uintBitsToFloat(texelFetch(motions, int(mover * kMotionTexels + row))); }
 
+Motion motion_of(uint mover) { return Motion(row_of(mover, 0u), row_of(mover, 1u), row_of(mover, 2u)); }
+
 struct Moved {
   vec2 by;      // pixels, to the last frame
   float depth;  // there; negative: it was not there
 };
 
-Moved moved(uint mover, vec2 place, float depth) {
+Moved moved(Motion motion, vec2 place, float depth) {
   vec4 at = vec4(place, 1.0, depth);
-  float w = dot(row_of(mover, 2u), at);
+  float w = dot(motion.w, at);
   if (w <= 0.0) return Moved(vec2(0.0), -1.0);
-  return Moved(vec2(dot(row_of(mover, 0u), at), dot(row_of(mover, 1u), at)) / w - place, depth / w);
+  return Moved(vec2(dot(motion.x, at), dot(motion.y, at)) / w - place, depth / w);
 }
 
 ivec2 in_picture(ivec2 pixel) { return clamp(pixel, ivec2(0), ivec2(frame.size) - 1); }
@@ -95,17 +97,19 @@ struct Mixed {
 
 const Mixed kNone = Mixed(vec3(0.0), 0.0, false);
 
-vec4 catmull_rom(float t) {
-  return vec4(t * (-0.5 + t * (1.0 - 0.5 * t)), 1.0 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2.0 - 1.5 * t)), t * t * (-0.5 + 0.5 * t));
-}
-
-// Sharper than linear: what is taken over again and again would blur. @param first pixel, of the four about the place.
-vec3 sharply(ivec2 first, vec2 between) {
-  vec4 x = catmull_rom(between.x), y = catmull_rom(between.y);
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 4; ++k) sum += x[k] * y[i] * texelFetch(kept_picture, in_picture(first + ivec2(k - 1, i - 1)), 0).rgb;
-  return max(sum, vec3(0.0));
+// Sharper than linear, since what is taken over again and again would blur: Catmull and Rom's filter by five linear samples, without the four
+// corners of its 4x4 pixels (J. Jimenez, Filmic SMAA, 2016). @param from place in the picture [pixels].
+vec3 sharply(vec2 from) {
+  vec2 size = vec2(frame.size), middle = floor(from - 0.5) + 0.5, t = from - middle;
+  vec2 before = t * (-0.5 + t * (1.0 - 0.5 * t)), after = t * t * (-0.5 + 0.5 * t);
+  vec2 first = 1.0 + t * t * (-2.5 + 1.5 * t), second = t * (0.5 + t * (2.0 - 1.5 * t)), both = first + second;
+  vec2 low = (middle - 1.0) / size, between = (middle + second / both) / size, high = (middle + 2.0) / size;
+  vec4 sum = vec4(textureLod(kept_picture, between, 0.0).rgb, 1.0) * (both.x * both.y);
+  sum += vec4(textureLod(kept_picture, vec2(low.x, between.y), 0.0).rgb, 1.0) * (before.x * both.y);
+  sum += vec4(textureLod(kept_picture, vec2(high.x, between.y), 0.0).rgb, 1.0) * (after.x * both.y);
+  sum += vec4(textureLod(kept_picture, vec2(between.x, low.y), 0.0).rgb, 1.0) * (both.x * before.y);
+  sum += vec4(textureLod(kept_picture, vec2(between.x, high.y), 0.0).rgb, 1.0) * (both.x * after.y);
+  return max(sum.rgb / sum.a, vec3(0.0));
 }
 
 Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, out float apart, out bool at_rest) {
@@ -118,8 +122,10 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
       if (a.depths[i] < a.depths[farthest]) farthest = i;
     }
   vec2 to_nearest = vec2(nearest % 3 - 1, nearest / 3 - 1), to_farthest = vec2(farthest % 3 - 1, farthest / 3 - 1);
-  Moved motion = moved(mover_of(a.words[nearest]), sampled + to_nearest, a.depths[nearest]);
-  Moved behind = moved(mover_of(a.words[farthest]), sampled + to_farthest, a.depths[farthest]);
+  uint mover = mover_of(a.words[nearest]);
+  Motion by_nearest = motion_of(mover);
+  Moved motion = moved(by_nearest, sampled + to_nearest, a.depths[nearest]);
+  Moved behind = moved(motion_of(mover_of(a.words[farthest])), sampled + to_farthest, a.depths[farthest]);
   apart = edge ? length(motion.by - behind.by) : 0.0;
   if (motion.depth < 0.0) return kNone;
   vec2 from = vec2(pixel) + 0.5 + motion.by;
@@ -149,8 +155,7 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
       taken = word == a.words[4] && abs(depth - expected) <= 4.0 * push.step.bend * max(depth, expected) + 0.25 * (abs(slope.x) + abs(slope.y));
     }
     // What the jitter has missed this time: it is as far, and has moved as this has.
-    if (!changed && mover_of(word) == mover_of(a.words[nearest]))
-      taken = taken || length(moved(mover_of(word), sampled, depth).by - motion.by) < 0.25;
+    if (!changed && mover_of(word) == mover) taken = taken || length(moved(by_nearest, sampled, depth).by - motion.by) < 0.25;
     if (!taken && !anything) continue;
     if (weight > 0.02 && texel.a >= kBounded) bounded = true;
     sum += vec4(texel.rgb, mod(texel.a, kBounded)) * weight;
@@ -158,7 +163,7 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
   }
   if (all < 0.01) return kNone;
   sum /= all;
-  if (all > 0.999) sum.rgb = sharply(ivec2(first), between);
+  if (all > 0.999) sum.rgb = sharply(from);
   return Mixed(sum.rgb, sum.a * min(1.0, all * 2.0), bounded);
 }
 

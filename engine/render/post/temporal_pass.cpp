@@ -49,7 +49,7 @@ Developed TemporalPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                   gpu::sampled<shared::kFreshPictureBinding>(shaded, point),
                   gpu::storage<shared::kKeptSurfacesBinding>(kept_words),
                   gpu::sampled<shared::kKeptDepthsBinding>(kept_depth, point),
-                  gpu::sampled<shared::kKeptPictureBinding>(kept_mixed, point),
+                  gpu::sampled<shared::kKeptPictureBinding>(kept_mixed, scene.lut_sampler),
                   gpu::storage<shared::kMixedPictureBinding>(mixed),
                   gpu::storage<shared::kPictureBinding>(out), gpu::constants(step));
         c.dispatch(gpu::Commands::groups(scene.size.width, 8),

@@ -485,6 +485,9 @@ Captured Renderer::captured(Capture what) {
 const std::optional<FrameReport>& Renderer::report() const {
   return state_->report;
 }
+void Renderer::invalidate_history() {
+  state_->history.temporal.reset();
+}
 void Renderer::invalidate_shadows() {
   state_->history.shadows = {};
 }
