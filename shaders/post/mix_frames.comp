@@ -59,22 +59,28 @@ uint mover_of(uint word) { return word != 0u ? surface_island(word) : push.step.
 struct Around {
   uint words[9];
   float depths[9];
-  vec3 low, high;  // of their light
 };
 
 Around around(ivec2 pixel) {
   Around a;
-  a.low = vec3(1e9);
-  a.high = vec3(-1e9);
   for (int i = 0; i < 9; ++i) {
     ivec2 at = in_picture(pixel + ivec2(i % 3 - 1, i / 3 - 1));
     a.depths[i] = texelFetch(depths, at, 0).r;
     a.words[i] = covered_word(imageLoad(surfaces, at).r, a.depths[i]);
-    vec3 light = light_of(texelFetch(fresh, at, 0).rgb);
-    a.low = min(a.low, light);
-    a.high = max(a.high, light);
   }
   return a;
+}
+
+// Light within that of the 3x3 pixels about one, if `wanted`. As a loop without rounds it costs nothing where no pixel of a strip wants it.
+vec3 within_around(vec3 light, ivec2 pixel, bool wanted) {
+  vec3 low = vec3(wanted ? 1e9 : -1e9), high = -low;
+  int count = wanted ? 9 : 0;
+  for (int i = 0; i < count; ++i) {
+    vec3 one = light_of(texelFetch(fresh, in_picture(pixel + ivec2(i % 3 - 1, i / 3 - 1)), 0).rgb);
+    low = min(low, one);
+    high = max(high, one);
+  }
+  return clamp(light, low, high);
 }
 
 bool bends(float before, float here, float after) {
@@ -182,7 +188,7 @@ void main() {
   // Light of the display under this frame's exposure, by a curve that bends as the tone curves do.
   so_far.light = so_far.light * push.step.exposure_ratio / (1.0 + (push.step.exposure_ratio - 1.0) * so_far.light);
   bool bounded = so_far.bounded || seen_through || changed || apart > kApart;
-  if (bounded) so_far.light = clamp(so_far.light, a.low, a.high);
+  so_far.light = within_around(so_far.light, pixel, bounded);
   float most = at_rest ? (edge ? kFramesAtEdgesAtRest : kFramesInsideAtRest) : edge ? kFramesAtEdges : kFramesInside;
   float frames = min(so_far.frames, most - 1.0) + 1.0;
   vec3 light = mix(so_far.light, light_of(texelFetch(fresh, pixel, 0).rgb), 1.0 / frames);

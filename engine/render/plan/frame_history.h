@@ -32,7 +32,7 @@ struct FrameHistory {
   CloudHistory clouds;
   std::optional<FrozenView> frozen;
   std::optional<TemporalHistory> temporal;  ///< none: the last frame was not kept
-  std::optional<PreviousFrame> previous;  ///< none before the first frame
+  std::optional<PreviousFrame> previous;    ///< none before the first frame
 };
 
 }  // namespace skerry::render

@@ -38,7 +38,7 @@ struct FramePlan {
   std::optional<CloudPlan> clouds{};                ///< none: the frame has none
   std::optional<shared::MarkerConstants> marker{};  ///< none: none is in view
   std::optional<TemporalPlan> temporal{};  ///< none: the frame is not mixed with earlier ones
-  std::uint32_t marked_slices = 0;                  ///< see ClusterPicture
+  std::uint32_t marked_slices = 0;         ///< see ClusterPicture
 
   std::vector<std::size_t> steps{};      ///< indices of frame_steps(), in order
   std::vector<gpu::LeftOut> left_out{};  ///< passes and features it lacks, with reasons

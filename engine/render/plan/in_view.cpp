@@ -159,8 +159,7 @@ std::optional<glm::uvec4> translucent_area(const SceneFacts& facts, const FrameT
   return glm::uvec4(x.x, y.x, std::max(x.y, x.x + 1), std::max(y.y, y.x + 1));
 }
 
-glm::uvec4 changed_area(const SceneFacts& facts, const FrameTables& tables,
-                        std::uint64_t version) {
+glm::uvec4 changed_area(const SceneFacts& facts, const FrameTables& tables, std::uint64_t version) {
   constexpr std::uint32_t kAbout = 8;  // pixels that islands may have moved since, and jitter
   const shared::FrameConstants& frame = tables.constants;
   const glm::uvec4 all(0, 0, frame.size.x, frame.size.y);

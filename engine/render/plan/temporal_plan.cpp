@@ -46,15 +46,16 @@ shared::Motion motion(const View& now, const View& before, const glm::dmat3& rot
   const glm::dvec3 right = glm::dvec3(now.view.right) * static_cast<double>(now.view.tan_half_x);
   const glm::dvec3 up = glm::dvec3(now.view.up) * static_cast<double>(now.view.tan_half_y);
   // Columns of a ray by x, y and 1, and of the way by reverse depth, each before the last camera.
-  const std::array<glm::dvec3, 4> columns{
-      rotation * (right * (2.0 / now.size.x)), rotation * (up * (-2.0 / now.size.y)),
-      rotation * (glm::dvec3(now.view.forward) - right + up),
-      shift / static_cast<double>(kNearPlane)};
+  const std::array<glm::dvec3, 4> columns{rotation * (right * (2.0 / now.size.x)),
+                                          rotation * (up * (-2.0 / now.size.y)),
+                                          rotation * (glm::dvec3(now.view.forward) - right + up),
+                                          shift / static_cast<double>(kNearPlane)};
   const glm::dvec3 forward(before.view.forward);
-  const glm::dvec3 row_x = 0.5 * before.size.x *
-                           (glm::dvec3(before.view.right) / double{before.view.tan_half_x} + forward);
-  const glm::dvec3 row_y = 0.5 * before.size.y *
-                           (forward - glm::dvec3(before.view.up) / double{before.view.tan_half_y});
+  const glm::dvec3 row_x =
+      0.5 * before.size.x *
+      (glm::dvec3(before.view.right) / double{before.view.tan_half_x} + forward);
+  const glm::dvec3 row_y =
+      0.5 * before.size.y * (forward - glm::dvec3(before.view.up) / double{before.view.tan_half_y});
   const auto row = [&](const glm::dvec3& of) {
     return glm::vec4(glm::dot(of, columns[0]), glm::dot(of, columns[1]), glm::dot(of, columns[2]),
                      glm::dot(of, columns[3]));

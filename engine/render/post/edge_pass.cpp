@@ -122,7 +122,8 @@ Developed EdgePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
   const float pixel = frame.pixel_to_ndc.y * glm::length(frame.ray_up);
   EdgeLists lists = make_lists(graph, scene.size);
   for (const bool every_pixel : {false, true})
-    find(graph, pipelines, scene, geometry.depth(), shared::kBendOfPlane * pixel, lists, every_pixel);
+    find(graph, pipelines, scene, geometry.depth(), shared::kBendOfPlane * pixel, lists,
+         every_pixel);
   gpu::ImageRef picture = developed.picture();
   for (const bool store : {false, true})
     picture = smooth(graph, pipelines, scene, geometry, picture, lists, store);

@@ -21,9 +21,8 @@ Result<void> KeptFrames::ensure(VkExtent2D size) {
     return {};
   };
   for (Frame& frame : frames_) {
-    if (Result<void> ok =
-            make(frame.surfaces, "kept surfaces", VK_FORMAT_R32_UINT,
-                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT);
+    if (Result<void> ok = make(frame.surfaces, "kept surfaces", VK_FORMAT_R32_UINT,
+                               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT);
         !ok)
       return ok;
     if (Result<void> ok = make(frame.depth, "kept depth", VK_FORMAT_D32_SFLOAT,
@@ -38,12 +37,11 @@ Result<void> KeptFrames::ensure(VkExtent2D size) {
   return {};
 }
 
-Result<void> KeptFrames::upload(gpu::Uploader& uploader,
-                                std::span<const shared::Motion> motions) {
+Result<void> KeptFrames::upload(gpu::Uploader& uploader, std::span<const shared::Motion> motions) {
   if (!motions_) {
     constexpr std::uint64_t kBytes = (shared::kMaxIslands + 1) * sizeof(shared::Motion);
-    Result<gpu::Buffer> made = device_->create_buffer(
-        {"motions", kBytes, kTexelTableUsage, gpu::Memory::kDevice, true});
+    Result<gpu::Buffer> made =
+        device_->create_buffer({"motions", kBytes, kTexelTableUsage, gpu::Memory::kDevice, true});
     if (!made) return made.error();
     motions_ = *std::move(made);
   }

@@ -36,10 +36,10 @@ Developed TemporalPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       },
       [scene, motions, words, kept_words, depth, kept_depth, kept_mixed, shaded, water, mixed, out,
        step = in.plan.step,
-       program = gpu::compute(pipelines, programs::kMixFrames,
-                              {{shared::kTranslucentConstant, water ? 1u : 0u},
-                               {shared::kCloudLayerConstant, in.clouds ? 1u : 0u}})](
-          gpu::Commands& c) {
+       program =
+           gpu::compute(pipelines, programs::kMixFrames,
+                        {{shared::kTranslucentConstant, water ? 1u : 0u},
+                         {shared::kCloudLayerConstant, in.clouds ? 1u : 0u}})](gpu::Commands& c) {
         const VkSampler point = scene.point_sampler;
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::texels<shared::kMotionsBinding>(motions),

@@ -155,8 +155,8 @@ Result<void> Renderer::State::check(const FramePlan& plan) const {
 /// Makes what the frame's passes write to and what outlives them. May fail half-way: what has been
 /// made stays, and the history is about what was there before (see generations).
 Result<void> Renderer::State::make_room(const FramePlan& plan) {
-  if (Result<void> ok = picture.resize({plan.shown, plan.picture, plan.temporal.has_value()}, samples_per_edge(plan.settings),
-                                       plan.input.parts);
+  if (Result<void> ok = picture.resize({plan.shown, plan.picture, plan.temporal.has_value()},
+                                       samples_per_edge(plan.settings), plan.input.parts);
       !ok)
     return ok;
   if (plan.temporal)

@@ -24,10 +24,11 @@ FrameStep draw_geometry_step() {
               KeptFrames::Frame& now = f.owners.kept.of(f.plan.temporal->frame);
               kept = {f.graph.import(now.surfaces), f.graph.import(now.depth)};
             }
-            f.geometry = GeometryPass::add(
-                f.graph, f.pipelines, f.scene, *f.draws,
-                {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
-                 samples_per_edge(f.plan.settings) > 1 || f.plan.temporal, f.plan.input.capture, kept});
+            f.geometry =
+                GeometryPass::add(f.graph, f.pipelines, f.scene, *f.draws,
+                                  {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
+                                   samples_per_edge(f.plan.settings) > 1 || f.plan.temporal,
+                                   f.plan.input.capture, kept});
           }};
 }
 

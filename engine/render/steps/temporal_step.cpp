@@ -16,13 +16,13 @@ const char* needs_mixing(const FramePlan& plan) {
 }  // namespace
 
 FrameStep mix_frames_step() {
-  return {{{needs_mixing, {"mix_frames"}}}, [](FrameAssembly& f) {
-            const bool clouds = f.plan.clouds && f.plan.clouds->in_view;
-            f.developed = TemporalPass::add(
-                f.graph, f.pipelines, f.scene, *f.geometry, *std::move(f.developed),
-                {*f.plan.temporal, f.owners.kept, f.owners.picture.image(),
-                 f.layers.depth[0], clouds});
-          }};
+  return {
+      {{needs_mixing, {"mix_frames"}}}, [](FrameAssembly& f) {
+        const bool clouds = f.plan.clouds && f.plan.clouds->in_view;
+        f.developed = TemporalPass::add(
+            f.graph, f.pipelines, f.scene, *f.geometry, *std::move(f.developed),
+            {*f.plan.temporal, f.owners.kept, f.owners.picture.image(), f.layers.depth[0], clouds});
+      }};
 }
 
 }  // namespace skerry::render

@@ -1,4 +1,5 @@
-// Pictures mixed over time (aa=temporal), against many samples of single frames. docs/decisions/0048.
+// Pictures mixed over time (aa=temporal), against many samples of single frames.
+// docs/decisions/0048.
 #include "engine/render/plan/temporal_plan.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ world::BlockId ground(int, int y, int) {
 /// A light block before the ground's dark one.
 world::BlockId tower(int x, int y, int z) {
   return x >= 0 && x < 3 && y >= 0 && y < 5 && z >= 0 && z < 3 ? world::block::kSnow
-                                                              : world::block::kAirBlock;
+                                                               : world::block::kAirBlock;
 }
 
 double light_of(std::uint8_t encoded) {
@@ -128,8 +129,8 @@ TEST(TemporalJitter, CoversThePixelEvenlyAndBeginsAtItsCentre) {
     EXPECT_LE(std::max(std::abs(at.x), std::abs(at.y)), 0.5f);
     EXPECT_EQ(at, temporal_jitter(frame + 16));
     sum += at;
-    quarters.insert({static_cast<int>(std::floor(at.x * 4.0f)),
-                     static_cast<int>(std::floor(at.y * 4.0f))});
+    quarters.insert(
+        {static_cast<int>(std::floor(at.x * 4.0f)), static_cast<int>(std::floor(at.y * 4.0f))});
   }
   EXPECT_EQ(temporal_jitter(0), glm::vec2(0.0f));
   EXPECT_LT(glm::length(sum / 16.0), 0.06);

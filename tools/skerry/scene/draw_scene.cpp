@@ -96,8 +96,7 @@ Result<std::unique_ptr<SceneDrawer>> SceneDrawer::create(gpu::Device& device,
 }
 
 Result<std::uint64_t> SceneDrawer::draw_frame(bool with_radiance) {
-  game::SceneView::Moment moment{view_->start_camera(),
-                                 static_cast<double>(scene_.time_of_day_s),
+  game::SceneView::Moment moment{view_->start_camera(), static_cast<double>(scene_.time_of_day_s),
                                  scene_.settings.world_time_s, false, with_radiance};
   moment.exposure_ev = exposure_ev_;
   return view_->draw(moment, {scene_.size.width, scene_.size.height});
