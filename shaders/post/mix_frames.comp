@@ -22,10 +22,14 @@ layout(binding = kKeptDepthsBinding) uniform sampler2D kept_depths;
 layout(binding = kKeptPictureBinding) uniform sampler2D kept_picture;
 layout(binding = kMixedPictureBinding, rgba16f) writeonly uniform image2D mixed;  // light of the display; alpha: see Mixed
 layout(binding = kPictureBinding, rgba8) writeonly uniform image2D picture;
+layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // find_mixed_tiles.comp
+layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[2]; };
 layout(push_constant, scalar) uniform Push { TemporalStep step; } push;
 
 layout(constant_id = kTranslucentConstant) const bool kTranslucent = false;  // there is water or glass
 layout(constant_id = kCloudLayerConstant) const bool kClouds = false;        // there are clouds before the sky
+
+layout(constant_id = kPlaneConstant) const bool kPlane = false;  // of tiles that show one plane alone
 
 #include "include/scene/coverage.glsl"
 
@@ -34,6 +38,7 @@ const float kFramesInside = 4.0, kFramesAtEdges = 8.0;
 const float kFramesInsideAtRest = 16.0, kFramesAtEdgesAtRest = 32.0;
 const float kApart = 0.1;          // pixels a frame: surfaces that move apart by more are bounded by colours
 const float kBounded = 64.0;       // added to the count where they do
+const float kSeveral = 128.0;      // added where a pixel shows several surfaces
 
 vec4 row_of(uint mover, uint row) { return uintBitsToFloat(texelFetch(motions, int(mover * kMotionTexels + row))); }
 
@@ -144,6 +149,9 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
   vec4 sum = vec4(0.0);
   float all = 0.0;
   bool bounded = false;
+  // Reverse depths of the 3x3 surfaces, as the last frame had them.
+  float since = motion.depth / max(a.depths[nearest], 1e-9);
+  float low = a.depths[farthest] * since * 0.97, high = a.depths[nearest] * since * 1.03;
   for (int i = 0; i < 4; ++i) {
     vec2 corner = vec2(i & 1, i >> 1);
     float weight = (corner.x > 0.0 ? between.x : 1.0 - between.x) * (corner.y > 0.0 ? between.y : 1.0 - between.y);
@@ -155,15 +163,16 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
     if (edge) {
       taken = false;
       for (int k = 0; k < 9; ++k) taken = taken || word == a.words[k];
+      taken = taken && depth >= low && depth <= high;
     } else {
       vec2 away = vec2(at) + push.step.last_sample - (sampled + motion.by);
       float expected = motion.depth + dot(slope, away);
       taken = word == a.words[4] && abs(depth - expected) <= 4.0 * push.step.bend * max(depth, expected) + 0.25 * (abs(slope.x) + abs(slope.y));
     }
     // What the jitter has missed this time: it is as far, and has moved as this has.
-    if (!changed && mover_of(word) == mover) taken = taken || length(moved(by_nearest, sampled, depth).by - motion.by) < 0.25;
+    if (!changed && mover_of(word) == mover) taken = taken || length(moved(by_nearest, sampled, depth / max(since, 1e-9)).by - motion.by) < 0.25;
     if (!taken && !anything) continue;
-    if (weight > 0.02 && texel.a >= kBounded) bounded = true;
+    if (weight > 0.02 && mod(texel.a, kSeveral) >= kBounded) bounded = true;
     sum += vec4(texel.rgb, mod(texel.a, kBounded)) * weight;
     all += weight;
   }
@@ -173,25 +182,66 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
   return Mixed(sum.rgb, sum.a * min(1.0, all * 2.0), bounded);
 }
 
+// Where a tile shows one plane: the surface alone says what is taken over. @param frames mixed so far, 0: none.
+vec3 taken_over_on_plane(ivec2 pixel, out float frames, out bool at_rest) {
+  frames = 0.0;
+  float depth = texelFetch(depths, pixel, 0).r;
+  uint word = covered_word(imageLoad(surfaces, pixel).r, depth);
+  // Within the tile, so that both are of the plane.
+  ivec2 side = ivec2((pixel.x & 7) < 7 ? 1 : -1, (pixel.y & 7) < 7 ? 1 : -1);
+  vec2 slope = vec2(texelFetch(depths, in_picture(pixel + ivec2(side.x, 0)), 0).r, texelFetch(depths, in_picture(pixel + ivec2(0, side.y)), 0).r);
+  slope = (slope - depth) * vec2(side);
+  vec2 sampled = vec2(pixel) + frame.sample_in_pixel;
+  Moved motion = moved(motion_of(mover_of(word)), sampled, depth);
+  at_rest = all(lessThan(abs(motion.by), vec2(1.0 / 256.0)));
+  vec2 from = vec2(pixel) + 0.5 + (at_rest ? vec2(0.0) : motion.by);
+  ivec2 at = in_picture(ivec2(floor(from)));
+  float there = texelFetch(kept_depths, at, 0).r;
+  uint kept_word = covered_word(imageLoad(kept_surfaces, at).r, there);
+  float expected = motion.depth + dot(slope, vec2(at) + push.step.last_sample - (sampled + motion.by));
+  bool same = kept_word == word && abs(there - expected) <= 4.0 * push.step.bend * max(there, expected) + 0.25 * (abs(slope.x) + abs(slope.y));
+  same = same && motion.depth >= 0.0 && all(greaterThanEqual(from, vec2(0.0))) && all(lessThanEqual(from, vec2(frame.size)));
+  // Of the four pixels about the place: more than it can be where one of them showed several surfaces. At rest it is one pixel's.
+  float count = textureLod(kept_picture, from / vec2(frame.size), 0.0).a;
+  bool clean = at_rest ? mod(count, kSeveral) < kBounded : count < kFramesInsideAtRest + 1.0;
+  if (same && clean) frames = mod(count, kBounded);
+  return sharply(from);
+}
+
+// Light of the display under this frame's exposure, by a curve that bends as the tone curves do.
+vec3 exposed_now(vec3 light) { return light * push.step.exposure_ratio / (1.0 + (push.step.exposure_ratio - 1.0) * light); }
+
+void show(ivec2 pixel, vec3 before, float frames, float flags) {
+  vec3 light = mix(before, light_of(texelFetch(fresh, pixel, 0).rgb), 1.0 / frames);
+  imageStore(mixed, pixel, vec4(light, frames + flags));
+  imageStore(picture, pixel, vec4(floor(sqrt(light) * 255.0 + 0.5) / 255.0, 1.0));
+}
+
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  uvec2 count = (frame.size + (kTileEdge - 1u)) / kTileEdge;
+  uint kind = kPlane ? 1u : 0u, slot = gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x;
+  if (slot >= dispatches[kind].tiles) return;
+  uint tile = tiles[kind * count.x * count.y + slot];
+  ivec2 pixel = ivec2(uvec2(tile & 0xffffu, tile >> 16) * kTileEdge + gl_LocalInvocationID.xy);
   if (any(greaterThanEqual(pixel, ivec2(frame.size)))) return;
+  bool at_rest = false;
+  if (kPlane) {
+    float frames;
+    vec3 before = taken_over_on_plane(pixel, frames, at_rest);
+    show(pixel, exposed_now(before), min(frames, (at_rest ? kFramesInsideAtRest : kFramesInside) - 1.0) + 1.0, 0.0);
+    return;
+  }
   Around a = around(pixel);
   bool edge = is_edge(a);
   bool seen_through = kTranslucent && layer_depth_at(water_depths, pixel, frame.layers_area) > 0.0;
   seen_through = seen_through || (kClouds && a.words[4] == 0u);
   bool changed = in_area(uvec2(pixel), push.step.changed_area);
   float apart = 0.0;
-  bool at_rest = false;
   Mixed so_far = kNone;
   if (push.step.kept != 0u) so_far = taken_over(pixel, a, edge, seen_through, changed, apart, at_rest);
-  // Light of the display under this frame's exposure, by a curve that bends as the tone curves do.
-  so_far.light = so_far.light * push.step.exposure_ratio / (1.0 + (push.step.exposure_ratio - 1.0) * so_far.light);
+  so_far.light = exposed_now(so_far.light);
   bool bounded = so_far.bounded || seen_through || changed || apart > kApart;
   so_far.light = within_around(so_far.light, pixel, bounded);
   float most = at_rest ? (edge ? kFramesAtEdgesAtRest : kFramesInsideAtRest) : edge ? kFramesAtEdges : kFramesInside;
-  float frames = min(so_far.frames, most - 1.0) + 1.0;
-  vec3 light = mix(so_far.light, light_of(texelFetch(fresh, pixel, 0).rgb), 1.0 / frames);
-  imageStore(mixed, pixel, vec4(light, frames + (apart > kApart ? kBounded : 0.0)));
-  imageStore(picture, pixel, vec4(floor(sqrt(light) * 255.0 + 0.5) / 255.0, 1.0));
+  show(pixel, so_far.light, min(so_far.frames, most - 1.0) + 1.0, (apart > kApart ? kBounded : 0.0) + (edge ? kSeveral : 0.0));
 }

@@ -18,7 +18,7 @@ struct Motion {
 struct TemporalStep {
   uvec4 changed_area;    // from xy to before zw: sections came or went there since the last frame
   vec2 last_sample;      // FrameConstants.sample_in_pixel of the last frame
-  float exposure_ratio;  // of the light that this frame's exposure lets in, and the last one's
+  float exposure_ratio;  // of dark light of the display under this exposure and the last one
   float bend;            // of reverse depth, as a share of it: less is a plane
   uint sky;              // index of the sky's Motion; the islands' come before
   uint kept;             // 1: there is a last frame

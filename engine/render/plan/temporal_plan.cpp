@@ -19,6 +19,8 @@ namespace {
 constexpr std::uint32_t kJitterFrames = 16;
 /// Of a pixel: textures are filtered for less, since frames that are mixed filter them, too.
 constexpr float kTexelFootprint = 0.5f;
+/// Of display light by exposure, both as logarithms, in the dark: ACES has 1.26 to 1.5.
+constexpr float kSlopeOfTone = 1.4f;
 constexpr float kMostExposureStep = 0.5f;  // stops between two frames that are mixed
 // Cosine of the angle that sun and moon may move between two frames that are mixed: 0.2 degrees,
 // more than half a minute of the day.
@@ -139,7 +141,7 @@ std::optional<TemporalPlan> plan_temporal(const FrameInput& input, const RenderS
   plan.motions = motions(input, *history.previous, drawn);
   plan.step.kept = 1;
   plan.step.last_sample = 0.5f + temporal_jitter(last->frames - 1);
-  plan.step.exposure_ratio = std::exp2(last->exposure_ev - plan.next.exposure_ev);
+  plan.step.exposure_ratio = std::exp2(kSlopeOfTone * (last->exposure_ev - plan.next.exposure_ev));
   plan.step.changed_area = changed_area(facts, tables, last->geometry_version);
   return plan;
 }

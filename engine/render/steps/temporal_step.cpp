@@ -17,7 +17,7 @@ const char* needs_mixing(const FramePlan& plan) {
 
 FrameStep mix_frames_step() {
   return {
-      {{needs_mixing, {"mix_frames"}}}, [](FrameAssembly& f) {
+      {{needs_mixing, {"find_mixed_tiles", "mix_planes", "mix_edges"}}}, [](FrameAssembly& f) {
         const bool clouds = f.plan.clouds && f.plan.clouds->in_view;
         f.developed = TemporalPass::add(
             f.graph, f.pipelines, f.scene, *f.geometry, *std::move(f.developed),
