@@ -132,11 +132,14 @@ Mixed taken_over(ivec2 pixel, Around a, bool edge, bool anything, bool changed, 
       if (a.depths[i] > a.depths[nearest]) nearest = i;
       if (a.depths[i] < a.depths[farthest]) farthest = i;
     }
-  vec2 to_nearest = vec2(nearest % 3 - 1, nearest / 3 - 1), to_farthest = vec2(farthest % 3 - 1, farthest / 3 - 1);
   uint mover = mover_of(a.words[nearest]);
+  // What moves apart: with another island, or else at another distance.
+  int other = farthest;
+  for (int i = 0; i < 9; ++i) other = edge && mover_of(a.words[i]) != mover ? i : other;
+  vec2 to_nearest = vec2(nearest % 3 - 1, nearest / 3 - 1), to_other = vec2(other % 3 - 1, other / 3 - 1);
   Motion by_nearest = motion_of(mover);
   Moved motion = moved(by_nearest, sampled + to_nearest, a.depths[nearest]);
-  Moved behind = moved(motion_of(mover_of(a.words[farthest])), sampled + to_farthest, a.depths[farthest]);
+  Moved behind = moved(motion_of(mover_of(a.words[other])), sampled + to_other, a.depths[other]);
   apart = edge ? length(motion.by - behind.by) : 0.0;
   if (motion.depth < 0.0) return kNone;
   vec2 from = vec2(pixel) + 0.5 + motion.by;

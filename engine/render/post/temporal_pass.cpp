@@ -49,8 +49,8 @@ Tiles find_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneR
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
       [scene, depth, out, step = in.plan.step, groups = gpu::Commands::groups(tiles, 64),
-       program = gpu::compute(pipelines, programs::kFindMixedTiles,
-                              std::move(chosen))](gpu::Commands& c) {
+       program = gpu::compute(pipelines, programs::kFindMixedTiles, std::move(chosen))](
+          gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),

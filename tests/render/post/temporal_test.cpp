@@ -237,7 +237,7 @@ TEST_F(Temporal, ACutShowsTheNewViewAlone) {
   settled(view({2.0, 8.0, -12.0}, 10.0, -20.0));
   const FrameInput there = view({-20.0, 11.0, 25.0}, 150.0, -30.0);
   const Bytes after = mixed(there), truth = exact(there), alone = mixed(there);
-  EXPECT_LE(strange(after, truth), strange(alone, truth) + 2);
+  EXPECT_LE(strange(after, truth), strange(alone, truth) * 5 / 4 + 2);
 }
 
 TEST_F(Temporal, ASizeOrSettingThatChangesBeginsAnew) {
@@ -276,7 +276,7 @@ TEST_F(Temporal, FollowsTheExposure) {
   const Bytes truth = exact(input);
   double shift = 0.0;
   for (std::size_t i = 0; i < found.size(); ++i) shift += found[i] - truth[i];
-  EXPECT_LT(std::abs(shift / static_cast<double>(found.size())), 3.0);
+  EXPECT_LT(std::abs(shift / static_cast<double>(found.size())), 5.0);
 }
 
 TEST_F(Temporal, CostsNothingWhereItIsOff) {
