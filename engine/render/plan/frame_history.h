@@ -4,7 +4,7 @@
 
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/light/shadow_plan.h"
-#include "engine/render/plan/temporal_plan.h"
+#include "engine/render/plan/temporal_history.h"
 #include "engine/render/sky/cloud_plan.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/sky.h"

@@ -8,22 +8,12 @@
 #include "engine/render/frame/settings.h"
 #include "engine/render/plan/frame_tables.h"
 #include "engine/render/plan/scene_facts.h"
+#include "engine/render/plan/temporal_history.h"
 #include "shaders/shared/temporal.h"
 
 namespace skerry::render {
 
 struct FrameHistory;
-
-/// What the last frame has left to mix the next one with (`aa=temporal`).
-struct TemporalHistory {
-  std::uint64_t generation = 0;        ///< of the images, see KeptFrames
-  std::uint64_t geometry_version = 0;  ///< of what they show
-  std::uint32_t frames = 0;            ///< that have gone into it
-  VkExtent2D drawn{};
-  RenderSettings settings;
-  Celestial sky{};
-  float exposure_ev = 0.0f;
-};
 
 /// How a frame is drawn and mixed with the ones before.
 struct TemporalPlan {

@@ -14,7 +14,6 @@
 #include "engine/render/steps/shade_step.h"
 #include "engine/render/steps/shadow_step.h"
 #include "engine/render/steps/sky_table_step.h"
-#include "engine/render/steps/temporal_step.h"
 #include "engine/render/steps/water_steps.h"
 
 namespace skerry::render {
