@@ -135,6 +135,7 @@ Result<Drawn> SceneDrawer::draw(bool with_radiance) {
 }
 
 Result<std::vector<render::FrameReport>> SceneDrawer::time(int count, bool keep_shadows) {
+  if (Result<void> settled = settle(); !settled) return settled.error();
   std::vector<render::FrameReport> out;
   for (int i = 0; i < count; ++i) {
     if (!keep_shadows) view_->renderer().invalidate_shadows();
