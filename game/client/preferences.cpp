@@ -15,12 +15,12 @@ namespace {
 
 /// What the screen shows. Everything else belongs to a scene, not to a player.
 constexpr std::string_view kKept[] = {
-    "view.distance",  "view.detail",      "render.scale",   "shadow.enabled",  "shadow.size",
-    "lights.shadows", "ao.strength",      "indirect",       "bloom.intensity", "aa.samples",
-    "water.layers",   "display.peak",     "display.black",  "clouds.coverage", "frames.wanted",
-    "frames.cap",     "frames.unfocused", "frames.sync",    "sound.master",    "sound.effects",
-    "sound.ambience", "sound.interface",  "sound.captions", "ui.scale",        "ui.language",
-    "play.sprint",    "play.crouch",      "play.repeat"};
+    "view.distance",  "view.detail",    "render.scale",     "shadow.enabled",  "shadow.size",
+    "lights.shadows", "ao.strength",    "indirect",         "bloom.intensity", "aa",
+    "aa.samples",     "water.layers",   "display.peak",     "display.black",   "clouds.coverage",
+    "frames.wanted",  "frames.cap",     "frames.unfocused", "frames.sync",     "sound.master",
+    "sound.effects",  "sound.ambience", "sound.interface",  "sound.captions",  "ui.scale",
+    "ui.language",    "play.sprint",    "play.crouch",      "play.repeat"};
 
 constexpr std::string_view kAuto = "auto";  // as a quality: play chooses
 

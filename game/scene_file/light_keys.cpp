@@ -9,7 +9,7 @@
 namespace skerry::game {
 namespace {
 
-constexpr std::array<std::string_view, 2> kAntialiasingNames{"off", "edge"};
+constexpr std::array<std::string_view, 3> kAntialiasingNames{"off", "edge", "temporal"};
 constexpr std::array<std::string_view, 3> kSampleNames{"1", "4", "16"};
 constexpr std::array<std::string_view, 5> kTapNames{"1", "4", "8", "16", "32"};
 constexpr std::array<std::string_view, 6> kNormalNames{"exact", "oct8",    "oct16",
@@ -30,9 +30,10 @@ Result<void> parse_shadow_size(std::string_view text, Settings& s) {
 }
 
 constexpr SettingKey kLightKeys[] = {
-    {"aa", "off or edge",
+    {"aa", "off, edge or temporal",
      "Smooth edges of blocks, leaves and plants. edge: each pixel at an edge shows both sides by "
-     "the share that they cover.",
+     "the share that they cover; temporal: by what earlier frames saw at other places of the "
+     "pixel.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "aa", kAntialiasingNames), s.render.aa);
      },

@@ -228,6 +228,33 @@ void show_light_knobs(Settings& settings, Rows& rows) {
            [&] { return slide_part(settings.render.bloom.intensity, 0.0f, 0.2f, "%.2f"); });
 }
 
+/// One choice of two keys, aa and aa.samples.
+void show_edge_knob(render::RenderSettings& settings, Rows& rows) {
+  using render::Antialiasing;
+  struct Way {
+    Antialiasing aa;
+    int samples;
+  };
+  constexpr Way kWays[] = {{Antialiasing::kOff, 1},
+                           {Antialiasing::kEdge, 1},
+                           {Antialiasing::kTemporal, 1},
+                           {Antialiasing::kOff, 4},
+                           {Antialiasing::kOff, 16}};
+  constexpr int kPlaces[] = {0, 1, 2, 3, 4};
+  int way = settings.aa_samples == 16  ? 4
+            : settings.aa_samples == 4 ? 3
+                                       : static_cast<int>(settings.aa);
+  const int before = way;
+  rows.choice(word("Smooth edges"), Knob::kAntialiasing, way, kPlaces, [&](int at) {
+    if (kWays[at].samples > 1) return tr_format("{} samples", kWays[at].samples);
+    const char* const names[] = {tr("off"), tr("of blocks"), tr("over time")};
+    return std::string(names[at]);
+  });
+  if (way == before) return;
+  settings.aa = kWays[way].aa;
+  settings.aa_samples = kWays[way].samples;
+}
+
 void show_knobs(const ScreenFacts& facts, Rows& rows) {
   Settings& settings = *facts.settings;
   show_level(facts, rows);
@@ -239,11 +266,7 @@ void show_knobs(const ScreenFacts& facts, Rows& rows) {
     return slide_part(settings.render.render_scale, 0.25f, 1.0f, tr("%.2f of the window"));
   });
   show_light_knobs(settings, rows);
-  constexpr int kSamples[] = {1, 4, 16};
-  rows.choice(word("Smooth edges"), Knob::kAntialiasing, settings.render.aa_samples, kSamples,
-              [&](int at) {
-                return at == 0 ? std::string(tr("off")) : tr_format("{} samples", kSamples[at]);
-              });
+  show_edge_knob(settings.render, rows);
   constexpr int kLayers[] = {1, 2, 3, 4};
   rows.choice(word("Layers of water and glass"), Knob::kWater, settings.render.water_layers,
               kLayers, [&](int at) { return std::to_string(kLayers[at]); });

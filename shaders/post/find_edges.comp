@@ -34,45 +34,13 @@ uint first_slot(uint list, uint count, uint per_group) {
   return subgroupBroadcastFirst(first) + before;
 }
 
-struct Sample {
-  vec2 place;
-  float depth;
-};
-
-Sample sample_at(ivec2 pixel) {
-  pixel = clamp(pixel, ivec2(0), ivec2(frame.size) - 1);
-  return Sample(vec2(pixel), texelFetch(depths, pixel, 0).r);
-}
-
-// The plane through three pixels at a tile's corners.
-struct Plane {
-  vec2 place, slope;
-  float depth;
-};
-
-Plane plane_through(Sample a, Sample b, Sample c) {
-  vec2 ab = b.place - a.place, ac = c.place - a.place;
-  vec2 rise = vec2(b.depth, c.depth) - a.depth;
-  return Plane(a.place, vec2(rise.x * ac.y - rise.y * ab.y, rise.y * ab.x - rise.x * ac.x) / (ab.x * ac.y - ab.y * ac.x), a.depth);
-}
-
-bool lies_on(Plane plane, Sample s) {
-  return abs(plane.depth + dot(plane.slope, s.place - plane.place) - s.depth) <= push.bend * max(plane.depth, s.depth);
-}
-
-// Pixels of the tile and of those beside it, some in each of its rows and columns: a line across the tile is met wherever it lies.
-bool is_plane(ivec2 low) {
-  Plane plane = plane_through(sample_at(low - 1), sample_at(low + ivec2(8, 0)), sample_at(low + ivec2(0, 8)));
-#define on(x, y) lies_on(plane, sample_at(low + ivec2(x, y)))
-  bool inner = on(1, 3) && on(2, 6) && on(3, 1) && on(4, 4) && on(5, 7) && on(6, 2) && on(7, 5);
-  return inner && on(8, 6) && on(-1, 2) && on(-1, 6) && on(2, -1) && on(6, -1) && on(5, 8);
-}
+#include "include/post/plane_tiles.glsl"
 
 void list_tiles() {
   uvec2 count = (frame.size + (kTileEdge - 1u)) / kTileEdge;
   uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
   uvec2 at = uvec2(tile % count.x, tile / count.x);
-  bool wanted = tile < count.x * count.y && !is_plane(ivec2(at * kTileEdge));
+  bool wanted = tile < count.x * count.y && !is_plane(ivec2(at * kTileEdge), push.bend);
   uint slot = first_slot(0u, uint(wanted), 64u / kEdgeParts);
   if (wanted) tiles[slot] = at.x | (at.y << 16);
 }

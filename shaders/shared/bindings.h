@@ -109,5 +109,13 @@ SHARED_CONST uint kMeteredBinding = 77u;        // luminance of the pixels that 
 // Pixels at edges of surfaces: EdgePixel[].
 SHARED_CONST uint kEdgePixelsBinding = 78u;
 
+// Pictures mixed with those of earlier frames.
+SHARED_CONST uint kFreshPictureBinding = 79u;  // of this frame alone
+SHARED_CONST uint kKeptSurfacesBinding = 80u;  // words of the last frame
+SHARED_CONST uint kKeptDepthsBinding = 81u;    // of the last frame
+SHARED_CONST uint kKeptPictureBinding = 82u;   // mixed, of the last frame
+SHARED_CONST uint kMixedPictureBinding = 83u;  // the same, of this one
+SHARED_CONST uint kMotionsBinding = 84u;       // texels of Motion[]
+
 SHARED_END
 #endif

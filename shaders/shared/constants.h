@@ -59,6 +59,7 @@ SHARED_CONST uint kCountPixelsConstant = 55u;  // bool: counts of PixelStats are
 SHARED_CONST uint kRunConstant = 56u;          // uint: pixels of a row that an invocation takes
 SHARED_CONST uint kGroupSizeConstant = 57u;    // uint: invocations of a work group
 SHARED_CONST uint kStoreConstant = 58u;        // bool: what was found is stored
+SHARED_CONST uint kPlaneConstant = 59u;        // bool: tiles that show one plane alone
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

@@ -7,6 +7,10 @@ SHARED_BEGIN
 
 SHARED_CONST uint kEdgeParts = 2u;  // of a tile, four columns each: what an invocation looks at
 
+// How far reverse depth may bend on a plane, of what it bends where two faces of a block meet that
+// are seen alike. Rounding bends it a hundred times less.
+SHARED_CONST float kBendOfPlane = 0.05f;
+
 // A pixel at an edge. Its picture is read before any is written.
 struct EdgePixel {
   uint place;   // x in bits 0-15, y in bits 16-31

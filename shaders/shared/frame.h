@@ -42,8 +42,12 @@ struct FrameConstants {
                    // of view
   vec3 ray_up;
   vec3 ray_forward;
-  vec2 pixel_to_ndc;  // 2 / image size
-  uvec2 size;         // of the images that are drawn [pixels]
+  vec2 pixel_to_ndc;     // 2 / image size
+  vec2 sample_in_pixel;  // place that is sampled, from the pixel's corner [pixels]: 0.5, its
+                         // centre, unless pictures are mixed over time
+  vec2 texel_footprint;  // pixel_to_ndc, or less where several frames make a pixel: textures show
+                         // what is that large
+  uvec2 size;            // of the images that are drawn [pixels]
   uvec4 layers_area;  // from xy to before zw: pixels outside show no water or glass, and its layers
                       // have any value there
   uvec4 radiance_area;   // from xy to before zw: pixels whose radiance goes to an image before it

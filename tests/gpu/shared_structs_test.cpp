@@ -27,6 +27,7 @@
 #include "shaders/shared/occupancy.h"
 #include "shaders/shared/overlay.h"
 #include "shaders/shared/sky.h"
+#include "shaders/shared/temporal.h"
 #include "tests/gpu/compile_glsl.h"
 
 namespace skerry::shared {
@@ -83,6 +84,7 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(FrameConstants, MEMBER(FrameConstants, clip_from_world),
              MEMBER(FrameConstants, ray_right), MEMBER(FrameConstants, ray_up),
              MEMBER(FrameConstants, ray_forward), MEMBER(FrameConstants, pixel_to_ndc),
+             MEMBER(FrameConstants, sample_in_pixel), MEMBER(FrameConstants, texel_footprint),
              MEMBER(FrameConstants, size), MEMBER(FrameConstants, layers_area),
              MEMBER(FrameConstants, radiance_area), MEMBER(FrameConstants, picture_size),
              MEMBER(FrameConstants, near_plane), MEMBER(FrameConstants, display_peak),
@@ -161,6 +163,10 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(MarkerConstants, end), MEMBER(MarkerConstants, half_width),
              MEMBER(MarkerConstants, dug)),
       STRUCT(EdgePixel, MEMBER(EdgePixel, place), MEMBER(EdgePixel, colour)),
+      STRUCT(Motion, MEMBER(Motion, x), MEMBER(Motion, y), MEMBER(Motion, w)),
+      STRUCT(TemporalStep, MEMBER(TemporalStep, changed_area), MEMBER(TemporalStep, last_sample),
+             MEMBER(TemporalStep, exposure_ratio), MEMBER(TemporalStep, bend),
+             MEMBER(TemporalStep, sky), MEMBER(TemporalStep, kept)),
       STRUCT(OverlayConstants, MEMBER(OverlayConstants, ndc_from_pixel)),
   };
 #undef STRUCT

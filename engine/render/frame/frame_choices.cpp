@@ -26,6 +26,15 @@ VkExtent2D picture_size(VkExtent2D shown, const RenderSettings& settings) {
   return {scaled(shown.width), scaled(shown.height)};
 }
 
+const char* why_not_temporal(const FrameInput& input, const RenderSettings& settings) {
+  if (settings.aa != Antialiasing::kTemporal) return "aa is not temporal";
+  if (shows_channel(settings)) return "a debug view is shown";
+  if (samples_per_edge(settings) > 1) return "aa.samples smooths the edges";
+  if (settings.gbuffer.depth == DepthStore::kD16) return "gbuffer.depth=d16";
+  if (input.parts != 1) return "the picture has parts";
+  return input.exposure_ev ? nullptr : "the frame chooses its own exposure";
+}
+
 bool meters(const FrameInput& input, const RenderSettings& settings) {
   return input.meter || !input.exposure_ev || settings.debug_view == DebugView::kExposure;
 }

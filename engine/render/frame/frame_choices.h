@@ -13,6 +13,8 @@ int samples_per_edge(const RenderSettings& settings);
 VkExtent2D picture_size(VkExtent2D shown, const RenderSettings& settings);
 /// shadow.blur of this frame: many parts blur edges exactly.
 float shadow_blur(const FrameInput& input, const RenderSettings& settings);
+/// Null: `aa=temporal` mixes the frame with earlier ones. Else why not.
+const char* why_not_temporal(const FrameInput& input, const RenderSettings& settings);
 /// Whether the frame's radiance is metered.
 bool meters(const FrameInput& input, const RenderSettings& settings);
 

@@ -83,6 +83,7 @@ class Developed {
   friend struct MarkerPass;
   friend struct EnlargePass;
   friend struct EdgePass;
+  friend struct TemporalPass;
   explicit Developed(gpu::ImageRef picture) : picture_(picture) {}
   gpu::ImageRef picture_;
 };

@@ -41,7 +41,8 @@ struct GBufferStore {
 /// How edges of surfaces are smoothed where a pixel has one sample. docs/decisions/0043.
 enum class Antialiasing : std::uint8_t {
   kOff,
-  kEdge  ///< by the share of a pixel that each side of an edge covers
+  kEdge,     ///< by the share of a pixel that each side of an edge covers
+  kTemporal  ///< by what earlier frames have seen at other places of the pixel. decisions/0048
 };
 
 /// From exposed radiance to what a display can show.

@@ -4,6 +4,7 @@
 
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/light/shadow_plan.h"
+#include "engine/render/plan/temporal_history.h"
 #include "engine/render/sky/cloud_plan.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/sky.h"
@@ -30,7 +31,8 @@ struct FrameHistory {
   std::optional<shared::SkyConstants> baked_sky;  ///< that the sky table shows; none: nothing yet
   CloudHistory clouds;
   std::optional<FrozenView> frozen;
-  std::optional<PreviousFrame> previous;  ///< none before the first frame
+  std::optional<TemporalHistory> temporal;  ///< none: the last frame was not kept
+  std::optional<PreviousFrame> previous;    ///< none before the first frame
 };
 
 }  // namespace skerry::render

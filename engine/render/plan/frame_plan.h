@@ -11,6 +11,7 @@
 #include "engine/render/plan/frame_history.h"
 #include "engine/render/plan/frame_tables.h"
 #include "engine/render/plan/scene_facts.h"
+#include "engine/render/plan/temporal_plan.h"
 #include "engine/render/sky/cloud_plan.h"
 #include "shaders/shared/marker.h"
 
@@ -36,7 +37,8 @@ struct FramePlan {
   FrameContents contents;
   std::optional<CloudPlan> clouds{};                ///< none: the frame has none
   std::optional<shared::MarkerConstants> marker{};  ///< none: none is in view
-  std::uint32_t marked_slices = 0;                  ///< see ClusterPicture
+  std::optional<TemporalPlan> temporal{};  ///< none: the frame is not mixed with earlier ones
+  std::uint32_t marked_slices = 0;         ///< see ClusterPicture
 
   std::vector<std::size_t> steps{};      ///< indices of frame_steps(), in order
   std::vector<gpu::LeftOut> left_out{};  ///< passes and features it lacks, with reasons

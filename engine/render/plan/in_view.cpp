@@ -159,6 +159,30 @@ std::optional<glm::uvec4> translucent_area(const SceneFacts& facts, const FrameT
   return glm::uvec4(x.x, y.x, std::max(x.y, x.x + 1), std::max(y.y, y.x + 1));
 }
 
+glm::uvec4 changed_area(const SceneFacts& facts, const FrameTables& tables, std::uint64_t version) {
+  constexpr std::uint32_t kAbout = 8;  // pixels that islands may have moved since, and jitter
+  const shared::FrameConstants& frame = tables.constants;
+  const glm::uvec4 all(0, 0, frame.size.x, frame.size.y);
+  const auto changed = facts.changes->since(version);
+  if (!changed) return all;
+  Projected on_picture;
+  bool any = false;
+  for (const shared::Section& s : *changed) {
+    // A section that went may have taken its island with it.
+    if (s.island >= tables.islands.size() / tables.views.size()) return all;
+    const shared::IslandTransform& t = tables.islands[s.island];
+    const LatticeBox box(s, {s.bounds_min, s.bounds_max});
+    if (!touches(tables.views[0], t, box)) continue;
+    any = true;
+    on_picture.add(t, box, frame);
+  }
+  if (!any) return glm::uvec4(0);
+  const glm::uvec2 x = pixels_between(on_picture.low.x, on_picture.high.x, frame.size.x);
+  const glm::uvec2 y = pixels_between(on_picture.low.y, on_picture.high.y, frame.size.y);
+  return {x.x - std::min(x.x, kAbout), y.x - std::min(y.x, kAbout),
+          std::min(x.y + kAbout, frame.size.x), std::min(y.y + kAbout, frame.size.y)};
+}
+
 bool clouds_in_view(const shared::CloudConstants& clouds, bool layer, std::size_t volumes,
                     const shared::FrameConstants& frame) {
   if (layer && layer_in_view(clouds.layer, frame)) return true;

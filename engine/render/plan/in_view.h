@@ -25,6 +25,11 @@ std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const Islan
 /// zw [pixels]. None if the box of no section's translucent quads touches the frustum.
 std::optional<glm::uvec4> translucent_area(const SceneFacts& facts, const FrameTables& tables);
 
+/// Rectangle of the camera's picture, from xy to before zw [pixels], in which sections that came or
+/// went since a version of the geometry may show, and some pixels about it. Empty, or the whole
+/// picture where nothing is known.
+glm::uvec4 changed_area(const SceneFacts& facts, const FrameTables& tables, std::uint64_t version);
+
 /// Whether a ray of the camera's picture may meet the layer of clouds or the box of a volume,
 /// whatever stands before them. False is certain. @param layer there is one. @param volumes of
 /// `clouds`, that there are.

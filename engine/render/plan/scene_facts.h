@@ -22,6 +22,8 @@ struct SceneFacts {
   CloudFacts clouds;
   std::uint64_t shadow_generation = 0;  ///< ShadowMaps::generation()
 
+  std::uint64_t kept_generation = 0;  ///< KeptFrames::generation()
+
   bool has_geometry() const { return sections_resident != 0; }
 };
 

@@ -17,10 +17,6 @@ namespace {
 
 using gpu::Use;
 
-/// How far reverse depth may bend on a plane, of what it bends where two faces of a block meet that
-/// are seen alike. Rounding bends it a hundred times less.
-constexpr float kBendOfPlane = 0.05f;
-
 std::uint32_t tiles_of(VkExtent2D size) {
   return gpu::Commands::groups(size.width, shared::kTileEdge) *
          gpu::Commands::groups(size.height, shared::kTileEdge);
@@ -126,7 +122,8 @@ Developed EdgePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
   const float pixel = frame.pixel_to_ndc.y * glm::length(frame.ray_up);
   EdgeLists lists = make_lists(graph, scene.size);
   for (const bool every_pixel : {false, true})
-    find(graph, pipelines, scene, geometry.depth(), kBendOfPlane * pixel, lists, every_pixel);
+    find(graph, pipelines, scene, geometry.depth(), shared::kBendOfPlane * pixel, lists,
+         every_pixel);
   gpu::ImageRef picture = developed.picture();
   for (const bool store : {false, true})
     picture = smooth(graph, pipelines, scene, geometry, picture, lists, store);

@@ -34,6 +34,11 @@ Result<void> Picture::resize(const Sizes& sizes, int samples, std::uint32_t part
                       .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
   if (Result<void> ok = remake(image_, desc); !ok) return ok;
+  desc.name = "fresh picture";
+  if (!sizes.mixed)
+    fresh_ = {};
+  else if (Result<void> ok = remake(fresh_, desc); !ok)
+    return ok;
   desc.name = "enlarged picture";
   desc.extent = sizes.shown;
   if (gpu::same_size(sizes.drawn, size))

@@ -14,12 +14,15 @@ class Picture {
 
   struct Sizes {
     VkExtent2D shown, drawn;  ///< [pixels]; equal, or `drawn` is smaller
+    bool mixed = false;       ///< with pictures of earlier frames
   };
   /// Makes room for a picture, and for the sum of its parts if there are several.
   /// Errors: a size that the device cannot draw; out of memory.
   Result<void> resize(const Sizes& sizes, int samples_per_edge, std::uint32_t parts);
   /// RGBA8, as drawn. @pre resize()
   gpu::Image& image() { return image_; }
+  /// RGBA8, what this frame alone makes: the same image unless pictures are mixed. @pre resize()
+  gpu::Image& fresh() { return fresh_ ? fresh_ : image_; }
   /// RGBA8, as shown: the same image unless it is enlarged. @pre resize()
   gpu::Image& shown() { return enlarged_ ? enlarged_ : image_; }
   /// RGBA32F, where parts add up; null for a picture in one part.
@@ -30,6 +33,7 @@ class Picture {
 
   gpu::Device* device_;
   gpu::Image image_;
+  gpu::Image fresh_;     // empty: pictures are not mixed
   gpu::Image enlarged_;  // empty: the picture is shown as it is drawn
   gpu::Image total_;     // of a picture's parts; empty when it has one
 };

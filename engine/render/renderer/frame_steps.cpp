@@ -44,6 +44,7 @@ std::span<const FrameStep> frame_steps() {
       bloom_step(),
       develop_step(),
       smooth_edges_step(),
+      mix_frames_step(),
       show_exposure_step(),
       draw_marker_step(),
       enlarge_step(),

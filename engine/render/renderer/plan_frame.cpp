@@ -172,6 +172,11 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan_sky(plan, history);
   plan_indirect(plan, facts);
   plan_marker(plan);
+  plan.temporal = plan_temporal(plan.input, settings, plan.tables, facts, history);
+  if (plan.temporal) {
+    plan.next.temporal = plan.temporal->next;
+    jitter_view(plan.tables, plan.temporal->jitter);
+  }
   plan.next.previous = PreviousFrame{
       plan.input.camera, plan.input.anchor, {plan.input.islands.begin(), plan.input.islands.end()}};
   explain_contents(plan);

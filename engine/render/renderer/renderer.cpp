@@ -76,6 +76,7 @@ struct Renderer::State {
         clouds(d),
         captures(d),
         picture(d),
+        kept(d),
         ring(d, kFramesInFlight) {}
 
   Result<void> create(const RendererDesc& desc);
@@ -111,9 +112,11 @@ struct Renderer::State {
   Clouds clouds;
   Captures captures;
   Picture picture;
+  KeptFrames kept;
   gpu::FrameRing ring;
   std::function<void(std::uint32_t, std::uint32_t)> progress;  // see step_frames
   FrameHistory history;
+  std::uint64_t shown_version = 0;  // of the geometry, when the last mesh was uploaded
   std::array<Slot, kFramesInFlight> slots;
   std::uint32_t last_slot = 0;
   std::optional<FrameReport> report;
@@ -141,7 +144,8 @@ SceneFacts Renderer::State::facts() const {
           .occupancy = occupancy != nullptr,
           .indirect = indirect != nullptr,
           .clouds = clouds.facts(),
-          .shadow_generation = shadows.generation()};
+          .shadow_generation = shadows.generation(),
+          .kept_generation = kept.generation()};
 }
 
 /// Whether the device can draw the frame at all.
@@ -153,10 +157,12 @@ Result<void> Renderer::State::check(const FramePlan& plan) const {
 /// Makes what the frame's passes write to and what outlives them. May fail half-way: what has been
 /// made stays, and the history is about what was there before (see generations).
 Result<void> Renderer::State::make_room(const FramePlan& plan) {
-  if (Result<void> ok = picture.resize({plan.shown, plan.picture}, samples_per_edge(plan.settings),
-                                       plan.input.parts);
+  if (Result<void> ok = picture.resize({plan.shown, plan.picture, plan.temporal.has_value()},
+                                       samples_per_edge(plan.settings), plan.input.parts);
       !ok)
     return ok;
+  if (plan.temporal)
+    if (Result<void> ok = kept.ensure(plan.drawn); !ok) return ok;
   if (plan.geometry)
     if (Result<void> ok = shadows.ensure(plan.shadows.layout); !ok) return ok;
   if (!plan.input.capture) return {};
@@ -177,6 +183,8 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
                                    plan.marked_slices, plan.settings.lights_tile});
         !ok)
       return ok;
+  if (plan.temporal)
+    if (Result<void> ok = kept.upload(frame_uploader, plan.temporal->motions); !ok) return ok;
   if (plan.indirect) indirect->set_sky(frame_uploader, plan.sky_light);
   if (plan.clouds)
     if (Result<void> ok = clouds.prepare(frame_uploader, *plan.clouds); !ok) return ok;
@@ -208,7 +216,7 @@ SceneRefs Renderer::State::import_scene(gpu::FrameGraph& to, const FramePlan& pl
 void Renderer::State::build(const FramePlan& plan, Slot& slot) {
   graph.begin();
   for (const gpu::LeftOut& absent : plan.left_out) graph.leave_out(absent.name, absent.why);
-  FrameOwners owners{light_clusters, clouds, captures, picture};
+  FrameOwners owners{light_clusters, clouds, captures, picture, kept};
   FrameAssembly frame{
       .graph = graph,
       .pipelines = pipelines,
@@ -227,7 +235,7 @@ void Renderer::State::add_never_drawn(const FramePlan& supposed, LightClusters& 
   to.begin();
   lights.suppose(light_kinds(supposed.contents.lights),
                  {.size = supposed.drawn, .tile_edge = supposed.settings.lights_tile});
-  FrameOwners owners{lights, clouds, captures, picture};
+  FrameOwners owners{lights, clouds, captures, picture, kept};
   FrameAssembly frame{.graph = to,
                       .pipelines = pipelines,
                       .plan = supposed,
@@ -288,6 +296,13 @@ void Renderer::State::advance(FramePlan& plan) {
   if (plan.clouds) history.clouds.light_generation = made.light_generation;
   // Maps drawn while meshes still wait for their turn lack them.
   if (mesh_uploader.pending_bytes() != 0) history.shadows = {};
+  if (!history.temporal) return;
+  history.temporal->generation = kept.generation();
+  // So do pictures: what is noted to have changed has not been seen to change yet.
+  if (mesh_uploader.pending_bytes() != 0)
+    history.temporal->geometry_version = shown_version;
+  else
+    shown_version = history.temporal->geometry_version;
 }
 
 void Renderer::State::take_report(std::uint32_t slot_index) {
@@ -483,6 +498,9 @@ const std::optional<FrameReport>& Renderer::report() const {
 }
 void Renderer::step_frames(std::function<void(std::uint32_t, std::uint32_t)> progress) {
   state_->progress = std::move(progress);
+}
+void Renderer::invalidate_history() {
+  state_->history.temporal.reset();
 }
 void Renderer::invalidate_shadows() {
   state_->history.shadows = {};

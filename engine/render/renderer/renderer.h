@@ -107,6 +107,8 @@ class Renderer {
   void finish();
   /// Shadow maps are drawn afresh in the next frame, whatever has been kept.
   void invalidate_shadows();
+  /// The next frame of `aa=temporal` is mixed with none before it.
+  void invalidate_history();
 
  private:
   struct State;

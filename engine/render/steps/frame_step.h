@@ -8,6 +8,7 @@
 #include "engine/render/plan/frame_plan.h"
 #include "engine/render/post/bloom_pass.h"
 #include "engine/render/post/capture.h"
+#include "engine/render/post/kept_frames.h"
 #include "engine/render/post/meter_pass.h"
 #include "engine/render/post/picture.h"
 #include "engine/render/scene/cull_pass.h"
@@ -22,6 +23,7 @@ struct FrameOwners {
   Clouds& clouds;
   Captures& captures;
   Picture& picture;
+  KeptFrames& kept;
 };
 
 /// A frame's graph as its steps build it: each takes the phases that earlier ones left and leaves

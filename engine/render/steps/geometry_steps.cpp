@@ -19,10 +19,16 @@ FrameStep cull_step() {
 
 FrameStep draw_geometry_step() {
   return {{{needs_geometry, {"draw_geometry"}}}, [](FrameAssembly& f) {
+            GeometryPass::Kept kept;
+            if (f.plan.temporal) {
+              KeptFrames::Frame& now = f.owners.kept.of(f.plan.temporal->frame);
+              kept = {f.graph.import(now.surfaces), f.graph.import(now.depth)};
+            }
             f.geometry =
                 GeometryPass::add(f.graph, f.pipelines, f.scene, *f.draws,
                                   {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
-                                   samples_per_edge(f.plan.settings) > 1, f.plan.input.capture});
+                                   samples_per_edge(f.plan.settings) > 1 || f.plan.temporal,
+                                   f.plan.input.capture, kept});
           }};
 }
 

@@ -22,7 +22,7 @@ void shade(FrameAssembly& f) {
   if (f.plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows});
   f.shaded =
       ShadePass::add(f.graph, f.pipelines, f.scene, from ? &*from : nullptr, in,
-                     {f.plan.by_radiance, f.owners.picture.image(),
+                     {f.plan.by_radiance, f.owners.picture.fresh(),
                       meters(f.plan.input, f.plan.settings) ? &f.plan.settings.meter : nullptr});
 }
 

@@ -50,10 +50,10 @@ struct Surface {
 // Whether a pixel lies in an area, from xy to before zw.
 bool in_area(uvec2 pixel, uvec4 area) { return all(greaterThanEqual(pixel, area.xy)) && all(lessThan(pixel, area.zw)); }
 
-// Ray through a pixel's centre, scaled to one block along the view axis.
+// Ray through the place of a pixel that is sampled, scaled to one block along the view axis.
 #define pixel_ray(pixel) \
-  (frame.ray_forward + frame.ray_right * ((float((pixel).x) + 0.5) * frame.pixel_to_ndc.x - 1.0) - \
-   frame.ray_up * ((float((pixel).y) + 0.5) * frame.pixel_to_ndc.y - 1.0))
+  (frame.ray_forward + frame.ray_right * ((float((pixel).x) + frame.sample_in_pixel.x) * frame.pixel_to_ndc.x - 1.0) - \
+   frame.ray_up * ((float((pixel).y) + frame.sample_in_pixel.y) * frame.pixel_to_ndc.y - 1.0))
 
 // Distance along the view axis from reverse-Z infinite depth. @pre depth > 0.
 float view_distance(float depth, float near_plane) { return near_plane / depth; }

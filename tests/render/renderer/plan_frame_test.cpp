@@ -144,6 +144,18 @@ TEST(PlanFrame, SaysWhyEdgesAreNotSmoothed) {
   EXPECT_STREQ(why_not(scene.plan(), "smooth_edges"), "a debug view is shown");
 }
 
+TEST(PlanFrame, SaysWhyPicturesAreNotMixed) {
+  Planned scene;
+  EXPECT_STREQ(why_not(scene.plan(), "mix_edges"), "aa is not temporal");
+  scene.settings.aa = Antialiasing::kTemporal;
+  scene.input.exposure_ev = 0.0f;
+  EXPECT_EQ(why_not(scene.plan(), "mix_edges"), nullptr);
+  EXPECT_TRUE(scene.plan().next.temporal);
+  scene.input.exposure_ev.reset();
+  EXPECT_STREQ(why_not(scene.plan(), "mix_edges"), "the frame chooses its own exposure");
+  EXPECT_FALSE(scene.plan().next.temporal);
+}
+
 TEST(PlanFrame, LeavesCloudsOutThatAreNotInView) {
   Planned scene;
   scene.settings.clouds.coverage = 0.5f;

@@ -60,6 +60,7 @@ constexpr TopicPoint kSamples[] = {
     {"1", "aa.samples=1"}, {"4", "aa.samples=4"}, {"16", "aa.samples=16"}};
 constexpr TopicPoint kAntialiasing[] = {{"off", "aa=off"},
                                         {"edge", "aa=edge"},
+                                        {"temporal", "aa=temporal"},
                                         {"4 samples", "aa.samples=4"},
                                         {"16 samples", "aa.samples=16"}};
 constexpr TopicPoint kShadowCascades[] = {{"1", "shadow.cascades=1"},

@@ -18,6 +18,9 @@
 namespace skerry::tools {
 namespace {
 
+// Before a still with aa=temporal: metered, then each place of a pixel twice.
+constexpr int kSettlingFrames = 32;
+
 measure::Picture picture_of(const render::Captured& radiance) {
   SKERRY_ASSERT(radiance.layers == 1);
   measure::Picture out{radiance.size.width, radiance.size.height, {}};
@@ -93,12 +96,28 @@ Result<std::unique_ptr<SceneDrawer>> SceneDrawer::create(gpu::Device& device,
 }
 
 Result<std::uint64_t> SceneDrawer::draw_frame(bool with_radiance) {
-  return view_->draw({view_->start_camera(), static_cast<double>(scene_.time_of_day_s),
-                      scene_.settings.world_time_s, false, with_radiance},
-                     {scene_.size.width, scene_.size.height});
+  game::SceneView::Moment moment{view_->start_camera(), static_cast<double>(scene_.time_of_day_s),
+                                 scene_.settings.world_time_s, false, with_radiance};
+  moment.exposure_ev = exposure_ev_;
+  return view_->draw(moment, {scene_.size.width, scene_.size.height});
+}
+
+Result<void> SceneDrawer::settle() {
+  render::Renderer& renderer = view_->renderer();
+  exposure_ev_.reset();
+  if (view_->settings().render.aa != render::Antialiasing::kTemporal) return {};
+  renderer.invalidate_history();
+  for (int frame = 0; frame < kSettlingFrames; ++frame) {
+    if (Result<std::uint64_t> drawn = draw_frame(false); !drawn) return drawn.error();
+    if (frame != 0) continue;
+    renderer.finish();
+    exposure_ev_ = renderer.report()->exposure_ev;
+  }
+  return {};
 }
 
 Result<Drawn> SceneDrawer::draw(bool with_radiance) {
+  if (Result<void> settled = settle(); !settled) return settled.error();
   if (Result<std::uint64_t> drawn = draw_frame(with_radiance); !drawn) return drawn.error();
   render::Renderer& renderer = view_->renderer();
   renderer.finish();
@@ -116,6 +135,7 @@ Result<Drawn> SceneDrawer::draw(bool with_radiance) {
 }
 
 Result<std::vector<render::FrameReport>> SceneDrawer::time(int count, bool keep_shadows) {
+  if (Result<void> settled = settle(); !settled) return settled.error();
   std::vector<render::FrameReport> out;
   for (int i = 0; i < count; ++i) {
     if (!keep_shadows) view_->renderer().invalidate_shadows();

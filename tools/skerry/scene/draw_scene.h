@@ -30,8 +30,9 @@ class SceneDrawer {
   static Result<std::unique_ptr<SceneDrawer>> create(gpu::Device& device,
                                                      const game::SceneOptions& scene);
 
-  /// Draws and waits. @param with_radiance also copies out the scene's radiance (RGBA16F rounded),
-  /// which makes the frame take the way over a radiance image.
+  /// Draws and waits. With aa=temporal it is the last of 33 frames that are mixed from the first
+  /// on, the picture that play comes to at rest. @param with_radiance also copies out the scene's
+  /// radiance (RGBA16F rounded), which makes the frame take the way over a radiance image.
   Result<Drawn> draw(bool with_radiance = false);
   /// Draws `count` frames and waits for each; every shadow map and table is drawn afresh in each,
   /// as in a screenshot. @param keep_shadows as in play: maps that still hold are kept.
@@ -41,10 +42,12 @@ class SceneDrawer {
  private:
   SceneDrawer(gpu::Device& device, const game::SceneOptions& scene);
   Result<std::uint64_t> draw_frame(bool with_radiance);
+  Result<void> settle();
 
   gpu::Device& device_;
   game::SceneOptions scene_;
   std::unique_ptr<game::SceneView> view_;
+  std::optional<double> exposure_ev_;  // of frames that are mixed; none: as metered
 };
 
 }  // namespace skerry::tools

@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "engine/render/frame/frame_input.h"
+#include "engine/render/frame/settings.h"
+#include "engine/render/plan/frame_tables.h"
+#include "engine/render/plan/scene_facts.h"
+#include "engine/render/plan/temporal_history.h"
+#include "shaders/shared/temporal.h"
+
+namespace skerry::render {
+
+struct FrameHistory;
+
+/// How a frame is drawn and mixed with the ones before.
+struct TemporalPlan {
+  std::uint32_t frame = 0;  ///< since the history began: 0 has none
+  glm::vec2 jitter{0.0f};   ///< of the sampled place, from the pixels' centres [pixels]
+  std::vector<shared::Motion> motions{};  ///< one an island, and the sky's
+  shared::TemporalStep step{};
+  TemporalHistory next{};
+};
+
+/// Pixels' places sampled by the frames of a history, in turn: the first 16 points of Halton's
+/// sequence to the bases 2 and 3, about the pixel's centre, which comes first.
+glm::vec2 temporal_jitter(std::uint32_t frame);
+
+/// @param tables before the jitter. @return none: the frame is not mixed with others.
+std::optional<TemporalPlan> plan_temporal(const FrameInput& input, const RenderSettings& settings,
+                                          const FrameTables& tables, const SceneFacts& facts,
+                                          const FrameHistory& history);
+
+/// Moves the camera's view, constants and culling included, by a part of a pixel.
+void jitter_view(FrameTables& tables, glm::vec2 jitter);
+
+}  // namespace skerry::render
