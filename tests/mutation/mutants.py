@@ -192,7 +192,7 @@ MUTANTS = (
     Mutant("texture_flipped", "side textures are upside down", "shaders/include/surface/surface.glsl",
            "vec2(lattice.z, -lattice.y)", "vec2(lattice.z, lattice.y)", "day underwater"),
     Mutant("half_a_pixel_off", "rays leave from a pixel's corner", "shaders/include/frame/common.glsl",
-           "((float((pixel).x) + 0.5) *", "((float((pixel).x) + 0.0) *", "day debug_normal"),
+           "((float((pixel).x) + frame.sample_in_pixel.x) *", "((float((pixel).x) + frame.sample_in_pixel.x - 0.5) *", "day debug_normal"),
     # The picture
     Mutant("wrong_srgb_curve", "gamma 2.2 instead of sRGB's curve", "shaders/include/post/tonemap.glsl",
            "vec3(1.0 / 2.4)", "vec3(1.0 / 2.2)", "day"),
