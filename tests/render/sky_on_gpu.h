@@ -218,6 +218,7 @@ class SkyOnGpu : public testing::Test {
     frame.ray_up = glm::cross(frame.ray_right, frame.ray_forward) * tan_half_fov;
     frame.ray_right *= tan_half_fov * static_cast<float>(size.x) / static_cast<float>(size.y);
     frame.pixel_to_ndc = 2.0f / glm::vec2(size);
+    frame.sample_in_pixel = glm::vec2(0.5f);
     frame.size = size;
     const gpu::Buffer frame_buffer = buffer(frame), sky_buffer = buffer(sky);
     const VkSampler sampler = *device_->sampler({});
