@@ -8,31 +8,19 @@
 #include <cmath>
 
 #include "tests/render/renderer_on_gpu.h"
+#include "tests/render/smooth_pictures.h"
 
 namespace skerry::render {
 namespace {
 
 constexpr VkExtent2D kSize{96, 64};
 
-using Bytes = std::vector<std::uint8_t>;
-
 world::BlockId corner(int x, int, int z) {
   return x >= 0 && z >= 0 ? world::block::kStone : world::block::kAirBlock;
-}
-/// Steps and towers of one block, so that all edges are of faces.
-world::BlockId rough(int x, int y, int z) {
-  const unsigned h =
-      (static_cast<unsigned>(x / 2) * 73856093u) ^ (static_cast<unsigned>(z / 2) * 19349663u);
-  const int height = static_cast<int>((h >> 7) % 3) + (x + 64) / 8 % 2 * 2;
-  return y > height ? world::block::kAirBlock : world::block::kStone;
 }
 world::BlockId leaves(int x, int y, int z) {
   if (y < 0) return world::block::kStone;
   return x % 4 == 0 && z % 4 == 0 && y < 3 ? world::block::kOakLeaves : world::block::kAirBlock;
-}
-
-double light_of(std::uint8_t encoded) {
-  return encoded / 255.0 * (encoded / 255.0);
 }
 
 class Edges : public RendererOnGpu {
@@ -111,23 +99,6 @@ TEST_F(UprightEdge, TwoFacesThatMeetCoverTheirShares) {
   for (int i = 0; i < 12; ++i) expect_shares(0.013 * i - 0.07);
 }
 
-/// Mean distance of light from that of many samples, of 255.
-double error_of(const Bytes& picture, const Bytes& exact) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < picture.size(); ++i)
-    sum += std::abs(light_of(picture[i]) - light_of(exact[i]));
-  return 255.0 * sum / static_cast<double>(picture.size());
-}
-
-/// Pixels of which a channel differs by more than 40.
-int jumps(const Bytes& a, const Bytes& b) {
-  int count = 0;
-  for (std::size_t i = 0; i < a.size(); i += 4)
-    count += std::abs(a[i] - b[i]) > 40 || std::abs(a[i + 1] - b[i + 1]) > 40 ||
-             std::abs(a[i + 2] - b[i + 2]) > 40;
-  return count;
-}
-
 class EdgesOfAWorld : public Edges {
  protected:
   struct Found {
@@ -146,8 +117,8 @@ class EdgesOfAWorld : public Edges {
         out.hard = error_of(hard, exact);
         out.soft = error_of(soft, exact);
       } else {
-        out.hard_jumps += jumps(hard, hard_before);
-        out.soft_jumps += jumps(soft, soft_before);
+        out.hard_jumps += far_off(hard, hard_before);
+        out.soft_jumps += far_off(soft, soft_before);
       }
       hard_before = hard;
       soft_before = soft;

@@ -9,21 +9,13 @@
 #include <set>
 
 #include "tests/render/renderer_on_gpu.h"
+#include "tests/render/smooth_pictures.h"
 
 namespace skerry::render {
 namespace {
 
 constexpr VkExtent2D kSize{96, 64};
 
-using Bytes = std::vector<std::uint8_t>;
-
-/// Steps and towers of one block.
-world::BlockId rough(int x, int y, int z) {
-  const unsigned h =
-      (static_cast<unsigned>(x / 2) * 73856093u) ^ (static_cast<unsigned>(z / 2) * 19349663u);
-  const int height = static_cast<int>((h >> 7) % 3) + (x + 64) / 8 % 2 * 2;
-  return y > height ? world::block::kAirBlock : world::block::kStone;
-}
 world::BlockId ground(int, int y, int) {
   return y < 0 ? world::block::kStone : world::block::kAirBlock;
 }
@@ -31,10 +23,6 @@ world::BlockId ground(int, int y, int) {
 world::BlockId tower(int x, int y, int z) {
   return x >= 0 && x < 3 && y >= 0 && y < 5 && z >= 0 && z < 3 ? world::block::kSnow
                                                                : world::block::kAirBlock;
-}
-
-double light_of(std::uint8_t encoded) {
-  return encoded / 255.0 * (encoded / 255.0);
 }
 
 class Temporal : public RendererOnGpu {
@@ -78,23 +66,6 @@ class Temporal : public RendererOnGpu {
   std::vector<IslandPlacement> islands_{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0},
                                         {{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
 };
-
-/// Mean distance of light, of 255.
-double error_of(const Bytes& picture, const Bytes& exact) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < picture.size(); ++i)
-    sum += std::abs(light_of(picture[i]) - light_of(exact[i]));
-  return 255.0 * sum / static_cast<double>(picture.size());
-}
-
-/// Pixels of which a channel differs by more than 40.
-int far_off(const Bytes& a, const Bytes& b) {
-  int count = 0;
-  for (std::size_t i = 0; i < a.size(); i += 4)
-    count += std::abs(a[i] - b[i]) > 40 || std::abs(a[i + 1] - b[i + 1]) > 40 ||
-             std::abs(a[i + 2] - b[i + 2]) > 40;
-  return count;
-}
 
 /// Pixels with a channel that no pixel of `truth` within two of them has: what is left of another
 /// picture.
