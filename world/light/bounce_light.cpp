@@ -231,24 +231,38 @@ std::uint32_t BounceLight::first_of(const Face& face, std::uint32_t every) const
   return static_cast<std::uint32_t>(b + (every == 2 ? c : 2 * c)) % every;
 }
 
+/// Calls fn(place in a face's sources) for each of its lines along a pattern of a quarter: of the
+/// first reflections, of the last, or neither.
+template <class Fn>
+void BounceLight::for_each_line(const Face& face, std::size_t quarter, std::size_t pattern,
+                                const Fn& fn) const {
+  const auto line = [&](std::uint32_t every) {
+    return quarter * (kPatterns / every) + pattern / every;
+  };
+  if (pattern % kFirstEvery == first_of(face, kFirstEvery)) fn(line(kFirstEvery));
+  if (pattern % kLastEvery == first_of(face, kLastEvery)) fn(kFirstLines + line(kLastEvery));
+}
+
+/// What comes along a line that does not end at the sky.
+BounceLight::Source BounceLight::look(IVec3 from, int octant, std::size_t pattern,
+                                      std::size_t part) {
+  const std::size_t way = LatticeLines::way_number(octant, pattern);
+  const std::optional<IVec3> last = lines_.end_of(from, way);
+  return last ? source_at(*last, way, part) : kNothing;
+}
+
 void BounceLight::look_along(Number number, const SeenSky& seen, std::size_t part) {
   const Face& face = faces_[number];
   std::array<Source, kLines>& sources = sources_[number];
-  const std::uint32_t first4 = first_of(face, kFirstEvery), first2 = first_of(face, kLastEvery);
   std::size_t quarter = 0;
   for (const int octant : hemisphere(face.direction).octants) {
     const std::uint32_t bits = seen[static_cast<std::size_t>(octant)];
     for (std::size_t k = 0; k < kPatterns; ++k) {
-      const bool is_first = k % kFirstEvery == first4, is_last = k % kLastEvery == first2;
-      if (!is_first && !is_last) continue;
-      Source source = kNothing;
-      const std::size_t way = LatticeLines::way_number(octant, k);
-      if ((bits >> k & 1u) == 0)
-        if (const std::optional<IVec3> last = lines_.end_of(face.front, way))
-          source = source_at(*last, way, part);
-      if (is_first) sources[quarter * (kPatterns / kFirstEvery) + k / kFirstEvery] = source;
-      if (is_last)
-        sources[kFirstLines + quarter * (kPatterns / kLastEvery) + k / kLastEvery] = source;
+      std::optional<Source> source;  // looked for once, and only for those that look there
+      for_each_line(face, quarter, k, [&](std::size_t line) {
+        if (!source) source = (bits >> k & 1u) != 0 ? kNothing : look(face.front, octant, k, part);
+        sources[line] = *source;
+      });
     }
     ++quarter;
   }
@@ -272,10 +286,7 @@ void BounceLight::set_line(IVec3 voxel, std::size_t way, Source source) {
       relooked_.add(number - 1);
       add_reader(source, number - 1);
     };
-    if (k % kFirstEvery == first_of(face, kFirstEvery))
-      set(quarter * (kPatterns / kFirstEvery) + k / kFirstEvery);
-    if (k % kLastEvery == first_of(face, kLastEvery))
-      set(kFirstLines + quarter * (kPatterns / kLastEvery) + k / kLastEvery);
+    for_each_line(face, quarter, k, set);
   }
 }
 

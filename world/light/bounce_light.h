@@ -139,8 +139,12 @@ class BounceLight {
   Face* face_at(IVec3 front, int direction);
   Number number_of(IVec3 front, int direction) const;
   std::uint32_t first_of(const Face& face, std::uint32_t every) const;
+  template <class Fn>
+  void for_each_line(const Face& face, std::size_t quarter, std::size_t pattern,
+                     const Fn& fn) const;
   Source source_at(IVec3 last, std::size_t way, std::size_t part);
   Number entered(IVec3 voxel, const LatticeLines::Touched& touched) const;
+  Source look(IVec3 from, int octant, std::size_t pattern, std::size_t part);
   void look_along(Number number, const SeenSky& seen, std::size_t part);
   Light direct_of(const Face& face, std::span<const SeenSky> seen, const LampLightMap& lamps) const;
   Light gathered(Number number, int step) const;

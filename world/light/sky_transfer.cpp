@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <glm/common.hpp>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -148,18 +147,12 @@ void SkyTransfer::spread_lamps() {
 }
 
 void SkyTransfer::spread(const Lamp& lamp, LampLightMap& into) const {
-  const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
-      high(glm::floor(lamp.lamp.place + lamp.within));
-  for (int y = low.y; y <= high.y; ++y)
-    for (int x = low.x; x <= high.x; ++x)
-      for (int z = low.z; z <= high.z; ++z) {
-        const IVec3 at{x, y, z};
-        if (!wanted_.has(at)) continue;
-        const LampLight light = light_of_lamp(air_, lamp.lamp, at);
-        if (is_dark(light)) continue;
-        LampLight& sum = into[wanted_.of(at)];
-        for (std::size_t face = 0; face < 6; ++face) sum[face] += light[face];
-      }
+  for_each_reached(lamp, [&](IVec3 at) {
+    const LampLight light = light_of_lamp(air_, lamp.lamp, at);
+    if (is_dark(light)) return;
+    LampLight& sum = into[wanted_.of(at)];
+    for (std::size_t face = 0; face < 6; ++face) sum[face] += light[face];
+  });
 }
 
 std::size_t SkyTransfer::bytes() const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec4.hpp>
 #include <map>
 #include <memory>
@@ -69,6 +70,16 @@ class SkyTransfer {
   class Edit;
   void look_along(int octant, int pattern, const VoxelBits& open, VoxelBits& passed);
   static std::vector<Lamp> lamps_of(const LightChunk& chunk, IVec3 at);
+  /// Calls fn(voxel) for each whose view is kept and that a lamp can light.
+  template <class Fn>
+  void for_each_reached(const Lamp& lamp, const Fn& fn) const {
+    const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
+        high(glm::floor(lamp.lamp.place + lamp.within));
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        for (int z = low.z; z <= high.z; ++z)
+          if (wanted_.has({x, y, z})) fn(IVec3{x, y, z});
+  }
   void spread(const Lamp& lamp, LampLightMap& into) const;
   Corners bounced(const Around& around, int face) const;
   ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const;

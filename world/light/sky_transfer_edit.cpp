@@ -319,16 +319,6 @@ class SkyTransfer::Edit {
     return std::exchange(at->second, light) != light || is_new;
   }
 
-  template <class Fn>
-  void for_each_reached(const Lamp& lamp, const Fn& fn) const {
-    const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
-        high(glm::floor(lamp.lamp.place + lamp.within));
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x)
-        for (int z = low.z; z <= high.z; ++z)
-          if (of_.wanted_.has({x, y, z})) fn(IVec3{x, y, z});
-  }
-
   /// Where lamps of a chunk that have come, gone or another place in the order of sums reach.
   void find_relit(IVec3 at, std::set<IVec3>& relit) const {
     std::vector<Lamp> old = lamps_of(*before_.at(at), at), now = lamps_of(*of_.chunks_.at(at), at);
@@ -343,7 +333,7 @@ class SkyTransfer::Edit {
     for (const std::vector<Lamp>* lamps : {&old, &now})
       for (const Lamp& lamp : *lamps)
         if (lamp.weak || of_.bounces_)
-          for_each_reached(lamp, [&](IVec3 voxel) { relit.insert(voxel); });
+          of_.for_each_reached(lamp, [&](IVec3 voxel) { relit.insert(voxel); });
   }
 
   /// Where a lamp's light passes a voxel that has changed.
@@ -352,7 +342,7 @@ class SkyTransfer::Edit {
     for (const IVec3& voxel : voxels_)
       if (reaches({lamp.lamp, lamp.within + 1.0f, lamp.weak}, voxel)) near.push_back(voxel);
     if (near.empty()) return;
-    for_each_reached(lamp, [&](IVec3 voxel) {
+    of_.for_each_reached(lamp, [&](IVec3 voxel) {
       if (std::ranges::any_of(
               near, [&](IVec3 other) { return may_touch(voxel, lamp.lamp.place, other); }))
         relit.insert(voxel);
