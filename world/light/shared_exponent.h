@@ -22,7 +22,10 @@ inline std::uint32_t pack_shared_exponent(const glm::vec3& c) {
   };
   if (most * step() + 0.5f >= 512.0f) ++exponent;
   const float steps = step();
-  const auto mantissa = [steps](float v) { return static_cast<std::uint32_t>(v * steps + 0.5f); };
+  const auto mantissa = [steps](float v) {
+    const float and_half = v * steps + 0.5f;  // not negative, so cutting off rounds
+    return static_cast<std::uint32_t>(and_half);
+  };
   return mantissa(r) | mantissa(g) << 9 | mantissa(b) << 18 |
          static_cast<std::uint32_t>(exponent + 15) << 27;
 }

@@ -416,12 +416,13 @@ class SkyTransfer::Edit {
   }
 
   bool is_plant(IVec3 at, IVec3 local) {
-    auto [plants, is_new] = plants_.try_emplace(at);
+    const auto [entry, is_new] = plants_.try_emplace(at);
+    auto& plants = entry->second;
     if (is_new)
       for (const shared::Quad& quad : of_.chunks_.at(at)->quads)
         if (is_of_plant(quad))
-          for_each_face(quad, [&](const DrawnFace& face) { plants->second.insert(face.voxel); });
-    return plants->second.contains(local);
+          for_each_face(quad, [&](const DrawnFace& face) { plants.insert(face.voxel); });
+    return plants.contains(local);
   }
 
   /// Of a chunk that has been edited: records that stay are copied.
