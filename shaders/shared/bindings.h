@@ -117,5 +117,9 @@ SHARED_CONST uint kKeptPictureBinding = 82u;   // mixed, of the last frame
 SHARED_CONST uint kMixedPictureBinding = 83u;  // the same, of this one
 SHARED_CONST uint kMotionsBinding = 84u;       // texels of Motion[]
 
+// What is hidden.
+SHARED_CONST uint kFarDepthsBinding = 85u;     // see kFineDepthEdge
+SHARED_CONST uint kSeenSectionsBinding = 86u;  // uint[section]: 1 if the last frame showed it
+
 SHARED_END
 #endif

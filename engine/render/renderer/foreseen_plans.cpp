@@ -114,6 +114,13 @@ FrameNeeds frame_needs(const FramePlan& plan, const SceneFacts& facts) {
 void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
                    const std::function<void(const FramePlan&)>& visit) {
   FramePlan plan = common_of(now, needs);
+  if (plan.settings.occlusion != Occlusion::kOff &&
+      plan.settings.gbuffer.depth == DepthStore::kD32) {
+    plan.why_one_phase = nullptr;
+    suppose(plan, needs, {3u, kTorches, Water::kInView, false, false});
+    visit(plan);
+  }
+  plan.why_one_phase = kSupposed;
   std::vector<std::uint32_t> kinds{0, kTorches};
   if (needs.light_kinds != kTorches) kinds.push_back(needs.light_kinds);
   const auto visit_with = [&](Supposed what) {
