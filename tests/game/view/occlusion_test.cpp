@@ -49,27 +49,26 @@ class OcclusionTest : public gpu::GpuTest {
             view.renderer().report()->camera};
   }
 
-  /// Turns, walks, cuts and drifts about where the seed begins.
-  void compare(const char* seed, int frames) {
+  /// Turns, walks, cuts and drifts about a place.
+  void compare(const char* seed, glm::dvec3 place, double time_s, int frames) {
     const auto all = view_of(seed, render::Occlusion::kOff),
                some = view_of(seed, render::Occlusion::kAlways);
     SceneView::Moment moment;
-    moment.camera = all->start_camera();
     moment.capture = true;
-    const render::FixedPos start = moment.camera.position;
+    const render::FixedPos start = render::fixed_at(place);
+    moment.camera.position = start;
+    moment.world_time_s = time_s;
     for (SceneView* view : {all.get(), some.get()})
       ASSERT_TRUE(view->load_completely(moment.camera, moment.world_time_s));
     render::RandomPlaces random(frames);
-    std::uint64_t drawn = 0, in_view = 0;
     for (int i = 0; i < frames; ++i) {
       if (i % 8 == 0) {  // a cut, now and then to within rock
-        moment.camera = all->start_camera();
         moment.camera.position =
             render::sum(start, render::fixed_at(random.in_box(i % 16 == 0 ? 160.0 : 24.0)));
         moment.camera.yaw_deg = random.uniform(0.0, 360.0);
         moment.camera.pitch_deg = random.uniform(-60.0, 40.0);
         moment.camera.fov_deg = i % 24 == 0 ? random.uniform(2.0, 120.0) : 70.0;
-        moment.world_time_s = random.uniform(0.0, 600.0);
+        moment.world_time_s = time_s + random.uniform(0.0, 60.0);
       } else {
         moment.camera.yaw_deg += random.uniform(-40.0, 40.0);
         moment.camera.position = render::sum(
@@ -77,19 +76,32 @@ class OcclusionTest : public gpu::GpuTest {
         moment.world_time_s += 0.1;
       }
       const Seen expected = seen(*all, moment), got = seen(*some, moment);
-      ASSERT_EQ(got.depths, expected.depths) << "frame " << i;
-      ASSERT_EQ(got.words, expected.words) << "frame " << i;
+      ASSERT_TRUE(got.depths == expected.depths) << "frame " << i;
+      equal_depths_ += differing(got.words, expected.words);
       EXPECT_EQ(got.stats.quads_in_view, expected.stats.quads) << "frame " << i;
-      drawn += got.stats.quads;
-      in_view += got.stats.quads_in_view;
+      drawn_ += got.stats.quads;
+      in_view_ += got.stats.quads_in_view;
     }
-    EXPECT_LT(drawn, in_view) << "something is hidden";
-    RecordProperty("drawn_percent", static_cast<int>(100 * drawn / in_view));
   }
+
+  static std::size_t differing(const std::vector<std::byte>& a, const std::vector<std::byte>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); i += 4) count += std::memcmp(&a[i], &b[i], 4) != 0;
+    return count;
+  }
+
+  std::uint64_t drawn_ = 0, in_view_ = 0;  // quads
+  /// Pixels that show another surface at the same depth: of two that are equally far the one that
+  /// is drawn first is seen.
+  std::size_t equal_depths_ = 0;
 };
 
 TEST_F(OcclusionTest, LosesNoPixelOfAThousandViews) {
-  for (const char* seed : {"1", "4"}) compare(seed, 500);
+  compare("1", {-1817.0, 29.0, 696.0}, 39.0, 300);  // before an island of 400,000 quads
+  compare("1", {-79.9, 1.0, -23.3}, 0.0, 350);
+  compare("4", {181.3, 30.6, 15.0}, 0.0, 350);  // in the mouth of a cave
+  EXPECT_LT(static_cast<double>(drawn_), 0.9 * static_cast<double>(in_view_)) << "much is hidden";
+  EXPECT_LE(equal_depths_, 10u) << "of 9,600,000 pixels";
 }
 
 }  // namespace
