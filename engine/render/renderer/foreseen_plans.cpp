@@ -62,7 +62,8 @@ void suppose_bodies(FramePlan& plan, const FrameNeeds& needs, std::uint32_t bodi
     plan.tables.constants.bodies[body].irradiance = glm::vec3(shines ? 1.0f : 0.0f);
     plan.shadows.layout.casting[body] = shines && plan.settings.shadow_enabled;
     if (plan.shadows.layout.casting[body])
-      plan.shadows.cascades.push_back({static_cast<int>(body), 0, 0, true, {{0, 0}, {1, 1}}, {}});
+      plan.shadows.cascades.push_back(
+          {static_cast<int>(body), 0, 0, true, {{0, 0}, {1, 1}}, {}, {}});
   }
   plan.shadows.layout.layers = static_cast<std::uint32_t>(plan.shadows.cascades.size());
   plan.shadows.layout.edge = static_cast<std::uint32_t>(plan.settings.shadow_size);
