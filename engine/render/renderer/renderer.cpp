@@ -248,6 +248,8 @@ void Renderer::State::add_never_drawn(const FramePlan& supposed, LightClusters& 
                       .scene = import_scene(to, supposed),
                       .shadow_maps = {}};
   frame.scene.section_slots = std::max(frame.scene.section_slots, kUsualSections);
+  for (std::size_t list = 0; list < kUsualDraws.size(); ++list)
+    frame.scene.most_draws[list] = std::max(frame.scene.most_draws[list], kUsualDraws[list]);
   if (const ShadowLayout& maps = supposed.shadows.layout; maps.layers != 0)
     frame.shadow_maps =
         to.create({.name = "shadow maps", .extent = {maps.edge, maps.edge}, .layers = maps.layers});

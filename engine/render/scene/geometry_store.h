@@ -22,6 +22,8 @@ namespace skerry::render {
 
 /// Sections of most worlds: tables begin with room for them, so that none grows in a flight.
 inline constexpr std::uint32_t kUsualSections = 8192;
+/// Likewise draws of their lists.
+inline constexpr DrawLimits kUsualDraws{2 * kUsualSections, kUsualSections, kUsualSections / 2};
 
 /// A resident chunk mesh; only GeometryStore makes one.
 struct SectionId {

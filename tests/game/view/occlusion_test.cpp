@@ -67,7 +67,7 @@ class OcclusionTest : public gpu::GpuTest {
             render::sum(start, render::fixed_at(random.in_box(i % 16 == 0 ? 160.0 : 24.0)));
         moment.camera.yaw_deg = random.uniform(0.0, 360.0);
         moment.camera.pitch_deg = random.uniform(-60.0, 40.0);
-        moment.camera.fov_deg = i % 24 == 0 ? random.uniform(2.0, 120.0) : 70.0;
+        moment.camera.fov_deg = i % 24 == 0 ? random.uniform(0.1, 175.0) : 70.0;
         moment.world_time_s = time_s + random.uniform(0.0, 60.0);
       } else {
         moment.camera.yaw_deg += random.uniform(-40.0, 40.0);
