@@ -180,6 +180,13 @@ void SceneView::update_streamer(const render::Camera& camera, double world_time_
   const ViewFit::Distances shown = fit_.of(wanted);
   streamer_->update({place(camera.position), forward_of(camera), world_time_s},
                     {shown.view_blocks, shown.detail_blocks});
+  const world::Streamer::LeftOut& left_out = streamer_->left_out();
+  if (left_out.islands == 0 || std::exchange(islands_left_out_, true)) return;
+  notices_.push_back(fmt::format(
+      "{} islands within view.distance={:.0f} are not drawn, the nearest {:.0f} blocks away: no "
+      "more than {} islands can be; lower view.distance",
+      left_out.islands, shown.view_blocks, left_out.from_blocks, world::kMaxStreamedIslands));
+  log_warning(notices_.back());
 }
 
 Result<void> SceneView::load_completely(const render::Camera& camera, double world_time_s) {

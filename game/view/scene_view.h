@@ -156,6 +156,7 @@ class SceneView {
   std::unique_ptr<IslandLight> island_light_;     // none: not wanted so far
   SkyLightFeed sky_light_;                        // what island_light_ has found
   bool light_refused_ = false;                    // for want of memory, and that has been said
+  bool islands_left_out_ = false;                 // and that has been said
   bool weak_lamps_kept_ = false;                  // by island_light_, not by light_field_
   bool cloud_volumes_ = false;                    // what lamps light in the air, too
   LightField light_field_;

@@ -286,6 +286,29 @@ TEST(Stream, DriftBringsIslandsIn) {
   EXPECT_TRUE(load(scene, 4).islands().contains(far.id));
 }
 
+TEST(Stream, SaysHowManyIslandsOfTheViewItCannotKeep) {
+  World world({.seed = 1});
+  const WorldPos camera = world.origin();
+  constexpr double kView = 12'000.0;
+  std::size_t place = 0, beyond = 0;
+  double nearest = kView;
+  for (const IslandSpec& spec : world.islands_near(camera, kView + 500.0, 0.0)) {
+    const glm::dvec3 away = difference_blocks(pose_at(spec, 0.0).origin, camera);
+    const double distance = glm::length(away) - spec.bounding_radius;
+    if (place++ < kMaxStreamedIslands || distance > kView) continue;
+    ++beyond;
+    nearest = std::min(nearest, distance);
+  }
+  ASSERT_GT(beyond, 500u);
+  Jobs jobs(1);
+  Streamer streamer(world, jobs);
+  streamer.update({camera}, {.view_distance_blocks = kView, .detail_distance_blocks = 64.0});
+  EXPECT_EQ(streamer.left_out().islands, beyond);
+  EXPECT_DOUBLE_EQ(streamer.left_out().from_blocks, nearest);
+  streamer.update({camera}, {.view_distance_blocks = 1000.0, .detail_distance_blocks = 64.0});
+  EXPECT_EQ(streamer.left_out().islands, 0u);
+}
+
 TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
   LoadedHome loaded(2);
   auto& [scene, world, home, jobs, streamer, consumer] = loaded;

@@ -102,6 +102,13 @@ const std::vector<IslandSpec>& Streamer::State::islands_around(const StreamView&
     around.revision = revision;
     around.centre = view.camera;
     around.islands = world.islands_near(view.camera, reach + kSlackBlocks, view.time_s);
+    around.left_out = {};
+    for (std::size_t i = kMaxStreamedIslands; i < around.islands.size(); ++i) {
+      const double distance = distance_to(around.islands[i], view);
+      if (distance > settings.view_distance_blocks) continue;
+      double& nearest = around.left_out.from_blocks;
+      nearest = around.left_out.islands++ == 0 ? distance : std::min(nearest, distance);
+    }
     if (around.islands.size() > kMaxStreamedIslands) around.islands.resize(kMaxStreamedIslands);
   }
   return around.islands;
@@ -255,6 +262,10 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
   }
   for (const std::uint64_t id : voxels_unused) s.world.release_voxels(id);
   return update;
+}
+
+const Streamer::LeftOut& Streamer::left_out() const {
+  return state_->around.left_out;
 }
 
 bool Streamer::complete() const {

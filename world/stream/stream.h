@@ -88,6 +88,14 @@ class Streamer {
   /// order that does not depend on threads.
   void wait_until_complete();
 
+  /// Islands that are within view distance and not kept, because kMaxStreamedIslands are nearer.
+  struct LeftOut {
+    std::size_t islands = 0;
+    double from_blocks = 0.0;  ///< from the camera to the nearest of them; 0: there is none
+  };
+  /// As of the last update that asked the world.
+  const LeftOut& left_out() const;
+
   struct Stats {
     std::size_t islands = 0;      ///< resident or coming
     std::size_t sections = 0;     ///< handed out and not removed

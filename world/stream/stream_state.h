@@ -122,6 +122,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
     double reach = -1.0;
     std::uint64_t revision = 0;
     std::vector<IslandSpec> islands;
+    LeftOut left_out;
   };
   Around around;             // frame thread only
   mutable std::mutex mutex;  // guards everything below; held for bookkeeping only
