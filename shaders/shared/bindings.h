@@ -117,5 +117,7 @@ SHARED_CONST uint kKeptPictureBinding = 82u;   // mixed, of the last frame
 SHARED_CONST uint kMixedPictureBinding = 83u;  // the same, of this one
 SHARED_CONST uint kMotionsBinding = 84u;       // texels of Motion[]
 
+SHARED_CONST uint kSkyScatteringBinding = 85u;  // SkyScatter[body][row][azimuth]
+
 SHARED_END
 #endif
