@@ -51,7 +51,7 @@ Word paeth_of(Word left, Word above, Word corner) {
   const Lanes from_a = magnitude(b - c), from_b = magnitude(a - c),
               from_c = magnitude(a + b - c - c);
   const Lanes of_b_c = from_b <= from_c ? b : c;
-  const Lanes nearest = (from_a <= from_b) & (from_a <= from_c) ? a : of_b_c;
+  const Lanes nearest = ((from_a <= from_b) & (from_a <= from_c)) ? a : of_b_c;
   return std::bit_cast<Word>(__builtin_convertvector(nearest, Bytes));
 }
 

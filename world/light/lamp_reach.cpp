@@ -372,8 +372,8 @@ LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
       const StrongLamp& lamp = chunk->strong[i];
       std::vector<LampReach::Bricks>& reaches = out[at];
       reaches.emplace_back();
-      const bool near =
-          std::ranges::any_of(changed, [&](const EditBox& box) { return is_near(box, at, lamp); });
+      const bool near = std::ranges::any_of(
+          changed, [&, &at = at](const EditBox& box) { return is_near(box, at, lamp); });
       if (!near && found != known.end()) {
         const std::vector<StrongLamp>& old = before.at(at)->strong;
         const auto same = std::ranges::find_if(

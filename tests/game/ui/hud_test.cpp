@@ -55,7 +55,8 @@ TEST(LoadingScreen, FitsInEveryLanguageAndShowsHowFarItIs) {
   for (std::size_t i = 0; i < kLanguages; ++i) {
     const auto language = static_cast<Language>(i);
     speak(language);
-    for (const auto& [width, height] : {std::pair(640u, 360u), {320u, 180u}, {1280u, 720u}}) {
+    for (const auto& size : {std::pair(640u, 360u), {320u, 180u}, {1280u, 720u}}) {
+      const auto width = size.first, height = size.second;
       Gui gui;
       gui.expect(words_of(language));
       gui.fit_font();

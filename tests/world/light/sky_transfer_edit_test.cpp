@@ -46,13 +46,16 @@ LightChunks with_what_stays(const LightChunks& before, LightChunks after) {
   for (auto& [at, chunk] : after) {
     const auto old = before.find(at);
     if (old == before.end()) continue;
-    const auto same = [](const auto& a, const auto& b) {
-      return std::ranges::equal(
-          a, b, [](const auto& p, const auto& q) { return std::memcmp(&p, &q, sizeof p) == 0; });
+    const auto same_quad = [](const shared::Quad& p, const shared::Quad& q) {
+      return std::memcmp(&p, &q, sizeof p) == 0;
+    };
+    const auto same_lamp = [](const WeakLamp& p, const WeakLamp& q) {
+      return p.place == q.place && p.intensity == q.intensity && p.range == q.range;
     };
     const LightChunk &a = *old->second, &b = *chunk;
     if (a.opaque.fill == b.opaque.fill && a.opaque.table == b.opaque.table &&
-        a.opaque.words == b.opaque.words && same(a.quads, b.quads) && same(a.lamps, b.lamps))
+        a.opaque.words == b.opaque.words && std::ranges::equal(a.quads, b.quads, same_quad) &&
+        std::ranges::equal(a.lamps, b.lamps, same_lamp))
       chunk = old->second;
   }
   return after;
@@ -171,8 +174,9 @@ class RealIsland {
     std::vector<IVec3> places;
     while (places.empty()) {
       const auto& [at, chunk] = chunks[random() % chunks.size()];
+      const IVec3 corner = corner_of(at);
       for_each_face(chunk->quads[random() % chunk->quads.size()], [&](const DrawnFace& face) {
-        places.push_back(corner_of(at) + face.voxel + (block == kAir ? IVec3{} : to_front(face)));
+        places.push_back(corner + face.voxel + (block == kAir ? IVec3{} : to_front(face)));
       });
     }
     const IVec3 middle = places[random() % places.size()];
