@@ -9,7 +9,7 @@
 namespace skerry::render {
 
 /// What the sea of mist reflects, linear RGB: a Lambertian surface.
-inline constexpr glm::dvec3 kMistAlbedo{0.22, 0.28, 0.36};
+inline constexpr glm::dvec3 kMistAlbedo{0.22, 0.32, 0.44};
 
 struct AtmosphereSettings {
   double turbidity = kTurbidity;  ///< 1..10

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 
 #include "engine/render/air/air_path.h"
@@ -25,7 +26,8 @@ shared::SkyScatter scattering(const Atmosphere& atmosphere, const AirPath& path,
   }
   if (path.meets_ground)
     multiple += path.end * atmosphere.ground(path.ground_body_sine(body_sine, body_flat));
-  return {rayleigh, mie, multiple};
+  // Harmonics of the second degree fall a little below 0 where there is all but no light.
+  return {rayleigh, mie, glm::max(multiple, 0.0)};
 }
 
 }  // namespace

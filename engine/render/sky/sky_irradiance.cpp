@@ -16,7 +16,7 @@
 namespace skerry::render {
 namespace {
 
-constexpr int kCubeEdge = 12;  // texels along a face of the cube that the sky is sampled on
+constexpr int kCubeEdge = 20;  // texels along a face of the cube that the sky is sampled on
 constexpr int kStrata = 8;     // samples of an octant, each way
 constexpr float kMostHalf = 65504.0f;
 constexpr std::size_t kFaces = 6;

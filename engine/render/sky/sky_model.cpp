@@ -95,7 +95,9 @@ SkyModel sky_model(const Celestial& sky, double height_km, const SkyModel* befor
     model.scattering[0] = scattering_of(height_km, sky.to_sun.y, 0, before);
   }
   const double moon_share = sky.moon_exists ? moon_beside_sun(sky.to_sun.y) : 0.0;
-  const glm::dvec3 from_moon = moonlight(sky.moon_phase) * moon_share * sunlight_in_space();
+  // As bright as on the ground, but not as blue: moonlit land shall stand out from its sky.
+  const glm::dvec3 from_moon =
+      luminance(moonlight(sky.moon_phase)) * moon_share * sunlight_in_space();
   if (from_moon != glm::dvec3(0.0) && lights_air(sky.to_moon.y, horizon)) {
     c.moon.light = from_moon;
     model.scattering[1] = scattering_of(height_km, sky.to_moon.y, 1, before);
