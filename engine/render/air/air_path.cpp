@@ -44,7 +44,9 @@ AirPath air_path(const Air& air, double height_km, double sine, int steps) {
   double last = middle + half;
   path.meets_ground = sine < horizon_sine(height_km);
   if (path.meets_ground)
-    last = middle - std::sqrt(std::max(0.0, (kMistRadiusKm - nearest) * (kMistRadiusKm + nearest)));
+    // From the ground itself, 0 but for rounding.
+    last = std::max(first, middle - std::sqrt(std::max(0.0, (kMistRadiusKm - nearest) *
+                                                                (kMistRadiusKm + nearest))));
   path.length = last;
   path.steps.reserve(static_cast<std::size_t>(steps));
   double from = first;
