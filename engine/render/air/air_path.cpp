@@ -41,7 +41,7 @@ AirPath air_path(const Air& air, double height_km, double sine, int steps) {
   if (to_top2 <= 0.0 || (path.eye > kAirRadiusKm && middle < 0.0)) return path;
   const double half = std::sqrt(to_top2);
   const double first = std::max(0.0, middle - half);
-  double last = middle + half;
+  double last = std::max(first, middle + half);  // rounding
   path.meets_ground = sine < horizon_sine(height_km);
   if (path.meets_ground)
     // From the ground itself, 0 but for rounding.

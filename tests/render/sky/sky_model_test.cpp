@@ -35,6 +35,12 @@ std::vector<glm::dvec3> sphere(int count) {
   return all;
 }
 
+/// As a picture holds it, of 255.
+double encoded(double c) {
+  c = std::clamp(c, 0.0, 1.0);
+  return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
+}
+
 /// What a camera that sees these and nothing else is exposed to.
 double exposure_of(const std::vector<glm::dvec3>& radiance) {
   measure::Picture picture{static_cast<std::uint32_t>(radiance.size()), 1, {}};
@@ -209,7 +215,7 @@ TEST(SkyModel, ChangesWithoutAJumpFromOneStepOfTimeToTheNext) {
       const double exposure = exposure_of(seen);
       for (std::size_t i = 0; i < last.size(); ++i) {
         const double before = luminance(last[i]) * exposure, after = luminance(seen[i]) * exposure;
-        EXPECT_LT(std::abs(after - before), 0.002 + 0.025 * before) << t;
+        EXPECT_LT(std::abs(encoded(after) - encoded(before)), 3.0) << t;
       }
       last = seen;
     }
@@ -219,10 +225,6 @@ TEST(SkyModel, ChangesWithoutAJumpFromOneStepOfTimeToTheNext) {
 TEST(SkyModel, AFrameOfFastTimeChangesNoPixelByMoreThanTwoSteps) {
   // 24 times as fast as the world's clock, 60 frames a second.
   const std::vector<glm::dvec3> directions = sphere(150);
-  const auto encoded = [](double c) {
-    c = std::clamp(c, 0.0, 1.0);
-    return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
-  };
   for (const double begin : {17.83 * kHour, 18.0 * kHour, 18.3 * kHour}) {
     SkyModel sky;
     std::vector<glm::dvec3> last;
