@@ -35,6 +35,8 @@ Result<void> parse_islands(std::string_view text, Settings& s) {
   return {};
 }
 
+constexpr std::array<std::string_view, 3> kOcclusionNames{"off", "auto", "always"};
+
 constexpr SettingKey kWorldKeys[] = {
     {"world.offset", "X,Y,Z: whole blocks, -2^40 to 2^40 each",
      "Moves every island. With the camera moved alike the picture is the same, bit for bit.",
@@ -67,6 +69,12 @@ constexpr SettingKey kWorldKeys[] = {
        return into(parse_integer(t, "view.detail", 32, 4096), s.view_detail);
      },
      [](const Settings& s) { return std::to_string(s.view_detail); }},
+    {"view.occlusion", "off, auto or always",
+     "Leaves out what is hidden behind the rest; auto: where much is in view. Same picture.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "view.occlusion", kOcclusionNames), s.render.occlusion);
+     },
+     [](const Settings& s) { return name_of(kOcclusionNames, s.render.occlusion); }},
 };
 
 }  // namespace

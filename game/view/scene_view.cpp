@@ -14,6 +14,7 @@
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "engine/render/frame/celestial.h"
+#include "engine/render/scene/section_parts.h"
 #include "game/player/player.h"
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
@@ -397,7 +398,8 @@ void SceneView::remove_section(const world::SectionKey& key) {
   light_field_.invalidate_reach(key.island);
   if (island_light_) island_light_->remove(key);
   const auto slot = island_slots_.find(key.island);
-  if (found->second) renderer_->geometry().remove(uploader, *found->second);
+  for (const render::SectionId section : found->second)
+    renderer_->geometry().remove(uploader, section);
   if (occupancy_) occupancy_->remove(uploader, slot->second, chunk_place(key));
   sections_.erase(found);
   release_island(key.island);
@@ -422,7 +424,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   ++islands_[*slot].sections;
   // Building beyond the island's box widens it.
   if (const auto spec = world_->island(ready.key.island)) islands_[*slot].spec = *spec;
-  std::optional<render::SectionId>& section = sections_[ready.key];
+  std::vector<render::SectionId>& sections = sections_[ready.key];
   if (occupancy_ && ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
     const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
                                      ready.occupancy.table, ready.occupancy.words};
@@ -432,15 +434,17 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
       return added;
     }
   }
-  if (!ready.mesh.quads.empty()) {
-    Result<render::SectionId> added = renderer_->geometry().add(
-        uploader, section_record(ready.key, ready.mesh, *slot), ready.mesh.quads);
-    if (!added) {
-      remove_section(ready.key);
-      return added.error();
+  if (!ready.mesh.quads.empty())
+    for (const render::SectionPart& part :
+         render::parts_of(section_record(ready.key, ready.mesh, *slot), ready.mesh.quads)) {
+      Result<render::SectionId> added =
+          renderer_->geometry().add(uploader, part.section, part.quads);
+      if (!added) {
+        remove_section(ready.key);
+        return added.error();
+      }
+      sections.push_back(*added);
     }
-    section = *added;
-  }
   std::vector<LatticeLight> lights = light_field_.lights_of(ready.key, ready.emitters);
   std::vector<world::WeakLamp> weak;
   if (weak_lamps_kept_) weak = take_weak(lights, ready.key.level);

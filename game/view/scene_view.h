@@ -143,7 +143,7 @@ class SceneView {
   std::vector<IslandEntry> islands_;                     // by GPU slot
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
-  std::map<world::SectionKey, std::optional<render::SectionId>> sections_;
+  std::map<world::SectionKey, std::vector<render::SectionId>> sections_;
   std::deque<world::ReadySection> waiting_;  // for memory or the next frame; nearest islands first
   bool more_next_frame_ = false;             // what waits was enough for one frame
   ViewFit fit_;

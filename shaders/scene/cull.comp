@@ -4,6 +4,9 @@
 // each work group of sections makes; one thread a section, one row of groups a view. Scan: where each group's draws begin; one work group a list,
 // exclusive scan of the group totals in place, the sum becomes the list's draw count. Emit: writes the indirect commands of every view and list,
 // in section order. docs/conventions.md.
+// Where much is hidden the camera's view is drawn in two phases (kTwoPhases; docs/decisions/0050): first the sections that the last frame showed. A
+// fourth step, Hidden, then holds all sections of the view against the depths of what has been drawn: it notes which are seen, and leaves the masks
+// of those that the first phase has not drawn, and of the translucent quads of all that are seen.
 #include "include/scene/cull.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -26,7 +29,15 @@ layout(scalar, push_constant) uniform Push {
   uvec3 most;  // draws of each list
 } push;
 
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kSeenSectionsBinding) buffer Seen { uint seen[]; };
+layout(scalar, binding = kFarDepthsBinding) readonly buffer FarDepths { float far_depths[]; };
+
 layout(constant_id = kCullStepConstant) const uint kCullStep = kCullSections;
+layout(constant_id = kTwoPhasesConstant) const bool kTwoPhases = false;
+
+const uint kUnseen = 1u << 31;  // of a mask: the first phase does not draw the section
+const uint kTranslucentRanges = 63u << kRangeTranslucent;
 
 shared uint draws_of_list[3];
 shared CullStats group_stats;
@@ -74,25 +85,115 @@ SectionTransform section_transform(Section s, IslandTransform t) {
                           vec4(vec3(t.axis_x.z, t.axis_y.z, t.axis_z.z) * voxel, origin.z));
 }
 
+/// What the first phase draws of a mask; all of it where there is one phase alone.
+uint first_phase(uint mask) {
+  if (!kTwoPhases) return mask;
+  return (mask & kUnseen) != 0u ? 0u : mask & ~kTranslucentRanges;
+}
+
+// Whether what has been drawn hides all of a section's box. Errs on the side of no.
+bool is_hidden(Section s) {
+  IslandTransform island = islands[s.island];
+  float voxel = float(1u << s.voxel_size_log2);
+  vec3 low = vec3(s.origin) + vec3(unpack_box(s.bounds_min)) * voxel;
+  vec3 high = vec3(s.origin) + vec3(unpack_box(s.bounds_max)) * voxel;
+  float nearest = 3.402823e38;  // along the view axis
+  vec2 first = vec2(3.402823e38), last = vec2(-3.402823e38);
+  for (uint i = 0u; i < 8u; ++i) {
+    vec3 corner = mix(low, high, bvec3((i & 1u) != 0u, (i & 2u) != 0u, (i & 4u) != 0u));
+    vec4 clip = frame.clip_from_world * vec4(world_from_lattice(island, corner), 1.0);
+    nearest = min(nearest, clip.w);
+    vec2 pixel = (clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.size);
+    first = min(first, pixel);
+    last = max(last, pixel);
+  }
+  // Quads grow in their planes by 1/128 pixel (draw_quads.vert), and rounding moves what is far from the lattice's origin.
+  float growth = length(frame.ray_right) * frame.pixel_to_ndc.x;
+  nearest *= 1.0 - 1e-4 - growth;
+  if (nearest <= 2.0 * frame.near_plane) return false;
+  vec2 most = vec2(frame.size) - 1.0;
+  uvec2 a = uvec2(clamp(floor(first) - 1.0, vec2(0.0), most)), b = uvec2(clamp(floor(last) + 1.0, vec2(0.0), most));
+  uvec2 fine_count = (frame.size + (kFineDepthEdge - 1u)) / kFineDepthEdge;
+  uvec2 coarse_count = (frame.size + (kCoarseDepthEdge - 1u)) / kCoarseDepthEdge;
+  bool fine = all(lessThanEqual(b / kFineDepthEdge - a / kFineDepthEdge, uvec2(7u)));
+  uint edge = fine ? kFineDepthEdge : kCoarseDepthEdge;
+  uint base = fine ? 0u : fine_count.x * fine_count.y;
+  uint row = fine ? fine_count.x : coarse_count.x;
+  uvec2 from = a / edge, to = b / edge;
+  if ((to.x - from.x + 1u) * (to.y - from.y + 1u) > 64u) return false;
+  float depth = frame.near_plane / nearest;
+  for (uint y = from.y; y <= to.y; ++y)
+    for (uint x = from.x; x <= to.x; ++x)
+      if (depth >= far_depths[base + y * row + x]) return false;
+  return true;
+}
+
+/// Adds a section's draws to those of its group. @return how many.
+uint add_draws(Section s, uint mask) {
+  uint draws = 0u;
+  for (uint list = 0u; list < kListCount; ++list) {
+    uint count = draw_count(s, mask, list);
+    if (count != 0u) atomicAdd(draws_of_list[list], count);
+    draws += count;
+  }
+  return draws;
+}
+
+uint quads_of(Section s, uint mask) {
+  uint quads = 0u;
+  for (uint r = 0u; r < kRangeCount; ++r)
+    if ((mask & (1u << r)) != 0u) quads += s.range_end[r] - range_begin(s, r);
+  return quads;
+}
+
+void store_totals(uint view) {
+  barrier();
+  if (gl_LocalInvocationIndex < kListCount)
+    totals[(view * kListCount + gl_LocalInvocationIndex) * push.group_count + gl_WorkGroupID.x] =
+        draws_of_list[gl_LocalInvocationIndex];
+}
+
+void clear_group() {
+  if (gl_LocalInvocationIndex == 0u) {
+    draws_of_list[0] = draws_of_list[1] = draws_of_list[2] = 0u;
+    group_stats = CullStats(0u, 0u, 0u, 0u, 0u);
+  }
+  barrier();
+}
+
+// Of the camera's view, which is the first.
+void find_hidden() {
+  uint section = gl_GlobalInvocationID.x;
+  clear_group();
+  if (section < push.section_count) {
+    uint mask = masks[section];
+    if (mask != 0u) {
+      Section s = sections[section];
+      bool is_seen = !is_hidden(s);
+      seen[section] = is_seen ? 1u : 0u;
+      mask = !is_seen ? 0u : (mask & kUnseen) != 0u ? mask & ~kUnseen : mask & kTranslucentRanges;
+      atomicAdd(group_stats.draws, add_draws(s, mask));
+      atomicAdd(group_stats.quads, quads_of(s, mask));
+      masks[section] = mask;
+    }
+  }
+  store_totals(0u);
+  if (gl_LocalInvocationIndex == 0u && group_stats.quads != 0u) {
+    atomicAdd(stats[0].draws, group_stats.draws);
+    atomicAdd(stats[0].quads, group_stats.quads);
+  }
+}
+
 void cull_sections() {
   uint section = gl_GlobalInvocationID.x;
   uint view = gl_GlobalInvocationID.y;
-  if (gl_LocalInvocationIndex == 0u) {
-    draws_of_list[0] = draws_of_list[1] = draws_of_list[2] = 0u;
-    group_stats = CullStats(0u, 0u, 0u, 0u);
-  }
-  barrier();
+  clear_group();
   if (section < push.section_count && views[view].enabled != 0u) {
     Section s = sections[section];
     uint mask = visible_ranges(s, views[view]);
-    uint quads = 0u, draws = 0u;
-    for (uint list = 0u; list < kListCount; ++list) {
-      uint count = draw_count(s, mask, list);
-      if (count != 0u) atomicAdd(draws_of_list[list], count);
-      draws += count;
-    }
-    for (uint r = 0u; r < kRangeCount; ++r)
-      if ((mask & (1u << r)) != 0u) quads += s.range_end[r] - range_begin(s, r);
+    if (kTwoPhases && view == 0u && seen[section] == 0u && mask != 0u) mask |= kUnseen;
+    uint drawn = first_phase(mask);
+    uint draws = add_draws(s, drawn), quads = quads_of(s, mask);
     if (quads == 0u) mask = 0u;
     masks[view * push.section_count + section] = mask;
     if (s.range_end[kRangeCount - 1u] != 0u) atomicAdd(group_stats.sections_in, 1u);
@@ -100,18 +201,17 @@ void cull_sections() {
       transforms[view * push.section_count + section] = section_transform(s, islands[view * push.islands_per_view + s.island]);
       atomicAdd(group_stats.sections_passed, 1u);
       atomicAdd(group_stats.draws, draws);
-      atomicAdd(group_stats.quads, quads);
+      atomicAdd(group_stats.quads, quads_of(s, drawn));
+      atomicAdd(group_stats.quads_in_view, quads);
     }
   }
-  barrier();
-  if (gl_LocalInvocationIndex < kListCount)
-    totals[(view * kListCount + gl_LocalInvocationIndex) * push.group_count + gl_WorkGroupID.x] =
-        draws_of_list[gl_LocalInvocationIndex];
+  store_totals(view);
   if (gl_LocalInvocationIndex == 0u && group_stats.sections_in != 0u) {
     atomicAdd(stats[view].sections_in, group_stats.sections_in);
     atomicAdd(stats[view].sections_passed, group_stats.sections_passed);
     atomicAdd(stats[view].draws, group_stats.draws);
     atomicAdd(stats[view].quads, group_stats.quads);
+    atomicAdd(stats[view].quads_in_view, group_stats.quads_in_view);
   }
 }
 
@@ -135,7 +235,7 @@ void emit() {
   uint mask = 0u;
   Section s;
   if (section < push.section_count) {
-    mask = masks[view * push.section_count + section];
+    mask = first_phase(masks[view * push.section_count + section]);
     s = sections[section];
   }
   for (uint list = 0u; list < kListCount; ++list) {
@@ -194,6 +294,8 @@ void main() {
     cull_sections();
   else if (kCullStep == kCullScan)
     scan();
-  else
+  else if (kCullStep == kCullEmit)
     emit();
+  else
+    find_hidden();
 }

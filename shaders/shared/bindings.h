@@ -117,7 +117,11 @@ SHARED_CONST uint kKeptPictureBinding = 82u;   // mixed, of the last frame
 SHARED_CONST uint kMixedPictureBinding = 83u;  // the same, of this one
 SHARED_CONST uint kMotionsBinding = 84u;       // texels of Motion[]
 
-SHARED_CONST uint kSkyScatteringBinding = 85u;  // SkyScatter[body][row][azimuth]
+// What is hidden.
+SHARED_CONST uint kFarDepthsBinding = 85u;     // see kFineDepthEdge
+SHARED_CONST uint kSeenSectionsBinding = 86u;  // uint[section]: 1 if the last frame showed it
+
+SHARED_CONST uint kSkyScatteringBinding = 87u;  // SkyScatter[body][row][azimuth]
 
 SHARED_END
 #endif

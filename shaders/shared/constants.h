@@ -48,7 +48,7 @@ SHARED_CONST uint kEveryPixelConstant = 43u;      // bool: all pixels, not a gri
 SHARED_CONST uint kToleranceConstant = 44u;       // float: how much shared light may differ
 SHARED_CONST uint kChooseConstant = 46u;          // bool: an exposure is chosen from the histogram
 SHARED_CONST uint kPackConstant = 47u;            // bool: noise that is there is packed
-SHARED_CONST uint kCullStepConstant = 49u;        // uint: kCullSections, kCullScan or kCullEmit
+SHARED_CONST uint kCullStepConstant = 49u;        // uint: kCullSections to kCullHidden
 SHARED_CONST uint kMarchConstant = 48u;           // bool: clouds are marched, not blended
 SHARED_CONST uint kLightStepConstant = 50u;       // uint: kLightDepths to kLightTiles
 SHARED_CONST uint kShowConstant = 51u;            // bool: the meter's histogram is drawn
@@ -60,10 +60,12 @@ SHARED_CONST uint kRunConstant = 56u;          // uint: pixels of a row that an 
 SHARED_CONST uint kGroupSizeConstant = 57u;    // uint: invocations of a work group
 SHARED_CONST uint kStoreConstant = 58u;        // bool: what was found is stored
 SHARED_CONST uint kPlaneConstant = 59u;        // bool: tiles that show one plane alone
+SHARED_CONST uint kTwoPhasesConstant = 60u;    // bool: what the last frame showed is drawn first
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;
 SHARED_CONST uint kCullEmit = 2u;
+SHARED_CONST uint kCullHidden = 3u;
 
 SHARED_CONST uint kFilterAverage = 0u;
 SHARED_CONST uint kFilterShrink = 1u;

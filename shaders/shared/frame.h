@@ -90,7 +90,13 @@ struct CullStats {
   uint sections_passed;  // inside the frustum with something facing the view
   uint draws;            // indirect commands
   uint quads;            // drawn
+  uint quads_in_view;    // of sections_passed, drawn or hidden by others
 };
+
+// Depths by which what is hidden is found: the farthest surface of each square of pixels. The fine
+// squares of the picture, row by row, then the coarse ones.
+SHARED_CONST uint kFineDepthEdge = 8u;     // pixels
+SHARED_CONST uint kCoarseDepthEdge = 64u;  // pixels
 
 SHARED_CONST uint kTileEdge = 8u;  // pixels
 SHARED_CONST uint kTileRow =

@@ -99,7 +99,7 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(SectionTransform, MEMBER(SectionTransform, x), MEMBER(SectionTransform, y),
              MEMBER(SectionTransform, z)),
       STRUCT(CullStats, MEMBER(CullStats, sections_in), MEMBER(CullStats, sections_passed),
-             MEMBER(CullStats, draws), MEMBER(CullStats, quads)),
+             MEMBER(CullStats, draws), MEMBER(CullStats, quads), MEMBER(CullStats, quads_in_view)),
       STRUCT(TileDispatch, MEMBER(TileDispatch, groups_x), MEMBER(TileDispatch, groups_y),
              MEMBER(TileDispatch, groups_z), MEMBER(TileDispatch, tiles)),
       STRUCT(PixelStats, MEMBER(PixelStats, non_finite), MEMBER(PixelStats, black)),

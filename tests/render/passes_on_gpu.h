@@ -129,7 +129,6 @@ class PassesOnGpu : public gpu::GpuTest {
     const std::uint64_t bytes = std::uint64_t{size.width} * size.height * sizeof(glm::vec3);
     gpu::Buffer normals = back("normal values", bytes), positions = back("position values", bytes);
     SceneRefs scene = begin(input, size, tables);
-    scene.frame = table("frame constants", std::vector<shared::FrameConstants>{tables.constants});
     std::vector<shared::IslandTransform> islands = tables.islands;
     islands.resize(shared::kMaxIslands);
     scene.islands = table("island transforms", islands);
@@ -220,6 +219,7 @@ class PassesOnGpu : public gpu::GpuTest {
     tables_.clear();
     graph_->begin();
     SceneRefs scene;
+    scene.frame = table("frame constants", std::vector<shared::FrameConstants>{tables.constants});
     scene.view_islands = table("view island transforms", tables.islands);
     scene.views = table("cull views", tables.views);
     scene.clip_from_source = tables.matrices;

@@ -20,8 +20,8 @@ namespace {
 constexpr std::uint64_t kMaxUpdateBytes = 65536;  // of one vkCmdUpdateBuffer
 constexpr std::uint64_t kStagingBlockBytes = 4u << 20;
 
-/// Everything that may read an uploaded buffer later. The barrier behind a batch covers all of it,
-/// so that no reader adds one.
+/// Everything that may use an uploaded buffer later. The barrier behind a batch covers all of it,
+/// so that no user adds one.
 constexpr VkPipelineStageFlags2 kReadStages =
     VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT |
     VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
@@ -181,8 +181,10 @@ void Uploader::State::record_writes(VkCommandBuffer commands, std::span<const Wr
     transfers = true;
   }
   current = nullptr;
+  // A shader may also write over what was uploaded, behind one that has read it.
   if (transfers)
-    memory_barrier(commands, {before.dst_stages, before.dst_access, kReadStages, kReadAccess});
+    memory_barrier(commands, {before.dst_stages, before.dst_access, kReadStages,
+                              kReadAccess | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
   for (const auto& [buffer, by_mapping] : mapped) {
     if (!by_mapping)
       buffer->state = {kReadStages, kReadAccess, VK_IMAGE_LAYOUT_UNDEFINED, false,

@@ -27,6 +27,7 @@ struct SceneRefs {
   gpu::BufferRef views;            ///< shared::CullView[view]
   gpu::BufferRef materials;        ///< shared::Material[block id]
   gpu::BufferRef quads, sections;  ///< the geometry store
+  gpu::BufferRef seen_sections;    ///< see CullIn; empty: the frame does not ask
   std::uint32_t section_slots = 0;
   DrawLimits most_draws{};
   /// The occupancy store; empty without one.

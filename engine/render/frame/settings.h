@@ -98,11 +98,16 @@ enum class Indirect : std::uint8_t {
 /// angle to the light and without corners.
 enum class Shading : std::uint8_t { kPbr, kFlat };
 
+/// Whether quads that others hide are looked for, by holding sections against the depths of what
+/// the last frame showed. The picture is the same. kAuto: where many quads are in view.
+enum class Occlusion : std::uint8_t { kOff, kAuto, kAlways };
+
 inline constexpr std::uint32_t kEveryLight = ~0u;  ///< of RenderSettings::lights_shadows
 
 /// Knobs of the picture, named as the keys of docs/settings.md. Defaults are those of quality
 /// medium.
 struct RenderSettings {
+  Occlusion occlusion = Occlusion::kAuto;
   Antialiasing aa = Antialiasing::kOff;
   int aa_samples = 1;  ///< of a pixel, drawn and averaged: 1, 4 or 16
   /// Of the edges of the picture that is shown, 0.25..1: below 1 the scene is drawn smaller, and

@@ -12,6 +12,8 @@
 namespace skerry::render {
 namespace {
 
+constexpr double kMovedTexels = 0.25;  // of what a kept map shows, at most
+
 /// How far a point of the island can have moved against the anchor between two placements [blocks],
 /// at most.
 double movement(const IslandPlacement& a, const FixedPos& anchor_a, const IslandPlacement& b,
@@ -135,7 +137,7 @@ std::optional<TexelBox> outdated(ShadowHistory::Kept& kept, const Cascade& casca
       continue;
     }
     if (movement(kept.islands[i], kept.anchor, now, input.anchor) <=
-        0.25 * static_cast<double>(cascade.texel_blocks))
+        kMovedTexels * static_cast<double>(cascade.texel_blocks))
       continue;
     add_island(box, rebased(kept.islands[i], kept.anchor, input.anchor), camera, cascade);
     add_island(box, now, camera, cascade);
@@ -153,6 +155,13 @@ VkRect2D rect_of(const TexelBox& box) {
   const glm::ivec2 low(box.low), high(box.high);
   return {{low.x, low.y},
           {static_cast<std::uint32_t>(high.x - low.x), static_cast<std::uint32_t>(high.y - low.y)}};
+}
+
+/// Whether a map drawn by another light's direction shows shadows where they belong, or as good as.
+bool good_enough(const glm::dvec3& drawn_by, const glm::dvec3& to_light, const Cascade& cascade) {
+  const double moved = kShadowBlocks * glm::length(glm::cross(drawn_by, to_light));
+  return glm::dot(drawn_by, to_light) > 0.0 &&
+         moved <= kMovedTexels * static_cast<double>(cascade.texel_blocks);
 }
 
 CascadeInput cascade_input(const FrameInput& input, const RenderSettings& settings, int body) {
@@ -195,22 +204,32 @@ ShadowPlan plan_shadows(const FrameInput& input, const RenderSettings& settings,
   std::uint32_t layer = 0;
   for (int body = 0; body < 2; ++body) {
     if (!plan.layout.casting[static_cast<std::size_t>(body)]) continue;
+    CascadeInput in = cascade_input(input, settings, body);
+    const glm::dvec3 to_light = in.to_light;
     int index = 0;
-    for (const Cascade& cascade : make_cascades(cascade_input(input, settings, body))) {
+    for (Cascade& cascade : make_cascades(in)) {
       ShadowHistory::Kept& kept = plan.next.kept[layer];
-      const std::optional<TexelBox> box = outdated(kept, cascade, input, geometry);
+      std::optional<TexelBox> box = outdated(kept, cascade, input, geometry);
+      if (!box && kept.valid && input.parts == 1 && good_enough(kept.to_light, to_light, cascade)) {
+        in.to_light = kept.to_light;
+        const Cascade before = make_cascades(in)[static_cast<std::size_t>(index)];
+        box = outdated(kept, before, input, geometry);
+        if (box) cascade = before;
+      }
       if (box) {
         const VkRect2D area = box->empty() ? VkRect2D{} : rect_of(*box);
-        plan.cascades.push_back({body, index++, layer++, !box->empty(), area, cascade});
+        plan.cascades.push_back(
+            {body, index++, layer++, !box->empty(), area, kept.to_light, cascade});
         continue;
       }
       kept = {true,
               cascade.key,
+              to_light,
               geometry.version(),
               {input.islands.begin(), input.islands.end()},
               input.anchor};
       const VkRect2D whole{{0, 0}, {plan.layout.edge, plan.layout.edge}};
-      plan.cascades.push_back({body, index++, layer++, true, whole, cascade});
+      plan.cascades.push_back({body, index++, layer++, true, whole, to_light, cascade});
     }
   }
   return plan;

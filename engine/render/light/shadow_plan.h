@@ -25,6 +25,7 @@ struct ActiveCascade {
   std::uint32_t layer = 0;  ///< of the map array, and index in FrameConstants::cascades
   bool redraw = false;      ///< false: the kept map still shows the same
   VkRect2D area{};          ///< texels to draw if so; outside of them the kept map is right
+  glm::dvec3 to_light{};    ///< unit; that the map is drawn by
   Cascade cascade;
 };
 
@@ -33,6 +34,7 @@ struct ShadowHistory {
   struct Kept {
     bool valid = false;
     CascadeKey key;
+    glm::dvec3 to_light{};
     std::uint64_t geometry_version = 0;
     std::vector<IslandPlacement> islands;
     FixedPos anchor{};
@@ -42,6 +44,9 @@ struct ShadowHistory {
   std::array<Kept, 8> kept;      ///< one a layer
 };
 
+/// See plan_shadows().
+inline constexpr double kShadowBlocks = 128.0;
+
 struct ShadowPlan {
   ShadowLayout layout;
   std::vector<ActiveCascade> cascades;  ///< all that are active, sun first
@@ -50,8 +55,9 @@ struct ShadowPlan {
 
 /// Decides a frame's cascades and which of the kept maps still show what they should. Bodies below
 /// the horizon have none. A map is kept while its window and its light stay: islands may have moved
-/// by a quarter of a texel. Where sections came or went, or islands moved further, only the texels
-/// that these can show in are drawn again.
+/// by a quarter of a texel, and the light, unless a frame has parts, may have turned by as much as
+/// moves the shadow of what stands kShadowBlocks before a surface by that. Where sections came or
+/// went, or islands moved further, only the texels that these can show in are drawn again.
 /// @param generation of the array that exists now. A function of its arguments alone.
 ShadowPlan plan_shadows(const FrameInput& input, const RenderSettings& settings,
                         const GeometryChanges& geometry, const ShadowHistory& history,

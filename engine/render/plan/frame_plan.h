@@ -28,9 +28,11 @@ struct FramePlan {
                                   ///< times as many pixels
   bool geometry = false;          ///< sections are resident
   SkyModel sky{};                 ///< of the whole picture, not of its part
-  bool bake_sky = false;          ///< else the sky table of an earlier frame is kept
-  bool ao = false;                ///< corners take light
-  bool indirect = false;          ///< the sky lights surfaces
+  /// Null: the camera's view is drawn in two phases, so that what is hidden is not drawn.
+  const char* why_one_phase = "no geometry is resident";
+  bool bake_sky = false;                ///< else the sky table of an earlier frame is kept
+  bool ao = false;                      ///< corners take light
+  bool indirect = false;                ///< the sky lights surfaces
   std::vector<glm::uvec4> sky_light{};  ///< what it sends to them, see sky_irradiance()
   ByRadiance by_radiance = ByRadiance::kEverything;  ///< the rest goes to the picture at once
   ShadowPlan shadows{};

@@ -104,7 +104,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
     for (std::size_t i = 0; i < planes.size(); ++i) light.planes[i] = planes[i];
     light.planes[5] = glm::vec4(
         0, 0, 0, 1);  // casters beyond the range are flattened onto it, so none may be culled there
-    light.eye = glm::vec3(active.body == 0 ? input.sky.to_sun : input.sky.to_moon);
+    light.eye = glm::vec3(active.to_light);
     light.orthographic = 1;
     light.enabled = 1;
     out.views.push_back(light);

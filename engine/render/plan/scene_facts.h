@@ -20,6 +20,7 @@ struct SceneFacts {
   bool occupancy = false;                    ///< there is an occupancy store
   bool indirect = false;                     ///< there is a store of the sky's light
   CloudFacts clouds;
+  std::uint32_t quads_in_view = 0;      ///< of the newest frame that is known; 0: none is
   std::uint64_t shadow_generation = 0;  ///< ShadowMaps::generation()
 
   std::uint64_t kept_generation = 0;  ///< KeptFrames::generation()

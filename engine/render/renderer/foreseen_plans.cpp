@@ -62,7 +62,8 @@ void suppose_bodies(FramePlan& plan, const FrameNeeds& needs, std::uint32_t bodi
     plan.tables.constants.bodies[body].irradiance = glm::vec3(shines ? 1.0f : 0.0f);
     plan.shadows.layout.casting[body] = shines && plan.settings.shadow_enabled;
     if (plan.shadows.layout.casting[body])
-      plan.shadows.cascades.push_back({static_cast<int>(body), 0, 0, true, {{0, 0}, {1, 1}}, {}});
+      plan.shadows.cascades.push_back(
+          {static_cast<int>(body), 0, 0, true, {{0, 0}, {1, 1}}, {}, {}});
   }
   plan.shadows.layout.layers = static_cast<std::uint32_t>(plan.shadows.cascades.size());
   plan.shadows.layout.edge = static_cast<std::uint32_t>(plan.settings.shadow_size);
@@ -114,6 +115,13 @@ FrameNeeds frame_needs(const FramePlan& plan, const SceneFacts& facts) {
 void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
                    const std::function<void(const FramePlan&)>& visit) {
   FramePlan plan = common_of(now, needs);
+  if (plan.settings.occlusion != Occlusion::kOff &&
+      plan.settings.gbuffer.depth == DepthStore::kD32) {
+    plan.why_one_phase = nullptr;
+    suppose(plan, needs, {3u, kTorches, Water::kInView, false, false});
+    visit(plan);
+  }
+  plan.why_one_phase = kSupposed;
   std::vector<std::uint32_t> kinds{0, kTorches};
   if (needs.light_kinds != kTorches) kinds.push_back(needs.light_kinds);
   const auto visit_with = [&](Supposed what) {

@@ -64,6 +64,7 @@ void FrameReadback::take(FrameReport& into) const {
       into.shadows.sections_passed += one.sections_passed;
       into.shadows.draws += one.draws;
       into.shadows.quads += one.quads;
+      into.shadows.quads_in_view += one.quads_in_view;
     }
   }
   std::memcpy(&into.pixels, data + kPixelStatsOffset, sizeof(into.pixels));

@@ -117,6 +117,7 @@ Result<void> FrameResources::create(gpu::Uploader& uploader,
   if (Result<void> ok = upload(uploader, materials_, "materials", materials); !ok) return ok;
   if (Result<void> ok = reserve(pixel_stats_, "pixel stats", sizeof(shared::PixelStats)); !ok)
     return ok;
+  if (Result<void> ok = ensure_seen(uploader, 1); !ok) return ok;
   if (Result<void> ok = create_images(uploader); !ok) return ok;
   Result<gpu::Buffer> texels =
       device_->create_buffer({"no texels", 16, kTexelTableUsage, gpu::Memory::kDevice, true});
@@ -154,6 +155,15 @@ Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& 
 Result<void> FrameResources::upload_light_islands(gpu::Uploader& uploader,
                                                   const FrameInput& input) {
   return upload(uploader, light_islands_, "light islands", input.light_islands);
+}
+
+Result<void> FrameResources::ensure_seen(gpu::Uploader& uploader, std::uint32_t sections) {
+  const std::uint64_t bytes = std::uint64_t{sections} * sizeof(std::uint32_t);
+  if (seen_ && seen_.size_bytes() >= bytes) return {};
+  if (Result<void> ok = reserve(seen_, "sections seen", bytes); !ok) return ok;
+  const std::vector<std::uint32_t> none(seen_.size_bytes() / sizeof(std::uint32_t));
+  uploader.write(seen_, 0, std::span<const std::uint32_t>(none));
+  return {};
 }
 
 SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input,

@@ -34,6 +34,9 @@ class FrameResources {
                    VkExtent2D size, const FrameTables& tables);
   /// Stands in for texels that a shader names and does not read.
   gpu::Buffer& no_texels() { return no_texels_; }
+  /// Makes room for so many sections in CullIn::seen. Errors: out of memory.
+  Result<void> ensure_seen(gpu::Uploader& uploader, std::uint32_t sections);
+  gpu::BufferRef import_seen(gpu::FrameGraph& graph) { return graph.import(seen_); }
   gpu::BufferRef import_light_islands(gpu::FrameGraph& graph) {
     return graph.import(light_islands_);
   }
@@ -49,7 +52,7 @@ class FrameResources {
 
   gpu::Device* device_;
   gpu::Buffer frame_, sky_, sky_scattering_, islands_, view_islands_, views_, light_islands_,
-      materials_, indices_, pixel_stats_, exposure_, no_texels_;
+      materials_, indices_, pixel_stats_, exposure_, no_texels_, seen_;
   gpu::Image block_textures_, sky_lut_, no_volume_, no_words_;
   VkSampler block_sampler_{}, lut_sampler_{}, point_sampler_{};
 };

@@ -25,6 +25,7 @@ std::span<const FrameStep> frame_steps() {
       break_sky_table_step(),
       cull_step(),
       draw_geometry_step(),
+      draw_revealed_step(),
       draw_shadows_step(),
       draw_translucent_step(),
       sort_lights_step(),

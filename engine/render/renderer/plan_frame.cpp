@@ -37,6 +37,20 @@ void plan_culling(FramePlan& plan, const FrameHistory& history) {
   shift_view(camera, plan.next.frozen->position, plan.input.camera.position);
 }
 
+/// Below so many quads in view the second phase costs more than it spares: docs/decisions/0050.
+constexpr std::uint32_t kQuadsForTwoPhases = 65'536;
+
+const char* why_one_phase(const FramePlan& plan, const SceneFacts& facts,
+                          const FrameHistory& history) {
+  if (!plan.geometry) return "no geometry is resident";
+  if (plan.settings.occlusion == Occlusion::kOff) return "view.occlusion=off";
+  if (plan.input.freeze_culling) return "culling is frozen";
+  if (plan.settings.gbuffer.depth != DepthStore::kD32) return "gbuffer.depth is not d32";
+  if (plan.settings.occlusion == Occlusion::kAlways) return nullptr;
+  if (!history.previous) return "there is no frame before it";
+  return facts.quads_in_view < kQuadsForTwoPhases ? "few quads are in view" : nullptr;
+}
+
 void plan_sky(FramePlan& plan, const FrameHistory& history) {
   // Other bytes of equal values make the table once more than is needed.
   const auto same_bytes = [](const auto& a, const auto& b) {
@@ -171,6 +185,7 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
     plan.next.clouds = plan.clouds->next;
   }
   plan_culling(plan, history);
+  plan.why_one_phase = why_one_phase(plan, facts, history);
   plan_sky(plan, history);
   plan_indirect(plan, facts);
   plan_marker(plan);

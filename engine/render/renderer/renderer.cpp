@@ -144,6 +144,7 @@ SceneFacts Renderer::State::facts() const {
           .occupancy = occupancy != nullptr,
           .indirect = indirect != nullptr,
           .clouds = clouds.facts(),
+          .quads_in_view = report ? report->camera.quads_in_view : 0,
           .shadow_generation = shadows.generation(),
           .kept_generation = kept.generation()};
 }
@@ -187,6 +188,9 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
       return ok;
   if (plan.temporal)
     if (Result<void> ok = kept.upload(frame_uploader, plan.temporal->motions); !ok) return ok;
+  if (!plan.why_one_phase)
+    if (Result<void> ok = resources.ensure_seen(frame_uploader, geometry->section_slots()); !ok)
+      return ok;
   if (plan.indirect) indirect->set_sky(frame_uploader, plan.sky_light);
   if (plan.clouds)
     if (Result<void> ok = clouds.prepare(frame_uploader, *plan.clouds); !ok) return ok;
@@ -201,6 +205,7 @@ SceneRefs Renderer::State::import_scene(gpu::FrameGraph& to, const FramePlan& pl
   s.sections = to.import(geometry->sections());
   s.section_slots = geometry->section_slots();
   s.most_draws = geometry->most_draws();
+  if (!plan.why_one_phase) s.seen_sections = resources.import_seen(to);
   s.haze = plan.contents.features.has(Feature::kHaze);
   s.ao = plan.ao;
   if (plan.indirect) s.indirect_light = plan.settings.indirect;

@@ -15,6 +15,9 @@ struct CullIn {
   std::uint32_t section_slots = 0;  ///< of the geometry store, > 0
   DrawLimits most{};                ///< GeometryStore::most_draws()
   std::uint32_t views = 1;          ///< entries of SceneRefs::views
+  /// uint[section]: whether the last frame showed it. Empty: the camera's view is drawn in one
+  /// phase.
+  gpu::BufferRef seen{};
 };
 
 /// Indirect draws of every view and list, in section order.
@@ -23,6 +26,7 @@ struct CulledDraws {
   gpu::BufferRef counts;      ///< uint[view][list]
   gpu::BufferRef stats;       ///< shared::CullStats[view]
   gpu::BufferRef transforms;  ///< shared::SectionTransform[view][section]
+  gpu::BufferRef masks;       ///< uint[view][section]: ranges to draw, see cull.comp
   std::uint32_t section_slots = 0;
   DrawLimits most{};
 
@@ -35,9 +39,19 @@ Result<void> check_draws(const DrawLimits& most, const gpu::DeviceLimits& limits
 
 /// Frustum and face-direction culling on the GPU for all views at once: three compute passes
 /// (sections, scan, emit). The order of draws does not depend on thread timing. Conservative:
-/// tested against brute force.
+/// tested against brute force. In two phases the camera's lists hold the opaque and cut-out quads
+/// of what the last frame showed alone.
 CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const CullIn& in);
+
+/// The second of two phases: holds what is in the camera's view against the depths of what the
+/// first has drawn, by squares of pixels (Greene et al., Hierarchical Z-Buffer Visibility, 1993),
+/// and writes CullIn::seen. Conservative. @param depth D32, reverse-Z. @param first of
+/// add_cull_passes(). @return draws of view 0 alone: opaque and cut-out quads that are seen and not
+/// drawn yet, and translucent ones of all that is seen.
+CulledDraws add_hidden_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                              const SceneRefs& scene, const CullIn& in, gpu::ImageRef depth,
+                              const CulledDraws& first);
 
 /// What draw_quads.vert declares, for one view.
 inline auto draw_bindings(const SceneRefs& scene, const CulledDraws& draws, std::uint32_t view) {

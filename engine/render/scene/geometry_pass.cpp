@@ -2,6 +2,7 @@
 
 #include <shader_names.h>
 #include <array>
+#include <utility>
 
 #include "engine/gpu/graph/bindings.h"
 #include "engine/render/scene/gbuffer_formats.h"
@@ -76,6 +77,22 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       in.kept.depth ? in.kept.depth : target(graph, "depth", depth_format(store.depth), scene.size);
   out.normals_ = target(graph, "normals", normal_format(store.normal), scene.size);
   out.positions_ = target(graph, "positions", position_format(store.position), scene.size);
+  add_pass(graph, pipelines, scene, draws, in, false, out);
+  return out;
+}
+
+Geometry GeometryPass::add_revealed(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                                    const SceneRefs& scene, const CulledDraws& draws, const In& in,
+                                    Geometry&& drawn) {
+  Geometry out = std::move(drawn);
+  add_pass(graph, pipelines, scene, draws, in, true, out);
+  return out;
+}
+
+void GeometryPass::add_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                            const SceneRefs& scene, const CulledDraws& draws, const In& in,
+                            bool revealed, Geometry& out) {
+  const GBufferStore& store = in.store;
   const Drawing drawing{program_descs(store, in.finest_coverage), scene, draws, in.cutouts};
   const auto record = [&](auto surface, const auto& stored) {
     return recording(pipelines, drawing, surface, stored);
@@ -84,7 +101,7 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                           gpu::storage<shared::kIslandsBinding>(scene.islands)};
 
   graph.add_pass(
-      "draw_geometry",
+      revealed ? "draw_revealed" : "draw_geometry",
       [&](gpu::PassBuilder& b) {
         declare_draws(b, scene, draws);
         b.read(scene.materials, Use::kFragmentRead);
@@ -95,16 +112,16 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         // Depth says where there is a surface, unless 16 bits cannot. A clear costs a GPU with few
         // raster units 0.15 ms at 1920x1080.
         const bool clear = in.clear_words || store.depth == DepthStore::kD16;
-        out.surfaces_ =
-            b.color(out.surfaces_, clear ? gpu::Load::cleared({}) : gpu::Load::discarded());
+        const gpu::Load drawn_over = clear ? gpu::Load::cleared({}) : gpu::Load::discarded();
+        out.surfaces_ = b.color(out.surfaces_, revealed ? gpu::Load::keep() : drawn_over);
         for (gpu::ImageRef* image : {&out.normals_, &out.positions_})
-          if (*image) *image = b.color(*image, gpu::Load::discarded());
-        out.depth_ = b.depth(out.depth_, gpu::Load::cleared({}));
+          if (*image)
+            *image = b.color(*image, revealed ? gpu::Load::keep() : gpu::Load::discarded());
+        out.depth_ = b.depth(out.depth_, revealed ? gpu::Load::keep() : gpu::Load::cleared({}));
       },
       out.normals_ && out.positions_ ? record(programs::kWriteSurfaceBothFrag, stored)
       : out.stored()                 ? record(programs::kWriteSurfaceStoredFrag, stored)
                                      : record(programs::kWriteSurfaceFrag, std::tuple<>{}));
-  return out;
 }
 
 }  // namespace skerry::render

@@ -23,6 +23,14 @@ struct GeometryPass {
   };
   static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const CulledDraws& draws, const In& in);
+  /// Draws more of the same view. @param draws of add_hidden_passes(). @param in as add() had it.
+  static Geometry add_revealed(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                               const SceneRefs& scene, const CulledDraws& draws, const In& in,
+                               Geometry&& drawn);
+
+ private:
+  static void add_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                       const CulledDraws& draws, const In& in, bool revealed, Geometry& out);
 };
 
 }  // namespace skerry::render

@@ -24,8 +24,14 @@ VoxelBox box_of(std::span<const shared::Quad> quads) {
   for (const shared::Quad& quad : quads) {
     const std::uint32_t face = quad.material >> 16 & 7u, axis = face / 2;
     glm::uvec3 first(quad.geometry & 63u, quad.geometry >> 6 & 63u, quad.geometry >> 12 & 63u);
-    if (face % 2 == 0) ++first[static_cast<int>(axis)];
+    const bool plant = face >= shared::kFaceCount;  // from corner to corner of its voxel
+    if (!plant && face % 2 == 0) ++first[static_cast<int>(axis)];
     glm::uvec3 last = first;
+    if (plant) {
+      low = glm::min(low, first);
+      high = glm::max(high, first + 1u);
+      continue;
+    }
     const glm::uvec2 plane = axes_of_plane(axis);
     last[static_cast<int>(plane.x)] += (quad.geometry >> 18 & 63u) + 1;
     last[static_cast<int>(plane.y)] += (quad.geometry >> 24 & 63u) + 1;

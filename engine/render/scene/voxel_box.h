@@ -20,7 +20,7 @@ struct VoxelBox {
   }
 };
 
-/// The tight box of faces. @param quads not empty, no plants.
+/// The tight box of faces. @param quads not empty.
 VoxelBox box_of(std::span<const shared::Quad> quads);
 
 }  // namespace skerry::render

@@ -36,6 +36,7 @@ struct FrameAssembly {
   SceneRefs scene;
   gpu::ImageRef shadow_maps;  ///< empty: nothing casts
   std::optional<CulledDraws> draws{};
+  std::optional<CulledDraws> revealed{};  ///< none: the camera's view is drawn in one phase
   std::optional<Geometry> geometry{};
   std::optional<Shadows> shadows{};
   TranslucentPass::Layers layers{};

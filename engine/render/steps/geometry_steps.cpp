@@ -6,29 +6,52 @@
 #include "engine/render/steps/reasons.h"
 
 namespace skerry::render {
+namespace {
+
+CullIn cull_in(const FrameAssembly& f) {
+  return {f.scene.section_slots, f.scene.most_draws,
+          static_cast<std::uint32_t>(f.plan.tables.views.size()), f.scene.seen_sections};
+}
+
+GeometryPass::In geometry_in(FrameAssembly& f) {
+  GeometryPass::Kept kept;
+  if (f.plan.temporal) {
+    KeptFrames::Frame& now = f.owners.kept.of(f.plan.temporal->frame);
+    kept = {f.graph.import(now.surfaces), f.graph.import(now.depth)};
+  }
+  return {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
+          samples_per_edge(f.plan.settings) > 1 || f.plan.temporal, f.plan.input.capture, kept};
+}
+
+const char* needs_revealed(const FramePlan& plan) {
+  const char* why = needs_geometry(plan);
+  return why ? why : plan.why_one_phase;
+}
+
+}  // namespace
 
 FrameStep cull_step() {
   return {{{needs_geometry, {"clear_cull_stats", "cull_sections", "cull_scan", "cull_emit"}}},
           [](FrameAssembly& f) {
-            const SceneRefs& scene = f.scene;
-            f.draws = add_cull_passes(f.graph, f.pipelines, scene,
-                                      {scene.section_slots, scene.most_draws,
-                                       static_cast<std::uint32_t>(f.plan.tables.views.size())});
+            f.draws = add_cull_passes(f.graph, f.pipelines, f.scene, cull_in(f));
           }};
 }
 
 FrameStep draw_geometry_step() {
   return {{{needs_geometry, {"draw_geometry"}}}, [](FrameAssembly& f) {
-            GeometryPass::Kept kept;
-            if (f.plan.temporal) {
-              KeptFrames::Frame& now = f.owners.kept.of(f.plan.temporal->frame);
-              kept = {f.graph.import(now.surfaces), f.graph.import(now.depth)};
-            }
-            f.geometry =
-                GeometryPass::add(f.graph, f.pipelines, f.scene, *f.draws,
-                                  {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
-                                   samples_per_edge(f.plan.settings) > 1 || f.plan.temporal,
-                                   f.plan.input.capture, kept});
+            f.geometry = GeometryPass::add(f.graph, f.pipelines, f.scene, *f.draws, geometry_in(f));
+          }};
+}
+
+FrameStep draw_revealed_step() {
+  return {{{needs_revealed,
+            {"find_far_depths", "cull_hidden", "scan_revealed", "emit_revealed", "draw_revealed"}}},
+          [](FrameAssembly& f) {
+            f.revealed = add_hidden_passes(f.graph, f.pipelines, f.scene, cull_in(f),
+                                           f.geometry->depth(), *f.draws);
+            f.draws->stats = f.revealed->stats;
+            f.geometry = GeometryPass::add_revealed(f.graph, f.pipelines, f.scene, *f.revealed,
+                                                    geometry_in(f), *std::move(f.geometry));
           }};
 }
 

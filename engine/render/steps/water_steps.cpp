@@ -6,7 +6,8 @@ namespace skerry::render {
 
 FrameStep draw_translucent_step() {
   return {{{needs_water, {"draw_translucent"}}}, [](FrameAssembly& f) {
-            f.layers = TranslucentPass::draw(f.graph, f.pipelines, f.scene, *f.draws, *f.geometry,
+            f.layers = TranslucentPass::draw(f.graph, f.pipelines, f.scene,
+                                             f.revealed ? *f.revealed : *f.draws, *f.geometry,
                                              f.plan.settings.water_layers);
           }};
 }

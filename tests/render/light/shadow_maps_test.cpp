@@ -175,7 +175,39 @@ TEST_F(KeptShadowMaps, AreDrawnAfreshWhenTheSunMoves) {
   input_.sky = celestial_at(50000.0, 0.0);
   update();
   for (const ActiveCascade& c : update()) EXPECT_FALSE(c.redraw);
-  input_.sky = celestial_at(50012.0, 0.0);
+  input_.sky = celestial_at(50120.0, 0.0);
+  for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
+}
+
+// Coarse maps are kept longer than fine ones, and what is a little late never adds up.
+TEST_F(KeptShadowMaps, ShowTheShadowsOfASunThatMovesWithinAQuarterTexel) {
+  islands_ = {{{}, {1.0, 0.0, 0.0, 0.0}, 100.0}};
+  input_.sky = celestial_at(50000.0, 0.0);
+  update();
+  std::array<int, 4> redrawn{};
+  for (int i = 1; i <= 60; ++i) {
+    input_.sky = celestial_at(50000.0 + 8.0 * i, 0.0);
+    const std::vector<ActiveCascade> kept = update();
+    ASSERT_EQ(kept.size(), 4u);
+    for (std::size_t c = 0; c < kept.size(); ++c) {
+      redrawn[c] += kept[c].redraw ? 1 : 0;
+      // Where the tip of a pole throws its shadow, along the sun's way and along the map's.
+      const glm::dvec3 tip = kShadowBlocks * input_.sky.to_sun;
+      const glm::vec4 at = kept[c].cascade.clip_from_world * glm::vec4(glm::vec3(tip), 1.0f),
+                      foot = kept[c].cascade.clip_from_world * glm::vec4(0, 0, 0, 1);
+      const double texels = 0.5 * kept[c].cascade.key.map_size *
+                            static_cast<double>(glm::length(glm::vec2(at - foot)));
+      EXPECT_LE(texels, 0.2501 + 1e-3) << "map " << c << ", step " << i;
+      if (kept[c].redraw) {
+        EXPECT_LT(texels, 1e-2) << "drawn by the sun as it stands";
+      }
+    }
+  }
+  EXPECT_EQ(redrawn[0], 60);
+  EXPECT_LT(redrawn[3], 35);
+  EXPECT_GT(redrawn[3], 10);
+  input_.parts = 4;  // of a still, whose suns stand all over the disc
+  input_.sky = celestial_at(50000.0 + 8.0 * 60 + 2.0, 0.0);
   for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
 }
 

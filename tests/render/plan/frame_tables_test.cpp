@@ -24,7 +24,13 @@ std::vector<ActiveCascade> cascades_of(const FrameInput& input, const RenderSett
   for (const Cascade& cascade : make_cascades(in)) {
     const auto index = static_cast<std::uint32_t>(out.size());
     const auto edge = static_cast<std::uint32_t>(settings.shadow_size);
-    out.push_back({0, static_cast<int>(index), index, index != 1, {{0, 0}, {edge, edge}}, cascade});
+    out.push_back({0,
+                   static_cast<int>(index),
+                   index,
+                   index != 1,
+                   {{0, 0}, {edge, edge}},
+                   input.sky.to_sun,
+                   cascade});
   }
   return out;
 }

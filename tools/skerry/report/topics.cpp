@@ -15,6 +15,9 @@ constexpr ReportScene kScenes[] = {
      R"({"seed": 8, "time": "18:10", "camera": [250.7, 145.85, -146.0, 270, -21.8]})"},
     {"far", "islands to the horizon",
      R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
+    {"giant", "an island of 400,000 quads, most of them behind others",
+     R"({"seed": 1, "time": "12:00", "camera": [-1817, 29, 696, 292.5, -12],
+         "settings": {"world.time": 39}})"},
     {"cave_mouth", "from a cave into the day",
      R"({"seed": 4, "time": "12:00", "camera": [181.29, 30.64, 14.98, 205, 3]})"},
     {"clouds", "a layer of clouds over islands",
@@ -83,6 +86,9 @@ constexpr TopicPoint kDistances[] = {{"200", "view.distance=200"},
 constexpr TopicPoint kDetails[] = {{"64", "view.detail=64"},   {"128", "view.detail=128"},
                                    {"192", "view.detail=192"}, {"320", "view.detail=320"},
                                    {"512", "view.detail=512"}, {"1024", "view.detail=1024"}};
+constexpr TopicPoint kOcclusions[] = {{"off", "view.occlusion=off"},
+                                      {"auto", "view.occlusion=auto"},
+                                      {"always", "view.occlusion=always"}};
 constexpr TopicPoint kTextureTaps[] = {{"1", "texture.taps=1"},
                                        {"2", "texture.taps=2"},
                                        {"4", "texture.taps=4"},
@@ -161,6 +167,7 @@ constexpr std::string_view kSkyScenes[] = {"day", "low_sun", "cave_mouth"};
 constexpr std::string_view kEdgeScenes[] = {"day", "low_sun", "far"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
+constexpr std::string_view kHiding[] = {"giant", "day"};
 constexpr std::string_view kGlow[] = {"lava"};
 constexpr std::string_view kWater[] = {"water"};
 constexpr std::string_view kTorches[] = {"torches"};
@@ -190,6 +197,8 @@ constexpr Topic kTopics[] = {
      CostOf::kFrame, true, "view.distance=4000"},
     {"view_detail", "blocks up to which everything is drawn in full detail", kDetails, kFar,
      Judge::kReference, CostOf::kFrame, true},
+    {"view_occlusion", "whether what the last frame's surfaces hide is left out", kOcclusions,
+     kHiding, Judge::kEqual, CostOf::kShading},
     {"shading_rate", "pixels that share light where it is alike, and how much it may differ",
      kShadingRates, kLitScenes, Judge::kLimit, CostOf::kShading},
     {"render_scale",
