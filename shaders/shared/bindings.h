@@ -121,5 +121,7 @@ SHARED_CONST uint kMotionsBinding = 84u;       // texels of Motion[]
 SHARED_CONST uint kFarDepthsBinding = 85u;     // see kFineDepthEdge
 SHARED_CONST uint kSeenSectionsBinding = 86u;  // uint[section]: 1 if the last frame showed it
 
+SHARED_CONST uint kSkyScatteringBinding = 87u;  // SkyScatter[body][row][azimuth]
+
 SHARED_END
 #endif

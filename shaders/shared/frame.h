@@ -60,6 +60,7 @@ struct FrameConstants {
   uint shading_flat;     // 1: shadow result times light colour, no N.L
   uint camera_medium;    // block id the camera is in: 0 air, else a translucent block
   float shadow_blur;     // largest radius of the shadow filter [blocks]
+  float sky_horizon;     // elevation of the true horizon [rad], not positive
   float haze_per_block;  // extinction of clear air [1/block]
   float body_in_air;     // where the sky lights the air: how much of it sun or moon lights first
   float ao_strength;     // share of light that a closed corner takes, 0..1

@@ -5,38 +5,36 @@
 SHARED_BEGIN
 
 // Sky-view table: u is the azimuth from +z towards +x, v the elevation with a square root about the
-// horizon. The outermost texel centres lie on the seam and on the two poles, so that clamped
-// sampling needs no wrapping.
+// true horizon, which lies below 0 for an eye above the mist. The outermost texel centres lie on
+// the seam and on the two poles, so that clamped sampling needs no wrapping.
 SHARED_CONST uint kSkyLutWidth = 192u;
 SHARED_CONST uint kSkyLutHeight = 108u;
-SHARED_CONST uint kSkyLutGroup = 8u;  // edge of a workgroup of bake_sky.comp
+SHARED_CONST uint kSkyAzimuths = 13u;  // of half a turn from a body, in what it has scattered
+SHARED_CONST uint kSkyLutGroup = 8u;   // edge of a workgroup of bake_sky.comp
 
 // The discs are drawn this much larger than the real 0.53 degrees: a game's wide field of view
 // makes them look tiny.
 SHARED_CONST float kDiscEnlargement = 3.0f;
 SHARED_CONST float kDiscRadius = 3.0f * 0.004625f;  // [rad]
 
+// The mist hides discs below the horizon over this many radians, inverted: about a pixel.
+SHARED_CONST float kHorizonSharpness = 400.0f;
+
 // Limb darkening of the sun, linear law 1 - u (1 - mu), u at about 700, 550 and 440 nm.
 SHARED_CONST float kLimbRed = 0.45f;
 SHARED_CONST float kLimbGreen = 0.56f;
 SHARED_CONST float kLimbBlue = 0.72f;
 
-// One body's share of the daylight model (Preetham, Shirley, Smits 1999). Components of the Perez
-// terms: luminance Y, chromaticities x, y.
+// What the air scatters along a direction, of a body of irradiance 1.
+struct SkyScatter {
+  vec3 rayleigh;  // once, by molecules, over their phase function
+  vec3 mie;       // once, by aerosol, likewise
+  vec3 multiple;  // more than once, and by the ground: radiance
+};
+
 struct SkyBody {
-  vec3 to_body;    // unit
-  vec3 perez_a;    // darkening of the horizon
-  vec3 perez_b;    // gradient near the horizon
-  vec3 perez_c;    // glow about the body
-  vec3 perez_d;    // width of the glow
-  vec3 perez_e;    // backscatter
-  vec3 zenith;     // zenith's Y [radiance], x, y, each over its Perez term there
-  vec3 day;        // tint of the daylight model, linear RGB; 0 in the night
-  vec3 haze;       // radiance of the bright mist about the horizon by day
-  vec3 dusk_dome;  // twilight: radiance overhead
-  vec3 dusk_band;  // all around the horizon
-  vec3 dusk_fire;  // about the body's azimuth
-  vec3 abyss;      // radiance straight down
+  vec3 to_body;  // unit
+  vec3 light;    // irradiance at the top of the air, linear RGB
 };
 
 struct SkyConstants {
@@ -52,6 +50,9 @@ struct SkyConstants {
   vec3 sky_x;     // rows of sky_from_world: the frame in which the stars stand still
   vec3 sky_y;
   vec3 sky_z;
+  float height_km;  // of the eye above the mist
+  float horizon;    // elevation of the true horizon [rad], not positive
+  float horizon_sine;
   float stars;  // 0 by day .. 1 in a dark night
 };
 

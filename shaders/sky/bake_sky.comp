@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Fills the sky-view table, kSkyLutWidth x kSkyLutHeight, once whenever sun or moon have moved: the
-// sky's own light and, by night, the Milky Way.
+// Fills the sky-view table, kSkyLutWidth x kSkyLutHeight, once whenever sun, moon or the eye's height
+// have changed: the sky's own light and, by night, the Milky Way. The light is the twin of sky_radiance() of
+// engine/render/sky/sky_model.h, which tests compare it with.
 #include "include/frame/halves.glsl"
 #include "include/sky/sky.glsl"
 #include "shared/bindings.h"
@@ -10,6 +11,7 @@
 layout(local_size_x = kSkyLutGroup, local_size_y = kSkyLutGroup) in;
 
 layout(scalar, binding = kSkyBinding) uniform Sky { SkyConstants sky; };
+layout(scalar, binding = kSkyScatteringBinding) readonly buffer Scattering { SkyScatter scattering[]; };
 layout(binding = kSkyTableBinding, rgba16f) writeonly uniform image2D sky_lut;
 
 const float kMilkyWay = 3.0e-4;  // radiance in its middle
@@ -38,12 +40,41 @@ vec3 milky_way(vec3 d) {
   return vec3(0.92, 0.97, 1.15) * (kMilkyWay * band);
 }
 
+const float kMieG = 0.8;
+
+// What molecules and aerosol scatter once, by the cosine of the angle between view and body: Rayleigh; Cornette and Shanks 1992.
+vec2 phases(float cosine) {
+  float square = 1.0 + cosine * cosine;
+  float base = 1.0 + kMieG * kMieG - 2.0 * kMieG * cosine;
+  float mie = 3.0 / (8.0 * kSkyPi) * (1.0 - kMieG * kMieG) / (2.0 + kMieG * kMieG);
+  return square * vec2(3.0 / (16.0 * kSkyPi), mie / (base * sqrt(base)));
+}
+
+// @param index 0 the sun, 1 the moon. @param row of the table that dir lies on.
+vec3 body_radiance(uint index, SkyBody body, vec3 dir, uint row) {
+  float flats = length(dir.xz) * length(body.to_body.xz);
+  float across = acos(clamp(dot(dir.xz, body.to_body.xz) / max(flats, 1e-9), -1.0, 1.0));
+  float place = across * (float(kSkyAzimuths - 1u) / kSkyPi);
+  uint column = min(uint(place), kSkyAzimuths - 2u);
+  uint first = (index * kSkyLutHeight + row) * kSkyAzimuths + column;
+  SkyScatter a = scattering[first], b = scattering[first + 1u];
+  float share = place - float(column);
+  vec2 phase = phases(clamp(dot(dir, body.to_body), -1.0, 1.0));
+  return body.light * (mix(a.rayleigh, b.rayleigh, share) * phase.x + mix(a.mie, b.mie, share) * phase.y +
+                       mix(a.multiple, b.multiple, share));
+}
+
 void main() {
   uvec2 texel = gl_GlobalInvocationID.xy;
   uvec2 size = uvec2(kSkyLutWidth, kSkyLutHeight);
   if (any(greaterThanEqual(texel, size))) return;
-  vec3 dir = dir_from_sky_lut(vec2(texel) / vec2(size - 1u));
+  float azimuth = (float(texel.x) / float(kSkyLutWidth - 1u) - 0.5) * (2.0 * kSkyPi);
+  float root = float(texel.y) / float(kSkyLutHeight - 1u) * 2.0 - 1.0;
+  float range = 0.5 * kSkyPi + (root < 0.0 ? sky.horizon : -sky.horizon);
+  float elevation = sky.horizon + root * abs(root) * range;
+  vec3 dir = vec3(sin(azimuth) * cos(elevation), sin(elevation), cos(azimuth) * cos(elevation));
   vec3 d = vec3(dot(sky.sky_x, dir), dot(sky.sky_y, dir), dot(sky.sky_z, dir));
-  vec3 night = milky_way(d) * (sky.stars * smoothstep(-0.05, 0.20, dir.y));
-  imageStore(sky_lut, ivec2(texel), vec4(as_halves(sky_radiance(dir, sky) + night), 1.0));
+  vec3 radiance = milky_way(d) * (sky.stars * smoothstep(-0.05, 0.20, dir.y));
+  radiance += body_radiance(0u, sky.sun, dir, texel.y) + body_radiance(1u, sky.moon, dir, texel.y);
+  imageStore(sky_lut, ivec2(texel), vec4(as_halves(radiance), 1.0));
 }

@@ -136,6 +136,9 @@ MUTANTS = (
     # Sky and air
     Mutant("haze_doubled", "twice the haze", "engine/render/sky/sky_model.h", "kClearAir = 0.0005f", "kClearAir = 0.001f",
            "far_view high_altitude"),
+    Mutant("ozone_lost", "the air has no ozone", "engine/render/air/air.cpp", " + kOzone * ozone;", ";", "dusk empty"),
+    Mutant("sky_scattered_once", "the air scatters light once and no more", "engine/render/air/sky_scattering.cpp",
+           "multiple += atmosphere.scattered_again(step, sine, cosine);", "", "empty day dusk"),
     Mutant("sky_table_half_texel", "the sky is looked up half a texel beside", "shaders/include/sky/sky.glsl",
            "(sky_lut_from_dir(dir) * (size - 1.0) + 0.5) / size", "(sky_lut_from_dir(dir) * (size - 1.0) + 1.0) / size",
            "empty low_sun sun_disc"),

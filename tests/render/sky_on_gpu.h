@@ -196,19 +196,23 @@ class SkyOnGpu : public testing::Test {
     return texels;
   }
 
-  gpu::Image baked(const shared::SkyConstants& sky) {
+  gpu::Image baked(const SkyModel& sky) {
     gpu::Image lut =
         image(shared::kSkyLutWidth, shared::kSkyLutHeight, VK_FORMAT_R16G16B16A16_SFLOAT);
-    const gpu::Buffer constants = buffer(sky);
+    const SkyScattering scattering = scattering_of_bodies(sky);
+    const gpu::Buffer constants = buffer(sky.constants),
+                      table = buffer(scattering.data(), scattering.size() * sizeof(scattering[0]));
     dispatch("bake_sky.comp",
-             {{shared::kSkyBinding, &constants}, {shared::kSkyTableBinding, nullptr, &lut}},
+             {{shared::kSkyBinding, &constants},
+              {shared::kSkyScatteringBinding, &table},
+              {shared::kSkyTableBinding, nullptr, &lut}},
              shared::kSkyLutWidth, shared::kSkyLutHeight);
     return lut;
   }
 
   /// What a camera looking along `forward` sees of the sky.
-  std::vector<glm::dvec3> seen(const shared::SkyConstants& sky, glm::vec3 forward,
-                               float tan_half_fov, glm::uvec2 size) {
+  std::vector<glm::dvec3> seen(const SkyModel& sky, glm::vec3 forward, float tan_half_fov,
+                               glm::uvec2 size) {
     const gpu::Image lut = baked(sky),
                      radiance = image(size.x, size.y, VK_FORMAT_R16G16B16A16_SFLOAT);
     shared::FrameConstants frame{};
@@ -220,7 +224,8 @@ class SkyOnGpu : public testing::Test {
     frame.pixel_to_ndc = 2.0f / glm::vec2(size);
     frame.sample_in_pixel = glm::vec2(0.5f);
     frame.size = size;
-    const gpu::Buffer frame_buffer = buffer(frame), sky_buffer = buffer(sky);
+    frame.sky_horizon = sky.constants.horizon;
+    const gpu::Buffer frame_buffer = buffer(frame), sky_buffer = buffer(sky.constants);
     const VkSampler sampler = *device_->sampler({});
     dispatch("see_sky.comp",
              {{0, &frame_buffer},

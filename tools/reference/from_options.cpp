@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "engine/render/frame/celestial.h"
-#include "engine/render/sky/sky_model.h"
 #include "game/player/player.h"
 #include "game/scene_file/cloud_files.h"
 #include "game/view/light_setup.h"
@@ -128,9 +127,9 @@ double light_in_air(const render::Celestial& sky) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-void add_sky(const game::SceneOptions& options, const render::Celestial& sky, double body_radius,
-             Scene& scene) {
-  scene.sky = Sky{render::sky_constants(sky), glm::dmat3(sky.sky_from_world)};
+void add_sky(const game::SceneOptions& options, const render::Celestial& sky, double eye_km,
+             double body_radius, Scene& scene) {
+  scene.sky = Sky{render::sky_model(sky, eye_km), glm::dmat3(sky.sky_from_world)};
   if (sky.sun_casts)
     scene.bodies.push_back({sky.to_sun, glm::dvec3(sky.sun_irradiance), body_radius});
   if (sky.moon_casts)
@@ -256,7 +255,8 @@ Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettin
   scene.lights = lights_of(world, options, camera, settings.threads, placed(specs, scene.islands));
   scene.view.medium = medium_at_eye(scene.islands);
   scene.time_s = options.settings.world_time_s;
-  add_sky(options, sky, settings.body_radius, scene);
+  const double above = static_cast<double>(camera.position.y - world.origin().y) / 65536.0;
+  add_sky(options, sky, render::eye_height_km(above), settings.body_radius, scene);
   if (Result<void> added = add_clouds(options, camera.position, world.origin(), scene); !added)
     return added.error();
   draw(scene);

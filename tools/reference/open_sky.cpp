@@ -9,8 +9,6 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
-#include "engine/render/sky/sky_model.h"
-
 namespace skerry::reference {
 namespace {
 
@@ -60,7 +58,7 @@ glm::dvec3 milky_way(glm::dvec3 d) {
 
 /// Stars show from here up: none below the horizon.
 double stars_seen(glm::dvec3 direction, const Sky& sky) {
-  return static_cast<double>(sky.constants.stars) * smooth_step(-0.05, 0.20, direction.y);
+  return static_cast<double>(sky.model.constants.stars) * smooth_step(-0.05, 0.20, direction.y);
 }
 
 /// Where a direction meets a disc, in its radii; nothing outside.
@@ -152,14 +150,14 @@ CubePlace cube_place(glm::dvec3 d) {
 }  // namespace
 
 glm::dvec3 sky_behind(glm::dvec3 direction, const Sky& sky) {
-  glm::dvec3 radiance = render::sky_radiance(direction, sky.constants);
+  glm::dvec3 radiance = render::sky_radiance(direction, sky.model);
   const double seen = stars_seen(direction, sky);
   if (seen > 0.0) radiance += milky_way(sky.sky_from_world * direction) * seen;
   return radiance;
 }
 
 glm::dvec3 disc_radiance(glm::dvec3 direction, const Sky& sky) {
-  const shared::SkyConstants& c = sky.constants;
+  const shared::SkyConstants& c = sky.model.constants;
   glm::dvec3 radiance(0.0);
   if (const auto p = on_disc(direction, c.sun, c.sun_right, c.sun_up)) {
     const double mu = std::sqrt(1.0 - glm::dot(*p, *p));
@@ -171,12 +169,13 @@ glm::dvec3 disc_radiance(glm::dvec3 direction, const Sky& sky) {
     const double lit = std::max(0.0, glm::dot(glm::dvec3(*p, mu), glm::dvec3(c.moon_lit)));
     radiance += glm::dvec3(c.moon_disc) * (moon_ground(*p) * 2.0 * lit / std::max(lit + mu, 1e-3));
   }
-  // The lower sky's mist swallows what stands in it.
-  return radiance * std::clamp((direction.y + 0.015) * 40.0, 0.0, 1.0);
+  // The mist hides what has set.
+  const double above = direction.y - static_cast<double>(c.horizon_sine);
+  return radiance * std::clamp(above * 400.0 + 0.5, 0.0, 1.0);
 }
 
 bool moon_hides_stars(glm::dvec3 direction, const Sky& sky) {
-  const shared::SkyConstants& c = sky.constants;
+  const shared::SkyConstants& c = sky.model.constants;
   return on_disc(direction, c.moon, c.moon_right, c.moon_up).has_value();
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "shaders/shared/sky.h"
+#include "engine/render/sky/sky_model.h"
 #include "tools/reference/clouds.h"
 #include "tools/reference/lights.h"
 #include "world/islands/volume.h"
@@ -30,9 +30,9 @@ struct Body {
   double angular_radius = 0.0;  ///< [rad]; 0: a point, with hard shadows
 };
 
-/// The sky of a moment: render::sky_constants, and what hides behind it.
+/// The sky of a moment: render::sky_model, and what hides behind it.
 struct Sky {
-  shared::SkyConstants constants;
+  render::SkyModel model;
   glm::dmat3 sky_from_world{1.0};  ///< the frame in which the stars stand still
 };
 

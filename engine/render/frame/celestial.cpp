@@ -8,16 +8,13 @@
 #include <numbers>
 
 #include "engine/core/check.h"
+#include "engine/render/air/atmosphere.h"
 
 namespace skerry::render {
 namespace {
 
 constexpr double kMoonFadesAtSine = 0.1;  // of the sun's altitude: 5.7 degrees
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
-constexpr double kTurbidity = 2.5;
-constexpr double kHorizonHalfWidthDeg =
-    0.3;                                // the disc (0.53 degrees) crosses the horizon within this
 constexpr double kFaintestMoon = 0.01;  // share of the full moon's light below which it casts none
 // Moonlight as eyes at night see it; unit luminance.
 constexpr glm::dvec3 kMoonTint{0.79, 1.02, 1.42};
@@ -55,24 +52,6 @@ double reduced(double value, double period) {
   return positive < period ? positive : 0.0;  // a tiny negative rest rounds up to the period
 }
 
-double altitude_deg(double sine) {
-  return std::asin(std::clamp(sine, -1.0, 1.0)) / kDegree;
-}
-
-double smooth_step(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
-/// Relative optical air mass, 1 at the zenith, 38 at the horizon. Kasten and Young 1989.
-double air_mass(double altitude) {
-  return 1.0 / (std::sin(altitude * kDegree) + 0.50572 * std::pow(altitude + 6.07995, -1.6364));
-}
-
-double visible_part(double sine) {
-  return smooth_step(-kHorizonHalfWidthDeg, kHorizonHalfWidthDeg, altitude_deg(sine));
-}
-
 /// Light reflected by a Lambertian sphere at elongation 2 pi * phase over that when full.
 double lambert_phase(double phase) {
   const double alpha = std::abs(kPi - 2.0 * kPi * phase);  // angle sun, moon, eye
@@ -80,7 +59,7 @@ double lambert_phase(double phase) {
 }
 
 glm::dvec3 direct_irradiance(double sine) {
-  return kPi * transmittance_to_zenith(sine) * visible_part(sine);
+  return sunlight_in_space() * world_atmosphere().direct_light(kWorldAboveMistKm, sine);
 }
 
 bool any(glm::vec3 v) {
@@ -94,31 +73,21 @@ glm::dvec3 moonlight(double moon_phase) {
   return kMoonToSun * std::max(0.0, share) * kMoonTint;
 }
 
-glm::dvec3 transmittance_to_zenith(double sine) {
-  // Preetham 1999, appendix A1, at 680, 550 and 440 nm: optical depth of one air mass by molecules,
-  // haze and ozone.
-  constexpr glm::dvec3 kOzonePerCm{0.036, 0.085, 0.003};
-  constexpr double kOzoneCm = 0.35;
-  constexpr double kHaze = 0.04608 * kTurbidity - 0.04586;
-  const double beyond_zenith = air_mass(std::max(0.0, altitude_deg(sine))) - air_mass(90.0);
-  glm::dvec3 result;
-  for (int i = 0; i < 3; ++i) {
-    const double um = std::array{0.680, 0.550, 0.440}[static_cast<std::size_t>(i)];
-    const double depth =
-        0.008735 * std::pow(um, -4.08) + kHaze * std::pow(um, -1.3) + kOzonePerCm[i] * kOzoneCm;
-    result[i] = std::exp(-depth * beyond_zenith);
-  }
-  return result;
+double moon_beside_sun(double sun_sine) {
+  // By day moonlight is below 1/400 of what the sun gives and cannot be seen; fading it out saves
+  // the moon's shadow maps and scattering.
+  const double height = std::clamp(sun_sine / kMoonFadesAtSine, 0.0, 1.0);
+  return 1.0 - height * height * (3.0 - 2.0 * height);
 }
 
-double zenith_radiance(double sun_altitude_sine) {
-  constexpr double kKilocandelas = 35.0;  // 110 klx of zenith sun over pi
-  const double h = altitude_deg(sun_altitude_sine);
-  const double chi = (4.0 / 9.0 - kTurbidity / 120.0) * 2.0 * std::max(0.0, h) * kDegree;
-  const double day = (4.0453 * kTurbidity - 4.9710) * std::tan(chi) - 0.2155 * kTurbidity + 2.4192;
-  constexpr double kSoftnessDeg = 1.5, kFallPerDeg = 0.45;
-  const double depth = kSoftnessDeg * std::log1p(std::exp(-h / kSoftnessDeg));
-  return day / kKilocandelas * std::exp(-kFallPerDeg * depth) * smooth_step(-18.0, -9.0, h);
+glm::dvec3 sunlight_in_space() {
+  // What the noon sun gives: white, a little warm, and bright enough that a white surface which
+  // faces it has a radiance of about 1.
+  constexpr glm::dvec3 kNoon = kPi * glm::dvec3(0.974, 0.957, 0.933);
+  static const glm::dvec3 kInSpace =
+      kNoon / world_atmosphere().direct_light(kWorldAboveMistKm,
+                                              std::sin(kNoonAltitudeDeg * (kPi / 180.0)));
+  return kInSpace;
 }
 
 Celestial celestial_at(double time_of_day_s, double moon_phase) {
@@ -129,11 +98,8 @@ Celestial celestial_at(double time_of_day_s, double moon_phase) {
   sky.to_moon = on_equator(turns - sky.moon_phase);
   sky.moon_lit_fraction = static_cast<float>(0.5 * (1.0 - unit_circle(sky.moon_phase).x));
   sky.sun_irradiance = direct_irradiance(sky.to_sun.y);
-  // By day moonlight is below 1/400 of what the sun gives and cannot be seen; fading it out saves
-  // the moon's shadow maps.
-  const double sun_height = std::clamp(sky.to_sun.y / kMoonFadesAtSine, 0.0, 1.0);
-  const double moon_left = 1.0 - sun_height * sun_height * (3.0 - 2.0 * sun_height);
-  sky.moon_irradiance = moon_left * moonlight(sky.moon_phase) * direct_irradiance(sky.to_moon.y);
+  sky.moon_irradiance =
+      moon_beside_sun(sky.to_sun.y) * moonlight(sky.moon_phase) * direct_irradiance(sky.to_moon.y);
   sky.sun_casts = any(sky.sun_irradiance);
   sky.moon_casts = any(sky.moon_irradiance);
   const glm::dmat3 rows(sky.to_sun, glm::cross(kCelestialPole, sky.to_sun), kCelestialPole);

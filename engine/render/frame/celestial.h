@@ -18,10 +18,10 @@ inline constexpr double kMoonToSun = 1.0 / 400.0;
 /// Where the two bodies stand and the light they send at one moment. Axes and units:
 /// docs/conventions.md.
 struct Celestial {
-  glm::dvec3 to_sun, to_moon;      ///< unit
-  glm::vec3 sun_irradiance;        ///< on a surface facing the sun, linear RGB; pi at the zenith
-  glm::vec3 moon_irradiance;       ///< on a surface facing the moon
-  double moon_phase = 0.0;         ///< 0 new, 0.25 first quarter, 0.5 full, below 1
+  glm::dvec3 to_sun, to_moon;  ///< unit
+  glm::vec3 sun_irradiance;    ///< on a surface facing the sun, linear RGB, at the origin's height
+  glm::vec3 moon_irradiance;   ///< on a surface facing the moon
+  double moon_phase = 0.0;     ///< 0 new, 0.25 first quarter, 0.5 full, below 1
   float moon_lit_fraction = 0.0f;  ///< part of the disc that is lit, 0..1
   bool sun_casts = false;          ///< exactly when sun_irradiance is not zero
   bool moon_casts = false;         ///< exactly when moon_irradiance is not zero
@@ -35,27 +35,26 @@ struct Celestial {
 /// kNoonAltitudeDeg and sets in the west at 18:00; the moon runs on the same circle, behind the sun
 /// by the phase (full: opposite).
 /// @param time_of_day_s any finite number of seconds, reduced exactly to a day; @param moon_phase
-/// any finite number, reduced to 0..1. Asserts that both are finite. Irradiance: pi * transmittance
-/// relative to the zenith (Preetham 1999, appendix A1: Rayleigh, aerosol and ozone, turbidity 2.5,
-/// air mass of Kasten and Young 1989), times the part of the disc above the horizon: 0 below -0.3
-/// degrees. The moon's is kMoonToSun times that, times Lambert's phase law of a sphere, less 1% so
-/// that thin crescents cast no light; it fades out while the sun climbs to 5.7 degrees, beside
-/// which it could not be seen.
+/// any finite number, reduced to 0..1. Asserts that both are finite. Irradiance:
+/// sunlight_in_space() through the air (Atmosphere::direct_light) at the height of the world's
+/// origin, from where the true horizon lies half a degree below 0: 0 below -0.8 degrees. The moon's
+/// is kMoonToSun times that, times Lambert's phase law of a sphere, less 1% so that thin crescents
+/// cast no light, times moon_beside_sun().
 Celestial celestial_at(double time_of_day_s, double moon_phase);
 
 /// The moon's light over the sun's at the same altitude, linear RGB, bluish. 0 about the new moon.
 /// @param moon_phase 0..1.
 glm::dvec3 moonlight(double moon_phase);
 
-/// Direct light that arrives from altitude `sine` (of the angle above the horizon, -1..1) over that
-/// from the zenith, linear RGB in 0..1, without the horizon's cut: below the horizon it is the
-/// horizon's.
-glm::dvec3 transmittance_to_zenith(double sine);
+/// How much of the moon's light there is beside the sun's, 0..1: it fades out while the sun climbs
+/// to 5.7 degrees, beside which it could not be seen.
+double moon_beside_sun(double sun_sine);
 
-/// Radiance (luminance) of the zenith of a sky lit by the sun at this altitude: Preetham's zenith
-/// luminance by day (35 kcd/m2 is the unit of radiance), times a twilight that falls off by
-/// exp(-0.55) a degree below the horizon (half the real pace, to leave an evening to play in) and
-/// ends at -18 degrees, 0 beyond. Smooth through the horizon.
-double zenith_radiance(double sun_altitude_sine);
+/// Height of the world's origin above the sea of mist [km].
+inline constexpr double kWorldAboveMistKm = 0.25;
+
+/// Irradiance of the sun at the top of the air, linear RGB, so large that it is 3 at noon on the
+/// islands.
+glm::dvec3 sunlight_in_space();
 
 }  // namespace skerry::render

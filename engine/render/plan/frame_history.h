@@ -6,8 +6,8 @@
 #include "engine/render/light/shadow_plan.h"
 #include "engine/render/plan/temporal_history.h"
 #include "engine/render/sky/cloud_plan.h"
+#include "engine/render/sky/sky_model.h"
 #include "shaders/shared/geometry.h"
-#include "shaders/shared/sky.h"
 
 namespace skerry::render {
 
@@ -28,7 +28,7 @@ struct FrozenView {
 /// when the frame has been submitted, so that a frame that fails half-way changes nothing.
 struct FrameHistory {
   ShadowHistory shadows;
-  std::optional<shared::SkyConstants> baked_sky;  ///< that the sky table shows; none: nothing yet
+  std::optional<SkyModel> baked_sky;  ///< that the sky table shows; none: nothing yet
   CloudHistory clouds;
   std::optional<FrozenView> frozen;
   std::optional<TemporalHistory> temporal;  ///< none: the last frame was not kept

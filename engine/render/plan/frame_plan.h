@@ -13,6 +13,7 @@
 #include "engine/render/plan/scene_facts.h"
 #include "engine/render/plan/temporal_plan.h"
 #include "engine/render/sky/cloud_plan.h"
+#include "engine/render/sky/sky_model.h"
 #include "shaders/shared/marker.h"
 
 namespace skerry::render {
@@ -26,7 +27,7 @@ struct FramePlan {
   VkExtent2D picture{}, drawn{};  ///< `picture` is enlarged to `shown`; `drawn` has aa.samples
                                   ///< times as many pixels
   bool geometry = false;          ///< sections are resident
-  shared::SkyConstants sky{};     ///< of the whole picture, not of its part
+  SkyModel sky{};                 ///< of the whole picture, not of its part
   /// Null: the camera's view is drawn in two phases, so that what is hidden is not drawn.
   const char* why_one_phase = "no geometry is resident";
   bool bake_sky = false;                ///< else the sky table of an earlier frame is kept

@@ -85,6 +85,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.bodies[1] = shader_body(input.sky.to_moon, input.sky.moon_irradiance, 1, cascades);
 
   f.ao_strength = settings.ao_strength;
+  f.sky_horizon = static_cast<float>(std::asin(horizon_sine(eye_height_km(input))));
   f.haze_per_block = kClearAir * air_light(input.sky);
 
   shared::CullView view{};
@@ -134,10 +135,10 @@ bool disc_in_view(const Celestial& sky, const shared::FrameConstants& frame) {
   const float pixel = frame.pixel_to_ndc.y * glm::length(frame.ray_up);
   const float reach = std::acos(std::clamp(1.0f / glm::length(corner), 0.0f, 1.0f)) +
                       2.0f * shared::kDiscRadius + 2.0f * pixel;
-  constexpr float kMist = 0.015f;  // sine of the depth below the horizon at which discs end
+  const float horizon = std::sin(frame.sky_horizon);
   const auto seen = [&](glm::dvec3 to_body) {
     const glm::vec3 body(to_body);
-    if (body.y < -(kMist + 2.0f * shared::kDiscRadius + 2.0f * pixel)) return false;
+    if (body.y < horizon - 2.0f * shared::kDiscRadius - 2.0f * pixel) return false;
     const float cosine = glm::dot(body, frame.ray_forward);
     return std::acos(std::clamp(cosine, -1.0f, 1.0f)) <= reach;
   };

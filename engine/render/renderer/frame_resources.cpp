@@ -127,7 +127,7 @@ Result<void> FrameResources::create(gpu::Uploader& uploader,
 }
 
 Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& tables,
-                                    const FrameInput& input, const shared::SkyConstants& sky) {
+                                    const FrameInput& input, const SkyModel& sky, bool bake_sky) {
   // Where every pixel is black, any exposure is right.
   shared::Exposure given{};
   given.ev = input.exposure_ev.value_or(0.0f);
@@ -136,7 +136,8 @@ Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& 
       upload(uploader, exposure_, "exposure", std::span<const shared::Exposure>(&given, 1)),
       upload(uploader, frame_, "frame constants",
              std::span<const shared::FrameConstants>(&tables.constants, 1)),
-      upload(uploader, sky_, "sky constants", std::span<const shared::SkyConstants>(&sky, 1)),
+      upload(uploader, sky_, "sky constants",
+             std::span<const shared::SkyConstants>(&sky.constants, 1)),
       upload(uploader, islands_, "island transforms",
              std::span<const shared::IslandTransform>(tables.islands).first(island_count)),
       upload(uploader, view_islands_, "view island transforms",
@@ -145,7 +146,10 @@ Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& 
   };
   for (const Result<void>& one : done)
     if (!one) return one.error();
-  return {};
+  if (!bake_sky) return {};
+  const SkyScattering scattering = scattering_of_bodies(sky);
+  return upload(uploader, sky_scattering_, "sky scattering",
+                std::span<const shared::SkyScatter>(scattering));
 }
 
 Result<void> FrameResources::upload_light_islands(gpu::Uploader& uploader,
@@ -168,6 +172,7 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   SceneRefs s;
   s.frame = graph.import(frame_);
   s.sky = graph.import(sky_);
+  s.sky_scattering = graph.import(sky_scattering_);
   s.islands = graph.import(islands_);
   s.view_islands = graph.import(view_islands_);
   s.clip_from_source = tables.matrices;

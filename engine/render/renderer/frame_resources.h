@@ -21,9 +21,10 @@ class FrameResources {
 
   /// Makes what stays, and queues its contents. Errors: out of memory.
   Result<void> create(gpu::Uploader& uploader, std::span<const shared::Material> materials);
-  /// Queues a frame's tables. Errors: out of memory.
+  /// Queues a frame's tables. @param bake_sky the sky's table is made from them. Errors: out of
+  /// memory.
   Result<void> upload(gpu::Uploader& uploader, const FrameTables& tables, const FrameInput& input,
-                      const shared::SkyConstants& sky);
+                      const SkyModel& sky, bool bake_sky);
   /// Queues FrameInput::light_islands. Errors: out of memory.
   Result<void> upload_light_islands(gpu::Uploader& uploader, const FrameInput& input);
   /// A frame's references to all of it, and what the settings choose. Stores, clouds and corners
@@ -50,8 +51,8 @@ class FrameResources {
   Result<void> create_samplers();
 
   gpu::Device* device_;
-  gpu::Buffer frame_, sky_, islands_, view_islands_, views_, light_islands_, materials_, indices_,
-      pixel_stats_, exposure_, no_texels_, seen_;
+  gpu::Buffer frame_, sky_, sky_scattering_, islands_, view_islands_, views_, light_islands_,
+      materials_, indices_, pixel_stats_, exposure_, no_texels_, seen_;
   gpu::Image block_textures_, sky_lut_, no_volume_, no_words_;
   VkSampler block_sampler_{}, lut_sampler_{}, point_sampler_{};
 };

@@ -57,7 +57,8 @@ void plan_sky(FramePlan& plan, const FrameHistory& history) {
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): equal bytes are enough
     return std::memcmp(&a, &b, sizeof(a)) == 0;
   };
-  plan.bake_sky = !history.baked_sky || !same_bytes(*history.baked_sky, plan.sky);
+  plan.bake_sky =
+      !history.baked_sky || !same_bytes(history.baked_sky->constants, plan.sky.constants);
   plan.next.baked_sky = plan.sky;
   // A table that is broken on purpose is made again by the next frame.
   if (plan.input.fault && plan.input.fault->in == Fault::In::kSkyTable) plan.next.baked_sky.reset();
@@ -163,14 +164,15 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.geometry = facts.has_geometry();
   plan.indirect = settings.indirect != Indirect::kOff && facts.indirect && plan.geometry &&
                   !shows_channel(settings);
-  plan.sky = sky_constants(plan.input.sky);
+  plan.sky = sky_model(plan.input.sky, eye_height_km(plan.input),
+                       history.baked_sky ? &*history.baked_sky : nullptr);
   plan.input.sky = sky_of_part(plan.input.sky, plan.input.part, plan.input.parts);
   if (plan.geometry)
     plan.shadows = plan_shadows(plan.input, settings, *facts.changes, history.shadows,
                                 facts.shadow_generation);
   plan.tables = build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades);
   plan.tables.constants.picture_size = {plan.picture.width, plan.picture.height};
-  plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky, facts);
+  plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky.constants, facts);
   plan.tables.constants.layers_area = plan.contents.layers_area;
   plan.ao = facts.occupancy && settings.ao_strength > 0.0f && settings.shading != Shading::kFlat;
   plan.marked_slices = marked_slices(plan.input, plan.contents);

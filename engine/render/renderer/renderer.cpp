@@ -174,7 +174,9 @@ Result<void> Renderer::State::make_room(const FramePlan& plan) {
 /// Queues the frame's tables.
 Result<void> Renderer::State::upload(const FramePlan& plan) {
   const FrameInput& input = plan.input;
-  if (Result<void> ok = resources.upload(frame_uploader, plan.tables, input, plan.sky); !ok)
+  if (Result<void> ok =
+          resources.upload(frame_uploader, plan.tables, input, plan.sky, plan.bake_sky);
+      !ok)
     return ok;
   if (!plan.contents.lights.empty())
     if (Result<void> ok =

@@ -5,7 +5,6 @@
 #include <glm/matrix.hpp>
 
 #include "engine/core/check.h"
-#include "engine/render/sky/sky_model.h"
 
 namespace skerry::render {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 constexpr glm::dvec2 kWind{5.0, 2.0};
 
 /// Radiance of the sky, mean of all directions: a spiral over the sphere.
-glm::dvec3 mean_sky(const shared::SkyConstants& sky) {
+glm::dvec3 mean_sky(const SkyModel& sky) {
   constexpr int kDirections = 96;
   constexpr double kGoldenAngle = 2.399963229728653;
   glm::dvec3 sum(0.0);
@@ -108,7 +107,7 @@ void plan_light(CloudPlan& plan, const FrameInput& input, std::size_t volumes) {
 }  // namespace
 
 shared::CloudConstants cloud_constants(const FrameInput& input, const CloudSettings& settings,
-                                       const shared::SkyConstants& sky,
+                                       const SkyModel& sky,
                                        std::span<const CloudVolumeDesc> volumes,
                                        std::span<const PackedVolume> packed) {
   shared::CloudConstants out{};
@@ -125,9 +124,8 @@ shared::CloudConstants cloud_constants(const FrameInput& input, const CloudSetti
   return out;
 }
 
-CloudPlan plan_clouds(const FrameInput& input, const CloudSettings& settings,
-                      const shared::SkyConstants& sky, const CloudFacts& facts,
-                      const CloudHistory& history) {
+CloudPlan plan_clouds(const FrameInput& input, const CloudSettings& settings, const SkyModel& sky,
+                      const CloudFacts& facts, const CloudHistory& history) {
   CloudPlan plan;
   plan.layer = settings.coverage > 0.0f;
   SKERRY_ASSERT(plan.layer || !facts.volumes.empty());

@@ -8,8 +8,8 @@
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/settings.h"
 #include "engine/render/sky/cloud_atlas.h"
+#include "engine/render/sky/sky_model.h"
 #include "shaders/shared/clouds.h"
-#include "shaders/shared/sky.h"
 
 namespace skerry::render {
 
@@ -48,14 +48,13 @@ struct CloudPlan {
 
 /// What of a frame's clouds changes from frame to frame. @param volumes as they were packed.
 shared::CloudConstants cloud_constants(const FrameInput& input, const CloudSettings& settings,
-                                       const shared::SkyConstants& sky,
+                                       const SkyModel& sky,
                                        std::span<const CloudVolumeDesc> volumes,
                                        std::span<const PackedVolume> packed);
 
 /// Decides what of a frame's clouds is made anew. @pre the frame has clouds. A function of its
 /// arguments alone.
-CloudPlan plan_clouds(const FrameInput& input, const CloudSettings& settings,
-                      const shared::SkyConstants& sky, const CloudFacts& facts,
-                      const CloudHistory& history);
+CloudPlan plan_clouds(const FrameInput& input, const CloudSettings& settings, const SkyModel& sky,
+                      const CloudFacts& facts, const CloudHistory& history);
 
 }  // namespace skerry::render

@@ -11,13 +11,12 @@
 #include <numbers>
 
 #include "engine/core/harmonics.h"
-#include "engine/render/sky/sky_model.h"
 #include "shaders/shared/indirect.h"
 
 namespace skerry::render {
 namespace {
 
-constexpr int kCubeEdge = 12;  // texels along a face of the cube that the sky is sampled on
+constexpr int kCubeEdge = 20;  // texels along a face of the cube that the sky is sampled on
 constexpr int kStrata = 8;     // samples of an octant, each way
 constexpr float kMostHalf = 65504.0f;
 constexpr std::size_t kFaces = 6;
@@ -26,7 +25,7 @@ constexpr std::size_t kFaces = 6;
 /// sides. Smooth enough to be interpolated: discs are not in it.
 class SkyCube {
  public:
-  explicit SkyCube(const shared::SkyConstants& sky) {
+  explicit SkyCube(const SkyModel& sky) {
     for (int side = 0; side < 6; ++side)
       for (int j = 0; j < kCubeEdge; ++j)
         for (int i = 0; i < kCubeEdge; ++i) {
@@ -164,7 +163,7 @@ void put_island(const SkyCube& cube, const Celestial& bodies, const glm::dquat& 
 
 }  // namespace
 
-std::vector<glm::uvec4> sky_irradiance(const shared::SkyConstants& sky, const Celestial& bodies,
+std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bodies,
                                        std::span<const IslandPlacement> islands,
                                        const std::vector<bool>& shown) {
   const SkyCube cube(sky);

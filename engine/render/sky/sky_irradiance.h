@@ -5,7 +5,7 @@
 
 #include "engine/render/frame/celestial.h"
 #include "engine/render/frame/frame_input.h"
-#include "shaders/shared/sky.h"
+#include "engine/render/sky/sky_model.h"
 
 namespace skerry::render {
 
@@ -15,7 +15,7 @@ namespace skerry::render {
 /// @param shown one an island: others are passed over and get 0.
 /// @return kIndirectIslandTexels an island in the layout of shaders/shared/indirect.h; what a half
 /// holds is at most what it can.
-std::vector<glm::uvec4> sky_irradiance(const shared::SkyConstants& sky, const Celestial& bodies,
+std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bodies,
                                        std::span<const IslandPlacement> islands,
                                        const std::vector<bool>& shown);
 

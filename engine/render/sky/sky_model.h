@@ -1,20 +1,49 @@
 #pragma once
+#include <array>
 #include <glm/vec3.hpp>
+#include <memory>
 
+#include "engine/render/air/sky_scattering.h"
 #include "engine/render/frame/celestial.h"
+#include "engine/render/frame/frame_input.h"
+#include "shaders/shared/frame.h"
 #include "shaders/shared/sky.h"
 
 namespace skerry::render {
 
+/// What an eye's air scatters of one body, and what that depends on.
+struct BodyScattering {
+  double height_km = 0.0, sine = 0.0;
+  SkyScattering table;
+};
+
 /// Everything of a moment's sky that does not depend on the direction looked at.
-/// Source: A. J. Preetham, P. Shirley, B. Smits, A Practical Analytic Model for Daylight, SIGGRAPH
-/// 1999, turbidity 2.5; sun and moon are two sources of it. The paper ends at the horizon: a stated
-/// twilight takes over below (sky_model.cpp).
-shared::SkyConstants sky_constants(const Celestial& sky);
+struct SkyModel {
+  shared::SkyConstants constants{};  ///< decide all of it: equal ones have equal tables
+  /// Of sun and moon; none: it gives no light, or the air that is seen is in the dark.
+  std::array<std::shared_ptr<const BodyScattering>, shared::kBodyCount> scattering;
+};
+
+/// The sky over an eye, by world_atmosphere(), lit by sun and moon alike. Scattering is made for
+/// the nearest place of a lattice of elevations (1/128 degree) and heights (1/256 of the height
+/// above the mist, 1 m at the least), next to which the eye's change no pixel by more than 1/255.
+/// @param height_km of the eye, see eye_height_km(). @param before scattering that it has is not
+/// made again.
+SkyModel sky_model(const Celestial& sky, double height_km = kWorldAboveMistKm,
+                   const SkyModel* before = nullptr);
+
+/// The scattering of both bodies in the layout of shared::SkyScatter[body][row][azimuth]; zeros
+/// without one.
+SkyScattering scattering_of_bodies(const SkyModel& sky);
+
+/// Height above the mist of an eye so many blocks above the world's origin [km], on the lattice of
+/// heights: 1 m below the mist, at most 1,000 km.
+double eye_height_km(double blocks_above_origin);
+double eye_height_km(const FrameInput& input);
 
 /// Radiance of the sky without discs and stars, linear RGB, >= 0 and finite. The double-precision
-/// twin of sky_radiance() in shaders/include/sky/sky.glsl. @param dir unit, any.
-glm::dvec3 sky_radiance(glm::dvec3 dir, const shared::SkyConstants& sky);
+/// twin of shaders/sky/bake_sky.comp. @param dir unit, any.
+glm::dvec3 sky_radiance(glm::dvec3 dir, const SkyModel& sky);
 
 /// Extinction of clear air [1/block].
 inline constexpr float kClearAir = 0.0005f;

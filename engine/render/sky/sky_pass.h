@@ -3,8 +3,8 @@
 
 namespace skerry::render {
 
-/// Bakes the sky's radiance into its table (shaders/sky/bake_sky.comp), when sun or moon have
-/// moved.
+/// Bakes the sky's radiance into its table (shaders/sky/bake_sky.comp), when sun, moon or the eye's
+/// height have changed.
 /// @return the table's new version.
 gpu::ImageRef add_sky_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                            const SceneRefs& scene);

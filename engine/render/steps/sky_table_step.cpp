@@ -5,12 +5,14 @@
 namespace skerry::render {
 
 FrameStep sky_table_step() {
-  return {{{[](const FramePlan& plan) -> const char* {
-              return plan.bake_sky ? nullptr
-                                   : "sun and moon have not moved since the table was made";
-            },
-            {"bake_sky"}}},
-          [](FrameAssembly& f) { f.scene.sky_lut = add_sky_pass(f.graph, f.pipelines, f.scene); }};
+  return {
+      {{[](const FramePlan& plan) -> const char* {
+          return plan.bake_sky
+                     ? nullptr
+                     : "sun, moon and the eye's height have not changed since the table was made";
+        },
+        {"bake_sky"}}},
+      [](FrameAssembly& f) { f.scene.sky_lut = add_sky_pass(f.graph, f.pipelines, f.scene); }};
 }
 
 }  // namespace skerry::render

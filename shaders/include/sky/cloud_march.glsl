@@ -265,7 +265,7 @@ Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end,
   float enough = passes_glow() ? kDiscHidden : clear_enough(dir);
   Clouded seen = Clouded(vec3(0.0), 1.0);
   vec4 sun_phases = term_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = term_phases(dot(dir, clouds.lights[1].to_light));
-  vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir) : vec3(0.0);
+  vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir, frame.sky_horizon) : vec3(0.0);
   for (uint i = 0u; i < kMostIterations && t < stop && seen.clear > enough; ++i) {
     CloudsHere here = clouds_here(t, growth, stop);
     if (here.whole == 1e30) {

@@ -44,8 +44,8 @@ vec3 discs(vec3 dir, float pixel_angle) {
   float sun_cover = dot(dir, sky.sun.to_body) > near ? disc_cover(sun, pixel_angle) : 0.0;
   float moon_cover = dot(dir, sky.moon.to_body) > near ? disc_cover(moon, pixel_angle) : 0.0;
   vec3 limb = 1.0 - vec3(kLimbRed, kLimbGreen, kLimbBlue) * (1.0 - sun.z);
-  // The lower sky's mist swallows what stands in it.
-  float risen = clamp((dir.y + 0.015) * 40.0, 0.0, 1.0);
+  // The mist hides what has set.
+  float risen = clamp((dir.y - sky.horizon_sine) * kHorizonSharpness + 0.5, 0.0, 1.0);
   return (sky.sun_disc * limb * sun_cover + moon_disc(moon) * moon_cover) * risen;
 }
 

@@ -133,7 +133,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = reflect(-to_eye, shading);
     Reach reach = light_at(pixel, t, LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word));
-    vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror) : scattered(m, light_in, 1e3);
+    vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror, frame.sky_horizon) : scattered(m, light_in, 1e3);
     if (kMirroredClouds && entering && k == 0u) mirrored_sky = past_mirrored_clouds(mirrored_clouds, mirrored_sky, pixel);
     colour += through * (reach.mirrored + reflected * mirrored_sky * (entering ? reach.any : 1.0));
     through *= 1.0 - reflected;

@@ -165,7 +165,7 @@ TEST_F(CloudsJudged, WaterMirrorsTheCloudsThatTheReferenceHas) {
   build([](int, int y, int) { return y < 0 ? world::block::kWater : world::block::kAirBlock; });
   look_from({0.5, 3.5, -50.5}, -14.0, 16.0);
   input_.sky = sun_at(40.0, 180.0);
-  scene_.sky = reference::Sky{sky_constants(input_.sky), glm::dmat3(input_.sky.sky_from_world)};
+  scene_.sky = reference::Sky{sky_model(input_.sky), glm::dmat3(input_.sky.sky_from_world)};
   scene_.bodies = {{input_.sky.to_sun, glm::dvec3(input_.sky.sun_irradiance), 0.00465}};
   scene_.air_light = 1.0;
   settings_.leave_out.add(Feature::kHaze);

@@ -16,19 +16,20 @@ namespace skerry::render {
 namespace {
 
 /// The table's layout as shaders/shared/sky.h words it.
-glm::dvec3 lut_direction(double u, double v) {
+glm::dvec3 lut_direction(double u, double v, double horizon) {
   const double azimuth = (u - 0.5) * 2.0 * M_PI, root = 2.0 * v - 1.0;
-  const double elevation = std::copysign(root * root, root) * 0.5 * M_PI;
+  const double elevation =
+      horizon + root * std::abs(root) * (root < 0.0 ? M_PI_2 + horizon : M_PI_2 - horizon);
   return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
           std::cos(azimuth) * std::cos(elevation)};
 }
 
 /// What a camera that sees the whole sky is exposed to.
-double exposure_of(const shared::SkyConstants& sky) {
+double exposure_of(const SkyModel& sky) {
   measure::Picture picture{32, 16, {}};
   for (int i = 0; i < 32 * 16; ++i)
     picture.pixels.emplace_back(
-        sky_radiance(lut_direction((i % 32 + 0.5) / 32.0, (i / 32 + 0.5) / 16.0), sky));
+        sky_radiance(lut_direction((i % 32 + 0.5) / 32.0, (i / 32 + 0.5) / 16.0, 0.0), sky));
   return std::exp2(-reference::metered_ev(picture, {}).value_or(0.0));
 }
 
@@ -43,13 +44,14 @@ std::vector<Celestial> moments() {
 TEST_F(SkyOnGpu, TableEqualsTheDoublePrecisionModel) {
   double worst = 0.0;
   for (const Celestial& now : moments()) {
-    shared::SkyConstants sky = sky_constants(now);
-    sky.stars = 0.0f;
+    SkyModel sky = sky_model(now);
+    sky.constants.stars = 0.0f;
     const std::vector<Texel> texels = read<Texel>(baked(sky));
     for (std::uint32_t j = 0; j < shared::kSkyLutHeight; ++j) {
       for (std::uint32_t i = 0; i < shared::kSkyLutWidth; ++i) {
         const glm::dvec3 d =
-            lut_direction(i / (shared::kSkyLutWidth - 1.0), j / (shared::kSkyLutHeight - 1.0));
+            lut_direction(i / (shared::kSkyLutWidth - 1.0), j / (shared::kSkyLutHeight - 1.0),
+                          static_cast<double>(sky.constants.horizon));
         const glm::dvec3 expected = sky_radiance(d, sky);
         const glm::dvec3 got = decoded(texels[j * shared::kSkyLutWidth + i]);
         // A half has 11 bits, and steps of 6e-8 at worst below 6e-5.
@@ -66,10 +68,10 @@ TEST_F(SkyOnGpu, SampledTableFollowsTheModelInEveryDirection) {
   double worst = 0.0, sum = 0.0;
   int count = 0;
   for (const Celestial& now : moments()) {
-    shared::SkyConstants sky = sky_constants(now);
-    const shared::SkyConstants model = sky;
-    sky.sun_disc = sky.moon_disc = glm::vec3(0.0f);
-    sky.stars = 0.0f;
+    SkyModel sky = sky_model(now);
+    const SkyModel model = sky;
+    sky.constants.sun_disc = sky.constants.moon_disc = glm::vec3(0.0f);
+    sky.constants.stars = 0.0f;
     const double exposure = exposure_of(model);
     const glm::uvec2 size{96, 96};
     for (int axis = 0; axis < 6; ++axis) {
@@ -120,10 +122,10 @@ glm::dvec3 energy(const std::vector<glm::dvec3>& image, const View& view) {
 TEST_F(SkyOnGpu, SunDiscSendsTheSunsIrradiance) {
   for (const double hour : {7.0, 12.0}) {
     const Celestial now = celestial_at(hour * kHour, 0.0);
-    shared::SkyConstants sky = sky_constants(now);
+    SkyModel sky = sky_model(now);
     const View view{now.to_sun, 0.03, 256};
     const auto with = seen(sky, view.forward, 0.03f, glm::uvec2(view.edge));
-    sky.sun_disc = glm::vec3(0.0f);
+    sky.constants.sun_disc = glm::vec3(0.0f);
     const auto without = seen(sky, view.forward, 0.03f, glm::uvec2(view.edge));
     const glm::dvec3 disc = energy(with, view) - energy(without, view);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(disc[i] / now.sun_irradiance[i], 1.0, 0.02) << hour;
@@ -134,15 +136,15 @@ TEST_F(SkyOnGpu, MoonIsLitFromTheSunsSideByItsPhase) {
   for (const double phase : {0.1, 0.25, 0.4, 0.5, 0.7}) {
     // The hour at which the moon stands in the south.
     const Celestial now = celestial_at((12.0 + 24.0 * phase) * kHour, phase);
-    shared::SkyConstants sky = sky_constants(now);
+    SkyModel sky = sky_model(now);
     const View view{now.to_moon, 0.02, 256};
     const auto with = seen(sky, view.forward, 0.02f, glm::uvec2(view.edge));
-    sky.moon_disc = glm::vec3(0.0f);
+    sky.constants.moon_disc = glm::vec3(0.0f);
     const auto without = seen(sky, view.forward, 0.02f, glm::uvec2(view.edge));
     double lit_area = 0.0;
     glm::dvec2 centroid(0.0);
     for (std::uint32_t p = 0; p < with.size(); ++p) {
-      if (luminance(with[p] - without[p]) < 0.003 * luminance(sky_constants(now).moon_disc))
+      if (luminance(with[p] - without[p]) < 0.003 * luminance(sky_model(now).constants.moon_disc))
         continue;
       lit_area += view.solid_angle(p);
       centroid += view.ndc(p);
@@ -157,7 +159,7 @@ TEST_F(SkyOnGpu, MoonIsLitFromTheSunsSideByItsPhase) {
 }
 
 TEST_F(SkyOnGpu, StarsKeepTheirLightAtEveryResolution) {
-  const shared::SkyConstants sky = sky_constants(celestial_at(0.0, 0.0));
+  const SkyModel sky = sky_model(celestial_at(0.0, 0.0));
   const View coarse{{0.1, 1.0, 0.2}, 0.5, 200}, fine{{0.1, 1.0, 0.2}, 0.5, 600};
   const glm::dvec3 a = energy(seen(sky, coarse.forward, 0.5f, glm::uvec2(coarse.edge)), coarse);
   const glm::dvec3 b = energy(seen(sky, fine.forward, 0.5f, glm::uvec2(fine.edge)), fine);
@@ -170,8 +172,8 @@ TEST_F(SkyOnGpu, StarsDoNotTwinkleAsTheyMoveAcrossPixels) {
   double least = 1e300, most = 0.0;
   // A pixel is 0.002 rad: 27 s of turning. Steps of a fifth of that.
   for (int step = 0; step < 15; ++step) {
-    const auto image = seen(sky_constants(celestial_at(step * 5.5, 0.0)), view.forward, 0.2f,
-                            glm::uvec2(view.edge));
+    const auto image =
+        seen(sky_model(celestial_at(step * 5.5, 0.0)), view.forward, 0.2f, glm::uvec2(view.edge));
     // The brightest star well inside is the same one in every step.
     std::uint32_t best = 0;
     for (std::uint32_t p = 0; p < image.size(); ++p) {
@@ -192,7 +194,7 @@ TEST_F(SkyOnGpu, StarsDoNotTwinkleAsTheyMoveAcrossPixels) {
 }
 
 TEST_F(SkyOnGpu, StarsAreThousandsOverTheWholeSphereAndNoneByDay) {
-  shared::SkyConstants sky = sky_constants(celestial_at(0.0, 0.0));
+  SkyModel sky = sky_model(celestial_at(0.0, 0.0));
   const int edge = 800;
   // A view of 90 by 90 degrees is a sixth of the sphere.
   const auto image = seen(sky, {0.0f, 1.0f, 0.0f}, 1.0f, glm::uvec2(edge));
@@ -213,10 +215,10 @@ TEST_F(SkyOnGpu, StarsAreThousandsOverTheWholeSphereAndNoneByDay) {
   }
   EXPECT_GT(peaks, 400);
   EXPECT_LT(peaks, 1200);
-  sky.stars = 0.0f;
+  sky.constants.stars = 0.0f;
   for (const glm::dvec3& c : seen(sky, {0.0f, 1.0f, 0.0f}, 1.0f, {64, 64}))
     EXPECT_EQ(c, glm::dvec3(0.0));
-  EXPECT_EQ(sky_constants(celestial_at(12 * kHour, 0.0)).stars, 0.0f);
+  EXPECT_EQ(sky_model(celestial_at(12 * kHour, 0.0)).constants.stars, 0.0f);
 }
 
 /// The reference's tone curve, then IEC 61966-2-1, in double precision.

@@ -62,7 +62,7 @@ glm::dvec3 face_normal(std::size_t face) {
 }
 
 /// By directions drawn evenly over the sphere.
-glm::dvec3 by_samples(const shared::SkyConstants& sky, glm::dvec3 normal) {
+glm::dvec3 by_samples(const SkyModel& sky, glm::dvec3 normal) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> even(0.0, 1.0);
   glm::dvec3 sum(0.0);
@@ -79,7 +79,7 @@ glm::dvec3 by_samples(const shared::SkyConstants& sky, glm::dvec3 normal) {
 TEST(SkyIrradiance, IsTheCosineWeightedSkyOfEachFace) {
   for (const double hour : {12.0, 8.0, 18.2, 0.0}) {
     const Celestial bodies = celestial_at(hour * 3600.0, 0.5);
-    const shared::SkyConstants sky = sky_constants(bodies);
+    const SkyModel sky = sky_model(bodies);
     const std::vector<IslandPlacement> islands(1);
     const std::vector<glm::uvec4> lobes =
         sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true));
@@ -94,7 +94,7 @@ TEST(SkyIrradiance, IsTheCosineWeightedSkyOfEachFace) {
 
 TEST(SkyIrradiance, TurnsWithTheIsland) {
   const Celestial bodies = celestial_at(8.0 * 3600.0, 0.5);
-  const shared::SkyConstants sky = sky_constants(bodies);
+  const SkyModel sky = sky_model(bodies);
   std::vector<IslandPlacement> islands(2);
   islands[1].rotation =
       glm::dquat(std::cos(0.4), glm::dvec3(0.3, 0.9, -0.2) / std::sqrt(0.94) * std::sin(0.4));
@@ -109,9 +109,9 @@ TEST(SkyIrradiance, TurnsWithTheIsland) {
 
 TEST(SkyIrradiance, HoldsWhatASkyOfAMillionSends) {
   Celestial bodies = celestial_at(12.0 * 3600.0, 0.5);
-  shared::SkyConstants sky = sky_constants(bodies);
+  SkyModel sky = sky_model(bodies);
   bodies.sun_irradiance *= 1e6f;
-  sky.sun.haze *= 1e6f;
+  sky.constants.sun.light *= 1e6f;
   const std::vector<IslandPlacement> islands(1);
   const std::vector<glm::uvec4> lobes =
       sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true));
@@ -126,7 +126,7 @@ TEST(SkyIrradiance, HoldsWhatASkyOfAMillionSends) {
 TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
   for (const double hour : {12.0, 8.0, 18.2, 0.0}) {
     Celestial bodies = celestial_at(hour * 3600.0, 0.5);
-    const shared::SkyConstants sky = sky_constants(bodies);
+    const SkyModel sky = sky_model(bodies);
     std::vector<IslandPlacement> islands(1);
     islands[0].rotation =
         glm::dquat(std::cos(0.7), glm::dvec3(-0.5, 0.4, 0.2) / std::sqrt(0.45) * std::sin(0.7));
