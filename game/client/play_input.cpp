@@ -186,6 +186,7 @@ void PlayLoop::use_hands(const ActionFrame& actions, double seconds) {
   hands_.advance(seconds, intent, player_, *scene_.camera, around_, *session_);
   if (hands_.replay_refused())
     said_.emplace_back(tr("Not from here, or not now: go closer, and stand beside it"));
+  if (hands_.stands_in_way()) said_.emplace_back(tr("No room: you stand there yourself"));
 }
 
 }  // namespace skerry::game

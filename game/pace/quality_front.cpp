@@ -11,9 +11,9 @@
 namespace skerry::game {
 namespace {
 
-constexpr MeasuredError kErrors[] = {{"render_scale", "0.25", 0.1003},
-                                     {"render_scale", "0.33", 0.0840},
-                                     {"render_scale", "0.5", 0.0611},
+constexpr MeasuredError kErrors[] = {{"render_scale", "0.25", 0.1081},
+                                     {"render_scale", "0.33", 0.0900},
+                                     {"render_scale", "0.5", 0.0664},
                                      {"render_scale", "1", 0.0},
                                      {"shading_rate", "4, 0.3", 0.0239},
                                      {"shading_rate", "1", 0.0},

@@ -45,6 +45,8 @@ void Interaction::advance(double seconds, const HandIntent& intent, const Player
   if (pick_ && intent.take_block) hotbar_.take(pick_->block);
   if (pick_ && intent.dig && !dug_) dug_ = dig(seconds, around, blocks);
   until_place_s_ = intent.place ? until_place_s_ - seconds : 0.0;
+  stood_in_way_ &= intent.place;
+  stands_in_way_ = false;
   if (pick_ && intent.place && until_place_s_ <= 0.0) {
     until_place_s_ = intent.repeats ? kPlacePeriod : std::numeric_limits<double>::infinity();
     place(player, around, blocks);
@@ -67,8 +69,10 @@ void Interaction::place(const Player& player, const Surroundings& around, BlockE
   const EditAct act = place_act(around, *pick_, hotbar_.held(), player.world_time_s());
   if (act.empty()) return;
   const BlockChange& change = act.front();
-  if (world::is_solid(change.after) && !leaves_free(player, around, change.island, change.voxel))
+  if (world::is_solid(change.after) && !leaves_free(player, around, change.island, change.voxel)) {
+    stands_in_way_ = !std::exchange(stood_in_way_, true);
     return;
+  }
   if (history_.perform(act, blocks)) pick_.reset();
 }
 

@@ -46,6 +46,9 @@ class Interaction {
   const EditHistory& history() const { return history_; }
   /// Whether the last frame's undo or redo found an act that cannot be done from here, or now.
   bool replay_refused() const { return replay_refused_; }
+  /// Whether the player stands where the last frame would have placed a block, for the first time
+  /// since the button went down.
+  bool stands_in_way() const { return stands_in_way_; }
 
  private:
   /// @return whether the block is dug.
@@ -59,6 +62,7 @@ class Interaction {
   Hotbar hotbar_;
   EditHistory history_;
   bool replay_refused_ = false;
+  bool stands_in_way_ = false, stood_in_way_ = false;  // in this frame; since the button went down
 };
 
 }  // namespace skerry::game

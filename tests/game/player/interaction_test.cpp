@@ -146,11 +146,20 @@ TEST_F(InteractionTest, NobodyIsWalledInAndNoBlockGoesIntoAnotherIsland) {
   hands_.hotbar().blocks[0] = block::kPlanks;
   frame({.place = true});
   EXPECT_EQ(at(0, 0, 0), world::kAir);
+  EXPECT_TRUE(hands_.stands_in_way());
+  for (int i = 0; i < 120; ++i) {
+    frame({.place = true});
+    EXPECT_FALSE(hands_.stands_in_way()) << "said once a press";
+  }
+  frame({});
+  frame({.place = true});
+  EXPECT_TRUE(hands_.stands_in_way());
   // A torch stops nobody: it may stand where they stand.
   hands_.hotbar().blocks[0] = block::kTorch;
   frame({});
   frame({.place = true});
   EXPECT_EQ(at(0, 0, 0), block::kTorch);
+  EXPECT_FALSE(hands_.stands_in_way());
   // A second island, turned, with a stone just over the ground three blocks ahead.
   world_.islands.push_back({[](double) { return turning(at_blocks(0.5, 0.0, 3.5), 0.6, 1.0); },
                             [](IVec3 v) {

@@ -139,13 +139,13 @@ TEST_F(SkyOnGpu, MoonIsLitFromTheSunsSideByItsPhase) {
     SkyModel sky = sky_model(now);
     const View view{now.to_moon, 0.02, 256};
     const auto with = seen(sky, view.forward, 0.02f, glm::uvec2(view.edge));
+    const double disc = luminance(sky.constants.moon_disc);
     sky.constants.moon_disc = glm::vec3(0.0f);
     const auto without = seen(sky, view.forward, 0.02f, glm::uvec2(view.edge));
     double lit_area = 0.0;
     glm::dvec2 centroid(0.0);
     for (std::uint32_t p = 0; p < with.size(); ++p) {
-      if (luminance(with[p] - without[p]) < 0.003 * luminance(sky_model(now).constants.moon_disc))
-        continue;
+      if (luminance(with[p] - without[p]) < 0.003 * disc) continue;
       lit_area += view.solid_angle(p);
       centroid += view.ndc(p);
     }

@@ -6,6 +6,9 @@
 #include <glm/gtc/packing.hpp>
 #include <limits>
 
+#include "engine/render/air/air.h"
+#include "engine/render/air/sky_scattering.h"
+#include "engine/render/sky/sky_model.h"
 #include "game/view/materials.h"
 #include "shaders/shared/sky.h"
 #include "tools/skerry/stability/case.h"
@@ -143,13 +146,11 @@ Result<Rows> bloom(gpu::Device& device) {
                if_shown(glow.inside > 0.0, damage.outside + damage.inside)}};
 }
 
-/// Place of a direction in the sky's table [texels, centres at whole numbers], from the layout that
-/// shaders/shared/sky.h states.
-glm::dvec2 sky_table_place(const glm::dvec3& ray) {
+/// Place of a direction in the sky's table [texels, centres at whole numbers]. @param horizon [rad]
+glm::dvec2 sky_table_place(const glm::dvec3& ray, double horizon) {
   const glm::dvec3 dir = glm::normalize(ray);
   const double azimuth = std::atan2(dir.x, dir.z) / (2.0 * M_PI);
-  const double height = std::asin(std::clamp(dir.y, -1.0, 1.0)) / (0.5 * M_PI);
-  const double v = 0.5 + 0.5 * std::copysign(std::sqrt(std::abs(height)), height);
+  const double v = render::sky_row_place(std::asin(std::clamp(dir.y, -1.0, 1.0)), horizon);
   return {(0.5 + azimuth) * (shared::kSkyLutWidth - 1.0), v * (shared::kSkyLutHeight - 1.0)};
 }
 
@@ -168,9 +169,11 @@ Result<Rows> sky_table(gpu::Device& device) {
     if (!clean) return clean.error();
     Damage damage;
     const FrameInput in = input_of();
+    const double horizon = std::asin(render::horizon_sine(render::eye_height_km(in)));
     for (const float value : kBroken) {
       for (const glm::uvec2 pixel : {glm::uvec2{30, 20}, glm::uvec2{80, 38}, glm::uvec2{100, 70}}) {
-        const glm::dvec2 place = sky_table_place(ray_of(in.camera, kFiniteSize, pixel.x, pixel.y));
+        const glm::dvec2 place =
+            sky_table_place(ray_of(in.camera, kFiniteSize, pixel.x, pixel.y), horizon);
         const glm::uvec2 texel(glm::round(place));
         FrameInput broken = in;
         broken.fault = Fault{Fault::In::kSkyTable, texel, value};
@@ -180,7 +183,7 @@ Result<Rows> sky_table(gpu::Device& device) {
         // Filters weigh places in steps of 1/256 texel, and a weight of 0 still hands a NaN on.
         const double reach = 1.0 + 1.0 / 256.0;
         const auto touches = [&](std::uint32_t x, std::uint32_t y) {
-          const glm::dvec2 at = sky_table_place(ray_of(in.camera, kFiniteSize, x, y));
+          const glm::dvec2 at = sky_table_place(ray_of(in.camera, kFiniteSize, x, y), horizon);
           return std::abs(at.x - texel.x) <= reach && std::abs(at.y - texel.y) <= reach;
         };
         compare(*clean, *frame, touches, damage);
