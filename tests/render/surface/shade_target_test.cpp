@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/render/air/air.h"
+#include "engine/render/sky/sky_model.h"
 #include "tests/render/renderer_on_gpu.h"
 
 namespace skerry::render {
