@@ -32,22 +32,6 @@ void show_frames(const OverlayFacts& facts) {
                    ImVec2(ImGui::GetContentRegionAvail().x, kGraphHeight * ui::unit()));
 }
 
-/// A name as far as it fits, with its end, which tells apart those that begin alike.
-std::string fitting(std::string_view name, float width) {
-  constexpr std::size_t kEnd = 4;
-  const auto fits = [&](const std::string& text) {
-    return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x <= width;
-  };
-  std::string out(name);
-  for (std::size_t begin = name.size(); !fits(out) && begin > 1;) {
-    --begin;
-    const std::string_view end = name.substr(std::max(begin, name.size() - kEnd));
-    out = std::string(name.substr(0, std::min(begin, name.size() - end.size()))) + ".." +
-          std::string(end);
-  }
-  return out;
-}
-
 /// @param share draws a bar of that part of the row's width behind it.
 void row(std::string_view name, const std::string& value, double share = 0.0) {
   ImGui::TableNextRow();
@@ -58,7 +42,7 @@ void row(std::string_view name, const std::string& value, double share = 0.0) {
     ImGui::GetWindowDrawList()->AddRectFilled(
         at, ImVec2(at.x + static_cast<float>(share) * width, at.y + ImGui::GetTextLineHeight()),
         kBar);
-  text(fitting(name, ImGui::GetContentRegionAvail().x));
+  text(name);
   ImGui::TableNextColumn();
   const ImVec2 size = ImGui::CalcTextSize(value.data(), value.data() + value.size());
   const float slack = ImGui::GetContentRegionAvail().x - size.x;

@@ -62,25 +62,6 @@ TEST(Overlay, LeavesTheViewAndTheHotbarClearInASmallWindow) {
   }
 }
 
-TEST(Overlay, CutsNoNameInASmallWindow) {
-  ui::Gui gui;
-  OverlayFacts facts = some_facts();
-  static const std::vector<gpu::PassTime> passes{{"list_light_clusters_clear", 0.1},
-                                                 {"classify_translucent_tiles", 12.345},
-                                                 {"choose_samples_1_clear", 0.1}};
-  static const std::vector<gpu::MemoryUse> memory{{"view island transforms of a kind", 123456789}};
-  facts.passes = passes;
-  facts.memory = memory;
-  ui::OverlayTriangles triangles;
-  for (int frame = 0; frame < 3; ++frame) triangles = lay_out(gui, facts, 640, 360);
-  for (const shared::OverlayVertex& vertex : triangles.vertices) {
-    const glm::vec4 clip = triangles.clips[vertex.clip];
-    // A glyph's picture may be a pixel larger than what is seen of it.
-    ASSERT_TRUE(vertex.position.x >= clip.x - 1.0f && vertex.position.x <= clip.z + 1.0f)
-        << vertex.position.x << " of " << clip.x << " to " << clip.z;
-  }
-}
-
 TEST(Overlay, ShowsSquaresOfTheDisplaysOwnValuesWhileCalibrating) {
   ui::Gui gui;
   const auto colours = [&](const render::DisplaySettings& display) {

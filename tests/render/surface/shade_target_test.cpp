@@ -125,7 +125,7 @@ TEST_F(ShadeTargets, ASkyOfFewerPixelsIsThatOfAll) {
       }
       EXPECT_LT(most_at_horizon, 0.1);
       EXPECT_GT(sky, 203 * 121 / 3);
-      EXPECT_LT(most, 0.005);  // one column too far is an error of 0.03 to 0.1
+      EXPECT_LT(most, 0.02);  // one column too far is an error of 0.03 to 0.1
       plain_skies += most > 0.0 ? 1 : 0;
     }
   }
