@@ -45,12 +45,18 @@ shared uint sums[256];
 
 uvec3 unpack_box(uint packed) { return uvec3(packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u); }
 
+// Of a section's faces, in blocks of its island's lattice.
+void section_box(Section s, out vec3 low, out vec3 high) {
+  float voxel = float(1u << s.voxel_size_log2);
+  low = vec3(s.origin) + vec3(unpack_box(s.bounds_min)) * voxel;
+  high = vec3(s.origin) + vec3(unpack_box(s.bounds_max)) * voxel;
+}
+
 uint visible_ranges(Section s, CullView view) {
   if (s.range_end[kRangeCount - 1u] == 0u) return 0u;
   IslandTransform island = islands[s.island];
-  float voxel = float(1u << s.voxel_size_log2);
-  vec3 low = vec3(s.origin) + vec3(unpack_box(s.bounds_min)) * voxel;
-  vec3 high = vec3(s.origin) + vec3(unpack_box(s.bounds_max)) * voxel;
+  vec3 low, high;
+  section_box(s, low, high);
   vec3 half_size = 0.5 * (high - low);
   vec3 centre = world_from_lattice(island, 0.5 * (low + high));
   for (int i = 0; i < 6; ++i) {
@@ -72,7 +78,7 @@ uint visible_ranges(Section s, CullView view) {
   uint faces = uint(from_plus.x) | (uint(from_minus.x) << 1) | (uint(from_plus.y) << 2) | (uint(from_minus.y) << 3) |
                (uint(from_plus.z) << 4) | (uint(from_minus.z) << 5);
   uint mask = (faces << kRangeOpaque) | (faces << kRangeCutout) | (1u << kRangePlant);
-  if (view.orthographic == 0u) mask |= 63u << kRangeTranslucent;  // drawn from both sides; casts no shadow
+  if (view.orthographic == 0u) mask |= kTranslucentRanges;  // drawn from both sides; casts no shadow
   return mask;
 }
 
@@ -85,7 +91,7 @@ SectionTransform section_transform(Section s, IslandTransform t) {
                           vec4(vec3(t.axis_x.z, t.axis_y.z, t.axis_z.z) * voxel, origin.z));
 }
 
-/// What the first phase draws of a mask; all of it where there is one phase alone.
+// What the first phase draws of a mask; all of it where there is one phase alone.
 uint first_phase(uint mask) {
   if (!kTwoPhases) return mask;
   return (mask & kUnseen) != 0u ? 0u : mask & ~kTranslucentRanges;
@@ -94,9 +100,8 @@ uint first_phase(uint mask) {
 // Whether what has been drawn hides all of a section's box. Errs on the side of no.
 bool is_hidden(Section s) {
   IslandTransform island = islands[s.island];
-  float voxel = float(1u << s.voxel_size_log2);
-  vec3 low = vec3(s.origin) + vec3(unpack_box(s.bounds_min)) * voxel;
-  vec3 high = vec3(s.origin) + vec3(unpack_box(s.bounds_max)) * voxel;
+  vec3 low, high;
+  section_box(s, low, high);
   float nearest = 3.402823e38;  // along the view axis
   vec2 first = vec2(3.402823e38), last = vec2(-3.402823e38);
   for (uint i = 0u; i < 8u; ++i) {
@@ -128,7 +133,7 @@ bool is_hidden(Section s) {
   return true;
 }
 
-/// Adds a section's draws to those of its group. @return how many.
+// Adds a section's draws to those of its group. @return how many.
 uint add_draws(Section s, uint mask) {
   uint draws = 0u;
   for (uint list = 0u; list < kListCount; ++list) {

@@ -20,6 +20,8 @@ SHARED_CONST float kDiscRadius = 3.0f * 0.004625f;  // [rad]
 // The mist hides discs below the horizon over this many radians, inverted: about a pixel.
 SHARED_CONST float kHorizonSharpness = 400.0f;
 
+SHARED_CONST float kAerosolAsymmetry = 0.8f;  // of its phase function
+
 // Limb darkening of the sun, linear law 1 - u (1 - mu), u at about 700, 550 and 440 nm.
 SHARED_CONST float kLimbRed = 0.45f;
 SHARED_CONST float kLimbGreen = 0.56f;

@@ -40,13 +40,12 @@ vec3 milky_way(vec3 d) {
   return vec3(0.92, 0.97, 1.15) * (kMilkyWay * band);
 }
 
-const float kMieG = 0.8;
-
 // What molecules and aerosol scatter once, by the cosine of the angle between view and body: Rayleigh; Cornette and Shanks 1992.
 vec2 phases(float cosine) {
   float square = 1.0 + cosine * cosine;
-  float base = 1.0 + kMieG * kMieG - 2.0 * kMieG * cosine;
-  float mie = 3.0 / (8.0 * kSkyPi) * (1.0 - kMieG * kMieG) / (2.0 + kMieG * kMieG);
+  const float g = kAerosolAsymmetry;
+  float base = 1.0 + g * g - 2.0 * g * cosine;
+  float mie = 3.0 / (8.0 * kSkyPi) * (1.0 - g * g) / (2.0 + g * g);
   return square * vec2(3.0 / (16.0 * kSkyPi), mie / (base * sqrt(base)));
 }
 

@@ -171,7 +171,8 @@ glm::dvec3 disc_radiance(glm::dvec3 direction, const Sky& sky) {
   }
   // The mist hides what has set.
   const double above = direction.y - static_cast<double>(c.horizon_sine);
-  return radiance * std::clamp(above * 400.0 + 0.5, 0.0, 1.0);
+  return radiance *
+         std::clamp(above * static_cast<double>(shared::kHorizonSharpness) + 0.5, 0.0, 1.0);
 }
 
 bool moon_hides_stars(glm::dvec3 direction, const Sky& sky) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <glm/vec3.hpp>
 
+#include "shaders/shared/sky.h"
+
 namespace skerry::render {
 
 /// Radius of the sea of mist, which is the ground of the atmosphere, and of the last air [km].
@@ -37,6 +39,7 @@ class Air {
 
 /// Asymmetry of the aerosol's phase function.
 inline constexpr double kMieG = 0.8;
+static_assert(static_cast<float>(kMieG) == shared::kAerosolAsymmetry);
 /// Part of what aerosol scatters that goes on about straight ahead. As good as not scattered at
 /// all, when light is scattered more than once: the third moment of the phase function (W.
 /// Wiscombe, The Delta-M Method, J. Atmos. Sci. 1977).

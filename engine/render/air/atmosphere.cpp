@@ -45,6 +45,13 @@ double sine_of_place(double place) {
   return root < 0.0 ? -kLowestSine * root * root : root * root;
 }
 
+/// Of a table by the sine of the body's elevation.
+glm::dvec3 at_sine(const std::array<glm::dvec3, Atmosphere::kMomentSines>& table, double sine) {
+  const Between at = between(place_of_sine(sine), Atmosphere::kMomentSines);
+  const auto first = static_cast<std::size_t>(at.first);
+  return glm::mix(table[first], table[first + 1], at.share);
+}
+
 /// Finer towards the ground.
 double place_of_height(double height) {
   return std::sqrt(std::max(0.0, height) / kAirDepthKm);
@@ -53,11 +60,16 @@ double height_of_place(double place) {
   return place * place * kAirDepthKm;
 }
 
+/// Distance to space of a ray that does not meet the ground. @param r from the sphere's middle.
+double to_space(double r, double sine) {
+  return -r * sine + std::sqrt(std::max(0.0, r * r * (sine * sine - 1.0) + kTop * kTop));
+}
+
 glm::dvec3 along_ray(const std::vector<glm::vec3>& table, double height_km, double sine) {
   const double r = kBottom + std::clamp(height_km, 0.0, kAirDepthKm);
   const double rho = std::sqrt(std::max(0.0, r * r - kBottom * kBottom));
   const double s = std::max(sine, -rho / r);  // the horizon's
-  const double d = -r * s + std::sqrt(std::max(0.0, r * r * (s * s - 1.0) + kTop * kTop));
+  const double d = to_space(r, s);
   const double least = kTop - r, most = rho + kHorizonKm;
   constexpr int kWidth = Atmosphere::kTransmittanceSines;
   const Between x = between((d - least) / (most - least), kWidth),
@@ -142,8 +154,7 @@ class AtmosphereMaker {
 
   Depths depths_upwards(double r, double sine) const {
     constexpr int kParts = 32;
-    const double length =
-        -r * sine + std::sqrt(std::max(0.0, r * r * (sine * sine - 1.0) + kTop * kTop));
+    const double length = to_space(r, sine);
     Depths sum;
     for (int i = 0; i < kParts; ++i) {
       // Denser where the air is.
@@ -234,10 +245,8 @@ class AtmosphereMaker {
     }
     if (path.meets_ground) {
       const double sine = path.ground_body_sine(body_sine, body_flat);
-      const Between at = between(place_of_sine(sine), kSines);
-      const auto first = static_cast<std::size_t>(at.first);
       sum += path.end * made_.settings_.ground_albedo / std::numbers::pi *
-             glm::mix(last.on_ground[first], last.on_ground[first + 1], at.share);
+             at_sine(last.on_ground, sine);
     }
     return sum;
   }
@@ -326,11 +335,8 @@ glm::dvec3 Atmosphere::scattered_again(const AirStep& step, double sine, double 
 }
 
 glm::dvec3 Atmosphere::ground(double sine) const {
-  const Between at = between(place_of_sine(sine), kMomentSines);
-  const auto first = static_cast<std::size_t>(at.first);
-  const glm::dvec3 sky = glm::mix(sky_on_ground_[first], sky_on_ground_[first + 1], at.share);
   return settings_.ground_albedo / std::numbers::pi *
-         (sky + std::max(0.0, sine) * scattering_light(0.0, sine));
+         (at_sine(sky_on_ground_, sine) + std::max(0.0, sine) * scattering_light(0.0, sine));
 }
 
 const Atmosphere& world_atmosphere() {

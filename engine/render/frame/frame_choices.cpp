@@ -35,6 +35,11 @@ const char* why_not_temporal(const FrameInput& input, const RenderSettings& sett
   return input.exposure_ev ? nullptr : "the frame chooses its own exposure";
 }
 
+const char* why_never_two_phases(const RenderSettings& settings) {
+  if (settings.occlusion == Occlusion::kOff) return "view.occlusion=off";
+  return settings.gbuffer.depth != DepthStore::kD32 ? "gbuffer.depth is not d32" : nullptr;
+}
+
 bool meters(const FrameInput& input, const RenderSettings& settings) {
   return input.meter || !input.exposure_ev || settings.debug_view == DebugView::kExposure;
 }

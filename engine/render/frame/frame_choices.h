@@ -15,6 +15,9 @@ VkExtent2D picture_size(VkExtent2D shown, const RenderSettings& settings);
 float shadow_blur(const FrameInput& input, const RenderSettings& settings);
 /// Null: `aa=temporal` mixes the frame with earlier ones. Else why not.
 const char* why_not_temporal(const FrameInput& input, const RenderSettings& settings);
+/// Null: the camera's view may be drawn in two phases, so that what is hidden is not drawn. Else
+/// why never.
+const char* why_never_two_phases(const RenderSettings& settings);
 /// Whether the frame's radiance is metered.
 bool meters(const FrameInput& input, const RenderSettings& settings);
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/render/frame/frame_choices.h"
 #include "engine/render/light/light_clusters.h"
 #include "engine/render/renderer/plan_frame.h"
 
@@ -115,8 +116,7 @@ FrameNeeds frame_needs(const FramePlan& plan, const SceneFacts& facts) {
 void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
                    const std::function<void(const FramePlan&)>& visit) {
   FramePlan plan = common_of(now, needs);
-  if (plan.settings.occlusion != Occlusion::kOff &&
-      plan.settings.gbuffer.depth == DepthStore::kD32) {
+  if (!why_never_two_phases(plan.settings)) {
     plan.why_one_phase = nullptr;
     suppose(plan, needs, {3u, kTorches, Water::kInView, false, false});
     visit(plan);

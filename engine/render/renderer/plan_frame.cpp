@@ -43,9 +43,8 @@ constexpr std::uint32_t kQuadsForTwoPhases = 65'536;
 const char* why_one_phase(const FramePlan& plan, const SceneFacts& facts,
                           const FrameHistory& history) {
   if (!plan.geometry) return "no geometry is resident";
-  if (plan.settings.occlusion == Occlusion::kOff) return "view.occlusion=off";
+  if (const char* why = why_never_two_phases(plan.settings)) return why;
   if (plan.input.freeze_culling) return "culling is frozen";
-  if (plan.settings.gbuffer.depth != DepthStore::kD32) return "gbuffer.depth is not d32";
   if (plan.settings.occlusion == Occlusion::kAlways) return nullptr;
   if (!history.previous) return "there is no frame before it";
   return facts.quads_in_view < kQuadsForTwoPhases ? "few quads are in view" : nullptr;

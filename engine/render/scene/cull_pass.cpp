@@ -31,11 +31,13 @@ struct Culling {
   const CullIn& in;
   std::uint32_t views = 0;
   std::array<const char*, 3> names{};  // of the passes
-  std::uint32_t groups = 0;
-  gpu::BufferRef totals;
+  gpu::BufferRef totals{};
 
+  std::uint32_t groups() const {
+    return gpu::Commands::groups(in.section_slots, shared::kCullGroup);
+  }
   CullPush push(const SceneRefs& scene) const {
-    return {in.section_slots, groups, scene.islands_per_view, in.most};
+    return {in.section_slots, groups(), scene.islands_per_view, in.most};
   }
 };
 
@@ -163,10 +165,38 @@ gpu::BufferRef words(gpu::FrameGraph& graph, const char* name, std::uint64_t cou
   return graph.create(gpu::BufferDesc{name, count * 4, 0, gpu::Memory::kDevice});
 }
 
+/// See kFineDepthEdge.
+gpu::BufferRef add_far_depths(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                              const SceneRefs& scene, gpu::ImageRef depth) {
+  const std::uint32_t coarse_x = gpu::Commands::groups(scene.size.width, shared::kCoarseDepthEdge),
+                      coarse_y = gpu::Commands::groups(scene.size.height, shared::kCoarseDepthEdge);
+  const std::uint64_t fine =
+      std::uint64_t{gpu::Commands::groups(scene.size.width, shared::kFineDepthEdge)} *
+      gpu::Commands::groups(scene.size.height, shared::kFineDepthEdge);
+  gpu::BufferRef far_depths = words(graph, "far depths", fine + coarse_x * coarse_y);
+  const auto find = gpu::compute(pipelines, programs::kFindFarDepths);
+  graph.add_pass(
+      "find_far_depths",
+      [&](gpu::PassBuilder& b) {
+        b.read(scene.frame, Use::kComputeRead);
+        b.read(depth, Use::kComputeSampled);
+        far_depths = b.write(far_depths, Use::kComputeWrite);
+      },
+      [frame = scene.frame, depth, far_depths, sampler = scene.point_sampler, find, coarse_x,
+       coarse_y](gpu::Commands& c) {
+        gpu::bind(c, find,
+                  std::tuple{gpu::storage<shared::kFrameBinding>(frame),
+                             gpu::sampled<shared::kDepthsBinding>(depth, sampler),
+                             gpu::storage<shared::kFarDepthsBinding>(far_depths)});
+        c.dispatch(coarse_x, coarse_y, 1);
+      });
+  return far_depths;
+}
+
 /// Makes what the passes write: lists of draws, and how many draws each group of sections has.
 void create_lists(gpu::FrameGraph& graph, Culling& culling, CulledDraws& out) {
   const std::uint64_t lists = std::uint64_t{culling.views} * shared::kListCount;
-  culling.totals = words(graph, "cull totals", lists * culling.groups);
+  culling.totals = words(graph, "cull totals", lists * culling.groups());
   out.section_slots = culling.in.section_slots;
   out.most = culling.in.most;
   out.counts = words(graph, "draw counts", lists);
@@ -197,11 +227,7 @@ Result<void> check_draws(const DrawLimits& most, const gpu::DeviceLimits& limits
 
 CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const CullIn& in) {
-  Culling culling{in,
-                  in.views,
-                  {"cull_sections", "cull_scan", "cull_emit"},
-                  gpu::Commands::groups(in.section_slots, shared::kCullGroup),
-                  {}};
+  Culling culling{in, in.views, {"cull_sections", "cull_scan", "cull_emit"}};
   CulledDraws out;
   create_lists(graph, culling, out);
   out.masks = words(graph, "cull masks", std::uint64_t{in.views} * in.section_slots);
@@ -224,33 +250,8 @@ CulledDraws add_cull_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
 CulledDraws add_hidden_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                               const SceneRefs& scene, const CullIn& in, gpu::ImageRef depth,
                               const CulledDraws& first) {
-  const std::uint32_t coarse_x = gpu::Commands::groups(scene.size.width, shared::kCoarseDepthEdge),
-                      coarse_y = gpu::Commands::groups(scene.size.height, shared::kCoarseDepthEdge);
-  const std::uint64_t fine =
-      std::uint64_t{gpu::Commands::groups(scene.size.width, shared::kFineDepthEdge)} *
-      gpu::Commands::groups(scene.size.height, shared::kFineDepthEdge);
-  gpu::BufferRef far_depths = words(graph, "far depths", fine + coarse_x * coarse_y);
-  const auto find = gpu::compute(pipelines, programs::kFindFarDepths);
-  graph.add_pass(
-      "find_far_depths",
-      [&](gpu::PassBuilder& b) {
-        b.read(scene.frame, Use::kComputeRead);
-        b.read(depth, Use::kComputeSampled);
-        far_depths = b.write(far_depths, Use::kComputeWrite);
-      },
-      [frame = scene.frame, depth, far_depths, sampler = scene.point_sampler, find, coarse_x,
-       coarse_y](gpu::Commands& c) {
-        gpu::bind(c, find,
-                  std::tuple{gpu::storage<shared::kFrameBinding>(frame),
-                             gpu::sampled<shared::kDepthsBinding>(depth, sampler),
-                             gpu::storage<shared::kFarDepthsBinding>(far_depths)});
-        c.dispatch(coarse_x, coarse_y, 1);
-      });
-  Culling culling{in,
-                  1,
-                  {"cull_hidden", "scan_revealed", "emit_revealed"},
-                  gpu::Commands::groups(in.section_slots, shared::kCullGroup),
-                  {}};
+  const gpu::BufferRef far_depths = add_far_depths(graph, pipelines, scene, depth);
+  Culling culling{in, 1, {"cull_hidden", "scan_revealed", "emit_revealed"}};
   CulledDraws out = first;
   create_lists(graph, culling, out);
   add_hidden(graph, pipelines, scene, culling, far_depths, out);

@@ -24,8 +24,7 @@ GeometryPass::In geometry_in(FrameAssembly& f) {
 }
 
 const char* needs_revealed(const FramePlan& plan) {
-  const char* why = needs_geometry(plan);
-  return why ? why : plan.why_one_phase;
+  return plan.why_one_phase;
 }
 
 }  // namespace

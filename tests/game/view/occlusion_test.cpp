@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <glm/gtc/constants.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "game/view/scene_view.h"
 #include "tests/gpu/test_device.h"

@@ -78,7 +78,6 @@ TEST_F(HiddenSections, AreDrawnWhenTheyReachBeyondItsEdge) {
   for (const int beyond : {0, 1, 2}) {
     restart();
     add_wall();
-    settings_.occlusion = Occlusion::kAlways;
     add(
         [&](int x, int y, int z) {
           return y == 32 && z == 0 && x <= beyond ? world::block::kBricks : world::block::kAirBlock;
