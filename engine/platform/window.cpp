@@ -327,6 +327,10 @@ void Window::capture_pointer(bool captured) {
   glfwSetInputMode(handle_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   if (glfwRawMouseMotionSupported()) glfwSetInputMode(handle_, GLFW_RAW_MOUSE_MOTION, captured);
   events_.disturb(glfwGetTime());
+  // GLFW tells of no place that it puts the pointer to itself, and motion counts from there.
+  glm::dvec2 place{};
+  glfwGetCursorPos(handle_, &place.x, &place.y);
+  events_.input.place_pointer(place);
 }
 
 void Window::toggle_fullscreen() {

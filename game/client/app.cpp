@@ -50,6 +50,7 @@ App::App(platform::Window& window, gpu::Device& device, const SceneOptions& opti
       gui_(clipboard_of(window)),
       auto_quality_(device.info(), learnt_costs_path()),
       auto_before_(options.quality_auto) {
+  follow_language();  // the first frame may say something before it is drawn
   for (const std::string& note : notes) messages_.say(note);
   ReadBindings read = load_bindings(bindings_path());
   for (std::string& problem : read.problems) say(std::move(problem));
@@ -67,6 +68,7 @@ Result<void> App::start(VkSurfaceKHR surface, bool at_title) {
   if (!at_title) return play_as_asked();
   list_again();
   open(Screen::kTitle);
+  if (const auto shown = show_title_alone(); !shown) return shown;
   return set_backdrop(Backdrop::View::kAround, "");
 }
 
@@ -130,14 +132,18 @@ Result<bool> App::frame(const platform::InputFrame& input, double seconds) {
   return drawn;
 }
 
-/// Brings pictures and glyphs to the device that it does not have yet.
-Result<void> App::show_new_images(const platform::InputFrame& input) {
+/// What is said from now on is in the player's language.
+void App::follow_language() {
   const Settings& settings = world_ ? world_->settings() : base_.settings;
   const Language language = settings.ui.language.value_or(system_language_);
-  if (std::exchange(language_, language) != language) {
-    speak(language);
-    gui_.expect(words_of(language));
-  }
+  if (std::exchange(language_, language) == language) return;
+  speak(language);
+  gui_.expect(words_of(language));
+}
+
+/// Brings pictures and glyphs to the device that it does not have yet.
+Result<void> App::show_new_images(const platform::InputFrame& input) {
+  follow_language();
   if (screens_.stack.top() == Screen::kSettings)
     for (const char* name : kLanguageNames) gui_.expect(name);
   gui_.expect(input);
@@ -155,7 +161,7 @@ Result<void> App::show_new_images(const platform::InputFrame& input) {
 void App::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, bindings_, seconds);
   if (actions.pressed(Action::kFullscreen) && !gui_.typing()) window_.toggle_fullscreen();
-  if (world_ && screens_.stack.empty()) hints_.note(actions, seconds);
+  if (world_ && screens_.stack.empty()) hints_.note(actions, seconds, world_->on_foot());
   act_on_screens(input, actions);
   pause_unattended(seconds);
   messages_.pass(seconds);
@@ -360,6 +366,15 @@ Result<bool> App::draw_first_frames(const PlayLoop::Layout& layout) {
   return show_again(layout);
 }
 
+/// The title before there is a world behind it: that takes longer.
+Result<void> App::show_title_alone() {
+  if (const auto done = show_new_images({}); !done) return done;
+  const platform::FramebufferSize px = window_.framebuffer_size();
+  const std::optional<gpu::SwapchainFrame> frame = presenter_->acquire({px.width, px.height});
+  if (!frame) return {};
+  return presenter_->show_alone(*frame, lay_out(presenter_->extent(), {}, kLoadingFrame));
+}
+
 Result<void> App::show_loading(const ui::LoadingFacts& facts) {
   const platform::FramebufferSize px = window_.framebuffer_size();
   const std::optional<gpu::SwapchainFrame> frame = presenter_->acquire({px.width, px.height});
@@ -409,11 +424,12 @@ ui::OverlayTriangles App::lay_out(VkExtent2D size, const platform::InputFrame& i
   const bool fed = !screens_.stack.empty() && !screens_.listening && !bare;
   const Settings& settings = world_ ? world_->settings() : base_.settings;
   gui_.begin({size.width, size.height, seconds, fed ? &input : nullptr, settings.ui.scale});
+  if (!world_ && !backdrop_) ui::cover();
   // The map lies over most of it, and lets it shine through.
   const bool mapped = screens_.stack.top() == Screen::kMap;
   if (world_ && !hud_hidden_ && !mapped && world_goes_on(screens_.stack)) {
     ui::HudFacts facts = world_->hud();
-    facts.hint = hints_.line(bindings_, input.pad);
+    facts.hint = hints_.line(bindings_, input.pad, world_->on_foot());
     facts.choosing = !screens_.stack.empty();
     ui::show_hud(facts, pictures_);
   }
@@ -435,7 +451,7 @@ ui::ScreenFacts App::screen_facts(const platform::InputFrame& input) {
   facts.worlds = cards_;
   facts.gallery = gallery_;
   facts.now_s = std::time(nullptr);
-  if (world_) facts.world = world_name_;
+  if (world_) facts.world = world_->world_label();
   SceneOptions& scene = world_ ? world_->scene() : base_;
   facts.quality = &scene.quality;
   facts.quality_auto = &scene.quality_auto;

@@ -52,9 +52,11 @@ class App {
   void move_map(const platform::InputFrame& input, double seconds);
   void fly_photo_camera(const platform::InputFrame& input, const ActionFrame& actions,
                         double seconds);
+  void follow_language();
   Result<void> show_new_images(const platform::InputFrame& input);
   Result<bool> draw(double seconds, const PlayLoop::Layout& layout);
   Result<bool> draw_first_frames(const PlayLoop::Layout& layout);
+  Result<void> show_title_alone();
   Result<void> show_loading(const ui::LoadingFacts& facts);
   Result<bool> draw_backdrop(const PlayLoop::Layout& layout);
   Result<bool> show_again(const PlayLoop::Layout& layout);
@@ -104,7 +106,6 @@ class App {
   std::unique_ptr<Presenter> presenter_;
   std::unique_ptr<Backdrop> backdrop_;  // either this
   std::unique_ptr<PlayLoop> world_;     // or this
-  std::string world_name_;
   std::optional<std::string> world_path_;
   ui::ScreenState screens_;
   ui::Wishes wishes_;

@@ -207,7 +207,6 @@ Result<void> App::play(const SceneOptions& asked, std::unique_ptr<SessionClient>
   (*view)->renderer().foresee_programs();
   world_path_ = options.world;
   const world::WorldInfo& info = session->joined().world;
-  world_name_ = info.name;
   for (const std::string* shown : {&info.name, &info.seed_text, &asked.seed_text})
     gui_.expect(*shown);
   world_ = std::make_unique<PlayLoop>(Machine{window_, device_, *presenter_}, bindings_, options,

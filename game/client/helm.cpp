@@ -44,6 +44,7 @@ void Helm::steer(const Intent& intent, double yaw_deg, SessionClient& session) {
 /// it, and stays where it is.
 std::optional<std::string> Helm::watch(const world::Pose& before, const world::Pose& now,
                                        double seconds) {
+  bump_ = 0.0;
   if (!island_ || seconds <= 0.0) return std::nullopt;
   const double was = speed_;
   const bool was_held = held_fast();
@@ -51,11 +52,12 @@ std::optional<std::string> Helm::watch(const world::Pose& before, const world::P
   const double turned = 1.0 - std::abs(glm::dot(now.rotation, before.rotation));
   const bool stands = speed_ < kHeldSpeed && turned < kHeldTurn;
   held_s_ = stands && driven_ ? held_s_ + seconds : 0.0;
+  if (was > kBumpSpeed && speed_ < 0.25 * was) bump_ = was;
   if (held_fast() && !was_held)
     return tr_format("{} is held fast by another island: back off, rise or turn",
                      island_name(*island_));
-  if (was > kBumpSpeed && speed_ < 0.25 * was)
-    return tr_format("{} bumped into something at {:.0f} blocks/s", island_name(*island_), was);
+  if (bump_ > 0.0)
+    return tr_format("{} bumped into something at {:.0f} blocks/s", island_name(*island_), bump_);
   return std::nullopt;
 }
 

@@ -15,6 +15,8 @@ class Helm {
   const std::optional<std::uint64_t>& island() const { return island_; }
   /// Of the island, as its place changed in the last frame that was watched [blocks/s].
   double speed() const { return speed_; }
+  /// How fast it was when it bumped into something in that frame [blocks/s]; 0: it did not.
+  double bump() const { return bump_; }
   /// Another island keeps it from moving though it is driven.
   bool held_fast() const;
 
@@ -32,7 +34,7 @@ class Helm {
  private:
   std::optional<std::uint64_t> island_;
   bool driven_ = false;  // by what is pressed now
-  double speed_ = 0.0;
+  double speed_ = 0.0, bump_ = 0.0;
   double held_s_ = 0.0;  // for so long it has been driven and not moved
 };
 

@@ -104,7 +104,7 @@ Result<gpu::ImageRef> OverlayPass::add(gpu::FrameGraph& graph, gpu::Pipelines& p
                     gpu::GraphicsDesc{.constants = {},
                                       .color_formats = {VK_FORMAT_R8G8B8A8_UNORM},
                                       .cull = VK_CULL_MODE_NONE,
-                                      .blend = true});
+                                      .blend = gpu::Blend::kOver});
   const auto count = static_cast<std::uint32_t>(triangles.vertices.size());
   const shared::OverlayConstants constants{
       {2.0f / static_cast<float>(size.width), 2.0f / static_cast<float>(size.height)}};

@@ -111,17 +111,24 @@ void PlayLoop::move(const platform::InputFrame& input, const ActionFrame& action
   Intent intent = intent_of(actions);
   toggles_.apply(settings().play, actions, player_.mode() == MoveMode::kWalk && !helm_.island(),
                  intent);
-  go_on(seconds, steer(actions, intent));
+  go_on(seconds, steer(actions, intent, input.pad));
 }
 
-/// At the helm, what would move the player moves the island. @return what is left to the player.
-Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
+/// At the helm, what would move the player moves the island. @param pad messages name a gamepad's
+/// buttons. @return what is left to the player.
+Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent, bool pad) {
+  const auto key = [&](Action action) {
+    return chord_label(pad ? (*bindings_)[action].pad : (*bindings_)[action].key);
+  };
   if (actions.pressed(Action::kHelm)) {
     if (helm_.island()) {
       helm_.leave(*session_);
     } else if (const std::optional<std::uint64_t> island = player_.frame_island()) {
       helm_.take(*island);
-      said_.emplace_back(tr("At the helm: forward and back drive, left and right turn"));
+      said_.push_back(
+          tr_format("At the helm: forward and back drive, left and right turn; {} rises, {} sinks, "
+                    "{} lets go",
+                    key(Action::kJump), key(Action::kCrouch), key(Action::kHelm)));
     } else {
       said_.emplace_back(tr("Stand on an island to take its helm"));
     }
@@ -130,6 +137,10 @@ Intent PlayLoop::steer(const ActionFrame& actions, const Intent& intent) {
   helm_.steer(intent, player_.state().yaw_deg, *session_);
   if (player_.frame_island() != helm_.island()) helm_.leave(*session_);  // fell or was taken off
   return {};
+}
+
+bool PlayLoop::on_foot() const {
+  return player_.mode() == MoveMode::kWalk && !player_.in_water() && !helm_.island();
 }
 
 /// The world goes on by so much, and the player in it.

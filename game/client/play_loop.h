@@ -81,6 +81,8 @@ class PlayLoop {
   Hotbar& hotbar() { return hands_.hotbar(); }
   const DayClock& day() const { return day_; }
   std::optional<double> exposure_ev() const { return exposure_ev_; }
+  /// Neither flying nor swimming nor at a helm: the keys that walk and jump do so.
+  bool on_foot() const;
 
   /// Whether keys have changed settings since the last call.
   bool take_settings_changed() { return std::exchange(settings_changed_, false); }
@@ -91,6 +93,9 @@ class PlayLoop {
   SoundFrame sound_frame(double seconds);
   /// What the overlay says of sound.
   void set_sound_line(std::string line) { sound_line_ = std::move(line); }
+
+  /// The world's name and seed, short enough for a title.
+  std::string world_label() const;
 
   void note_frame(double seconds);
   /// What the overlay says of how the quality was chosen; empty: it was named.
@@ -116,7 +121,7 @@ class PlayLoop {
   void calibrate(const platform::InputFrame& input, const ActionFrame& actions,
                  render::DisplaySettings& display);
   void move(const platform::InputFrame& input, const ActionFrame& actions, double seconds);
-  Intent steer(const ActionFrame& actions, const Intent& intent);
+  Intent steer(const ActionFrame& actions, const Intent& intent, bool pad);
   void go_on(double seconds, const Intent& intent);
   std::optional<world::Pose> helm_pose() const;
   PlayMoment sound_moment(double seconds) const;
@@ -130,8 +135,6 @@ class PlayLoop {
   std::vector<ui::HudFacts::Mark> compass_marks() const;
   void tell_session();
   void take_screenshot();
-  /// The world's name and seed, short enough for a title.
-  std::string world_label() const;
   std::vector<std::string> overlay_lines() const;
 
   platform::Window& window_;

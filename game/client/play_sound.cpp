@@ -32,6 +32,7 @@ PlayMoment PlayLoop::sound_moment(double seconds) const {
     now.ground = around_.block(*state.island, {below.x, below.y, below.z}).value_or(world::kAir);
   }
   now.dig_progress = hands_.dig_progress();
+  now.bump = helm_.bump();
   if (const std::optional<Pick>& pick = hands_.pick()) {
     now.dug = pick->block;
     now.pointed_at = middle_of(view_->world(), pick->island, beyond_face(pick->voxel, pick->face),

@@ -12,7 +12,7 @@ constexpr double kPadDegreesPerSecond = 180.0;
 constexpr double kDefaultFov = 70.0;
 constexpr double kViewStep = 1.25;
 constexpr double kSecondsPerDay = 86400.0;
-constexpr double kDayStep = 10.0;  // seconds
+constexpr double kDayStep = 1.0;  // seconds
 
 double axis(const ActionFrame& actions, Action plus, Action minus) {
   return actions.value(plus) - actions.value(minus);

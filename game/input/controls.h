@@ -48,9 +48,9 @@ render::DisplaySettings stepped_display(render::DisplaySettings display, int pea
 /// The next level up or down; the ends stay.
 Quality stepped_quality(Quality quality, int steps);
 
-/// Time of day as it runs or a held key turns it, in whole steps of ten seconds, wrapped at
-/// midnight. Between steps the sun stands still, so that kept shadow maps serve on and a
-/// screenshot's command can name the time exactly.
+/// Time of day as it runs or a held key turns it, in whole seconds, wrapped at midnight, so that a
+/// screenshot's command can name the time exactly. No pixel that is not at an edge of a shadow or
+/// of a disc changes by more than 2 of 255 in such a step.
 class DayClock {
  public:
   explicit DayClock(int time_of_day_s) : shown_s_(time_of_day_s), exact_s_(time_of_day_s) {}

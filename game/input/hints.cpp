@@ -22,10 +22,15 @@ struct Hint {
   const char* does;
   Action actions[4];  ///< each of which uses it; the first is repeated where there are fewer
   std::size_t count;
+  bool on_foot = false;  ///< true of those who walk alone
 };
 constexpr Hint kHints[] = {
-    {"walk", word("walk"), {Action::kForward, Action::kLeft, Action::kBack, Action::kRight}, 4},
-    {"jump", word("jump"), {Action::kJump}, 1},
+    {"walk",
+     word("walk"),
+     {Action::kForward, Action::kLeft, Action::kBack, Action::kRight},
+     4,
+     true},
+    {"jump", word("jump"), {Action::kJump}, 1, true},
     {"dig", word("dig, held"), {Action::kDig}, 1},
     {"place", word("place what is in the hand"), {Action::kPlace}, 1},
     {"palette", word("choose among all blocks"), {Action::kPalette}, 1},
@@ -38,35 +43,39 @@ std::span<const Action> actions_of(const Hint& hint) {
   return {hint.actions, hint.count};
 }
 
-std::size_t first_left(const std::bitset<Hints::kCount>& gone) {
+bool waits(const Hint& hint, bool on_foot) {
+  return hint.on_foot && !on_foot;
+}
+
+/// kCount: none.
+std::size_t first_left(const std::bitset<Hints::kCount>& gone, bool on_foot) {
   std::size_t i = 0;
-  while (i < gone.size() && gone[i]) ++i;
+  while (i < gone.size() && (gone[i] || waits(kHints[i], on_foot))) ++i;
   return i;
 }
 
 }  // namespace
 
-void Hints::note(const ActionFrame& actions, double seconds) {
+void Hints::note(const ActionFrame& actions, double seconds, bool on_foot) {
   std::bitset<kCount> gone = used_;
   for (std::size_t i = 0; i < kCount; ++i) {
+    if (waits(kHints[i], on_foot)) continue;
     const std::span<const Action> own = actions_of(kHints[i]);
     const bool used =
         std::any_of(own.begin(), own.end(), [&](Action action) { return actions.pressed(action); });
     gone[i] = gone[i] || used;
   }
   if (actions.any()) shown_s_ += seconds;
-  if (first_left(gone) != first_left(used_)) shown_s_ = 0.0;
-  if (shown_s_ > kLongEnough && !gone.all()) {
-    gone.set(first_left(gone));
-    shown_s_ = 0.0;
-  }
+  const std::size_t first = first_left(gone, on_foot);
+  if (first != std::exchange(shown_, first)) shown_s_ = 0.0;
+  if (shown_s_ > kLongEnough && first < kCount) gone.set(first);
   changed_ |= gone != used_;
   used_ = gone;
 }
 
-std::optional<std::string> Hints::line(const Bindings& bindings, bool pad) const {
+std::optional<std::string> Hints::line(const Bindings& bindings, bool pad, bool on_foot) const {
   for (std::size_t i = 0; i < kCount; ++i) {
-    if (used_[i]) continue;
+    if (used_[i] || waits(kHints[i], on_foot)) continue;
     std::string keys;
     for (const Action action : actions_of(kHints[i])) {
       const Chord chord = pad ? bindings[action].pad : bindings[action].key;

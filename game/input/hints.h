@@ -20,10 +20,11 @@ class Hints {
   static constexpr double kLongEnough = 30.0;  ///< seconds in which the player did something
 
   /// What the player does in the world, in a frame of so many seconds.
-  void note(const ActionFrame& actions, double seconds);
+  /// @param on_foot the keys that walk and jump do so; else their hints wait.
+  void note(const ActionFrame& actions, double seconds, bool on_foot);
   /// "W, A, S, D: walk" of the first that was not used; none: all were.
-  /// @param pad names a gamepad's buttons.
-  std::optional<std::string> line(const Bindings& bindings, bool pad) const;
+  /// @param pad names a gamepad's buttons. @param on_foot as in note().
+  std::optional<std::string> line(const Bindings& bindings, bool pad, bool on_foot) const;
   /// Whether one has gone since the last call.
   bool take_changed() { return std::exchange(changed_, false); }
 
@@ -34,7 +35,8 @@ class Hints {
 
  private:
   std::bitset<kCount> used_;
-  double shown_s_ = 0.0;  // the first that was not used
+  std::size_t shown_ = 0;  // the first that was not used and may be shown
+  double shown_s_ = 0.0;   // it was
   bool changed_ = false;
 };
 

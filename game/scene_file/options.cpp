@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "game/scene_file/json_text.h"
@@ -16,9 +17,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 11> kFields{"seed",   "world",  "camera",  "fov",
-                                                   "time",   "size",   "quality", "settings",
-                                                   "lights", "clouds", "import"};
+constexpr std::array<std::string_view, 13> kFields{
+    "seed",    "world",    "camera", "fov",    "time",   "size",  "quality",
+    "ambient", "settings", "lights", "clouds", "import", "blocks"};
 
 /// A scalar as the text a person would have typed, or nothing for other kinds.
 std::optional<std::string> scalar_text(const json& value) {
@@ -79,6 +80,12 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
     scene.lights = *std::move(lights);
     return {};
   }
+  if (key == "blocks") {
+    Result<std::vector<BlockBox>> blocks = read_blocks(value);
+    if (!blocks) return blocks.error();
+    scene.blocks = *std::move(blocks);
+    return {};
+  }
   if (key == "clouds") {
     Result<std::vector<CloudFile>> clouds = read_clouds(value);
     if (!clouds) return clouds.error();
@@ -93,11 +100,13 @@ Result<void> read_field(const std::string& key, const json& value, SceneText& sc
     scene.camera = *camera;
     return {};
   }
-  std::optional<std::string>* const texts[] = {&scene.seed, &scene.world, nullptr,       &scene.fov,
-                                               &scene.time, &scene.size,  &scene.quality};
+  std::optional<std::string>* const texts[] = {&scene.seed,    &scene.world,  nullptr,
+                                               &scene.fov,     &scene.time,   &scene.size,
+                                               &scene.quality, &scene.ambient};
   const auto field = std::find(kFields.begin(), kFields.end(), key);
   if (field == kFields.end()) return unknown_field(key);
-  if (key == "world" && !value.is_string()) return field_error(key, "a path in quotation marks");
+  if ((key == "world" || key == "ambient") && !value.is_string())
+    return field_error(key, "a path in quotation marks");
   const auto text = scalar_text(value);
   if (!text || value.is_boolean()) return field_error(key, "a string or a number");
   *texts[field - kFields.begin()] = *text;
@@ -160,6 +169,19 @@ Result<void> apply_imports(const SceneText& under, const SceneText& over, SceneO
   return {};
 }
 
+Result<void> check_ambient(const std::string& text) {
+  std::string end = text.size() < 4 ? text : text.substr(text.size() - 4);
+  for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (text == kAmbientSky || (end == ".hdr" && text.size() > 4)) return {};
+  if (end == ".exr")
+    return Error{
+        fmt::format("the panorama {} cannot be read because this program reads no "
+                    "OpenEXR: convert it to .hdr",
+                    quote_text(text))};
+  return Error{fmt::format("the panorama cannot be {}: give a file FILE.hdr, or sky for none",
+                           quote_text(text))};
+}
+
 /// A source named in `over` replaces the one of `under`, whichever kind it is.
 Result<void> choose_source(const SceneText& under, const SceneText& over, SceneOptions& scene) {
   const SceneText& named = over.seed || over.world ? over : under;
@@ -177,6 +199,11 @@ Result<void> choose_source(const SceneText& under, const SceneText& over, SceneO
 void find_world_beside(const std::string& scene_file, SceneText& scene) {
   if (!scene.world || scene.world->empty()) return;
   scene.world = file_of_scene(scene_file, *scene.world);
+}
+
+void find_ambient_beside(const std::string& scene_file, SceneText& scene) {
+  if (!scene.ambient || scene.ambient->empty() || *scene.ambient == kAmbientSky) return;
+  scene.ambient = file_of_scene(scene_file, *scene.ambient);
 }
 
 Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
@@ -209,8 +236,14 @@ Result<SceneOptions> make_scene(const SceneText& under, const SceneText& over) {
     scene.quality = *quality;
     scene.quality_named = true;
   }
+  if (const auto* text = chosen(under.ambient, over.ambient)) {
+    if (Result<void> fits = check_ambient(*text); !fits) return fits.error();
+    scene.ambient = *text;
+  }
   scene.lights = under.lights;
   scene.lights.insert(scene.lights.end(), over.lights.begin(), over.lights.end());
+  scene.blocks = under.blocks;
+  scene.blocks.insert(scene.blocks.end(), over.blocks.begin(), over.blocks.end());
   scene.clouds = under.clouds;
   scene.clouds.insert(scene.clouds.end(), over.clouds.begin(), over.clouds.end());
   scene.settings = settings_of(scene.quality);
@@ -224,7 +257,7 @@ std::string shot_command(const SceneOptions& scene) {
   std::string command = "skerry shot";
   const bool file_clouds = std::any_of(scene.clouds.begin(), scene.clouds.end(),
                                        [](const CloudFile& cloud) { return cloud.of_scene_file; });
-  if ((!scene.lights.empty() || file_clouds) && scene.scene_file)
+  if ((!scene.lights.empty() || !scene.blocks.empty() || file_clouds) && scene.scene_file)
     command += " --scene " + shell_word(*scene.scene_file);
   command += scene.world ? " --world " + shell_word(*scene.world)
                          : " --seed " + shell_word(scene.seed_text);
@@ -243,6 +276,7 @@ std::string shot_command(const SceneOptions& scene) {
       continue;
     command += " --set " + shell_word(assignment);
   }
+  if (scene.ambient) command += " --ambient " + shell_word(*scene.ambient);
   for (const CloudFile& cloud : scene.clouds)
     if (!cloud.of_scene_file) command += " --cloud " + shell_word(format_cloud(cloud));
   return command;

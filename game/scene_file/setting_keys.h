@@ -30,7 +30,8 @@ Result<void> apply_setting(std::string_view assignment, Settings& settings);
 /// The "key=value" assignments that turn settings_of(quality) into `settings`.
 std::vector<std::string> assignments_from(Quality quality, const Settings& settings);
 
-/// The parts of setting_keys(). Which world is shown, and how much of it: world.*, sky.*, view.*.
+/// The parts of setting_keys(). Which world is shown, and how much of it: world.*, sky.*,
+/// ambient.*, view.*.
 std::span<const SettingKey> world_keys();
 /// How surfaces are sampled and lit: aa.*, render.*, shadow.*, texture.*, gbuffer.*, lights.*,
 /// ao.*, indirect.

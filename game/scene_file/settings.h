@@ -6,6 +6,7 @@
 
 #include "engine/core/result.h"
 #include "engine/render/frame/settings.h"
+#include "engine/render/sky/panorama_sky.h"
 #include "game/words/language.h"
 
 namespace skerry::game {
@@ -68,6 +69,7 @@ struct Settings {
       world_islands;          ///< only so many islands, nearest to the spawn first; none: all
   double world_time_s = 0.0;  ///< seconds of island motion, +-1e9
   double moon_phase = 0.5;    ///< 0 new, 0.5 full, 1 new again
+  render::PanoramaPlacement ambient;   ///< of the scene's panorama, when it is read
   std::uint32_t view_distance = 1000;  ///< blocks, 32 .. 16384
   std::uint32_t view_detail = 192;     ///< blocks drawn at full detail, 32 .. 4096
   std::uint32_t shadow_samples = 1;    ///< places on the discs of sun and moon, 1 .. 1024

@@ -57,6 +57,24 @@ constexpr SettingKey kWorldKeys[] = {
        return into_number(parse_number(t, "sky.moon_phase", 0.0, 1.0), s.moon_phase);
      },
      [](const Settings& s) { return fmt::format("{}", s.moon_phase); }},
+    {"ambient.yaw", "degrees, -360 to 360",
+     "Where the middle of a panorama (--ambient) lies, as a camera's yaw. When it is read.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "ambient.yaw", -360.0, 360.0), s.ambient.yaw_deg);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.ambient.yaw_deg); }},
+    {"ambient.scale", "radiance, 0 to 1000000",
+     "What 1 in a panorama's file is; 1 is a white sheet under the noon sun.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "ambient.scale", 0.0, 1e6), s.ambient.scale);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.ambient.scale); }},
+    {"ambient.peak", "radiance, 0 to 1000000",
+     "Brighter places of a panorama's file count as this: takes the light of its own sun away.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "ambient.peak", 0.0, 1e6), s.ambient.peak);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.ambient.peak); }},
     {"view.distance", "blocks, 32 to 16384", "Nothing farther than this is drawn.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "view.distance", kMinViewDistance, kMaxViewDistance),

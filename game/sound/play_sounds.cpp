@@ -21,6 +21,10 @@ std::vector<SoundEvent> PlaySounds::advance(const PlayMoment& now,
   }
   begun_ = true;
   dig(now, out);
+  // Deep, and all around: the ground carries it.
+  if (now.bump > 0.0)
+    out.push_back({Sound::kPlace, SoundMaterial::kStone, std::nullopt,
+                   static_cast<float>(std::min(1.0, 0.4 + now.bump / 12.0)), 0.35f});
   for (std::size_t i = 0; i < std::min(edits.size(), kMostEdits); ++i) {
     const EditHeard& edit = edits[i];
     const bool taken = edit.is == world::kAir || edit.is == world::block::kWater;

@@ -17,6 +17,7 @@ struct PlayMoment {
   double dig_progress = 0.0;                  ///< of what is pointed at, 0 .. 1
   world::BlockId dug = world::kAir;           ///< what is pointed at
   std::optional<world::WorldPos> pointed_at;  ///< in the open before its face
+  double bump = 0.0;  ///< of the island that is steered, into something else [blocks/s]
 };
 
 /// An edit that was done.

@@ -15,6 +15,7 @@ constexpr double kMostPathLossDb = 200.0;
 struct Neighbour {
   world::IVec3 by;
   int cost = 0;
+  int next = 0;             // of SoundRoom::index
   std::uint32_t needs = 0;  // bits of the neighbours that must be open, itself included
 };
 
@@ -33,6 +34,7 @@ constexpr std::array<Neighbour, 26> make_neighbours() {
         if (far == 0) continue;
         Neighbour& one = all[n++];
         one.by = {x, y, z};
+        one.next = (y * SoundRoom::kEdge + x) * SoundRoom::kEdge + z;
         one.cost = far == 1   ? SoundPaths::kFaceCost
                    : far == 2 ? SoundPaths::kEdgeCost
                               : SoundPaths::kCornerCost;
@@ -63,14 +65,15 @@ glm::dvec3 direction_to(const glm::dvec3& from, const glm::dvec3& to) {
 
 /// Which of the 26 neighbours sound can be in: a bit each. Those outside the room are closed.
 std::uint32_t open_around(const SoundRoom& room, world::IVec3 cell) {
-  std::uint32_t open = 0;
+  std::uint32_t closed = 0;
   for (int y = -1; y <= 1; ++y)
-    for (int x = -1; x <= 1; ++x)
-      for (int z = -1; z <= 1; ++z) {
-        const world::IVec3 at{cell.x + x, cell.y + y, cell.z + z};
-        if (SoundRoom::inside(at) && !room.is_solid(at)) open |= 1u << bit_of(x, y, z);
-      }
-  return open;
+    for (int x = -1; x <= 1; ++x) {
+      const std::uint64_t row = room.solid_row(cell.x + x, cell.y + y);
+      const std::uint64_t three = cell.z == 0 ? row << 1 | 1 : row >> (cell.z - 1);
+      closed |= static_cast<std::uint32_t>(three & 7) << bit_of(x, y, -1);
+      if (cell.z == SoundRoom::kEdge - 1) closed |= 1u << bit_of(x, y, 1);
+    }
+  return ~closed;
 }
 
 }  // namespace
@@ -80,13 +83,11 @@ double SoundPath::gain() const {
 }
 
 void SoundPaths::reach(std::size_t from, int cost) {
-  const world::IVec3 cell = cell_at(from);
-  const std::uint32_t open = open_around(room_, cell);
+  const std::uint32_t open = open_around(room_, cell_at(from));
   for (std::size_t n = 0; n < kNeighbours.size(); ++n) {
     const Neighbour& next = kNeighbours[n];
     if ((open & next.needs) != next.needs) continue;
-    const std::size_t to =
-        SoundRoom::index({cell.x + next.by.x, cell.y + next.by.y, cell.z + next.by.z});
+    const std::size_t to = from + static_cast<std::size_t>(next.next);
     const int there = cost + next.cost;
     if (there >= cost_[to] || there > kMostLength * kFaceCost) continue;
     cost_[to] = static_cast<std::uint16_t>(there);
@@ -95,10 +96,20 @@ void SoundPaths::reach(std::size_t from, int cost) {
   }
 }
 
+bool SoundPaths::flood_serves() const {
+  if (room_.revision() != flooded_revision_) return false;
+  const world::IVec3 now = SoundRoom::cell_of(listener_);
+  const int gone = std::max({std::abs(now.x - flooded_from_.x), std::abs(now.y - flooded_from_.y),
+                             std::abs(now.z - flooded_from_.z)});
+  if (gone == 0) return true;
+  return gone == 1 && SoundRoom::inside(flooded_from_) &&
+         in_sight(room_, listener_, SoundRoom::middle_of(flooded_from_));
+}
+
 /// Dijkstra's algorithm with a bucket a cost (R. B. Dial, CACM 12(11), 1969).
 void SoundPaths::flood() {
+  if (flood_serves()) return;
   const world::IVec3 start = SoundRoom::cell_of(listener_);
-  if (start == flooded_from_ && room_.revision() == flooded_revision_) return;
   flooded_from_ = start;
   flooded_revision_ = room_.revision();
   ++floods_;
@@ -133,14 +144,17 @@ std::vector<glm::dvec3> SoundPaths::corners_to(world::IVec3 cell, const glm::dve
   for (world::IVec3 at = cell; at != flooded_from_;) {
     const world::IVec3 by = kNeighbours[step_[SoundRoom::index(at)]].by;
     at = {at.x - by.x, at.y - by.y, at.z - by.z};
-    way.push_back(at == flooded_from_ ? listener_ : SoundRoom::middle_of(at));
+    if (at != flooded_from_) way.push_back(SoundRoom::middle_of(at));
   }
+  if (SoundRoom::cell_of(listener_) != flooded_from_)
+    way.push_back(SoundRoom::middle_of(flooded_from_));
+  way.push_back(listener_);
   std::reverse(way.begin(), way.end());
   // From each corner on to the farthest place that it sees.
   std::vector<glm::dvec3> corners{way.front()};
   for (std::size_t at = 0; at + 1 < way.size();) {
     std::size_t next = way.size() - 1;
-    while (next > at + 1 && !straight_way(room_, way[at], way[next]).open) --next;
+    while (next > at + 1 && !in_sight(room_, way[at], way[next])) --next;
     corners.push_back(way[next]);
     at = next;
   }

@@ -47,6 +47,7 @@ constexpr double kMostLossDb = 200.0;
 void SoundRoom::clear() {
   std::fill(blocks_.begin(), blocks_.end(), world::kAir);
   std::fill(media_.begin(), media_.end(), SoundMedium::kAir);
+  std::fill(solid_rows_.begin(), solid_rows_.end(), 0);
   ++revision_;
 }
 
@@ -85,6 +86,17 @@ StraightWay straight_way(const SoundRoom& room, const glm::dvec3& from, const gl
     way.loss_db += kSurfaceLossDb;
   way.loss_db = std::min(kMostLossDb, way.loss_db + std::max(solid_db, thickest_db));
   return way;
+}
+
+bool in_sight(const SoundRoom& room, const glm::dvec3& from, const glm::dvec3& to) {
+  const double length = glm::length(to - from);
+  const world::IVec3 last = SoundRoom::cell_of(to);
+  Walk walk(from, (to - from) / std::max(length, 1e-12));
+  while (walk.cell() != last && walk.leaves_at() < length) {
+    walk.step();
+    if (walk.cell() != last && room.is_solid(walk.cell())) return false;
+  }
+  return true;
 }
 
 RayHit first_hit(const SoundRoom& room, const glm::dvec3& from, const glm::dvec3& direction,

@@ -4,8 +4,9 @@
 #include <imgui_internal.h>  // how it reads UTF-8
 
 #include <algorithm>
-#include <initializer_list>
 #include <utility>
+
+#include "engine/platform/files.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -60,39 +61,68 @@ bool is_latin(char32_t character) {
   return character <= 0x17f || (character >= 0x2010 && character <= 0x2026);
 }
 
-std::optional<std::filesystem::path> first_file(std::initializer_list<const char*> paths) {
-  for (const char* path : paths) {
+constexpr std::array kTypefaces{"usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                "usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                "usr/share/fonts/dejavu/DejaVuSans.ttf",
+                                "usr/share/fonts/TTF/DejaVuSans.ttf"};
+// Droid Sans comes last: it has no Korean.
+constexpr std::array kFallbackTypefaces{
+    "usr/share/fonts/truetype/wqy/wqy-microhei.ttc",
+    "usr/share/fonts/wqy-microhei-fonts/wqy-microhei.ttc",
+    "usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
+    "usr/share/fonts/google-noto-sans-cjk-fonts/NotoSansCJK-Regular.ttc",
+    "usr/share/fonts/noto-cjk/NotoSansCJK-Regular.ttc",
+    "usr/share/fonts/truetype/wqy/wqy-zenhei.ttc",
+    "usr/share/fonts/wqy-zenhei-fonts/wqy-zenhei.ttc",
+    "usr/share/fonts/truetype/droid/DroidSansFallbackFull.ttf"};
+constexpr std::uint64_t kMostTypefaceBytes = 64u << 20;
+
+std::optional<std::filesystem::path> first_file(const std::filesystem::path& root,
+                                                std::span<const char* const> files) {
+  for (const char* file : files) {
     std::error_code code;
-    if (std::filesystem::is_regular_file(path, code)) return path;
+    if (std::filesystem::is_regular_file(root / file, code)) return root / file;
   }
   return std::nullopt;
+}
+
+/// The file's bytes, read once; empty if it cannot be read.
+std::string& read_once(const std::optional<std::filesystem::path>& file, std::string& bytes) {
+  if (!file || !bytes.empty()) return bytes;
+  if (Result<std::string> read = platform::read_text(*file, kMostTypefaceBytes))
+    bytes = *std::move(read);
+  return bytes;
 }
 
 }  // namespace
 
 std::optional<std::filesystem::path> find_typeface() {
-  return first_file({"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                     "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-                     "/usr/share/fonts/TTF/DejaVuSans.ttf"});
+  return first_file("/", kTypefaces);
 }
 
-std::optional<std::filesystem::path> find_fallback_typeface() {
-  return first_file({"/usr/share/fonts/truetype/wqy/wqy-microhei.ttc",
-                     "/usr/share/fonts/wqy-microhei-fonts/wqy-microhei.ttc",
-                     "/usr/share/fonts/truetype/droid/DroidSansFallbackFull.ttf"});
+std::span<const char* const> fallback_typefaces() {
+  return kFallbackTypefaces;
 }
 
-Fonts::Fonts() {
+std::optional<std::filesystem::path> find_fallback_typeface(const std::filesystem::path& root) {
+  return first_file(root, kFallbackTypefaces);
+}
+
+Fonts::Fonts(std::optional<std::filesystem::path> fallback) : fallback_(std::move(fallback)) {
   make();
 }
 
 void Fonts::make() {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  const std::optional<std::filesystem::path> typeface = find_typeface();
-  const std::optional<std::filesystem::path> fallback =
-      wanted_.empty() ? std::nullopt : find_fallback_typeface();
+  std::string& typeface = read_once(find_typeface(), typeface_bytes_);
+  if (!wanted_.empty()) read_once(fallback_, fallback_bytes_);
+  const auto add = [&atlas](std::string& file, float size, ImFontConfig& config,
+                            const ImWchar* ranges) {
+    config.FontDataOwnedByAtlas = false;  // the sizes share it
+    return atlas.AddFontFromMemoryTTF(file.data(), static_cast<int>(file.size()), size, &config,
+                                      ranges);
+  };
   ranges_.clear();
   for (const char32_t character : wanted_)
     ranges_.insert(ranges_.end(), 2, static_cast<unsigned short>(character));
@@ -104,13 +134,12 @@ void Fonts::make() {
     config.PixelSnapH = true;
     config.SizePixels = kSizes[i];
     const bool all = kSizes[i] <= kLargest;
-    fonts_[i] = typeface ? atlas.AddFontFromFileTTF(typeface->c_str(), kSizes[i], &config,
-                                                    all ? kLatin : kAscii)
-                         : atlas.AddFontDefault(&config);
+    fonts_[i] = typeface.empty() ? atlas.AddFontDefault(&config)
+                                 : add(typeface, kSizes[i], config, all ? kLatin : kAscii);
     if (!all || wanted_.empty()) continue;
     config.MergeMode = true;  // what a font has already, a later one leaves as it is
-    for (const auto& path : {typeface, fallback})
-      if (path) atlas.AddFontFromFileTTF(path->c_str(), kSizes[i], &config, ranges_.data());
+    for (std::string* file : {&typeface, &fallback_bytes_})
+      if (!file->empty()) add(*file, kSizes[i], config, ranges_.data());
   }
 }
 

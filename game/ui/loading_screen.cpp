@@ -39,7 +39,7 @@ void draw_wheel(ImDrawList& list, ImVec2 middle, double seconds) {
 void show_loading(const LoadingFacts& facts) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddRectFilled(ImVec2(0, 0), window, IM_COL32(16, 26, 32, 255));
+  cover();
   draw_wheel(list, ImVec2(0.5f * window.x, 0.36f * window.y), facts.seconds);
   const bool islands = facts.islands_to_come != 0;
   const float share = islands || facts.passes == 0 ? 1.0f

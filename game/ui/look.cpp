@@ -118,11 +118,44 @@ void text_wrapped(ImU32 colour, std::string_view lines) {
   ImGui::PopTextWrapPos();
 }
 
-void heading(std::string_view line) {
+void heading(std::string_view line, std::string_view beside) {
   push_size(TextSize::kHeading);
   text(line);
+  const float height = ImGui::GetTextLineHeight();
   pop_size();
+  if (!beside.empty()) {
+    ImGui::SameLine(0.0f, 20 * unit());
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.75f * (height - ImGui::GetTextLineHeight()));
+    text_in(colour::kFaint, beside);
+  }
   gap(6);
+}
+
+std::string shortened(const std::string& line, float width) {
+  if (ImGui::CalcTextSize(line.c_str()).x <= width) return line;
+  std::string out = line;
+  while (!out.empty() && ImGui::CalcTextSize((out + "...").c_str()).x > width) do
+      out.pop_back();
+    while (!out.empty() && (static_cast<unsigned char>(out.back()) & 0xc0) == 0x80);
+  return out + "...";
+}
+
+std::string in_lines(std::string_view words, float width) {
+  std::string lines, line;
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find_first_of(" +"), words.size() - 1) + 1;
+    const std::string word(words.substr(0, end));
+    words.remove_prefix(end);
+    const auto shown = [](const std::string& text) {  // without the space at its end
+      return text.ends_with(' ') ? text.substr(0, text.size() - 1) : text;
+    };
+    if (!line.empty() && ImGui::CalcTextSize(shown(line + word).c_str()).x > width) {
+      lines += shown(line) + "\n";
+      line.clear();
+    }
+    line += word;
+  }
+  return lines + line;
 }
 
 void gap(float units) {
@@ -297,6 +330,11 @@ void end_scroll() {
 void shade() {
   ImGui::GetBackgroundDrawList()->AddRectFilled(ImVec2(0, 0), ImGui::GetIO().DisplaySize,
                                                 colour::kShade);
+}
+
+void cover() {
+  ImGui::GetBackgroundDrawList()->AddRectFilled(ImVec2(0, 0), ImGui::GetIO().DisplaySize,
+                                                colour::kNothing);
 }
 
 }  // namespace skerry::game::ui

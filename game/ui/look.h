@@ -21,6 +21,7 @@ inline constexpr ImU32 kFaint = IM_COL32(168, 182, 184, 255);
 inline constexpr ImU32 kAccent = IM_COL32(122, 204, 190, 255);
 inline constexpr ImU32 kWarning = IM_COL32(240, 184, 96, 255);
 inline constexpr ImU32 kPanel = IM_COL32(16, 26, 32, 226);
+inline constexpr ImU32 kNothing = IM_COL32(16, 26, 32, 255);  // where there is no world
 inline constexpr ImU32 kShade = IM_COL32(8, 14, 18, 150);
 }  // namespace colour
 
@@ -36,7 +37,13 @@ void text(std::string_view line);
 void text_in(ImU32 colour, std::string_view line);
 /// Broken into lines at the window's edge.
 void text_wrapped(ImU32 colour, std::string_view lines);
-void heading(std::string_view line);
+/// @param beside said on the same line, in small and faint.
+void heading(std::string_view line, std::string_view beside = {});
+/// What fits into a width [pixels], with "..." for what does not.
+std::string shortened(const std::string& line, float width);
+/// Broken at spaces and after plus signs into lines no wider than that [pixels], as far as its
+/// words allow.
+std::string in_lines(std::string_view words, float width);
 void gap(float units);
 
 /// A line to type into, of `bytes` with the zero at its end. What is pasted and does not fit is
@@ -96,5 +103,7 @@ void end_scroll();
 
 /// Darkens what is behind.
 void shade();
+/// Stands for the world behind screens while there is none.
+void cover();
 
 }  // namespace skerry::game::ui

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/render/frame/display.h"
 #include "game/ui/look.h"
@@ -32,37 +33,51 @@ void show_frames(const OverlayFacts& facts) {
                    ImVec2(ImGui::GetContentRegionAvail().x, kGraphHeight * ui::unit()));
 }
 
-/// @param share draws a bar of that part of the row's width behind it.
-void row(std::string_view name, const std::string& value, double share = 0.0) {
+struct Row {
+  std::string name, value;
+  double share = 0.0;  // of the table's width that a bar behind it takes
+};
+
+float text_width(std::string_view line) {
+  return ImGui::CalcTextSize(line.data(), line.data() + line.size()).x;
+}
+
+void show_row(const Row& row) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
-  if (share > 0.0)
-    ImGui::GetWindowDrawList()->AddRectFilled(
-        at, ImVec2(at.x + static_cast<float>(share) * width, at.y + ImGui::GetTextLineHeight()),
-        kBar);
-  text(name);
+  if (row.share > 0.0) {
+    const ImVec2 end(at.x + static_cast<float>(row.share) * width,
+                     at.y + ImGui::GetTextLineHeight());
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 panel = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    list.PushClipRect(panel, ImVec2(panel.x + size.x, panel.y + size.y));  // beyond its column
+    list.AddRectFilled(at, end, kBar);
+    list.PopClipRect();
+  }
+  text(ui::shortened(row.name, ImGui::GetContentRegionAvail().x));
   ImGui::TableNextColumn();
-  const ImVec2 size = ImGui::CalcTextSize(value.data(), value.data() + value.size());
-  const float slack = ImGui::GetContentRegionAvail().x - size.x;
+  const float slack = ImGui::GetContentRegionAvail().x - text_width(row.value);
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, slack));
-  text(value);
+  text(row.value);
 }
 
-/// Two columns of names and values under a heading; `rows` emits them. @param id stays the same
-/// while the heading changes: ImGui keeps the columns' widths by it.
-template <class F>
-void table(const char* id, const std::string& heading, const F& rows) {
+/// Two columns of names and values under a heading. The values have the room that they need, the
+/// names what is left. @param id stays the same while the heading changes: ImGui keeps the columns'
+/// widths by it.
+void table(const char* id, const std::string& heading, std::span<const Row> rows) {
   ImGui::Separator();
   text(heading);
   // Of a given width: a table that makes its window as wide as itself would be as narrow as it can.
-  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp,
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_None,
                          ImVec2(ImGui::GetContentRegionAvail().x, 0.0f)))
     return;
-  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 2.0f);
-  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-  rows();
+  float widest = 1.0f;
+  for (const Row& row : rows) widest = std::max(widest, text_width(row.value));
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed, widest);
+  for (const Row& row : rows) show_row(row);
   ImGui::EndTable();
 }
 
@@ -76,15 +91,15 @@ void show_memory(std::span<const gpu::MemoryUse> memory) {
     total += memory[i].bytes;
     if (i >= kMemoryRows) rest += memory[i].bytes;
   }
-  table("memory", fmt::format("GPU memory: {:.1f} MB", static_cast<double>(total) * 1e-6), [&] {
-    for (const gpu::MemoryUse& use : memory.first(std::min(memory.size(), kMemoryRows)))
-      row(use.name, megabytes(use.bytes));
-    if (rest != 0) row("others", megabytes(rest));
-  });
+  std::vector<Row> rows;
+  for (const gpu::MemoryUse& use : memory.first(std::min(memory.size(), kMemoryRows)))
+    rows.push_back({use.name, megabytes(use.bytes)});
+  if (rest != 0) rows.push_back({"others", megabytes(rest)});
+  table("memory", fmt::format("GPU memory: {:.1f} MB", static_cast<double>(total) * 1e-6), rows);
 }
 
 constexpr float kPanelShare = 0.3f;  // of the picture's width at most: the middle stays to look at
-constexpr float kFootHeight = 100.0f;  // of the hotbar's and its label, units
+constexpr float kFootHeight = 124.0f;  // of the hotbar, its label and a message, units
 
 /// A translucent panel in the upper left or right corner, as high as its contents, or down to the
 /// hotbar.
@@ -153,18 +168,20 @@ void show_calibration(const OverlayFacts& facts, const ImVec2& picture) {
 void show_numbers(const OverlayFacts& facts, const ImVec2& picture) {
   panel("state", false, picture, [&] {
     show_frames(facts);
-    for (const std::string& line : facts.lines) ui::text_wrapped(ui::colour::kText, line);
-    table("counts", "counts", [&] {
-      for (const auto& count : facts.counts) row(count.name, fmt::format("{}", count.value));
-    });
+    const float width = ImGui::GetContentRegionAvail().x;  // no number is broken at its point
+    for (const std::string& line : facts.lines)
+      ui::text_wrapped(ui::colour::kText, ui::in_lines(line, width));
+    std::vector<Row> rows;
+    for (const auto& count : facts.counts)
+      rows.push_back({std::string(count.name), fmt::format("{}", count.value)});
+    table("counts", "counts", rows);
   });
   panel("gpu", true, picture, [&] {
-    table("passes", fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), [&] {
-      for (const gpu::PassTime& pass : facts.passes) {
-        const double share = facts.gpu_ms > 0.0 ? pass.ms / facts.gpu_ms : 0.0;
-        row(pass.name, fmt::format("{:.3f} ms", pass.ms), share);
-      }
-    });
+    std::vector<Row> rows;
+    for (const gpu::PassTime& pass : facts.passes)
+      rows.push_back({pass.name, fmt::format("{:.3f} ms", pass.ms),
+                      facts.gpu_ms > 0.0 ? pass.ms / facts.gpu_ms : 0.0});
+    table("passes", fmt::format("GPU passes: {:.2f} ms", facts.gpu_ms), rows);
     show_memory(facts.memory);
   });
 }

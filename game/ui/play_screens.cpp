@@ -15,7 +15,8 @@ void show_pause(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   shade();
   begin_panel("pause", Place::kMiddle, 380, state.unsaved ? 690 : 522);
   heading(tr("Paused"));
-  if (facts.world) text_in(colour::kFaint, *facts.world);
+  if (facts.world)
+    text_in(colour::kFaint, shortened(*facts.world, ImGui::GetContentRegionAvail().x));
   gap(8);
   if (first_button(tr("Go on"))) state.stack.clear();
   if (button(tr("Map"))) state.stack.open(Screen::kMap);

@@ -98,7 +98,7 @@ struct ScreenFacts {
   std::span<const WorldCard> worlds;
   std::span<const PictureCard> gallery;
   std::int64_t now_s = 0;            ///< Unix time
-  std::optional<std::string> world;  ///< name of the one being played
+  std::optional<std::string> world;  ///< name and seed of the one being played
   Quality* quality = nullptr;
   bool* quality_auto = nullptr;  ///< whether play chooses the quality
   Settings* settings = nullptr;

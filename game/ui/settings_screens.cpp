@@ -314,9 +314,10 @@ void binding_button(ScreenState& state, const ScreenFacts& facts, Action action,
   const Binding& binding = (*facts.bindings)[action];
   const bool waits =
       state.listening && state.listening->action == action && state.listening->pad == pad;
-  const std::string label = (waits ? std::string(pad ? tr("press a button") : tr("press a key"))
-                                   : chord_label(pad ? binding.pad : binding.key)) +
-                            (pad ? "##pad" : "##key");
+  const std::string words = waits ? std::string(pad ? tr("press a button") : tr("press a key"))
+                                  : chord_label(pad ? binding.pad : binding.key);
+  const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().FramePadding.x;
+  const std::string label = in_lines(words, room) + (pad ? "##pad" : "##key");
   if (ImGui::Button(label.c_str(), ImVec2(-1.0f, 0.0f)) && !state.listening)
     state.listening = ScreenState::Listening{action, pad};
 }
@@ -343,7 +344,7 @@ void binding_row(ScreenState& state, const ScreenFacts& facts, Action action) {
 void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes) {
   // No shade: the picture behind is what the knobs change.
   begin_panel("settings", Place::kLeft, 680, 660);
-  heading(tr("Settings"));
+  heading(tr("Settings"), by_keys() ? tr("left, right: change") : "");
   const float foot = 40 * unit() + 2 * ImGui::GetStyle().ItemSpacing.y;
   begin_scroll("knobs", -foot);
   if (ImGui::BeginTable("rows", 3)) {
@@ -359,8 +360,7 @@ void show_settings(ScreenState& state, const ScreenFacts& facts, Wishes& wishes)
   if (button(tr("Back"), 150)) state.stack.back();
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  text_in(colour::kFaint, tr_format("GPU {:.1f} ms a frame", facts.costs->now_ms()) +
-                              (by_keys() ? std::string("   ") + tr("left, right: change") : ""));
+  text_in(colour::kFaint, tr_format("GPU {:.1f} ms a frame", facts.costs->now_ms()));
   end_panel();
 }
 

@@ -17,16 +17,6 @@ std::string megabytes(std::uint64_t bytes) {
                          : fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
 }
 
-/// What fits into a width, with "..." for what does not.
-std::string shortened(const std::string& text, float pixels) {
-  if (ImGui::CalcTextSize(text.c_str()).x <= pixels) return text;
-  std::string out = text;
-  while (!out.empty() && ImGui::CalcTextSize((out + "...").c_str()).x > pixels) do
-      out.pop_back();
-    while (!out.empty() && (static_cast<unsigned char>(out.back()) & 0xc0) == 0x80);
-  return out + "...";
-}
-
 void draw_thumbnail(const ScreenFacts& facts, const WorldCard& world, ImVec2 at, ImVec2 size) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + size.x, at.y + size.y);

@@ -9,7 +9,7 @@
 
 #include "engine/render/frame/camera.h"
 #include "game/scene_file/emission.h"
-#include "game/scene_file/scene_lights.h"
+#include "game/scene_file/scene_contents.h"
 #include "world/light/lamp_reach.h"
 #include "world/stream/stream.h"
 

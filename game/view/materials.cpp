@@ -28,6 +28,7 @@ std::vector<shared::Material> material_table() {
              std::abs(other.roughness - m.roughness) < 0.1f;
     });
     m.light_class = alike != table.end() ? alike->light_class : classes++;
+    m.translucent_block = world::translucent_block(static_cast<unsigned>(table.size()));
     table.push_back(m);
   }
   SKERRY_ASSERT(table.size() <= shared::kMaxMaterials);

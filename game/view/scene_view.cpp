@@ -15,6 +15,7 @@
 #include "engine/core/log.h"
 #include "engine/render/frame/celestial.h"
 #include "engine/render/scene/section_parts.h"
+#include "game/panorama/load_panorama.h"
 #include "game/player/player.h"
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
@@ -156,6 +157,11 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
   if (!renderer) return renderer.error();
   view->renderer_ = *std::move(renderer);
   if (Result<void> ok = view->follow_settings(); !ok) return ok.error();
+  Result<std::shared_ptr<const render::PanoramaSky>> panorama = load_panorama(options);
+  if (!panorama) return panorama.error();
+  if (*panorama)
+    if (Result<void> ok = view->renderer_->set_panorama(*std::move(panorama)); !ok)
+      return ok.error();
   if (!options.clouds.empty()) {
     const Result<LoadedClouds> clouds = load_clouds(options.clouds);
     if (!clouds) return clouds.error();

@@ -34,7 +34,7 @@ Error no_command(std::string_view why) {
 /// Settings that say where a picture was taken, not how it was drawn.
 bool is_of_place(std::string_view assignment) {
   constexpr std::string_view kGroups[] = {
-      "world.",           "sky.",           "clouds.coverage", "clouds.altitude",
+      "world.",           "sky.",           "ambient.",    "clouds.coverage", "clouds.altitude",
       "clouds.thickness", "clouds.density", "clouds.file_"};
   return std::any_of(std::begin(kGroups), std::end(kGroups),
                      [&](std::string_view group) { return assignment.starts_with(group); });
@@ -59,11 +59,9 @@ Result<bool> take_option(std::string_view option, const std::string& value, Scen
     return true;
   }
   const std::pair<std::string_view, std::optional<std::string> SceneText::*> kTexts[] = {
-      {"--seed", &SceneText::seed},
-      {"--world", &SceneText::world},
-      {"--camera", &SceneText::camera},
-      {"--fov", &SceneText::fov},
-      {"--time", &SceneText::time}};
+      {"--seed", &SceneText::seed},     {"--world", &SceneText::world},
+      {"--camera", &SceneText::camera}, {"--fov", &SceneText::fov},
+      {"--time", &SceneText::time},     {"--ambient", &SceneText::ambient}};
   for (const auto& [name, field] : kTexts) {
     if (option != name) continue;
     scene.*field = value;
@@ -133,6 +131,7 @@ SceneOptions at_place(const SceneOptions& played, const SceneOptions& place) {
   out.camera = place.camera;
   out.time_of_day_s = place.time_of_day_s;
   out.clouds = place.clouds;
+  out.ambient = place.ambient;
   out.lights.clear();
   Settings& to = out.settings;
   const Settings& from = place.settings;
@@ -140,6 +139,7 @@ SceneOptions at_place(const SceneOptions& played, const SceneOptions& place) {
   to.world_islands = from.world_islands;
   to.world_time_s = from.world_time_s;
   to.moon_phase = from.moon_phase;
+  to.ambient = from.ambient;
   const auto kept = to.render.clouds;
   to.render.clouds = from.render.clouds;
   to.render.clouds.steps = kept.steps;

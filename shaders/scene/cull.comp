@@ -82,6 +82,10 @@ uint visible_ranges(Section s, CullView view) {
   return mask;
 }
 
+bool draws_section(CullView view, uint section) {
+  return section >= view.first_section && (view.section_limit == 0u || section < view.section_limit);
+}
+
 // Composed once a section, so that a vertex needs three dot products and one matrix.
 SectionTransform section_transform(Section s, IslandTransform t) {
   vec3 origin = world_from_lattice(t, vec3(s.origin));
@@ -195,7 +199,7 @@ void cull_sections() {
   clear_group();
   if (section < push.section_count && views[view].enabled != 0u) {
     Section s = sections[section];
-    uint mask = visible_ranges(s, views[view]);
+    uint mask = draws_section(views[view], section) ? visible_ranges(s, views[view]) : 0u;
     if (kTwoPhases && view == 0u && seen[section] == 0u && mask != 0u) mask |= kUnseen;
     uint drawn = first_phase(mask);
     uint draws = add_draws(s, drawn), quads = quads_of(s, mask);

@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push {
 layout(constant_id = kTexturedConstant) const bool kTextured = false;  // cut-outs need texture coordinates
 
 layout(location = 0) flat out uint out_surface;
-layout(location = 1) out vec2 out_uv;
+layout(location = 1) out vec2 out_uv;  // without texture coordinates x is the other translucent block that the face touches, see Quad
 
 invariant gl_Position;
 
@@ -49,7 +49,7 @@ void main() {
   p = vec4(dot(t.x, vec4(voxel, 1.0)), dot(t.y, vec4(voxel, 1.0)), dot(t.z, vec4(voxel, 1.0)), 1.0);
   gl_Position = push.clip_from_source * p;
   out_surface = quad.y | kSurfaceHere;
-  out_uv = vec2(0.0);
+  out_uv = vec2(float(quad.x >> 30), 0.0);
   // In voxels: cut-outs of coarse levels show one texture a voxel. v runs downwards, so its sign is turned.
   if (kTextured) out_uv = axis == 0u ? vec2(u, -v) : axis == 1u ? vec2(u, v) : vec2(u, -v);
 }

@@ -23,7 +23,7 @@ SHARED_CONST uint kStoredNormalsBinding = 10u;
 SHARED_CONST uint kStoredPositionsBinding = 11u;
 SHARED_CONST uint kShadowMapsBinding = 12u;
 SHARED_CONST uint kPreviousDepthsBinding = 13u;  // of the translucent layer before
-SHARED_CONST uint kLayerSurfacesBinding = 14u;   // four numbers: words of each layer
+SHARED_CONST uint kLayerSurfacesBinding = 14u;   // words of the translucent layers
 SHARED_CONST uint kLayerDepthsBinding = 18u;     // four numbers: depths of each layer
 
 // What is drawn to.
@@ -122,6 +122,10 @@ SHARED_CONST uint kFarDepthsBinding = 85u;     // see kFineDepthEdge
 SHARED_CONST uint kSeenSectionsBinding = 86u;  // uint[section]: 1 if the last frame showed it
 
 SHARED_CONST uint kSkyScatteringBinding = 87u;  // SkyScatter[body][row][azimuth]
+
+// Behind the translucent layers, see sum_tail.frag.
+SHARED_CONST uint kTailDepthsBinding = 88u;
+SHARED_CONST uint kTailLightBinding = 89u;
 
 SHARED_END
 #endif

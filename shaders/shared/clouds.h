@@ -36,10 +36,14 @@ SHARED_CONST uint kCloudBrickEdge = 8u;    // voxels of a brick, as an OpenVDB l
 SHARED_CONST uint kCloudBrickTexels = 9u;  // along a brick in the atlas: its voxels and one beyond
 SHARED_CONST uint kCloudCellLevels = 3u;   // of the maxima: cells of 1, 2 and 4 bricks
 
-// The light of one body in clouds.
+// Ways along which clouds are looked through: to sun, moon and zenith, which stands for the sky.
+SHARED_CONST uint kCloudLights = 3u;
+SHARED_CONST uint kCloudZenith = 2u;
+
+// What clouds are lit by from one side.
 struct CloudLight {
   vec3 to_light;    // unit, world
-  vec3 irradiance;  // of a surface facing it
+  vec3 irradiance;  // of a surface facing it; of the zenith 0
 };
 
 struct CloudLayer {
@@ -61,14 +65,17 @@ struct CloudVolume {
   float step_blocks;  // of the march
   vec3 first_cell;    // of its region in the cells [cells]
   vec3 cell_count;
-  vec3 cell_low;                  // its first brick [index]
-  vec3 light_texels;              // of its region in the light image
-  float light_first[kBodyCount];  // where that begins along z [texels], a body
+  vec3 cell_low;                    // its first brick [index]
+  vec3 light_texels;                // of its region in the light image
+  float light_first[kCloudLights];  // where that begins along z [texels], a way
 };
 
 struct CloudConstants {
-  CloudLight lights[kBodyCount];
-  vec3 sky_above;  // mean radiance of the sky's upper half: what clouds receive besides
+  CloudLight lights[kCloudLights];
+  // Mean radiance of the sky, in two parts: what comes in along a body's way, and what is left of
+  // it when none lights the air, along the zenith's.
+  vec3 sky_beside_body;
+  vec3 sky_above;
   float shadow_steps;
   float steps;  // of the layer
   CloudLayer layer;
@@ -78,7 +85,7 @@ struct CloudConstants {
 // The texels of the volumes' light image that one dispatch fills.
 struct CloudLightJob {
   uint volume;
-  uint body;
+  uint light;  // below kCloudLights
 };
 
 SHARED_END

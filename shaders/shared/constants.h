@@ -46,6 +46,7 @@ SHARED_CONST uint kLightsSoftnessConstant = 41u;  // uint: ways to a light that 
 SHARED_CONST uint kStepConstant = 42u;            // uint: pixels between points of a grid
 SHARED_CONST uint kEveryPixelConstant = 43u;      // bool: all pixels, not a grid's points
 SHARED_CONST uint kToleranceConstant = 44u;       // float: how much shared light may differ
+SHARED_CONST uint kCloudSkyConstant = 45u;        // bool: the sky lights clouds by itself
 SHARED_CONST uint kChooseConstant = 46u;          // bool: an exposure is chosen from the histogram
 SHARED_CONST uint kPackConstant = 47u;            // bool: noise that is there is packed
 SHARED_CONST uint kCullStepConstant = 49u;        // uint: kCullSections to kCullHidden
@@ -61,6 +62,8 @@ SHARED_CONST uint kGroupSizeConstant = 57u;    // uint: invocations of a work gr
 SHARED_CONST uint kStoreConstant = 58u;        // bool: what was found is stored
 SHARED_CONST uint kPlaneConstant = 59u;        // bool: tiles that show one plane alone
 SHARED_CONST uint kTwoPhasesConstant = 60u;    // bool: what the last frame showed is drawn first
+SHARED_CONST uint kPanoramaConstant = 61u;     // bool: the sky's table is a panorama
+SHARED_CONST uint kTailConstant = 62u;         // bool: what lies behind the layers is summed up
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

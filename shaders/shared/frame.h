@@ -8,8 +8,8 @@ SHARED_BEGIN
 SHARED_CONST uint kBodyCount = 2u;          // 0 the sun, 1 the moon
 SHARED_CONST float kBodyRadius = 0.00465f;  // of the discs they light from [rad]
 SHARED_CONST uint kCascadeCount = 4u;       // a body
-SHARED_CONST uint kViewCount =
-    9u;  // 0 the camera, then cascades of the sun (1..4) and of the moon (5..8)
+SHARED_CONST uint kViewCount = 13u;  // 0 the camera, then cascades of the sun (1..4) and of the
+                                     // moon (5..8), and parts of those that may lag, two a body
 SHARED_CONST uint kListCount =
     3u;  // draw lists a view: 0 opaque, 1 cut-out and plants, 2 translucent
 SHARED_CONST uint kMaxIslands =
@@ -61,6 +61,7 @@ struct FrameConstants {
   uint camera_medium;    // block id the camera is in: 0 air, else a translucent block
   float shadow_blur;     // largest radius of the shadow filter [blocks]
   float sky_horizon;     // elevation of the true horizon [rad], not positive
+  float sky_yaw;         // azimuth of a panorama's middle [rad]
   float haze_per_block;  // extinction of clear air [1/block]
   float body_in_air;     // where the sky lights the air: how much of it sun or moon lights first
   float ao_strength;     // share of light that a closed corner takes, 0..1
@@ -74,6 +75,7 @@ struct CullView {
   vec3 eye;           // perspective: the eye; orthographic: unit vector towards the light
   uint orthographic;  // 0 or 1
   uint enabled;       // 0: nothing is drawn in this view
+  uint first_section, section_limit;  // slots that it draws, [first, limit); limit 0: there is none
 };
 
 // Source-relative world from voxel coordinates of one section: p.x = dot(x, (v, 1)). The source is

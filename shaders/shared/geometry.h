@@ -24,7 +24,8 @@ SHARED_CONST uint kRangeCount = 19u;
 // One merged rectangle of faces, 8 bytes.
 struct Quad {
   uint geometry;  // bits 0-5 x, 6-11 y, 12-17 z: the lowest voxel, chunk-local; 18-23 extent along
-                  // u minus 1; 24-29 along v minus 1
+                  // u minus 1; 24-29 along v minus 1; 30-31 of a translucent face: which other
+                  // translucent block it touches, by Material.translucent_block, 0: none
   uint material;  // bits 0-15 block id, 16-18 face, 19-30 index into the island table (0 from the
                   // mesher, set on upload)
 };
@@ -56,10 +57,11 @@ struct Material {
   uint layer_bottom;  // for -y
   uint emission;  // luminous emission, half float in bits 0-15: radiance = albedo * this [the unit
                   // of sun radiance]
-  vec3 absorption;   // translucent kinds: extinction per block of path [1/block]; else 0
-  float roughness;   // 0..1 perceptual
-  float metalness;   // 0..1: how much of what it reflects is mirrored, in its own colour
-  uint light_class;  // equal for ids that light shows alike, but for their textures
+  vec3 absorption;         // translucent kinds: extinction per block of path [1/block]; else 0
+  float roughness;         // 0..1 perceptual
+  float metalness;         // 0..1: how much of what it reflects is mirrored, in its own colour
+  uint light_class;        // equal for ids that light shows alike, but for their textures
+  uint translucent_block;  // of row n, not of id n: the nth translucent block's id, see Quad; or 0
 };
 
 // Arguments of vkCmdDrawIndexedIndirect (VkDrawIndexedIndirectCommand). firstInstance carries the

@@ -18,10 +18,7 @@ layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 layout(binding = kRadianceBinding, rgba16f) uniform image2D radiance;
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
-layout(binding = kLayerSurfacesBinding, r32ui) readonly uniform uimage2D layer_surfaces_0;
-layout(binding = kLayerSurfacesBinding + 1u, r32ui) readonly uniform uimage2D layer_surfaces_1;
-layout(binding = kLayerSurfacesBinding + 2u, r32ui) readonly uniform uimage2D layer_surfaces_2;
-layout(binding = kLayerSurfacesBinding + 3u, r32ui) readonly uniform uimage2D layer_surfaces_3;
+layout(binding = kLayerSurfacesBinding) uniform usampler2DArray layer_surfaces;
 layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths_0;
 layout(binding = kLayerDepthsBinding + 1u) uniform sampler2D layer_depths_1;
 layout(binding = kLayerDepthsBinding + 2u) uniform sampler2D layer_depths_2;
@@ -36,16 +33,17 @@ float layer_depth(uint k, ivec2 pixel) {
 }
 // 0 where the layer has no surface; its word is undefined there.
 uint layer_surface(uint k, ivec2 pixel) {
-  uint word = k == 0u ? imageLoad(layer_surfaces_0, pixel).r
-                      : k == 1u ? imageLoad(layer_surfaces_1, pixel).r
-                                : k == 2u ? imageLoad(layer_surfaces_2, pixel).r : imageLoad(layer_surfaces_3, pixel).r;
-  return layer_depth(k, pixel) > 0.0 ? word : 0u;
+  return layer_depth(k, pixel) > 0.0 ? texelFetch(layer_surfaces, ivec3(pixel, k), 0).r : 0u;
 }
 
 layout(binding = kMirroredCloudsBinding) uniform sampler2D mirrored_clouds;
 layout(constant_id = kMirroredCloudsConstant) const bool kMirroredClouds = false;  // whether they are known
 
 layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
+
+layout(binding = kTailDepthsBinding) uniform sampler2D tail_depths;
+layout(binding = kTailLightBinding) uniform sampler2D tail_light;
+layout(constant_id = kTailConstant) const bool kTail = false;  // they are known where the last layer has a surface
 
 #include "include/scene/tiles.glsl"
 #include "include/surface/surface.glsl"

@@ -3,10 +3,12 @@
 // One layer of translucent surfaces: the nearest one behind the previous layer and before the opaque surface (depth peeling, Everitt 2001).
 // docs/conventions.md.
 #include "include/frame/common.glsl"
+#include "include/surface/touched.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
 
 layout(location = 0) flat in uint in_surface;
+layout(location = 1) in vec2 in_touched;  // x: see draw_quads.vert
 layout(location = 0) out uint out_surface;
 
 layout(binding = kDepthsBinding) uniform sampler2D opaque_depth;
@@ -15,6 +17,7 @@ layout(binding = kPreviousDepthsBinding) uniform sampler2D previous_depth;  // o
 layout(constant_id = kFirstLayerConstant) const bool kFirstLayer = true;
 
 void main() {
+  if (!gl_FrontFacing && touches_another(in_touched.x)) discard;
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float z = gl_FragCoord.z;  // reverse-Z: nearer is greater
   if (z <= texelFetch(opaque_depth, pixel, 0).r) discard;

@@ -374,7 +374,8 @@ TEST_F(TestCommandLine, AnArchiveKeepsWhatWasApprovedBeforeAnotherApprovalFailed
   const fs::path folder = out("unpacked");
   fs::create_directories(folder);
   ASSERT_TRUE(platform::unpack_tar(archive, folder));
-  const fs::path hashes = fs::directory_iterator(folder)->path() / "hashes";
+  const std::string driver = fs::directory_iterator(folder)->path().filename();
+  const fs::path hashes = folder / driver / "hashes";
   ASSERT_TRUE(write_text(hashes / "other.json", "{"));
   for (const auto& file : fs::directory_iterator(hashes))
     if (file.path().filename() != "other.json") {
@@ -384,7 +385,9 @@ TEST_F(TestCommandLine, AnArchiveKeepsWhatWasApprovedBeforeAnotherApprovalFailed
   write_scene("b", R"(, "fov": 30)");
 
   expect_refusal(test({scenes().string(), "--baseline", archive, "--approve"}), 1,
-                 {"cannot use the approved hashes"}, "damaged");
+                 {"cannot use the approved hashes in '" + driver + "/hashes/other.json'",
+                  "in the archive '" + archive + "'", "tar --delete"},
+                 "damaged");
   const auto row = [&](const std::string& scene) {
     test({(scenes() / (scene + ".json")).string(), "--baseline", archive, "--json",
           out("rows.json").string()});
@@ -392,6 +395,12 @@ TEST_F(TestCommandLine, AnArchiveKeepsWhatWasApprovedBeforeAnotherApprovalFailed
   };
   EXPECT_EQ(row("a")["hash_equal"], true) << "approved before";
   EXPECT_EQ(row("b")["verdict"], "pass") << "its reference and its hash, as in a folder";
+
+  ASSERT_TRUE(write_text(folder / driver / "a.png", "no picture"));
+  ASSERT_TRUE(platform::pack_tar(folder, archive));
+  const std::string why = row("a")["message"].get<std::string>();
+  EXPECT_NE(why.find("'" + driver + "/a.png' in the archive '" + archive), std::string::npos)
+      << why;
 }
 
 TEST_F(TestCommandLine, AFailureNamesTheChannelInWhichItBegins) {

@@ -22,6 +22,7 @@
 #include "game/input/hints.h"
 #include "game/pace/learnt_costs.h"
 #include "game/pace/quality_front.h"
+#include "game/panorama/radiance_hdr.h"
 #include "game/scene_file/options.h"
 #include "game/scene_file/setting_keys.h"
 #include "game/session/journal.h"
@@ -111,6 +112,16 @@ void png(std::span<const std::uint8_t> input) {
   std::filesystem::remove(path);
   if (!image) return check_line(image.error());
   SKERRY_ASSERT(image->pixels.size() == std::size_t{image->width} * image->height * 4);
+}
+
+void radiance_hdr(std::span<const std::uint8_t> input) {
+  const Result<render::Panorama> panorama = game::read_radiance_hdr(text_of(input));
+  if (!panorama) return check_line(panorama.error());
+  SKERRY_ASSERT(panorama->columns == 2 * panorama->rows);
+  SKERRY_ASSERT(panorama->texels.size() == std::size_t{panorama->columns} * panorama->rows);
+  for (const glm::vec3& texel : panorama->texels)
+    for (int c = 0; c < 3; ++c)
+      SKERRY_ASSERT(texel[c] >= 0.0f && texel[c] <= render::kMostPanoramaRadiance);
 }
 
 /// Nothing but regular files comes out, in the folder, and no more than the archive has.
@@ -368,12 +379,13 @@ void hashes(std::span<const std::uint8_t> input) {
   SKERRY_ASSERT(*tools::read_hashes(path) == *read);
 }
 
-constexpr std::array<Target, 19> kTargets{{{"scene", scene},
+constexpr std::array<Target, 20> kTargets{{{"scene", scene},
                                            {"setting", setting},
                                            {"camera", camera},
                                            {"time_and_size", time_and_size},
                                            {"bindings", bindings},
                                            {"png", png},
+                                           {"radiance_hdr", radiance_hdr},
                                            {"tar", tar},
                                            {"vdb_answer", vdb_answer},
                                            {"chunk_blob", chunk_blob},

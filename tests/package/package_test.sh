@@ -23,6 +23,9 @@ for needed in libc6 libglfw3 libvulkan1 libsqlite3-0 fonts-dejavu-core libxi6; d
   field Depends | grep -q "\b$needed\b" || fail "it does not depend on $needed: $(field Depends)"
 done
 field Recommends | grep -q 'mesa-vulkan-drivers' || fail "it recommends no Vulkan driver"
+for font in microhei noto-cjk wqy-zenhei droid-fallback; do
+  field Recommends | grep -q "[ |]fonts-[a-z-]*$font" || fail "it does not take $font for Chinese: $(field Recommends)"
+done
 # Each dependency is a package of this system: the names are right.
 field Depends | tr ',' '\n' | sed 's/(.*//; s/|.*//; s/ //g' | while read -r name; do
   apt-cache show "$name" >/dev/null 2>&1 || dpkg-query --show "$name" >/dev/null 2>&1 || { echo "FAILED: there is no package $name"; exit 1; }
@@ -36,9 +39,10 @@ dpkg-deb --extract "$package" "$root"
 expected='usr/bin/skerry
 usr/lib/skerry/skerry
 usr/share/applications/org.skerry.Skerry.desktop
+usr/share/doc/skerry/changelog.gz
 usr/share/doc/skerry/copyright
 usr/share/icons/hicolor/256x256/apps/org.skerry.Skerry.png
-usr/share/man/man6/skerry.6
+usr/share/man/man6/skerry.6.gz
 usr/share/metainfo/org.skerry.Skerry.metainfo.xml'
 [ ! -e "$build/skerry_openvdb" ] || expected="$expected
 usr/lib/skerry/skerry_openvdb"
@@ -57,8 +61,13 @@ if command -v appstreamcli >/dev/null; then
   grep -q Validation "$work/log" || fail "the AppStream data was not read"
   ! grep '^[EW]:' "$work/log" | grep -v url-homepage-missing || fail "the AppStream data is invalid"
 fi
+if command -v lintian >/dev/null; then
+  # Without a mail address and a place of its own for games; of later versions' opinions only errors count.
+  lintian --fail-on error --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog,package-section-games-but-contains-no-game --allow-root "$package" >"$work/log" 2>&1 ||
+    fail "lintian finds errors"
+fi
 if command -v man >/dev/null; then
-  man --warnings -E UTF-8 -l "$root/usr/share/man/man6/skerry.6" 2>"$work/log" >"$work/page" || fail "the man page does not read"
+  man --warnings -E UTF-8 -l "$root/usr/share/man/man6/skerry.6.gz" 2>"$work/log" >"$work/page" || fail "the man page does not read"
   [ ! -s "$work/log" ] || fail "the man page has mistakes"
   # It names every command of the program.
   "$root/usr/bin/skerry" --help | sed -n '/Subcommands:/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p' >"$work/commands"

@@ -68,17 +68,23 @@ class PassesOnGpu : public gpu::GpuTest {
   GeometryStore& store() { return *store_; }
   gpu::Uploader& uploader() { return *uploader_; }
   /// Decides on cascades as a frame does that is then submitted.
-  std::vector<ActiveCascade> update_shadows(const FrameInput& input, const RenderSettings& settings,
-                                            const GeometryChanges& changes) {
-    ShadowPlan plan =
-        plan_shadows(input, settings, changes, shadow_history_, shadows_->generation());
+  ShadowPlan next_shadows(const FrameInput& input, const RenderSettings& settings,
+                          const GeometryChanges& changes,
+                          std::optional<std::span<const shared::Section>> sections = {}) {
+    ShadowPlan plan = plan_shadows(input, settings, sections.value_or(store_->records()), changes,
+                                   shadow_history_, shadows_->generation());
     const Result<void> made = shadows_->ensure(plan.layout);
     EXPECT_TRUE(made);
-    shadow_history_ = std::move(plan.next);
+    shadow_history_ = plan.next;
     shadow_history_.generation = shadows_->generation();
-    return std::move(plan.cascades);
+    return plan;
+  }
+  std::vector<ActiveCascade> update_shadows(const FrameInput& input, const RenderSettings& settings,
+                                            const GeometryChanges& changes) {
+    return next_shadows(input, settings, changes).cascades;
   }
   void invalidate_shadows() { shadow_history_ = {}; }
+  ShadowHistory& shadow_history() { return shadow_history_; }
 
   struct Drawn {
     std::vector<std::uint32_t> words;  ///< G-buffer words, rows from the top
@@ -159,29 +165,34 @@ class PassesOnGpu : public gpu::GpuTest {
   struct DrawnMaps {
     std::vector<bool> redrawn;    ///< a cascade
     std::vector<VkRect2D> areas;  ///< of each, what was drawn of it
-    std::vector<float> texels;    ///< of all layers
+    std::vector<float> texels;    ///< of all cascades
+    std::size_t parts = 0;        ///< drawn of maps that are not shown yet
   };
   /// Brings the shadow maps up to date and reads all of them.
   DrawnMaps shadow_maps(const FrameInput& input, const RenderSettings& settings) {
-    const std::vector<ActiveCascade> cascades = update_shadows(input, settings, store_->changes());
+    const ShadowPlan plan = next_shadows(input, settings, store_->changes());
+    const auto edge = static_cast<std::uint32_t>(settings.shadow_size);
     DrawnMaps out;
-    std::vector<ShadowDraw> redraw;
-    for (const ActiveCascade& c : cascades) {
+    out.parts = plan.ahead.size();
+    std::vector<ShadowDraw> shown, draws_of_maps;
+    std::uint32_t view = 1;
+    for (const ActiveCascade& c : plan.cascades) {
       out.redrawn.push_back(c.redraw);
       out.areas.push_back(c.area);
-      if (c.redraw)
-        redraw.push_back(
-            {static_cast<std::uint32_t>(redraw.size()) + 1, c.layer, "draw_shadow", false, c.area});
+      if (c.redraw) shown.push_back({view++, c.layer, "draw_shadow", false, c.area});
     }
+    for (const PartAhead& part : plan.ahead)
+      draws_of_maps.push_back(
+          {view++, part.layer, "draw_shadow", false, {{0, 0}, {edge, edge}}, part.clear});
+    draws_of_maps.insert(draws_of_maps.end(), shown.begin(), shown.end());
     constexpr VkExtent2D kSize{8, 8};
-    const FrameTables tables = build_tables(input, settings, kSize, cascades);
+    const FrameTables tables = build_tables(input, settings, kSize, plan.cascades, plan.ahead);
     const SceneRefs scene = begin(input, kSize, tables);
     const CulledDraws draws = cull(scene, static_cast<std::uint32_t>(tables.views.size()));
     const gpu::ImageRef array =
         shadows_->maps() ? graph_->import(*shadows_->maps()) : gpu::ImageRef{};
-    const Shadows maps = ShadowPass::add(*graph_, *pipelines_, scene, draws, array, redraw);
-    const auto edge = static_cast<std::uint32_t>(settings.shadow_size);
-    const auto layers = static_cast<std::uint32_t>(out.redrawn.size());
+    const Shadows maps = ShadowPass::add(*graph_, *pipelines_, scene, draws, array, draws_of_maps);
+    const std::uint32_t layers = shadows_->maps() ? shadows_->maps()->desc().layers : 0;
     gpu::Buffer texels = back("texels", std::uint64_t{edge} * edge * layers * 4);
     gpu::BufferRef to = graph_->import(texels);
     const VkSampler sampler = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
@@ -198,7 +209,11 @@ class PassesOnGpu : public gpu::GpuTest {
           c.dispatch(edge / 8, edge / 8, layers);
         });
     run();
-    out.texels = contents<float>(texels);
+    const std::vector<float> all = contents<float>(texels);
+    for (const ActiveCascade& c : plan.cascades) {
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(c.layer) * edge * edge;
+      out.texels.insert(out.texels.end(), first, first + static_cast<std::ptrdiff_t>(edge) * edge);
+    }
     return out;
   }
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 SCRIPT = Path(__file__).resolve().parent.parent.parent / "tools" / "install_packages"
 CHECKERS = ["clang-format-14", "clang-tidy-14"]
+FONTS = ["fonts-wqy-microhei", "fonts-wqy-zenhei", "fonts-noto-cjk", "fonts-droid-fallback"]
 # Has all but the packages in MISSING, and no archive has those in NOWHERE.
 STUBS = {
     "dpkg-query": 'shift 2; for p; do [[ " $MISSING " == *" $p "* ]] || echo "installed $p"; done',
@@ -55,6 +56,14 @@ class InstallPackages(unittest.TestCase):
         debian_13 = ("debian", "13")
         self.assertEqual(self.install(debian_13, CHECKERS, CHECKERS), (0, []))
         self.assertEqual(self.install(debian_13, ["cmake", *CHECKERS], CHECKERS), (0, ["cmake"]))
+
+    def test_of_alternatives_one_serves_and_the_first_that_an_archive_has_is_installed(self):
+        ubuntu = ("ubuntu", "24.04")
+        self.assertEqual(self.install(ubuntu, FONTS[:3]), (0, []))
+        self.assertEqual(self.install(ubuntu, FONTS), (0, FONTS[:1]))
+        self.assertEqual(self.install(ubuntu, FONTS, FONTS[:1]), (0, FONTS[1:2]))
+        self.assertEqual(self.install(ubuntu, FONTS, FONTS[:3]), (0, FONTS[3:]))
+        self.assertEqual(self.install(ubuntu, FONTS, FONTS)[0], 1)
 
 
 if __name__ == "__main__":

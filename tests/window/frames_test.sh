@@ -11,12 +11,6 @@ other=
 trap 'kill "$manager" ${other:+"$other"} 2>/dev/null || true; cleanup' EXIT
 learnt=$work/cache/skerry/quality.json
 
-quit() {
-  key Escape 1
-  for _ in 1 2 3 4 5 6 7 8 9; do key Down 0.2; done
-  xdotool key Return
-  expect_end
-}
 commands() { grep -c '^skerry shot' "$work/out" || true; }
 # Sets `command` to that of a new screenshot.
 screenshot() {

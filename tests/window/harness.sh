@@ -67,8 +67,9 @@ wait_for_frames() {
   done
 }
 
-# Whether the window shows how far programs are compiled: its corner has the colour of that screen (game/ui/loading_screen.cpp).
-loading() { [ "$(import -silent -window "$window" -crop 1x1+2+2 -depth 8 rgb:- | od -An -tu1 | xargs)" = "16 26 32" ]; }
+# Whether there is no world in the window yet: to the right it has the colour that stands for one (game/ui/look.h), while programs are
+# compiled and behind a title that comes first.
+loading() { [ "$(import -silent -window "$window" -crop 1x1+300+2 -depth 8 rgb:- | od -An -tu1 | xargs)" = "16 26 32" ]; }
 loaded() { ! loading; }
 
 fps() { xdotool getwindowname "$window" | sed 's/.* \([0-9]*\) fps/\1/'; }
@@ -86,4 +87,12 @@ expect_end() {
   wait "$game" || status=$?
   game=
   [ "$status" -eq 0 ] || fail "it exited with $status"
+}
+
+# Quits as a player does: Escape pauses, and the pause's last button quits.
+quit() {
+  key Escape 1
+  for _ in 1 2 3 4 5 6 7 8 9; do key Down 0.3; done
+  xdotool key Return
+  expect_end
 }

@@ -92,10 +92,7 @@ awk -v d="$(apart "$walked" "$again")" 'BEGIN { exit !(d < 1.0) }' || fail "it c
 difference=$(compare -metric RMSE "$before" "$after" null: 2>&1 | sed 's/.*(\(.*\))/\1/' || true)
 awk -v d="$difference" 'BEGIN { exit !(d < 0.15) }' || fail "the world looks another: RMSE $difference"
 
-key Escape 1
-for _ in 1 2 3 4 5 6 7 8 9; do key Down; done
-xdotool key Return
-expect_end
+quit
 [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q 'controls.json' "$work/err" || fail "it complained of more than the controls"
 grep -q '"jump": 7' "$work/config/skerry/controls.json" || fail "the controls that were not understood are gone"
 echo "passed"

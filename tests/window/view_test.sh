@@ -37,6 +37,16 @@ sleep 1
 turned=$(direction "after the mouse moved")
 [ "$start" != "$turned" ] || fail "the mouse does not turn the view"
 
+# After a screen that keys alone went through, the mouse turns it by no more than the mouse moves.
+key Escape 1
+key Escape 1
+xdotool mousemove_relative -- 8 0
+sleep 1
+after=$(direction "after a pause")
+awk -v a="$turned" -v b="$after" 'BEGIN { split(a, p, ","); split(b, q, ","); exit !((p[1] - q[1]) ^ 2 < 4 && (p[2] - q[2]) ^ 2 < 1e-4) }' ||
+  fail "the view turned from $turned to $after by 8 pixels of the mouse after a pause"
+turned=$after
+
 for size in '500 300' '200 400' '1 1' '640 360' '64 64' '320 180'; do
   # shellcheck disable=SC2086  # two numbers
   xdotool windowsize "$window" $size
@@ -75,6 +85,7 @@ expect_same "iconifying" "$turned" "$(direction "after iconifying")"
 # Quality by a key is kept, once the window is closed.
 key equal
 xdotool key --window 0 alt+F4
-for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
+for _ in $(seq 300); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done  # it may wait for programs of that quality
+kill -0 "$game" 2>/dev/null && fail "it did not close"
 grep -q '"quality": "medium"' "$work/config/skerry/settings.json" || fail "the quality set by a key is forgotten"
 echo "passed"

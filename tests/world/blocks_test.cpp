@@ -32,6 +32,24 @@ TEST(Blocks, RowsSitAtTheirIds) {
   EXPECT_EQ(name(block::kLamp), "lamp");
 }
 
+TEST(Blocks, TranslucentOnesAreNumberedFromOne) {
+  unsigned count = 0;
+  for (std::size_t id = 0; id < block_types().size(); ++id) {
+    const auto block = static_cast<BlockId>(id);
+    const unsigned number = translucent_number(block);
+    EXPECT_EQ(number != 0, block_kind(block) == BlockKind::kTranslucent) << block;
+    if (number != 0) {
+      EXPECT_EQ(number, ++count);
+      EXPECT_EQ(translucent_block(number), block);
+    }
+  }
+  EXPECT_EQ(count, 2u);
+  EXPECT_EQ(translucent_number(60000), 0u);
+  EXPECT_EQ(translucent_block(0), kAir);
+  EXPECT_EQ(translucent_block(count + 1), kAir);
+  EXPECT_EQ(translucent_block(99), kAir);
+}
+
 TEST(Blocks, PropertiesStayInTheirRanges) {
   for (const BlockType& type : block_types()) {
     EXPECT_LT(type.side, Texture::kCount) << type.name;

@@ -51,13 +51,14 @@ constexpr std::array<int, 3> kAxisU = {2, 0, 0}, kAxisV = {1, 2, 1};
 struct Face {
   int range, x, y, z, face;
   BlockId id;
+  unsigned touches = 0;  // translucent_number() of what a translucent face looks at
   auto operator<=>(const Face&) const = default;
 };
 
 std::string describe(const Face& f) {
   return "range " + std::to_string(f.range) + " voxel " + std::to_string(f.x) + "," +
          std::to_string(f.y) + "," + std::to_string(f.z) + " face " + std::to_string(f.face) +
-         " id " + std::to_string(f.id);
+         " id " + std::to_string(f.id) + " touches " + std::to_string(f.touches);
 }
 
 /// The definition of what is visible, voxel by voxel.
@@ -82,7 +83,9 @@ std::vector<Face> naive_faces(const Padded& chunk) {
           const BlockId other = chunk.at(x + n[0], y + n[1], z + n[2]);
           if (block_kind(other) == BlockKind::kOpaque) continue;
           if (kind != BlockKind::kOpaque && other == id) continue;
-          faces.push_back({range + face, x, y, z, face, id});
+          const bool translucent = kind == BlockKind::kTranslucent;
+          faces.push_back(
+              {range + face, x, y, z, face, id, translucent ? translucent_number(other) : 0});
         }
       }
   std::sort(faces.begin(), faces.end());
@@ -96,18 +99,19 @@ std::vector<Face> covered_faces(const ChunkMesh& mesh) {
   for (int range = 0; range < static_cast<int>(shared::kRangeCount); ++range) {
     for (; at < mesh.range_end[static_cast<std::size_t>(range)]; ++at) {
       const Quad q = mesh.quads.at(at);
-      EXPECT_EQ(q.geometry >> 30, 0u);
       EXPECT_EQ(q.material >> 19, 0u);
       const std::array<int, 3> low = {static_cast<int>(q.geometry & 63),
                                       static_cast<int>(q.geometry >> 6 & 63),
                                       static_cast<int>(q.geometry >> 12 & 63)};
-      const int u = static_cast<int>(q.geometry >> 18 & 63), v = static_cast<int>(q.geometry >> 24);
+      const int u = static_cast<int>(q.geometry >> 18 & 63),
+                v = static_cast<int>(q.geometry >> 24 & 63);
       const int face = static_cast<int>(q.material >> 16);
       const auto id = static_cast<BlockId>(q.material & 0xffff);
       const bool plant = range == static_cast<int>(shared::kRangePlant);
       EXPECT_EQ(face >= 6, plant);
       if (plant) {
         EXPECT_EQ(u + v, 0);
+        EXPECT_EQ(q.geometry >> 30, 0u);
         faces.push_back({range, low[0], low[1], low[2], face, id});
         continue;
       }
@@ -116,7 +120,7 @@ std::vector<Face> covered_faces(const ChunkMesh& mesh) {
           std::array<int, 3> p = low;
           p[static_cast<std::size_t>(kAxisU[static_cast<std::size_t>(face / 2)])] += i;
           p[static_cast<std::size_t>(kAxisV[static_cast<std::size_t>(face / 2)])] += j;
-          faces.push_back({range, p[0], p[1], p[2], face, id});
+          faces.push_back({range, p[0], p[1], p[2], face, id, q.geometry >> 30});
         }
     }
   }

@@ -126,9 +126,22 @@ TEST(AddedIslands, AreFoundEditedAndSpawnedOn) {
   EXPECT_EQ(world.island(id)->box_max.y, 91);
   EXPECT_GE(world.island(id)->bounding_radius, 91.0);
   EXPECT_EQ(world.chunks(id, 0).size(), 2u);
+  EXPECT_EQ(world.islands_near({}, 10.0, 0.0).at(0).box_max.y, 91);
   world.release_voxels(id);
   world.release_plan(id);
   EXPECT_EQ(world.chunk_now(id, {0, 0, 0}).at(4, 3, 4), block::kStone);
+}
+
+TEST(GrownIslands, AreFoundByWhatWasBuiltOnThem) {
+  World world({.seed = 4});
+  const IslandSpec spec = world.islands_near({}, 300.0, 0.0).front();
+  const IVec3 spire{0, spec.box_max.y + 500, 0};
+  ASSERT_TRUE(world.set_block(spec.id, spire, block::kStone));
+  const WorldPos above = moved(world.pose(spec.id, 0.0)->origin, {0.0, double(spire.y), 0.0});
+  const std::vector<IslandSpec> near = world.islands_near(above, 20.0, 0.0);
+  ASSERT_EQ(near.size(), 1u);
+  EXPECT_EQ(near.front().id, spec.id);
+  EXPECT_EQ(near.front().box_max.y, spire.y + 1);
 }
 
 TEST(MovedIslands, AreWhereTheyWerePut) {

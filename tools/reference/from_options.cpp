@@ -6,8 +6,11 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "engine/render/frame/celestial.h"
+#include "game/panorama/load_panorama.h"
 #include "game/player/player.h"
 #include "game/scene_file/cloud_files.h"
 #include "game/view/light_setup.h"
@@ -127,9 +130,24 @@ double light_in_air(const render::Celestial& sky) {
   return t * t * (3.0 - 2.0 * t);
 }
 
+/// What can be left out of a reference.
+bool may_lack(const render::FeatureSet& left_out) {
+  for (std::size_t i = 0; i < render::kFeatureNames.size(); ++i) {
+    const auto feature = static_cast<render::Feature>(i);
+    const bool may = feature == render::Feature::kSun || feature == render::Feature::kMoon ||
+                     feature == render::Feature::kDiscs;
+    if (!may && left_out.has(feature)) return false;
+  }
+  return true;
+}
+
 void add_sky(const game::SceneOptions& options, const render::Celestial& sky, double eye_km,
-             double body_radius, Scene& scene) {
-  scene.sky = Sky{render::sky_model(sky, eye_km), glm::dmat3(sky.sky_from_world)};
+             double body_radius, std::shared_ptr<const render::PanoramaSky> panorama,
+             Scene& scene) {
+  scene.sky = Sky{render::sky_model(sky, eye_km, nullptr, std::move(panorama)),
+                  glm::dmat3(sky.sky_from_world)};
+  if (options.settings.render.leave_out.has(render::Feature::kDiscs))
+    scene.sky->model.constants.sun_disc = scene.sky->model.constants.moon_disc = glm::vec3(0.0f);
   if (sky.sun_casts)
     scene.bodies.push_back({sky.to_sun, glm::dvec3(sky.sun_irradiance), body_radius});
   if (sky.moon_casts)
@@ -237,8 +255,10 @@ Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettin
                         const Draw& draw) {
   if (options.settings.render.debug_view != render::DebugView::kNone)
     return Error{"debug.view has no reference picture: use debug.view=none or renderer=deferred"};
-  if (options.settings.render.leave_out != render::FeatureSet{})
-    return Error{"leave.out has no reference picture: use leave.out=none or renderer=deferred"};
+  if (!may_lack(options.settings.render.leave_out))
+    return Error{
+        "leave.out has a reference picture for sun, moon and discs alone: use leave.out=none or "
+        "renderer=deferred"};
   if (std::uint64_t{options.size.width} * options.size.height > kMaxPixels)
     return Error{fmt::format("--size {}x{} is too large: a reference picture has at most {} pixels",
                              options.size.width, options.size.height, kMaxPixels)};
@@ -247,7 +267,10 @@ Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettin
   world::World& world = **opened;
   const game::CameraPlace camera = camera_place(options, world);
   const render::Celestial sky =
-      render::celestial_at(options.time_of_day_s, options.settings.moon_phase);
+      render::sky_without(render::celestial_at(options.time_of_day_s, options.settings.moon_phase),
+                          options.settings.render.leave_out);
+  Result<std::shared_ptr<const render::PanoramaSky>> panorama = game::load_panorama(options);
+  if (!panorama) return panorama.error();
   Scene scene;
   scene.view = view_of(options, camera);
   const std::vector<world::IslandSpec> specs = specs_of(world, options, camera.position);
@@ -256,7 +279,7 @@ Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettin
   scene.view.medium = medium_at_eye(scene.islands);
   scene.time_s = options.settings.world_time_s;
   const double above = static_cast<double>(camera.position.y - world.origin().y) / 65536.0;
-  add_sky(options, sky, render::eye_height_km(above), settings.body_radius, scene);
+  add_sky(options, sky, render::eye_height_km(above), settings.body_radius, *panorama, scene);
   if (Result<void> added = add_clouds(options, camera.position, world.origin(), scene); !added)
     return added.error();
   draw(scene);

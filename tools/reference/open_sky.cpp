@@ -147,9 +147,31 @@ CubePlace cube_place(glm::dvec3 d) {
   return place;
 }
 
+/// As a camera in the middle of the picture sees it that looks at the picture's own middle.
+glm::dvec3 panorama_behind(glm::dvec3 direction, const render::PanoramaSky& panorama) {
+  const render::Panorama& image = panorama.image();
+  const glm::dvec3 ahead{std::sin(panorama.yaw()), 0.0, std::cos(panorama.yaw())};
+  const glm::dvec3 right = glm::cross(ahead, glm::dvec3(0.0, 1.0, 0.0));
+  const double to_right = std::atan2(glm::dot(direction, right), glm::dot(direction, ahead)),
+               from_zenith = std::acos(std::clamp(direction.y, -1.0, 1.0));
+  const double columns = image.columns, rows = image.rows;
+  const double x = (to_right / (2.0 * kPi) + 0.5) * columns - 0.5,
+               y = std::clamp(from_zenith / kPi * rows - 0.5, 0.0, rows - 1.0);
+  glm::dvec3 sum(0.0);
+  for (int corner = 0; corner < 4; ++corner) {
+    const double i = std::floor(x) + (corner & 1), j = std::floor(y) + (corner >> 1);
+    const double weight = (1.0 - std::abs(x - i)) * (1.0 - std::abs(y - j));
+    const double around = i - columns * std::floor(i / columns);
+    sum += weight * glm::dvec3(image.at(static_cast<std::uint32_t>(around),
+                                        static_cast<std::uint32_t>(std::min(j, rows - 1.0))));
+  }
+  return sum;
+}
+
 }  // namespace
 
 glm::dvec3 sky_behind(glm::dvec3 direction, const Sky& sky) {
+  if (sky.model.panorama) return panorama_behind(direction, *sky.model.panorama);
   glm::dvec3 radiance = render::sky_radiance(direction, sky.model);
   const double seen = stars_seen(direction, sky);
   if (seen > 0.0) radiance += milky_way(sky.sky_from_world * direction) * seen;

@@ -6,7 +6,8 @@
 namespace skerry::reference {
 
 /// Radiance of the sky in a direction, without discs and stars: the daylight model, and by night
-/// the Milky Way. The model is render::sky_radiance, which has its sources.
+/// the Milky Way. The model is render::sky_radiance, which has its sources. With a panorama its
+/// texels, found by formulas of this file's own.
 glm::dvec3 sky_behind(glm::dvec3 direction, const Sky& sky);
 
 /// Radiance of the discs of sun and moon where a direction meets one, else 0. The sun darkens

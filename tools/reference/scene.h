@@ -33,7 +33,8 @@ struct Body {
 /// The sky of a moment: render::sky_model, and what hides behind it.
 struct Sky {
   render::SkyModel model;
-  glm::dmat3 sky_from_world{1.0};  ///< the frame in which the stars stand still
+  glm::dmat3 sky_from_world{1.0};  ///< the frame in which the stars stand still; unused with a
+                                   ///< panorama
 };
 
 /// A pinhole camera at the origin.

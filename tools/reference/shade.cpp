@@ -22,6 +22,13 @@ constexpr double kInside = 1e-9;  // of a voxel [blocks]
 
 constexpr glm::dvec3 kEye{0.0};
 
+/// A direction, evenly spread. @param pair 0..1
+glm::dvec3 on_sphere(glm::dvec2 pair) {
+  const double y = 1.0 - 2.0 * pair.x, turn = 2.0 * kPi * pair.y;
+  const double r = std::sqrt(std::max(0.0, 1.0 - y * y));
+  return {r * std::sin(turn), y, r * std::cos(turn)};
+}
+
 /// The point of a face's plane that a direction from the eye meets, in the lattice. A plant's
 /// texture does not repeat, so that there the nearest point of the plant counts.
 glm::dvec3 on_plane(const Meeting& hit, glm::dvec3 eye, glm::dvec3 direction) {
@@ -203,10 +210,7 @@ glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double
       lit = scene_.body_in_air * past_clouds(place, to_light, sampler);
   }
   if (scene_.sky_lights && lit < 1.0) {
-    const double y = 1.0 - 2.0 * sampler.next().x, turn = 2.0 * kPi * sampler.next().x;
-    const double r = std::sqrt(std::max(0.0, 1.0 - y * y));
-    const glm::dvec3 aside{r * std::sin(turn), y, r * std::cos(turn)};
-    if (!tracer_.hidden(place, aside)) lit = 1.0;
+    if (!tracer_.hidden(place, on_sphere({sampler.next().x, sampler.next().x}))) lit = 1.0;
   }
   return radiance * clear + behind_voxels(direction) * (lost * lit);
 }
@@ -326,6 +330,7 @@ Seen Shader::through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction
   const glm::dvec3 p = origin + direction * at;
   const double clear_air = std::exp(-air * at);
   glm::dvec3 light(0.0);
+  const glm::dvec3 air_light = behind_voxels(direction) * (1.0 - clear_air);
   for (const Body& body : scene_.bodies) {
     const glm::dvec2 pair = sampler.next(), other = sampler.next();
     const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
@@ -334,11 +339,19 @@ Seen Shader::through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction
     if (!body_seen({p, to_light}, to_light)) continue;
     light += body.irradiance * scattered_share(glm::dot(direction, to_light), depth) * clear_air;
     if (&body != &scene_.bodies.front()) continue;
-    light += behind_voxels(direction) * (1.0 - clear_air);
-    const double y = 1.0 - 2.0 * sampler.next().x, turn = 2.0 * kPi * other.y;
-    const double r = std::sqrt(std::max(0.0, 1.0 - y * y));
-    light += behind_voxels({r * std::sin(turn), y, r * std::cos(turn)}) *
-             (sky_share(depth) * scene_.air_light * clear_air);
+    light += air_light * scene_.body_in_air;
+    const glm::dvec3 aside = on_sphere({sampler.next().x, other.y});
+    light += behind_voxels(aside) * (sky_share(depth) * scene_.air_light * clear_air);
+  }
+  if (scene_.sky_lights && scene_.sky && scene_.air_light < 1.0) {
+    // What sun and moon do not stand for: the sky's own light, from where it is seen.
+    const glm::dvec3 aside = on_sphere(sampler.next());
+    if (!tracer_.hidden(p, aside)) {
+      const double depth = scene_.clouds.depth(p, {0.0, 1.0, 0.0}, sampler.next().x);
+      light += (air_light +
+                render::sky_radiance(aside, scene_.sky->model) * (sky_share(depth) * clear_air)) *
+               (1.0 - scene_.air_light);
+    }
   }
   return {behind.radiance * met.clear + light * (1.0 - met.clear) + lamps + met.emitted,
           behind.open * met.clear};

@@ -170,7 +170,9 @@ std::shared_ptr<World::Island> World::find(std::uint64_t id) const {
 
 World::IslandMap World::special() const {
   const std::lock_guard lock(islands_mutex_);
-  return special_;
+  IslandMap islands = special_;
+  islands.insert(grown_.begin(), grown_.end());
+  return islands;
 }
 
 std::optional<IslandSpec> World::island(std::uint64_t id) const {

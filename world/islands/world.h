@@ -128,6 +128,7 @@ class World {
   using IslandMap = std::map<std::uint64_t, std::shared_ptr<Island>>;
   std::shared_ptr<Island> find(std::uint64_t id) const;
   void remember(const std::vector<IslandSpec>& specs) const;
+  /// Islands that are not where, or not as large as, the seed has them.
   IslandMap special() const;
   Spawn spawn_on_added() const;
 
@@ -137,6 +138,7 @@ class World {
   mutable std::mutex islands_mutex_;
   mutable std::unordered_map<std::uint64_t, std::shared_ptr<Island>> islands_;
   IslandMap special_;  // added, or moved from where pose_at has them; never dropped
+  IslandMap grown_;    // with blocks beyond the box that the seed gives them; never dropped
   std::mutex edits_mutex_;
   std::vector<EditedBox> edits_;
 };

@@ -25,7 +25,8 @@ struct World::Island {
 
   // With the lock held.
   const IslandSpec& spec_locked() const { return spec_; }
-  void put(IVec3 chunk, std::span<const VoxelEdit> edits);
+  /// @return whether the island's box has grown.
+  bool put(IVec3 chunk, std::span<const VoxelEdit> edits);
 
   const bool added;          // its source is all there is of it, and stays
   const IslandSpec made;     // as it came; the seed's voxels follow from it

@@ -107,7 +107,7 @@ void World::Island::apply_edits(IVec3 chunk, int level, std::span<BlockId> padde
   }
 }
 
-void World::Island::put(IVec3 chunk, std::span<const VoxelEdit> newer) {
+bool World::Island::put(IVec3 chunk, std::span<const VoxelEdit> newer) {
   std::shared_ptr<const ChunkEdits>& held = edits[chunk];
   ChunkEdits merged = held ? *held : ChunkEdits{};
   merge_edits(merged, newer);
@@ -118,6 +118,7 @@ void World::Island::put(IVec3 chunk, std::span<const VoxelEdit> newer) {
   if (grown) spec_.bounding_radius = std::max(spec_.bounding_radius, radius_of(spec_));
   if (const auto loaded = chunks.find(chunk); loaded != chunks.end())
     put_into(loaded->second, newer);
+  return grown;
 }
 
 std::optional<BlockId> World::block_at(std::uint64_t id, IVec3 voxel) const {
@@ -173,9 +174,14 @@ bool World::set_blocks(std::uint64_t id, IVec3 chunk, std::span<const VoxelEdit>
   const std::shared_ptr<Island> island = find(id);
   if (!island) return false;
   if (edits.empty()) return true;
+  bool grown = false;
   {
     const std::lock_guard lock(island->mutex);
-    island->put(chunk, edits);
+    grown = island->put(chunk, edits);
+  }
+  if (grown) {
+    const std::lock_guard lock(islands_mutex_);
+    grown_.emplace(id, island);
   }
   const std::lock_guard lock(edits_mutex_);
   edits_.push_back(box_of(id, chunk, edits));

@@ -90,6 +90,64 @@ void mesh_planes(const Kernel& kernel, const Voxels& voxels, MeshScratch::Buffer
   if (sink.count == 0) out.bounds_min = {};
 }
 
+/// Cuts a translucent quad into those whose faces touch the same translucent block, or none, and
+/// names it there. @param number_at(place) translucent_number() of a padded voxel.
+template <class NumberAt>
+void add_by_touched(shared::Quad quad, const NumberAt& number_at, std::vector<shared::Quad>& out) {
+  static constexpr int kSteps[3] = {kVoxelStepX, kVoxelStepY, 1};
+  static constexpr unsigned kShifts[3] = {0, 6, 12};
+  static constexpr unsigned kAlongU[3] = {2, 0, 0}, kAlongV[3] = {1, 2, 1};  // axes, by the face's
+  const unsigned face = quad.material >> 16 & 7u, axis = face / 2;
+  const unsigned u = kAlongU[axis], v = kAlongV[axis];
+  const std::uint32_t low = quad.geometry & 0x3ffffu;
+  int beyond = face % 2 == 0 ? kSteps[axis] : -kSteps[axis];
+  for (unsigned a = 0; a < 3; ++a)
+    beyond += (static_cast<int>(low >> kShifts[a] & 63u) + 1) * kSteps[a];
+  const int along_u = static_cast<int>(quad.geometry >> 18 & 63u) + 1;
+  const int along_v = static_cast<int>(quad.geometry >> 24 & 63u) + 1;
+  const auto number = [&](int i, int j) {
+    return number_at(static_cast<std::size_t>(beyond + i * kSteps[u] + j * kSteps[v]));
+  };
+  const auto all_alike = [&] {
+    for (int j = 0; j < along_v; ++j)
+      for (int i = 0; i < along_u; ++i)
+        if (number(i, j) != number(0, 0)) return false;
+    return true;
+  };
+  if (all_alike()) {
+    out.push_back({quad.geometry | number(0, 0) << 30, quad.material});
+    return;
+  }
+  for (int j = 0; j < along_v; ++j) {
+    for (int i = 0, end = 0; i < along_u; i = end) {
+      for (end = i + 1; end < along_u && number(end, j) == number(i, j);) ++end;
+      const auto at = low + (static_cast<std::uint32_t>(i) << kShifts[u]) +
+                      (static_cast<std::uint32_t>(j) << kShifts[v]);
+      const auto extent = static_cast<std::uint32_t>(end - i - 1) << 18;
+      out.push_back({at | extent | number(i, j) << 30, quad.material});
+    }
+  }
+}
+
+/// Says of translucent faces which other translucent block they touch: there two faces lie in one
+/// plane, and whoever looks through them has to know them for one surface.
+template <class NumberAt>
+void name_touched(ChunkMesh& out, const NumberAt& number_at) {
+  const auto first = out.quads.begin() + out.range_end[shared::kRangeTranslucent - 1];
+  if (first == out.quads.end()) return;
+  const std::vector<shared::Quad> merged(first, out.quads.end());
+  out.quads.erase(first, out.quads.end());
+  auto quad = merged.begin();
+  std::uint32_t begin = out.range_end[shared::kRangeTranslucent - 1];
+  for (unsigned face = 0; face < shared::kFaceCount; ++face) {
+    std::uint32_t& end = out.range_end[shared::kRangeTranslucent + face];
+    for (std::uint32_t left = end - begin; left != 0; --left, ++quad)
+      add_by_touched(*quad, number_at, out.quads);
+    begin = end;
+    end = static_cast<std::uint32_t>(out.quads.size());
+  }
+}
+
 void clear(ChunkMesh& out) {
   out.quads.clear();
   out.range_end.fill(0);
@@ -165,6 +223,12 @@ void mesh_bytes(const Kernel& kernel, const std::uint8_t* bytes, MeshScratch::Bu
   const Voxels voxels{bytes, &buffers.table};
   kernel.build_planes(voxels, buffers.planes);
   mesh_planes(kernel, voxels, buffers, out);
+  name_touched(out, [&](std::size_t at) {
+    const unsigned byte = bytes[at];
+    return (buffers.table.flags[byte] & kFlagTranslucent) == 0
+               ? 0u
+               : translucent_number(buffers.table.ids[byte]);
+  });
 }
 
 }  // namespace
@@ -209,6 +273,7 @@ void mesh_chunk_with(const Kernel& kernel, std::span<const BlockId> voxels, Mesh
   build_wide_planes(voxels, buffers.planes);
   mesh_planes(kernel, {buffers.bytes.data(), &buffers.table}, buffers, out);
   set_wide_ids(voxels, out);
+  name_touched(out, [&](std::size_t at) { return translucent_number(voxels[at]); });
 }
 
 void mesh_chunk_with(const Kernel& kernel, std::span<const std::uint8_t> voxels,

@@ -1,5 +1,7 @@
 #include "world/voxel/blocks.h"
 
+#include <algorithm>
+
 namespace skerry::world {
 namespace {
 
@@ -97,6 +99,15 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     opaque("lamp", T::kLamp, 0.5f, 8.0f),
 }};
 
+constexpr unsigned kMostTranslucent = 3;
+constexpr std::array kTranslucentBlocks = [] {
+  std::array<BlockId, kMostTranslucent + 1> blocks{};
+  unsigned number = 0;
+  for (std::size_t id = 0; id < kTable.size(); ++id)
+    if (kTable[id].kind == kTranslucent) blocks[++number] = static_cast<BlockId>(id);
+  return blocks;
+}();
+
 }  // namespace
 
 std::span<const BlockType> block_types() {
@@ -105,6 +116,16 @@ std::span<const BlockType> block_types() {
 
 BlockKind block_kind(BlockId id) {
   return id < kTable.size() ? kTable[id].kind : kOpaque;
+}
+
+unsigned translucent_number(BlockId id) {
+  if (block_kind(id) != kTranslucent) return 0;
+  return static_cast<unsigned>(std::ranges::find(kTranslucentBlocks, id) -
+                               kTranslucentBlocks.begin());
+}
+
+BlockId translucent_block(unsigned number) {
+  return number < kTranslucentBlocks.size() ? kTranslucentBlocks[number] : world::kAir;
 }
 
 bool is_solid(BlockId id) {

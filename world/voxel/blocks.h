@@ -187,6 +187,11 @@ enum : BlockId {
 std::span<const BlockType> block_types();
 /// The kind of any id; ids outside the table count as opaque.
 BlockKind block_kind(BlockId id);
+/// The number of a translucent block among those of the table, in their order, from 1 on; 0: it is
+/// not translucent. Faces name what they touch by it, in two bits.
+unsigned translucent_number(BlockId id);
+/// The block of that number; kAir if there is none.
+BlockId translucent_block(unsigned number);
 /// Whether a player can stand on it: opaque and cut-out blocks and glass.
 bool is_solid(BlockId id);
 

@@ -28,6 +28,7 @@ struct DeviceLimits {
   std::uint32_t max_draw_count = 0;     ///< of an indirect draw
   std::uint64_t heap_bytes = 0;         ///< of the largest heap of the device's own memory
   float timestamp_period_ns = 0.0f;     ///< 0: the queue cannot measure
+  bool sums_floats = false;             ///< drawn colours can be added to RGBA32F images
 };
 
 }  // namespace skerry::gpu

@@ -181,6 +181,10 @@ DeviceLimits read_limits(VkPhysicalDevice device) {
   out.max_image_edge = limits.maxImageDimension2D;
   out.max_volume_edge = limits.maxImageDimension3D;
   out.max_draw_count = limits.maxDrawIndirectCount;
+  VkFormatProperties floats{};
+  vkGetPhysicalDeviceFormatProperties(device, VK_FORMAT_R32G32B32A32_SFLOAT, &floats);
+  out.sums_floats =
+      (floats.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
   VkPhysicalDeviceMemoryProperties memory{};
   vkGetPhysicalDeviceMemoryProperties(device, &memory);
   for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)

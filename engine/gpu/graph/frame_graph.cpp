@@ -51,21 +51,22 @@ BufferRef PassBuilder::write(BufferRef buffer, Use use) {
           state.declare(pass_, {buffer.id, buffer.version, buffer.version + 1, use, false, 0, {}})};
 }
 
-ImageRef PassBuilder::color(ImageRef image, Load load) {
-  FrameGraph::State& state = *graph_.state_;
-  state.check_ref(state.passes[pass_], image.id, true);
-  return {image.id, state.declare(pass_, {image.id, image.version, image.version + 1, Use::kColor,
-                                          true, 0, load})};
-}
-
-ImageRef PassBuilder::depth(ImageRef image, Load load, std::uint32_t layer) {
+ImageRef PassBuilder::attach(ImageRef image, Use use, Load load, std::uint32_t layer) {
   FrameGraph::State& state = *graph_.state_;
   const auto& pass = state.passes[pass_];
   state.check_ref(pass, image.id, true);
   if (layer >= state.resources[image.id].layers.size())
     state.fail(pass, image.id, "has no such layer");
-  return {image.id, state.declare(pass_, {image.id, image.version, image.version + 1, Use::kDepth,
-                                          true, layer, load})};
+  return {image.id, state.declare(pass_, {image.id, image.version, image.version + 1, use, true,
+                                          layer, load})};
+}
+
+ImageRef PassBuilder::color(ImageRef image, Load load, std::uint32_t layer) {
+  return attach(image, Use::kColor, load, layer);
+}
+
+ImageRef PassBuilder::depth(ImageRef image, Load load, std::uint32_t layer) {
+  return attach(image, Use::kDepth, load, layer);
 }
 
 void PassBuilder::area(VkRect2D area) {

@@ -81,7 +81,7 @@ class PassBuilder {
   [[nodiscard]] BufferRef write(BufferRef buffer, Use use);
   /// Attachment of this pass. @param layer array layer drawn to. The render area is the image's
   /// extent, or what area() says.
-  [[nodiscard]] ImageRef color(ImageRef image, Load load);
+  [[nodiscard]] ImageRef color(ImageRef image, Load load, std::uint32_t layer = 0);
   [[nodiscard]] ImageRef depth(ImageRef image, Load load, std::uint32_t layer = 0);
   /// Part of the attachments that the pass clears and draws to. Outside of it, images that live on
   /// keep what they hold; those of the frame hold nothing.
@@ -93,6 +93,7 @@ class PassBuilder {
  private:
   friend class FrameGraph;
   explicit PassBuilder(FrameGraph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
+  ImageRef attach(ImageRef image, Use use, Load load, std::uint32_t layer);
   FrameGraph& graph_;
   std::uint32_t pass_;
 };

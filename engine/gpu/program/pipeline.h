@@ -32,6 +32,13 @@ struct ComputeDesc {
   auto operator<=>(const ComputeDesc&) const = default;
 };
 
+/// What drawn colours do to those that are there.
+enum class Blend : std::uint8_t {
+  kReplace,
+  kOver,  ///< are laid over them by their straight alpha
+  kSum,   ///< are added to them
+};
+
 struct GraphicsDesc {
   std::string vertex{};
   std::string fragment{};  ///< empty: depth only
@@ -42,8 +49,7 @@ struct GraphicsDesc {
                                                  ///< world; the y flip is accounted for
   bool depth_write = true;                       ///< test is GREATER_OR_EQUAL (reverse-Z)
   bool depth_clamp = false;
-  bool blend =
-      false;  ///< colours are laid over what is there by their straight alpha; else they replace it
+  Blend blend = Blend::kReplace;
   auto operator<=>(const GraphicsDesc&) const = default;
 };
 

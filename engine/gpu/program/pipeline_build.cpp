@@ -99,11 +99,13 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const GraphicsDesc& desc) {
 
 VkPipelineColorBlendAttachmentState attachment_state(const GraphicsDesc& desc) {
   VkPipelineColorBlendAttachmentState state{};
-  state.blendEnable = desc.blend ? VK_TRUE : VK_FALSE;
-  state.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-  state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  const bool over = desc.blend == Blend::kOver;
+  const VkBlendFactor kept = over ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+  state.blendEnable = desc.blend == Blend::kReplace ? VK_FALSE : VK_TRUE;
+  state.srcColorBlendFactor = over ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+  state.dstColorBlendFactor = kept;
   state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  state.dstAlphaBlendFactor = kept;
   state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
                          VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
   return state;

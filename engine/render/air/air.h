@@ -40,10 +40,10 @@ class Air {
 /// Asymmetry of the aerosol's phase function.
 inline constexpr double kMieG = 0.8;
 static_assert(static_cast<float>(kMieG) == shared::kAerosolAsymmetry);
-/// Part of what aerosol scatters that goes on about straight ahead. As good as not scattered at
-/// all, when light is scattered more than once: the third moment of the phase function (W.
-/// Wiscombe, The Delta-M Method, J. Atmos. Sci. 1977).
-inline constexpr double kForward = 0.22;
+/// Part of what aerosol scatters that goes on about straight ahead, as good as not scattered at all
+/// when light is scattered more than once (W. Wiscombe, The Delta-M Method, J. Atmos. Sci. 1977).
+/// Chosen by paths at random: decision 0052.
+inline constexpr double kForward = 0.05;
 /// Phase functions of molecules and of aerosol (Cornette and Shanks 1992) by the cosine of the
 /// angle between view and light [1/sr]; 1 looks into the light.
 double rayleigh_phase(double cosine);

@@ -5,6 +5,11 @@
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <numbers>
+#include <span>
+#include <utility>
+
+#include "engine/core/check.h"
+#include "engine/core/jobs.h"
 
 namespace skerry::render {
 namespace {
@@ -12,52 +17,11 @@ namespace {
 constexpr double kBottom = kMistRadiusKm, kTop = kAirRadiusKm;
 const double kHorizonKm = std::sqrt(kTop * kTop - kBottom * kBottom);
 
-// Moments of the phase functions, degrees 0 to 2: of molecules; of aerosol, without kForward.
-constexpr std::array<float, 3> kMolecules{1.0f, 0.0f, 0.1f};
-constexpr float moment(double whole) {
-  return static_cast<float>((whole - kForward) / (1.0 - kForward));
-}
-constexpr std::array<float, 3> kAerosol{1.0f, moment(0.8436364), moment(0.7096623)};
-
-constexpr std::size_t kTerms = std::tuple_size_v<LightMoments>;
-constexpr std::array<std::size_t, kTerms> kDegree{0, 1, 1, 2, 2, 2};
-
-/// A place between the entries of a row of `count`.
-struct Between {
-  int first;
-  double share;
-};
-
-Between between(double place, int count) {
-  const double at = std::clamp(place, 0.0, 1.0) * (count - 1);
-  const int first = std::min(static_cast<int>(at), count - 2);
-  return {first, at - first};
-}
-
-/// Finer about the horizon, where light changes fastest. What is lower than kLowestSine lights no
-/// air at all.
-constexpr double kLowestSine = 0.35;
-double place_of_sine(double sine) {
-  return sine < 0.0 ? 0.5 - 0.5 * std::sqrt(-sine / kLowestSine) : 0.5 + 0.5 * std::sqrt(sine);
-}
-double sine_of_place(double place) {
-  const double root = 2.0 * place - 1.0;
-  return root < 0.0 ? -kLowestSine * root * root : root * root;
-}
-
 /// Of a table by the sine of the body's elevation.
-glm::dvec3 at_sine(const std::array<glm::dvec3, Atmosphere::kMomentSines>& table, double sine) {
-  const Between at = between(place_of_sine(sine), Atmosphere::kMomentSines);
+glm::dvec3 at_sine(const std::array<glm::dvec3, kMomentSines>& table, double sine) {
+  const Between at = between_sines(sine);
   const auto first = static_cast<std::size_t>(at.first);
   return glm::mix(table[first], table[first + 1], at.share);
-}
-
-/// Finer towards the ground.
-double place_of_height(double height) {
-  return std::sqrt(std::max(0.0, height) / kAirDepthKm);
-}
-double height_of_place(double place) {
-  return place * place * kAirDepthKm;
 }
 
 /// Distance to space of a ray that does not meet the ground. @param r from the sphere's middle.
@@ -87,47 +51,6 @@ double risen_part(double height_km, double sine) {
   return risen * risen * (3.0 - 2.0 * risen);
 }
 
-/// The harmonics of LightMoments in a direction. @param towards its horizontal part along the
-/// body's.
-std::array<float, kTerms> light_harmonics(double sine, double towards) {
-  const auto z = static_cast<float>(sine), x = static_cast<float>(towards);
-  const float flat2 = std::max(0.0f, 1.0f - z * z);
-  return {0.2820948f,         0.4886025f * z,
-          0.4886025f * x,     0.3153916f * (3.0f * z * z - 1.0f),
-          1.0925484f * x * z, 0.5462742f * (2.0f * x * x - flat2)};
-}
-
-/// A direction's horizontal part along a body's. @param cosine of the angle between the two.
-double towards_body(double view_sine, double body_sine, double cosine) {
-  const double flat = std::sqrt(std::max(0.0, 1.0 - body_sine * body_sine));
-  const double most = std::sqrt(std::max(0.0, 1.0 - view_sine * view_sine));
-  if (flat < 1e-6) return 0.0;
-  return std::clamp((cosine - view_sine * body_sine) / flat, -most, most);
-}
-
-glm::dvec3 again(const std::vector<LightMoments>& moments, const AirStep& step, double sine,
-                 double cosine) {
-  constexpr int kWidth = Atmosphere::kMomentSines;
-  const Between x = between(place_of_sine(sine), kWidth),
-                y = between(place_of_height(step.height), Atmosphere::kMomentHeights);
-  const LightMoments* row =
-      moments.data() + static_cast<std::ptrdiff_t>(y.first) * kWidth + x.first;
-  const auto x1 = static_cast<float>(x.share), y1 = static_cast<float>(y.share);
-  const float w00 = (1.0f - x1) * (1.0f - y1), w01 = x1 * (1.0f - y1), w10 = (1.0f - x1) * y1,
-              w11 = x1 * y1;
-  const std::array<float, kTerms> basis =
-      light_harmonics(step.view_sine, towards_body(step.view_sine, sine, cosine));
-  glm::vec3 molecules(0.0f), aerosol(0.0f);
-  for (std::size_t i = 0; i < kTerms; ++i) {
-    const glm::vec3 light =
-        (row[0][i] * w00 + row[1][i] * w01 + row[kWidth][i] * w10 + row[kWidth + 1][i] * w11) *
-        basis[i];
-    molecules += light * kMolecules[kDegree[i]];
-    aerosol += light * kAerosol[kDegree[i]];
-  }
-  return step.rayleigh * glm::dvec3(molecules) + step.mie * (1.0 - kForward) * glm::dvec3(aerosol);
-}
-
 }  // namespace
 
 /// Fills the tables: what needs some of them while it makes the others.
@@ -141,11 +64,10 @@ class AtmosphereMaker {
   }
 
  private:
-  static constexpr int kElevations = 6;  // each above and below the horizon
-  static constexpr int kAzimuths = 5;    // of half a turn
+  static constexpr int kElevations = 8;  // each above and below the horizon
+  static constexpr int kAzimuths = 6;    // of half a turn
   static constexpr int kPathSteps = 16;
   static constexpr int kOrders = 3;  // that are integrated
-  static constexpr int kSines = Atmosphere::kMomentSines, kHeights = Atmosphere::kMomentHeights;
 
   /// Optical depths of a ray to space, by extinction and by dimming.
   struct Depths {
@@ -197,10 +119,11 @@ class AtmosphereMaker {
   };
 
   static std::array<Direction, 2 * kElevations> directions(double height) {
-    // Gauss and Legendre, 6 points of [-1, 1].
-    constexpr std::array<double, 3> kAt{0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
-    constexpr std::array<double, 3> kWeight{0.4679139345726910, 0.3607615730481386,
-                                            0.1713244923791704};
+    // Gauss and Legendre, 8 points of [-1, 1].
+    constexpr std::array<double, 4> kAt{0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                        0.9602898564975363};
+    constexpr std::array<double, 4> kWeight{0.3626837833783620, 0.3137066458778873,
+                                            0.2223810344533745, 0.1012285362903763};
     static_assert(kElevations == 2 * kAt.size());
     std::array<Direction, 2 * kElevations> out{};
     const double horizon = horizon_sine(height);
@@ -213,35 +136,42 @@ class AtmosphereMaker {
     return out;
   }
 
-  static double node_height(int j) { return height_of_place(j / (kHeights - 1.0)); }
-  static double node_sine(int i) { return sine_of_place(i / (kSines - 1.0)); }
-
-  /// Aerosol's phase function without kForward, to the second degree.
-  static double smooth_phase(double c) {
-    return (1.0 + 3.0 * kAerosol[1] * c + 2.5 * kAerosol[2] * (3.0 * c * c - 1.0)) /
-           (4.0 * std::numbers::pi);
-  }
-
   /// One order of scattering, as the next one needs it.
   struct Order {
-    Atmosphere::Moments moments;     // empty: light that comes straight from the body
+    MomentTable moments;             // empty: light that comes straight from the body
     Atmosphere::OnGround on_ground;  // what it sends to the ground
   };
 
+  /// A path, and what `last` makes its steps send; of light straight from the body, nothing.
+  struct LitPath {
+    AirPath path;
+    std::vector<StepLight> again;
+  };
+
+  LitPath lit_path(double height, double sine, const Order& last) const {
+    LitPath out{air_path(made_.air_, height, sine, kPathSteps), {}};
+    if (last.moments.empty()) return out;
+    for (const AirStep& step : out.path.steps)
+      out.again.push_back({last.moments, step, made_.settings_.degree});
+    return out;
+  }
+
   /// Radiance along a path of what `last` scatters.
-  glm::dvec3 scattered(const AirPath& path, double cos_azimuth, double body_sine,
+  glm::dvec3 scattered(LitPath& lit, double cos_azimuth, double body_sine,
                        const Order& last) const {
+    const AirPath& path = lit.path;
     const double body_flat = std::sqrt(1.0 - body_sine * body_sine) * cos_azimuth;
     const double cosine = path.sine * body_sine + path.flat * body_flat;
     glm::dvec3 sum(0.0);
-    for (const AirStep& step : path.steps) {
+    for (std::size_t i = 0; i < path.steps.size(); ++i) {
+      const AirStep& step = path.steps[i];
       const double sine = step.body_sine(path, body_sine, body_flat);
-      if (last.moments.empty())
+      if (lit.again.empty())
         sum += (step.rayleigh * rayleigh_phase(cosine) +
-                step.mie * ((1.0 - kForward) * smooth_phase(cosine))) *
+                step.mie * ((1.0 - kForward) * smooth_mie_phase(cosine, made_.settings_.degree))) *
                made_.scattering_light(step.height, sine);
       else
-        sum += again(last.moments, step, sine, cosine);
+        sum += lit.again[i].at(sine, cosine);
     }
     if (path.meets_ground) {
       const double sine = path.ground_body_sine(body_sine, body_flat);
@@ -253,54 +183,66 @@ class AtmosphereMaker {
 
   Order straight() const {
     Order order;
-    for (int i = 0; i < kSines; ++i)
+    for (int i = 0; i < kMomentSines; ++i)
       order.on_ground[static_cast<std::size_t>(i)] =
-          std::max(0.0, node_sine(i)) * made_.scattering_light(0.0, node_sine(i));
+          std::max(0.0, moment_sine(i)) * made_.scattering_light(0.0, moment_sine(i));
     return order;
   }
 
-  Order next(const Order& last) const {
-    Order order;
-    for (int j = 0; j < kHeights; ++j) {
-      const auto views = directions(node_height(j));
-      std::vector<AirPath> paths;
-      for (const Direction& view : views)
-        paths.push_back(air_path(made_.air_, node_height(j), view.sine, kPathSteps));
-      for (int i = 0; i < kSines; ++i) {
-        LightMoments moments{};
-        glm::dvec3 down(0.0);
-        for (std::size_t k = 0; k < views.size(); ++k)
-          for (int a = 0; a < kAzimuths; ++a) {
-            const double across = std::cos(std::numbers::pi * (a + 0.5) / kAzimuths);
-            const glm::dvec3 light =
-                views[k].weight / kAzimuths * scattered(paths[k], across, node_sine(i), last);
-            const std::array<float, kTerms> basis =
-                light_harmonics(views[k].sine, paths[k].flat * across);
-            for (std::size_t t = 0; t < kTerms; ++t) moments[t] += glm::vec3(light) * basis[t];
-            if (j == 0) down += light * std::max(0.0, views[k].sine);
-          }
-        order.moments.push_back(moments);
-        if (j == 0) order.on_ground[static_cast<std::size_t>(i)] = down;
+  /// What one direction of view adds to the moments of all places of the body.
+  void add_view(const Direction& view, double height, const Order& last,
+                std::span<LightMoments> moments, std::span<glm::dvec3> down) const {
+    LitPath path = lit_path(height, view.sine, last);
+    const std::array<float, kLightTerms> elevation = elevation_harmonics(view.sine);
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      std::array<glm::vec4, kLightDegrees> rounds{};
+      for (int a = 0; a < kAzimuths; ++a) {
+        const double across = std::cos(std::numbers::pi * (a + 0.5) / kAzimuths);
+        const glm::dvec3 light = view.weight / kAzimuths *
+                                 scattered(path, across, moment_sine(static_cast<int>(i)), last);
+        const std::array<float, kLightDegrees> azimuth =
+            azimuth_harmonics(view.sine, path.path.flat * across);
+        for (std::size_t m = 0; m < kLightDegrees; ++m)
+          rounds[m] += glm::vec4(light, 0.0) * azimuth[m];
+        down[i] += light * std::max(0.0, view.sine);
       }
+      for (std::size_t l = 0; l < kLightDegrees; ++l)
+        for (std::size_t m = 0; m <= l; ++m)
+          moments[i][light_term(l, m)] += rounds[m] * elevation[light_term(l, m)];
     }
+  }
+
+  Order next(const Order& last) {
+    Order order;
+    order.moments.resize(static_cast<std::size_t>(kMomentSines) * kMomentHeights);
+    // Heights do not depend on each other.
+    jobs_.parallel_for(kMomentHeights, [&](int j) {
+      Atmosphere::OnGround down{};
+      const auto moments = std::span(order.moments)
+                               .subspan(static_cast<std::size_t>(j) * kMomentSines, kMomentSines);
+      for (const Direction& view : directions(moment_height(j)))
+        add_view(view, moment_height(j), last, moments, down);
+      if (j == 0) order.on_ground = down;
+    });
     return order;
   }
 
   void make_moments() {
     Order last = straight();
-    made_.moments_.assign(static_cast<std::size_t>(kSines) * kHeights, {});
+    made_.moments_.assign(static_cast<std::size_t>(kMomentSines) * kMomentHeights, {});
     for (int n = 1; n <= kOrders; ++n) {
       Order now = next(last);
       for (std::size_t at = 0; at < now.moments.size(); ++at) {
         // The last order stands for all that follow: a geometric series of its own ratio.
-        glm::vec3 tail(1.0f);
+        glm::vec4 tail(1.0f);
         if (n == kOrders)
           for (int c = 0; c < 3; ++c) {
             const float before = last.moments[at][0][c], here = now.moments[at][0][c];
             const float ratio = before > 0.0f ? std::clamp(here / before, 0.0f, 0.9f) : 0.0f;
             tail[c] = 1.0f / (1.0f - ratio);
           }
-        for (std::size_t t = 0; t < kTerms; ++t) made_.moments_[at][t] += now.moments[at][t] * tail;
+        for (std::size_t t = 0; t < kLightTerms; ++t)
+          made_.moments_[at][t] += now.moments[at][t] * tail;
       }
       for (std::size_t i = 0; i < now.on_ground.size(); ++i)
         made_.sky_on_ground_[i] += now.on_ground[i];
@@ -309,10 +251,12 @@ class AtmosphereMaker {
   }
 
   Atmosphere& made_;
+  Jobs jobs_;
 };
 
 Atmosphere::Atmosphere(const AtmosphereSettings& settings)
     : settings_(settings), air_(settings.turbidity) {
+  SKERRY_ASSERT(settings.degree >= 0 && settings.degree <= kLightDegree);
   AtmosphereMaker(*this).make();
 }
 
@@ -328,10 +272,6 @@ glm::dvec3 Atmosphere::direct_light(double height_km, double sine) const {
 glm::dvec3 Atmosphere::scattering_light(double height_km, double sine) const {
   const double part = risen_part(height_km, sine);
   return part == 0.0 ? glm::dvec3(0.0) : part * along_ray(dimming_, height_km, sine);
-}
-
-glm::dvec3 Atmosphere::scattered_again(const AirStep& step, double sine, double cosine) const {
-  return again(moments_, step, sine, cosine);
 }
 
 glm::dvec3 Atmosphere::ground(double sine) const {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/render/air/air.h"
-#include "engine/render/air/air_path.h"
+#include "engine/render/air/light_moments.h"
 
 namespace skerry::render {
 
@@ -14,16 +14,15 @@ inline constexpr glm::dvec3 kMistAlbedo{0.22, 0.32, 0.44};
 struct AtmosphereSettings {
   double turbidity = kTurbidity;  ///< 1..10
   glm::dvec3 ground_albedo = kMistAlbedo;
+  /// Of the harmonics of light that has been scattered, 0..kLightDegree: `skerry report sky_tables`
+  /// says what each is worth.
+  int degree = kLightDegree;
 };
-
-/// Moments of light by direction about a vertical plane that holds the body, to the second degree:
-/// (l, m) = 00, 10, 11, 20, 21, 22, real harmonics, z up, x towards the body.
-using LightMoments = std::array<glm::vec3, 6>;
 
 /// The air about a sphere, lit from one side, as tables. Deterministic.
 /// Sources: S. Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique,
 /// EGSR 2020, for the tables; in place of his even multiple scattering, orders of scattering are
-/// integrated with harmonics of the second degree (decision 0052), and the forward peak of aerosol
+/// integrated with harmonics of kLightDegree (decision 0052), and the forward peak of aerosol
 /// counts as light that goes straight on (T. Nakajima, M. Tanaka, Algorithms for Radiative
 /// Intensity Calculations, JQSRT 1988).
 /// Heights are above the mist [km], from 0 (lower counts as 0) to any; sines are those of
@@ -42,26 +41,24 @@ class Atmosphere {
   glm::dvec3 direct_light(double height_km, double sine) const;
   /// The same with what aerosol has scattered ahead: what further scattering is made of.
   glm::dvec3 scattering_light(double height_km, double sine) const;
-  /// What a step of a path sends to its eye of light that has been scattered before, of a body of
-  /// irradiance 1. @param sine of the body's elevation over the step; @param cosine of the angle
-  /// between body and path.
-  glm::dvec3 scattered_again(const AirStep& step, double sine, double cosine) const;
+  /// What a step of a path sends to its eye of light that has been scattered before.
+  StepLight scattered_again(const AirStep& step) const {
+    return {moments_, step, settings_.degree};
+  }
   /// Radiance of the ground under a body of irradiance 1 at this elevation, seen close by.
   glm::dvec3 ground(double sine) const;
 
   static constexpr int kTransmittanceSines = 128, kTransmittanceHeights = 40;
-  static constexpr int kMomentSines = 32, kMomentHeights = 16;
 
  private:
   friend class AtmosphereMaker;
-  using Moments = std::vector<LightMoments>;  ///< [height][sine]
   using OnGround = std::array<glm::dvec3, kMomentSines>;
 
   AtmosphereSettings settings_;
   Air air_;
   std::vector<glm::vec3> transmittance_;  ///< [height][sine]
   std::vector<glm::vec3> dimming_;        ///< likewise, by AirSample::dimming
-  Moments moments_;                       ///< of all orders
+  MomentTable moments_;                   ///< of all orders
   OnGround sky_on_ground_{};              ///< irradiance by the sine of the body's elevation
 };
 

@@ -19,6 +19,7 @@ struct CloudRefs {
       volume_light;  ///< optical depths; some 3D image if nothing lights them
   VkSampler repeating{}, linear{}, nearest{};
   bool layer = false;
+  bool sky = false;  ///< it lights them by itself, along the way to the zenith
   std::uint32_t volumes = 0;
 
   /// Adds what the programs are specialised by.

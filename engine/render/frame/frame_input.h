@@ -36,7 +36,7 @@ enum class Capture : std::uint8_t {
   kDepth,     ///< D32, reverse-Z; absent from a frame without geometry, or with another depth
   kSurfaces,  ///< R32_UINT, the G-buffer's words, 0 for the sky; absent likewise
   /// D32 layers, all cascades of the sun, then of the moon; after them layers of a body that has
-  /// set. Absent when nothing casts.
+  /// set. Frames that may lag leave another order behind. Absent when nothing casts.
   kShadowMaps
 };
 
@@ -81,7 +81,8 @@ struct FrameInput {
   bool freeze_culling =
       false;  ///< keep culling with the camera of the frame in which this became true
   /// While programs for these settings are being made in the background, the frame may be drawn by
-  /// the settings of an earlier one: see Renderer::foresee_programs.
+  /// the settings of an earlier one: see Renderer::foresee_programs. Coarse shadow maps may show
+  /// what was a few frames ago: see plan_shadows().
   bool may_lag = false;
   bool count_pixels = true;  ///< FrameReport::pixels are wanted
   bool capture = false;  ///< copy out what Capture names; the picture is made by way of radiance

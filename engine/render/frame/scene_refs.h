@@ -38,6 +38,8 @@ struct SceneRefs {
   gpu::BufferRef pixel_stats;    ///< shared::PixelStats
   gpu::BufferRef exposure;       ///< shared::Exposure
   gpu::ImageRef block_textures, sky_lut;
+  bool panorama = false;    ///< `sky_lut` is one
+  VkSampler sky_sampler{};  ///< of `sky_lut`
   /// One texel each, never written: bound where a program's choices leave a binding unread.
   gpu::ImageRef no_volume, no_words;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
@@ -52,6 +54,7 @@ struct SceneRefs {
   bool calibrated = false;   ///< whether the display takes other than 0 to 1
   bool count_pixels = true;  ///< see FrameInput
   bool ao = false;           ///< whether corners take light; then there is an occupancy store
+  bool sums_floats = false;  ///< see gpu::DeviceLimits
   std::optional<CloudRefs> clouds;  ///< none: the frame has no clouds
   VkExtent2D size{};
   glm::uvec4 layers_area{}, radiance_area{};  ///< see shared::FrameConstants

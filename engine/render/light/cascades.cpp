@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 
@@ -45,6 +46,10 @@ struct Window {
   std::int64_t back, reach;        // extent from the centre to the far side and towards the light
 };
 
+std::int64_t snap_units(std::int64_t texel, int map_size) {
+  return texel * std::max(1, map_size / kSnapDivisor);
+}
+
 Window window_of(const CascadeInput& in, double radius) {
   const double needed = radius + in.filter_blocks;
   // half >= needed + step / 2 + edge, where step = width / 16 and edge = kEdgeTexels texels.
@@ -52,7 +57,7 @@ Window window_of(const CascadeInput& in, double radius) {
   Window w;
   // An even texel keeps half the width whole for odd map sizes.
   w.texel = 2 * static_cast<std::int64_t>(std::ceil(half * kUnitsPerBlock / in.map_size));
-  w.step = w.texel * std::max(1, in.map_size / kSnapDivisor);
+  w.step = snap_units(w.texel, in.map_size);
   w.half = w.texel * in.map_size / 2;
   w.back = static_cast<std::int64_t>(std::ceil(needed * kUnitsPerBlock)) + w.step / 2 + 1;
   w.reach = w.back + static_cast<std::int64_t>(std::ceil(in.caster_reach_blocks * kUnitsPerBlock));
@@ -90,27 +95,44 @@ std::array<glm::vec4, 6> window_planes(const std::array<glm::dvec3, 3>& axes, gl
           plane(1, -1.0, half), plane(2, 1.0, back),  plane(2, -1.0, reach)};
 }
 
-Cascade make_cascade(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes, double radius) {
-  const Window w = window_of(in, radius);
-  FixedPos from_anchor;
-  for (std::size_t i = 0; i < 3; ++i) from_anchor[i] = in.camera[i] - in.anchor[i];
+FixedPos from_anchor(const CascadeInput& in) {
+  FixedPos out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = in.camera[i] - in.anchor[i];
+  return out;
+}
 
+/// A window's snap step [units * 2^-52].
+Int128 snap_step(const Window& w) {
+  return Int128{w.step} << kAxisBits;
+}
+
+CascadeKey key_of(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes, const Window& w) {
+  CascadeKey key;
+  key.texel_units = w.texel;
+  key.depth_units = w.back + w.reach;
+  key.back_units = w.back;
+  key.map_size = in.map_size;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const IntAxis axis = rounded_axis(axes[i]);
+    std::copy(axis.begin(), axis.end(),
+              key.light_axes.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    key.cell[i] = nearest_multiple(dot(axis, from_anchor(in)), snap_step(w));
+  }
+  return key;
+}
+
+/// With the radius that the map covers about the camera.
+Cascade cascade_in(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes, const Window& w,
+                   const CascadeKey& key) {
   Cascade c;
-  c.key.texel_units = w.texel;
-  c.key.depth_units = w.back + w.reach;
-  c.key.map_size = in.map_size;
+  c.key = key;
   glm::dvec3
       camera_offset;  // the camera's light-space place relative to the snapped centre [blocks]
   std::array<Int128, 3> snapped;  // the centre's light-space place from the anchor [units * 2^-52]
   glm::dvec3 centre_from_anchor{0.0};  // [units]
   for (std::size_t i = 0; i < 3; ++i) {
-    const IntAxis axis = rounded_axis(axes[i]);
-    std::copy(axis.begin(), axis.end(),
-              c.key.light_axes.begin() + static_cast<std::ptrdiff_t>(3 * i));
-    const Int128 place = dot(axis, from_anchor);
-    const Int128 step = Int128{w.step} << kAxisBits;
-    c.key.cell[i] = nearest_multiple(place, step);
-    snapped[i] = step * c.key.cell[i];
+    const Int128 place = dot(rounded_axis(axes[i]), from_anchor(in));
+    snapped[i] = snap_step(w) * key.cell[i];
     camera_offset[static_cast<int>(i)] =
         std::ldexp(static_cast<double>(place - snapped[i]), -kAxisBits) / kUnitsPerBlock;
     centre_from_anchor += std::ldexp(static_cast<double>(snapped[i]), -kAxisBits) * axes[i];
@@ -131,9 +153,20 @@ Cascade make_cascade(const CascadeInput& in, const std::array<glm::dvec3, 3>& ax
   c.clip_from_world = clip_matrix(axes, camera_offset, w);
   c.clip_from_centre = clip_matrix(axes, centre_offset, w);
   c.planes = window_planes(axes, camera_offset, w);
-  c.radius = static_cast<float>(radius);
+  const glm::dvec3 aside = glm::abs(camera_offset);
+  const double width = static_cast<double>(w.half) - kEdgeTexels * static_cast<double>(w.texel);
+  const double covered = std::min(width / kUnitsPerBlock - std::max(aside.x, aside.y),
+                                  static_cast<double>(w.back) / kUnitsPerBlock - aside.z);
+  c.radius = static_cast<float>(covered - in.filter_blocks);
   c.texel_blocks = static_cast<float>(static_cast<double>(w.texel) / kUnitsPerBlock);
   c.depth_blocks = static_cast<float>(static_cast<double>(w.back + w.reach) / kUnitsPerBlock);
+  return c;
+}
+
+Cascade make_cascade(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes, double radius) {
+  const Window w = window_of(in, radius);
+  Cascade c = cascade_in(in, axes, w, key_of(in, axes, w));
+  c.radius = static_cast<float>(radius);
   return c;
 }
 
@@ -177,6 +210,16 @@ std::array<glm::dvec3, 3> light_axes(glm::dvec3 to_light) {
     right = glm::cross(glm::dvec3(0.0, 0.0, 1.0), back);
   right = glm::normalize(right);
   return {right, glm::cross(back, right), back};
+}
+
+Cascade cascade_of(const CascadeKey& key, const CascadeInput& input) {
+  Window w{};
+  w.texel = key.texel_units;
+  w.step = snap_units(w.texel, key.map_size);
+  w.half = w.texel * key.map_size / 2;
+  w.back = key.back_units;
+  w.reach = key.depth_units - key.back_units;
+  return cascade_in(input, light_axes(input.to_light), w, key);
 }
 
 std::vector<Cascade> make_cascades(const CascadeInput& input) {

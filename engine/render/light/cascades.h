@@ -40,6 +40,7 @@ struct CascadeKey {
   std::array<std::int64_t, 9> light_axes{};  ///< right, up, towards the light; units of 2^-52
   std::int64_t texel_units = 0;              ///< edge of a texel, 1/65536 block
   std::int64_t depth_units = 0;              ///< length of the depth range, 1/65536 block
+  std::int64_t back_units = 0;               ///< of it behind the centre, away from the light
   int map_size = 0;
   bool operator==(const CascadeKey&) const = default;
 };
@@ -80,5 +81,9 @@ std::array<glm::dvec3, 3> light_axes(glm::dvec3 to_light);
 /// the window by whole texels or not at all. Snapping is exact in 128-bit integers at any distance.
 /// Asserts finite input, 0 < near < far, map_size and count in range.
 std::vector<Cascade> make_cascades(const CascadeInput& input);
+
+/// The cascade whose map was made by a key of the same light, as seen from where the camera is now.
+/// Its radius is what the map still covers about the camera, below 0 if the camera has left it.
+Cascade cascade_of(const CascadeKey& key, const CascadeInput& input);
 
 }  // namespace skerry::render

@@ -10,6 +10,7 @@ std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
   if (indirect)
     own.push_back({shared::kIndirectConstant, static_cast<std::uint32_t>(scene.indirect_light)});
   if (!scene.haze && (scene.bodies != 0 || indirect)) own.push_back({shared::kHazeConstant, 0});
+  if (scene.panorama) own.push_back({shared::kPanoramaConstant, 1});
   if (shadows) {
     own.push_back({shared::kShadowsConstant, 1});
     own.push_back({shared::kShadowTapsConstant, scene.shadow_taps});

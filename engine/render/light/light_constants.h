@@ -8,8 +8,8 @@
 namespace skerry::render {
 
 /// A shader's own specialization constants and those of the light functions it includes
-/// (shaders/include/surface/lighting.glsl, shadow.glsl): which bodies shine, and how their maps are
-/// filtered, if there are maps.
+/// (shaders/include/surface/lighting.glsl, shadow.glsl, sky.glsl): which bodies shine, how their
+/// maps are filtered, if there are maps, and whether the sky is a panorama.
 std::vector<gpu::SpecConstant> with_light(std::vector<gpu::SpecConstant> own,
                                           const SceneRefs& scene, bool shadows);
 

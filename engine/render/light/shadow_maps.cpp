@@ -15,11 +15,15 @@ std::uint32_t layers_a_body(const ShadowLayout& layout) {
   return bodies == 0 ? 0 : layout.layers / static_cast<std::uint32_t>(bodies);
 }
 
+std::uint32_t all_layers(const ShadowLayout& layout) {
+  return layout.layers + layout.spares;
+}
+
 /// Whether an array made for one layout serves another. At sunset the sun's layers stay for the
 /// next twilight.
 bool serves(const ShadowLayout& made, const ShadowLayout& wanted) {
   return wanted.edge == made.edge && layers_a_body(wanted) == layers_a_body(made) &&
-         wanted.layers <= made.layers;
+         wanted.layers <= made.layers && all_layers(wanted) <= all_layers(made);
 }
 
 }  // namespace
@@ -34,7 +38,7 @@ Result<void> ShadowMaps::ensure(const ShadowLayout& layout) {
       device_->create_image({.name = "shadow maps",
                              .format = VK_FORMAT_D32_SFLOAT,
                              .extent = {layout.edge, layout.edge},
-                             .layers = layout.layers,
+                             .layers = all_layers(layout),
                              .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
                                       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                              .array = true});

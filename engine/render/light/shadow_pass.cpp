@@ -49,7 +49,8 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
             b.read(scene.materials, Use::kFragmentRead);
             b.read(scene.block_textures, Use::kFragmentRead);
           }
-          maps = b.depth(maps, gpu::Load::cleared({}), cascade.layer);
+          maps = b.depth(maps, cascade.clear ? gpu::Load::cleared({}) : gpu::Load::keep(),
+                         cascade.layer);
           b.area(cascade.area);
         },
         [scene, draws, view = cascade.view, opaque_program, cutout_program](gpu::Commands& c) {

@@ -19,7 +19,8 @@ struct ShadowDraw {
   std::uint32_t layer = 0;  ///< of the map
   const char* name = "";    ///< pass name, contains "shadow"
   bool cutouts = false;     ///< alpha-tested quads may be in it
-  VkRect2D area{};          ///< texels to clear and draw; the others keep what they show
+  VkRect2D area{};          ///< texels to draw; the others keep what they show
+  bool clear = true;        ///< the area first
 };
 
 /// Depth of what the light sees, one pass a cascade. Opaque quads need no fragment shader; cut-outs

@@ -1,111 +1,33 @@
 #include "engine/render/light/shadow_plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_access.hpp>
-#include <limits>
 #include <optional>
+#include <utility>
 
 #include "engine/render/frame/frame_choices.h"
+#include "engine/render/light/shadow_changes.h"
 
 namespace skerry::render {
 namespace {
 
 constexpr double kMovedTexels = 0.25;  // of what a kept map shows, at most
 
-/// How far a point of the island can have moved against the anchor between two placements [blocks],
-/// at most.
-double movement(const IslandPlacement& a, const FixedPos& anchor_a, const IslandPlacement& b,
-                const FixedPos& anchor_b) {
-  glm::dvec3 shift;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    shift[i] =
-        static_cast<double>((b.origin[k] - anchor_b[k]) - (a.origin[k] - anchor_a[k])) / 65536.0;
-  }
-  // A rotation by angle t moves a point at distance r by 2 r sin(t / 2); |q - q'| = 2 sin(t / 4)
-  // for the nearer of q' and -q'.
-  const glm::dquat same = glm::dot(a.rotation, b.rotation) < 0.0 ? -b.rotation : b.rotation;
-  const double quarter = 0.5 * glm::length(a.rotation - same);
-  return glm::length(shift) + 4.0 * quarter * std::max(a.bounding_radius, b.bounding_radius);
-}
+// Of maps that may lag. Receivers are looked up half a texel off their faces: an island that sinks
+// by more would shade itself.
+constexpr double kSoonTexels = 0.125, kLateTexels = 0.45;
+constexpr double kOtherIsland = 16.0;  // texels, see MovedBy::at_most
+constexpr double kLateTurn = 2.0;      // times what the light may have turned
+constexpr float kLeastCovered = 0.8f;  // of the radius
+constexpr float kCoarser = 1.2f;       // texels, than need be
+constexpr double kQuadsAtOnce = 8192.0;
+constexpr double kMostFrames = 16.0, kLeastFrames = 3.0;  // that a map takes
+constexpr int kFineMaps = 2;     // a body's first: few quads are in them, and close to the eye
+constexpr int kMostEdge = 2048;  // of maps that have a spare layer: 16 MiB
 
-/// Camera-relative ball [blocks].
-struct Ball {
-  glm::dvec3 middle{};
-  double radius = 0.0;
-};
-
-glm::dvec3 from_camera(const FixedPos& place, const FixedPos& camera) {
-  glm::dvec3 out;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    out[i] = static_cast<double>(place[k] - camera[k]) / 65536.0;
-  }
-  return out;
-}
-
-/// Texels of a map, [low, high) along each axis.
-struct TexelBox {
-  glm::dvec2 low{std::numeric_limits<double>::infinity()};
-  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
-
-  bool empty() const { return !(low.x < high.x && low.y < high.y); }
-  /// Adds where a box of half extents `half` along `axes` about `middle` can show. Errs on the side
-  /// of more: by what rounding, the growth of edges and a quarter texel of motion come to.
-  void add(const Cascade& cascade, const glm::dvec3& middle, const glm::dmat3& axes,
-           const glm::dvec3& half) {
-    constexpr double kSpareTexels = 2.0;
-    const double size = cascade.key.map_size;
-    const double spare =
-        kSpareTexels + 1e-5 * glm::length(middle) / static_cast<double>(cascade.texel_blocks);
-    for (int i = 0; i < 2; ++i) {
-      const glm::dvec4 row = glm::row(glm::dmat4(cascade.clip_from_world), i);
-      const glm::dvec3 along(row);
-      const double at = 0.5 * size * (glm::dot(along, middle) + row.w + 1.0);
-      double reach = 0.0;
-      for (int axis = 0; axis < 3; ++axis)
-        reach += std::abs(glm::dot(along, axes[axis])) * half[axis];
-      reach = 0.5 * size * reach + spare;
-      low[i] = std::min(low[i], std::max(0.0, std::floor(at - reach)));
-      high[i] = std::max(high[i], std::min(size, std::ceil(at + reach)));
-    }
-  }
-};
-
-/// Whether what lies in a ball may show in a cascade's map. Errs on the side of yes.
-bool may_touch(const Ball& ball, const Cascade& cascade) {
-  // What rounding and a quarter texel of the island's motion can add.
-  const double radius =
-      ball.radius + static_cast<double>(cascade.texel_blocks) + 1e-5 * glm::length(ball.middle);
-  return std::ranges::all_of(cascade.planes, [&](const glm::vec4& plane) {
-    return glm::dot(glm::dvec3(plane), ball.middle) + static_cast<double>(plane.w) >= -radius;
-  });
-}
-
-/// Adds the texels that a section may show in.
-void add_section(TexelBox& box, const shared::Section& section, const IslandPlacement& island,
-                 const FixedPos& camera, const Cascade& cascade) {
-  const auto corner = [&](std::uint32_t packed) {
-    const glm::dvec3 voxels(packed & 127, packed >> 7 & 127, packed >> 14 & 127);
-    return glm::dvec3(section.origin) +
-           std::ldexp(1.0, static_cast<int>(section.voxel_size_log2)) * voxels;
-  };
-  const glm::dvec3 low = corner(section.bounds_min), high = corner(section.bounds_max);
-  const glm::dvec3 half = 0.5 * (high - low);
-  const glm::dvec3 middle =
-      island.rotation * (0.5 * (low + high)) + from_camera(island.origin, camera);
-  if (may_touch({middle, glm::length(half)}, cascade))
-    box.add(cascade, middle, glm::mat3_cast(island.rotation), half);
-}
-
-/// Adds the texels that an island may show in.
-void add_island(TexelBox& box, const IslandPlacement& island, const FixedPos& camera,
-                const Cascade& cascade) {
-  const Ball ball{from_camera(island.origin, camera), island.bounding_radius};
-  if (may_touch(ball, cascade))
-    box.add(cascade, ball.middle, glm::dmat3(1.0), glm::dvec3(ball.radius));
+bool may_lag(const FrameInput& input, const RenderSettings& settings, int index) {
+  return input.may_lag && input.parts == 1 && index >= kFineMaps &&
+         settings.shadow_size <= kMostEdge;
 }
 
 /// Casters further than this above a cascade are flattened onto the map's near side by depth
@@ -115,53 +37,25 @@ double caster_reach(const FrameInput& input) {
 }
 
 /// The texels in which a kept map does not show what `cascade` asks for; none if it is of no use.
-/// Notes in `kept` what it shows once these have been drawn.
-std::optional<TexelBox> outdated(ShadowHistory::Kept& kept, const Cascade& cascade,
+/// Notes in the map what it shows once these have been drawn.
+std::optional<TexelBox> outdated(std::optional<DrawnMap>& map, const Cascade& cascade,
                                  const FrameInput& input, const GeometryChanges& geometry) {
-  if (!kept.valid || kept.key != cascade.key || kept.islands.size() > input.islands.size())
+  if (!map || map->key != cascade.key || map->islands.size() > input.islands.size())
     return std::nullopt;
-  const auto changed = geometry.since(kept.geometry_version);
+  TexelBox box = moved_islands(*map, cascade, input, {.more_than = kMovedTexels});
+  const std::optional<TexelBox> changed = changed_sections(*map, cascade, input, geometry);
   if (!changed) return std::nullopt;
-  const FixedPos& camera = input.camera.position;
-  // To places from the anchor that the map was drawn with.
-  const auto rebased = [](IslandPlacement island, const FixedPos& from, const FixedPos& to) {
-    for (std::size_t i = 0; i < 3; ++i) island.origin[i] += to[i] - from[i];
-    return island;
-  };
-  TexelBox box;
-  for (std::size_t i = 0; i < input.islands.size(); ++i) {
-    const IslandPlacement& now = input.islands[i];
-    // What has come of a new island stands among the changes.
-    if (i == kept.islands.size()) {
-      kept.islands.push_back(rebased(now, input.anchor, kept.anchor));
-      continue;
-    }
-    if (movement(kept.islands[i], kept.anchor, now, input.anchor) <=
-        kMovedTexels * static_cast<double>(cascade.texel_blocks))
-      continue;
-    add_island(box, rebased(kept.islands[i], kept.anchor, input.anchor), camera, cascade);
-    add_island(box, now, camera, cascade);
-    kept.islands[i] = rebased(now, input.anchor, kept.anchor);
-  }
-  for (const shared::Section& section : *changed) {
-    if (section.island >= input.islands.size()) return std::nullopt;
-    add_section(box, section, input.islands[section.island], camera, cascade);
-  }
-  kept.geometry_version = geometry.version();
+  box.add(*changed);
   return box;
 }
 
-VkRect2D rect_of(const TexelBox& box) {
-  const glm::ivec2 low(box.low), high(box.high);
-  return {{low.x, low.y},
-          {static_cast<std::uint32_t>(high.x - low.x), static_cast<std::uint32_t>(high.y - low.y)}};
-}
-
 /// Whether a map drawn by another light's direction shows shadows where they belong, or as good as.
-bool good_enough(const glm::dvec3& drawn_by, const glm::dvec3& to_light, const Cascade& cascade) {
+/// @param times what they may be off by.
+bool good_enough(const glm::dvec3& drawn_by, const glm::dvec3& to_light, const Cascade& cascade,
+                 double times = 1.0) {
   const double moved = kShadowBlocks * glm::length(glm::cross(drawn_by, to_light));
-  return glm::dot(drawn_by, to_light) > 0.0 &&
-         moved <= kMovedTexels * static_cast<double>(cascade.texel_blocks);
+  const double most = kMovedTexels * static_cast<double>(cascade.texel_blocks);
+  return glm::dot(drawn_by, to_light) > 0.0 && moved <= times * std::max(most, kShadowStepBlocks);
 }
 
 CascadeInput cascade_input(const FrameInput& input, const RenderSettings& settings, int body) {
@@ -187,51 +81,217 @@ ShadowLayout layout_of(const FrameInput& input, const RenderSettings& settings) 
   const auto bodies = static_cast<std::uint32_t>(out.casting[0]) + (out.casting[1] ? 1u : 0u);
   out.layers = bodies * static_cast<std::uint32_t>(settings.shadow_cascades);
   if (out.layers != 0) out.edge = static_cast<std::uint32_t>(settings.shadow_size);
+  if (may_lag(input, settings, settings.shadow_cascades - 1))
+    out.spares = bodies * static_cast<std::uint32_t>(settings.shadow_cascades - kFineMaps);
   return out;
 }
 
-}  // namespace
+/// What the maps show that an array of this layout has kept; nothing if that is another array.
+/// @param cascades of a body.
+ShadowHistory kept_for(const ShadowLayout& layout, std::uint32_t cascades,
+                       const ShadowHistory& history, std::uint64_t generation) {
+  ShadowLayout with_spares = layout;
+  with_spares.spares = std::max(layout.spares, history.layout.spares);
+  if (history.layout == with_spares && history.generation == generation) return history;
+  ShadowHistory next;
+  next.layout = layout;
+  std::uint32_t spare = layout.layers;
+  for (std::uint32_t i = 0; i < layout.layers; ++i) {
+    next.kept[i].layer = i;
+    if (static_cast<int>(i % cascades) >= kFineMaps) next.kept[i].spare = spare++;
+  }
+  return next;
+}
 
-ShadowPlan plan_shadows(const FrameInput& input, const RenderSettings& settings,
-                        const GeometryChanges& geometry, const ShadowHistory& history,
-                        std::uint64_t generation) {
-  ShadowPlan plan;
-  plan.layout = layout_of(input, settings);
-  plan.next.layout = plan.layout;
-  // Maps of another array, or of one that has been made anew since, show nothing of use.
-  if (history.layout == plan.layout && history.generation == generation)
-    plan.next.kept = history.kept;
-  std::uint32_t layer = 0;
-  for (int body = 0; body < 2; ++body) {
-    if (!plan.layout.casting[static_cast<std::size_t>(body)]) continue;
-    CascadeInput in = cascade_input(input, settings, body);
-    const glm::dvec3 to_light = in.to_light;
+/// Plans one map after another.
+class Planner {
+ public:
+  Planner(const FrameInput& input, const RenderSettings& settings,
+          std::span<const shared::Section> sections, const GeometryChanges& geometry,
+          const ShadowHistory& before, ShadowPlan& plan)
+      : input_(input),
+        settings_(settings),
+        sections_(sections),
+        geometry_(geometry),
+        before_(before),
+        plan_(plan),
+        next_(plan.next) {}
+
+  void add_body(int body) {
+    CascadeInput in = cascade_input(input_, settings_, body);
     int index = 0;
-    for (Cascade& cascade : make_cascades(in)) {
-      ShadowHistory::Kept& kept = plan.next.kept[layer];
-      std::optional<TexelBox> box = outdated(kept, cascade, input, geometry);
-      if (!box && kept.valid && input.parts == 1 && good_enough(kept.to_light, to_light, cascade)) {
-        in.to_light = kept.to_light;
-        const Cascade before = make_cascades(in)[static_cast<std::size_t>(index)];
-        box = outdated(kept, before, input, geometry);
-        if (box) cascade = before;
+    for (const Cascade& cascade : make_cascades(in)) {
+      ShadowHistory::Kept& kept = next_.kept[slot_];
+      ActiveCascade active;
+      active.body = body, active.index = index, active.slot = slot_;
+      if (!may_lag(input_, settings_, index) || !follow(kept, in, cascade, active)) {
+        kept.job.reset();
+        bring_up_to_date(kept, in, cascade, active);
       }
-      if (box) {
-        const VkRect2D area = box->empty() ? VkRect2D{} : rect_of(*box);
-        plan.cascades.push_back(
-            {body, index++, layer++, !box->empty(), area, kept.to_light, cascade});
-        continue;
-      }
-      kept = {true,
-              cascade.key,
-              to_light,
-              geometry.version(),
-              {input.islands.begin(), input.islands.end()},
-              input.anchor};
-      const VkRect2D whole{{0, 0}, {plan.layout.edge, plan.layout.edge}};
-      plan.cascades.push_back({body, index++, layer++, true, whole, to_light, cascade});
+      active.layer = kept.layer;
+      active.to_light = kept.map->to_light;
+      plan_.cascades.push_back(std::move(active));
+      ++index, ++slot_;
     }
   }
+
+ private:
+  VkRect2D whole() const { return {{0, 0}, {plan_.layout.edge, plan_.layout.edge}}; }
+  DrawnMap drawn_now(const Cascade& cascade, const glm::dvec3& to_light) const {
+    return {cascade.key,
+            to_light,
+            geometry_.version(),
+            {input_.islands.begin(), input_.islands.end()},
+            input_.anchor};
+  }
+
+  /// The map shows in this frame all that it should.
+  void bring_up_to_date(ShadowHistory::Kept& kept, CascadeInput in, const Cascade& cascade,
+                        ActiveCascade& active) {
+    const glm::dvec3 to_light = in.to_light;
+    active.cascade = cascade;
+    std::optional<TexelBox> box = outdated(kept.map, cascade, input_, geometry_);
+    if (!box && kept.map && input_.parts == 1 &&
+        good_enough(kept.map->to_light, to_light, cascade)) {
+      in.to_light = kept.map->to_light;
+      const Cascade before = make_cascades(in)[static_cast<std::size_t>(active.index)];
+      box = outdated(kept.map, before, input_, geometry_);
+      if (box) active.cascade = before;
+    }
+    if (!box) kept.map = drawn_now(cascade, to_light);
+    set_area(active, box ? box->rect() : whole());
+  }
+
+  /// The map may show what was a few frames ago. @return false: it is too far from what it should
+  /// show.
+  bool follow(ShadowHistory::Kept& kept, CascadeInput in, const Cascade& wanted,
+              ActiveCascade& active) {
+    const glm::dvec3 to_light = in.to_light;
+    if (!kept.map || kept.map->islands.size() > input_.islands.size()) return false;
+    if (kept.job) draw_ahead(kept, in);
+    in.to_light = kept.map->to_light;
+    active.cascade = cascade_of(kept.map->key, in);
+    if (active.cascade.radius < kLeastCovered * wanted.radius ||
+        !good_enough(in.to_light, to_light, wanted, kLateTurn))
+      return false;
+    TexelBox box = moved_islands(*kept.map, active.cascade, input_,
+                                 {.more_than = kLateTexels, .at_most = kOtherIsland});
+    if (!kept.job) {
+      const std::optional<TexelBox> more = begin(kept, active.cascade, in, wanted, to_light);
+      if (!more) return false;
+      box.add(*more);
+    }
+    active.cascade.radius = std::min(active.cascade.radius, wanted.radius);
+    set_area(active, box.rect());
+    return true;
+  }
+
+  /// Begins to draw what the map lacks, if that is much. @return what is drawn at once; none: what
+  /// it lacks is not known.
+  std::optional<TexelBox> begin(ShadowHistory::Kept& kept, const Cascade& shown, CascadeInput in,
+                                const Cascade& wanted, const glm::dvec3& to_light) {
+    DrawnMap after = *kept.map;
+    TexelBox box = moved_islands(after, shown, input_, {.more_than = kSoonTexels});
+    const std::optional<TexelBox> changed = changed_sections(after, shown, input_, geometry_);
+    if (!changed) return std::nullopt;
+    box.add(*changed);
+    const bool serves = good_enough(in.to_light, to_light, wanted) &&
+                        shown.radius >= wanted.radius &&
+                        shown.texel_blocks <= kCoarser * wanted.texel_blocks;
+    if (serves && (box.empty() || quads_in(box, shown, input_, sections_) <= kQuadsAtOnce)) {
+      kept.map = std::move(after);
+      return box;
+    }
+    const double quads = quads_in(whole_map(wanted), wanted, input_, sections_);
+    kept.job = ShadowJob{.after = drawn_now(wanted, to_light),
+                         .quads_a_frame = std::max(kQuadsAtOnce, quads / frames_for(wanted))};
+    draw_ahead(kept, in);
+    return TexelBox{};
+  }
+
+  /// In how many frames a map must be drawn so that nothing in it is late when it is drawn again.
+  double frames_for(const Cascade& cascade) const {
+    double frames = kMostFrames;
+    for (std::size_t i = 0; i < std::min(before_.islands.size(), input_.islands.size()); ++i) {
+      const IslandPlacement& now = input_.islands[i];
+      const double moved =  // texels a frame
+          movement(rebased(before_.islands[i], before_.anchor, input_.anchor), now) /
+          static_cast<double>(cascade.texel_blocks);
+      const double enough = 0.5 * kLateTexels / std::max(moved, 1e-9);
+      // What is faster will be late in any case.
+      if (enough < frames && enough >= kLeastFrames &&
+          may_touch(now, input_.camera.position, cascade))
+        frames = enough;
+    }
+    return frames;
+  }
+
+  /// Draws the next part of a map. The last one makes it the map that is shown.
+  void draw_ahead(ShadowHistory::Kept& kept, CascadeInput in) {
+    ShadowJob& job = *kept.job;
+    in.to_light = job.after.to_light;
+    PartAhead part{.layer = kept.spare,
+                   .clear = job.next_section == 0,
+                   .sections = {},
+                   .to_light = in.to_light,
+                   .cascade = cascade_of(job.after.key, in),
+                   .islands = {input_.islands.begin(), input_.islands.end()}};
+    part.sections = next_part(job, part.cascade, input_, sections_);
+    for (std::size_t i = 0; i < std::min(part.islands.size(), job.after.islands.size()); ++i)
+      part.islands[i] = rebased(job.after.islands[i], job.after.anchor, input_.anchor);
+    plan_.ahead.push_back(std::move(part));
+    if (job.next_section < sections_.size()) return;
+    std::swap(kept.layer, kept.spare);
+    kept.map = std::move(job.after);
+    kept.job.reset();
+  }
+
+  static void set_area(ActiveCascade& active, const VkRect2D& area) {
+    active.area = area;
+    active.redraw = area.extent.width != 0;
+  }
+
+  const FrameInput& input_;
+  const RenderSettings& settings_;
+  std::span<const shared::Section> sections_;
+  const GeometryChanges& geometry_;
+  const ShadowHistory& before_;
+  ShadowPlan& plan_;
+  ShadowHistory& next_;
+  std::uint32_t slot_ = 0;
+};
+
+}  // namespace
+
+void ShadowHistory::only_shows(std::uint64_t geometry_version) {
+  const auto no_newer = [&](DrawnMap& map) {
+    map.geometry_version = std::min(map.geometry_version, geometry_version);
+  };
+  for (Kept& k : kept) {
+    if (k.map) no_newer(*k.map);
+    if (k.job) no_newer(k.job->after);
+  }
+}
+
+std::uint32_t layers_used(const ShadowPlan& plan) {
+  std::uint32_t count = 0;
+  for (const ActiveCascade& c : plan.cascades) count = std::max(count, c.layer + 1);
+  for (const PartAhead& part : plan.ahead) count = std::max(count, part.layer + 1);
+  return count;
+}
+
+ShadowPlan plan_shadows(const FrameInput& input, const RenderSettings& settings,
+                        std::span<const shared::Section> sections, const GeometryChanges& geometry,
+                        const ShadowHistory& history, std::uint64_t generation) {
+  ShadowPlan plan;
+  plan.layout = layout_of(input, settings);
+  plan.next = kept_for(plan.layout, static_cast<std::uint32_t>(settings.shadow_cascades), history,
+                       generation);
+  Planner planner(input, settings, sections, geometry, history, plan);
+  for (int body = 0; body < 2; ++body)
+    if (plan.layout.casting[static_cast<std::size_t>(body)]) planner.add_body(body);
+  plan.next.islands.assign(input.islands.begin(), input.islands.end());
+  plan.next.anchor = input.anchor;
   return plan;
 }
 

@@ -57,6 +57,7 @@ FrameContents contents_of(const FrameInput& input, const RenderSettings& setting
   const bool sky_lights = settings.indirect != Indirect::kOff && facts.indirect;
   if (!input.sky.sun_casts && !input.sky.moon_casts && !sky_lights)
     features.set_absent(Feature::kHaze, "there is no light for the air to scatter");
+  if (facts.panorama) features.set_absent(Feature::kStars, "a panorama is the sky");
   if (sky.stars == 0.0f) features.set_absent(Feature::kStars, "it is not dark enough");
   if (!disc_in_view(input.sky, tables.constants))
     features.set_absent(Feature::kDiscs, "sun and moon are outside the picture or have set");

@@ -42,13 +42,37 @@ shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body,
   out.to_light = glm::vec3(to_light);
   out.irradiance = irradiance;
   for (const ActiveCascade& c : cascades)
-    if (c.body == body && out.cascade_count++ == 0) out.first_cascade = c.layer;
+    if (c.body == body && out.cascade_count++ == 0) out.first_cascade = c.slot;
   return out;
 }
 
 void append_islands(std::vector<shared::IslandTransform>& out,
                     std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
+}
+
+VkRect2D whole_area(const Cascade& cascade) {
+  const auto edge = static_cast<std::uint32_t>(cascade.key.map_size);
+  return {{0, 0}, {edge, edge}};
+}
+
+/// The view of a light that draws a part of a map.
+void append_light(FrameTables& out, const Cascade& cascade, const VkRect2D& area,
+                  const glm::dvec3& to_light, std::span<const IslandPlacement> islands) {
+  shared::CullView light{};
+  const std::array<glm::vec4, 6> planes = planes_about(cascade, area);
+  for (std::size_t i = 0; i < planes.size(); ++i) light.planes[i] = planes[i];
+  light.planes[5] = glm::vec4(
+      0, 0, 0, 1);  // casters beyond the range are flattened onto it, so none may be culled there
+  light.eye = glm::vec3(to_light);
+  light.orthographic = 1;
+  light.enabled = 1;
+  out.views.push_back(light);
+  // Relative to the map's own centre, a function of its key alone: a map drawn again in the same
+  // window is equal to the last bit.
+  out.matrices.push_back(cascade.clip_from_centre);
+  out.edge_growth.push_back(cascade.texel_blocks / 128.0f);
+  append_islands(out.islands, islands, cascade.centre);
 }
 
 }  // namespace
@@ -60,7 +84,8 @@ shared::IslandTransform transform_of(const IslandPlacement& island, const FixedP
 }
 
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
-                         std::span<const ActiveCascade> cascades) {
+                         std::span<const ActiveCascade> cascades,
+                         std::span<const PartAhead> ahead) {
   FrameTables out;
   const CameraView camera = view_of(input.camera, size.width, size.height);
   shared::FrameConstants& f = out.constants;
@@ -97,22 +122,14 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   append_islands(out.islands, input.islands, input.camera.position);
 
   for (const ActiveCascade& active : cascades) {
-    f.cascades[active.layer] = shader_cascade(active, settings.shadow_size);
-    if (!active.redraw) continue;
-    shared::CullView light{};
-    const std::array<glm::vec4, 6> planes = planes_about(active.cascade, active.area);
-    for (std::size_t i = 0; i < planes.size(); ++i) light.planes[i] = planes[i];
-    light.planes[5] = glm::vec4(
-        0, 0, 0, 1);  // casters beyond the range are flattened onto it, so none may be culled there
-    light.eye = glm::vec3(active.to_light);
-    light.orthographic = 1;
-    light.enabled = 1;
-    out.views.push_back(light);
-    // Relative to the map's own centre, a function of its key alone: a map drawn again in the same
-    // window is equal to the last bit.
-    out.matrices.push_back(active.cascade.clip_from_centre);
-    out.edge_growth.push_back(active.cascade.texel_blocks / 128.0f);
-    append_islands(out.islands, input.islands, active.cascade.centre);
+    f.cascades[active.slot] = shader_cascade(active, settings.shadow_size);
+    if (active.redraw)
+      append_light(out, active.cascade, active.area, active.to_light, input.islands);
+  }
+  for (const PartAhead& part : ahead) {
+    append_light(out, part.cascade, whole_area(part.cascade), part.to_light, part.islands);
+    out.views.back().first_section = part.sections.first;
+    out.views.back().section_limit = part.sections.end;
   }
   return out;
 }

@@ -25,8 +25,11 @@ struct FrameTables {
 /// An island relative to a point. The subtraction is exact; only the result becomes float.
 shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to);
 
+/// The camera's view comes first, then those of the cascades that are drawn, then those of parts
+/// ahead.
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
-                         std::span<const ActiveCascade> cascades);
+                         std::span<const ActiveCascade> cascades,
+                         std::span<const PartAhead> ahead = {});
 
 /// The sky whose sun and moon stand at the middle of a part's share of their discs: points of a
 /// sunflower (H. Vogel, A better way to construct the sunflower head, 1979), which cover it evenly.

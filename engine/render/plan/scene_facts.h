@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "engine/render/scene/geometry_changes.h"
 #include "engine/render/scene/voxel_box.h"
 #include "engine/render/sky/cloud_plan.h"
+#include "engine/render/sky/panorama_sky.h"
 #include "shaders/shared/geometry.h"
 
 namespace skerry::render {
@@ -20,8 +22,9 @@ struct SceneFacts {
   bool occupancy = false;                    ///< there is an occupancy store
   bool indirect = false;                     ///< there is a store of the sky's light
   CloudFacts clouds;
-  std::uint32_t quads_in_view = 0;      ///< of the newest frame that is known; 0: none is
-  std::uint64_t shadow_generation = 0;  ///< ShadowMaps::generation()
+  std::shared_ptr<const PanoramaSky> panorama;  ///< none: the sky is the air's
+  std::uint32_t quads_in_view = 0;              ///< of the newest frame that is known; 0: none is
+  std::uint64_t shadow_generation = 0;          ///< ShadowMaps::generation()
 
   std::uint64_t kept_generation = 0;  ///< KeptFrames::generation()
 

@@ -18,7 +18,8 @@ struct Supposed {
   std::uint32_t lights = 0;  // bit a kind that is in view
   Water water = Water::kNone;
   bool stars = false, discs = false;
-  bool clouds = true;  // that there are, are in view
+  bool clouds = true;      // that there are, are in view
+  bool cloud_sky = false;  // lights them by itself
 };
 
 constexpr std::uint32_t kTorches = 1u << shared::kLightPoint;  // what grows and is built
@@ -48,7 +49,7 @@ FramePlan common_of(const FramePlan& now, const FrameNeeds& needs) {
       needs.indirect && plan.settings.indirect != Indirect::kOff && !plan.shows_channel();
   plan.ao = needs.occupancy && plan.settings.ao_strength > 0.0f &&
             plan.settings.shading != Shading::kFlat;
-  plan.bake_sky = true;
+  plan.bake_sky = !plan.sky.panorama;
   if (!plan.shows_channel()) plan.marker.emplace();
   if (plan.clouds) plan.clouds->bake_noise = plan.clouds->layer;
   return plan;
@@ -58,24 +59,28 @@ void suppose_bodies(FramePlan& plan, const FrameNeeds& needs, std::uint32_t bodi
   plan.input.sky.sun_casts = (bodies & 1u) != 0;
   plan.input.sky.moon_casts = (bodies & 2u) != 0;
   plan.shadows.cascades.clear();
+  plan.shadows.ahead.clear();
   for (std::uint32_t body = 0; body < shared::kBodyCount; ++body) {
     const bool shines = (bodies & 1u << body) != 0;
     plan.tables.constants.bodies[body].irradiance = glm::vec3(shines ? 1.0f : 0.0f);
     plan.shadows.layout.casting[body] = shines && plan.settings.shadow_enabled;
     if (plan.shadows.layout.casting[body])
       plan.shadows.cascades.push_back(
-          {static_cast<int>(body), 0, 0, true, {{0, 0}, {1, 1}}, {}, {}});
+          {static_cast<int>(body), 0, 0, 0, true, {{0, 0}, {1, 1}}, {}, {}});
   }
   plan.shadows.layout.layers = static_cast<std::uint32_t>(plan.shadows.cascades.size());
   plan.shadows.layout.edge = static_cast<std::uint32_t>(plan.settings.shadow_size);
   if (!plan.clouds || !needs.volumes) return;
-  plan.clouds->volume_light = bodies != 0;
+  plan.clouds->volume_light = bodies != 0 || plan.clouds->sky;
   plan.clouds->light_jobs = {{0, 0}};
 }
 
 void suppose(FramePlan& plan, const FrameNeeds& needs, const Supposed& what) {
+  if (plan.clouds) {
+    plan.clouds->in_view = what.clouds;
+    plan.clouds->sky = what.cloud_sky;
+  }
   suppose_bodies(plan, needs, what.bodies);
-  if (plan.clouds) plan.clouds->in_view = what.clouds;
   FrameFeatures features(plan.settings.leave_out);
   const auto absent_unless = [&](bool there, Feature feature) {
     if (!there) features.set_absent(feature, kSupposed);
@@ -125,12 +130,15 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
   std::vector<std::uint32_t> kinds{0, kTorches};
   if (needs.light_kinds != kTorches) kinds.push_back(needs.light_kinds);
   const auto visit_with = [&](Supposed what) {
-    for (const bool clouds : {true, false}) {
-      what.clouds = clouds;
-      suppose(plan, needs, what);
-      visit(plan);
-      if (!plan.clouds) break;
-    }
+    for (const bool in_view : {true, false})
+      for (const bool sky : {false, true}) {
+        if (!plan.clouds && (!in_view || sky)) continue;
+        if (sky && plan.settings.indirect == Indirect::kOff) continue;
+        what.clouds = in_view;
+        what.cloud_sky = sky;
+        suppose(plan, needs, what);
+        visit(plan);
+      }
   };
   // Day before night: both, sun, moon, neither.
   for (const std::uint32_t bodies : {3u, 1u, 2u, 0u}) {
@@ -138,12 +146,14 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
       for (const std::uint32_t lights : kinds) visit_with({bodies, lights, water, false, false});
     // Stars and discs concern the sky alone, which goes to the picture, or for lights to an image
     // of radiance, or for water to both.
-    for (const bool stars : {false, true})
+    for (const bool stars : {false, true}) {
+      if (stars && plan.sky.panorama) continue;
       for (const bool discs : {false, true}) {
         visit_with({bodies, 0, Water::kNone, stars, discs});
         visit_with({bodies, 0, Water::kInView, stars, discs});
         visit_with({bodies, kTorches, Water::kInView, stars, discs});
       }
+    }
   }
 }
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
+#include <glm/gtc/packing.hpp>
 #include <utility>
+#include <vector>
 
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/scene/block_textures.h"
@@ -18,6 +21,16 @@ constexpr VkBufferUsageFlags kTable =
 
 // Tables begin with what most worlds need, so that none grows in a flight.
 constexpr std::uint64_t kLeastBytes = std::uint64_t{1} << 16;
+
+/// What is brighter than a half can hold is the brightest half.
+std::vector<glm::u16vec4> half_texels(const Panorama& panorama) {
+  constexpr float kMostHalf = 65504.0f;
+  std::vector<glm::u16vec4> out;
+  out.reserve(panorama.texels.size());
+  for (const glm::vec3& texel : panorama.texels)
+    out.push_back(glm::packHalf(glm::vec4(glm::min(texel, kMostHalf), 1.0f)));
+  return out;
+}
 
 }  // namespace
 
@@ -97,10 +110,11 @@ Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
 }
 
 Result<void> FrameResources::create_samplers() {
-  const std::array<std::pair<VkSampler*, gpu::SamplerDesc>, 3> samplers{{
+  const std::array<std::pair<VkSampler*, gpu::SamplerDesc>, 4> samplers{{
       {&block_sampler_,
        {.mip = VK_SAMPLER_MIPMAP_MODE_LINEAR, .address = VK_SAMPLER_ADDRESS_MODE_REPEAT}},
       {&lut_sampler_, {}},
+      {&panorama_sampler_, {.address = VK_SAMPLER_ADDRESS_MODE_REPEAT}},
       {&point_sampler_, {.mag = VK_FILTER_NEAREST, .min = VK_FILTER_NEAREST}},
   }};
   for (const auto& [sampler, desc] : samplers) {
@@ -124,6 +138,24 @@ Result<void> FrameResources::create(gpu::Uploader& uploader,
   if (!texels) return texels.error();
   no_texels_ = *std::move(texels);
   return create_samplers();
+}
+
+Result<void> FrameResources::set_panorama(gpu::Uploader& uploader, const Panorama* panorama) {
+  if (!panorama) {
+    panorama_ = {};
+    return {};
+  }
+  const std::vector<glm::u16vec4> texels = half_texels(*panorama);
+  Result<gpu::Image> image = device_->create_image(
+      {.name = "panorama",
+       .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+       .extent = {panorama->columns, panorama->rows},
+       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+  if (!image) return image.error();
+  if (Result<void> ok = uploader.fill_image(*image, std::as_bytes(std::span(texels))); !ok)
+    return ok;
+  panorama_ = *std::move(image);
+  return {};
 }
 
 Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& tables,
@@ -183,7 +215,9 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.pixel_stats = graph.import(pixel_stats_);
   s.exposure = graph.import(exposure_);
   s.block_textures = graph.import(block_textures_);
-  s.sky_lut = graph.import(sky_lut_);
+  s.panorama = bool{panorama_};
+  s.sky_lut = graph.import(s.panorama ? panorama_ : sky_lut_);
+  s.sky_sampler = s.panorama ? panorama_sampler_ : lut_sampler_;
   s.no_volume = graph.import(no_volume_);
   s.no_words = graph.import(no_words_);
   s.block_sampler = block_sampler_;

@@ -9,6 +9,8 @@
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/frame/settings.h"
 #include "engine/render/plan/frame_tables.h"
+#include "engine/render/sky/panorama.h"
+#include "engine/render/sky/sky_model.h"
 #include "shaders/shared/sky.h"
 
 namespace skerry::render {
@@ -21,6 +23,9 @@ class FrameResources {
 
   /// Makes what stays, and queues its contents. Errors: out of memory.
   Result<void> create(gpu::Uploader& uploader, std::span<const shared::Material> materials);
+  /// From now on the sky of all frames; null: the air's sky again. Waits for the copy. Errors: out
+  /// of memory.
+  Result<void> set_panorama(gpu::Uploader& uploader, const Panorama* panorama);
   /// Queues a frame's tables. @param bake_sky the sky's table is made from them. Errors: out of
   /// memory.
   Result<void> upload(gpu::Uploader& uploader, const FrameTables& tables, const FrameInput& input,
@@ -54,7 +59,8 @@ class FrameResources {
   gpu::Buffer frame_, sky_, sky_scattering_, islands_, view_islands_, views_, light_islands_,
       materials_, indices_, pixel_stats_, exposure_, no_texels_, seen_;
   gpu::Image block_textures_, sky_lut_, no_volume_, no_words_;
-  VkSampler block_sampler_{}, lut_sampler_{}, point_sampler_{};
+  gpu::Image panorama_;  // none: sky_lut_ is the sky
+  VkSampler block_sampler_{}, lut_sampler_{}, panorama_sampler_{}, point_sampler_{};
 };
 
 }  // namespace skerry::render

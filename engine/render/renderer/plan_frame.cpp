@@ -56,6 +56,8 @@ void plan_sky(FramePlan& plan, const FrameHistory& history) {
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): equal bytes are enough
     return std::memcmp(&a, &b, sizeof(a)) == 0;
   };
+  plan.next.baked_sky = history.baked_sky;
+  if (plan.sky.panorama) return;
   plan.bake_sky =
       !history.baked_sky || !same_bytes(history.baked_sky->constants, plan.sky.constants);
   plan.next.baked_sky = plan.sky;
@@ -102,7 +104,7 @@ void explain_contents(FramePlan& plan) {
     if (!cascade.redraw)
       plan.left_out.push_back(
           {shadow_pass_name(cascade.body, cascade.index),
-           "kept from an earlier frame: light, window, geometry and islands have not moved"});
+           "kept from an earlier frame: what it shows has not moved, or not far"});
   if (!plan.geometry) return;
   for (const Feature body : {Feature::kSun, Feature::kMoon}) {
     const char* why = features.why_not(body);
@@ -164,12 +166,15 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.indirect = settings.indirect != Indirect::kOff && facts.indirect && plan.geometry &&
                   !shows_channel(settings);
   plan.sky = sky_model(plan.input.sky, eye_height_km(plan.input),
-                       history.baked_sky ? &*history.baked_sky : nullptr);
+                       history.baked_sky ? &*history.baked_sky : nullptr, facts.panorama);
   plan.input.sky = sky_of_part(plan.input.sky, plan.input.part, plan.input.parts);
   if (plan.geometry)
-    plan.shadows = plan_shadows(plan.input, settings, *facts.changes, history.shadows,
-                                facts.shadow_generation);
-  plan.tables = build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades);
+    plan.shadows = plan_shadows(plan.input, settings, facts.sections, *facts.changes,
+                                history.shadows, facts.shadow_generation);
+  plan.tables =
+      build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades, plan.shadows.ahead);
+  if (plan.sky.panorama)
+    plan.tables.constants.sky_yaw = static_cast<float>(plan.sky.panorama->yaw());
   plan.tables.constants.picture_size = {plan.picture.width, plan.picture.height};
   plan.contents = contents_of(plan.input, settings, plan.tables, plan.sky.constants, facts);
   plan.tables.constants.layers_area = plan.contents.layers_area;
@@ -178,7 +183,8 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.next.shadows = plan.geometry ? plan.shadows.next : history.shadows;
   plan.next.clouds = history.clouds;
   if (plan.contents.features.has(Feature::kClouds)) {
-    plan.clouds = plan_clouds(plan.input, settings.clouds, plan.sky, facts.clouds, history.clouds);
+    plan.clouds = plan_clouds(plan.input, settings.clouds, plan.sky,
+                              settings.indirect != Indirect::kOff, facts.clouds, history.clouds);
     plan.clouds->in_view = clouds_in_view(plan.clouds->constants, plan.clouds->layer,
                                           facts.clouds.volumes.size(), plan.tables.constants);
     plan.next.clouds = plan.clouds->next;

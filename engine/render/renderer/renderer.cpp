@@ -110,6 +110,7 @@ struct Renderer::State {
   ShadowMaps shadows;
   LightClusters light_clusters;
   Clouds clouds;
+  std::shared_ptr<const PanoramaSky> panorama;  // none: the sky is the air's
   Captures captures;
   Picture picture;
   KeptFrames kept;
@@ -144,6 +145,7 @@ SceneFacts Renderer::State::facts() const {
           .occupancy = occupancy != nullptr,
           .indirect = indirect != nullptr,
           .clouds = clouds.facts(),
+          .panorama = panorama,
           .quads_in_view = report ? report->camera.quads_in_view : 0,
           .shadow_generation = shadows.generation(),
           .kept_generation = kept.generation()};
@@ -208,6 +210,7 @@ SceneRefs Renderer::State::import_scene(gpu::FrameGraph& to, const FramePlan& pl
   if (!plan.why_one_phase) s.seen_sections = resources.import_seen(to);
   s.haze = plan.contents.features.has(Feature::kHaze);
   s.ao = plan.ao;
+  s.sums_floats = device.limits().sums_floats;
   if (plan.indirect) s.indirect_light = plan.settings.indirect;
   s.indirect = to.import(plan.indirect && indirect ? indirect->texels() : resources.no_texels());
   if (!occupancy) return s;
@@ -253,8 +256,9 @@ void Renderer::State::add_never_drawn(const FramePlan& supposed, LightClusters& 
   for (std::size_t list = 0; list < kUsualDraws.size(); ++list)
     frame.scene.most_draws[list] = std::max(frame.scene.most_draws[list], kUsualDraws[list]);
   if (const ShadowLayout& maps = supposed.shadows.layout; maps.layers != 0)
-    frame.shadow_maps =
-        to.create({.name = "shadow maps", .extent = {maps.edge, maps.edge}, .layers = maps.layers});
+    frame.shadow_maps = to.create({.name = "shadow maps",
+                                   .extent = {maps.edge, maps.edge},
+                                   .layers = std::max(maps.layers, layers_used(supposed.shadows))});
   for (const std::size_t step : supposed.steps) frame_steps()[step].add(frame);
   FrameReadback unread;
   add_readback(frame, unread);
@@ -300,18 +304,15 @@ void Renderer::State::execute(const gpu::FrameRing::Frame& frame) {
 void Renderer::State::advance(FramePlan& plan) {
   history = std::move(plan.next);
   history.shadows.generation = shadows.generation();
+  if (mesh_uploader.pending_bytes() == 0) shown_version = geometry->changes().version();
+  // What is drawn while meshes still wait for their turn lacks them.
+  history.shadows.only_shows(shown_version);
   const CloudFacts made = clouds.facts();
   if (plan.clouds && plan.clouds->layer) history.clouds.noise_generation = made.noise_generation;
   if (plan.clouds) history.clouds.light_generation = made.light_generation;
-  // Maps drawn while meshes still wait for their turn lack them.
-  if (mesh_uploader.pending_bytes() != 0) history.shadows = {};
   if (!history.temporal) return;
   history.temporal->generation = kept.generation();
-  // So do pictures: what is noted to have changed has not been seen to change yet.
-  if (mesh_uploader.pending_bytes() != 0)
-    history.temporal->geometry_version = shown_version;
-  else
-    shown_version = history.temporal->geometry_version;
+  history.temporal->geometry_version = std::min(history.temporal->geometry_version, shown_version);
 }
 
 void Renderer::State::take_report(std::uint32_t slot_index) {
@@ -414,6 +415,15 @@ Result<void> Renderer::set_clouds(std::span<const CloudVolumeDesc> volumes,
                                   CloudPrecision precision) {
   return state_->clouds.set_volumes(state_->frame_uploader, volumes, precision);
 }
+Result<void> Renderer::set_panorama(std::shared_ptr<const PanoramaSky> panorama) {
+  finish();
+  if (Result<void> ok = state_->resources.set_panorama(state_->frame_uploader,
+                                                       panorama ? &panorama->image() : nullptr);
+      !ok)
+    return ok;
+  state_->panorama = std::move(panorama);
+  return {};
+}
 void Renderer::set_upload_budget(std::uint64_t bytes) {
   state_->upload_budget = bytes;
 }
@@ -460,6 +470,7 @@ Result<void> Renderer::restart_world(std::uint64_t bytes) {
   s.occupancy.reset();
   s.indirect.reset();
   s.history = {};
+  s.shown_version = 0;
   s.device.run_now([](VkCommandBuffer) {});  // the old tables are retired until then
   s.device.collect();
   s.world_budget = MemoryBudget(std::max(bytes, kLeastWorldBytes));

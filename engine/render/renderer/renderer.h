@@ -19,6 +19,7 @@
 #include "engine/render/scene/geometry_store.h"
 #include "engine/render/scene/occupancy_store.h"
 #include "engine/render/sky/cloud_atlas.h"
+#include "engine/render/sky/panorama_sky.h"
 #include "shaders/shared/geometry.h"
 
 namespace skerry::render {
@@ -62,6 +63,9 @@ class Renderer {
   /// Clouds of files, in the place of all before. @param volumes what they point to is not kept.
   /// Errors: see Clouds::set_volumes.
   Result<void> set_clouds(std::span<const CloudVolumeDesc> volumes, CloudPrecision precision);
+  /// A panorama in place of the air's sky, for all frames from now on; null: none. Waits for the
+  /// GPU. Errors: out of memory.
+  Result<void> set_panorama(std::shared_ptr<const PanoramaSky> panorama);
   /// Bytes of chunk meshes that one frame may upload, from now on.
   void set_upload_budget(std::uint64_t bytes);
   const gpu::FrameGraph& graph() const;  ///< of the last frame, for --explain

@@ -63,7 +63,7 @@ class ViewReads {
                       // Without water no layer is read; the binding is valid even so.
                       gpu::sampled<shared::kLayerDepthsBinding>(
                           layer_depth_ ? layer_depth_ : depth_or_other(), scene_.point_sampler),
-                      gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.lut_sampler),
+                      gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.sky_sampler),
                       gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene_, maps_),
                                                                scene_.point_sampler),
                       clouds_.light_bindings(), clouds_.media_bindings(), lights_.bindings(),
@@ -167,6 +167,7 @@ gpu::ImageRef blend(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
 
 std::vector<gpu::SpecConstant> CloudRefs::with_clouds(std::vector<gpu::SpecConstant> own) const {
   if (layer) own.push_back({shared::kCloudLayerConstant, 1});
+  if (sky) own.push_back({shared::kCloudSkyConstant, 1});
   if (volumes != 0) own.push_back({shared::kCloudVolumesConstant, volumes});
   return own;
 }
@@ -198,7 +199,7 @@ gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pi
         scene.clouds->declare_media(b);
         b.read(scene.sky_lut, Use::kComputeSampled);
         b.read(maps_or_others(scene, maps), Use::kComputeSampled);
-        b.read(layers.surfaces[0], Use::kComputeRead);
+        b.read(layers.surfaces, Use::kComputeRead);
         b.read(layers.depth[0], Use::kComputeSampled);
         mirrored = b.write(mirrored, Use::kComputeWrite);
       },
@@ -207,12 +208,12 @@ gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pi
                   gpu::storage<shared::kIslandsBinding>(scene.islands),
                   gpu::storage<shared::kMaterialsBinding>(scene.materials),
                   scene.clouds->light_bindings(), scene.clouds->media_bindings(),
-                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
                   gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                            scene.point_sampler),
                   gpu::storage<shared::kMirroredCloudsBinding>(mirrored),
                   gpu::sampled<shared::kLayerDepthsBinding>(layers.depth[0], scene.point_sampler),
-                  gpu::storage<shared::kLayerSurfacesBinding>(layers.surfaces[0]));
+                  gpu::storage<shared::kLayerSurfacesBinding>(layers.surfaces));
         dispatch_over_fours(c, scene.size);
       });
   return mirrored;

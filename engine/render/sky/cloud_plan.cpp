@@ -14,7 +14,8 @@ constexpr glm::dvec2 kWind{5.0, 2.0};
 
 /// Radiance of the sky, mean of all directions: a spiral over the sphere.
 glm::dvec3 mean_sky(const SkyModel& sky) {
-  constexpr int kDirections = 96;
+  if (sky.panorama) return sky.panorama->mean();
+  constexpr int kDirections = 512;  // at dusk most comes from a narrow band
   constexpr double kGoldenAngle = 2.399963229728653;
   glm::dvec3 sum(0.0);
   for (int i = 0; i < kDirections; ++i) {
@@ -83,38 +84,52 @@ shared::CloudVolume volume_of(const CloudVolumeDesc& desc, const PackedVolume& p
   out.cell_count = packed.cell_count;
   out.cell_low = packed.cell_low;
   out.light_texels = packed.light_texels;
-  for (std::uint32_t body = 0; body < shared::kBodyCount; ++body)
-    out.light_first[body] =
-        static_cast<float>((slot * shared::kBodyCount + body) * shared::kVolumeLightEdge);
+  for (std::uint32_t light = 0; light < shared::kCloudLights; ++light)
+    out.light_first[light] =
+        static_cast<float>((slot * shared::kCloudLights + light) * shared::kVolumeLightEdge);
   return out;
+}
+
+/// Whether light that was traced for one direction serves another: a body has moved by no more than
+/// in 10 s of the day. Across a box, that is a twentieth of a texel.
+bool good_enough(const CloudHistory::LitAs& lit, const CloudHistory::LitAs& now) {
+  constexpr float kMostTurn = 7.28e-4f;
+  return lit.valid && lit.steps == now.steps && lit.extinction == now.extinction &&
+         glm::length(lit.to_light - now.to_light) <= kMostTurn;
 }
 
 /// Finds the volumes whose light is not what `plan.next` says any more, and notes that it will be.
 void plan_light(CloudPlan& plan, const FrameInput& input, std::size_t volumes) {
-  const std::array<bool, shared::kBodyCount> casts{input.sky.sun_casts, input.sky.moon_casts};
+  const std::array<bool, shared::kCloudLights> casts{input.sky.sun_casts, input.sky.moon_casts,
+                                                     plan.sky};
   for (std::uint32_t v = 0; v < volumes; ++v)
-    for (std::uint32_t body = 0; body < shared::kBodyCount; ++body) {
-      if (!casts[body]) continue;
-      const CloudHistory::LitAs now{true, plan.constants.lights[body].to_light,
+    for (std::uint32_t light = 0; light < shared::kCloudLights; ++light) {
+      if (!casts[light]) continue;
+      const CloudHistory::LitAs now{true, plan.constants.lights[light].to_light,
                                     plan.constants.shadow_steps,
                                     plan.constants.volumes[v].extinction};
-      if (plan.next.lit[v][body] == now) continue;
-      plan.next.lit[v][body] = now;
-      plan.light_jobs.push_back({v, body});
+      if (good_enough(plan.next.lit[v][light], now)) continue;
+      plan.next.lit[v][light] = now;
+      plan.light_jobs.push_back({v, light});
     }
 }
 
 }  // namespace
 
 shared::CloudConstants cloud_constants(const FrameInput& input, const CloudSettings& settings,
-                                       const SkyModel& sky,
+                                       const SkyModel& sky, bool sky_lights,
                                        std::span<const CloudVolumeDesc> volumes,
                                        std::span<const PackedVolume> packed) {
   shared::CloudConstants out{};
   out.lights[0] = {glm::vec3(input.sky.to_sun), input.sky.sun_irradiance};
   out.lights[1] = {glm::vec3(input.sky.to_moon), input.sky.moon_irradiance};
-  if (input.sky.sun_casts || input.sky.moon_casts)
-    out.sky_above = glm::vec3(mean_sky(sky)) * air_light(input.sky);
+  out.lights[shared::kCloudZenith] = {{0.0f, 1.0f, 0.0f}, glm::vec3(0.0f)};
+  const float by_body = air_light(input.sky);  // 0 without sun and moon
+  if (sky_lights || by_body > 0.0f) {
+    const glm::vec3 mean(mean_sky(sky));
+    out.sky_beside_body = mean * by_body;
+    if (sky_lights) out.sky_above = mean * (1.0f - by_body);
+  }
   out.shadow_steps = static_cast<float>(settings.shadow_steps);
   out.steps = static_cast<float>(settings.steps);
   out.layer = layer_of(input, settings);
@@ -125,14 +140,16 @@ shared::CloudConstants cloud_constants(const FrameInput& input, const CloudSetti
 }
 
 CloudPlan plan_clouds(const FrameInput& input, const CloudSettings& settings, const SkyModel& sky,
-                      const CloudFacts& facts, const CloudHistory& history) {
+                      bool sky_lights, const CloudFacts& facts, const CloudHistory& history) {
   CloudPlan plan;
   plan.layer = settings.coverage > 0.0f;
   SKERRY_ASSERT(plan.layer || !facts.volumes.empty());
-  plan.constants = cloud_constants(input, settings, sky, facts.volumes, facts.packed);
+  plan.constants = cloud_constants(input, settings, sky, sky_lights, facts.volumes, facts.packed);
+  plan.sky = plan.constants.sky_above != glm::vec3(0.0f);
   plan.bake_noise = plan.layer && (history.noise_generation == 0 ||
                                    history.noise_generation != facts.noise_generation);
-  plan.volume_light = !facts.volumes.empty() && (input.sky.sun_casts || input.sky.moon_casts);
+  plan.volume_light =
+      !facts.volumes.empty() && (input.sky.sun_casts || input.sky.moon_casts || plan.sky);
   plan.next.noise_generation = history.noise_generation;
   // Light in an image that has been made anew since is lost.
   if (history.light_generation == facts.light_generation) plan.next.lit = history.lit;

@@ -18,6 +18,8 @@ using gpu::Use;
 
 constexpr std::uint32_t kColumnGroup = 8;
 constexpr std::uint32_t kNoiseEdge = shared::kCloudNoiseEdge;
+constexpr std::array<const char*, shared::kCloudLights> kLayerPasses{
+    "trace_cloud_layer_sun", "trace_cloud_layer_moon", "trace_cloud_layer_sky"};
 
 constexpr VkImageUsageFlags kBaked = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
 constexpr VkImageUsageFlags kFilled = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -117,7 +119,7 @@ Result<void> Clouds::make_noise() {
 
 Result<void> Clouds::make_layer(std::uint32_t shadow_steps) {
   if (Result<void> ok = make_noise(); !ok) return ok;
-  const auto slices = (shadow_steps + 1) * shared::kBodyCount;
+  const auto slices = (shadow_steps + 1) * shared::kCloudLights;
   if (layer_light_ && layer_light_.desc().depth == slices) return {};
   layer_light_ = {};
   Result<gpu::Image> made =
@@ -140,7 +142,7 @@ Result<void> Clouds::make_volume_light() {
                             .extent = {shared::kVolumeLightEdge, shared::kVolumeLightEdge},
                             .usage = kBaked,
                             .depth = static_cast<std::uint32_t>(volumes_.size()) *
-                                     shared::kBodyCount * shared::kVolumeLightEdge});
+                                     shared::kCloudLights * shared::kVolumeLightEdge});
   if (!made) return made.error();
   volume_light_ = *std::move(made);
   return {};
@@ -221,21 +223,21 @@ void Clouds::add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool b
       });
 }
 
-void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t body,
+void Clouds::add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t light,
                              CloudRefs& refs) const {
   graph.add_pass(
-      body == 0 ? "trace_cloud_layer_sun" : "trace_cloud_layer_moon",
+      kLayerPasses[light],
       [&](gpu::PassBuilder& b) {
         b.read(refs.constants, Use::kComputeRead);
         refs.declare_media(b);
         refs.layer_light = b.write(refs.layer_light, Use::kComputeWrite);
       },
-      [refs, body,
+      [refs, light,
        program = gpu::compute(pipelines, programs::kTraceCloudLight,
                               {{shared::kCloudLayerConstant, 1}})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kCloudsBinding>(refs.constants),
                   refs.media_bindings(), gpu::storage<shared::kTargetBinding>(refs.layer_light),
-                  gpu::constants(shared::CloudLightJob{0, body}));
+                  gpu::constants(shared::CloudLightJob{0, light}));
         const std::uint32_t groups = shared::kLayerLightEdge / kColumnGroup;
         c.dispatch(groups, groups, 1);
       });
@@ -269,15 +271,16 @@ void Clouds::add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       });
 }
 
-void Clouds::add_light_of_bodies(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                                 std::uint32_t bodies, const CloudPlan& plan, CloudRefs& refs) {
-  if (bodies == 0) {
+void Clouds::add_all_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t bodies,
+                           const CloudPlan& plan, CloudRefs& refs) {
+  const std::uint32_t lights = bodies | (plan.sky ? 1u << shared::kCloudZenith : 0u);
+  if (lights == 0) {
     for (const char* name : {"trace_cloud_layer", "trace_cloud_volumes"})
-      graph.leave_out(name, "neither sun nor moon gives light");
+      graph.leave_out(name, "neither sun, moon nor sky gives light");
     return;
   }
-  for (std::uint32_t body = 0; refs.layer && body < shared::kBodyCount; ++body)
-    if (bodies & 1u << body) add_layer_light(graph, pipelines, body, refs);
+  for (std::uint32_t light = 0; refs.layer && light < shared::kCloudLights; ++light)
+    if (lights & 1u << light) add_layer_light(graph, pipelines, light, refs);
   if (!plan.volume_light) return;
   refs.volume_light = graph.import(volume_light_);
   add_volume_light(graph, pipelines, plan.light_jobs, refs);
@@ -291,6 +294,7 @@ CloudRefs Clouds::add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   refs.linear = linear_;
   refs.nearest = nearest_;
   refs.layer = plan.layer;
+  refs.sky = plan.sky;
   refs.volumes = static_cast<std::uint32_t>(volumes_.size());
   SKERRY_ASSERT(refs.layer || refs.volumes != 0);
   if (refs.layer) {
@@ -305,7 +309,7 @@ CloudRefs Clouds::add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   }
   refs.bricks = refs.volumes != 0 ? graph.import(bricks_) : scene.no_volume;
   refs.cells = refs.volumes != 0 ? graph.import(cells_) : scene.no_volume;
-  add_light_of_bodies(graph, pipelines, scene.bodies, plan, refs);
+  add_all_light(graph, pipelines, scene.bodies, plan, refs);
   if (!refs.volume_light) refs.volume_light = refs.bricks;
   return refs;
 }

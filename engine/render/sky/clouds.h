@@ -31,7 +31,7 @@ class Clouds {
   /// Makes what a frame with clouds needs, and takes its constants to the GPU. Errors: out of
   /// memory.
   Result<void> prepare(gpu::Uploader& uploader, const CloudPlan& plan);
-  /// Adds the passes that find out how much light of the frame's bodies comes through.
+  /// Adds the passes that find out how much light of the frame's bodies and sky comes through.
   /// @pre prepare()
   CloudRefs add_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const CloudPlan& plan);
@@ -41,9 +41,9 @@ class Clouds {
   Result<void> make_volume_light();
   Result<void> make_noise();
   void add_noise(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool bake, CloudRefs& refs);
-  void add_light_of_bodies(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t bodies,
-                           const CloudPlan& plan, CloudRefs& refs);
-  void add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t body,
+  void add_all_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t bodies,
+                     const CloudPlan& plan, CloudRefs& refs);
+  void add_layer_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, std::uint32_t light,
                        CloudRefs& refs) const;
   void add_volume_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                         std::span<const shared::CloudLightJob> light_jobs, CloudRefs& refs);

@@ -9,57 +9,18 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/packing.hpp>
 #include <numbers>
+#include <optional>
 
 #include "engine/core/harmonics.h"
+#include "engine/render/sky/sky_cube.h"
 #include "shaders/shared/indirect.h"
 
 namespace skerry::render {
 namespace {
 
-constexpr int kCubeEdge = 20;  // texels along a face of the cube that the sky is sampled on
-constexpr int kStrata = 8;     // samples of an octant, each way
+constexpr int kStrata = 8;  // samples of an octant, each way
 constexpr float kMostHalf = 65504.0f;
 constexpr std::size_t kFaces = 6;
-
-/// The sky about the world's axes, a texel in the middle of each of kCubeEdge^2 parts of a cube's
-/// sides. Smooth enough to be interpolated: discs are not in it.
-class SkyCube {
- public:
-  explicit SkyCube(const SkyModel& sky) {
-    for (int side = 0; side < 6; ++side)
-      for (int j = 0; j < kCubeEdge; ++j)
-        for (int i = 0; i < kCubeEdge; ++i) {
-          const double u = (2.0 * i + 1.0) / kCubeEdge - 1.0, v = (2.0 * j + 1.0) / kCubeEdge - 1.0;
-          glm::dvec3 d;
-          d[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
-          d[(side / 2 + 1) % 3] = u;
-          d[(side / 2 + 2) % 3] = v;
-          texels_[index(side, i, j)] = glm::vec3(sky_radiance(glm::normalize(d), sky));
-        }
-  }
-  glm::vec3 at(const glm::vec3& d) const {
-    const glm::vec3 size = glm::abs(d);
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const int side = 2 * axis + (d[axis] < 0.0f ? 1 : 0);
-    const float u = place(d[(axis + 1) % 3] / size[axis]),
-                v = place(d[(axis + 2) % 3] / size[axis]);
-    const int i = std::min(static_cast<int>(u), kCubeEdge - 2),
-              j = std::min(static_cast<int>(v), kCubeEdge - 2);
-    const float fu = u - static_cast<float>(i), fv = v - static_cast<float>(j);
-    return glm::mix(
-        glm::mix(texels_[index(side, i, j)], texels_[index(side, i + 1, j)], fu),
-        glm::mix(texels_[index(side, i, j + 1)], texels_[index(side, i + 1, j + 1)], fu), fv);
-  }
-
- private:
-  static float place(float u) {
-    return std::clamp((u + 1.0f) * (0.5f * kCubeEdge) - 0.5f, 0.0f, kCubeEdge - 1.0f);
-  }
-  static std::size_t index(int side, int i, int j) {
-    return static_cast<std::size_t>((side * kCubeEdge + j) * kCubeEdge + i);
-  }
-  std::array<glm::vec3, 6 * kCubeEdge * kCubeEdge> texels_;
-};
 
 /// A direction of the lattice, and for each axis the face it lights, the lobe and its share.
 struct LobeSample {
@@ -166,7 +127,9 @@ void put_island(const SkyCube& cube, const Celestial& bodies, const glm::dquat& 
 std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bodies,
                                        std::span<const IslandPlacement> islands,
                                        const std::vector<bool>& shown) {
-  const SkyCube cube(sky);
+  std::optional<SkyCube> made;  // discs are not in it: smooth enough to be interpolated
+  if (!sky.panorama) made.emplace([&](glm::dvec3 d) { return sky_radiance(d, sky); });
+  const SkyCube& cube = made ? *made : sky.panorama->smooth();
   constexpr std::size_t kTexels = shared::kIndirectIslandTexels;
   static_assert(kFaces * shared::kIndirectSkyTexels == shared::kIndirectHarmonics);
   std::vector<glm::uvec4> out(islands.size() * kTexels, glm::uvec4(0));

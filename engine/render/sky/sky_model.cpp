@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <numbers>
+#include <utility>
 
 #include "engine/render/light/cascades.h"
 
@@ -29,13 +30,6 @@ double smooth_step(double low, double high, double x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// Nearest place of the lattice of elevations.
-double lattice_sine(double sine) {
-  constexpr double kPerDegree = 128.0;
-  const double degrees = std::round(altitude_deg(sine) * kPerDegree) / kPerDegree;
-  return std::sin(degrees * kDegree);
-}
-
 /// Whether any air that an eye sees can be lit: the sun reaches the last air 10 degrees behind its
 /// horizon, which the eye sees 10 degrees behind its own.
 bool lights_air(double sine, double horizon) {
@@ -43,15 +37,47 @@ bool lights_air(double sine, double horizon) {
   return altitude_deg(sine) > horizon / kDegree - kReachDeg;
 }
 
-std::shared_ptr<const BodyScattering> scattering_of(double height_km, double body_sine,
-                                                    std::size_t body, const SkyModel* before) {
-  const double sine = lattice_sine(body_sine);
-  if (before) {
-    const std::shared_ptr<const BodyScattering>& old = before->scattering[body];
-    if (old && old->height_km == height_km && old->sine == sine) return old;
-  }
+/// Nearest place of a lattice whose steps are a part of a height, two to its own power [km].
+double on_height_lattice(double height_km, double parts_log2, double least_km) {
+  const double step = std::max(least_km, std::exp2(std::floor(std::log2(height_km)) - parts_log2));
+  return std::round(height_km / step) * step;
+}
+
+std::shared_ptr<const BodyScattering> node_of(double height_km, double sine, std::size_t body,
+                                              const SkyModel* before) {
+  if (before)
+    for (const std::shared_ptr<const BodyScattering>& old : before->nodes[body])
+      if (old && old->height_km == height_km && old->sine == sine) return old;
   return std::make_shared<const BodyScattering>(
       BodyScattering{height_km, sine, sky_scattering(world_atmosphere(), height_km, sine)});
+}
+
+SkyScattering between_nodes(const SkyScattering& low, const SkyScattering& high, float share) {
+  SkyScattering out(low.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = {glm::mix(low[i].rayleigh, high[i].rayleigh, share),
+              glm::mix(low[i].mie, high[i].mie, share),
+              glm::mix(low[i].multiple, high[i].multiple, share)};
+  return out;
+}
+
+/// Sets what the air scatters of a body.
+void set_scattering(SkyModel& model, std::size_t body, double eye_km, double body_sine,
+                    const SkyModel* before) {
+  constexpr double kPerDegree = 16.0, kPartsLog2 = 6.0, kLeastKm = 2e-3;
+  const double height_km = std::max(kLeastKm, on_height_lattice(eye_km, kPartsLog2, kLeastKm));
+  const double place = altitude_deg(body_sine) * kPerDegree, below = std::floor(place);
+  std::array<std::shared_ptr<const BodyScattering>, 2>& nodes = model.nodes[body];
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    nodes[i] = node_of(height_km, std::sin((below + static_cast<double>(i)) / kPerDegree * kDegree),
+                       body, before);
+  if (before && before->nodes[body] == nodes && before->scattering[body]->sine == body_sine) {
+    model.scattering[body] = before->scattering[body];
+    return;
+  }
+  model.scattering[body] = std::make_shared<const BodyScattering>(BodyScattering{
+      height_km, body_sine,
+      between_nodes(nodes[0]->table, nodes[1]->table, static_cast<float>(place - below))});
 }
 
 glm::dvec3 body_radiance(glm::dvec3 dir, const shared::SkyBody& body, const SkyScattering& table,
@@ -81,8 +107,10 @@ glm::dvec3 space_to(double height_km, double sine) {
 
 }  // namespace
 
-SkyModel sky_model(const Celestial& sky, double height_km, const SkyModel* before) {
+SkyModel sky_model(const Celestial& sky, double height_km, const SkyModel* before,
+                   std::shared_ptr<const PanoramaSky> panorama) {
   SkyModel model;
+  model.panorama = std::move(panorama);
   shared::SkyConstants& c = model.constants;
   const double horizon_at = horizon_sine(height_km), horizon = std::asin(horizon_at);
   c.height_km = static_cast<float>(height_km);
@@ -90,17 +118,17 @@ SkyModel sky_model(const Celestial& sky, double height_km, const SkyModel* befor
   c.horizon_sine = static_cast<float>(horizon_at);
   c.sun.to_body = sky.to_sun;
   c.moon.to_body = sky.to_moon;
-  if (sky.sun_exists && lights_air(sky.to_sun.y, horizon)) {
+  if (!model.panorama && sky.sun_exists && lights_air(sky.to_sun.y, horizon)) {
     c.sun.light = sunlight_in_space();
-    model.scattering[0] = scattering_of(height_km, sky.to_sun.y, 0, before);
+    set_scattering(model, 0, height_km, sky.to_sun.y, before);
   }
   const double moon_share = sky.moon_exists ? moon_beside_sun(sky.to_sun.y) : 0.0;
   // As bright as on the ground, but not as blue: moonlit land shall stand out from its sky.
   const glm::dvec3 from_moon =
       luminance(moonlight(sky.moon_phase)) * moon_share * sunlight_in_space();
-  if (from_moon != glm::dvec3(0.0) && lights_air(sky.to_moon.y, horizon)) {
+  if (!model.panorama && from_moon != glm::dvec3(0.0) && lights_air(sky.to_moon.y, horizon)) {
     c.moon.light = from_moon;
-    model.scattering[1] = scattering_of(height_km, sky.to_moon.y, 1, before);
+    set_scattering(model, 1, height_km, sky.to_moon.y, before);
   }
   // A linear law's mean over the disc is 1 - u / 3: the darkened disc sends the sun's whole
   // irradiance.
@@ -128,6 +156,7 @@ SkyModel sky_model(const Celestial& sky, double height_km, const SkyModel* befor
   const double moonlit = luminance(sky.moon_irradiance) / (kMoonToSun * kPi);
   c.stars = static_cast<float>((1.0 - smooth_step(-13.0, -5.0, altitude_deg(sky.to_sun.y))) *
                                (1.0 - 0.66 * std::min(1.0, moonlit)));
+  if (model.panorama) c.stars = 0.0f;
   return model;
 }
 
@@ -147,8 +176,7 @@ double eye_height_km(double blocks_above_origin) {
   constexpr double kLowestKm = 1e-3, kHighestKm = 1000.0;
   const double height =
       std::clamp(blocks_above_origin * 1e-3 + kWorldAboveMistKm, kLowestKm, kHighestKm);
-  const double step = std::max(kLowestKm, std::exp2(std::floor(std::log2(height)) - 7.0));
-  return std::round(height / step) * step;
+  return on_height_lattice(height, 7.0, kLowestKm);
 }
 
 double eye_height_km(const FrameInput& input) {
@@ -156,6 +184,7 @@ double eye_height_km(const FrameInput& input) {
 }
 
 glm::dvec3 sky_radiance(glm::dvec3 dir, const SkyModel& sky) {
+  if (sky.panorama) return sky.panorama->radiance(dir);
   const shared::SkyConstants& c = sky.constants;
   const double row =
       sky_row_place(std::asin(std::clamp(dir.y, -1.0, 1.0)), static_cast<double>(c.horizon));

@@ -12,7 +12,8 @@ bool has_fault(const FramePlan& plan) {
 
 template <Fault::In in>
 const char* needs_fault(const FramePlan& plan) {
-  return needs(has_fault<in>(plan) && (in == Fault::In::kSkyTable || !plan.shows_channel()));
+  return needs(has_fault<in>(plan) &&
+               (in == Fault::In::kSkyTable ? !plan.sky.panorama : !plan.shows_channel()));
 }
 
 template <Fault::In in>

@@ -7,6 +7,7 @@ namespace skerry::render {
 FrameStep sky_table_step() {
   return {
       {{[](const FramePlan& plan) -> const char* {
+          if (plan.sky.panorama) return "a panorama is the sky";
           return plan.bake_sky
                      ? nullptr
                      : "sun, moon and the eye's height have not changed since the table was made";

@@ -1,14 +1,16 @@
 #include "engine/render/steps/water_steps.h"
 
 #include "engine/render/steps/reasons.h"
+#include "engine/render/surface/tail_pass.h"
 
 namespace skerry::render {
 
 FrameStep draw_translucent_step() {
-  return {{{needs_water, {"draw_translucent"}}}, [](FrameAssembly& f) {
-            f.layers = TranslucentPass::draw(f.graph, f.pipelines, f.scene,
-                                             f.revealed ? *f.revealed : *f.draws, *f.geometry,
+  return {{{needs_water, {"draw_translucent", "sum_tail"}}}, [](FrameAssembly& f) {
+            const CulledDraws& draws = f.revealed ? *f.revealed : *f.draws;
+            f.layers = TranslucentPass::draw(f.graph, f.pipelines, f.scene, draws, *f.geometry,
                                              f.plan.settings.water_layers);
+            f.layers = TailPass::add(f.graph, f.pipelines, f.scene, draws, *f.geometry, f.layers);
           }};
 }
 

@@ -184,7 +184,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             lights.bindings(),
             lights.reach_binding(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
-            gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+            gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
             pass.into.bindings(scene),
             gpu::storage<shared::kSamplesBinding>(pass.samples),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),

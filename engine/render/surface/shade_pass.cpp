@@ -21,14 +21,17 @@ using gpu::Use;
 /// Pixels of a row that have one sky's two ends in common, where light is that of fewer pixels.
 constexpr std::uint32_t kSkyRun = 4;
 
-std::vector<gpu::SpecConstant> constants_of_sky(const ShadeIn& in) {
+std::vector<gpu::SpecConstant> constants_of_sky(const SceneRefs& scene, const ShadeIn& in) {
   const bool may_differ = in.sampled && in.sampled->settings.shading_tolerance > 0.0f;
-  const bool plain = may_differ && !in.stars && !in.discs;
+  const bool plain = may_differ && !in.stars && !in.discs && !scene.panorama;
   const std::uint32_t run = plain ? kSkyRun : 1;
-  return {{shared::kStarsConstant, in.stars ? 1u : 0u},
-          {shared::kDiscsConstant, in.discs ? 1u : 0u},
-          {shared::kRunConstant, run},
-          {shared::kGroupSizeConstant, shared::kTileEdge * shared::kTileEdge / run}};
+  std::vector<gpu::SpecConstant> constants{
+      {shared::kStarsConstant, in.stars ? 1u : 0u},
+      {shared::kDiscsConstant, in.discs ? 1u : 0u},
+      {shared::kRunConstant, run},
+      {shared::kGroupSizeConstant, shared::kTileEdge * shared::kTileEdge / run}};
+  if (scene.panorama) constants.push_back({shared::kPanoramaConstant, 1});
+  return constants;
 }
 
 /// Adds surfaces, at every pixel of their tiles.
@@ -73,7 +76,7 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
             surfaces.bindings(scene.point_sampler), occupancy.bindings(), clouds.light_bindings(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
-            gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+            gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
             into.bindings(scene),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler),
@@ -89,7 +92,7 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
   const SurfaceReads surfaces(on.geometry);
   const auto sky_program =
       gpu::compute(pipelines, programs::kShadeSky,
-                   into.with_output(surfaces.with_depth(constants_of_sky(in)), scene));
+                   into.with_output(surfaces.with_depth(constants_of_sky(scene, in)), scene));
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
@@ -106,7 +109,7 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
                   gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
                   gpu::storage<shared::kSurfacesBinding>(surfaces.words),
                   gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
-                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
                   into.bindings(scene), tiles.bindings(TileKind::kOpen));
         dispatch_tiles(c, tiles, TileKind::kOpen);
       });
@@ -131,7 +134,7 @@ void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
 /// Sky for every pixel.
 void shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                           const ShadeIn& in, ShadeTarget& into) {
-  std::vector<gpu::SpecConstant> constants = constants_of_sky(in);
+  std::vector<gpu::SpecConstant> constants = constants_of_sky(scene, in);
   constants.push_back({shared::kSkyAloneConstant, 1});
   const auto program =
       gpu::compute(pipelines, programs::kShadeSky, into.with_output(std::move(constants), scene));
@@ -149,7 +152,7 @@ void shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sce
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::storage<shared::kSkyBinding>(scene.sky),
                   gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
-                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.lut_sampler),
+                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
                   into.bindings(scene),
                   // Neither surfaces nor tiles are read.
                   gpu::storage<shared::kSurfacesBinding>(scene.no_words),

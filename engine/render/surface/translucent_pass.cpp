@@ -25,11 +25,13 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
   const glm::uvec4 shown = scene.layers_area;
   const VkRect2D area{{static_cast<std::int32_t>(shown.x), static_cast<std::int32_t>(shown.y)},
                       {shown.z - shown.x, shown.w - shown.y}};
+  out.surfaces = graph.create(gpu::ImageDesc{.name = "translucent surfaces",
+                                             .format = VK_FORMAT_R32_UINT,
+                                             .extent = scene.size,
+                                             .layers = out.count,
+                                             .array = true});
   for (std::uint32_t k = 0; k < out.count; ++k) {
-    gpu::ImageRef& words = out.surfaces[k];
     gpu::ImageRef& depth = out.depth[k];
-    words = graph.create(gpu::ImageDesc{
-        .name = "translucent surfaces", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
     depth = graph.create(gpu::ImageDesc{
         .name = "translucent depth", .format = VK_FORMAT_D32_SFLOAT, .extent = scene.size});
     const gpu::ImageRef previous = k == 0 ? opaque_depth : out.depth[k - 1];
@@ -49,7 +51,7 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           // images takes 0.3 ms of a GPU with few raster units at 1920x1080, and drawing the water
           // a hundredth of it.
           b.area(area);
-          words = b.color(words, gpu::Load::discarded());
+          out.surfaces = b.color(out.surfaces, gpu::Load::discarded(), k);
           depth = b.depth(depth, gpu::Load::cleared({}));
         },
         [scene, draws, opaque_depth, previous, program](gpu::Commands& c) {
@@ -82,6 +84,7 @@ class LayerReads {
     std::vector<gpu::SpecConstant> own = clouds_.with_clouds(
         with_light({{shared::kWaterLayersConstant, layers_.count}}, scene_, bool{maps_}));
     if (layers_.mirrored_clouds) own.push_back({shared::kMirroredCloudsConstant, 1});
+    if (layers_.tail_depths) own.push_back({shared::kTailConstant, 1});
     return lit_ ? walls_.with_walls(lights_.with_lights(std::move(own))) : own;
   }
   void declare(gpu::PassBuilder& b) const {
@@ -91,11 +94,12 @@ class LayerReads {
     if (layers_.mirrored_clouds) b.read(layers_.mirrored_clouds, Use::kComputeSampled);
     lights_.declare(b);
     walls_.declare(b);
-    for (std::uint32_t k = 0; k < layers_.count; ++k) {
-      b.read(layers_.surfaces[k], Use::kComputeRead);
+    for (std::uint32_t k = 0; k < layers_.count; ++k)
       b.read(layers_.depth[k], Use::kComputeSampled);
-    }
-    for (const gpu::ImageRef ref : {opaque_depth_, scene_.sky_lut, scene_.block_textures})
+    for (const gpu::ImageRef ref : {layers_.tail_depths, layers_.tail_light})
+      if (ref) b.read(ref, Use::kComputeSampled);
+    for (const gpu::ImageRef ref :
+         {layers_.surfaces, opaque_depth_, scene_.sky_lut, scene_.block_textures})
       b.read(ref, Use::kComputeSampled);
     if (maps_) b.read(maps_, Use::kComputeSampled);
   }
@@ -105,7 +109,7 @@ class LayerReads {
         gpu::storage<shared::kIslandsBinding>(scene_.islands),
         gpu::storage<shared::kMaterialsBinding>(scene_.materials),
         gpu::sampled<shared::kDepthsBinding>(opaque_depth_, scene_.point_sampler),
-        gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.lut_sampler),
+        gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.sky_sampler),
         gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene_, maps_),
                                                  scene_.point_sampler),
         gpu::sampled<shared::kBlockTexturesBinding>(scene_.block_textures, scene_.block_sampler),
@@ -134,7 +138,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
   // Inside a medium every pixel is looked at through it; else only those with a translucent
   // surface.
   const Tiles tiles = classify_tiles(graph, pipelines, scene, "classify_translucent_tiles",
-                                     {.words = in.layers.surfaces[0],
+                                     {.words = in.layers.surfaces,
                                       .depth = in.layers.depth[0],
                                       .area = scene.layers_area,
                                       .area_alone = !in.inside_medium});

@@ -14,28 +14,27 @@ namespace skerry::render {
 struct TranslucentPass {
   /// The peeled surfaces, nearest first.
   struct Layers {
-    std::array<gpu::ImageRef, 4> surfaces;  ///< words, of any value where there is no surface
-    std::array<gpu::ImageRef, 4> depth;     ///< read through shaders/include/scene/layers.glsl:
-                                            ///< reverse-Z, 0 where there is no surface
+    gpu::ImageRef surfaces;              ///< array of words, of any value where there is no surface
+    std::array<gpu::ImageRef, 4> depth;  ///< read through shaders/include/scene/layers.glsl:
+                                         ///< reverse-Z, 0 where there is no surface
     std::uint32_t count = 0;
-    gpu::ImageRef mirrored_clouds;  ///< CloudPass::add_mirrored(); empty: none are mirrored
+    gpu::ImageRef tail_depths, tail_light;  ///< of TailPass; empty: what is behind is not drawn
+    gpu::ImageRef mirrored_clouds;          ///< CloudPass::add_mirrored(); empty: none are mirrored
 
     /// Layers that are not kept are never read; the first one is bound in their place so that every
     /// binding is valid.
     auto bindings(VkSampler point) const {
       const auto kept = [this](std::size_t k) { return k < count ? k : 0; };
       return std::tuple{
-          gpu::each_of<shared::kLayerSurfacesBinding, 4>(
-              [&]<std::uint32_t kBinding>(std::size_t k) {
-                return gpu::storage<kBinding>(surfaces[kept(k)]);
-              }),
+          gpu::sampled<shared::kLayerSurfacesBinding>(surfaces, point),
+          gpu::sampled<shared::kTailDepthsBinding>(tail_depths ? tail_depths : depth[0], point),
+          gpu::sampled<shared::kTailLightBinding>(tail_light ? tail_light : depth[0], point),
           gpu::each_of<shared::kLayerDepthsBinding, 4>([&]<std::uint32_t kBinding>(std::size_t k) {
             return gpu::sampled<kBinding>(depth[kept(k)], point);
           })};
     }
   };
-  /// @param layers surfaces kept a pixel, 1..4: what lies behind the last one is seen as if nothing
-  /// translucent followed.
+  /// @param layers surfaces kept a pixel, 1..4.
   static Layers draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      const CulledDraws& draws, const Geometry& geometry, int layers);
   struct In {

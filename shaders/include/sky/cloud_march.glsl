@@ -57,11 +57,14 @@ void add_volume(const uint v, vec3 p, vec3 dir, inout Medium m) {
   }
 }
 
+// The sky lights clouds by itself, as sun and moon light the air too little.
+layout(constant_id = kCloudSkyConstant) const bool kCloudSky = false;
+
 // Radiance that clouds at a place send to the eye, over their extinction. @param air what clear air leaves of it, @param sky the light it has.
 vec3 source_at(vec3 p, vec4 sun_phases, vec4 moon_phases, float air, vec3 sky) {
-  if (kBodies == 0u) return vec3(0.0);
+  if (kBodies == 0u && !kCloudSky) return vec3(0.0);
   vec3 light = vec3(0.0);
-  float depth = 0.0, open = 0.0;
+  float depth = 0.0, open = kBodies == 0u ? 1.0 : 0.0;
   if ((kBodies & 2u) != 0u) {
     depth = cloud_depth(1u, p);
     open = past_islands(kMoonCascade, p);
@@ -73,7 +76,11 @@ vec3 source_at(vec3 p, vec4 sun_phases, vec4 moon_phases, float air, vec3 sky) {
     light += clouds.lights[0].irradiance * (terms_left(sun_phases, depth) * open);
   }
   // The sky's light comes from all sides, and goes in as far as what is scattered most.
-  light += clouds.sky_above * (open * exp(-depth * kTermDepth.z));
+  if (kBodies != 0u) light += clouds.sky_beside_body * (open * exp(-depth * kTermDepth.z));
+  if (kCloudSky) {
+    light += clouds.sky_above * exp(-cloud_depth(kCloudZenith, p) * kTermDepth.z);
+    open = mix(1.0, open, frame.body_in_air);  // of the air's own light
+  }
   return light * (kCloudAlbedo * air) + sky * (open * (1.0 - air));
 }
 
@@ -265,7 +272,7 @@ Clouded march_clouds(uvec2 pixel, vec3 origin, vec3 dir, float begin, float end,
   float enough = passes_glow() ? kDiscHidden : clear_enough(dir);
   Clouded seen = Clouded(vec3(0.0), 1.0);
   vec4 sun_phases = term_phases(dot(dir, clouds.lights[0].to_light)), moon_phases = term_phases(dot(dir, clouds.lights[1].to_light));
-  vec3 sky = kBodies != 0u && kHaze && t < stop ? sample_sky(sky_lut, dir, frame.sky_horizon) : vec3(0.0);
+  vec3 sky = (kBodies != 0u || kCloudSky) && kHaze && t < stop ? sample_sky(sky_lut, dir, frame.sky_horizon, frame.sky_yaw) : vec3(0.0);
   for (uint i = 0u; i < kMostIterations && t < stop && seen.clear > enough; ++i) {
     CloudsHere here = clouds_here(t, growth, stop);
     if (here.whole == 1e30) {

@@ -83,7 +83,7 @@ vec3 sky_seen(vec3 dir, bool with_stars, bool with_discs) {
   // A pixel's mean angle: off the axis it covers the cube of the cosine of the middle one's sky.
   float c = max(0.1, dot(dir, frame.ray_forward));
   float pixel_angle = frame.pixel_to_ndc.y * length(frame.ray_up) * c * sqrt(c);
-  vec3 colour = sample_sky(sky_lut, dir, frame.sky_horizon);
+  vec3 colour = sample_sky(sky_lut, dir, frame.sky_horizon, frame.sky_yaw);
   if (with_discs) colour += discs(dir, pixel_angle);
   if (with_stars) colour += stars(dir, pixel_angle);
   return colour;

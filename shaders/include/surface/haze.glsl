@@ -11,6 +11,6 @@ vec3 seen_through_air(vec3 radiance, vec3 p, float sky) {
   float lit = kBodies == 0u ? 0.0 : light_in_air(0u, p) * light_through_clouds((kBodies & 1u) != 0u ? 0u : 1u, p * 0.5);
   if (kIndirect != kIndirectOff) lit = mix(sky, 1.0, lit * frame.body_in_air);
   float clear = clear_air(p);
-  return radiance * clear + sample_sky(sky_lut, p / length(p), frame.sky_horizon) * (lit * (1.0 - clear));
+  return radiance * clear + sample_sky(sky_lut, p / length(p), frame.sky_horizon, frame.sky_yaw) * (lit * (1.0 - clear));
 }
 #endif

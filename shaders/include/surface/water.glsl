@@ -2,21 +2,7 @@
 #ifndef SKERRY_WATER_GLSL
 #define SKERRY_WATER_GLSL
 #include "shared/constants.h"
-
-const float kWaterIndex = 1.333;
-
-// Schlick's approximation of the Fresnel reflectance, for light that enters or leaves a medium of index n.
-float fresnel(float cosine, bool leaving, float n) {
-  float r0 = (n - 1.0) / (n + 1.0);
-  r0 *= r0;
-  cosine = clamp(cosine, 0.0, 1.0);
-  if (leaving) {  // past the critical angle everything is reflected
-    float sine2 = n * n * (1.0 - cosine * cosine);
-    if (sine2 >= 1.0) return 1.0;
-    cosine = sqrt(1.0 - sine2);
-  }
-  return r0 + (1.0 - r0) * pow(1.0 - cosine, 5.0);
-}
+#include "include/surface/media.glsl"
 
 // Light mirrored by a wavy surface: GGX lobe of the waves too small to draw. @param irradiance of a surface that faces the light.
 vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float roughness) {
@@ -87,26 +73,11 @@ Reach light_at(uvec2 pixel, float z, LitPoint at) {
   return r;
 }
 
-// A medium scatters this share of its mean absorption, white.
-const float kScattering = 0.3;
-
-vec3 scattering(Material medium) { return vec3(kScattering * dot(medium.absorption, vec3(1.0 / 3.0))); }
-vec3 extinction(Material medium) { return medium.absorption + scattering(medium); }
-
-// 1 - exp(-x), to the last digits for small x.
-vec3 opacities(vec3 x) { return mix(1.0 - exp(-x), x * (1.0 - x * (0.5 - x * (1.0 / 6.0))), lessThan(x, vec3(0.02))); }
-
-// Radiance a stretch of medium sends towards the eye when `light` falls on it: single scattering, isotropic phase 1 / (4 pi).
-vec3 scattered(Material medium, vec3 light, float path) {
-  vec3 total = max(extinction(medium), vec3(1e-6));
-  return scattering(medium) / total * light * (0.25 * kInvPi) * opacities(total * path);
-}
-
 vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
   float ray_length = length(ray);
   vec3 to_eye = -ray / ray_length;
   float opaque = texelFetch(depths, ivec2(pixel), 0).r;
-  vec3 colour = vec3(0.0), through = vec3(1.0), light_in = vec3(0.0);
+  vec3 colour = vec3(0.0), through = vec3(1.0), light_in = vec3(0.0), sky_mirrored = vec3(0.0);
   uint medium = frame.camera_medium;
   float at = 0.0;  // blocks along the ray
   if (medium != 0u) {
@@ -133,9 +104,11 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = reflect(-to_eye, shading);
     Reach reach = light_at(pixel, t, LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word));
-    vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror, frame.sky_horizon) : scattered(m, light_in, 1e3);
+    vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror, frame.sky_horizon, frame.sky_yaw) : scattered(m, light_in, 1e3);
     if (kMirroredClouds && entering && k == 0u) mirrored_sky = past_mirrored_clouds(mirrored_clouds, mirrored_sky, pixel);
-    colour += through * (reach.mirrored + reflected * mirrored_sky * (entering ? reach.any : 1.0));
+    mirrored_sky *= entering ? reach.any : 1.0;
+    if (entering) sky_mirrored = mirrored_sky;
+    colour += through * (reach.mirrored + reflected * mirrored_sky);
     through *= 1.0 - reflected;
     // What the texture covers (the frame of a pane) is a diffuse surface.
     for (int once = wavy ? 0 : 1; once > 0; --once) {
@@ -147,8 +120,18 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     medium = entering ? block : 0u;
     at = next;
   }
-  if (medium != 0u) {
-    float end = opaque > 0.0 ? view_distance(opaque, frame.near_plane) * ray_length : 1e4;
+  float end = end_of_media(opaque, at, ray_length);
+  bool tail = kTail && layer_surface(kWaterLayers - 1u, ivec2(pixel)) != 0u;
+  if (tail) {
+    vec4 depths_behind = texelFetch(tail_depths, ivec2(pixel), 0), light_behind = texelFetch(tail_light, ivec2(pixel), 0);
+    vec3 in_media = depths_behind.rgb;
+    if (medium != 0u) in_media += extinction(materials[medium]) * max(end - at, 0.0);
+    in_media = max(in_media, 0.0);
+    vec3 sent = light_behind.rgb * (kInvPi * light_in) + light_behind.a * sky_mirrored + scattered_share(in_media) * light_in;
+    vec3 depth = in_media + depths_behind.a;
+    colour += through * sent * mean_transmittance(depth);
+    through *= exp(-depth);
+  } else if (medium != 0u) {
     Material m = materials[medium];
     colour += through * scattered(m, light_in, max(end - at, 0.0));
     through *= exp(-extinction(m) * max(end - at, 0.0));

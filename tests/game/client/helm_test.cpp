@@ -95,22 +95,25 @@ class HelmTest : public testing::Test {
 TEST_F(HelmTest, ShowsTheSpeedAtWhichTheIslandMovesAndSaysThatItIsHeldFast) {
   wait_until_it_moves();
   std::vector<std::string> lines;
-  double held_after_s = -1.0, now_s = 0.0, fastest = 0.0;
+  double held_after_s = -1.0, now_s = 0.0, fastest = 0.0, bump = 0.0;
   for (int i = 0; i < 600; ++i) {
     const auto line = frame(1.0, 1.0 / 60.0);
     now_s += watched_s_;
     if (line) lines.push_back(*line);
     ASSERT_NEAR(helm_.speed() * watched_s_, moved_, 1e-9);
     fastest = std::max(fastest, helm_.speed());
+    EXPECT_TRUE(helm_.bump() == 0.0 || bump == 0.0) << "it is heard once";
+    bump = std::max(bump, helm_.bump());
     if (helm_.held_fast() && held_after_s < 0.0) held_after_s = now_s;
   }
-  ASSERT_EQ(lines.size(), 2u) << "each thing is said once";
+  ASSERT_EQ(lines.size(), 2u) << "each thing is said once: " << testing::PrintToString(lines);
   EXPECT_EQ(lines[0].rfind(island_name(kRaft) + " bumped into something at ", 0), 0u) << lines[0];
   EXPECT_EQ(lines[1],
             island_name(kRaft) + " is held fast by another island: back off, rise or turn");
   // 2 blocks/s^2 over the gap of 2 blocks are 2.8 blocks/s, and take 1.4 s.
   EXPECT_GT(fastest, 2.0);
   EXPECT_LT(fastest, 2.83);
+  EXPECT_EQ(bump, fastest);
   EXPECT_GT(held_after_s, 0.6);
   EXPECT_LT(held_after_s, 4.0);
   EXPECT_TRUE(helm_.held_fast());

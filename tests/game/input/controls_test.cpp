@@ -196,6 +196,22 @@ TEST(Controls, ThePointerTurnsTheHeadTheWayItMoves) {
   EXPECT_LT(player.eye(nothing).pitch_deg, 0.0);  // down
 }
 
+TEST(Controls, UpLooksDownWhereThatIsWantedAndSidesStay) {
+  Input input;
+  input.move_pointer({0.0, 0.0});
+  input.move_pointer({10.0, 20.0});
+  Bindings bindings = default_bindings();
+  const platform::InputFrame frame = input.take();
+  const ActionFrame actions(frame, bindings);
+  const auto turned = [&] {
+    return turned_deg({&actions, &bindings, frame.mouse_delta, 0.01}, 70.0);
+  };
+  const glm::dvec2 usual = turned();
+  bindings.inverted = true;
+  EXPECT_EQ(turned(), glm::dvec2(usual.x, -usual.y));
+  EXPECT_LT(usual.y, 0.0);
+}
+
 TEST(Controls, ViewDistanceStepsStayInRangeAndComeBack) {
   EXPECT_EQ(stepped_view_distance(1000, 1), 1250u);
   EXPECT_EQ(stepped_view_distance(1250, -1), 1000u);
@@ -215,13 +231,13 @@ TEST(DayClock, ShowsTheGivenTimeUntilTurnedThenWholeStepsAroundMidnight) {
   clock.turn(1.5);
   EXPECT_EQ(clock.time_of_day_s(), 0);
   clock.turn(-2.0);
-  EXPECT_EQ(clock.time_of_day_s(), 86390);
+  EXPECT_EQ(clock.time_of_day_s(), 86398);
   DayClock still(45296);
   EXPECT_EQ(still.time_of_day_s(), 45296);
-  still.turn(5.0);
+  still.turn(0.5);
   EXPECT_EQ(still.time_of_day_s(), 45296);
-  for (int i = 0; i < 600; ++i) still.turn(1.0 / 6.0);
-  EXPECT_EQ(still.time_of_day_s(), 45400);
+  for (int i = 0; i < 630; ++i) still.turn(1.0 / 6.0);
+  EXPECT_EQ(still.time_of_day_s(), 45401);  // 105.5 s
 }
 
 }  // namespace

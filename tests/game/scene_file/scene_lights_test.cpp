@@ -1,4 +1,4 @@
-#include "game/scene_file/scene_lights.h"
+#include "game/scene_file/scene_contents.h"
 
 #include <gtest/gtest.h>
 

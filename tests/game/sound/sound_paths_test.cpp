@@ -9,7 +9,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <numbers>
+#include <numeric>
 #include <queue>
 #include <random>
 #include <vector>
@@ -296,7 +298,7 @@ TEST(SoundPaths, AFloodInTheOpenIsBounded) {
   SoundPaths paths(room);
   std::vector<double> ms;
   for (int i = 0; i < 21; ++i) {
-    paths.listen_at({30.5 + i % 2, 32.5, 32.5});
+    paths.listen_at({30.5 + 2 * (i % 2), 32.5, 32.5});
     const auto begin = std::chrono::steady_clock::now();
     EXPECT_TRUE(paths.path_from({32.5, 32.5, 44.5}).open);
     ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
@@ -309,6 +311,87 @@ TEST(SoundPaths, AFloodInTheOpenIsBounded) {
   EXPECT_LT(reached, 2 * SoundPaths::kMostCells);
   std::sort(ms.begin(), ms.end());
   std::printf("flood in the open: median %.2f ms, p90 %.2f ms\n", ms[10], ms[18]);
+}
+
+/// A screen on the ground: what is beyond it is heard round its edges.
+SoundRoom room_with_screen() {
+  SoundRoom room;
+  fill(room, {24, 20, 40}, {40, 40, 41}, block::kStone);
+  fill(room, {0, 0, 0}, {64, 20, 64}, block::kStone);
+  return room;
+}
+
+// Truth: paths whose flood begins where the listener is.
+TEST(SoundPaths, AFloodFromBesideTheListenerServes) {
+  const SoundRoom room = room_with_screen();
+  SoundPaths walked(room);
+  std::uint64_t fresh_floods = 0;
+  double most_db = 0.0, most_deg = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const glm::dvec3 ear{29.5 + 0.1 * i, 31.9 + 0.02 * i, 35.5};
+    walked.listen_at(ear);
+    SoundPaths fresh(room);
+    fresh.listen_at(ear);
+    for (int source = 0; source < 16; ++source) {
+      const glm::dvec3 at{26.5 + 3.0 * (source % 4), 24.5 + 2.0 * (source / 4), 43.5};
+      const SoundPath path = walked.path_from(at), truth = fresh.path_from(at);
+      ASSERT_TRUE(path.open && truth.open) << "not round the screen";
+      most_db = std::max(most_db, std::abs(20.0 * std::log10(path.gain() / truth.gain())));
+      most_deg = std::max(
+          most_deg, glm::degrees(std::acos(std::min(1.0, glm::dot(path.arrival, truth.arrival)))));
+    }
+    fresh_floods += fresh.floods();
+  }
+  std::printf("floods %d of %d, off by %.2f dB and %.1f degrees at most\n",
+              static_cast<int>(walked.floods()), static_cast<int>(fresh_floods), most_db, most_deg);
+  EXPECT_LE(walked.floods(), 4u);
+  EXPECT_LT(most_db, 3.0);
+  EXPECT_LT(most_deg, 15.0);
+}
+
+TEST(InSight, IsWhatTheStraightWaySays) {
+  std::mt19937 dice(11);
+  SoundRoom room;
+  for (int i = 0; i < 20000; ++i)
+    room.set({int(dice() % 64), int(dice() % 64), int(dice() % 64)},
+             dice() % 3 == 0 ? block::kWater : block::kStone);
+  std::uniform_real_distribution<double> place(-4.0, 68.0);
+  int open = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 from{place(dice), place(dice), place(dice)};
+    const glm::dvec3 to = from + glm::dvec3{place(dice), place(dice), place(dice)} * 0.2;
+    const bool sees = in_sight(room, from, to);
+    ASSERT_EQ(sees, straight_way(room, from, to).open) << i;
+    open += sees ? 1 : 0;
+  }
+  EXPECT_GT(open, 4000);
+  EXPECT_LT(open, 16000);
+}
+
+// A listener behind the screen walks, sixty frames to six voxels.
+TEST(SoundPaths, OfSixtyFourSourcesAreFoundInASmallPartOfAFrame) {
+  const SoundRoom room = room_with_screen();
+  SoundPaths paths(room);
+  constexpr int kFrames = 60;
+  std::vector<double> ms;
+  int round = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    paths.listen_at({29.5 + 0.1 * i, 32.5, 35.5});
+    const auto begin = std::chrono::steady_clock::now();
+    for (int source = 0; source < 64; ++source) {
+      const glm::dvec3 at{25.5 + 2.0 * (source % 8), 23.5 + 2.0 * (source / 8), 44.5};
+      round += paths.path_from(at).open ? 1 : 0;
+    }
+    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+                     .count());
+  }
+  EXPECT_GT(round, kFrames * 32) << "not round the screen";
+  EXPECT_LE(paths.floods(), 4u);
+  const double mean_ms = std::accumulate(ms.begin(), ms.end(), 0.0) / kFrames;
+  std::sort(ms.begin(), ms.end());
+  std::printf("64 sources, a frame: median %.3f ms, mean %.3f ms, most %.2f ms\n", ms[kFrames / 2],
+              mean_ms, ms.back());
+  EXPECT_LT(ms[kFrames / 10], 5.0);
 }
 
 TEST(RoomEcho, MeasuresVolumeAndSurfaceOfABox) {

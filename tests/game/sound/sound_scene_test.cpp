@@ -4,16 +4,22 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 
 #include "game/player/player.h"
 #include "game/sound/game_sound.h"
 #include "game/sound/play_sounds.h"
+#include "tests/folder.h"
 #include "tests/game/sound/listen.h"
+#include "tests/game/sound/wav_file.h"
 #include "world/islands/stored_voxels.h"
 
 namespace skerry::game {
@@ -53,18 +59,31 @@ world::WorldPos at(double x, double y, double z) {
   return world::moved({}, {x, y, z});
 }
 
-/// Scene and mixer, frame after frame.
+/// Scene and mixer, frame after frame. What was heard in all becomes a file where recordings are
+/// asked for, named after the test.
 struct Ears {
   SoundScene scene;
   Mixer mixer{sound_bank()};
   SoundFrame frame;
   std::vector<MixCommand> last;
+  std::vector<float> heard;  // left and right, since the beginning
 
   explicit Ears(std::shared_ptr<world::World> world, world::WorldPos eye) {
     frame.world = std::move(world);
     frame.listener = {eye, 1, 0.0};
     frame.seconds = kFrame;
   }
+  ~Ears() {
+    const auto folder = recordings_folder();
+    if (!folder) return;
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::path file = *folder / (test + ".wav");
+    for (int i = 2; std::filesystem::exists(file); ++i)
+      file = *folder / (test + "_" + std::to_string(i) + ".wav");
+    EXPECT_TRUE(write_wav(file, heard)) << file;
+  }
+  Ears(const Ears&) = delete;
+  Ears& operator=(const Ears&) = delete;
   /// @return left and right of that time.
   std::vector<float> hear(double seconds) {
     std::vector<float> all, one(2 * static_cast<std::size_t>(kSampleRate * kFrame));
@@ -77,6 +96,7 @@ struct Ears {
       mixer.render(one);
       all.insert(all.end(), one.begin(), one.end());
     }
+    heard.insert(heard.end(), all.begin(), all.end());
     return all;
   }
   void edit(IVec3 voxel, world::BlockId block) {
@@ -165,6 +185,41 @@ TEST(SoundScene, VolumeZeroIsSilenceAndPauseIsToo) {
   EXPECT_GT(peak_of(ears.hear(0.1)), 0.01);  // screens click
   ears.frame.paused = false;
   EXPECT_GT(rms_of(ears.hear(0.5)), 1e-3);
+}
+
+/// Samples of a file that write_wav wrote, read by its format.
+std::vector<float> samples_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  std::vector<float> samples;
+  for (std::size_t i = kWavHeaderBytes; i + 1 < bytes.size(); i += 2) {
+    const auto low = static_cast<unsigned char>(bytes[i]);
+    const auto high = static_cast<signed char>(bytes[i + 1]);
+    samples.push_back(static_cast<float>(high * 256 + low) / 32767.0f);
+  }
+  return samples;
+}
+
+TEST(SoundScene, AFileHoldsWhatIsHeardItsLevelItsSpectrumAndItsSilence) {
+  TestWorld world;
+  world.add(1, {}, rock_with_torch());
+  Ears ears(*world, at(21.5, 21.6, 28.5));
+  ears.edit({21, 21, 23}, world::kAir);
+  (void)ears.hear(1.0);
+  ears.frame.paused = true;
+  (void)ears.hear(3.5);
+  const Folder folder;
+  ASSERT_TRUE(write_wav(folder / "heard.wav", ears.heard));
+  EXPECT_EQ(std::filesystem::file_size(folder / "heard.wav"),
+            kWavHeaderBytes + 2 * ears.heard.size());
+  const std::vector<float> read = samples_of(folder / "heard.wav");
+  ASSERT_EQ(read.size(), ears.heard.size());
+  const std::size_t second = 2 * static_cast<std::size_t>(kSampleRate);
+  const auto first = [&](const std::vector<float>& all) { return std::span(all).first(second); };
+  EXPECT_NEAR(decibels(rms_of(first(read))), decibels(rms_of(first(ears.heard))), 0.01);
+  EXPECT_NEAR(centroid_hz(first(read)), centroid_hz(first(ears.heard)), 20.0);
+  EXPECT_GT(rms_of(first(read)), 1e-4);
+  EXPECT_EQ(peak_of(std::span(read).last(second / 4)), 0.0);
 }
 
 TEST(SoundScene, WindGrowsWithSpeedAndHeightAndIsNotUnderground) {
@@ -296,6 +351,21 @@ TEST(PlaySounds, AFallLandsAndWaterSplashes) {
   // A play that begins in water, or on the ground, is silent.
   PlaySounds fresh;
   EXPECT_TRUE(walk(fresh, wet, 1.0).empty());
+}
+
+TEST(PlaySounds, AnIslandThatBumpsThudsOnceAndTheLouderTheFaster) {
+  PlaySounds sounds;
+  PlayMoment bump;
+  bump.bump = 2.0;
+  const auto slow = sounds.advance(bump, {});
+  bump.bump = 6.0;
+  const auto fast = sounds.advance(bump, {});
+  ASSERT_EQ(slow.size(), 1u);
+  ASSERT_EQ(fast.size(), 1u);
+  EXPECT_EQ(slow[0].material, SoundMaterial::kStone);
+  EXPECT_LT(slow[0].speed, 0.5f);  // deeper than any block that is placed
+  EXPECT_GT(fast[0].gain, slow[0].gain + 0.2f);
+  EXPECT_TRUE(sounds.advance({}, {}).empty());
 }
 
 TEST(PlaySounds, DiggingStrikesAndEditsAreHeardAtTheirPlace) {

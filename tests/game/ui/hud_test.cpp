@@ -1,16 +1,19 @@
 #include "game/ui/hud.h"
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "engine/core/output.h"
 #include "game/ui/gui.h"
 #include "game/ui/loading_screen.h"
 #include "game/ui/look.h"
 #include "game/words/words.h"
+#include "tests/folder.h"
 
 namespace skerry::game::ui {
 namespace {
@@ -241,6 +244,44 @@ TEST(Fonts, CyrillicGreekAndChineseComeWithTheTextThatHasThem) {
   }
   gui.fit_font();
   EXPECT_LE(gui.font().height, 16384);
+}
+
+/// Distributions have different ones of them.
+TEST(Fonts, EachTypefaceThatIsKnownIsFoundAndTheBestTaken) {
+  const Folder root;
+  EXPECT_FALSE(find_fallback_typeface(root.path()));
+  const auto files = fallback_typefaces();
+  for (auto file = files.rbegin(); file != files.rend(); ++file) {
+    std::filesystem::create_directories((root / *file).parent_path());
+    ASSERT_TRUE(write_text(root / *file, "a typeface"));
+    EXPECT_EQ(find_fallback_typeface(root.path()), root / *file);
+  }
+}
+
+/// With outlines of TrueType and of PostScript, alone and in collections.
+TEST(Fonts, EveryInstalledTypefaceDrawsChineseAndJapanese) {
+  int installed = 0;
+  for (const char* file : fallback_typefaces()) {
+    const std::filesystem::path path = std::filesystem::path("/") / file;
+    if (!std::filesystem::exists(path)) continue;
+    ++installed;
+    ImGuiContext* context = ImGui::CreateContext();
+    ImGui::SetCurrentContext(context);
+    {
+      Fonts fonts(path);
+      fonts.want("\u5c9b \u5cf6 \u3057\u307e \u30ab");
+      ASSERT_TRUE(fonts.fit());
+      EXPECT_TRUE(ImGui::GetIO().Fonts->Build());
+      constexpr ImWchar kSome[] = {0x5c9b, 0x5cf6, 0x3057, 0x30ab};
+      for (const ImWchar c : kSome) {
+        const ImFontGlyph* glyph = fonts.at(TextSize::kBody, 1.0f)->FindGlyphNoFallback(c);
+        ASSERT_NE(glyph, nullptr) << path << " lacks " << std::hex << int{c};
+        EXPECT_GT((glyph->X1 - glyph->X0) * (glyph->Y1 - glyph->Y0), 40.0f) << path;
+      }
+    }
+    ImGui::DestroyContext(context);
+  }
+  if (installed == 0) GTEST_SKIP() << "no such fonts here";
 }
 
 TEST(Messages, FadeAndRepeatInOneLine) {

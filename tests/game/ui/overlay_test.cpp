@@ -58,7 +58,44 @@ TEST(Overlay, LeavesTheViewAndTheHotbarClearInASmallWindow) {
     const float x = std::clamp(vertex.position.x, clip.x, clip.z);
     const float y = std::clamp(vertex.position.y, clip.y, clip.w);
     ASSERT_TRUE(x <= 210.0f || x >= 430.0f) << x;  // a third of the width stays clear
-    ASSERT_LE(y, 300.0f);                          // the hotbar's label begins at 304
+    ASSERT_LE(y, 286.0f);                          // a message over the hotbar begins at 287
+  }
+}
+
+TEST(Overlay, LongNamesLeaveTheValuesAsTheyAre) {
+  // Where the glyphs are that can be seen whole, and how many are cut off.
+  struct Glyphs {
+    std::vector<std::pair<float, float>> values;  // corners in the columns of values
+    int cut = 0;
+  };
+  const auto glyphs = [](const std::string& name, std::uint32_t width, std::uint32_t height) {
+    ui::Gui gui;
+    OverlayFacts facts = some_facts();
+    const std::vector<gpu::PassTime> passes{{name, 123.456}, {"sky", 0.5}};
+    const std::vector<gpu::MemoryUse> memory{{name, 1234567890}};
+    facts.passes = passes;
+    facts.memory = memory;
+    facts.gpu_ms = 200.0;
+    ui::OverlayTriangles triangles;
+    for (int frame = 0; frame < 4; ++frame) triangles = lay_out(gui, facts, width, height);
+    Glyphs found;
+    const float edge = static_cast<float>(width) - 40.0f;  // the last letters of "123.456 ms"
+    for (const shared::OverlayVertex& vertex : triangles.vertices) {
+      const glm::vec4 clip = triangles.clips[vertex.clip];
+      if (vertex.color >> 24 != 0xff) continue;  // lines and bars
+      if (vertex.position.x > clip.z + 1.0f) ++found.cut;
+      if (vertex.position.x > edge && vertex.position.x <= clip.z + 1.0f)
+        found.values.emplace_back(vertex.position.x, vertex.position.y);
+    }
+    return found;
+  };
+  for (const auto& [width, height] : {std::pair(640u, 360u), {1280u, 720u}}) {
+    const Glyphs brief = glyphs("cull", width, height);
+    const Glyphs lengthy = glyphs("resolve_temporal_anti_aliasing_of_translucent", width, height);
+    EXPECT_GE(brief.values.size(), 36u) << width;  // two glyphs of three values at least
+    EXPECT_EQ(brief.values, lengthy.values) << width;
+    EXPECT_EQ(brief.cut, 0) << width;
+    EXPECT_EQ(lengthy.cut, 0) << width;
   }
 }
 

@@ -134,6 +134,11 @@ void expect_to_fit(Screen screen, Size size, Language language = Language::kEngl
     sitting.gui.expect(words_of(language));
     sitting.gui.fit_font();
   }
+  // The most that is said: by keys, of slow frames, of a world with a long name.
+  for (int i = 0; i < 20; ++i) sitting.costs.note_frame(8888.8);
+  sitting.facts.world = std::string(64, 'W');
+  sitting.settle();
+  sitting.tap(Key::kDown);
   sitting.settle();
   ImGuiContext& context = *ImGui::GetCurrentContext();
   const std::string where = std::to_string(static_cast<int>(screen)) + " at " +
@@ -174,6 +179,50 @@ TEST(Screens, NothingLeavesItsWindowInAnyLanguage) {
       for (const Size size : {kSizes[0], kSizes[1]}) expect_to_fit(screen, size, language);
   }
   speak(Language::kEnglish);
+}
+
+TEST(Screens, EveryKeyIsNamedWholeInItsButton) {
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    const auto language = static_cast<Language>(i);
+    speak(language);
+    for (const Size size : {Size{640, 360}, {1280, 720}}) {
+      Sitting sitting(Screen::kControls, size);
+      sitting.gui.expect(words_of(language));
+      sitting.gui.fit_font();
+      sitting.settle();
+      ImGuiContext& context = *ImGui::GetCurrentContext();
+      int tables = 0;
+      for (int t = 0; t < context.Tables.GetMapSize(); ++t) {
+        const ImGuiTable* table = context.Tables.TryGetMapData(t);
+        if (!table || table->ColumnsCount != 3) continue;
+        ++tables;
+        for (std::size_t a = 0; a < kActions; ++a) {
+          const Binding& binding = sitting.bindings[static_cast<Action>(a)];
+          for (const auto& [chord, column] : {std::pair(binding.key, 1), {binding.pad, 2}}) {
+            const float room = table->Columns[column].WorkMaxX - table->Columns[column].WorkMinX -
+                               2.0f * context.Style.FramePadding.x;
+            const std::string lines = in_lines(chord_label(chord), room);
+            EXPECT_LE(ImGui::CalcTextSize(lines.c_str()).x, room + 0.5f)
+                << lines << " at " << size.height << " in " << kLanguageCodes[i];
+          }
+        }
+      }
+      EXPECT_EQ(tables, 1);
+    }
+  }
+  speak(Language::kEnglish);
+}
+
+TEST(Lines, AreBrokenAtSpacesAndAfterPlusSignsAndKeepEveryWord) {
+  Gui gui;
+  gui.begin({1280, 720, 0.02, nullptr});
+  const auto width = [](const char* text) { return ImGui::CalcTextSize(text).x; };
+  EXPECT_EQ(in_lines("Back+Left bumper", 1000.0f), "Back+Left bumper");
+  EXPECT_EQ(in_lines("Back+Left bumper", width("Back+Left")), "Back+Left\nbumper");
+  EXPECT_EQ(in_lines("Back+Left bumper", width("bumper")), "Back+\nLeft\nbumper");
+  EXPECT_EQ(in_lines("Back", 1.0f), "Back");
+  EXPECT_EQ(in_lines("", 1.0f), "");
+  gui.end();
 }
 
 TEST(Screens, TheMapAsksForThePlaceThatIsChosen) {

@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "engine/render/air/sky_scattering.h"
-#include "tests/render/air/air_truth.h"
+#include "tools/reference/air_paths.h"
 
 namespace skerry::render {
 namespace {
@@ -58,8 +59,8 @@ TEST(Atmosphere, TransmittanceIsTheIntegralAlongTheRay) {
     for (const double elevation : {0.3, 1.0, 3.0, 10.0, 30.0, 80.0})
       for (int c = 0; c < 3; ++c) {
         const double expected =
-            truth::towards_sun(truth::gas(c, kTurbidity, kMistAlbedo), {0.0, 6360.0 + height, 0.0},
-                               view(elevation, 0.0));
+            reference::towards_sun(reference::gas(c, kTurbidity, kMistAlbedo),
+                                   {0.0, 6360.0 + height, 0.0}, view(elevation, 0.0));
         EXPECT_NEAR(air.transmittance(height, std::sin(elevation * kDegree))[c], expected,
                     0.005 + 0.01 * expected)
             << height << " " << elevation;
@@ -93,8 +94,8 @@ TEST(Atmosphere, LightScatteredOnceIsTheFineIntegral) {
             const double cosine = glm::dot(sun, d);
             const double got = static_cast<double>(s.rayleigh[c]) * rayleigh_phase(cosine) +
                                static_cast<double>(s.mie[c]) * mie_phase(cosine);
-            const double expected = truth::once(truth::gas(c, 1.0, glm::dvec3(0.0)),
-                                                {0.0, 6360.0 + height, 0.0}, d, sun, 300);
+            const double expected = reference::scattered_once(
+                reference::gas(c, 1.0, glm::dvec3(0.0)), {0.0, 6360.0 + height, 0.0}, d, sun, 300);
             squares += (got - expected) * (got - expected);
             whole += expected * expected;
           }
@@ -102,7 +103,8 @@ TEST(Atmosphere, LightScatteredOnceIsTheFineIntegral) {
     }
 }
 
-/// Root of the mean square of what the tables are off from paths at random, over that of the light.
+/// Root of the mean square of what the tables are off from paths at random, over that of the light;
+/// the paths' own noise, which is known, is taken off.
 double error_of_all_light(double height, double sun_deg, int paths) {
   const glm::dvec3 sun = view(sun_deg, 0.0), eye{0.0, 6360.0 + height, 0.0};
   double squares = 0.0, whole = 0.0;
@@ -111,27 +113,28 @@ double error_of_all_light(double height, double sun_deg, int paths) {
       const glm::dvec3 d = view(elevation, azimuth),
                        got = by_tables(world_atmosphere(), height, sun, d);
       for (int c = 0; c < 3; ++c) {
-        const truth::Gas gas = truth::gas(c, kTurbidity, kMistAlbedo);
-        const double expected = truth::once(gas, eye, d, sun, 200) +
-                                truth::Paths(gas, sun, 11u + static_cast<unsigned>(c))
-                                    .more_than_once(eye, d, paths)
-                                    .mean;
-        squares += (got[c] - expected) * (got[c] - expected);
+        const reference::Gas gas = reference::gas(c, kTurbidity, kMistAlbedo);
+        const auto seed = static_cast<unsigned>(1000.0 * elevation + 10.0 * azimuth + c);
+        const reference::Estimate more =
+            reference::AirPaths(gas, sun, seed).more_than_once(eye, d, paths);
+        const double expected = reference::scattered_once(gas, eye, d, sun, 400) + more.mean;
+        squares += (got[c] - expected) * (got[c] - expected) - more.error * more.error;
         whole += expected * expected;
       }
     }
-  return std::sqrt(squares / whole);
+  return std::sqrt(std::max(0.0, squares) / whole);
 }
 
 TEST(Atmosphere, AllLightIsThatOfPathsAtRandomByDay) {
-  EXPECT_LT(error_of_all_light(0.25, 50.0, 1500), 0.03);
-  EXPECT_LT(error_of_all_light(0.25, 20.0, 1500), 0.035);
-  EXPECT_LT(error_of_all_light(10.0, 40.0, 1500), 0.04);
+  EXPECT_LT(error_of_all_light(0.25, 50.0, 4000), 0.025);
+  EXPECT_LT(error_of_all_light(0.25, 20.0, 4000), 0.025);
+  EXPECT_LT(error_of_all_light(10.0, 40.0, 4000), 0.03);
 }
 
 TEST(Atmosphere, AllLightIsThatOfPathsAtRandomAtDusk) {
-  EXPECT_LT(error_of_all_light(0.25, 3.0, 2000), 0.06);
-  EXPECT_LT(error_of_all_light(0.25, -2.0, 4000), 0.07);
+  EXPECT_LT(error_of_all_light(0.25, 3.0, 4000), 0.03);
+  EXPECT_LT(error_of_all_light(0.25, -3.0, 10000), 0.04);
+  EXPECT_LT(error_of_all_light(0.25, -6.0, 20000), 0.05);
 }
 
 TEST(Atmosphere, NoLightIsMade) {

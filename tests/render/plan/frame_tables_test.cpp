@@ -27,6 +27,7 @@ std::vector<ActiveCascade> cascades_of(const FrameInput& input, const RenderSett
     out.push_back({0,
                    static_cast<int>(index),
                    index,
+                   index,
                    index != 1,
                    {{0, 0}, {edge, edge}},
                    input.sky.to_sun,

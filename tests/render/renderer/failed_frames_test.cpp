@@ -58,7 +58,9 @@ class Refusals {
  public:
   explicit Refusals(gpu::Device& device) : device_(device) {
     device_.set_allocation_gate([this](const std::string& name, std::uint64_t) {
-      if (allowed_-- > 0) return true;
+      // What has not failed yet fails now, also where as many were granted: what is kept of the
+      // frame before may have moved it up.
+      if (names_.contains(name) && allowed_-- > 0) return true;
       if (!refused_now_) refused_now_ = name;
       return false;
     });

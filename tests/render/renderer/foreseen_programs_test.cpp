@@ -1,6 +1,7 @@
 // Programs and memory of frames to come are made before they are needed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "shaders/shared/light.h"
@@ -224,6 +225,25 @@ TEST_F(ForeseenPrograms, OfOtherSettingsAreNotWaitedForByAFrameThatMayLag) {
   }
   EXPECT_GT(lagging, 0);
   EXPECT_EQ(picture(), after);
+}
+
+TEST_F(ForeseenPrograms, OfOtherSettingsAreMadeWhileMapsAreDrawnAhead) {
+  FrameInput in = dull();
+  in.sky = celestial_at(15.0 * 3600.0, 0.0);
+  in.may_lag = true;
+  renderer().foresee_programs();
+  drawn(in, {}, kSize);
+  renderer().wait_for_programs();
+  // The coarse maps must reach further: they are drawn to spare layers, and shown from there.
+  in.reach_blocks *= 1.1;
+  const FrameReport ahead = drawn(in, {}, kSize);
+  EXPECT_TRUE(std::ranges::any_of(
+      ahead.passes, [](const gpu::PassTime& p) { return p.name == "draw_shadow_ahead"; }));
+  RenderSettings cloudy;
+  cloudy.clouds.coverage = 0.5f;
+  EXPECT_TRUE(drawn(in, cloudy, kSize).lagged);
+  renderer().wait_for_programs();
+  EXPECT_FALSE(drawn(in, cloudy, kSize).lagged);
 }
 
 TEST_F(ForeseenPrograms, OfOtherSettingsAreWaitedForByAnExactFrame) {

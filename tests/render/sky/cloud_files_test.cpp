@@ -53,6 +53,7 @@ class RealCloud : public RendererOnGpu {
     const double tan_y = std::tan(kHorizontalFov * M_PI / 360.0) * kSize.height / kSize.width;
     input.camera = camera_at({0.0, 0.0, -kDistance}, 0.0, 0.0, std::atan(tan_y) * 360.0 / M_PI);
     RenderSettings settings;
+    settings.indirect = Indirect::kOff;  // clouds are black
     settings.clouds.file_density = extinction;
     settings.clouds.steps = steps;
     settings.clouds.resolution = resolution;

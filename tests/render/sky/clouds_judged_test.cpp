@@ -3,6 +3,7 @@
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/render/air/atmosphere.h"
 #include "engine/render/sky/sky_model.h"
 #include "tests/render/renderer_on_gpu.h"
 #include "tools/reference/reference.h"
@@ -203,6 +204,72 @@ TEST_F(CloudsJudged, WaterMirrorsTheCloudsThatTheReferenceHas) {
   EXPECT_GT(water, 1000);
   EXPECT_GT(change / water, 1e-3) << "clouds show";
   EXPECT_LT(off, 0.25 * change) << "of what they change";
+}
+
+/// The sun below the horizon, so that the sky alone gives light.
+Celestial blue_hour(double altitude_deg) {
+  Celestial sky = sun_at(altitude_deg, 180.0);
+  sky.sun_casts = false;
+  sky.sun_irradiance = glm::vec3(0.0f);
+  return sky;
+}
+
+TEST_F(CloudsJudged, InTheBlueHourCloudsHaveTheSkysLightThatTheReferenceHas) {
+  build([](int, int, int) { return world::block::kAirBlock; });
+  look_from({0.5, 0.5, 0.5}, 20.0, 40.0);
+  settings_.leave_out.add(Feature::kHaze);
+  settings_.clouds.resolution = 1;
+  settings_.clouds.steps = 96;
+  settings_.clouds.shadow_steps = 64;
+  fog({-200.0, 40.0, 60.0}, {400.0, 100.0, 200.0}, 0.03);
+  scene_.sky_lights = true;
+  scene_.body_in_air = scene_.air_light = 0.0;
+  // Lower, such light is a few of the least steps that a half has.
+  for (const double altitude : {-2.0, -6.0}) {
+    input_.sky = blue_hour(altitude);
+    const SkyModel sky = sky_model(input_.sky);
+    scene_.sky = reference::Sky{sky, glm::dmat3(input_.sky.sky_from_world)};
+    scene_.sky->model.constants.stars = 0.0f;
+    const std::vector<glm::vec4> gpu = seen();
+    // The way to the zenith is traced once.
+    EXPECT_EQ(has_pass("trace_cloud_volumes"), altitude == -2.0);
+    const std::vector<glm::vec3> truth = exact(256);
+    glm::dvec3 sum(0.0), exact_sum(0.0);
+    for (std::uint32_t i = 0; i < truth.size(); ++i) {
+      // Where there is next to nothing but cloud: what stars are behind it does not matter.
+      const glm::dvec3 ray =
+          ray_of(input_.camera, i % kSize.width, i / kSize.width, kSize.width, kSize.height);
+      if (ray.y < 0.3) continue;
+      sum += glm::dvec3(gpu[i]);
+      exact_sum += glm::dvec3(truth[i]);
+    }
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GT(exact_sum[c], 0.0);
+      EXPECT_NEAR(sum[c] / exact_sum[c], 1.0, 0.06) << altitude;
+    }
+  }
+}
+
+TEST_F(CloudsJudged, CloudsDoNotJumpAsTheSunStopsGivingLight) {
+  build([](int, int, int) { return world::block::kAirBlock; });
+  look_from({0.5, 0.5, 0.5}, 20.0, 40.0);
+  settings_.clouds.resolution = 1;
+  fog({-200.0, 40.0, 60.0}, {400.0, 100.0, 200.0}, 0.03);
+  glm::dvec3 before(0.0);
+  // The disc is gone half its width below the true horizon, at -0.773 degrees.
+  for (const double altitude : {-0.75, -0.76, -0.77, -0.78, -0.79}) {
+    input_.sky = blue_hour(altitude);
+    input_.sky.sun_irradiance = sunlight_in_space() * world_atmosphere().direct_light(
+                                                          kWorldAboveMistKm, input_.sky.to_sun.y);
+    input_.sky.sun_casts = input_.sky.sun_irradiance != glm::vec3(0.0f);
+    EXPECT_EQ(input_.sky.sun_casts, altitude > -0.773);
+    glm::dvec3 sum(0.0);
+    for (const glm::vec4& pixel : seen()) sum += glm::dvec3(pixel);
+    if (before != glm::dvec3(0.0)) {
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] / before[c], 1.0, 0.02) << altitude;
+    }
+    before = sum;
+  }
 }
 
 TEST_F(CloudsJudged, WithoutWaterInViewNothingIsMirrored) {

@@ -61,6 +61,7 @@ TEST_F(CloudsOnGpu, AnEvenBoxLetsThroughWhatItsDepthLeaves) {
   input.sky = dusk();
   input.camera = camera_at({7.0, 12.0, -60.0}, 0.0, 0.0, 35.0);
   RenderSettings settings;
+  settings.indirect = Indirect::kOff;  // clouds are black
   settings.clouds.resolution = 1;
   settings.clouds.steps = 256;
   settings.clouds.file_density = 1.0f;
@@ -94,6 +95,7 @@ TEST_F(CloudsOnGpu, TheEyeInsideABoxSeesWhatIsLeftOfItsWay) {
   input.sky = dusk();
   input.camera = camera_at({32.0, 32.0, 32.0}, 0.0, 0.0, 20.0);
   RenderSettings settings;
+  settings.indirect = Indirect::kOff;  // clouds are black
   settings.clouds.resolution = 1;
   settings.clouds.steps = 128;
   settings.clouds.file_density = 1.0f;
@@ -109,11 +111,19 @@ TEST_F(CloudsOnGpu, WithoutLightACloudIsBlackAndOnlyHidesWhatIsBehind) {
   const CloudVolumeDesc box = even_box(32, 5.0f, glm::translate(glm::dmat4(1.0), {-16, -16, 20}));
   set(std::span(&box, 1));
   FrameInput input;
-  input.sky = dusk();
   input.camera = camera_at({0.0, 0.0, 0.0}, 0.0, 0.0, 20.0);
   RenderSettings settings;
   settings.clouds.file_density = 1.0f;
+  input.sky = celestial_at(0.0, 0.0);
   for (const glm::vec4& pixel : radiance(input, settings)) EXPECT_LT(pixel.y, 1e-3f);
+  EXPECT_FALSE(has_pass("trace_cloud"));
+  // At dusk the sky gives light, but in the strict look no sky does.
+  input.sky = dusk();
+  const std::size_t middle = kSize.height / 2 * kSize.width + kSize.width / 2;
+  EXPECT_GT(radiance(input, settings)[middle].y, 1e-5f);
+  EXPECT_TRUE(has_pass("trace_cloud_volumes"));
+  settings.indirect = Indirect::kOff;
+  EXPECT_LT(radiance(input, settings)[middle].y, 1e-6f);
 }
 
 TEST_F(CloudsOnGpu, WhatStandsBeforeACloudIsSeenUnchangedAndWhatStandsBehindIsHidden) {
@@ -176,6 +186,7 @@ TEST_F(CloudsOnGpu, SeveralVolumesTakeTheirOpticalDepthsTogether) {
   input.sky = dusk();
   input.camera = camera_at({0.0, 0.0, 0.0}, 0.0, 0.0, 8.0);
   RenderSettings settings;
+  settings.indirect = Indirect::kOff;  // clouds are black
   settings.clouds.file_density = 1.0f;
   settings.clouds.steps = 128;
   const std::vector<glm::vec4> clear = radiance(input, settings);
@@ -195,6 +206,7 @@ TEST_F(CloudsOnGpu, EmptinessIsNotPassedOverIntoWhatBeginsWithinIt) {
   input.sky = dusk();
   input.camera = camera_at({0.0, 0.0, 0.0}, 0.0, 0.0, 1.0);
   RenderSettings settings;
+  settings.indirect = Indirect::kOff;  // clouds are black
   settings.clouds.file_density = 1.0f;
   settings.clouds.steps = 96;
   settings.clouds.resolution = 1;
@@ -242,6 +254,7 @@ TEST_F(CloudsOnGpu, AFireBehindAWallDoesNotShowOverItsEdgesAtHalfResolution) {
   // Turned, so that the edge passes through pixels of all four places in their square.
   input.camera = camera_at({0.5, 0.5, 0.5}, 3.0, 20.0, 60.0);
   RenderSettings settings;
+  settings.indirect = Indirect::kOff;  // clouds are black
   settings.clouds.file_emission = 10.0f;
   const std::vector<glm::vec4> clear = radiance(input, settings);
   CloudVolumeDesc fire = even_box(64, 1.0f, glm::translate(glm::dmat4(1.0), {-32, -32, 16}));
@@ -277,6 +290,7 @@ TEST_F(CloudsOnGpu, CloudsAskOnlyClustersThatAreWritten) {
       64, 0.004f, glm::scale(glm::translate(glm::dmat4(1.0), {-160, -160, -20}), {5, 5, 5}));
   set(std::span(&box, 1));
   RenderSettings settings;
+  settings.indirect = Indirect::kOff;  // clouds are black
   settings.clouds.file_density = 1.0f;
   shared::Light lamp{};
   lamp.range = 8.0f;

@@ -49,6 +49,10 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_scene_options(*lights_, scene_);
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
   add_scene_options(*frame_, scene_);
+  frame_
+      ->add_option("--clock", clock_rate_,
+                   "Seconds of the day that pass in one, as 24 in play (default 0)")
+      ->check(CLI::Range(0.0, 86400.0));
   flicker_ = add("flicker", "Measure how much of the picture flickers in a turn, a walk, a drift");
   add_scene_options(*flicker_, scene_);
   flicker_->add_option("--frames", frames_, "Frames of each motion (default 120)")
@@ -144,6 +148,7 @@ int BenchCommands::run_frame() {
   if (const auto refusal = check_draws_frames(options.scene)) return refuse(*refusal);
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   options.json = path_of(json_);
+  options.clock_rate = clock_rate_;
   return bench_frame(options);
 }
 

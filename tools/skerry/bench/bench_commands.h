@@ -51,6 +51,7 @@ class BenchCommands {
   CLI::App* start_;
   std::optional<std::string> input_, json_, device_;
   std::optional<double> speed_, seconds_;
+  double clock_rate_ = 0.0;
   std::optional<int> frames_;
   bool validate_ = false;
   SceneArguments scene_;

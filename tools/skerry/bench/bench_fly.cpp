@@ -60,6 +60,7 @@ class Flight {
         day_(options.scene.time_of_day_s) {
     moment_.camera = view.start_camera();
     moment_.count_pixels = false;
+    moment_.may_lag = true;
     moment_.camera.pitch_deg = kFlyPitchDeg;
     start_ = world::moved(place_of(moment_.camera.position), {0.0, kAboveStart, 0.0});
     go_to(0.0);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 
+#include "game/input/controls.h"
 #include "game/view/scene_view.h"
 #include "tools/skerry/bench/bench_report.h"
 #include "tools/skerry/scene/scene_device.h"
@@ -44,7 +45,9 @@ struct Timings {
 /// As in play, where the eye has adapted to earlier frames, nobody sees counts of pixels, and
 /// passes are not timed by themselves: timers cost, too.
 Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
-                            game::SceneView::Moment moment, VkExtent2D size) {
+                            game::SceneView::Moment moment, const BenchFrameOptions& options) {
+  const VkExtent2D size{options.scene.size.width, options.scene.size.height};
+  game::DayClock clock(options.scene.time_of_day_s);
   Timings out;
   view.renderer().foresee_programs();
   view.renderer().time_passes(false);
@@ -58,6 +61,8 @@ Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
     moment.exposure_ev = view.adapted_ev(moment.exposure_ev, kAdaptSeconds);
     if (i < kFrameWarmUp) view.renderer().wait_for_programs();
     const double now = now_ms();
+    clock.turn(options.clock_rate * (now - last) * 1e-3);
+    moment.time_of_day_s = clock.time_of_day_s();
     if (i >= kFrameWarmUp) {
       out.programs_made += view.renderer().programs_made() - programs;
       out.allocations += device.allocations() - allocations;
@@ -101,7 +106,8 @@ nlohmann::ordered_json pass_times(const Timings& timings) {
 }
 
 nlohmann::ordered_json row_of(const game::SceneOptions& scene, const gpu::Device& device,
-                              render::Renderer& renderer, const Timings& timings) {
+                              render::Renderer& renderer, const Timings& timings,
+                              double clock_rate) {
   const Spread ms = spread_of(timings.frames);
   const game::Settings& settings = scene.settings;
   return {{"name", fmt::format("seed {} {:02}:{:02}", scene.seed_text.substr(0, 20),
@@ -110,6 +116,7 @@ nlohmann::ordered_json row_of(const game::SceneOptions& scene, const gpu::Device
           {"size", {scene.size.width, scene.size.height}},
           {"distance", settings.view_distance},
           {"shadows", settings.render.shadow_enabled ? settings.render.shadow_size : 0},
+          {"clock_rate", clock_rate},
           {"frames", timings.frames.size()},
           {"ms_median", ms.median},
           {"ms_p10", ms.p10},
@@ -162,11 +169,12 @@ int bench_frame(const BenchFrameOptions& options) {
   if (Result<void> loaded = (*view)->load_completely(moment.camera, world_time_s); !loaded)
     return fail(kFailed, loaded.error());
   const VkExtent2D size{options.scene.size.width, options.scene.size.height};
-  Result<Timings> timings = time_frames(**device, **view, moment, size);
+  Result<Timings> timings = time_frames(**device, **view, moment, options);
   if (!timings) return fail(kFailed, timings.error());
   if (Result<void> timed = time_passes(**view, moment, size, *timings); !timed)
     return fail(kFailed, timed.error());
-  const nlohmann::ordered_json row = row_of(options.scene, **device, (*view)->renderer(), *timings);
+  const nlohmann::ordered_json row =
+      row_of(options.scene, **device, (*view)->renderer(), *timings, options.clock_rate);
   print(row);
   if (Result<void> written = write_rows(options.json, nlohmann::ordered_json::array({row}));
       !written)

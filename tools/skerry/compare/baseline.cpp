@@ -34,6 +34,11 @@ Result<Baseline> Baseline::open(const fs::path& path, bool make) {
   return Baseline(path, *std::move(draft));
 }
 
+std::optional<Unpacked> Baseline::unpacked() const {
+  if (!unpacked_) return std::nullopt;
+  return Unpacked{path_, unpacked_->path()};
+}
+
 Result<void> Baseline::save() const {
   return unpacked_ ? platform::pack_tar(unpacked_->path(), path_) : Result<void>();
 }

@@ -4,6 +4,7 @@
 
 #include "engine/core/draft.h"
 #include "engine/core/result.h"
+#include "tools/skerry/compare/unpacked.h"
 
 namespace skerry::tools {
 
@@ -17,6 +18,8 @@ class Baseline {
 
   /// The folder, with a folder for each driver.
   std::filesystem::path folder() const { return unpacked_ ? unpacked_->path() : path_; }
+  /// None: it is a folder.
+  std::optional<Unpacked> unpacked() const;
   /// Puts what was approved into the archive. In a folder it is already. Errors: of writing.
   Result<void> save() const;
 

@@ -25,13 +25,6 @@ constexpr gpu::UploadPath kUploadPaths[] = {gpu::UploadPath::kUpdateBuffer,
 
 using Progress = std::function<void(double, std::string_view)>;
 
-/// The last picture of a point, and what it took.
-struct Shot {
-  measure::Image shown;
-  measure::Picture radiance;
-  double exposure_ev = 0.0;
-};
-
 /// The points of a topic in one scene, each ready to be drawn again.
 class Sweep {
  public:
@@ -255,18 +248,24 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
                                         progress(0.5 + 0.4 * share, what + ": times");
                                       });
   if (!ms) return ms.error();
-  out.frames = static_cast<int>(ms->front().size());
+  progress(0.9, what + ": errors");
+  finish_rows(topic, *shots, *ms, reference, out);
+  return out;
+}
+
+void finish_rows(const Topic& topic, const std::vector<Shot>& shots,
+                 const std::vector<std::vector<double>>& ms, const Judged* reference,
+                 SceneRows& out) {
+  out.frames = static_cast<int>(ms.front().size());
   for (std::size_t p = 0; p < topic.points.size(); ++p) {
     PointRow row;
     row.point = &topic.points[p];
-    row.ms = spread_of((*ms)[p]);
+    row.ms = spread_of(ms[p]);
     row.defaults = levels_with_default(topic.points[p]);
     out.rows.push_back(row);
   }
-  progress(0.9, what + ": errors");
-  compare(*shots, topic.judge, reference, out);
+  compare(shots, topic.judge, reference, out);
   judge_standing(out.rows);
-  return out;
 }
 
 TopicResult over_scenes(const Topic& topic, std::vector<SceneRows> scenes) {

@@ -67,6 +67,19 @@ struct TopicResult {
   std::vector<PointRow> rows;
 };
 
+/// The last picture of a point, and what it took.
+struct Shot {
+  measure::Image shown;
+  measure::Picture radiance;
+  double exposure_ev = 0.0;
+};
+
+/// Adds a row and pictures a point. @param shots, ms in the topic's order. @param reference what
+/// Judge::kReference and kLimitAndReference compare with; else nullptr.
+void finish_rows(const Topic& topic, const std::vector<Shot>& shots,
+                 const std::vector<std::vector<double>>& ms, const Judged* reference,
+                 SceneRows& out);
+
 /// Draws every point of a topic in a scene, times them in turns, so that what else the machine does
 /// hits all alike, and compares. @param name of scenes_of(). @param progress receives 0..1 and what
 /// is being done.

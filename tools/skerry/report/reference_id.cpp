@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "game/panorama/load_panorama.h"
 #include "game/scene_file/setting_keys.h"
 #include "game/scene_file/vdb_options.h"
 #include "tools/skerry/farm/plan.h"
@@ -69,6 +70,7 @@ Result<std::string> reference_id(const game::SceneOptions& scene) {
   std::vector<std::string> files;
   if (scene.world) files = {*scene.world, *scene.world + "-wal"};
   for (const game::CloudFile& cloud : scene.clouds) files.push_back(cloud.path);
+  if (const auto panorama = game::panorama_file(scene)) files.push_back(*panorama);
   for (const std::string& file : files) {
     Result<std::string> hash = file_hash(file);
     if (!hash) return hash;

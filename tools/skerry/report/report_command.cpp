@@ -122,7 +122,7 @@ std::optional<Refusal> ReportCommand::read(ReportRequest& request, ReportTasks& 
   if (scene_.renderer) request.typed.settings.push_back("renderer=" + *scene_.renderer);
   if (scene_.shading) request.typed.settings.push_back("shading=" + *scene_.shading);
   request.own_scene = scene_.text.seed || scene_.text.world || scene_.text.camera ||
-                      scene_.scene_file || !scene_.clouds.empty();
+                      scene_.text.ambient || scene_.scene_file || !scene_.clouds.empty();
   request.own_size = scene_.text.size || file_says_size(scene_.scene_file);
   Result<ReportTasks> found = tasks_of(request);
   if (!found) return Refusal{kFailed, found.error()};

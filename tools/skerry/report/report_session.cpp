@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/core/check.h"
+#include "engine/render/air/light_moments.h"
 #include "game/scene_file/setting_keys.h"
 #include "tools/reference/reference.h"
 #include "tools/skerry/report/reference_parts.h"
@@ -107,6 +108,7 @@ Result<KeptReference> ReportSession::radiance_of(
 }
 
 Result<void> apply_point(std::string_view settings, game::Settings& into) {
+  if (settings.empty()) return {};
   for (const std::string& assignment : game::split(settings, ' '))
     if (Result<void> done = game::apply_setting(assignment, into); !done) return done;
   return {};
@@ -119,6 +121,7 @@ std::vector<std::string> levels_with_default(const TopicPoint& point) {
     game::Settings settings = game::settings_of(quality);
     const Result<void> applied = apply_point(point.settings, settings);
     SKERRY_ASSERT(applied);
+    if (point.sky_degree.value_or(render::kLightDegree) != render::kLightDegree) continue;
     if (settings == game::settings_of(quality))
       levels.emplace_back(game::quality_level(quality).name);
   }

@@ -6,8 +6,10 @@
 #include <iterator>
 
 #include "engine/core/clock.h"
+#include "game/panorama/load_panorama.h"
 #include "game/scene_file/parse.h"
 #include "tools/skerry/report/left_out_topic.h"
+#include "tools/skerry/report/sky_topic.h"
 #include "tools/skerry/report/write_topic.h"
 
 namespace skerry::tools {
@@ -27,6 +29,7 @@ Result<std::vector<std::string>> inputs_of(const ReportRequest& request, const s
                                   request.own_size ? "sized" : "size of the device"};
   std::vector<std::string> files;
   for (const game::CloudFile& cloud : scene->clouds) files.push_back(cloud.path);
+  if (const auto panorama = game::panorama_file(*scene)) files.push_back(*panorama);
   if (scene->world) files.push_back(*scene->world);
   if (scene->scene_file) files.push_back(*scene->scene_file);
   for (const std::string& file : files) {
@@ -77,10 +80,19 @@ PointRow point_from(const TopicPoint& point, const ordered_json& from, const ord
   return row;
 }
 
+Result<SceneRows> measured_scene(ReportSession& session, const ReportTask& task,
+                                 const std::function<void(double, std::string_view)>& progress) {
+  if (task.topic->cost != CostOf::kSkyTables)
+    return measure_scene(session, *task.topic, task.scene, progress);
+  const Result<game::SceneOptions> scene = session.scene(task.scene);
+  if (!scene) return scene.error();
+  return measure_sky(*task.topic, task.scene, *scene, progress);
+}
+
 Result<Record> run_scene(ReportSession& session, const ReportTask& task,
                          const std::filesystem::path& pictures,
                          const std::function<void(double, std::string_view)>& progress) {
-  Result<SceneRows> scene = measure_scene(session, *task.topic, task.scene, progress);
+  Result<SceneRows> scene = measured_scene(session, task, progress);
   if (!scene) return scene.error();
   if (Result<void> done = write_pictures(*task.topic, *scene, pictures); !done) return done.error();
   Record record;

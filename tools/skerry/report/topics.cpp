@@ -11,6 +11,25 @@ constexpr ReportScene kScenes[] = {
      R"({"seed": 6, "time": "17:35", "camera": [-60, 145, 279, 90, -8]})"},
     {"water", "a lake in the sun",
      R"({"seed": 5, "time": "11:00", "camera": [52.25, 17.5, 52.75, 225, -25]})"},
+    {"tank", "a basin of glass with water in it",
+     R"({"seed": 1, "time": "12:30", "camera": [0.3, 120, 12, 180, -8],
+         "blocks": [{"block": "stone", "from": [-8, 112, -12], "to": [8, 113, 6]},
+                    {"block": "bricks", "from": [-8, 114, -12], "to": [8, 119, -12]},
+                    {"block": "glass", "from": [-6, 114, -8], "to": [6, 119, 0]},
+                    {"block": "water", "from": [-5, 114, -7], "to": [5, 118, -1]},
+                    {"block": "air", "from": [-5, 119, -7], "to": [5, 119, -1]}]})"},
+    {"panes", "eight panes of glass one behind another, sixteen surfaces",
+     R"({"seed": 1, "time": "12:30", "camera": [0.3, 118, 6, 180, -6],
+         "blocks": [{"block": "stone", "from": [-8, 112, -30], "to": [8, 113, 6]},
+                    {"block": "bricks", "from": [-8, 114, -30], "to": [8, 121, -30]},
+                    {"block": "glass", "from": [-6, 114, 0], "to": [6, 120, 0]},
+                    {"block": "glass", "from": [-6, 114, -3], "to": [6, 120, -3]},
+                    {"block": "glass", "from": [-6, 114, -6], "to": [6, 120, -6]},
+                    {"block": "glass", "from": [-6, 114, -9], "to": [6, 120, -9]},
+                    {"block": "glass", "from": [-6, 114, -12], "to": [6, 120, -12]},
+                    {"block": "glass", "from": [-6, 114, -15], "to": [6, 120, -15]},
+                    {"block": "glass", "from": [-6, 114, -18], "to": [6, 120, -18]},
+                    {"block": "glass", "from": [-6, 114, -21], "to": [6, 120, -21]}]})"},
     {"lava", "lava on a mountain after sunset",
      R"({"seed": 8, "time": "18:10", "camera": [250.7, 145.85, -146.0, 270, -21.8]})"},
     {"far", "islands to the horizon",
@@ -26,6 +45,12 @@ constexpr ReportScene kScenes[] = {
     {"puff", "a small cloud of a file before the sky",
      R"({"seed": 1, "time": "15:00", "camera": [0, 300, -70, 0, 0], "settings": {"world.islands": 0, "clouds.resolution": "full"},
          "clouds": [{"file": "tests/scenes/puff.vdb", "position": [0, 300, 0]}]})"},
+    {"high_sun", "a clear sky, sun 50 degrees high",
+     R"({"seed": 1, "time": "10:09", "settings": {"world.islands": 0}})"},
+    {"evening", "a clear sky, sun 3 degrees high",
+     R"({"seed": 1, "time": "17:46", "settings": {"world.islands": 0}})"},
+    {"blue_hour", "a clear sky, sun 5 degrees below the horizon",
+     R"({"seed": 1, "time": "18:23", "settings": {"world.islands": 0}})"},
     {"torches", "a meadow at night under 1,024 torches",
      R"({"seed": 3, "time": "00:00", "settings": {"sky.moon_phase": 0, "lights.random": 1024}})"},
     {"lamps", "a meadow at night under a tube and a sphere that have a size",
@@ -108,6 +133,8 @@ constexpr TopicPoint kIndirect[] = {
     {"off", "indirect=off"}, {"sky", "indirect=sky"}, {"full", "indirect=full"}};
 constexpr TopicPoint kAoStrengths[] = {
     {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
+constexpr TopicPoint kSkyDegrees[] = {{"0", "", 0}, {"1", "", 1}, {"2", "", 2},
+                                      {"3", "", 3}, {"4", "", 4}, {"6", "", 6}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},
@@ -164,12 +191,14 @@ constexpr TopicPoint kCloudPrecisions[] = {
 constexpr std::string_view kShadowScenes[] = {"day", "low_sun", "water"};
 constexpr std::string_view kLitScenes[] = {"day", "low_sun", "water", "torches"};
 constexpr std::string_view kSkyScenes[] = {"day", "low_sun", "cave_mouth"};
+constexpr std::string_view kClearSkies[] = {"high_sun", "evening", "blue_hour"};
 constexpr std::string_view kEdgeScenes[] = {"day", "low_sun", "far"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kHiding[] = {"giant", "day"};
 constexpr std::string_view kGlow[] = {"lava"};
 constexpr std::string_view kWater[] = {"water"};
+constexpr std::string_view kLayered[] = {"water", "tank", "panes"};
 constexpr std::string_view kTorches[] = {"torches"};
 constexpr std::string_view kClouds[] = {"clouds", "puff"};
 constexpr std::string_view kPuff[] = {"puff"};
@@ -206,12 +235,14 @@ constexpr Topic kTopics[] = {
      kLitScenes, Judge::kLimit, CostOf::kFrame},
     {"indirect", "light of the sky, and what surfaces reflect to each other", kIndirect, kSkyScenes,
      Judge::kReference, CostOf::kFrame, false, "indirect=full"},
+    {"sky_tables", "degree of the harmonics that light scattered by the air is kept in",
+     kSkyDegrees, kClearSkies, Judge::kReference, CostOf::kSkyTables},
     {"ao_strength", "how much light a closed corner of blocks takes", kAoStrengths, kShadowScenes,
      Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,
      Judge::kReference, CostOf::kShading},
     {"water_layers", "water and glass surfaces, one behind another, that a pixel shows",
-     kWaterLayers, kWater, Judge::kReference, CostOf::kShading},
+     kWaterLayers, kLayered, Judge::kReference, CostOf::kShading},
     {"exposure",
      "pixels of which the meter looks at one",
      kMeterStrides,

@@ -1,6 +1,7 @@
 // What `skerry report` measures: tables. A new topic is an entry in topics.cpp.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -17,6 +18,8 @@ struct ReportScene {
 struct TopicPoint {
   std::string_view label;
   std::string_view settings;  ///< KEY=VALUE, several apart by spaces; over the scene's
+  /// Of CostOf::kSkyTables: render::AtmosphereSettings::degree, which no setting changes.
+  std::optional<int> sky_degree = {};
 };
 
 /// What the errors of a topic are measured against.
@@ -29,9 +32,10 @@ enum class Judge : std::uint8_t {
 
 /// What a point costs.
 enum class CostOf : std::uint8_t {
-  kFrame,    ///< GPU time of a whole frame, every shadow map drawn afresh
-  kShading,  ///< GPU time of a frame that keeps the shadow maps of the one before
-  kUpload,   ///< time from the first write of 8 MiB of chunk meshes until the GPU has them
+  kFrame,      ///< GPU time of a whole frame, every shadow map drawn afresh
+  kShading,    ///< GPU time of a frame that keeps the shadow maps of the one before
+  kUpload,     ///< time from the first write of 8 MiB of chunk meshes until the GPU has them
+  kSkyTables,  ///< CPU time of the tables of the atmosphere and of one eye's; no frame is drawn
 };
 
 struct Topic {

@@ -82,6 +82,8 @@ std::string_view cost_name(CostOf cost) {
       return "GPU time of a frame that keeps its shadow maps [ms]";
     case CostOf::kUpload:
       return "upload of 8 MiB of chunk meshes [ms]";
+    case CostOf::kSkyTables:
+      return "CPU time of the sky's tables [ms]";
   }
   return "";
 }

@@ -48,6 +48,10 @@ void add_scene_options(CLI::App& command, SceneArguments& a) {
                   "Fog of a .vdb file as a cloud, at a place in blocks; may be repeated")
       ->type_name("FILE.vdb[@X,Y,Z[,SCALE]]")
       ->allow_extra_args(false);
+  command
+      .add_option("--ambient", a.text.ambient,
+                  "Equirectangular panorama in place of the sky (docs/settings.md), or sky")
+      ->type_name("FILE.hdr|sky");
   command.add_option("--scene", a.scene_file, "JSON file with a scene (docs/settings.md)")
       ->type_name("FILE");
   command
@@ -92,6 +96,7 @@ std::optional<Refusal> resolve(const SceneArguments& a, bool needs_source,
     }
     from_file = *parsed;
     game::find_world_beside(*a.scene_file, from_file);
+    game::find_ambient_beside(*a.scene_file, from_file);
     game::find_beside(*a.scene_file, from_file.clouds);
   }
   game::SceneText typed = a.text;

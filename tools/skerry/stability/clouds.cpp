@@ -52,6 +52,7 @@ Result<Rows> through(gpu::Device& device, double front, double depth, const std:
   in.sky = sky_without_light();
   in.capture = true;
   render::RenderSettings settings;
+  settings.indirect = render::Indirect::kOff;  // clouds are black
   settings.clouds.resolution = 1;
   settings.clouds.steps = kSteps;
   const render::CloudVolumeDesc volume = box({}, {-kBoxEdge / 2, -kBoxEdge / 2, front});

@@ -21,7 +21,7 @@ constexpr VkExtent2D kMediaSize{96, 54};
 constexpr double kEye = 0.5, kLamps = 40.0;  // z of the eye and of the wall of lamps
 
 /// Extinction a block of a medium with white absorption a: it scatters 0.3 of it besides
-/// (shaders/include/surface/water.glsl).
+/// (shaders/include/surface/media.glsl).
 constexpr double kExtinctionPerAbsorption = 1.3;
 
 /// Radiance below which a half's steps would be coarse: what is compared is above.
@@ -29,6 +29,13 @@ constexpr double kFaintest = 1.0 / 1024.0;
 
 struct Glass {
   double front, back;  // z; the eye is inside when front is behind it
+  int slabs = 1;       // each but one block thick when there are several, with as much air behind
+
+  bool holds(int z) const {
+    return z >= front && z < back && (slabs == 1 || (z - static_cast<int>(front)) % 2 == 0);
+  }
+  /// Blocks of glass along the view axis.
+  double depth() const { return slabs == 1 ? back - std::max(front, kEye) : double(slabs); }
 };
 
 Result<Frame> look(gpu::Device& device, const Glass& glass, double absorption) {
@@ -39,7 +46,7 @@ Result<Frame> look(gpu::Device& device, const Glass& glass, double absorption) {
   if (!stage) return stage.error();
   const auto scene = [&](int, int, int z) -> world::BlockId {
     if (z >= kLamps) return kLamp;
-    return z >= glass.front && z < glass.back ? kGlass : kAirBlock;
+    return glass.holds(z) ? kGlass : kAirBlock;
   };
   if (Result<void> added = (*stage)->add(scene, {-1, -1, -1}, {2, 2, 1}); !added)
     return added.error();
@@ -50,7 +57,9 @@ Result<Frame> look(gpu::Device& device, const Glass& glass, double absorption) {
   in.sky = darkness();  // nothing lights the glass itself: what is left is what came through
   in.camera_medium = glass.front < kEye ? kGlass : 0;
   in.capture = true;
-  return (*stage)->draw(in, {}, kMediaSize);
+  render::RenderSettings settings;
+  if (glass.slabs > 1) settings.water_layers = 1;  // all but the first surface are added up
+  return (*stage)->draw(in, settings, kMediaSize);
 }
 
 /// The share of light that came through against exp(-tau), tau along each pixel's own ray.
@@ -58,7 +67,7 @@ Result<Rows> through(gpu::Device& device, const Glass& glass, const std::string&
   // Glass that takes nothing shows what stands behind it, with the surfaces' own part.
   const auto clear = look(device, glass, 0.0);
   if (!clear) return clear.error();
-  const double depth = glass.back - std::max(glass.front, kEye);
+  const double depth = glass.depth();
   const render::Camera camera = camera_at({}, 0.0, 0.0);
   double off = 0.0, beyond = 0.0, compared = 0.0, darkest = 1.0;
   for (int decade = -6; decade <= 4; ++decade) {
@@ -93,6 +102,39 @@ Result<Rows> inside(gpu::Device& device) {
 
 Result<Rows> slab(gpu::Device& device) {
   return through(device, {8.0, 24.0}, "slab of 16 blocks");
+}
+
+Result<Rows> slabs(gpu::Device& device) {
+  return through(device, {4.0, 20.0, 8}, "8 slabs behind one peeled surface");
+}
+
+/// A thousand panes in the sun: what they add up to stays finite, and no brighter than paper.
+Result<Rows> many_panes(gpu::Device& device) {
+  auto stage = Stage::create(device);
+  if (!stage) return stage.error();
+  const auto scene = [](int, int y, int z) -> world::BlockId {
+    if (y < 0) return kLamp;
+    return z >= 4 && z % 2 == 0 ? kGlass : kAirBlock;
+  };
+  if (Result<void> added = (*stage)->add(scene, {-1, -1, 0}, {1, 1, 32}); !added)
+    return added.error();
+  render::FrameInput in;
+  in.camera = camera_at({0.5, 32.5, 1.5}, 0.0, 0.0);
+  const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 3000.0}};
+  in.islands = islands;
+  in.sky = sun_towards(glm::normalize(glm::dvec3(0.3, 0.8, -0.5)));
+  in.capture = true;
+  double non_finite = 0.0, brightest = 0.0;
+  for (const int layers : {1, 2, 4}) {
+    render::RenderSettings settings;
+    settings.water_layers = layers;
+    const auto frame = (*stage)->draw(in, settings, kMediaSize);
+    if (!frame) return frame.error();
+    non_finite += static_cast<double>(non_finite_channels(frame->radiance));
+    for (const glm::vec3& texel : frame->radiance) brightest = std::max(brightest, double{texel.y});
+  }
+  return Rows{{"channels not finite through 1,022 panes", 0.0, non_finite},
+              {"brightest green of 1,022 panes in the sun", 1.0, brightest}};
 }
 
 /// What the medium about the eye sends to it of a light from straight above, before a wall that
@@ -144,8 +186,11 @@ Result<Rows> faint_media(gpu::Device& device) {
                std::ldexp(1.0, -9), off}};
 }
 
-constexpr Case kMediaCases[] = {
-    {"media.inside", inside}, {"media.slab", slab}, {"media.faint", faint_media}};
+constexpr Case kMediaCases[] = {{"media.inside", inside},
+                                {"media.slab", slab},
+                                {"media.slabs", slabs},
+                                {"media.panes", many_panes},
+                                {"media.faint", faint_media}};
 
 }  // namespace
 

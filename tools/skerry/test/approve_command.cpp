@@ -34,7 +34,10 @@ std::optional<Refusal> ApproveCommand::read_scenes(const std::optional<Baseline>
   for (const std::filesystem::path& file : *files) {
     Result<TestScene> scene = read_scene(file);
     if (!scene) return Refusal{kUsage, scene.error()};
-    if (baseline) scene->baseline = baseline->folder();
+    if (baseline) {
+      scene->baseline = baseline->folder();
+      scene->unpacked = baseline->unpacked();
+    }
     scenes.push_back(*std::move(scene));
   }
   return std::nullopt;

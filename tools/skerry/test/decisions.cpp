@@ -62,24 +62,26 @@ Error cannot(const std::string& scene, std::string_view why) {
 }
 
 /// What keeps a name from getting another file; empty if nothing does.
-std::string not_replaceable(const fs::path& file) {
+std::string not_replaceable(const fs::path& file, const std::optional<Unpacked>& from) {
   std::error_code code;
   const fs::file_type type = fs::symlink_status(file, code).type();
   if (type == fs::file_type::not_found || type == fs::file_type::regular) return {};
-  return fmt::format("{} is no regular file; remove it", game::quote_text(file.string()));
+  return fmt::format("{} is no regular file; remove it", known_as(file, from));
 }
 
 /// The same, of a reference.
-std::string not_a_reference(const fs::path& file) {
+std::string not_a_reference(const TestScene& scene, const std::string& driver) {
   std::error_code code;
-  if (std::string why = not_replaceable(file); !why.empty() || !fs::exists(file, code)) return why;
-  const Result<platform::PngImage> picture = platform::read_png(file);
+  const fs::path file = scene.reference(driver);
+  std::string why = not_replaceable(file, scene.unpacked);
+  if (!why.empty() || !fs::exists(file, code)) return why;
+  const Result<platform::PngImage> picture = scene.read_reference(driver);
   if (!picture) return picture.error().message;
   const bool ours = std::ranges::any_of(picture->text, [](const platform::PngText& text) {
     return text.key == "Software" && text.text == "Skerry";
   });
   if (ours) return {};
-  return fmt::format("{} is no picture of Skerry; remove it", game::quote_text(file.string()));
+  return fmt::format("{} is no picture of Skerry; remove it", known_as(file, scene.unpacked));
 }
 
 /// The row that a decision is about. Errors: the report has another one.
@@ -121,9 +123,10 @@ Result<Approval> approval_of(const Decision& decision, const std::optional<fs::p
   if (!picture) return cannot(decision.scene, picture.error().message);
   const fs::path hashes = hash_file(scene->approved(decision.driver), decision.driver);
   for (const std::string& why :
-       {not_replaceable(hashes), not_a_reference(scene->reference(decision.driver))})
+       {not_replaceable(hashes, scene->unpacked), not_a_reference(*scene, decision.driver)})
     if (!why.empty()) return cannot(decision.scene, why);
-  if (const Result<Hashes> approved = read_hashes(hashes); !approved) return approved.error();
+  if (const Result<Hashes> approved = read_hashes(hashes, scene->unpacked); !approved)
+    return approved.error();
   return Approval{*scene, decision.driver, *std::move(picture)};
 }
 
@@ -178,7 +181,7 @@ Result<std::vector<Approval>> check_decisions(std::span<const Decision> decision
 Result<std::string> apply(const Approval& approval) {
   const TestScene& scene = approval.scene;
   const Result<Hashes> hashes =
-      read_hashes(hash_file(scene.approved(approval.driver), approval.driver));
+      read_hashes(hash_file(scene.approved(approval.driver), approval.driver), scene.unpacked);
   if (!hashes) return hashes.error();
   JudgeOptions options;
   options.approve = true;

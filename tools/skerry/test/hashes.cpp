@@ -69,10 +69,19 @@ fs::path hash_file(const fs::path& scenes, std::string_view driver) {
   return scenes / "hashes" / (std::string(driver) + ".json");
 }
 
-Result<Hashes> read_hashes(const fs::path& file) {
+Result<Hashes> read_hashes(const fs::path& file, const std::optional<Unpacked>& from_archive) {
+  const auto damaged = [&](std::string_view why) {
+    return Error{fmt::format(
+        "cannot use the approved hashes in {}: {}; {} and run skerry test "
+        "--approve",
+        known_as(file, from_archive), why,
+        from_archive ? "take that member out of the archive (tar --delete)" : "delete the file")};
+  };
   std::error_code code;
   if (!fs::exists(file, code)) return Hashes{};
   const Result<std::string> text = platform::read_text(file, kMaxHashBytes);
+  if (!text && from_archive)
+    return damaged(fmt::format("they are no file of at most {} bytes", kMaxHashBytes));
   if (!text) return text.error();
   const Result<nlohmann::json> parsed = game::parse_json(*text);
   const nlohmann::json from = parsed ? *parsed : nlohmann::json();
@@ -82,10 +91,7 @@ Result<Hashes> read_hashes(const fs::path& file) {
     hashes[scene] = hash.get<std::string>();
   }
   if (from.is_object() && hashes.size() == from.size()) return hashes;
-  return Error{
-      fmt::format("cannot use the approved hashes in {}: they are no object of SHA-256 by "
-                  "scene; delete the file and run skerry test --approve",
-                  game::quote_text(file.string()))};
+  return damaged("they are no object of SHA-256 by scene");
 }
 
 Result<void> write_hashes(const fs::path& file, const Hashes& hashes) {
@@ -96,13 +102,13 @@ Result<void> write_hashes(const fs::path& file, const Hashes& hashes) {
 }
 
 Result<void> remove_others(const fs::path& scenes, std::string_view driver,
-                           const std::string& scene) {
+                           const std::string& scene, const std::optional<Unpacked>& from) {
   std::error_code code;
   const fs::path kept = hash_file(scenes, driver);
   for (fs::directory_iterator at(kept.parent_path(), code), end; !code && at != end;
        at.increment(code)) {
     if (at->path() == kept || at->path().extension() != ".json") continue;
-    Result<Hashes> hashes = read_hashes(at->path());
+    Result<Hashes> hashes = read_hashes(at->path(), from);
     if (!hashes) return hashes.error();
     if (hashes->erase(scene) == 0) continue;
     if (const Result<void> written = write_hashes(at->path(), *hashes); !written) return written;

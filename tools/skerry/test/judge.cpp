@@ -99,7 +99,7 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
   const auto known = approved.find(scene.name);
   if (known != approved.end()) row.hash_equal = known->second == outcome.hash;
 
-  const Result<platform::PngImage> reference = platform::read_png(scene.reference(shown.driver));
+  const Result<platform::PngImage> reference = scene.read_reference(shown.driver);
   std::optional<Comparison> compared;
   if (reference && same_size(*reference, shown.picture)) {
     compared = compare(*reference, shown.picture, scene.expected);
@@ -128,12 +128,12 @@ Outcome judge(const TestScene& scene, const Shown& shown, const Hashes& approved
 Result<void> store_hash(const TestScene& scene, const Outcome& outcome) {
   const fs::path folder = scene.approved(outcome.row.driver);
   const fs::path file = hash_file(folder, outcome.row.driver);
-  Result<Hashes> hashes = read_hashes(file);
+  Result<Hashes> hashes = read_hashes(file, scene.unpacked);
   if (!hashes) return hashes.error();
   (*hashes)[scene.name] = outcome.hash;
   if (const auto written = write_hashes(file, *hashes); !written) return written;
   if (!outcome.replaced) return {};
-  return remove_others(folder, outcome.row.driver, scene.name);
+  return remove_others(folder, outcome.row.driver, scene.name, scene.unpacked);
 }
 
 }  // namespace skerry::tools

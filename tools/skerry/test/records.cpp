@@ -16,12 +16,13 @@ namespace fs = std::filesystem;
 using ApprovedBy = std::map<std::string, std::vector<std::string>>;
 
 /// Adds the hashes that lie in a folder of scenes, or in one of a baseline.
-Result<void> add_approved(const fs::path& folder, ApprovedBy& approved) {
+Result<void> add_approved(const fs::path& folder, const std::optional<Unpacked>& from,
+                          ApprovedBy& approved) {
   std::error_code code;
   for (fs::directory_iterator at(hash_file(folder, "any").parent_path(), code), end;
        !code && at != end; at.increment(code)) {
     if (at->path().extension() != ".json") continue;
-    const Result<Hashes> hashes = read_hashes(at->path());
+    const Result<Hashes> hashes = read_hashes(at->path(), from);
     if (!hashes) return hashes.error();
     for (const auto& [scene, hash] : *hashes)
       approved[scene].push_back(at->path().stem().string() + " " + hash);
@@ -44,7 +45,8 @@ std::vector<std::string> drivers_of(const TestScene& scene) {
 Result<ApprovedBy> approved_for(const TestScene& scene) {
   ApprovedBy approved;
   for (const std::string& driver : drivers_of(scene))
-    if (auto added = add_approved(scene.approved(driver), approved); !added) return added.error();
+    if (auto added = add_approved(scene.approved(driver), scene.unpacked, approved); !added)
+      return added.error();
   for (auto& [name, lines] : approved) std::ranges::sort(lines);
   return approved;
 }

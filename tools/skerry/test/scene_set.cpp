@@ -46,6 +46,18 @@ fs::path TestScene::reference(std::string_view driver) const {
   return approved(driver) / file.filename().replace_extension(".png");
 }
 
+Result<platform::PngImage> TestScene::read_reference(std::string_view driver) const {
+  const fs::path picture = reference(driver);
+  if (!unpacked) return platform::read_png(picture);
+  const Result<std::string> bytes = platform::read_text(picture, platform::kMaxPngFileBytes);
+  if (!bytes)
+    return Error{
+        fmt::format("cannot read {}: it is no file of at most {} bytes; take it out "
+                    "(tar --delete) and run skerry test --approve",
+                    known_as(picture, unpacked), platform::kMaxPngFileBytes)};
+  return platform::decode_png(*bytes, known_as(picture, unpacked));
+}
+
 Result<Shard> parse_shard(std::string_view text) {
   const std::vector<std::string> parts = game::split(text, '/');
   if (parts.size() != 2) {
@@ -90,12 +102,13 @@ Result<TestScene> read_scene(const fs::path& file) {
   Result<game::SceneText> parsed = game::parse_scene(*text);
   if (!parsed) return wrong(parsed.error());
   game::find_world_beside(file.string(), *parsed);
+  game::find_ambient_beside(file.string(), *parsed);
   game::find_beside(file.string(), parsed->clouds);
   Result<game::SceneOptions> scene = game::make_scene(*parsed, {});
   if (!scene) return wrong(scene.error());
   const Result<void> checked = game::check_expectations(parsed->expectations, scene->size);
   if (!checked) return wrong(checked.error());
-  return TestScene{file.stem().string(), file, *std::move(scene), parsed->expectations, {}};
+  return TestScene{file.stem().string(), file, *std::move(scene), parsed->expectations, {}, {}};
 }
 
 std::vector<TestScene> shard_of(std::vector<TestScene> scenes, const Shard& shard) {

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/platform/image_file.h"
 #include "game/scene_file/options.h"
+#include "tools/skerry/compare/baseline.h"
 
 namespace skerry::tools {
 
@@ -20,12 +22,15 @@ struct TestScene {
   game::Expectations expected;
 
   std::optional<std::filesystem::path> baseline;  ///< folder with a folder a driver
+  std::optional<Unpacked> unpacked;               ///< if that is from an archive
 
   /// The folder of what is approved for a driver: the baseline's, else the scene's, which is the
   /// same for all drivers.
   std::filesystem::path approved(std::string_view driver) const;
   /// The reference picture in it.
   std::filesystem::path reference(std::string_view driver) const;
+  /// Errors name the archive if it is from one.
+  Result<platform::PngImage> read_reference(std::string_view driver) const;
 };
 
 /// Part `index` (from 1) of `count`.

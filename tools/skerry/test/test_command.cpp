@@ -220,7 +220,10 @@ std::optional<Refusal> TestCommand::read_set(std::vector<TestScene>& scenes,
       fmt::print("skipped: {}: this build has no OpenVDB\n", one_line(scene->name));
       continue;
     }
-    if (opened_baseline_) scene->baseline = opened_baseline_->folder();
+    if (opened_baseline_) {
+      scene->baseline = opened_baseline_->folder();
+      scene->unpacked = opened_baseline_->unpacked();
+    }
     scenes.push_back(*std::move(scene));
   }
   in_set = scenes.size();

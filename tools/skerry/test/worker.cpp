@@ -42,7 +42,8 @@ class Artist {
 
  private:
   Outcome outcome_of_scene(const TestScene& scene) {
-    const Result<Hashes> approved = read_hashes(hash_file(scene.approved(driver_), driver_));
+    const Result<Hashes> approved =
+        read_hashes(hash_file(scene.approved(driver_), driver_), scene.unpacked);
     if (!approved) return {failed_row(scene, approved.error().message), {}, false};
     game::SceneOptions options = scene.scene;
     if (options.settings.jobs_threads == 0)

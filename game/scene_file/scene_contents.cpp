@@ -1,4 +1,4 @@
-#include "game/scene_file/scene_lights.h"
+#include "game/scene_file/scene_contents.h"
 
 #include <fmt/format.h>
 
@@ -220,6 +220,89 @@ Result<std::vector<WorldLight>> read_lights(const json& value) {
     const Result<WorldLight> light = read_light(value[i]);
     if (!light) return Error{fmt::format("the scene's light {}: {}", i + 1, light.error().message)};
     out.push_back(*light);
+  }
+  return out;
+}
+
+namespace {
+
+constexpr std::int64_t kMostBlocks = std::int64_t{1} << 20;  // of all boxes
+
+Result<world::BlockId> read_block(const json& value) {
+  const auto types = world::block_types();
+  std::vector<std::string_view> names;
+  for (const world::BlockType& type : types) names.push_back(type.name);
+  if (!value.is_string()) return Error{"'block' is wrong: give a block's name, e.g. \"glass\""};
+  const auto& name = value.get_ref<const std::string&>();
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end())
+    return Error{fmt::format("there is no block {}: did you mean '{}'?", quote_text(name),
+                             nearest_name(name, names))};
+  return static_cast<world::BlockId>(at - names.begin());
+}
+
+Result<std::array<std::int64_t, 3>> read_place(const json& value, std::string_view field) {
+  const Error wrong{fmt::format("'{}' is wrong: give [X, Y, Z] in whole blocks", field)};
+  if (!value.is_array() || value.size() != 3) return wrong;
+  std::array<std::int64_t, 3> place{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!value[axis].is_number_integer()) return wrong;
+    // Numbers over 2^63 - 1 are unsigned ones to the library.
+    const bool far = value[axis].is_number_unsigned() &&
+                     value[axis].get<std::uint64_t>() > std::uint64_t{world::kMaxBlock};
+    place[axis] = far ? world::kMaxBlock + 1 : value[axis].get<std::int64_t>();
+    if (place[axis] > world::kMaxBlock || place[axis] < -world::kMaxBlock) return wrong;
+  }
+  return place;
+}
+
+Result<BlockBox> read_box(const json& value) {
+  constexpr std::array<std::string_view, 3> kBoxFields{"block", "from", "to"};
+  if (!value.is_object() || !value.contains("block") || !value.contains("from"))
+    return Error{
+        "it lacks a block or a place: give {\"block\": NAME, \"from\": [X, Y, Z], \"to\": [X, Y, "
+        "Z]}"};
+  for (const auto& [field, entry] : value.items())
+    if (std::find(kBoxFields.begin(), kBoxFields.end(), field) == kBoxFields.end())
+      return Error{fmt::format("it has an unknown field {}: did you mean '{}'?", quote_text(field),
+                               nearest_name(field, kBoxFields))};
+  const Result<world::BlockId> block = read_block(value.at("block"));
+  if (!block) return block.error();
+  const auto from = read_place(value.at("from"), "from");
+  if (!from) return from.error();
+  const auto to = value.contains("to") ? read_place(value.at("to"), "to") : from;
+  if (!to) return to.error();
+  BlockBox out{*block, *from, *to};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (out.from[axis] > out.to[axis]) std::swap(out.from[axis], out.to[axis]);
+  return out;
+}
+
+/// kMostBlocks + 1: more than that.
+std::int64_t blocks_in(const BlockBox& box) {
+  std::int64_t count = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t edge = box.to[axis] - box.from[axis] + 1;
+    if (edge > kMostBlocks / count) return kMostBlocks + 1;
+    count *= edge;
+  }
+  return count;
+}
+
+}  // namespace
+
+Result<std::vector<BlockBox>> read_blocks(const json& value) {
+  if (!value.is_array()) return Error{"the scene's field 'blocks' has the wrong kind: give a list"};
+  std::vector<BlockBox> out;
+  std::int64_t left = kMostBlocks;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Result<BlockBox> box = read_box(value[i]);
+    if (!box) return Error{fmt::format("blocks[{}]: {}", i, box.error().message)};
+    left -= blocks_in(*box);
+    if (left < 0)
+      return Error{
+          fmt::format("blocks[{}]: a scene puts {} blocks at most into its world", i, kMostBlocks)};
+    out.push_back(*box);
   }
   return out;
 }

@@ -1,0 +1,62 @@
+// What a kept shadow map lacks, as texels.
+#pragma once
+#include <volk.h>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "engine/render/light/shadow_history.h"
+#include "engine/render/scene/geometry_changes.h"
+
+namespace skerry::render {
+
+/// Texels of a map, [low, high) along each axis.
+struct TexelBox {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return !(low.x < high.x && low.y < high.y); }
+  bool touches(const TexelBox& other) const {
+    return !empty() && !other.empty() && low.x < other.high.x && other.low.x < high.x &&
+           low.y < other.high.y && other.low.y < high.y;
+  }
+  /// The smallest that holds both.
+  void add(const TexelBox& other);
+  /// No texel if empty.
+  VkRect2D rect() const;
+};
+
+TexelBox whole_map(const Cascade& cascade);
+
+/// Where a section may show in a cascade's map. Errs on the side of more: by what rounding, the
+/// growth of edges and a quarter texel of motion come to.
+TexelBox box_of(const shared::Section& section, const IslandPlacement& island,
+                const FixedPos& camera, const Cascade& cascade);
+
+/// Placements from one anchor as they are from another.
+IslandPlacement rebased(IslandPlacement island, const FixedPos& from, const FixedPos& to);
+
+/// How far a point of the island can have moved between two placements from one anchor [blocks], at
+/// most.
+double movement(const IslandPlacement& a, const IslandPlacement& b);
+/// Whether an island may show in a cascade's map. Errs on the side of yes.
+bool may_touch(const IslandPlacement& island, const FixedPos& camera, const Cascade& cascade);
+
+/// How far an island must have moved [texels].
+struct MovedBy {
+  double more_than = 0.0;
+  /// What moved further is another island in its place, which sections tell of that came and went.
+  double at_most = std::numeric_limits<double>::infinity();
+};
+
+/// The texels in which islands that have moved since may show, before or now. Notes in `map` where
+/// these are now. @pre the input has as many islands as the map, or more.
+TexelBox moved_islands(DrawnMap& map, const Cascade& cascade, const FrameInput& input,
+                       const MovedBy& by);
+/// The texels in which sections that came or went since may show; none: that is not known. Notes
+/// in `map` that it shows them.
+std::optional<TexelBox> changed_sections(DrawnMap& map, const Cascade& cascade,
+                                         const FrameInput& input, const GeometryChanges& geometry);
+
+}  // namespace skerry::render

@@ -1,0 +1,53 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Translucent surfaces behind the last peeled layer, added up in any order (the tail of Maule et al., Hybrid Transparency, 2013): optical
+// depth of media and of surfaces, which add up exactly, and the light that surfaces send, to be spread evenly over that depth. docs/decisions/0054.
+#include "include/frame/common.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+
+layout(location = 0) flat in uint in_surface;
+layout(location = 1) in vec2 in_touched;  // x: see draw_quads.vert
+layout(location = 0) out vec4 out_depths;  // rgb: in media from here to the ray's end, negative where one ends; a: of this surface
+layout(location = 1) out vec4 out_light;   // rgb: share of the irradiance that it sends on, times pi; a: share of the sky that it mirrors
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
+layout(binding = kDepthsBinding) uniform sampler2D opaque_depth;
+layout(binding = kPreviousDepthsBinding) uniform sampler2D last_depth;  // of the last layer
+
+#include "include/surface/surface.glsl"
+#include "include/surface/ripples.glsl"
+#include "include/surface/touched.glsl"
+#include "include/surface/media.glsl"
+
+const float kLeastTransmittance = 1e-7;  // of a surface: behind a closed one nothing is seen, and its optical depth stays finite
+
+void main() {
+  uint touched = touched_number(in_touched.x);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float z = gl_FragCoord.z, last = texelFetch(last_depth, pixel, 0).r, opaque = texelFetch(opaque_depth, pixel, 0).r;
+  bool entering = gl_FrontFacing;
+  if (z >= last || z <= opaque || (!entering && touched != 0u)) discard;
+
+  uint word = entering ? in_surface : in_surface ^ kOppositeFace;
+  vec3 ray = pixel_ray(pixel);
+  float ray_length = length(ray), t = view_distance(z, frame.near_plane);
+  float at = view_distance(last, frame.near_plane) * ray_length;
+  float to_end = end_of_media(opaque, at, ray_length) - t * ray_length;
+  Material m = materials[surface_block(word)];
+  vec3 in_media = extinction(m) * (entering ? to_end : -to_end);
+  if (touched != 0u) in_media -= extinction(materials[materials[touched].translucent_block]) * to_end;
+
+  float cosine = clamp(dot(shading_normal(word, ray, t), -ray / ray_length), 0.02, 1.0);
+  float reflected = fresnel(cosine, !entering, kWaterIndex);
+  vec4 texel = has_ripples(word) ? vec4(0.0) : surface_texel(word, ray, t, 1u);
+  float covered = (1.0 - reflected) * texel.a, taken = reflected + covered;
+  float depth = -log(max(1.0 - taken, kLeastTransmittance)), by_depth = depth / taken;
+  // From inside, the medium itself is what is mirrored.
+  vec3 sent = covered * texel.rgb + (entering ? vec3(0.0) : 0.25 * reflected * scattering(m) / max(extinction(m), 1e-6));
+  out_depths = vec4(in_media, depth);
+  out_light = by_depth * vec4(sent, entering ? reflected : 0.0);
+}
