@@ -23,9 +23,9 @@ add_compressed(${package_dir}/skerry.6)
 add_compressed(${CMAKE_BINARY_DIR}/generated/changelog)
 add_custom_target(skerry_package_files ALL DEPENDS ${icon_file} ${compressed_files})
 
-# `skerry` runs `skerry_openvdb` from the folder that it lies in itself, so both lie in one, and a link leads there.
+# `skerry` runs `skerry_openvdb` and `skerry_openexr` from the folder that it lies in itself, so all lie in one, and a link leads there.
 set(program_dir lib/skerry)
-install(TARGETS skerry RUNTIME DESTINATION ${program_dir})
+install(TARGETS skerry skerry_openexr RUNTIME DESTINATION ${program_dir})
 if(SKERRY_OPENVDB)
   install(TARGETS skerry_openvdb RUNTIME DESTINATION ${program_dir})
 endif()

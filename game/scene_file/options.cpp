@@ -170,16 +170,10 @@ Result<void> apply_imports(const SceneText& under, const SceneText& over, SceneO
 }
 
 Result<void> check_ambient(const std::string& text) {
-  std::string end = text.size() < 4 ? text : text.substr(text.size() - 4);
-  for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (text == kAmbientSky || (end == ".hdr" && text.size() > 4)) return {};
-  if (end == ".exr")
-    return Error{
-        fmt::format("the panorama {} cannot be read because this program reads no "
-                    "OpenEXR: convert it to .hdr",
-                    quote_text(text))};
-  return Error{fmt::format("the panorama cannot be {}: give a file FILE.hdr, or sky for none",
-                           quote_text(text))};
+  if (text == kAmbientSky || ends_in(text, ".hdr") || ends_in(text, ".exr")) return {};
+  return Error{
+      fmt::format("the panorama cannot be {}: give a file FILE.hdr or FILE.exr, or sky for none",
+                  quote_text(text))};
 }
 
 /// A source named in `over` replaces the one of `under`, whichever kind it is.

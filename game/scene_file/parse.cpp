@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -88,6 +89,14 @@ std::vector<std::string> split(std::string_view text, char separator) {
     if (at == std::string_view::npos) return parts;
     text.remove_prefix(at + 1);
   }
+}
+
+bool ends_in(std::string_view file, std::string_view extension) {
+  const auto same = [](char small, char any) {
+    return std::tolower(static_cast<unsigned char>(any)) == small;
+  };
+  return file.size() > extension.size() &&
+         std::equal(extension.begin(), extension.end(), file.end() - extension.size(), same);
 }
 
 std::string quote_text(std::string_view text) {

@@ -51,6 +51,10 @@ Result<PictureSize> parse_size(std::string_view text);
 /// Splits at each `separator`; n separators give n + 1 parts.
 std::vector<std::string> split(std::string_view text, char separator);
 
+/// Whether the name of a file ends so, in letters of either case, behind at least one other.
+/// @param extension in small letters, as ".hdr".
+bool ends_in(std::string_view file, std::string_view extension);
+
 /// `text` in quotes for an error line: control characters escaped, long text cut, so that the error
 /// stays one line.
 std::string quote_text(std::string_view text);

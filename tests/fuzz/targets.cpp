@@ -20,6 +20,7 @@
 #include "engine/platform/tar.h"
 #include "game/input/actions.h"
 #include "game/input/hints.h"
+#include "game/openexr/panorama_answer.h"
 #include "game/pace/learnt_costs.h"
 #include "game/pace/quality_front.h"
 #include "game/panorama/radiance_hdr.h"
@@ -114,14 +115,21 @@ void png(std::span<const std::uint8_t> input) {
   SKERRY_ASSERT(image->pixels.size() == std::size_t{image->width} * image->height * 4);
 }
 
-void radiance_hdr(std::span<const std::uint8_t> input) {
-  const Result<render::Panorama> panorama = game::read_radiance_hdr(text_of(input));
+void check_panorama(const Result<render::Panorama>& panorama) {
   if (!panorama) return check_line(panorama.error());
   SKERRY_ASSERT(panorama->columns == 2 * panorama->rows);
   SKERRY_ASSERT(panorama->texels.size() == std::size_t{panorama->columns} * panorama->rows);
   for (const glm::vec3& texel : panorama->texels)
     for (int c = 0; c < 3; ++c)
       SKERRY_ASSERT(texel[c] >= 0.0f && texel[c] <= render::kMostPanoramaRadiance);
+}
+
+void radiance_hdr(std::span<const std::uint8_t> input) {
+  check_panorama(game::read_radiance_hdr(text_of(input)));
+}
+
+void panorama_answer(std::span<const std::uint8_t> input) {
+  check_panorama(game::decode_panorama(std::as_bytes(input)));
 }
 
 /// Nothing but regular files comes out, in the folder, and no more than the archive has.

@@ -38,6 +38,7 @@ root=$work/root
 dpkg-deb --extract "$package" "$root"
 expected='usr/bin/skerry
 usr/lib/skerry/skerry
+usr/lib/skerry/skerry_openexr
 usr/share/applications/org.skerry.Skerry.desktop
 usr/share/doc/skerry/changelog.gz
 usr/share/doc/skerry/copyright
@@ -82,6 +83,7 @@ cd "$work"
 "$root/usr/bin/skerry" devices >"$work/log" 2>&1 || fail "it lists no devices"
 "$root/usr/bin/skerry" shot --seed 1 --size 64x36 --quality low --set view.distance=32 --out shot.png >"$work/log" 2>&1 || fail "it draws nothing"
 [ -s shot.png ] || fail "there is no picture"
+"$root/usr/bin/skerry" shot --seed 1 --size 64x36 --quality low --set view.distance=32 --ambient "$here/../scenes/evening.exr" --out exr.png >"$work/log" 2>&1 || fail "it does not find its reader of OpenEXR files"
 if [ -e "$root/usr/lib/skerry/skerry_openvdb" ]; then
   "$root/usr/bin/skerry" vdb info "$here/../scenes/islet.vdb" >"$work/log" 2>&1 || fail "it does not find its helper"
 fi

@@ -383,12 +383,15 @@ TEST(Stream, DestructionInTheMiddleOfWorkIsClean) {
   const Scene scene;
   World world(scene.desc);
   Jobs jobs(4);
+  int in_the_middle = 0;
   for (std::size_t chunks = 0; chunks < 12; chunks += 2) {
     Streamer streamer(world, jobs);
     streamer.update(scene.view, scene.settings);
     while (streamer.stats().chunks_made < chunks) std::this_thread::yield();
-    EXPECT_GT(streamer.stats().tasks_left, 0u);
+    in_the_middle += streamer.stats().tasks_left > 0 ? 1 : 0;
   }
+  // On a busy machine the threads may be done before this one is asked again.
+  EXPECT_GT(in_the_middle, 0);
   jobs.wait();
 }
 

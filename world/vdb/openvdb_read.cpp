@@ -14,7 +14,7 @@
 #include <string>
 #include <type_traits>
 
-#include "world/vdb/jail.h"
+#include "world/confined/jail.h"
 #include "world/vdb/openvdb_jobs.h"
 
 namespace skerry::world {

@@ -1,11 +1,7 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 #include "world/vdb/answer.h"
 #include "world/vdb/volume_grid.h"
@@ -16,24 +12,20 @@ namespace {
 
 Result<std::vector<VolumeGrid>> read(const std::filesystem::path& path, const ReadLimits& limits,
                                      const ReadProgress& progress) {
-  // Not blocking, so that a pipe nobody writes to is refused rather than waited for.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat state {};
-  if (file.get() < 0 || ::fstat(file.get(), &state) != 0)
-    return Error{fmt::format("{}; check the path", strerror(errno))};
-  if (!S_ISREG(state.st_mode)) return Error{"it is no regular file; give the path of a .vdb file"};
-  Result<MemoryFile> answer = MemoryFile::create();
+  if (!has_openvdb()) return no_openvdb();
+  Result<MemoryFile> answer = read_confined(
+      kOpenVdb, path, [&](std::uint64_t bytes) { return limits_for(bytes, limits); }, progress);
   if (!answer) return answer.error();
-  const auto size = static_cast<std::uint64_t>(state.st_size);
-  const Result<void> ran = run_worker({"read"}, file.get(), answer->descriptor(), size,
-                                      limits_for(size, limits), progress);
-  if (!ran) return ran.error();
   const Result<std::span<const std::byte>> bytes = answer->seal();
   if (!bytes) return bytes.error();
   return decode_answer(*bytes);
 }
 
 }  // namespace
+
+Error no_openvdb() {
+  return Error{"this build has no OpenVDB; configure with -DSKERRY_OPENVDB=ON"};
+}
 
 std::string metadata_doubt(const std::vector<VolumeGrid>& grids) {
   constexpr double kAllowedShare = 1.0 / 32.0, kOfEmptyTrees = 4096.0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "world/confined/process.h"
 #include "world/voxel/coords.h"
 
 namespace skerry::world {
@@ -75,16 +76,6 @@ struct VolumeGrid {
   std::vector<VolumeTile> tiles;
 };
 
-/// What reading one file may take at most. Files are untrusted and OpenVDB can be crashed by a
-/// damaged one, so that a child process reads them.
-struct ReadLimits {
-  /// Address space of the child, beyond what it starts with.
-  std::uint64_t memory_bytes = std::uint64_t{4} << 30;
-  std::uint64_t answer_bytes = std::uint64_t{1} << 30;  ///< of all bricks and tiles together
-  int cpu_s = 60;
-  double wall_s = 120.0;
-};
-
 /// What makes grids that could be read look damaged, in one line without the file's name; empty:
 /// nothing. The memory of a tree follows from its nodes, and versions of OpenVDB differ by less
 /// than one percent in what they state of it. Active voxels and their box are held against the
@@ -95,9 +86,6 @@ std::string metadata_doubt(const std::vector<VolumeGrid>& grids);
 /// file states before it finds that there is no such thing in it. The nodes of a tree take up to
 /// 100 times their masks in the file, which are never compressed.
 ReadLimits limits_for(std::uint64_t file_bytes, const ReadLimits& most = {});
-
-/// Called some times a second with the share of the file that has been read, 0..1.
-using ReadProgress = std::function<void(double share)>;
 
 /// Every grid of a .vdb file, in the file's order; those that cannot be sampled are kOther.
 /// Errors: no such file, no VDB file, truncated, damaged, a limit exceeded, no OpenVDB in this

@@ -18,6 +18,7 @@ constexpr ReadLimits kWriteLimits{std::uint64_t{4} << 30, 0, 600, 1200.0};
 constexpr ReadLimits kVerifyLimits{std::uint64_t{4} << 30, std::uint64_t{2} << 30, 600, 1200.0};
 
 Result<void> write(const std::vector<VolumeGrid>& grids, const std::filesystem::path& path) {
+  if (!has_openvdb()) return no_openvdb();
   Result<MemoryFile> question = MemoryFile::create(), answer = MemoryFile::create();
   if (!question) return question.error();
   if (!answer) return answer.error();
@@ -25,8 +26,8 @@ Result<void> write(const std::vector<VolumeGrid>& grids, const std::filesystem::
   bool kept = begin_answer(static_cast<std::uint32_t>(grids.size()), sink);
   for (const VolumeGrid& grid : grids) kept = kept && encode_grid(grid, sink);
   if (!kept) return Error{"there is not enough memory; export less"};
-  const Result<void> ran = run_worker({"write", path.string()}, question->descriptor(),
-                                      answer->descriptor(), 0, kWriteLimits, {});
+  const Result<void> ran = run_confined(kOpenVdb, {"write", path.string()}, question->descriptor(),
+                                        answer->descriptor(), 0, kWriteLimits, {});
   if (!ran) return ran.error();
   const Result<std::span<const std::byte>> bytes = answer->seal();
   if (!bytes) return bytes.error();

@@ -10,6 +10,7 @@
 
 #include "engine/core/log.h"
 #include "engine/core/output.h"
+#include "engine/core/output_place.h"
 #include "engine/platform/files.h"
 #include "engine/platform/image_file.h"
 #include "game/scene_file/parse.h"
@@ -108,7 +109,7 @@ Result<void> copy_files(const fs::path& from, const fs::path& to) {
   }
   if (!code) return {};
   return Error{fmt::format("cannot read the folder {}: {}; check it and fetch again",
-                           game::quote_text(from.string()), code.message())};
+                           quoted_path(from), code.message())};
 }
 
 /// Where the tasks of a plan are.

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "engine/core/output.h"
+#include "engine/core/output_place.h"
 #include "engine/platform/files.h"
 #include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
@@ -117,8 +118,8 @@ Result<std::string> file_hash(const fs::path& file) {
     hash.add_bytes(block.data(), static_cast<std::size_t>(in.gcount()));
   }
   if (in.eof()) return hash.hex();
-  return Error{fmt::format("cannot read {}: check that it is a file you may read",
-                           game::quote_text(file.string()))};
+  return Error{
+      fmt::format("cannot read {}: check that it is a file you may read", quoted_path(file))};
 }
 
 Result<std::string> task_id(std::string_view command, std::string_view name,
@@ -150,7 +151,7 @@ Result<Plan> read_plan(const fs::path& dir, std::string_view command) {
   if (!text) return text.error();
   const auto wrong = [&](std::string_view why) {
     return Error{fmt::format("cannot use the plan {}: {}; make it with skerry {} plan",
-                             game::quote_text(file.string()), why,
+                             quoted_path(file), why,
                              command.empty() ? "test, report or stability" : command)};
   };
   const Result<json> from = game::parse_json(*text);

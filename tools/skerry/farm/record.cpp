@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/core/output.h"
+#include "engine/core/output_place.h"
 #include "engine/platform/files.h"
 #include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
@@ -47,7 +48,7 @@ Result<Record> read_record(const fs::path& file, const std::string& id) {
   if (!text) return text.error();
   const auto wrong = [&file](std::string_view why) {
     return Error{fmt::format("cannot use the row {}: {}; delete the file and run its task again",
-                             game::quote_text(file.string()), why)};
+                             quoted_path(file), why)};
   };
   const Result<ordered_json> parsed = game::parse_ordered_json(*text);
   if (!parsed) return wrong("it " + parsed.error().message);
@@ -129,8 +130,8 @@ Result<Collected> collect(const Plan& plan, std::span<const fs::path> folders) {
       std::error_code code;
       if (!fs::exists(file, code)) {
         if (!code) continue;
-        return Error{fmt::format("cannot look into {}: {}; check the folder",
-                                 game::quote_text(folder.string()), code.message())};
+        return Error{fmt::format("cannot look into {}: {}; check the folder", quoted_path(folder),
+                                 code.message())};
       }
       Result<Record> record = read_record(file, task.id);
       if (!record) return record.error();

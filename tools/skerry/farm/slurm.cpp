@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "engine/core/output.h"
+#include "engine/core/output_place.h"
 #include "engine/platform/files.h"
 #include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
@@ -183,7 +184,7 @@ Result<Submitted> read_submitted(const fs::path& dir) {
   if (!text) return text.error();
   const auto wrong = [&](std::string_view why) {
     return Error{fmt::format("cannot use {}: {}; delete the file once no job of it is in squeue",
-                             game::quote_text(file.string()), why)};
+                             quoted_path(file), why)};
   };
   const Result<json> from = game::parse_json(*text);
   if (!from) return wrong("it " + from.error().message);

@@ -51,7 +51,7 @@ void add_scene_options(CLI::App& command, SceneArguments& a) {
   command
       .add_option("--ambient", a.text.ambient,
                   "Equirectangular panorama in place of the sky (docs/settings.md), or sky")
-      ->type_name("FILE.hdr|sky");
+      ->type_name("FILE.hdr|FILE.exr|sky");
   command.add_option("--scene", a.scene_file, "JSON file with a scene (docs/settings.md)")
       ->type_name("FILE");
   command

@@ -1,4 +1,4 @@
-#include "world/vdb/jail.h"
+#include "world/confined/jail.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -108,7 +108,8 @@ TEST(Jail, IsWhereFilesAreReadAndItsEndIsALine) {
   ASSERT_TRUE(answer);
   std::string line;
   std::thread reader([&] {
-    const Result<void> ran = run_worker({"read"}, file[0], answer->descriptor(), 0, {}, {});
+    const Result<void> ran =
+        run_confined(kOpenVdb, {"read"}, file[0], answer->descriptor(), 0, {}, {});
     line = ran ? "" : ran.error().message;
   });
   pid_t child = 0;

@@ -1,4 +1,4 @@
-#include "world/vdb/worker.h"
+#include "world/confined/process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -55,8 +55,8 @@ Result<pid_t> start(const std::filesystem::path& program, const std::vector<std:
       ::posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), no_environment);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) {
-    return Error{fmt::format("its reader {} does not start ({}); build the target skerry_openvdb",
-                             program.string(), strerror(failed))};
+    return Error{fmt::format("its reader {} does not start ({}); build the target {}",
+                             program.string(), strerror(failed), program.filename().string())};
   }
   return child;
 }
@@ -83,7 +83,8 @@ std::optional<int> wait_for(pid_t child, int input, std::uint64_t input_bytes, d
 }
 
 /// What a child's end means. @param status none: it was killed after limits.wall_s.
-Result<void> outcome_of(std::optional<int> status, bool writes, const ReadLimits& limits) {
+Result<void> outcome_of(const ConfinedProgram& program, std::optional<int> status, bool writes,
+                        const ReadLimits& limits) {
   const char* const job = writes ? "writing" : "reading";
   const char* const advice = writes ? "export less" : "the file is damaged or too large";
   if (!status) return Error{fmt::format("{} took more than {} s; {}", job, limits.wall_s, advice)};
@@ -95,19 +96,24 @@ Result<void> outcome_of(std::optional<int> status, bool writes, const ReadLimits
                              writes ? advice : "close other programs or make the file smaller")};
   if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGSYS)
     return Error{
-        "it made OpenVDB try to reach out of its process, which was ended; do not trust it"};
+        fmt::format("it made {} try to reach out of its process, which was ended; do not trust it",
+                    program.library)};
   if (WIFSIGNALED(*status) && writes)
-    return Error{fmt::format("OpenVDB crashed (signal {}); {}", WTERMSIG(*status), advice)};
-  if (WIFSIGNALED(*status))
     return Error{
-        fmt::format("the file is damaged: OpenVDB crashed on it (signal {})", WTERMSIG(*status))};
+        fmt::format("{} crashed (signal {}); {}", program.library, WTERMSIG(*status), advice)};
+  if (WIFSIGNALED(*status))
+    return Error{fmt::format("the file is damaged: {} crashed on it (signal {})", program.library,
+                             WTERMSIG(*status))};
   if (WEXITSTATUS(*status) == 0) return {};
   constexpr int kCannotStart = 127;  // of the dynamic loader, too
   if (WEXITSTATUS(*status) == kCannotStart)
+    return Error{fmt::format("{} cannot start, as when a library of {} is missing; install it",
+                             program.name, program.library)};
+  if (writes)
     return Error{
-        "skerry_openvdb cannot start, as when a library of OpenVDB is missing; install it"};
-  return Error{writes ? "OpenVDB gave up without a word; check the space on the disk"
-                      : "the file is damaged: OpenVDB gave up on it without a word"};
+        fmt::format("{} gave up without a word; check the space on the disk", program.library)};
+  return Error{
+      fmt::format("the file is damaged: {} gave up on it without a word", program.library)};
 }
 
 }  // namespace
@@ -123,7 +129,7 @@ Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
 }
 
 Result<MemoryFile> MemoryFile::create() {
-  Descriptor file(::memfd_create("skerry_volumes", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  Descriptor file(::memfd_create("skerry_answer", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (file.get() < 0)
     return Error{fmt::format("there is no memory to read it into ({})", strerror(errno))};
   return MemoryFile(std::move(file));
@@ -162,15 +168,14 @@ Result<std::span<const std::byte>> MemoryFile::seal() {
   return std::span(static_cast<const std::byte*>(mapped_), size_);
 }
 
-std::filesystem::path worker_path() {
+std::filesystem::path path_of(const ConfinedProgram& program) {
   std::error_code ignored;
-  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "skerry_openvdb";
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program.name;
 }
 
-Result<void> run_worker(const std::vector<std::string>& arguments, int input, int output,
-                        std::uint64_t input_bytes, const ReadLimits& limits,
-                        const ReadProgress& progress) {
-  if (!has_openvdb()) return Error{"this build has no OpenVDB; configure with -DSKERRY_OPENVDB=ON"};
+Result<void> run_confined(const ConfinedProgram& program, const std::vector<std::string>& arguments,
+                          int input, int output, std::uint64_t input_bytes,
+                          const ReadLimits& limits, const ReadProgress& progress) {
   const Result<Descriptor> in = lifted(input), out = lifted(output);
   if (!in) return in.error();
   if (!out) return out.error();
@@ -178,11 +183,29 @@ Result<void> run_worker(const std::vector<std::string>& arguments, int input, in
                                     std::to_string(limits.answer_bytes),
                                     std::to_string(limits.cpu_s)};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const Result<pid_t> child = start(worker_path(), words, in->get(), out->get());
+  const Result<pid_t> child = start(path_of(program), words, in->get(), out->get());
   if (!child) return child.error();
   const std::optional<int> status =
       wait_for(*child, in->get(), input_bytes, limits.wall_s, progress);
-  return outcome_of(status, arguments.front() == "write", limits);
+  return outcome_of(program, status, arguments.front() == "write", limits);
+}
+
+Result<MemoryFile> read_confined(const ConfinedProgram& program, const std::filesystem::path& path,
+                                 const std::function<ReadLimits(std::uint64_t bytes)>& limits_for,
+                                 const ReadProgress& progress) {
+  // Not blocking, so that a pipe nobody writes to is refused rather than waited for.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat state {};
+  if (file.get() < 0 || ::fstat(file.get(), &state) != 0)
+    return Error{fmt::format("{}; check the path", strerror(errno))};
+  if (!S_ISREG(state.st_mode)) return Error{"it is no regular file; check the path"};
+  Result<MemoryFile> answer = MemoryFile::create();
+  if (!answer) return answer;
+  const auto size = static_cast<std::uint64_t>(state.st_size);
+  const Result<void> ran = run_confined(program, {"read"}, file.get(), answer->descriptor(), size,
+                                        limits_for(size), progress);
+  if (!ran) return ran.error();
+  return answer;
 }
 
 }  // namespace skerry::world

@@ -1,4 +1,4 @@
-#include "world/vdb/jail.h"
+#include "world/confined/jail.h"
 
 #include <linux/audit.h>
 #include <linux/filter.h>
