@@ -12,10 +12,8 @@ xdotool getwindowname "$window" | grep -q 'seed 1' || fail "the title does not n
 wait_until_quick
 
 screenshots() { find "$work/data" -name '*.png' 2>/dev/null | sort; }
-wait_for_screenshots() {
-  for _ in $(seq 100); do [ "$(screenshots | wc -l)" -ge "$1" ] && return; sleep 0.2; alive "while taking a screenshot"; done
-  fail "screenshot $1 did not come"
-}
+has_screenshots() { [ "$(screenshots | wc -l)" -ge "$1" ]; }
+wait_for_screenshots() { until_true "screenshot $1 is saved" has_screenshots "$1"; }
 grab() { xdotool getwindowgeometry "$window" >/dev/null; import -silent -window "$window" "$1"; }
 
 key F2
