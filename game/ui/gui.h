@@ -71,10 +71,10 @@ class Gui {
 
   ImGuiContext* context_;
   Clipboard clipboard_;
-  std::string clipboard_text_;  // what was asked for or copied last
-  bool refused_ = false;        // it was too long for its field
-  std::deque<platform::InputEvent>
-      queue_;  // that no frame of an ImGui without a queue has read yet
+  std::string clipboard_text_;              // what was asked for or copied last
+  bool refused_ = false;                    // it was too long for its field
+  std::deque<platform::InputEvent> queue_;  // that no frame has read yet
+  int rest_ = 0;  // frames in which nothing is pressed: a screen that Enter opened takes its focus
   Fonts fonts_;
   bool pressed_ = false;
   float scale_ = 1.0f;  // stays while a slider is moved, or it would move away from the pointer

@@ -342,6 +342,27 @@ TEST(Screens, EnterOnTheWorldListPlaysTheLatest) {
   EXPECT_EQ(sitting.wishes.play, "/a.skerry");
 }
 
+/// On a slow machine a frame brings all that was pressed in seconds.
+TEST(Screens, KeysThatComeInOneFrameAllCount) {
+  const auto typed = [](Sitting& sitting, std::initializer_list<Key> keys) {
+    sitting.settle();
+    for (const Key key : keys)
+      for (const bool down : {true, false}) sitting.input.set_key(key, down);
+    for (int i = 0; i < 40; ++i) sitting.frame();
+  };
+  Sitting lists(Screen::kTitle);  // the list of worlds, and there the latest
+  typed(lists, {Key::kEnter, Key::kEnter});
+  EXPECT_EQ(lists.wishes.play, "/a.skerry");
+  Sitting makes(
+      Screen::kTitle);  // there is no world yet: the screen for a new one, and Enter there
+  makes.facts.worlds = {};
+  typed(makes, {Key::kEnter, Key::kEnter});
+  EXPECT_TRUE(makes.wishes.create);
+  Sitting walks(Screen::kTitle);
+  typed(walks, {Key::kDown, Key::kDown, Key::kEnter});
+  EXPECT_EQ(walks.state.stack.top(), Screen::kSettings);
+}
+
 TEST(Screens, KeysChooseWorldsOnTheWay) {
   Sitting sitting(Screen::kWorlds);
   sitting.settle();
