@@ -74,7 +74,7 @@ class Gui {
   std::string clipboard_text_;              // what was asked for or copied last
   bool refused_ = false;                    // it was too long for its field
   std::deque<platform::InputEvent> queue_;  // that no frame has read yet
-  int rest_ = 0;  // frames in which nothing is pressed: a screen that Enter opened takes its focus
+  int rest_ = 0;  // frames in which nothing is pressed: the focus is on its way
   Fonts fonts_;
   bool pressed_ = false;
   float scale_ = 1.0f;  // stays while a slider is moved, or it would move away from the pointer

@@ -65,7 +65,8 @@ std::optional<int> mouse_button(Key key) {
 namespace {
 
 // Enter may open a screen: it is drawn in the next frame, and has its focus in the one after that.
-constexpr int kFramesAfterEnter = 3;
+// A field that Tab goes to takes no characters in the frame in which it gets the focus.
+constexpr int kFramesOfFocus = 3;
 
 /// Of a key, a button or a character.
 bool is_press(const InputEvent& event) {
@@ -73,8 +74,8 @@ bool is_press(const InputEvent& event) {
   return event.down && (gui_key(event.key) || mouse_button(event.key));
 }
 
-bool is_enter(const InputEvent& event) {
-  return event.key == Key::kEnter && event.down;
+bool moves_focus(const InputEvent& event) {
+  return event.down && (event.key == Key::kEnter || event.key == Key::kTab);
 }
 
 }  // namespace
@@ -114,7 +115,7 @@ void Gui::feed(const InputFrame& input) {
     const InputEvent event = queue_.front();
     if (rest_ > 0 && is_press(event)) break;
     queue_.pop_front();
-    if (is_enter(event)) rest_ = kFramesAfterEnter;
+    if (moves_focus(event)) rest_ = kFramesOfFocus;
     if (event.key == Key::kNone) io.AddInputCharacter(static_cast<unsigned>(event.character));
     if (event.key == Key::kControl) io.AddKeyEvent(ImGuiMod_Ctrl, event.down);
     if (event.key == Key::kShift) io.AddKeyEvent(ImGuiMod_Shift, event.down);
@@ -257,7 +258,7 @@ void Gui::feed(const InputFrame& input) {
     if (!skipped && !taken.has_room_for(event, io)) break;
     queue_.pop_front();
     if (skipped) continue;
-    if (is_enter(event)) rest_ = kFramesAfterEnter;
+    if (moves_focus(event)) rest_ = kFramesOfFocus;
     take_in(event, io);
     taken.note(event);
   }

@@ -358,6 +358,15 @@ TEST(Screens, KeysThatComeInOneFrameAllCount) {
   makes.facts.worlds = {};
   typed(makes, {Key::kEnter, Key::kEnter});
   EXPECT_TRUE(makes.wishes.create);
+  // In the fields of a new world: what follows Tab goes to the next one, two presses on.
+  Sitting names(Screen::kNewWorld);
+  names.settle();
+  for (int i = 0; i < 2; ++i) {
+    for (const bool down : {true, false}) names.input.set_key(Key::kTab, down);
+    names.input.type(U'7');
+  }
+  for (int i = 0; i < 40; ++i) names.frame();
+  EXPECT_EQ(std::string(names.state.new_seed.data()), "7");
   Sitting walks(Screen::kTitle);
   typed(walks, {Key::kDown, Key::kDown, Key::kEnter});
   EXPECT_EQ(walks.state.stack.top(), Screen::kSettings);
