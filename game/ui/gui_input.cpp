@@ -64,10 +64,6 @@ std::optional<int> mouse_button(Key key) {
 
 namespace {
 
-// Enter may open a screen: it is drawn in the next frame, and has its focus in the one after that.
-// A field that Tab goes to takes no characters in the frame in which it gets the focus.
-constexpr int kFramesOfFocus = 3;
-
 /// Of a key, a button or a character.
 bool is_press(const InputEvent& event) {
   if (event.key == Key::kNone) return true;

@@ -1,9 +1,14 @@
-# Run by cpack on what it made. It counts a link as the file that it leads to, so that the program was said to take twice its room: says what
+# Run by cpack on what it made. Refuses a package that names no libraries. And cpack counts a link as the file that it leads to, so that the program was said to take twice its room: says what
 # is installed as dpkg-gencontrol does, in KiB rounded up, and one for each folder and link.
 foreach(package IN LISTS CPACK_PACKAGE_FILES)
   set(tree ${CPACK_TEMPORARY_DIRECTORY}/sized)
   file(REMOVE_RECURSE ${tree})
   execute_process(COMMAND dpkg-deb --raw-extract ${package} ${tree} COMMAND_ERROR_IS_FATAL ANY)
+  file(READ ${tree}/DEBIAN/control control)
+  if(NOT control MATCHES "libc6 ")
+    file(REMOVE ${package})
+    message(FATAL_ERROR "cannot make a package: without dpkg-shlibdeps it would not name the libraries that it needs; install dpkg-dev")
+  endif()
   file(GLOB_RECURSE files LIST_DIRECTORIES TRUE ${tree}/usr/*)
   set(kib 0)
   foreach(file IN LISTS files)
@@ -13,7 +18,6 @@ foreach(package IN LISTS CPACK_PACKAGE_FILES)
     endif()
     math(EXPR kib "${kib} + (${bytes} + 1023) / 1024")
   endforeach()
-  file(READ ${tree}/DEBIAN/control control)
   string(REGEX REPLACE "Installed-Size: [0-9]+" "Installed-Size: ${kib}" control "${control}")
   file(WRITE ${tree}/DEBIAN/control "${control}")
   execute_process(COMMAND dpkg-deb --build --root-owner-group ${tree} ${package} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
