@@ -1,5 +1,6 @@
-# Run by cpack on what it made. Refuses a package that names no libraries. And cpack counts a link as the file that it leads to, so that the program was said to take twice its room: says what
-# is installed as dpkg-gencontrol does, in KiB rounded up, and one for each folder and link.
+# Run by cpack on what it made. Refuses a package that names no libraries, which would install and not start. And cpack counts a link as the
+# file that it leads to, so that the program was said to take twice its room: says what is installed as dpkg-gencontrol does, in KiB rounded
+# up, and one for each folder and link.
 foreach(package IN LISTS CPACK_PACKAGE_FILES)
   set(tree ${CPACK_TEMPORARY_DIRECTORY}/sized)
   file(REMOVE_RECURSE ${tree})
