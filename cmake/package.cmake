@@ -60,4 +60,5 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS "libvulkan1, libxcursor1, libxi6, libxinerama1,
 # Chinese and Japanese need one of these fonts. Sound is loaded if it is there: without it the program is silent.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, libopenal1")
 string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", fonts-wqy-microhei | fonts-wqy-zenhei | fonts-noto-cjk | fonts-droid-fallback")
+set(CPACK_POST_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/check_package.cmake)
 include(CPack)

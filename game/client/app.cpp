@@ -381,7 +381,7 @@ Result<void> App::show_loading(const ui::LoadingFacts& facts) {
   if (!frame) return {};
   const VkExtent2D size = presenter_->extent();
   const Settings& settings = world_ ? world_->settings() : base_.settings;
-  gui_.begin({size.width, size.height, kLoadingFrame, nullptr, settings.ui.scale});
+  gui_.begin({size.width, size.height, kLoadingFrame, nullptr, settings.ui.scale, true});
   ui::show_loading(facts);
   return presenter_->show_alone(*frame, gui_.end());
 }

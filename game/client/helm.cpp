@@ -14,6 +14,10 @@ namespace {
 constexpr double kHeldSpeed = 0.05;                   // blocks/s
 constexpr double kHeldTurn = 1e-12;                   // 1 - cos of half the angle of a frame
 constexpr double kHeldAfter = 0.6, kBumpSpeed = 1.5;  // seconds; blocks/s
+// One that strains against a corner jerks now and then, for a tick and by some thousandths of a
+// block. It is free when it goes on for longer than that, or farther.
+constexpr double kJerkSeconds = 0.05, kJerkBlocks = 0.03;
+constexpr int kJerkFrames = 2;
 
 }  // namespace
 
@@ -35,7 +39,8 @@ void Helm::steer(const Intent& intent, double yaw_deg, SessionClient& session) {
   if (!island_) return;
   const double yaw = glm::radians(yaw_deg);
   const glm::dvec3 ahead{std::sin(yaw), 0.0, std::cos(yaw)};
-  driven_ = intent.move != glm::dvec2(0.0) || intent.rise != 0.0;
+  // What only waits is not held by another island.
+  driven_ = (intent.move != glm::dvec2(0.0) || intent.rise != 0.0) && !session.waits(*island_);
   session.send(
       Steer{*island_, ahead * intent.move.y + glm::dvec3{0.0, intent.rise, 0.0}, -intent.move.x});
 }
@@ -51,7 +56,17 @@ std::optional<std::string> Helm::watch(const world::Pose& before, const world::P
   speed_ = glm::length(world::difference_blocks(now.origin, before.origin)) / seconds;
   const double turned = 1.0 - std::abs(glm::dot(now.rotation, before.rotation));
   const bool stands = speed_ < kHeldSpeed && turned < kHeldTurn;
-  held_s_ = stands && driven_ ? held_s_ + seconds : 0.0;
+  moves_s_ = stands ? 0.0 : moves_s_ + seconds;
+  move_frames_ = stands ? 0 : move_frames_ + 1;
+  const bool goes_on = move_frames_ > kJerkFrames && moves_s_ > kJerkSeconds;
+  const bool about_there = stands_at_ && glm::length(world::difference_blocks(
+                                             now.origin, stands_at_->origin)) < kJerkBlocks;
+  if (driven_ && about_there && !goes_on) {
+    held_s_ += seconds;
+  } else {
+    held_s_ = 0.0;
+    stands_at_ = now;
+  }
   if (was > kBumpSpeed && speed_ < 0.25 * was) bump_ = was;
   if (held_fast() && !was_held)
     return tr_format("{} is held fast by another island: back off, rise or turn",

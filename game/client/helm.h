@@ -35,7 +35,10 @@ class Helm {
   std::optional<std::uint64_t> island_;
   bool driven_ = false;  // by what is pressed now
   double speed_ = 0.0, bump_ = 0.0;
-  double held_s_ = 0.0;  // for so long it has been driven and not moved
+  double moves_s_ = 0.0;  // for so long, and so many frames, it has not stood still
+  int move_frames_ = 0;
+  std::optional<world::Pose> stands_at_;  // about there, since
+  double held_s_ = 0.0;                   // for so long it has been driven and not moved
 };
 
 }  // namespace skerry::game

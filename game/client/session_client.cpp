@@ -30,6 +30,15 @@ std::vector<Answer> SessionClient::hear() {
   return std::exchange(heard_, {});
 }
 
+void SessionClient::note_waiting(const IslandsMoved& moved) {
+  for (const world::MovingIsland& move : moved.moves) {
+    if (move.waits)
+      waiting_.insert(move.island);
+    else
+      waiting_.erase(move.island);
+  }
+}
+
 void SessionClient::take_in() {
   for (Answer& answer : session_->receive(id_)) {
     if (auto* joined = std::get_if<Joined>(&answer)) {
@@ -40,6 +49,7 @@ void SessionClient::take_in() {
       verdict_ = edited->verdict;
       if (verdict_ == EditVerdict::kDone) edits_.push_back(*edited);
     } else {
+      if (const auto* moved = std::get_if<IslandsMoved>(&answer)) note_waiting(*moved);
       heard_.push_back(std::move(answer));
     }
   }

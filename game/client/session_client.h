@@ -1,6 +1,8 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +25,9 @@ class SessionClient : public BlockEditor {
   /// Session::world(): what messages say of islands is applied there already.
   std::shared_ptr<world::World> world() const { return session_->world(); }
 
+  /// See world::MovingIsland::waits.
+  bool waits(std::uint64_t island) const { return waiting_.contains(island); }
+
   void send(Request request) { session_->send(id_, std::move(request)); }
   /// Asks for an edit and receives the answer at once, so that this frame's picture can show it.
   bool set_block(std::uint64_t island, world::IVec3 voxel, world::BlockId block) override;
@@ -39,11 +44,13 @@ class SessionClient : public BlockEditor {
 
  private:
   void take_in();
+  void note_waiting(const IslandsMoved& moved);
 
   std::unique_ptr<Session> session_;
   ClientId id_;
   Joined joined_;
   double time_s_ = 0.0;
+  std::set<std::uint64_t> waiting_;           // islands
   EditVerdict verdict_ = EditVerdict::kDone;  // of the last edit
   std::vector<EditAnswer> edits_;
   std::vector<Answer> heard_;

@@ -20,8 +20,8 @@ struct BlockEmission {
   glm::vec3 offset{0.0f};
 };
 
-/// Indexed by block id; zeros for blocks that do not glow. A block's radiance is the mean albedo of
-/// its textures times its emission; an even Lambertian face of area A and radiance L sends out
+/// Indexed by block id; zeros for blocks that do not glow. A block's radiance is the mean of what
+/// its texels emit; an even Lambertian face of area A and radiance L sends out
 /// pi L A, over the 4 pi of the sphere.
 std::vector<BlockEmission> emission_table();
 

@@ -101,7 +101,7 @@ std::size_t Mixer::voices() const {
 }
 
 /// The clip's next samples, by the voice's speed; silence once it has ended.
-void Mixer::fill(Voice& voice, std::size_t samples) {
+void Mixer::fill(Voice& voice, std::size_t samples, Clip& out) {
   const std::span<const std::int16_t> clip = bank_.clips[voice.start.clip];
   const std::size_t size = clip.size();
   if (voice.start.speed == 1.0f) {
@@ -109,15 +109,15 @@ void Mixer::fill(Voice& voice, std::size_t samples) {
     while (done < samples) {
       const std::size_t run = std::min(samples - done, size - at);
       for (std::size_t i = 0; i < run; ++i)
-        clip_[done + i] = static_cast<float>(clip[at + i]) * kFromInt16;
+        out[done + i] = static_cast<float>(clip[at + i]) * kFromInt16;
       done += run;
       at += run;
       if (at < size) break;
       at = 0;
       if (voice.start.loops) continue;
       voice.playing = false;
-      std::fill(clip_.begin() + static_cast<std::ptrdiff_t>(done),
-                clip_.begin() + static_cast<std::ptrdiff_t>(samples), 0.0f);
+      std::fill(out.begin() + static_cast<std::ptrdiff_t>(done),
+                out.begin() + static_cast<std::ptrdiff_t>(samples), 0.0f);
       break;
     }
     voice.at = static_cast<double>(at);
@@ -127,40 +127,48 @@ void Mixer::fill(Voice& voice, std::size_t samples) {
     const auto at = static_cast<std::size_t>(voice.at);
     const auto part = static_cast<float>(voice.at - static_cast<double>(at));
     const std::size_t next = at + 1 < size ? at + 1 : voice.start.loops ? 0 : at;
-    clip_[i] = kFromInt16 * (static_cast<float>(clip[at]) * (1.0f - part) +
-                             static_cast<float>(clip[next]) * part);
+    out[i] = kFromInt16 *
+             (static_cast<float>(clip[at]) * (1.0f - part) + static_cast<float>(clip[next]) * part);
     voice.at += double{voice.start.speed};
     if (voice.at < static_cast<double>(size)) continue;
     voice.at -= static_cast<double>(size);
     if (voice.start.loops) continue;
     voice.playing = false;
-    std::fill(clip_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-              clip_.begin() + static_cast<std::ptrdiff_t>(samples), 0.0f);
+    std::fill(out.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+              out.begin() + static_cast<std::ptrdiff_t>(samples), 0.0f);
     return;
   }
 }
 
-void Mixer::mix_voice(Voice& voice, std::size_t samples) {
-  fill(voice, samples);
+/// @param voices kTogether at most, whose clips these are.
+void Mixer::low_pass(std::span<Voice* const> voices, std::span<Clip> clips, std::size_t samples) {
+  Clip unused{};
+  std::array<float*, kTogether> x;
+  x.fill(unused.data());
+  std::array<float, kTogether> low{}, pole{};
+  for (std::size_t k = 0; k < voices.size(); ++k) {
+    if (voices[k]->pole >= 0.999f) continue;
+    x[k] = clips[k].data();
+    low[k] = voices[k]->low;
+    pole[k] = voices[k]->pole;
+  }
+  for (std::size_t i = 0; i < samples; ++i)
+    for (std::size_t k = 0; k < kTogether; ++k) x[k][i] = low[k] += pole[k] * (x[k][i] - low[k]);
+  for (std::size_t k = 0; k < voices.size(); ++k) voices[k]->low = clips[k][samples - 1];
+}
+
+void Mixer::add(Voice& voice, const Goal& goal, std::size_t samples, const Clip& clip) {
   // Straight to what the glide reaches at the block's end: no step, and no exponential a sample.
-  const Goal goal = goal_of(voice);
   const float glide = glide_of(samples);
   const auto n = static_cast<float>(samples);
   const Goal step{(goal.left - voice.left) * glide / n, (goal.right - voice.right) * glide / n,
                   (goal.reverb - voice.reverb) * glide / n, 0.0f};
-  voice.pole += (goal.pole - voice.pole) * glide;
-  if (voice.pole < 0.999f) {
-    float low = voice.low;
-    for (std::size_t i = 0; i < samples; ++i) clip_[i] = low += voice.pole * (clip_[i] - low);
-    voice.low = low;
-  } else {
-    voice.low = clip_[samples - 1];
-  }
+  const float left = voice.left, right = voice.right, reverb = voice.reverb;
   for (std::size_t i = 0; i < samples; ++i) {
-    const auto at = static_cast<float>(i + 1);
-    left_[i] += (voice.left + step.left * at) * clip_[i];
-    right_[i] += (voice.right + step.right * at) * clip_[i];
-    send_[i] += (voice.reverb + step.reverb * at) * clip_[i];
+    const auto at = static_cast<float>(static_cast<int>(i) + 1);
+    left_[i] += (left + step.left * at) * clip[i];
+    right_[i] += (right + step.right * at) * clip[i];
+    send_[i] += (reverb + step.reverb * at) * clip[i];
   }
   voice.left += step.left * n;
   voice.right += step.right * n;
@@ -168,13 +176,33 @@ void Mixer::mix_voice(Voice& voice, std::size_t samples) {
   if (voice.ending && voice.left + voice.right + voice.reverb < kFadedOut) voice.playing = false;
 }
 
+/// @param voices kTogether at most.
+void Mixer::mix_voices(std::span<Voice* const> voices, std::size_t samples) {
+  std::array<Goal, kTogether> goals;
+  for (std::size_t k = 0; k < voices.size(); ++k) {
+    Voice& voice = *voices[k];
+    fill(voice, samples, clips_[k]);
+    goals[k] = goal_of(voice);
+    voice.pole += (goals[k].pole - voice.pole) * glide_of(samples);
+  }
+  low_pass(voices, clips_, samples);
+  for (std::size_t k = 0; k < voices.size(); ++k) add(*voices[k], goals[k], samples, clips_[k]);
+}
+
 void Mixer::mix_block(std::span<float> stereo) {
   const std::size_t samples = stereo.size() / 2;
   std::fill_n(left_.begin(), samples, 0.0f);
   std::fill_n(right_.begin(), samples, 0.0f);
   std::fill_n(send_.begin(), samples, 0.0f);
-  for (Voice& voice : voices_)
-    if (voice.playing) mix_voice(voice, samples);
+  std::array<Voice*, kTogether> together{};
+  std::size_t count = 0;
+  for (Voice& voice : voices_) {
+    if (!voice.playing) continue;
+    together[count++] = &voice;
+    if (count == kTogether) mix_voices(together, samples);
+    count %= kTogether;
+  }
+  mix_voices(std::span(together).first(count), samples);
   reverb_.render({send_.data(), samples}, {left_.data(), samples}, {right_.data(), samples});
   // The master's volume is of all that is heard, the reverb's tail included.
   const float goal = volumes_[static_cast<std::size_t>(SoundGroup::kMaster)];

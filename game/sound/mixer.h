@@ -74,12 +74,18 @@ class Mixer {
     float left, right, reverb, pole;
   };
   static constexpr std::size_t kBlock = 128;  // samples that are mixed at a time
+  /// Voices that are mixed at a time: a low-pass waits for its own last sample, so that four take
+  /// no longer than one.
+  static constexpr std::size_t kTogether = 4;
+  using Clip = std::array<float, kBlock>;
 
   Goal goal_of(const Voice& voice) const;
   Voice* find(VoiceId id);
   Voice* free_voice(float gain);
-  void fill(Voice& voice, std::size_t samples);
-  void mix_voice(Voice& voice, std::size_t samples);
+  void fill(Voice& voice, std::size_t samples, Clip& clip);
+  static void low_pass(std::span<Voice* const> voices, std::span<Clip> clips, std::size_t samples);
+  void add(Voice& voice, const Goal& goal, std::size_t samples, const Clip& clip);
+  void mix_voices(std::span<Voice* const> voices, std::size_t samples);
   void mix_block(std::span<float> stereo);
 
   const SoundBank& bank_;
@@ -87,7 +93,8 @@ class Mixer {
   std::array<float, kSoundGroups> volumes_;
   float master_ = 1.0f;  // glides to its volume
   Reverb reverb_;
-  std::array<float, kBlock> clip_{}, left_{}, right_{}, send_{};
+  std::array<Clip, kTogether> clips_{};
+  Clip left_{}, right_{}, send_{};
 };
 
 }  // namespace skerry::game

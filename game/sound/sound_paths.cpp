@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -22,6 +23,7 @@ struct Neighbour {
 constexpr int bit_of(int x, int y, int z) {
   return (y + 1) * 9 + (x + 1) * 3 + z + 1;
 }
+constexpr std::uint32_t kAround = ((1u << 27) - 1) & ~(1u << bit_of(0, 0, 0));
 
 /// The 26 neighbours. One across an edge or a corner needs all voxels of the box between.
 constexpr std::array<Neighbour, 26> make_neighbours() {
@@ -46,6 +48,24 @@ constexpr std::array<Neighbour, 26> make_neighbours() {
   return all;
 }
 constexpr std::array<Neighbour, 26> kNeighbours = make_neighbours();
+constexpr std::uint32_t kAllNeighbours = (1u << kNeighbours.size()) - 1;
+
+/// Of a step: all neighbours around the voxel that it comes from are open.
+constexpr std::uint8_t kFromOpen = 0x80;
+
+/// By step: the neighbours that are none of the voxel where the step began. If all around that one
+/// is open, it has reached the others itself, by a way that is no longer.
+constexpr std::array<std::uint32_t, 26> make_onward() {
+  std::array<std::uint32_t, 26> onward{};
+  for (std::size_t step = 0; step < onward.size(); ++step)
+    for (std::size_t n = 0; n < kNeighbours.size(); ++n) {
+      const world::IVec3 a = kNeighbours[step].by, b = kNeighbours[n].by;
+      const auto beyond = [](int two) { return two < -1 || two > 1; };
+      if (beyond(a.x + b.x) || beyond(a.y + b.y) || beyond(a.z + b.z)) onward[step] |= 1u << n;
+    }
+  return onward;
+}
+constexpr std::array<std::uint32_t, 26> kOnward = make_onward();
 
 world::IVec3 cell_at(std::size_t index) {
   constexpr std::size_t kEdge = SoundRoom::kEdge;
@@ -84,14 +104,18 @@ double SoundPath::gain() const {
 
 void SoundPaths::reach(std::size_t from, int cost) {
   const std::uint32_t open = open_around(room_, cell_at(from));
-  for (std::size_t n = 0; n < kNeighbours.size(); ++n) {
+  const bool all_open = (open & kAround) == kAround;
+  const std::uint8_t came_by = step_[from];
+  std::uint32_t left = (came_by & kFromOpen) != 0 ? kOnward[came_by & ~kFromOpen] : kAllNeighbours;
+  for (; left != 0; left &= left - 1) {
+    const auto n = static_cast<std::size_t>(std::countr_zero(left));
     const Neighbour& next = kNeighbours[n];
-    if ((open & next.needs) != next.needs) continue;
+    if (!all_open && (open & next.needs) != next.needs) continue;
     const std::size_t to = from + static_cast<std::size_t>(next.next);
     const int there = cost + next.cost;
     if (there >= cost_[to] || there > kMostLength * kFaceCost) continue;
     cost_[to] = static_cast<std::uint16_t>(there);
-    step_[to] = static_cast<std::uint8_t>(n);
+    step_[to] = static_cast<std::uint8_t>(n | (all_open ? kFromOpen : 0));
     due_[static_cast<std::size_t>(there)].push_back(static_cast<std::uint32_t>(to));
   }
 }
@@ -107,8 +131,7 @@ bool SoundPaths::flood_serves() const {
 }
 
 /// Dijkstra's algorithm with a bucket a cost (R. B. Dial, CACM 12(11), 1969).
-void SoundPaths::flood() {
-  if (flood_serves()) return;
+void SoundPaths::begin_flood() {
   const world::IVec3 start = SoundRoom::cell_of(listener_);
   flooded_from_ = start;
   flooded_revision_ = room_.revision();
@@ -117,24 +140,31 @@ void SoundPaths::flood() {
   step_.resize(SoundRoom::kCells);
   due_.resize(static_cast<std::size_t>(kMostLength) * kFaceCost + 1);
   for (auto& bucket : due_) bucket.clear();
+  flooded_cost_ = 0;
+  reached_ = 0;
   if (!SoundRoom::inside(start)) return;
   const std::size_t first = SoundRoom::index(start);
   cost_[first] = 0;
+  step_[first] = 0;
   due_[0].push_back(static_cast<std::uint32_t>(first));
-  int reached = 0;
-  for (std::size_t cost = 0; cost < due_.size() && reached < kMostCells; ++cost) {
+}
+
+void SoundPaths::flood_to(std::size_t cell) {
+  for (; flooded_cost_ < due_.size() && reached_ < kMostCells && cost_[cell] >= flooded_cost_;
+       ++flooded_cost_) {
     // No step is free, so a bucket does not grow while it is worked off.
-    for (const std::uint32_t at : due_[cost]) {
-      if (cost_[at] != cost) continue;  // a shorter way came later
-      reach(at, static_cast<int>(cost));
-      ++reached;
+    for (const std::uint32_t at : due_[flooded_cost_]) {
+      if (cost_[at] != flooded_cost_) continue;  // a shorter way came later
+      reach(at, static_cast<int>(flooded_cost_));
+      ++reached_;
     }
   }
 }
 
 int SoundPaths::way_cost(world::IVec3 cell) {
-  flood();
+  if (!flood_serves()) begin_flood();
   if (!SoundRoom::inside(cell)) return -1;
+  flood_to(SoundRoom::index(cell));
   const std::uint16_t cost = cost_[SoundRoom::index(cell)];
   return cost == kUnreached ? -1 : cost;
 }
@@ -142,7 +172,7 @@ int SoundPaths::way_cost(world::IVec3 cell) {
 std::vector<glm::dvec3> SoundPaths::corners_to(world::IVec3 cell, const glm::dvec3& source) const {
   std::vector<glm::dvec3> way{source};
   for (world::IVec3 at = cell; at != flooded_from_;) {
-    const world::IVec3 by = kNeighbours[step_[SoundRoom::index(at)]].by;
+    const world::IVec3 by = kNeighbours[step_[SoundRoom::index(at)] & ~kFromOpen].by;
     at = {at.x - by.x, at.y - by.y, at.z - by.z};
     if (at != flooded_from_) way.push_back(SoundRoom::middle_of(at));
   }

@@ -27,8 +27,8 @@ inline constexpr double kCornerLossDb = 6.0;
 /// Paths from many sources to one listener. What is not in the line of sight is found by one flood
 /// from the listener's voxel over the 26 neighbours, round no corner that both ways would cut,
 /// which all sources share; the way is then pulled tight. It serves until something changes or the
-/// listener has gone beyond the voxels beside its own, or out of its sight. Not found within
-/// kMostLength or kMostCells: through the wall.
+/// listener has gone beyond the voxels beside its own, or out of its sight, and spreads no further
+/// than it is asked for. Not found within kMostLength or kMostCells: through the wall.
 class SoundPaths {
  public:
   static constexpr int kMostLength = 48;    ///< blocks
@@ -44,12 +44,14 @@ class SoundPaths {
   /// Cost of the shortest way over voxels from where the flood began [tenths of a block]; -1: none
   /// found.
   int way_cost(world::IVec3 cell);
-  /// How often a flood ran.
+  /// How often a flood began.
   std::uint64_t floods() const { return floods_; }
 
  private:
   bool flood_serves() const;
-  void flood();
+  void begin_flood();
+  /// On to where the cost of a voxel is final.
+  void flood_to(std::size_t cell);
   void reach(std::size_t from, int cost);
   /// Corners from the listener to a voxel, both ends included.
   std::vector<glm::dvec3> corners_to(world::IVec3 cell, const glm::dvec3& source) const;
@@ -59,9 +61,11 @@ class SoundPaths {
   glm::dvec3 listener_{};
   world::IVec3 flooded_from_{-1, -1, -1};
   std::uint64_t flooded_revision_ = 0, floods_ = 0;
-  std::vector<std::uint16_t> cost_;              // kUnreached, or from flooded_from_
-  std::vector<std::uint8_t> step_;               // which neighbour of the voxel before it is
+  std::vector<std::uint16_t> cost_;  // kUnreached, or from flooded_from_
+  std::vector<std::uint8_t> step_;   // which neighbour of the voxel before it is; maybe kFromOpen
   std::vector<std::vector<std::uint32_t>> due_;  // voxels by cost
+  std::size_t flooded_cost_ = 0;                 // what costs less is final
+  int reached_ = 0;                              // voxels that are
 };
 
 }  // namespace skerry::game

@@ -116,11 +116,13 @@ void Gui::begin(const GuiFrame& frame) {
   io.DeltaTime = std::max(static_cast<float>(frame.seconds), 1e-6f);
   if (!pressed_) scale_ = frame.scale;
   begin_look(fonts_, io.DisplaySize.x, io.DisplaySize.y, scale_);
-  if (frame.input)
+  if (frame.between)
+    rest_ = kFramesOfFocus;  // the screens come anew
+  else if (frame.input)
     feed(*frame.input);
   else if (fed_)
     release_all();
-  fed_ = frame.input != nullptr;
+  if (!frame.between) fed_ = frame.input != nullptr;
   ImGui::NewFrame();
 }
 

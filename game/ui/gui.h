@@ -24,6 +24,8 @@ struct GuiFrame {
   double seconds = 0.0;                         ///< since the frame before
   const platform::InputFrame* input = nullptr;  ///< null: the keys mean the world, not the screens
   float scale = 1.0f;                           ///< times the usual sizes
+  /// Shown while another frame is still being made, without keys: those that were pressed wait.
+  bool between = false;
 };
 
 /// Where copied text goes and comes from.
@@ -66,15 +68,18 @@ class Gui {
 
  private:
   friend struct ClipboardCalls;
+  /// Enter may open a screen: it is drawn in the next frame, and has its focus in the one after
+  /// that. A field that Tab goes to takes no characters in the frame in which it gets the focus.
+  static constexpr int kFramesOfFocus = 3;
   void feed(const platform::InputFrame& input);
   void release_all();
 
   ImGuiContext* context_;
   Clipboard clipboard_;
-  std::string clipboard_text_;  // what was asked for or copied last
-  bool refused_ = false;        // it was too long for its field
-  std::deque<platform::InputEvent>
-      queue_;  // that no frame of an ImGui without a queue has read yet
+  std::string clipboard_text_;              // what was asked for or copied last
+  bool refused_ = false;                    // it was too long for its field
+  std::deque<platform::InputEvent> queue_;  // that no frame has read yet
+  int rest_ = 0;  // frames in which nothing is pressed: the focus is on its way
   Fonts fonts_;
   bool pressed_ = false;
   float scale_ = 1.0f;  // stays while a slider is moved, or it would move away from the pointer

@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <iterator>
 #include <optional>
+#include <vector>
 
 #include "game/ui/gui.h"
 #include "game/ui/look.h"
@@ -61,6 +62,20 @@ std::optional<int> mouse_button(Key key) {
 
 }  // namespace
 
+namespace {
+
+/// Of a key, a button or a character.
+bool is_press(const InputEvent& event) {
+  if (event.key == Key::kNone) return true;
+  return event.down && (gui_key(event.key) || mouse_button(event.key));
+}
+
+bool moves_focus(const InputEvent& event) {
+  return event.down && (event.key == Key::kEnter || event.key == Key::kTab);
+}
+
+}  // namespace
+
 #if IMGUI_VERSION_NUM >= 18700
 
 namespace {
@@ -90,7 +105,13 @@ void Gui::feed(const InputFrame& input) {
   const auto point = [&](glm::dvec2 at) {
     io.AddMousePosEvent(static_cast<float>(at.x), static_cast<float>(at.y));
   };
-  for (const InputEvent& event : input.events) {
+  queue_.insert(queue_.end(), input.events.begin(), input.events.end());
+  rest_ = std::max(0, rest_ - 1);
+  while (!queue_.empty()) {
+    const InputEvent event = queue_.front();
+    if (rest_ > 0 && is_press(event)) break;
+    queue_.pop_front();
+    if (moves_focus(event)) rest_ = kFramesOfFocus;
     if (event.key == Key::kNone) io.AddInputCharacter(static_cast<unsigned>(event.character));
     if (event.key == Key::kControl) io.AddKeyEvent(ImGuiMod_Ctrl, event.down);
     if (event.key == Key::kShift) io.AddKeyEvent(ImGuiMod_Shift, event.down);
@@ -102,8 +123,9 @@ void Gui::feed(const InputFrame& input) {
     }
   }
   // A key that was let go while no screen was fed, as when a world is left, comes without an event.
-  for (const GuiKey& key : kGuiKeys)
-    if (!input.down(key.ours)) io.AddKeyEvent(key.theirs, false);
+  if (queue_.empty())
+    for (const GuiKey& key : kGuiKeys)
+      if (!input.down(key.ours)) io.AddKeyEvent(key.theirs, false);
   point(input.pointer);
   io.AddMouseWheelEvent(0.0f, static_cast<float>(input.scroll));
   for (const GuiKey& key : kPadKeys)
@@ -122,6 +144,7 @@ void release_enter() {
 
 void Gui::release_all() {
   ImGuiIO& io = ImGui::GetIO();
+  queue_.clear();
   for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt})
     io.AddKeyEvent(modifier, false);
   for (const GuiKey& key : kGuiKeys) io.AddKeyEvent(key.theirs, false);
@@ -163,9 +186,11 @@ bool is_modifier(Key key) {
 
 /// What a frame of this ImGui has taken in already. It keeps no queue: in a frame it reads first
 /// the characters, then the keys, all with the modifiers that are down at the frame's beginning,
-/// and a key that goes down and up within the frame was never pressed.
+/// a key that goes down and up within the frame was never pressed, and one that goes up and down
+/// again was held on.
 struct TakenIn {
   bool characters = false, press = false, click = false;
+  std::vector<Key> released;
 
   /// Whether the frame would read the event as if it had come before, or never.
   bool has_room_for(const InputEvent& event, const ImGuiIO& io) const {
@@ -173,10 +198,15 @@ struct TakenIn {
     if (is_modifier(event.key)) return !characters && !press;
     if (mouse_button(event.key)) return !click && !press;
     if (const auto key = gui_key(event.key))
-      return event.down ? !press && !click : !press || !io.KeysDown[*key];
+      return event.down ? !press && !click && !has_released(event.key)
+                        : !press || !io.KeysDown[*key];
     return true;
   }
+  bool has_released(Key key) const {
+    return std::find(released.begin(), released.end(), key) != released.end();
+  }
   void note(const InputEvent& event) {
+    if (!event.down) released.push_back(event.key);
     characters |= event.key == Key::kNone;
     press |= event.down && gui_key(event.key).has_value();
     click |= mouse_button(event.key).has_value();
@@ -215,13 +245,16 @@ void Gui::feed(const InputFrame& input) {
   for (const auto& pad : kPadInputs)
     if (input.down(pad.ours) || input.pressed(pad.ours)) io.NavInputs[pad.theirs] = 1.0f;
   queue_.insert(queue_.end(), input.events.begin(), input.events.end());
+  rest_ = std::max(0, rest_ - 1);
   TakenIn taken;
   while (!queue_.empty()) {
     const InputEvent event = queue_.front();
+    if (rest_ > 0 && is_press(event)) break;
     const bool skipped = means_nothing(event, io.KeyCtrl);
     if (!skipped && !taken.has_room_for(event, io)) break;
     queue_.pop_front();
     if (skipped) continue;
+    if (moves_focus(event)) rest_ = kFramesOfFocus;
     take_in(event, io);
     taken.note(event);
   }

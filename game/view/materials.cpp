@@ -19,7 +19,8 @@ std::vector<shared::Material> material_table() {
     m.layer_side = static_cast<std::uint32_t>(type.side);
     m.layer_top = static_cast<std::uint32_t>(type.top);
     m.layer_bottom = static_cast<std::uint32_t>(type.bottom);
-    m.emission = glm::packHalf1x16(type.emission);
+    m.emission = glm::packHalf1x16(type.emission) |
+                 static_cast<std::uint32_t>(glm::packHalf1x16(type.glows_from)) << 16;
     m.absorption = {type.absorption[0], type.absorption[1], type.absorption[2]};
     m.roughness = type.roughness;
     m.metalness = type.metalness;

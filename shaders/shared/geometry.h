@@ -50,17 +50,21 @@ struct IslandTransform {
   vec3 translation;
 };
 
+// From the albedo (of its brightest channel) where a block's texels begin to emit to that where
+// they emit in full.
+SHARED_CONST float kGlowRise = 0.5;
+
 // What a block id looks like. Indexed by block id.
 struct Material {
   uint layer_side;    // layer of the block texture array for faces +-x, +-z and plants
   uint layer_top;     // for +y
   uint layer_bottom;  // for -y
-  uint emission;  // luminous emission, half float in bits 0-15: radiance = albedo * this [the unit
-                  // of sun radiance]
-  vec3 absorption;         // translucent kinds: extinction per block of path [1/block]; else 0
-  float roughness;         // 0..1 perceptual
-  float metalness;         // 0..1: how much of what it reflects is mirrored, in its own colour
-  uint light_class;        // equal for ids that light shows alike, but for their textures
+  uint emission;     // half floats. Bits 0-15: radiance = albedo * this [the unit of sun radiance];
+                     // 16-31: the albedo from which texels emit in full (see kGlowRise), 0: all do
+  vec3 absorption;   // translucent kinds: extinction per block of path [1/block]; else 0
+  float roughness;   // 0..1 perceptual
+  float metalness;   // 0..1: how much of what it reflects is mirrored, in its own colour
+  uint light_class;  // equal for ids that light shows alike, but for their textures
   uint translucent_block;  // of row n, not of id n: the nth translucent block's id, see Quad; or 0
 };
 

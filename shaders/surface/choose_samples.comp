@@ -182,7 +182,7 @@ void choose_pixels() {
     Taker by = Taker(alike_key(word), normal, dot(normal, ray * t), t, apart, is_plant(word), albedo);
     if (kStep != kRun) four = four_around(pixel);
     vec3 colour;
-    bool shared_light = light_between(four, pixel, by, colour) && surface;
+    bool shared_light = light_between(four, pixel, by, colour) && surface && !emits_in_part(word);
     put_pixel(pixel, colour, shared_light);
     if (surface && !shared_light) without |= 1u << i;
   }

@@ -93,13 +93,14 @@ void main() {
   s.ao = surface_ao(s, word);
   mat2x3 sent = light_sent(s, word, pixel, z, here);
   SkyLight sky = light_of_sky(s, word);
-  sent[1] += kInvPi * sky.irradiance + unpackHalf2x16(materials[surface_block(word)].emission).x;
+  // What emits in part has no samples that others take: of those any albedo does.
+  vec3 albedo = kEveryPixel ? surface_texel(word, ray, z, kTextureTaps).rgb : vec3(1.0);
+  sent[1] += kInvPi * sky.irradiance + emission_of(word, albedo);
   vec3 air = seen_through_air(vec3(0.0), s.position, sky.seen);
   sent = sent * clear_air(s.position) + mat2x3(air, air);
   if (!kEveryPixel) count_non_finite(here && !(finite3(sent[0]) && finite3(sent[1])));
   sent = mat2x3(sanitised(sent[0]), sanitised(sent[1]));
   if (kEveryPixel) {
-    vec3 albedo = surface_texel(word, ray, z, kTextureTaps).rgb;
     put_pixel(pixel, radiance_at(sent, albedo), here);
   } else {
     if (here) imageStore(samples, ivec2(pixel / kStep), packed_sample(sent, place_code(word, z)));

@@ -27,7 +27,9 @@ MUTANTS = (
     Mutant("flat_shading_ignored", "flat shading shades by angle", "shaders/include/surface/lighting.glsl",
            "frame.shading_flat != 0u ? 1.0 : n_dot_l", "n_dot_l", "flat_shading"),
     Mutant("emission_lost", "nothing glows", "shaders/include/surface/surface.glsl",
-           "unpackHalf2x16(materials[surface_block(word)].emission).x", "0.0", "lava_night cave"),
+           "return emission.x * clamp", "return 0.0 * clamp", "lava_night cave"),
+    Mutant("all_of_it_glows", "sticks of torches and dark facets of crystals glow", "shaders/include/surface/surface.glsl",
+           "clamp(1.0 + (brightest - emission.y) / kGlowRise, 0.0, 1.0)", "1.0", "torch_and_crystals cave"),
     # Lights
     Mutant("light_window_lost", "lights end in a step at their range", "shaders/include/light/lights.glsl",
            "return w * w;", "return w > 0.0 ? 1.0 : 0.0;", "lights_gallery village_night"),

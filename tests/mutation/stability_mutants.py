@@ -38,8 +38,8 @@ MUTANTS = (
     Mutant("range_dims", "a light of a longer range is dimmer near it", "shaders/include/light/lights.glsl",
            "return w * w;", "return w * w / (1.0 + light.range);", "light.lamps"),
     Mutant("emission_squared", "lamps glow by the square of their emission", "shaders/include/surface/surface.glsl",
-           "s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;",
-           "s.emitted = s.albedo * pow(unpackHalf2x16(materials[surface_block(word)].emission).x, 1.001);",
+           "s.emitted = s.albedo * emission_of(word, s.albedo);",
+           "s.emitted = s.albedo * pow(emission_of(word, s.albedo), 1.001);",
            "light.emission"),
     Mutant("albedo_black", "textures are black", "shaders/include/surface/surface.glsl",
            "s.albedo = surface_texel(word, ray, t, max_taps).rgb;", "s.albedo = vec3(0.0);",
@@ -116,8 +116,8 @@ MUTANTS = (
            "(sky_lut_from_dir(dir, horizon) * (size - 1.0) + 1.5) / size",
            "finite.sky_table"),
     Mutant("lamps_colour_all", "what lamps emit reaches every block", "shaders/include/surface/surface.glsl",
-           "s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;",
-           "s.emitted = s.albedo * (unpackHalf2x16(materials[surface_block(word)].emission).x"
+           "s.emitted = s.albedo * emission_of(word, s.albedo);",
+           "s.emitted = s.albedo * (emission_of(word, s.albedo)"
            " + 1e-6 * unpackHalf2x16(materials[63].emission).x);", "finite.materials"),  # 63: lamp
     Mutant("glass_roughens_all", "how rough glass is reaches every block", "shaders/include/surface/surface.glsl",
            "s.roughness = materials[surface_block(word)].roughness;",
@@ -284,8 +284,8 @@ MUTANTS = (
            "return y >= plan_.highest || y + size", "return true || y >= plan_.highest || y + size",
            "worlds.seeds worlds.world_times"),
     Mutant("surfaces_glow", "every surface gives a little light", "shaders/include/surface/surface.glsl",
-           "s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;",
-           "s.emitted = s.albedo * (unpackHalf2x16(materials[surface_block(word)].emission).x + 1e-3);",
+           "s.emitted = s.albedo * emission_of(word, s.albedo);",
+           "s.emitted = s.albedo * (emission_of(word, s.albedo) + 1e-3);",
            "worlds.solid rays light.emission"),
     Mutant("nothing_is_culled_in", "no section is drawn", "shaders/scene/cull.comp",
            "draws_section(views[view], section) ? visible_ranges(s, views[view]) : 0u;", "0u;",

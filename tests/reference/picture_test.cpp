@@ -107,6 +107,19 @@ TEST(ReferencePicture, ThroughTheCentreEdgesAreSharpAndTexturesAveraged) {
   }
 }
 
+TEST(ReferencePicture, OfATorchTheFlameEmitsAndTheStickDoesNot) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0},
+                          {single_block(world::block::kTorch, {0.0, 0.0, 10.0})}, 32, 0.05);
+  scene.albedo.reset();
+  scene.environment = glm::dvec3(0.0);
+  const ReferencePicture picture = render(scene, samples(16));
+  const auto at = [&](int row) {
+    return picture.radiance.pixels[static_cast<std::size_t>(row * 32 + 16)];
+  };
+  for (int row = 18; row < 30; ++row) EXPECT_EQ(at(row), glm::vec3(0.0f)) << row;
+  EXPECT_GT(at(9).x, 5.0f);
+}
+
 TEST(ReferencePicture, APixelIsTheMeanOfWhatItCovers) {
   // A pixel 2 blocks wide at the block's front; the block covers a quarter of it.
   Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0},

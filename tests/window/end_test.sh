@@ -51,8 +51,7 @@ if [ "$(id -u)" -eq 0 ] && mkdir "$work/disk" && mount -t tmpfs -o size=400k non
   wait_until_quick
   head -c 1M /dev/zero >"$work/disk/filler" 2>/dev/null || true
   dig_on
-  for _ in $(seq 100); do grep -q '^skerry: warning: cannot save' "$work/err" && break; sleep 0.2; alive "on a full disk"; done
-  grep -q '^skerry: warning: cannot save' "$work/err" || fail "a full disk was not told on stderr"
+  until_true "a full disk is told on stderr" grep -q '^skerry: warning: cannot save' "$work/err"
   end_by TERM 1
 fi
 echo "passed"

@@ -13,11 +13,12 @@ learnt=$work/cache/skerry/quality.json
 
 commands() { grep -c '^skerry shot' "$work/out" || true; }
 # Sets `command` to that of a new screenshot.
+has_more_commands() { [ "$(commands)" -gt "$1" ]; }
 screenshot() {
   local before
   before=$(commands)
   xdotool key --window 0 F2
-  for _ in $(seq 200); do [ "$(commands)" -gt "$before" ] && break; sleep 0.1; alive "while taking a screenshot"; done
+  until_true "a screenshot is taken" has_more_commands "$before"
   command=$(grep '^skerry shot' "$work/out" | tail -n 1)
 }
 # Processor seconds that the game takes in so many seconds.

@@ -17,6 +17,15 @@ fail() {  # on stderr: it may be called where the output is taken for a value
   exit 1
 }
 alive() { kill -0 "$game" 2>/dev/null || fail "the game ended $1"; }
+# until_true WHAT COMMAND...: waits until the command comes true. The limit is for a machine that is slow and busy; where it is not, nothing is lost.
+until_true() {
+  local limit=$((SECONDS + 180))
+  until "${@:2}"; do
+    [ -z "$game" ] || alive "while waiting until $1"
+    [ $SECONDS -lt $limit ] || fail "it never came to be that $1"
+    sleep 0.2
+  done
+}
 key() { xdotool key --window 0 "$1"; sleep "${2:-$key_pause}"; alive "after $1"; }
 
 # start_display TOOL...: ends the test as skipped if a tool is missing.
@@ -28,8 +37,7 @@ start_display() {
   # -displayfd lets the server choose a free display number.
   Xvfb -displayfd 3 -noreset -screen 0 800x600x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
   server=$!
-  for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
-  [ -s "$work/display" ] || fail "Xvfb did not start"
+  until_true "Xvfb has started" test -s "$work/display"
   DISPLAY=:$(cat "$work/display")
   export DISPLAY XDG_DATA_HOME="$work/data" XDG_CACHE_HOME="$work/cache" XDG_CONFIG_HOME="$work/config"
   unset WAYLAND_DISPLAY
@@ -39,33 +47,25 @@ start_display() {
 start_manager() {
   openbox >/dev/null 2>&1 &
   manager=$!
-  for _ in $(seq 100); do xdotool get_desktop >/dev/null 2>&1 && return; sleep 0.1; done
-  fail "openbox did not start"
+  until_true "openbox has started" manages_windows
 }
+manages_windows() { xdotool get_desktop >/dev/null 2>&1; }
 
 # play OPTION...: under the validation layer; waits for the window and gives it the focus.
 quality=(--quality low)
 play() {
   "$skerry" play --size 320x180 "${quality[@]}" --validate "$@" >"$work/out" 2>"$work/err" &
   game=$!
-  for _ in $(seq 300); do
-    alive "while opening its window"
-    window=$(xdotool search --pid "$game" --onlyvisible 2>/dev/null | head -n 1) && [ -n "$window" ] && break
-    sleep 0.2
-  done
-  [ -n "$window" ] || fail "no window appeared"
+  until_true "a window appears" find_window
   # Without a window manager nobody else hands out the focus.
   xdotool windowfocus "$window"
 }
 
+find_window() { window=$(xdotool search --pid "$game" --onlyvisible 2>/dev/null | head -n 1) && [ -n "$window" ]; }
+
 # The title names the frame rate once frames of a world are drawn.
-wait_for_frames() {
-  for _ in $(seq 300); do
-    alive "before it drew"
-    xdotool getwindowname "$window" | grep -q fps && break
-    sleep 0.2
-  done
-}
+playing() { xdotool getwindowname "$window" | grep -q fps; }
+wait_for_frames() { until_true "a world is drawn" playing; }
 
 # Whether there is no world in the window yet: to the right it has the colour that stands for one (game/ui/look.h), while programs are
 # compiled and behind a title that comes first.
@@ -75,15 +75,23 @@ loaded() { ! loading; }
 fps() { xdotool getwindowname "$window" | sed 's/.* \([0-9]*\) fps/\1/'; }
 # Shaders are compiled and the world is there: until then frames are few, and what the mouse does in one of them counts as a whole.
 wait_until_quick() {
-  for _ in $(seq 300); do [ "$(fps)" -ge 5 ] && break; sleep 0.3; alive "before it was quick"; done
+  local limit=$((SECONDS + 90))  # some machines never are
+  until [ "$(fps)" -ge 5 ] 2>/dev/null || [ $SECONDS -ge $limit ]; do sleep 0.3; alive "before it was quick"; done
   sleep 2
+}
+
+await_end() {
+  local limit=$((SECONDS + 180))
+  while kill -0 "$game" 2>/dev/null; do
+    [ $SECONDS -lt $limit ] || fail "it did not quit"
+    sleep 0.2
+  done
 }
 
 # The game must end by itself and well.
 expect_end() {
-  for _ in $(seq 100); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done
-  kill -0 "$game" 2>/dev/null && fail "it did not quit"
   local status=0
+  await_end
   wait "$game" || status=$?
   game=
   [ "$status" -eq 0 ] || fail "it exited with $status"

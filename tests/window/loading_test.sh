@@ -11,16 +11,12 @@ start_manager
 loads() { ! xdotool getwindowname "$window" | grep -q fps; }
 mkdir -p "$work/data"
 screenshots() { find "$work/data" -name '*.png' | sort; }
+has_more_screenshots() { [ "$(screenshots | wc -l)" -gt "$1" ]; }
 screenshot_command() {
   local before
   before=$(screenshots | wc -l)
   key F2
-  for _ in $(seq 100); do
-    [ "$(screenshots | wc -l)" -gt "$before" ] && break
-    sleep 0.2
-    alive "while taking a screenshot"
-  done
-  [ "$(screenshots | wc -l)" -gt "$before" ] || fail "no screenshot came"
+  until_true "a screenshot is saved" has_more_screenshots "$before"
   identify -format '%[Command]\n' "$(screenshots | tail -n 1)"
 }
 yaw_and_pitch() { sed 's/.*--camera \([^ ]*\).*/\1/' <<<"$1" | cut -d, -f4,5; }
@@ -85,8 +81,7 @@ echo "title_ms $(((${EPOCHREALTIME/./} - began) / 1000))"
 convert "$work/title.png" -depth 8 rgb:- | od -An -v -w3 -tu1 |
   awk '$1 > 36 && $1 < 60 && $2 > 60 && $2 < 90 && $3 > 56 && $3 < 90 { n++ } END { exit !(n > 300) }' ||
   fail "the title's button is not the first that is seen"
-until_drawn() { for _ in $(seq 300); do loading || return 0; sleep 0.2; alive "while it loads its title"; done; fail "no title came"; }
-until_drawn
+until_true "its title is drawn" loaded
 sleep 1
 [ ! -s "$work/err" ] || fail "it complained"
 kill "$game"

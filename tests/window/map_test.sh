@@ -11,10 +11,6 @@ wait_for_frames
 wait_until_quick
 
 grab() { import -silent -window "$window" "$1"; }
-until_true() {
-  for _ in $(seq 100); do "${@:2}" && return; sleep 0.2; alive "while waiting until $1"; done
-  fail "it never came to be that $1"
-}
 shots() { { find "$work/data/skerry/screenshots" -name '*.png' 2>/dev/null || true; } | wc -l; }
 has_shots() { [ "$(shots)" -ge "$1" ]; }
 # X,Y,Z of the camera now.

@@ -35,10 +35,6 @@ readonly A=0 B=1 X=2 BACK=6 START=7 UP=11 RIGHT=12 DOWN=13 LEFT=14
 rest
 LD_PRELOAD=$library play --set view.distance=64
 grab() { import -silent -window "$window" "$1"; }
-until_true() {
-  for _ in $(seq 200); do "${@:2}" && return; sleep 0.2; alive "while waiting until $1"; done
-  fail "it never came to be that $1"
-}
 moves() {
   grab "$work/then.png"
   sleep 1
@@ -56,7 +52,6 @@ for _ in $(seq 12); do press $DOWN; done
 press $UP
 for _ in 1 2 3; do press $A; press $RIGHT; done
 for _ in $(seq 8); do press $LEFT; done  # Create is over the first columns, Back over the others
-playing() { xdotool getwindowname "$window" | grep -q fps; }
 for _ in $(seq 8); do
   press $UP
   press $A

@@ -14,16 +14,10 @@ mkdir -p "$work/config/skerry"
 echo '{"actions": {"jump": 7' >"$work/config/skerry/controls.json"
 
 play --set view.distance=200
-# Waits until a command comes true.
-until_true() {
-  for _ in $(seq 200); do "${@:2}" && return; sleep 0.2; alive "while waiting until $1"; done
-  fail "it never came to be that $1"
-}
 grab() { import -silent -window "$window" "$1"; }
 shown() { grab "$work/now.png" && [ "$(convert "$work/now.png" -format '%[fx:int(1000*standard_deviation)]' info:)" -gt 30 ]; }
 shots() { { find "$work/data/skerry/screenshots" -name '*.png' 2>/dev/null || true; } | wc -l; }
 has_shots() { [ "$(shots)" -ge "$1" ]; }
-playing() { xdotool getwindowname "$window" | grep -q fps; }
 left() { [ "$(xdotool getwindowname "$window")" = Skerry ]; }
 # The camera of the last screenshot's command: X,Y,Z,YAW,PITCH.
 camera() { grep -o -- '--camera [^ ]*' "$work/out" | tail -n 1 | cut -d ' ' -f 2; }
@@ -58,6 +52,7 @@ for _ in 1 2; do
   xdotool type --delay 200 1
 done
 sleep 3
+# A key that comes while a frame is slow waits for its turn, so one press is enough.
 key Return 1
 until_true "a world is played" playing
 made=$(xdotool getwindowname "$window")

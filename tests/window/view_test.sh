@@ -15,13 +15,13 @@ wait_until_quick
 
 cameras() { { grep -o -- '--camera [^ ]*' "$work/out" || true; } | cut -d ' ' -f 2; }
 commands() { grep -c '^skerry shot' "$work/out" || true; }
+has_more_commands() { [ "$(commands)" -gt "$1" ]; }
 # Takes a screenshot; prints yaw and pitch.
 direction() {
   local before
   before=$(commands)
   xdotool key --window 0 F2
-  for _ in $(seq 300); do [ "$(commands)" -gt "$before" ] && break; sleep 0.1; alive "while taking a screenshot"; done
-  [ "$(commands)" -gt "$before" ] || fail "no screenshot $1"
+  until_true "a screenshot is taken $1" has_more_commands "$before"
   cameras | tail -n 1 | cut -d , -f 4,5
 }
 expect_same() {  # to a hundredth of a degree: what is taken back is rounded
@@ -85,7 +85,6 @@ expect_same "iconifying" "$turned" "$(direction "after iconifying")"
 # Quality by a key is kept, once the window is closed.
 key equal
 xdotool key --window 0 alt+F4
-for _ in $(seq 300); do kill -0 "$game" 2>/dev/null || break; sleep 0.2; done  # it may wait for programs of that quality
-kill -0 "$game" 2>/dev/null && fail "it did not close"
+await_end  # it may wait for programs of that quality
 grep -q '"quality": "medium"' "$work/config/skerry/settings.json" || fail "the quality set by a key is forgotten"
 echo "passed"

@@ -60,6 +60,9 @@ TEST(Blocks, PropertiesStayInTheirRanges) {
     EXPECT_GE(type.metalness, 0.0f) << type.name;
     EXPECT_LE(type.metalness, 1.0f) << type.name;
     EXPECT_GE(type.emission, 0.0f) << type.name;
+    EXPECT_GE(type.glows_from, 0.0f) << type.name;
+    EXPECT_LE(type.glows_from, 1.0f) << type.name;
+    EXPECT_TRUE(type.glows_from == 0.0f || type.emission > 0.0f) << type.name;
     const bool absorbs =
         type.absorption[0] > 0.0f || type.absorption[1] > 0.0f || type.absorption[2] > 0.0f;
     EXPECT_EQ(absorbs, type.kind == BlockKind::kTranslucent) << type.name;

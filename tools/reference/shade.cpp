@@ -9,6 +9,7 @@
 #include "tools/reference/brdf.h"
 #include "tools/reference/open_sky.h"
 #include "tools/reference/textures.h"
+#include "world/voxel/emission.h"
 
 namespace skerry::reference {
 namespace {
@@ -190,7 +191,7 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 
                                                type.roughness, type.metalness);
   // Corners darken what has no other shadow in them; what comes from around has passed all voxels.
   return reflected * ao(hit) + kPi * around.radiance * share +
-         albedo * static_cast<double>(type.emission);
+         world::emitted_radiance(type, albedo);
 }
 
 glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,

@@ -82,6 +82,12 @@ Canvas paint_crystal(Color base, std::uint32_t seed) {
                  random.range(1.6f, 2.5f)},
                 shade);
   }
+  // Dull edges: what glows by itself has no shadows that show where it is bent.
+  constexpr int kLast = kEdge - 1;
+  for (int y = 0; y < kEdge; ++y)
+    for (int x = 0; x < kEdge; ++x)
+      if (x == 0 || x == kLast || y == 0 || y == kLast)
+        canvas.tint(x, y, mix(tones.tones[0], tones.tones[1], 0.3f), 0.9f);
   return canvas;
 }
 

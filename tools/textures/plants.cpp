@@ -248,17 +248,18 @@ Canvas paint_kelp() {
 
 Canvas paint_torch() {
   Canvas canvas = empty_canvas();
-  // Dark, as soot is: a block sends out light in proportion to its colours, and this is the part
-  // that should not glow.
-  const Ramp post = ramp(hex(0x38281b), 0.4f), iron = ramp(hex(0x2e2d2c), 0.4f);
+  // Darker than what glows (BlockType::glows_from), and so dark that the flame just above does not
+  // bleach it.
+  const Ramp post = ramp(hex(0x4f3722), 0.8f), iron = ramp(hex(0x33312f), 0.6f);
   for (int y = 13; y < kEdge; ++y)
     for (int x = 14; x < 18; ++x) {
       const float grain =
-          0.3f * gradient_noise(static_cast<float>(x) + 0.5f, static_cast<float>(y), {16, 5}, 931);
+          0.9f * gradient_noise(static_cast<float>(x) + 0.5f, static_cast<float>(y), {16, 8}, 931);
       const bool band = y < 17;
+      const float soot = 0.05f * static_cast<float>(std::max(0, 25 - y));
       canvas.set(x, y,
-                 band ? iron.at(0.75f - 0.16f * static_cast<float>(x - 14))
-                      : post.at(0.68f - 0.14f * static_cast<float>(x - 14) + grain));
+                 band ? iron.at(0.6f - 0.26f * static_cast<float>(x - 14))
+                      : post.at(0.8f - 0.24f * static_cast<float>(x - 14) + grain - soot));
     }
   // The flame: three nested drops from red to nearly white.
   constexpr Color kFire[] = {hex(0xd2571f), hex(0xf39a33), hex(0xffe08a), hex(0xfff8dc)};

@@ -189,6 +189,7 @@ void IslandMotion::reshape(std::uint64_t island) {
 /// Engines, air and limits; then where it would go.
 void IslandMotion::drive(Body& body) const {
   body.held = false;
+  body.waits = !body.shape;
   body.next = body.now.pose;
   if (!body.awake() || !body.shape) return;
   MotionState& now = body.now;
@@ -315,6 +316,19 @@ void IslandMotion::hold(std::vector<Pair>& pairs) {
   }
 }
 
+/// What is held by an island whose shape is not known yet waits for it, without gathering speed.
+void IslandMotion::stop_at_balls(const std::vector<Pair>& pairs) {
+  for (const Pair& pair : pairs) {
+    if (pair.touch.overlap == 0.0 || (pair.a->shape && pair.b->shape)) continue;
+    for (Body* body : {pair.a, pair.b}) {
+      if (body->on_course || !body->held) continue;
+      body->waits = true;
+      body->now.velocity = {};
+      body->now.spin = 0.0;
+    }
+  }
+}
+
 /// Takes islands from their courses that were hit so that it counts. @return whether any was.
 bool IslandMotion::leave_courses(std::vector<Pair>& pairs) {
   bool any = false;
@@ -352,6 +366,7 @@ void IslandMotion::step() {
   });
   std::vector<Pair> pairs = near_pairs();
   hold(pairs);
+  stop_at_balls(pairs);
   while (leave_courses(pairs)) {
     for (auto& [id, body] : bodies_)
       if (!body->reported)
@@ -386,12 +401,13 @@ void IslandMotion::report(Body& body) {
       known && known->origin == body.now.pose.origin && known->rotation == body.now.pose.rotation;
   const bool alike =
       body.now.velocity == body.reported_velocity && body.now.spin == body.reported_spin;
-  if (body.reported && still && alike) return;
+  if (body.reported && still && alike && body.waits == body.reported_waits) return;
   if (body.reported && known && body.reported_tick < tick_ - 1)
     report_to_world(body, tick_ - 1, *known);
   report_to_world(body, tick_, body.now.pose);
   body.reported = true;
   body.reported_tick = tick_;
+  body.reported_waits = body.waits;
   body.reported_velocity = body.now.velocity;
   body.reported_spin = body.now.spin;
 }
@@ -399,7 +415,7 @@ void IslandMotion::report(Body& body) {
 void IslandMotion::report_to_world(Body& body, std::int64_t tick, const Pose& pose) {
   world_.move_island(body.id, tick, pose);
   if (!moves_) return;
-  moves_->push_back({body.id, body.now});
+  moves_->push_back({body.id, body.now, body.waits});
   moves_->back().state.tick = tick;
   moves_->back().state.pose = pose;
 }

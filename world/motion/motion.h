@@ -101,6 +101,7 @@ class IslandMotion {
   void meet_courses(Body& body);
   std::vector<Pair> near_pairs();
   void hold(std::vector<Pair>& pairs);
+  static void stop_at_balls(const std::vector<Pair>& pairs);
   bool leave_courses(std::vector<Pair>& pairs);
   static void exchange_impulses(std::vector<Pair>& pairs);
   void report(Body& body);

@@ -18,9 +18,11 @@ struct IslandMotion::Body {
   double turn = 0.0;
   bool on_course = false;  // follows pose_at: never held, weighs without end
   bool held = false;
+  bool waits = false;              // MovingIsland::waits, of this tick
   bool wanted = false;             // of courses: near a disturbed island in this tick
   bool reported = false;           // the world has its pose of the last tick
   std::int64_t reported_tick = 0;  // when it was reported last, and what
+  bool reported_waits = false;
   glm::dvec3 reported_velocity{};
   double reported_spin = 0.0;
   std::optional<WorldPos> looked_from;        // where islands near by were last looked for

@@ -25,8 +25,13 @@ constexpr BlockType ore(std::string_view name, Texture all, float roughness, flo
 constexpr BlockType leaves(std::string_view name, Texture all) {
   return {name, kCutout, all, all, all, 0.0f, 0.8f, {}};
 }
-constexpr BlockType plant(std::string_view name, Texture all, float emission = 0.0f) {
-  return {name, kPlant, all, all, all, emission, 0.85f, {}};
+constexpr BlockType plant(std::string_view name, Texture all, float emission = 0.0f,
+                          float glows_from = 0.0f) {
+  return {name, kPlant, all, all, all, emission, 0.85f, {}, 0.0f, glows_from};
+}
+constexpr BlockType crystal(std::string_view name, Texture all, float roughness, float emission,
+                            float glows_from) {
+  return {name, kOpaque, all, all, all, emission, roughness, {}, 0.0f, glows_from};
 }
 
 // One row an id, in the order of block::. Emission is in units of the sun's radiance on white: a
@@ -61,9 +66,9 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     ore("iron_ore", T::kIronOre, 0.75f, 0.3f),
     ore("copper_ore", T::kCopperOre, 0.75f, 0.4f),
     ore("gold_ore", T::kGoldOre, 0.6f, 0.6f),
-    opaque("crystal_ore", T::kCrystalOre, 0.6f, 0.4f),
-    opaque("crystal_blue", T::kCrystalBlue, 0.15f, 2.5f),
-    opaque("crystal_violet", T::kCrystalViolet, 0.15f, 2.5f),
+    crystal("crystal_ore", T::kCrystalOre, 0.6f, 1.6f, 0.7f),
+    crystal("crystal_blue", T::kCrystalBlue, 0.15f, 5.0f, 0.7f),
+    crystal("crystal_violet", T::kCrystalViolet, 0.15f, 5.0f, 0.7f),
     opaque("glowstone", T::kGlowstone, 0.6f, 4.0f),
     log("oak_log", T::kOakLogSide, T::kOakLogTop),
     log("birch_log", T::kBirchLogSide, T::kBirchLogTop),
@@ -95,7 +100,7 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     {"glass", kTranslucent, T::kGlass, T::kGlass, T::kGlass, 0.0f, 0.05f, {0.05f, 0.02f, 0.03f}},
     sided("planks", T::kPlanks, T::kPlanks, T::kPlanks, 0.8f),
     opaque("bricks", T::kBricks, 0.85f),
-    plant("torch", T::kTorch, 24.0f),
+    plant("torch", T::kTorch, 32.0f, 1.0f),
     opaque("lamp", T::kLamp, 0.5f, 8.0f),
 }};
 

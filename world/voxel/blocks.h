@@ -110,6 +110,9 @@ struct BlockType {
   std::array<float, 3>
       absorption{};        ///< translucent only: extinction per block of path, linear RGB [1/block]
   float metalness = 0.0f;  ///< 0..1: how much of what it reflects is mirrored, in its own colour
+  /// Texels whose brightest channel of albedo is this or more emit in full, darker ones less, and
+  /// none does whose is lower by shared::kGlowRise or more: a torch's stick is wood. 0: all do.
+  float glows_from = 0.0f;
 };
 
 /// Named ids of the built-in blocks. The order is saved in worlds: append only.

@@ -26,6 +26,8 @@ struct MotionState {
 struct MovingIsland {
   std::uint64_t island = 0;
   MotionState state;
+  /// Its engines do nothing: its shape, or that of an island about it, is still being worked out.
+  bool waits = false;
 };
 
 }  // namespace skerry::world

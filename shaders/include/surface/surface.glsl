@@ -73,6 +73,16 @@ vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   return plane_texel(layer, face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
 }
 
+// Radiance that a surface emits, over its albedo.
+float emission_of(uint word, vec3 albedo) {
+  vec2 emission = unpackHalf2x16(materials[surface_block(word)].emission);
+  float brightest = max(max(albedo.r, albedo.g), albedo.b);
+  return emission.x * clamp(1.0 + (brightest - emission.y) / kGlowRise, 0.0, 1.0);
+}
+
+// Whether that depends on the albedo.
+bool emits_in_part(uint word) { return unpackHalf2x16(materials[surface_block(word)].emission).y > 0.0; }
+
 // Depth of a surface. What 16 bits round to 0 lies half a step before infinity.
 float surface_depth(float depth) { return kDepth16 ? max(depth, 0.5 / 65535.0) : depth; }
 
@@ -110,7 +120,7 @@ Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_
   if (kPositionStored && word != 0u) t = dot(s.position, frame.ray_forward);
 #endif
   s.albedo = surface_texel(word, ray, t, max_taps).rgb;
-  s.emitted = s.albedo * unpackHalf2x16(materials[surface_block(word)].emission).x;
+  s.emitted = s.albedo * emission_of(word, s.albedo);
   return s;
 }
 #endif

@@ -273,6 +273,33 @@ TEST(Mixer, TheSameCallsGiveTheSameSamples) {
   EXPECT_EQ(once(), once());
 }
 
+// Several voices are mixed at a time.
+TEST(Mixer, VoicesTogetherAreTheSumOfEach) {
+  const auto start_of = [](VoiceId id) {
+    const auto n = static_cast<float>(id);
+    VoiceStart start =
+        voice(id, {0.02f, 0.1f * n - 0.5f, id % 3 == 0 ? 20000.0f : 300.0f * n}, id != 6);
+    start.clip = clip_index(Sound::kTorch) + id % 5;
+    start.speed = id % 2 == 0 ? 1.0f : 1.1f;
+    return start;
+  };
+  for (const VoiceId count : {1u, 3u, 4u, 7u, 10u}) {
+    Mixer together(sound_bank());
+    std::vector<float> sum;
+    for (VoiceId id = 1; id <= count; ++id) {
+      together.start(start_of(id));
+      Mixer alone(sound_bank());
+      alone.start(start_of(id));
+      const std::vector<float> one = rendered(alone, 1.0).left;
+      if (sum.empty())
+        sum = one;
+      else
+        for (std::size_t i = 0; i < one.size(); ++i) sum[i] += one[i];
+    }
+    EXPECT_EQ(rendered(together, 1.0).left, sum) << count;
+  }
+}
+
 // The aim is 0.5 ms a frame of 1/60 s; a build with sanitizers, or a busy machine, gets more room.
 TEST(Mixer, MixesSixtyFourVoicesInASmallPartOfAFrame) {
   Mixer mixer(sound_bank());

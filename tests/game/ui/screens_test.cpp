@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "game/ui/gui.h"
+#include "game/ui/loading_screen.h"
 #include "game/ui/look.h"
 #include "game/words/words.h"
 
@@ -64,6 +65,14 @@ class Sitting {
     gui.begin({size_.width, size_.height, 0.05, fed ? &taken : nullptr, scale});
     show_screens(state, facts, wishes);
     return gui.end();
+  }
+  /// Shows for two frames how far something is that the last frame waits for.
+  void load() {
+    for (int i = 0; i < 2; ++i) {
+      gui.begin({size_.width, size_.height, 0.05, nullptr, scale, true});
+      show_loading({});
+      (void)gui.end();
+    }
   }
   void tap(Key key) {
     for (const bool down : {true, false}) {
@@ -340,6 +349,42 @@ TEST(Screens, EnterOnTheWorldListPlaysTheLatest) {
     if (!sitting.wishes.play) sitting.tap(Key::kDown);
   }
   EXPECT_EQ(sitting.wishes.play, "/a.skerry");
+}
+
+/// On a slow machine a frame brings all that was pressed in seconds.
+TEST(Screens, KeysThatComeInOneFrameAllCount) {
+  const auto typed = [](Sitting& sitting, std::initializer_list<Key> keys, bool loads = false) {
+    sitting.settle();
+    for (const Key key : keys)
+      for (const bool down : {true, false}) sitting.input.set_key(key, down);
+    for (int i = 0; i < 40; ++i) {
+      sitting.frame();
+      if (loads && i < 3) sitting.load();
+    }
+  };
+  Sitting lists(Screen::kTitle);  // the list of worlds, and there the latest
+  typed(lists, {Key::kEnter, Key::kEnter});
+  EXPECT_EQ(lists.wishes.play, "/a.skerry");
+  Sitting waits(Screen::kTitle);  // while the island behind the title is loaded
+  typed(waits, {Key::kEnter, Key::kEnter}, true);
+  EXPECT_EQ(waits.wishes.play, "/a.skerry");
+  // There is no world yet: the screen for a new one, and Enter there.
+  Sitting makes(Screen::kTitle);
+  makes.facts.worlds = {};
+  typed(makes, {Key::kEnter, Key::kEnter});
+  EXPECT_TRUE(makes.wishes.create);
+  // In the fields of a new world: what follows Tab goes to the next one, two presses on.
+  Sitting names(Screen::kNewWorld);
+  names.settle();
+  for (int i = 0; i < 2; ++i) {
+    for (const bool down : {true, false}) names.input.set_key(Key::kTab, down);
+    names.input.type(U'7');
+  }
+  for (int i = 0; i < 40; ++i) names.frame();
+  EXPECT_EQ(std::string(names.state.new_seed.data()), "7");
+  Sitting walks(Screen::kTitle);
+  typed(walks, {Key::kDown, Key::kDown, Key::kEnter});
+  EXPECT_EQ(walks.state.stack.top(), Screen::kSettings);
 }
 
 TEST(Screens, KeysChooseWorldsOnTheWay) {
