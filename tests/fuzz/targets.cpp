@@ -387,13 +387,14 @@ void hashes(std::span<const std::uint8_t> input) {
   SKERRY_ASSERT(*tools::read_hashes(path) == *read);
 }
 
-constexpr std::array<Target, 20> kTargets{{{"scene", scene},
+constexpr std::array<Target, 21> kTargets{{{"scene", scene},
                                            {"setting", setting},
                                            {"camera", camera},
                                            {"time_and_size", time_and_size},
                                            {"bindings", bindings},
                                            {"png", png},
                                            {"radiance_hdr", radiance_hdr},
+                                           {"panorama_answer", panorama_answer},
                                            {"tar", tar},
                                            {"vdb_answer", vdb_answer},
                                            {"chunk_blob", chunk_blob},
