@@ -14,7 +14,7 @@ endblock()
 
 file(GLOB openvdb_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/world/vdb/openvdb_*.cpp)
 add_executable(skerry_openvdb ${openvdb_sources} ${CMAKE_SOURCE_DIR}/world/vdb/answer.cpp
-               ${CMAKE_SOURCE_DIR}/world/confined/child.cpp ${CMAKE_SOURCE_DIR}/world/confined/jail.cpp)
+               ${CMAKE_SOURCE_DIR}/world/confined/answer_text.cpp ${CMAKE_SOURCE_DIR}/world/confined/child.cpp ${CMAKE_SOURCE_DIR}/world/confined/jail.cpp)
 target_link_libraries(skerry_openvdb PRIVATE skerry_options skerry_core glm::glm OpenVDB::openvdb)
 # Half the time to compile; reading and writing spend theirs in OpenVDB's library.
 target_compile_options(skerry_openvdb PRIVATE $<$<CONFIG:Release>:-O1>)

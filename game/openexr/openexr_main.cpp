@@ -16,11 +16,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <exception>
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vector_relational.hpp>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -89,17 +87,12 @@ Result<void> check(const Imf::Header& header) {
   const Box display{header.displayWindow()}, data{header.dataWindow()};
   if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
     return Error{"it is a cube; give an equirectangular panorama"};
-  if (display.columns() > kMostColumns || display.rows() > kMostColumns / 2 ||
-      data.columns() > kMostColumns || data.rows() > kMostColumns / 2)
-    return Error{fmt::format("it is {}x{}, and {}x{} is the largest; make it smaller",
-                             std::max(display.columns(), data.columns()),
-                             std::max(display.rows(), data.rows()), kMostColumns,
-                             kMostColumns / 2)};
-  if (display.columns() != 2 * display.rows())
-    return Error{
-        fmt::format("it is {}x{}, and a panorama is twice as wide as high; give an "
-                    "equirectangular one",
-                    display.columns(), display.rows())};
+  for (const Box& box : {display, data})
+    if (box.columns() > kMostColumns || box.rows() > kMostColumns / 2)
+      return Error{fmt::format("it is {}x{}, and {}x{} is the largest; make it smaller",
+                               box.columns(), box.rows(), kMostColumns, kMostColumns / 2)};
+  if (Result<void> fits = render::check_panorama_shape(display.columns(), display.rows()); !fits)
+    return fits;
   for (const std::string& name : colours_of(header)) {
     const Imf::Channel& channel = header.channels()[name];
     if (channel.xSampling != 1 || channel.ySampling != 1)
@@ -170,15 +163,11 @@ Result<render::Panorama> read() {
 }
 
 Result<render::Panorama> try_read() {
-  try {
+  return world::guarded("OpenEXR", [] {
     Imf::setGlobalThreadCount(0);
     world::enter_jail();
     return read();
-  } catch (const std::bad_alloc&) {
-    return Error{"it needs more memory than is allowed; it is damaged or too large"};
-  } catch (const std::exception& error) {
-    return Error{fmt::format("OpenEXR gave up on it ({}); copy or write it again", error.what())};
-  }
+  });
 }
 
 }  // namespace

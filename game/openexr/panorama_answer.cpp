@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <string>
 
 namespace skerry::game {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x314e4150524b53ull;  // "SKRPAN1"
 
-/// Behind it come the texels, or the bytes of a message and zeros up to a whole float.
+/// Behind it come the texels, or the bytes of a message.
 struct Head {
   std::uint64_t magic = kMagic;
   std::uint64_t mended = 0;
@@ -24,7 +23,7 @@ const Error kNoAnswer{"its reader's answer is damaged; the file likely is, too: 
 
 }  // namespace
 
-bool encode_panorama(const render::Panorama& panorama, const AnswerSink& sink) {
+bool encode_panorama(const render::Panorama& panorama, const world::ByteSink& sink) {
   Head head;
   head.mended = panorama.mended;
   head.columns = panorama.columns;
@@ -33,8 +32,8 @@ bool encode_panorama(const render::Panorama& panorama, const AnswerSink& sink) {
          sink(std::as_bytes(std::span(panorama.texels)));
 }
 
-bool encode_refusal(std::string_view why, const AnswerSink& sink) {
-  why = why.substr(0, kMostRefusalText);
+bool encode_refusal(std::string_view why, const world::ByteSink& sink) {
+  why = why.substr(0, world::kMostAnswerText);
   Head head;
   head.message_bytes = static_cast<std::uint32_t>(why.size());
   return sink(std::as_bytes(std::span(&head, 1))) && sink(std::as_bytes(std::span(why)));
@@ -47,13 +46,10 @@ Result<render::Panorama> decode_panorama(std::span<const std::byte> bytes) {
   bytes = bytes.subspan(sizeof head);
   if (head.magic != kMagic) return kNoAnswer;
   if (head.columns == 0) {
-    if (head.message_bytes == 0 || head.message_bytes > kMostRefusalText ||
+    if (head.message_bytes == 0 || head.message_bytes > world::kMostAnswerText ||
         head.message_bytes != bytes.size())
       return kNoAnswer;
-    std::string why(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    for (char& c : why)
-      if (c < ' ' || c > '~') c = '?';
-    return Error{why};
+    return Error{world::printable({reinterpret_cast<const char*>(bytes.data()), bytes.size()})};
   }
   const std::size_t texels = std::size_t{head.columns} * head.rows;
   if (head.columns > render::kKeptPanoramaColumns || head.rows * std::uint64_t{2} != head.columns ||

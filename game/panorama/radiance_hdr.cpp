@@ -77,11 +77,7 @@ Result<void> read_size(std::string_view line, Header& header) {
                              columns = parse_integer(words[3], "its number of columns", 1, kMost);
   if (!rows) return rows.error();
   if (!columns) return columns.error();
-  if (*columns != 2 * *rows)
-    return Error{
-        fmt::format("it is {}x{}, and a panorama is twice as wide as high; give an "
-                    "equirectangular one",
-                    *columns, *rows)};
+  if (Result<void> fits = render::check_panorama_shape(*columns, *rows); !fits) return fits;
   header.columns = static_cast<std::uint32_t>(*columns);
   header.rows = static_cast<std::uint32_t>(*rows);
   return {};

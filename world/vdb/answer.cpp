@@ -28,7 +28,7 @@ bool put(const ByteSink& sink, const T& value) {
 }
 
 bool put_text(const ByteSink& sink, std::string_view text) {
-  text = text.substr(0, kMaxVolumeText);
+  text = text.substr(0, kMostAnswerText);
   return put(sink, static_cast<std::uint32_t>(text.size())) &&
          sink(std::as_bytes(std::span(text.data(), text.size())));
 }
@@ -54,7 +54,7 @@ class Reader {
 
   bool take_text(std::string& text) {
     std::uint32_t size = 0;
-    if (!take(size) || size > kMaxVolumeText || size > bytes_.size()) return false;
+    if (!take(size) || size > kMostAnswerText || size > bytes_.size()) return false;
     text = printable({reinterpret_cast<const char*>(bytes_.data()), size});
     bytes_ = bytes_.subspan(size);
     return true;
@@ -256,13 +256,6 @@ bool encode_grid(const VolumeGrid& grid, const ByteSink& sink) {
 
 bool encode_error(std::string_view message, const ByteSink& sink) {
   return put(sink, kMagic) && put(sink, kRefused) && put_text(sink, message);
-}
-
-std::string printable(std::string_view text) {
-  std::string out(text.substr(0, kMaxVolumeText));
-  for (char& c : out)
-    if (c < ' ' || c > '~') c = '?';
-  return out;
 }
 
 Result<std::vector<VolumeGrid>> decode_answer(std::span<const std::byte> bytes) {

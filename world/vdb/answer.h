@@ -3,22 +3,16 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "world/confined/answer_text.h"
 #include "world/vdb/volume_grid.h"
 
 namespace skerry::world {
 
-/// Takes bytes in order; returns false when they could not be kept.
-using ByteSink = std::function<bool(std::span<const std::byte>)>;
-
-/// Longest name, type or remark of a grid, and longest error message.
-inline constexpr std::size_t kMaxVolumeText = 1024;
 /// Most grids of one file.
 inline constexpr std::uint32_t kMaxVolumeGrids = 4096;
 
@@ -35,8 +29,5 @@ Result<std::vector<VolumeGrid>> decode_answer(std::span<const std::byte> bytes);
 
 /// Whether all of a box lies where voxels of a grid may: kMaxVolumeIndex.
 bool within_reach(const VolumeBox& box);
-
-/// At most kMaxVolumeText bytes of printable ASCII: anything else becomes '?'.
-std::string printable(std::string_view text);
 
 }  // namespace skerry::world

@@ -6,10 +6,7 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
-#include <exception>
-#include <new>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "world/confined/child.h"
@@ -33,15 +30,10 @@ Result<void> write_job(std::string_view path) {
 }
 
 Result<void> run(const ConfinedJob& job) {
-  try {
+  return guarded("OpenVDB", [&] {
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     return job.writes() ? write_job(job.path) : read_openvdb(STDIN_FILENO, write_to_output);
-  } catch (const std::bad_alloc&) {
-    return Error{"it needs more memory than is allowed; it is damaged or too large"};
-  } catch (const std::exception& error) {
-    return Error{std::string("OpenVDB gave up on it (") + error.what() +
-                 "); copy or write it again"};
-  }
+  });
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "engine/render/sky/panorama.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -35,6 +37,14 @@ float mended(float value) {
 }
 
 }  // namespace
+
+Result<void> check_panorama_shape(std::int64_t columns, std::int64_t rows) {
+  if (columns == 2 * rows) return {};
+  return Error{
+      fmt::format("it is {}x{}, and a panorama is twice as wide as high; give an "
+                  "equirectangular one",
+                  columns, rows)};
+}
 
 double panorama_solid_angle(std::uint32_t columns, std::uint32_t rows, std::uint32_t row) {
   const double top = static_cast<double>(row) / rows, bottom = (row + 1.0) / rows;

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/result.h"
+
 namespace skerry::render {
 
 /// Largest panorama that is read, and what of its columns is kept.
@@ -25,6 +27,9 @@ struct Panorama {
     return texels[std::size_t{row} * columns + column];
   }
 };
+
+/// Errors: it is not twice as wide as high; one line.
+Result<void> check_panorama_shape(std::int64_t columns, std::int64_t rows);
 
 /// Solid angle of a texel of a row [sr].
 double panorama_solid_angle(std::uint32_t columns, std::uint32_t rows, std::uint32_t row);

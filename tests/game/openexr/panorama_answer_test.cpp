@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-AnswerSink into(Bytes& out) {
+world::ByteSink into(Bytes& out) {
   return [&out](std::span<const std::byte> bytes) {
     out.insert(out.end(), bytes.begin(), bytes.end());
     return true;
@@ -51,7 +51,7 @@ TEST(PanoramaAnswer, ARefusalIsOneLine) {
   EXPECT_EQ(decode_panorama(out).error().message, "it is?no?picture");
   out.clear();
   ASSERT_TRUE(encode_refusal(std::string(5000, 'x'), into(out)));
-  EXPECT_EQ(decode_panorama(out).error().message.size(), kMostRefusalText);
+  EXPECT_EQ(decode_panorama(out).error().message.size(), world::kMostAnswerText);
 }
 
 TEST(PanoramaAnswer, NoCutOrLongOneIsTaken) {
