@@ -7,6 +7,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 #include "game/scene_file/scene_files.h"
 
@@ -54,10 +55,7 @@ Result<CloudFile> read_cloud(const json& value) {
   if (!value.is_object() || !value.contains("file") || !value.at("file").is_string() ||
       value.at("file").get<std::string>().empty())
     return Error{"it has no file: give an object with 'file', e.g. {\"file\": \"cloud.vdb\"}"};
-  for (const auto& [field, entry] : value.items())
-    if (std::find(kFields.begin(), kFields.end(), field) == kFields.end())
-      return Error{fmt::format("it has an unknown field {}: did you mean '{}'?", quote_text(field),
-                               nearest_name(field, kFields))};
+  if (const Result<void> known = check_fields(value, kFields); !known) return known.error();
   CloudFile out;
   out.path = value.at("file").get<std::string>();
   out.of_scene_file = true;

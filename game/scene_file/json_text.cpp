@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
@@ -45,6 +46,18 @@ Result<nlohmann::json> parse_json(std::string_view text) {
 
 Result<nlohmann::ordered_json> parse_ordered_json(std::string_view text) {
   return parse<nlohmann::ordered_json>(text);
+}
+
+Result<void> check_field(std::string_view field, std::span<const std::string_view> known) {
+  if (std::find(known.begin(), known.end(), field) != known.end()) return {};
+  return Error{fmt::format("it has an unknown field {}: did you mean '{}'?", quote_text(field),
+                           nearest_name(field, known))};
+}
+
+Result<void> check_fields(const nlohmann::json& object, std::span<const std::string_view> known) {
+  for (const auto& [field, value] : object.items())
+    if (Result<void> one = check_field(field, known); !one) return one;
+  return {};
 }
 
 }  // namespace skerry::game

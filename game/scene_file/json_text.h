@@ -1,5 +1,6 @@
 #pragma once
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 
 #include "engine/core/result.h"
@@ -16,5 +17,10 @@ inline constexpr int kMostJsonDepth = 100;
 Result<nlohmann::json> parse_json(std::string_view text);
 /// The same, with keys in the text's order.
 Result<nlohmann::ordered_json> parse_ordered_json(std::string_view text);
+
+/// Errors: a field is none of `known`.
+Result<void> check_field(std::string_view field, std::span<const std::string_view> known);
+/// The same, of all fields of an object.
+Result<void> check_fields(const nlohmann::json& object, std::span<const std::string_view> known);
 
 }  // namespace skerry::game

@@ -13,6 +13,7 @@
 
 #include "engine/render/light/lights.h"
 #include "game/scene_file/emission.h"
+#include "game/scene_file/json_text.h"
 #include "game/scene_file/parse.h"
 
 namespace skerry::game {
@@ -154,11 +155,9 @@ Result<void> read_shape(const json& value, const Kind& kind, shared::Light& into
   return {};
 }
 
-Result<void> check_fields(const json& value, const Kind& kind) {
+Result<void> check_light_fields(const json& value, const Kind& kind) {
   for (const auto& [field, entry] : value.items()) {
-    if (std::find(kLightFields.begin(), kLightFields.end(), field) == kLightFields.end())
-      return Error{fmt::format("it has an unknown field {}: did you mean '{}'?", quote_text(field),
-                               nearest_name(field, kLightFields))};
+    if (Result<void> known = check_field(field, kLightFields); !known) return known;
     constexpr std::array<std::string_view, 5> kOfSome{"position", "axis", "size", "cone", "dual"};
     const bool of_some = std::find(kOfSome.begin(), kOfSome.end(), field) != kOfSome.end();
     if (of_some && !has_field(kind, field))
@@ -186,7 +185,7 @@ Result<const Kind*> kind_of(const json& value) {
 Result<WorldLight> read_light(const json& value) {
   const Result<const Kind*> kind = kind_of(value);
   if (!kind) return kind.error();
-  if (Result<void> known = check_fields(value, **kind); !known) return known.error();
+  if (Result<void> known = check_light_fields(value, **kind); !known) return known.error();
   WorldLight out;
   out.light.kind = (*kind)->kind;
   if (Result<void> read = read_strength(value, **kind, out.light); !read) return read.error();
@@ -262,10 +261,7 @@ Result<BlockBox> read_box(const json& value) {
     return Error{
         "it lacks a block or a place: give {\"block\": NAME, \"from\": [X, Y, Z], \"to\": [X, Y, "
         "Z]}"};
-  for (const auto& [field, entry] : value.items())
-    if (std::find(kBoxFields.begin(), kBoxFields.end(), field) == kBoxFields.end())
-      return Error{fmt::format("it has an unknown field {}: did you mean '{}'?", quote_text(field),
-                               nearest_name(field, kBoxFields))};
+  if (const Result<void> known = check_fields(value, kBoxFields); !known) return known.error();
   const Result<world::BlockId> block = read_block(value.at("block"));
   if (!block) return block.error();
   const auto from = read_place(value.at("from"), "from");
