@@ -60,10 +60,6 @@ std::optional<int> mouse_button(Key key) {
   return static_cast<int>(found - std::begin(kButtons));
 }
 
-}  // namespace
-
-namespace {
-
 /// Of a key, a button or a character.
 bool is_press(const InputEvent& event) {
   if (event.key == Key::kNone) return true;
