@@ -26,6 +26,7 @@ layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 #include "include/light/clustered.glsl"
 #include "include/light/corners.glsl"
 #include "include/light/traced.glsl"
+#include "include/light/shafts.glsl"
 #include "include/light/blocked_lights.glsl"
 
 void main() {
@@ -35,13 +36,14 @@ void main() {
   uint word = covered_word(imageLoad(surfaces, ivec2(pixel)).r, stored_depth);
   here = here && word != 0u;
   float depth = here ? surface_depth(stored_depth) : 1.0;
-  Cluster list = lights_at(pixel, view_distance(depth, frame.near_plane));
+  float z = view_distance(depth, frame.near_plane);
+  Cluster list = lights_at(pixel, z);
   if (!here) list.count = 0u;
   Surface s = resolve_surface(word, ivec2(pixel), depth, pixel_ray(pixel), kTextureTaps);
   vec3 to_eye = -normalize(s.position);
   Brdf b = surface_brdf(s, to_eye);
   s.ao = surface_ao(s, word);
-  vec3 light = lights_reflected(list, b, way_start(s, word), to_eye) * s.ao;
+  vec3 light = lights_reflected(list, shafts_at(pixel, z), b, way_start(s, word), to_eye) * s.ao;
   vec3 colour = imageLoad(radiance, ivec2(pixel)).rgb + light * clear_air(s.position);
   if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
   if (here) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));

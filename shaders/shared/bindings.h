@@ -127,5 +127,7 @@ SHARED_CONST uint kSkyScatteringBinding = 87u;  // SkyScatter[body][row][azimuth
 SHARED_CONST uint kTailDepthsBinding = 88u;
 SHARED_CONST uint kTailLightBinding = 89u;
 
+SHARED_CONST uint kTileShaftsBinding = 90u;  // TileShafts[], of 8x8 tiles
+
 SHARED_END
 #endif

@@ -39,6 +39,7 @@ layout(constant_id = kLitConstant) const bool kLit = false;  // listed pixels th
 #include "include/light/indirect.glsl"
 #include "include/light/clustered.glsl"
 #include "include/light/traced.glsl"
+#include "include/light/shafts.glsl"
 #include "include/light/blocked_lights.glsl"
 #include "include/surface/light_samples.glsl"
 
@@ -74,7 +75,7 @@ mat2x3 light_sent(Surface s, uint word, uvec2 pixel, float z, bool here) {
   if (kLit) {
     Cluster list = lights_at(pixel, z);
     if (!here) list.count = 0u;
-    sent += lights_reflected(list, b, way_start(s, word), to_eye);
+    sent += lights_reflected(list, shafts_at(pixel, z), b, way_start(s, word), to_eye);
   }
   return sent * s.ao;
 }

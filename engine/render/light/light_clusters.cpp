@@ -127,6 +127,7 @@ std::vector<gpu::SpecConstant> ClusteredLights::with_lights(
   own.push_back({shared::kLitConstant, 1});
   own.push_back({shared::kLightKindsConstant, kinds});
   if (oracle) own.push_back({shared::kOracleConstant, 1});
+  if (shafts) own.push_back({shared::kShaftsConstant, 1});
   return own;
 }
 
@@ -145,6 +146,7 @@ void ClusteredLights::declare_counts(gpu::PassBuilder& builder) const {
 void ClusteredLights::declare(gpu::PassBuilder& builder) const {
   declare_counts(builder);
   builder.read(reaches, Use::kComputeRead);
+  if (shafts) builder.read(shafts, Use::kComputeRead);
   if (oracle) return;
   builder.read(lights, Use::kComputeRead);
   builder.read(entries, Use::kComputeRead);

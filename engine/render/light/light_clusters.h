@@ -52,6 +52,7 @@ struct ClusteredLights {
   Tiles tiles;              ///< those that some light reaches, kCovered alone
   std::uint32_t kinds = 0;  ///< bit a kind that the frame has; 0: there are none
   bool oracle = false;      ///< nothing is sorted: every pixel asks every light
+  gpu::BufferRef shafts;    ///< shared::TileShafts[8x8 tile], see ShaftPass; empty: nothing is known
 
   /// For a frame without lights: buffers that are never read.
   static ClusteredLights none(const SceneRefs& scene);
@@ -70,7 +71,10 @@ struct ClusteredLights {
                       gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
   }
   /// Of a pass that includes shaders/include/light/blocked_lights.glsl, beside bindings().
-  auto reach_binding() const { return gpu::storage<shared::kLightReachBinding>(reaches); }
+  auto blocked_bindings() const {
+    return std::tuple{gpu::storage<shared::kLightReachBinding>(reaches),
+                      gpu::storage<shared::kTileShaftsBinding>(shafts ? shafts : reaches)};
+  }
 };
 
 /// Depths of what a frame shows.

@@ -1,6 +1,7 @@
 #include "engine/render/steps/light_steps.h"
 
 #include "engine/render/light/light_pass.h"
+#include "engine/render/light/shaft_pass.h"
 #include "engine/render/steps/reasons.h"
 
 namespace skerry::render {
@@ -26,6 +27,9 @@ FrameStep shade_lights_step() {
             return needs(plan.lights() && !plan.shows_channel() && !plan.sampled());
           }}},
           [](FrameAssembly& f) {
+            if (f.plan.settings.lights_shadows == kEveryLight && !f.plan.settings.lights_oracle)
+              f.lights = ShaftPass::add(f.graph, f.pipelines, f.scene,
+                                        {*f.geometry, f.plan.settings}, *f.lights);
             f.shaded =
                 LightPass::add(f.graph, f.pipelines, f.scene,
                                {*f.geometry, *f.lights, f.plan.settings}, *std::move(f.shaded));

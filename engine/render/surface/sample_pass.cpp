@@ -182,7 +182,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::texels<shared::kIndirectBinding>(scene.indirect),
             clouds.light_bindings(),
             lights.bindings(),
-            lights.reach_binding(),
+            lights.blocked_bindings(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
             pass.into.bindings(scene),

@@ -1,5 +1,5 @@
 // What a pixel's surface is, from the G-buffer word and depth.
-// Needs before the include: `frame`, `islands[]`, `materials[]`, `block_textures` (sampler2DArray, repeat, trilinear).
+// Needs before the include: `frame`, `islands[]`, `materials[]`, `block_textures` (sampler2DArray, repeat, trilinear), or SKERRY_UNTEXTURED.
 #ifndef SKERRY_SURFACE_GLSL
 #define SKERRY_SURFACE_GLSL
 #include "shared/bindings.h"
@@ -18,6 +18,7 @@ layout(binding = kStoredPositionsBinding) uniform sampler2D stored_positions;
 // Of a plant: position in its voxel's cube, 0..1. Rounding at its foot must not take it for the voxel below.
 vec3 place_in_voxel(vec3 lattice) { return clamp(lattice - floor(lattice + vec3(0.0, 0.001, 0.0)), 0.0, 1.0); }
 
+#ifndef SKERRY_UNTEXTURED
 // Texture coordinates of a lattice point on a face [blocks], v downwards.
 vec2 face_uv(uint face, vec3 lattice) {
   return face >= 6u ? vec2(lattice.x, -lattice.y)
@@ -73,6 +74,8 @@ vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   return plane_texel(layer, face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
 }
 
+#endif
+
 // Radiance that a surface emits, over its albedo.
 float emission_of(uint word, vec3 albedo) {
   vec2 emission = unpackHalf2x16(materials[surface_block(word)].emission);
@@ -112,6 +115,7 @@ Surface surface_without_texture(uint word, ivec2 pixel, float depth, vec3 ray) {
   return s;
 }
 
+#ifndef SKERRY_UNTEXTURED
 // @param pixel where the word is from. @param depth of the surface, greater than 0.
 Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_taps) {
   Surface s = surface_without_texture(word, pixel, depth, ray);
@@ -123,4 +127,5 @@ Surface resolve_surface(uint word, ivec2 pixel, float depth, vec3 ray, uint max_
   s.emitted = s.albedo * emission_of(word, s.albedo);
   return s;
 }
+#endif
 #endif

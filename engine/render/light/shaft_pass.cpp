@@ -1,0 +1,54 @@
+#include "engine/render/light/shaft_pass.h"
+
+#include <shader_names.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/gpu/graph/bindings.h"
+#include "engine/render/light/wall_reads.h"
+#include "engine/render/scene/gbuffer_formats.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
+#include "shaders/shared/frame.h"
+#include "shaders/shared/shafts.h"
+
+namespace skerry::render {
+
+using gpu::Use;
+
+ClusteredLights ShaftPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                               const SceneRefs& scene, const In& in, ClusteredLights lights) {
+  const std::uint32_t tiles = gpu::Commands::groups(scene.size.width, shared::kTileEdge) *
+                              gpu::Commands::groups(scene.size.height, shared::kTileEdge);
+  const SurfaceReads surfaces(in.geometry);
+  const WallReads walls(scene, in.settings, false);
+  gpu::BufferRef shafts = graph.create(gpu::BufferDesc{
+      "tile shafts", std::uint64_t{tiles} * sizeof(shared::TileShafts), 0, gpu::Memory::kDevice});
+  const auto program = gpu::compute(
+      pipelines, programs::kCullShafts, walls.with_walls(lights.with_lights(surfaces.with_store({}))));
+  graph.add_pass(
+      "cull_shafts",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        lights.declare(b);
+        surfaces.declare(b);
+        walls.declare(b);
+        shafts = b.write(shafts, Use::kComputeWrite);
+      },
+      [program, scene, lights, surfaces, walls, shafts, tiles](gpu::Commands& c) {
+        gpu::bind(
+            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            surfaces.bindings(scene.point_sampler), walls.bindings(), lights.bindings(), gpu::storage<shared::kTileShaftsBinding>(shafts));
+        const std::uint32_t groups = gpu::Commands::groups(tiles, 64);
+        c.dispatch(std::min(groups, shared::kTileRow),
+                   gpu::Commands::groups(groups, shared::kTileRow), 1);
+      });
+  lights.shafts = shafts;
+  return lights;
+}
+
+}  // namespace skerry::render
