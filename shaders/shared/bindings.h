@@ -8,7 +8,7 @@
 SHARED_BEGIN
 // The frame and the scene.
 SHARED_CONST uint kFrameBinding = 0u;          // FrameConstants
-SHARED_CONST uint kIslandsBinding = 1u;        // IslandTransform[]
+SHARED_CONST uint kIslandsBinding = 1u;        // texels of IslandTransform[]
 SHARED_CONST uint kMaterialsBinding = 2u;      // Material[]
 SHARED_CONST uint kBlockTexturesBinding = 3u;  // array of all blocks' textures
 SHARED_CONST uint kSkyBinding = 4u;            // SkyConstants
@@ -126,6 +126,8 @@ SHARED_CONST uint kSkyScatteringBinding = 87u;  // SkyScatter[body][row][azimuth
 // Behind the translucent layers, see sum_tail.frag.
 SHARED_CONST uint kTailDepthsBinding = 88u;
 SHARED_CONST uint kTailLightBinding = 89u;
+
+SHARED_CONST uint kIslandSkiesBinding = 90u;  // texels of each island's sky, see shared/indirect.h
 
 SHARED_END
 #endif

@@ -99,14 +99,14 @@ std::vector<Face> covered_faces(const ChunkMesh& mesh) {
   for (int range = 0; range < static_cast<int>(shared::kRangeCount); ++range) {
     for (; at < mesh.range_end[static_cast<std::size_t>(range)]; ++at) {
       const Quad q = mesh.quads.at(at);
-      EXPECT_EQ(q.material >> 19, 0u);
+      EXPECT_EQ(shared::surface_island(q.material), 0u);
       const std::array<int, 3> low = {static_cast<int>(q.geometry & 63),
                                       static_cast<int>(q.geometry >> 6 & 63),
                                       static_cast<int>(q.geometry >> 12 & 63)};
       const int u = static_cast<int>(q.geometry >> 18 & 63),
                 v = static_cast<int>(q.geometry >> 24 & 63);
-      const int face = static_cast<int>(q.material >> 16);
-      const auto id = static_cast<BlockId>(q.material & 0xffff);
+      const int face = static_cast<int>(shared::surface_face(q.material));
+      const auto id = static_cast<BlockId>(shared::surface_block(q.material));
       const bool plant = range == static_cast<int>(shared::kRangePlant);
       EXPECT_EQ(face >= 6, plant);
       if (plant) {

@@ -17,6 +17,7 @@ namespace {
 constexpr const char* kVisibility =
     "#include \"shared/light.h\"\n"
     "layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };\n"
+    "IslandTransform island_at(uint island) { return islands[island]; }\n"
     "#include \"include/light/traced.glsl\"\n"
     R"(
   struct Question { vec3 position; uint word; Light light; };
@@ -52,7 +53,7 @@ shared::Light light_at(const glm::dvec3& place, std::uint32_t kind = shared::kLi
 }
 
 std::uint32_t word_of(std::uint32_t island, int face) {
-  return island << 19 | static_cast<std::uint32_t>(face) << 16;
+  return island << shared::kIslandShift | static_cast<std::uint32_t>(face) << shared::kFaceShift;
 }
 
 /// An island of the world: camera-relative = rotation * lattice + place.
@@ -316,6 +317,7 @@ TEST_F(Traced, TheVoxelALightStandsInDoesNotBlockItButOthersDo) {
 constexpr const char* kPixel =
     "#include \"shared/light.h\"\n"
     "layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };\n"
+    "IslandTransform island_at(uint island) { return islands[island]; }\n"
     "layout(scalar, binding = 3) readonly buffer Lights { Light lights[]; };\n"
     "struct Cluster { uint first; uint count; };\n"
     "uint light_index(Cluster list, uint i) { return list.first + i; }\n"
