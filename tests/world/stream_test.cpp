@@ -214,7 +214,7 @@ TEST(Stream, ALevelIsReplacedInOneUpdate) {
     ASSERT_EQ(levels.size(), 1u) << "the island was torn";
     seen.insert(*levels.begin());
   }
-  const int coarsest = far_level(world.islands_near(world.origin(), 1000.0, 0.0).front(), 7);
+  const int coarsest = far_voxel_log2(world.islands_near(world.origin(), 1000.0, 0.0).front(), 7);
   EXPECT_EQ(seen, (std::set<std::int32_t>{0, coarsest}));
   EXPECT_EQ(world.usage().chunks, 0u);  // voxels are kept at level 0 only
   expect_same(consumer.held(), load(scene, 1).held());

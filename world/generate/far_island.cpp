@@ -15,10 +15,8 @@ namespace {
 using noise::kOne8;
 using shared::Quad;
 
-constexpr int kSamples = 2;      // of a voxel's column, each way
 constexpr int kHalf = 32;        // voxels from the section's middle to its end
 constexpr int kShoreLooks = 8;   // places that a lake's shore is looked at, each way around
-constexpr int kSeenLake = 4;     // lakes narrower than one in so many voxels are left out
 constexpr BlockId kLikeWater = block::kIce;
 
 /// What a design has at one place of the ground.
@@ -55,7 +53,7 @@ Design::Design(const IslandSpec& spec, int edge)
   for (const Butte& butte : shape_.buttes) rises_.emplace_back(butte);
   const SpikeGrid large = spike_grids(shape_)[0];
   for_spikes(large, shape_.extent.radius, [&](const Spike& spike) {
-    if (spike.reach * kSeenLake < edge) return;
+    if (2 * spike.reach < edge) return;
     const int x8 = spike.x * kOne8, z8 = spike.z * kOne8;
     const int inside = inside_at(shape_, x8, z8, bend_at(shape_, x8, z8));
     if (inside < 3 * kOne8) return;
@@ -63,7 +61,7 @@ Design::Design(const IslandSpec& spec, int edge)
     hung_.push_back({spike, spike.length_at(bottom)});
   });
   for (Lake lake : shape_.lakes) {
-    if (lake.radius * kSeenLake < edge) continue;
+    if (2 * lake.radius < edge) continue;
     const bool settled = settle(lake, kShoreLooks, [&](int x, int z) -> std::optional<int> {
       const int x8 = x * kOne8, z8 = z * kOne8;
       const Bend bend = bend_at(shape_, x8, z8);
@@ -124,40 +122,12 @@ struct VoxelColumn {
   BlockId cover = kAir;
 };
 
-/// Blocks that the samples have between two heights.
-int filled(std::span<const Sample> samples, int low, int high) {
-  int sum = 0;
-  for (const Sample& s : samples) sum += std::max(0, std::min(s.top, high) - std::max(s.bottom, low));
-  return sum;
-}
-
-/// The block that covers most samples; of equals the one with the lowest id.
-BlockId most_frequent(std::span<const Sample> samples) {
-  BlockId best = kAir;
-  std::ptrdiff_t most = 0;
-  for (const Sample& s : samples) {
-    const auto count = std::ranges::count(samples, s.cover, &Sample::cover);
-    if (count < most || (count == most && s.cover >= best)) continue;
-    best = s.cover;
-    most = count;
-  }
-  return best;
-}
-
-/// @param inside samples within the outline, not empty. @param samples those beside it, too.
-VoxelColumn column_of(std::span<const Sample> inside, int samples, int edge) {
-  VoxelColumn column;
-  column.cover = most_frequent(inside);
-  const auto lowest = std::ranges::min(inside, {}, &Sample::bottom).bottom;
-  const auto highest = std::ranges::max(inside, {}, &Sample::top).top;
-  int fullest = 0, fullest_filled = -1;
-  for (int y = static_cast<int>(floor_div(lowest, edge)); y * edge < highest; ++y) {
-    const int blocks = filled(inside, y * edge, (y + 1) * edge);
-    if (2 * blocks >= samples * edge) column.solid |= std::uint64_t{1} << (y + kHalf);
-    if (blocks > fullest_filled) fullest = y, fullest_filled = blocks;
-  }
-  if (column.solid == 0) column.solid = std::uint64_t{1} << (fullest + kHalf);
-  return column;
+/// @param sample within the outline.
+VoxelColumn column_of(const Sample& sample, int edge) {
+  const auto first = static_cast<int>(floor_div(sample.bottom + edge / 2, edge)),
+             end = std::max(first + 1, static_cast<int>(floor_div(sample.top + edge / 2, edge)));
+  const std::uint64_t below_end = (std::uint64_t{1} << (end + kHalf)) - 1;
+  return {below_end & ~((std::uint64_t{1} << (first + kHalf)) - 1), sample.cover};
 }
 
 /// The voxels of a section; columns index z + 64 x.
@@ -175,22 +145,13 @@ struct FarVoxels {
   }
 };
 
-/// @param least samples within the outline that a column needs.
-void fill(const Design& design, int edge, std::size_t least, FarVoxels& out) {
+void fill(const Design& design, int edge, FarVoxels& out) {
   const int reach = (design.radius() + edge - 1) / edge;
   for (int x = -reach; x < reach; ++x) {
     for (int z = -reach; z < reach; ++z) {
-      std::array<Sample, std::size_t{kSamples} * kSamples> inside;
-      std::size_t count = 0;
-      for (int i = 0; i < kSamples; ++i)
-        for (int j = 0; j < kSamples; ++j) {
-          const Sample sample = design.at(x * edge + (2 * i + 1) * edge / (2 * kSamples),
-                                          z * edge + (2 * j + 1) * edge / (2 * kSamples));
-          if (sample.cover != kAir) inside[count++] = sample;
-        }
-      if (count < least) continue;
-      const VoxelColumn column =
-          column_of(std::span(inside).first(count), kSamples * kSamples, edge);
+      const Sample sample = design.at(x * edge + edge / 2, z * edge + edge / 2);
+      if (sample.cover == kAir) continue;
+      const VoxelColumn column = column_of(sample, edge);
       out.at(x + kHalf, z + kHalf) = column;
       const std::array<int, 3> first{x + kHalf, std::countr_zero(column.solid), z + kHalf},
           last{x + kHalf, 63 - std::countl_zero(column.solid), z + kHalf};
@@ -268,20 +229,18 @@ void add_faces(const FarVoxels& voxels, std::uint32_t face, BlockId rock, Slice&
 
 }  // namespace
 
-int far_level(const IslandSpec& spec, int level) {
+int far_voxel_log2(const IslandSpec& spec, int level) {
   const int radius = spec.box_max.x - kBoxMargin;
-  const int coarsest = std::bit_width(static_cast<unsigned>(std::max(radius * 3 / 4, 1))) - 1;
-  return std::min(level, coarsest);
+  const int coarsest = std::bit_width(static_cast<unsigned>(std::max(radius / 3, 1))) - 1;
+  return std::min(level - 1, coarsest);
 }
 
-void far_island(const IslandSpec& spec, int level, ChunkMesh& out) {
-  SKERRY_ASSERT(far_level(spec, level) == level);
-  const int edge = 1 << level;
+void far_island(const IslandSpec& spec, int voxel_log2, ChunkMesh& out) {
+  const int edge = 1 << voxel_log2;
   const Design design(spec, edge);
   SKERRY_ASSERT(spec.bounding_radius < static_cast<double>(kHalf * edge));
   FarVoxels voxels;
-  fill(design, edge, kSamples * kSamples / 2, voxels);
-  if (voxels.high[1] == 0) fill(design, edge, 1, voxels);
+  fill(design, edge, voxels);
   out.quads.clear();
   out.range_end = {};
   Slice slice;

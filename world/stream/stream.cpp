@@ -25,6 +25,13 @@ int level_with_hysteresis(int level, double distance, double detail) {
   return nearer <= level && level <= further ? level : level_at(distance, detail);
 }
 
+// The first of the levels past the last one of VoxelSource at which an island is as at `level`.
+int one_section_level(const IslandSpec& spec, int level) {
+  while (level > kLevelCount && far_voxel_log2(spec, level - 1) == far_voxel_log2(spec, level))
+    --level;
+  return level;
+}
+
 // The chunks at a level whose meshes changed voxels show in: their own, and where they touch the
 // border, the neighbours', but not those across an edge.
 std::vector<IVec3> chunks_showing(const EditedBox& box, int level) {
@@ -155,7 +162,7 @@ void Streamer::State::drop_far_islands(std::span<const Near> near, const StreamS
 int Streamer::State::level_of(const IslandSpec& spec, int level) const {
   if (level < kLevelCount) return level;
   if (!world.is_as_generated(spec.id)) return kLevelCount - 1;
-  return std::max(kLevelCount, far_level(spec, level));
+  return one_section_level(spec, level);
 }
 
 void Streamer::State::place_island(const Near& near, const StreamView& view,
@@ -186,8 +193,7 @@ void Streamer::State::place_island(const Near& near, const StreamView& view,
   }
   const int had = island.target().level;
   const int wanted = level_with_hysteresis(had, near.distance, settings.detail_distance_blocks);
-  const auto one_section = [&](int level) { return std::max(kLevelCount, far_level(spec, level)); };
-  if (wanted == had || (wanted >= kLevelCount && one_section(wanted) == had)) return;
+  if (wanted == had || (wanted >= kLevelCount && one_section_level(spec, wanted) == had)) return;
   const int level = level_of(spec, wanted);
   if (level == had) return;
   change_level(island, level);
@@ -322,7 +328,10 @@ Streamer::Stats Streamer::stats() const {
   stats.tasks_left = s.tasks.size() + static_cast<std::size_t>(s.running);
   stats.chunks_made = s.chunks_made;
   for (const auto& [id, island] : s.islands) {
-    for (const auto& [chunk, slot] : island.shown.slots) stats.sections += slot.resident;
+    const StreamLevel& shown = island.shown;
+    for (const auto& [chunk, slot] : shown.slots) stats.sections += slot.resident;
+    const bool is_empty = shown.planned && shown.unmade == 0 && shown.made == 0;
+    stats.unshown += !is_empty && !shown.any_resident();
   }
   return stats;
 }

@@ -109,6 +109,7 @@ class Streamer {
 
   struct Stats {
     std::size_t islands = 0;      ///< resident or coming
+    std::size_t unshown = 0;      ///< of them, those of which nothing has been handed out yet
     std::size_t sections = 0;     ///< handed out and not removed
     std::size_t tasks_left = 0;   ///< queued or running
     std::size_t chunks_made = 0;  ///< generated and meshed so far, empty ones included

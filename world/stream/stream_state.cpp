@@ -42,7 +42,7 @@ StreamLevel Streamer::State::start_level(const IslandSpec& spec, int level) {
   started.level = started.voxel_log2 = level;
   started.serial = ++last_serial;
   if (started.far()) {
-    started.voxel_log2 = far_level(spec, level);
+    started.voxel_log2 = far_voxel_log2(spec, level);
     started.planned = true;
     started.slots.try_emplace(IVec3{});
     started.unmade = 1;

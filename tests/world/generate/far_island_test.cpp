@@ -49,7 +49,7 @@ struct Looks {
 glm::dvec3 mean_colour(BlockId id) {
   static const render::BlockTextures textures = render::block_textures();
   // The last mip has one texel a layer.
-  const auto layer = static_cast<std::size_t>(block_type(id).top);
+  const auto layer = static_cast<std::size_t>(block_types()[id].top);
   const std::byte* texel = &textures.texels.last(std::size_t{4} * textures.layers)[4 * layer];
   return {render::linear_from_srgb(texel[0]), render::linear_from_srgb(texel[1]),
           render::linear_from_srgb(texel[2])};
@@ -125,7 +125,7 @@ TEST(FarIsland, KeepsTheSilhouetteAndTheMeanColour) {
   int count = 0;
   glm::dvec3 colour_error(0.0);
   for (const IslandSpec& spec : islands_of_seed_1()) {
-    const int level = far_level(spec, kLevelCount);
+    const int level = far_voxel_log2(spec, kLevelCount);
     ChunkMesh mesh;
     far_island(spec, level, mesh);
     const Looks far = of_section(mesh, level), fine = of_blocks(spec);

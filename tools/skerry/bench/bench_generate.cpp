@@ -90,7 +90,7 @@ Measured measure(int threads) {
       jobs, specs.size() * kFarRounds, [] { return ChunkMesh{}; },
       [&](std::size_t i, ChunkMesh& mesh) {
         const IslandSpec& spec = specs[i % specs.size()];
-        far_island(spec, far_level(spec, kLevelCount), mesh);
+        far_island(spec, far_voxel_log2(spec, kLevelCount), mesh);
       });
   measured.far_s = watch.seconds() / kFarRounds;
   std::vector<BlockId> voxels(kPaddedVoxels);
