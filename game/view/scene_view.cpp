@@ -531,8 +531,8 @@ std::vector<PlacedIsland> SceneView::placed_islands(
   for (const auto& [id, slot] : island_slots_)
     if (!islands_[slot].far)
       out.push_back({id, slot, glm::mat3_cast(islands[slot].rotation),
-                   world::difference_blocks(place(islands[slot].origin), place(camera)),
-                   islands[slot].bounding_radius});
+                     world::difference_blocks(place(islands[slot].origin), place(camera)),
+                     islands[slot].bounding_radius});
   return out;
 }
 

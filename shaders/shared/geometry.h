@@ -19,9 +19,15 @@ SHARED_CONST uint kFaceShift = 10u;
 SHARED_CONST uint kIslandShift = 13u;
 SHARED_CONST uint kSurfaceHere = 0x80000000u;
 SHARED_CONST uint kOppositeFace = 1024u;  // xor turns a face into the one that looks the other way
-SHARED_FUNCTION uint surface_block(uint word) { return word & 1023u; }
-SHARED_FUNCTION uint surface_face(uint word) { return (word >> kFaceShift) & 7u; }
-SHARED_FUNCTION uint surface_island(uint word) { return (word >> kIslandShift) & 65535u; }
+SHARED_FUNCTION uint surface_block(uint word) {
+  return word & 1023u;
+}
+SHARED_FUNCTION uint surface_face(uint word) {
+  return (word >> kFaceShift) & 7u;
+}
+SHARED_FUNCTION uint surface_island(uint word) {
+  return (word >> kIslandShift) & 65535u;
+}
 
 // Quad ranges of a section, in this order in memory. Opaque and cut-out go to the G-buffer,
 // translucent to layers.

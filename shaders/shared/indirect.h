@@ -42,12 +42,12 @@ SHARED_CONST uint kSkyLobes = 8u;
 SHARED_CONST float kSteepCosine = 0.6f;
 
 SHARED_CONST uint kIndirectSkyTexels =
-    3u;                                    // a face: red, green, blue; halves of the lobes in order
+    3u;  // a face: red, green, blue; halves of the lobes in order
 SHARED_CONST uint kIndirectHarmonics = 18u;  // of an island's texels: after 6 faces
 SHARED_CONST uint kIndirectIslandTexels = 22u;
-SHARED_CONST uint kIndirectDark = 0u;   // nothing is known of an island's faces
-SHARED_CONST uint kIndirectFaces = 1u;  // tables say what each face sees
-SHARED_CONST uint kIndirectOpen = 2u;   // all faces see all of their sky
+SHARED_CONST uint kIndirectDark = 0u;            // nothing is known of an island's faces
+SHARED_CONST uint kIndirectFaces = 1u;           // tables say what each face sees
+SHARED_CONST uint kIndirectOpen = 2u;            // all faces see all of their sky
 SHARED_CONST uint kIndirectOpenRecord = 65536u;  // kMaxIslands
 SHARED_CONST uint kIndirectFirst = 65540u;       // + kIndirectRecordTexels
 SHARED_CONST uint kIndirectTableTexels = 128u;

@@ -40,9 +40,7 @@ class GpuTest : public testing::Test {
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     return made(device_->create_buffer({std::move(name), bytes, kUsage, Memory::kDevice, true}));
   }
-  Image image(const ImageDesc& desc) {
-    return made(device_->create_image(desc));
-  }
+  Image image(const ImageDesc& desc) { return made(device_->create_image(desc)); }
   /// All of a buffer, as values of one type.
   template <class T>
   std::vector<T> contents(Buffer& from) {

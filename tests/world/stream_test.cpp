@@ -29,7 +29,7 @@ class Consumer {
     for (ReadySection& section : update.ready) {
       EXPECT_FALSE(section.mesh.quads.empty());
       std::vector<Emitter> emitters;
-      find_emitters(section.mesh, emitters);
+      if (!section.key.far) find_emitters(section.mesh, emitters);
       EXPECT_EQ(section.emitters, emitters);
       order_.push_back(section.key);
       for (const Emitter& emitter : section.emitters) shining_[section.key] += emitter.faces;
@@ -412,13 +412,15 @@ TEST(Stream, AnEditOfAFarIslandShows) {
   const auto lamp = consumer.shining().find({far.id, chunk_of({0, 408 / 16, 0}), kLevelCount - 1});
   ASSERT_NE(lamp, consumer.shining().end());
   EXPECT_EQ(lamp->second, 6);
-  expect_same(consumer.held(), [&] {  // as for one who comes later
-    Streamer later(world, jobs);
-    Consumer other;
-    later.update(scene.view, scene.settings);
-    finish(later, other);
-    return other;
-  }().held());
+  expect_same(consumer.held(),
+              [&] {  // as for one who comes later
+                Streamer later(world, jobs);
+                Consumer other;
+                later.update(scene.view, scene.settings);
+                finish(later, other);
+                return other;
+              }()
+                  .held());
 }
 
 TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {

@@ -57,10 +57,10 @@ Result<std::vector<world::IslandSpec>> specs_of(const world::World& world,
   std::vector<world::IslandSpec> specs =
       world.islands_near(camera, options.settings.view_distance, options.settings.world_time_s);
   if (specs.size() > world::kMaxStreamedIslands)
-    return Error{fmt::format("{} islands are within view.distance={} and a picture shows at most "
-                             "{}: lower view.distance",
-                             specs.size(), options.settings.view_distance,
-                             world::kMaxStreamedIslands)};
+    return Error{
+        fmt::format("{} islands are within view.distance={} and a picture shows at most "
+                    "{}: lower view.distance",
+                    specs.size(), options.settings.view_distance, world::kMaxStreamedIslands)};
   return specs;
 }
 

@@ -325,16 +325,15 @@ void Builder::cover() {
     for (int z = -columns.half; z < columns.half; ++z) {
       const std::size_t i = columns.index(x, z);
       if (columns.top[i] == Columns::kNoGround) continue;
-      columns.skins[i] =
-          skin_at(shape, {.x = x,
-                          .z = z,
-                          .bend = {shift_x.at(x, z), shift_z.at(x, z)},
-                          .patch = patches.at(x, z),
-                          .height = columns.top[i],
-                          .inside = columns.inside[i],
-                          .wet = columns.water[i] != Columns::kDry,
-                          .steep = steep_at(i),
-                          .shore = shore[i] != 0});
+      columns.skins[i] = skin_at(shape, {.x = x,
+                                         .z = z,
+                                         .bend = {shift_x.at(x, z), shift_z.at(x, z)},
+                                         .patch = patches.at(x, z),
+                                         .height = columns.top[i],
+                                         .inside = columns.inside[i],
+                                         .wet = columns.water[i] != Columns::kDry,
+                                         .steep = steep_at(i),
+                                         .shore = shore[i] != 0});
       columns.highest = std::max<int>(columns.highest, std::max(columns.top[i], columns.water[i]));
       columns.lowest = std::min<int>(columns.lowest, columns.bottom[i]);
     }

@@ -158,8 +158,7 @@ int ButteRise::at(int x, int z, Bend bend) const {
 int Spike::depth_at(int column_x, int column_z, int length) const {
   const int squared = (column_x - x) * (column_x - x) + (column_z - z) * (column_z - z);
   if (squared >= reach * reach) return 0;
-  const int d =
-      static_cast<int>(noise::isqrt(static_cast<std::uint64_t>(squared) * kOne8 * kOne8));
+  const int d = static_cast<int>(noise::isqrt(static_cast<std::uint64_t>(squared) * kOne8 * kOne8));
   const int t = kOne12 - d * 16 / reach;
   const int cone = (t + ((t * t) >> 12)) / 2;
   return (length * cone) >> 12;
@@ -181,14 +180,14 @@ Heights heights_at(const Shape& shape, int x, int z, const Ground& ground) {
 }
 
 void dig_at(const Lake& lake, int x, int z, Bend bend, LakeColumn& column) {
-  constexpr int kRim = 3;                     // blocks of level ground around the water
+  constexpr int kRim = 3;                    // blocks of level ground around the water
   constexpr int kBlend = kLakeReach - kRim;  // blocks until the old ground is reached
   const int level = lake.level * kOne8;
   // Half of the bend, and at most two blocks: the bank must not outrun its rim.
   const int most = 2 * kOne8 + lake.radius * 40;
   const int bx = std::clamp(bend.x / 2, -most, most), bz = std::clamp(bend.z / 2, -most, most);
-  const int d = noise::length((x - lake.x) * kOne8 + bx, (z - lake.z) * kOne8 + bz) -
-                lake.radius * kOne8;
+  const int d =
+      noise::length((x - lake.x) * kOne8 + bx, (z - lake.z) * kOne8 + bz) - lake.radius * kOne8;
   if (d < 0) {
     const int bowl = smooth(std::min(kOne12, -d * 24 / lake.radius));
     column.ground = std::min(column.ground, level - kOne8 - ((lake.depth * bowl) >> 4));

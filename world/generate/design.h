@@ -85,8 +85,9 @@ bool settle(Lake& lake, int steps, const GroundAt& ground_at) {
     for (int a = 0; a < 1024 && inland; a += 1024 / steps) {
       for (const int distance : {lake.radius + 2, lake.radius + kShoreRoom}) {
         if (!inland) break;
-        const std::optional<int> ground = ground_at(lake.x + distance * noise::cosine(a) / noise::kOne12,
-                                                    lake.z + distance * noise::sine(a) / noise::kOne12);
+        const std::optional<int> ground =
+            ground_at(lake.x + distance * noise::cosine(a) / noise::kOne12,
+                      lake.z + distance * noise::sine(a) / noise::kOne12);
         inland = ground.has_value();
         if (inland) lowest = std::min(lowest, *ground);
       }

@@ -15,8 +15,8 @@ namespace {
 using noise::kOne8;
 using shared::Quad;
 
-constexpr int kHalf = 32;        // voxels from the section's middle to its end
-constexpr int kShoreLooks = 8;   // places that a lake's shore is looked at, each way around
+constexpr int kHalf = 32;       // voxels from the section's middle to its end
+constexpr int kShoreLooks = 8;  // places that a lake's shore is looked at, each way around
 constexpr BlockId kLikeWater = block::kIce;
 
 /// What a design has at one place of the ground.
@@ -99,8 +99,7 @@ Sample Design::at(int x, int z) const {
     column.dug = false;
     if (!column.wet) water = Columns::kDry;
   }
-  const Heights heights =
-      heights_at(shape_, x, z, {column.ground, bottom_at(x, z, inside)});
+  const Heights heights = heights_at(shape_, x, z, {column.ground, bottom_at(x, z, inside)});
   if (water > heights.top)
     return {heights.bottom, water, biome_.liquid == block::kWater ? kLikeWater : biome_.liquid};
   const SkinId skin = skin_at(shape_, {.x = x,

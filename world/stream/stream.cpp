@@ -182,8 +182,7 @@ void Streamer::State::place_island(const Near& near, const StreamView& view,
   island.camera = lattice_from_world * difference_blocks(view.camera, near.pose.origin);
   island.forward = lattice_from_world * view.forward;
   if (is_new) {
-    const int level =
-        level_of(spec, level_at(near.distance, settings.detail_distance_blocks));
+    const int level = level_of(spec, level_at(near.distance, settings.detail_distance_blocks));
     // Unless the camera is among its rocks, the island is there as a whole at first.
     const bool coarse_first =
         level < kLevelCount && near.distance > 0.0 && world.is_as_generated(spec.id);
@@ -260,8 +259,7 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
     update.removed = std::exchange(s.removed, {});
     std::vector<StreamIsland*> waiting;
     for (auto& [id, island] : s.islands) {
-      if (island.swappable() ||
-          ((!island.coming || island.shown.far()) && island.shown.made > 0))
+      if (island.swappable() || ((!island.coming || island.shown.far()) && island.shown.made > 0))
         waiting.push_back(&island);
     }
     std::sort(waiting.begin(), waiting.end(), [](const StreamIsland* a, const StreamIsland* b) {

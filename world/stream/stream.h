@@ -74,9 +74,10 @@ enum class StreamOf : std::uint8_t { kMeshes, kMeshesAndOccupancy };
 /// to the view as far sections at first, then what is near and in view. No call but
 /// wait_until_complete waits for them. Chunks near the camera that were edited are the exception:
 /// update() makes the first few itself, so that they are shown by the frame of the edit. An island
-/// that changes its level keeps the old one until all of the new one can replace it in one update. While the camera moves,
-/// islands near a limit keep their state (5% of the distance). A streamer that has not yet seen
-/// another view has no state to keep: what it delivers depends on the view and the settings alone.
+/// that changes its level keeps the old one until all of the new one can replace it in one update.
+/// While the camera moves, islands near a limit keep their state (5% of the distance). A streamer
+/// that has not yet seen another view has no state to keep: what it delivers depends on the view
+/// and the settings alone.
 class Streamer {
  public:
   /// Both must outlive the streamer.

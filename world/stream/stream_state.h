@@ -67,10 +67,10 @@ struct StreamIsland {
 struct StreamTask {
   std::uint64_t island = 0, serial = 0;
   std::optional<IVec3> chunk;  // none: list the island's chunks
-  int level = 0;        // see SectionKey
-  bool far = false;     // likewise
-  bool edited = false;  // a chunk of level 0 that a player has changed: before all others
-  double cost = 0.0;    // least first: distance, longer for what is out of view
+  int level = 0;               // see SectionKey
+  bool far = false;            // likewise
+  bool edited = false;         // a chunk of level 0 that a player has changed: before all others
+  double cost = 0.0;           // least first: distance, longer for what is out of view
 };
 
 /// Working memory of one job.

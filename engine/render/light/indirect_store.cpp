@@ -67,8 +67,7 @@ IndirectStore::~IndirectStore() {
 
 Result<std::unique_ptr<IndirectStore>> IndirectStore::create(gpu::Device& device,
                                                              MemoryBudget& budget) {
-  const std::uint32_t texels =
-      budget.first_elements(kTexelBytes, kLeastTexels, kUsualTexels);
+  const std::uint32_t texels = budget.first_elements(kTexelBytes, kLeastTexels, kUsualTexels);
   std::unique_ptr<IndirectStore> store(new IndirectStore(device, budget, texels));
   Result<gpu::Buffer> made =
       make_table(device, budget, "light of the sky", texels * kTexelBytes, true);

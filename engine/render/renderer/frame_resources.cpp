@@ -51,8 +51,7 @@ template <class T>
 Result<void> FrameResources::upload(gpu::Uploader& uploader, gpu::Buffer& to, const char* name,
                                     std::span<const T> values, ReadBy read_by) {
   const std::size_t bytes = std::max<std::size_t>(values.size_bytes(), sizeof(T));
-  if (Result<void> ok = reserve(to, name, bytes, read_by); !ok)
-    return ok;
+  if (Result<void> ok = reserve(to, name, bytes, read_by); !ok) return ok;
   if (!values.empty()) uploader.write(to, 0, values);
   return {};
 }

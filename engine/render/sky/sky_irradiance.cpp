@@ -78,8 +78,7 @@ bool is_upright(const glm::dquat& rotation) {
 }
 
 int heading_of(const glm::dquat& rotation) {
-  return static_cast<int>(
-      std::lround(2.0 * std::atan2(rotation.y, rotation.w) / kHeadingStep));
+  return static_cast<int>(std::lround(2.0 * std::atan2(rotation.y, rotation.w) / kHeadingStep));
 }
 
 using Lobes = std::array<glm::vec3, shared::kSkyLobes>;

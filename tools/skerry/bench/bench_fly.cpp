@@ -301,11 +301,11 @@ Result<Started> wait_until_complete(gpu::Device& device, game::SceneView& view,
     if (!value) return value.error();
     const bool handed_over = view.renderer().mesh_uploader().pending_bytes() == 0;
     const world::Streamer::Stats stats = view.streamer().stats();
-    const bool playable = was_known && handed_over &&
-                          view.renderer().geometry().sections_resident() != 0;
+    const bool playable =
+        was_known && handed_over && view.renderer().geometry().sections_resident() != 0;
     const bool first = out.first_ms == 0.0, now_playable = out.playable_ms == 0.0 && playable,
-               now_coarse = out.coarse_ms == 0.0 && handed_over && stats.islands != 0 &&
-                            stats.unshown == 0,
+               now_coarse =
+                   out.coarse_ms == 0.0 && handed_over && stats.islands != 0 && stats.unshown == 0,
                now_complete = out.complete_ms == 0.0 && playable && view.complete();
     if (out.playable_ms == 0.0) ++out.frames;
     if (!first && !now_playable && !now_coarse && !now_complete) continue;

@@ -118,9 +118,10 @@ int bench_generate(const BenchGenerateOptions& options) {
     const double islands = static_cast<double>(m.islands) / 1000.0;
     const double near_ms = (m.plan_s + m.chunk_s + m.mesh_s) / islands, far_ms = m.far_s / islands;
     const double bytes = static_cast<double>(m.stored_bytes) / chunks;
-    fmt::print("{:>7} {:>8} {:>7} {:>8.3f} {:>8.3f} {:>9.0f} {:>14.0f} {:>14.0f} {:>9.3f} {:>9.3f}\n",
-               threads, m.islands, m.chunks, m.plan_s, m.chunk_s, chunks_per_s, blocks_per_s, bytes,
-               near_ms, far_ms);
+    fmt::print(
+        "{:>7} {:>8} {:>7} {:>8.3f} {:>8.3f} {:>9.0f} {:>14.0f} {:>14.0f} {:>9.3f} {:>9.3f}\n",
+        threads, m.islands, m.chunks, m.plan_s, m.chunk_s, chunks_per_s, blocks_per_s, bytes,
+        near_ms, far_ms);
     rows.push_back({{"threads", threads},
                     {"islands", m.islands},
                     {"chunks", m.chunks},

@@ -70,7 +70,8 @@ void compare_ground(const Frame& frame, const Camera& camera, DepthError& error)
   for (std::uint32_t y = 0; y < frame.size.height; ++y) {
     for (std::uint32_t x = 0; x < frame.size.width; ++x) {
       const std::size_t i = std::size_t{y} * frame.size.width + x;
-      if (block_of(frame.words[i]) != kGrass || shared::surface_face(frame.words[i]) != 2u) continue;
+      if (block_of(frame.words[i]) != kGrass || shared::surface_face(frame.words[i]) != 2u)
+        continue;
       const double exact = depth_at(x, y), off = std::abs(frame.depth[i] - exact);
       error.over_allowed = std::max(error.over_allowed, off / allowed);
       ++error.pixels;
