@@ -438,11 +438,30 @@ TEST(Mesh, EveryBuiltInBlockKeepsItsIdAndRange) {
 TEST(Mesh, IdsBeyondAByteAreKept) {
   Chance chance{7};
   Mesher mesher;
-  const std::array<BlockId, 6> large = {kAir, 255, 256, 65535, block::kWater, block::kOakLeaves};
+  const std::array<BlockId, 6> large = {kAir, 255, 256, 1023, block::kWater, block::kOakLeaves};
   for (int round = 0; round < 8; ++round) mesher.check(random_boxes(chance, large, 40, 30));
   Padded many;  // more ids than a byte can index
   many.fill([&](int, int, int) { return static_cast<BlockId>(chance.below(1000)); });
   mesher.check(many);
+}
+
+// They have no look of their own, and must not name another face or island.
+TEST(Mesh, IdsThatNoMaterialHasKeepTheirLowestBits) {
+  Padded chunk;
+  chunk.fill([](int x, int, int) { return BlockId{x % 2 == 0 ? BlockId{65535} : BlockId{1027}}; });
+  MeshScratch scratch;
+  ChunkMesh mesh;
+  mesh_chunk(chunk.ids, scratch, mesh);
+  chunk.fill([](int x, int, int) { return x < 10 ? BlockId{40000} : kAir; });
+  ChunkMesh flat;
+  mesh_chunk(chunk.ids, scratch, flat);
+  ASSERT_FALSE(flat.quads.empty());
+  for (const ChunkMesh* one : {&mesh, &flat})
+    for (const shared::Quad& quad : one->quads) {
+      EXPECT_LT(shared::surface_face(quad.material), 6u);
+      EXPECT_EQ(shared::surface_island(quad.material), 0u);
+    }
+  EXPECT_EQ(shared::surface_block(flat.quads.front().material), 40000u % 1024u);
 }
 
 TEST(Mesh, PalettesOfEverySizeKeepTheirIds) {
@@ -450,7 +469,7 @@ TEST(Mesh, PalettesOfEverySizeKeepTheirIds) {
   Mesher mesher;
   for (const int count : {2, 63, 64, 65, 128, 129, 255, 256}) {
     Padded chunk;
-    chunk.fill([&](int, int, int) { return static_cast<BlockId>(chance.below(count) * 100); });
+    chunk.fill([&](int, int, int) { return static_cast<BlockId>(chance.below(count) * 3); });
     mesher.check(chunk);
   }
 }

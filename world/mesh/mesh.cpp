@@ -214,7 +214,8 @@ void set_wide_ids(std::span<const BlockId> voxels, ChunkMesh& out) {
     const std::size_t x = quad.geometry & 63, y = quad.geometry >> 6 & 63,
                       z = quad.geometry >> 12 & 63;
     const BlockId id = voxels[(z + 1) + (x + 1) * kVoxelStepX + (y + 1) * kVoxelStepY];
-    quad.material = shared::surface_face(quad.material) << shared::kFaceShift | id;
+    quad.material =
+        shared::surface_face(quad.material) << shared::kFaceShift | shared::surface_block(id);
   }
 }
 
@@ -252,7 +253,7 @@ std::uint8_t kind_flag(BlockId id) {
 }
 
 void ByteTable::set(unsigned byte, BlockId id) {
-  ids[byte] = id;
+  ids[byte] = static_cast<BlockId>(shared::surface_block(id));
   flags[byte] = kind_flag(id);
   if (flags[byte] & kFlagOpaque) opaque.add(byte);
   if (flags[byte] & kFlagsSeeThrough) see_through.add(byte);
