@@ -8,6 +8,7 @@
 #include "engine/core/check.h"
 #include "world/generate/columns.h"
 #include "world/generate/design.h"
+#include "world/voxel/voxel_source.h"
 
 namespace skerry::world {
 namespace {
@@ -144,11 +145,20 @@ struct FarVoxels {
   }
 };
 
-void fill(const Design& design, int edge, FarVoxels& out) {
+/// The first of parts x parts places of a column of voxels that lies within the outline.
+Sample sample_of(const Design& design, int x, int z, int edge, int parts) {
+  Sample sample;
+  for (int i = 0; i < parts * parts && sample.cover == kAir; ++i)
+    sample = design.at(x * edge + (2 * (i / parts) + 1) * edge / (2 * parts),
+                       z * edge + (2 * (i % parts) + 1) * edge / (2 * parts));
+  return sample;
+}
+
+void fill(const Design& design, int edge, int parts, FarVoxels& out) {
   const int reach = (design.radius() + edge - 1) / edge;
   for (int x = -reach; x < reach; ++x) {
     for (int z = -reach; z < reach; ++z) {
-      const Sample sample = design.at(x * edge + edge / 2, z * edge + edge / 2);
+      const Sample sample = sample_of(design, x, z, edge, parts);
       if (sample.cover == kAir) continue;
       const VoxelColumn column = column_of(sample, edge);
       out.at(x + kHalf, z + kHalf) = column;
@@ -229,8 +239,10 @@ void add_faces(const FarVoxels& voxels, std::uint32_t face, BlockId rock, Slice&
 }  // namespace
 
 int far_voxel_log2(const IslandSpec& spec, int level) {
+  SKERRY_ASSERT(level >= kLevelCount && level < kLevelCount + 8);
   const int radius = spec.box_max.x - kBoxMargin;
-  const int coarsest = std::bit_width(static_cast<unsigned>(std::max(radius / 3, 1))) - 1;
+  const int widest = std::min((radius << (level - kLevelCount)) / 3, radius * 3 / 4);
+  const int coarsest = std::bit_width(static_cast<unsigned>(std::max(widest, 1))) - 1;
   return std::min(level - 1, coarsest);
 }
 
@@ -239,7 +251,9 @@ void far_island(const IslandSpec& spec, int voxel_log2, ChunkMesh& out) {
   const Design design(spec, edge);
   SKERRY_ASSERT(spec.bounding_radius < static_cast<double>(kHalf * edge));
   FarVoxels voxels;
-  fill(design, edge, voxels);
+  // Of a thin bow or a ring, no voxel's middle may be within.
+  for (int parts = 1; voxels.high[1] == 0 && parts <= edge; parts *= 2)
+    fill(design, edge, parts, voxels);
   out.quads.clear();
   out.range_end = {};
   Slice slice;

@@ -17,7 +17,8 @@ namespace skerry::world {
 void far_island(const IslandSpec& spec, int voxel_log2, ChunkMesh& out);
 
 /// How coarse an island is at a level of detail: as coarse as the level before it has whole
-/// islands, but never so coarse that less than some six voxels lie side by side.
+/// islands, but no coarser than a third of its radius at first, and of three quarters in the end.
+/// @param level kLevelCount or more.
 int far_voxel_log2(const IslandSpec& spec, int level);
 
 }  // namespace skerry::world

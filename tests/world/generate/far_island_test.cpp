@@ -164,6 +164,21 @@ TEST(FarIsland, KeepsTheSilhouetteAndTheMeanColour) {
   }
 }
 
+// Areas of all islands together against the first far level, which is judged by their blocks.
+TEST(FarIsland, KeepsItsSizeAtEveryLevel) {
+  std::array<std::array<double, 3>, kFarLevelCount> areas{};
+  for (const IslandSpec& spec : islands_within(3, {}, 2500.0))
+    for (int i = 0; i < kFarLevelCount; ++i) {
+      const Looks looks =
+          of_section(far_mesh(spec, kLevelCount + i), far_voxel_log2(spec, kLevelCount + i));
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        areas[static_cast<std::size_t>(i)][axis] += looks.along[axis].area();
+    }
+  for (std::size_t i = 1; i < areas.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(areas[i][axis] / areas[0][axis], 1.0, 0.12) << "level 5 + " << i << ", " << axis;
+}
+
 // Along each line of voxels a face that looks one way is followed by one that looks the other way.
 TEST(FarIsland, IsAClosedSurfaceWithinItsBounds) {
   for (const IslandSpec& spec : islands_within(7, {}, 3000.0)) {
