@@ -85,6 +85,7 @@ shared::Section section_record(const world::SectionKey& key, const world::ChunkM
   shared::Section section{};
   const std::int32_t edge = world::kChunkEdge << key.level;
   section.origin = {key.chunk.x * edge, key.chunk.y * edge, key.chunk.z * edge};
+  if (key.far) section.origin = glm::ivec3(-edge / 2);
   section.island = island;
   section.voxel_size_log2 = static_cast<std::uint32_t>(key.level);
   section.bounds_min = packed_box(mesh.bounds_min);
@@ -262,6 +263,7 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
       static_cast<double>(renderer_->world_memory().used) * kLessOnRestart);
   sections_.clear();
   islands_.clear();
+  first_free_slot_ = 0;
   island_slots_.clear();
   waiting_.clear();
   light_field_.remove_sections();
@@ -370,6 +372,7 @@ std::map<std::uint64_t, SkyLightFeed::NearIsland> SceneView::near_islands(
   std::map<std::uint64_t, SkyLightFeed::NearIsland> islands;
   for (const auto& [id, slot] : island_slots_) {
     const IslandEntry& entry = islands_[slot];
+    if (entry.far) continue;
     const world::Pose pose = pose_of(entry, world_time_s);
     const double centre =
         glm::length(world::difference_blocks(place(camera.position), pose.origin));
@@ -383,18 +386,29 @@ std::map<std::uint64_t, SkyLightFeed::NearIsland> SceneView::near_islands(
 bool SceneView::hand_over_light(const render::Camera& camera, double world_time_s,
                                 std::uint64_t most_bytes) {
   if (sky_light_.idle()) return false;
-  if (!indirect_) {
-    Result<render::IndirectStore*> made = renderer_->indirect();
-    if (!made) {
-      refuse_light(made.error().message);
-      return false;
-    }
-    indirect_ = *made;
-  }
+  if (!indirect_store()) return false;
   const bool more = sky_light_.hand_over(*indirect_, renderer_->mesh_uploader(),
                                          near_islands(camera, world_time_s), most_bytes);
   if (const std::optional<std::string> why = sky_light_.refusal()) refuse_light(*why);
   return more;
+}
+
+/// The store of the sky's light, made when it is first needed; null: there is no memory for it.
+render::IndirectStore* SceneView::indirect_store() {
+  if (indirect_) return indirect_;
+  Result<render::IndirectStore*> made = renderer_->indirect();
+  if (!made) {
+    refuse_light(made.error().message);
+    return nullptr;
+  }
+  return indirect_ = *made;
+}
+
+/// A far section hides next to nothing of the sky from itself.
+void SceneView::open_to_sky(std::uint32_t slot) {
+  if (settings_.render.indirect == render::Indirect::kOff) return;
+  if (render::IndirectStore* store = indirect_store())
+    store->open_island(renderer_->mesh_uploader(), slot);
 }
 
 void SceneView::refuse_light(const std::string& why) {
@@ -413,7 +427,7 @@ void SceneView::remove_section(const world::SectionKey& key) {
   const auto slot = island_slots_.find(key.island);
   for (const render::SectionId section : found->second)
     renderer_->geometry().remove(uploader, section);
-  if (occupancy_) occupancy_->remove(uploader, slot->second, chunk_place(key));
+  if (occupancy_ && !key.far) occupancy_->remove(uploader, slot->second, chunk_place(key));
   sections_.erase(found);
   release_island(key.island);
 }
@@ -423,7 +437,8 @@ void SceneView::release_island(std::uint64_t island) {
   gpu::Uploader& uploader = renderer_->mesh_uploader();
   const auto slot = island_slots_.find(island);
   if (--islands_[slot->second].sections != 0) return;
-  if (occupancy_) occupancy_->end_island(uploader, slot->second);
+  first_free_slot_ = std::min<std::size_t>(first_free_slot_, slot->second);
+  if (occupancy_ && !islands_[slot->second].far) occupancy_->end_island(uploader, slot->second);
   if (indirect_) indirect_->end_island(uploader, slot->second);
   sky_light_.remove(island);
   if (island_light_) island_light_->end_island(island);
@@ -458,6 +473,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
       }
       sections.push_back(*added);
     }
+  if (ready.key.far) return {};
   std::vector<LatticeLight> lights = light_field_.lights_of(ready.key, ready.emitters);
   std::vector<world::WeakLamp> weak;
   if (weak_lamps_kept_) weak = take_weak(lights, ready.key.level);
@@ -473,14 +489,16 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
 Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
   if (const auto found = island_slots_.find(key.island); found != island_slots_.end())
     return found->second;
-  const auto free = std::find_if(islands_.begin(), islands_.end(),
-                                 [](const IslandEntry& entry) { return entry.sections == 0; });
-  const auto slot = static_cast<std::uint32_t>(free - islands_.begin());
-  if (free == islands_.end()) islands_.emplace_back();
+  while (first_free_slot_ < islands_.size() && islands_[first_free_slot_].sections != 0)
+    ++first_free_slot_;
+  const auto slot = static_cast<std::uint32_t>(first_free_slot_);
+  if (slot == islands_.size()) islands_.emplace_back();
   const std::optional<world::IslandSpec> spec = world_->island(key.island);
   SKERRY_ASSERT(spec.has_value());
-  islands_[slot] = {*spec, 0};
-  if (occupancy_) {
+  islands_[slot] = {*spec, 0, key.far};
+  if (key.far) {
+    open_to_sky(slot);
+  } else if (occupancy_) {
     if (Result<void> begun = occupancy_->begin_island(renderer_->mesh_uploader(), slot,
                                                       expected_chunks(*spec, key.level));
         !begun)
@@ -502,7 +520,7 @@ std::vector<render::IslandPlacement> SceneView::placements(double world_time_s) 
   out.reserve(islands_.size());
   for (const IslandEntry& entry : islands_) {
     const world::Pose pose = pose_of(entry, world_time_s);
-    out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius});
+    out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far});
   }
   return out;
 }
@@ -511,9 +529,10 @@ std::vector<PlacedIsland> SceneView::placed_islands(
     const render::FixedPos& camera, std::span<const render::IslandPlacement> islands) const {
   std::vector<PlacedIsland> out;
   for (const auto& [id, slot] : island_slots_)
-    out.push_back({id, slot, glm::mat3_cast(islands[slot].rotation),
-                   world::difference_blocks(place(islands[slot].origin), place(camera)),
-                   islands[slot].bounding_radius});
+    if (!islands_[slot].far)
+      out.push_back({id, slot, glm::mat3_cast(islands[slot].rotation),
+                     world::difference_blocks(place(islands[slot].origin), place(camera)),
+                     islands[slot].bounding_radius});
   return out;
 }
 
@@ -536,7 +555,7 @@ void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
 
 world::BlockId SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
   for (const IslandEntry& entry : islands_) {
-    if (entry.sections == 0) continue;
+    if (entry.sections == 0 || entry.far) continue;
     const world::Pose pose = pose_of(entry, world_time_s);
     const glm::dvec3 offset = world::difference_blocks(place(camera.position), pose.origin);
     if (glm::dot(offset, offset) > entry.spec.bounding_radius * entry.spec.bounding_radius)

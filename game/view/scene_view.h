@@ -102,6 +102,7 @@ class SceneView {
   struct IslandEntry {
     world::IslandSpec spec;
     std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
+    bool far = false;            // shown as one far section: no occupancy, no lamps
   };
   bool occupancy_wanted() const;
   Result<void> follow_settings();
@@ -118,6 +119,8 @@ class SceneView {
   std::map<std::uint64_t, SkyLightFeed::NearIsland> near_islands(const render::Camera& camera,
                                                                  double world_time_s) const;
   bool hand_over_light(const render::Camera& camera, double world_time_s, std::uint64_t most_bytes);
+  render::IndirectStore* indirect_store();
+  void open_to_sky(std::uint32_t slot);
   void refuse_light(const std::string& why);
   void remove_section(const world::SectionKey& key);
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
@@ -141,6 +144,7 @@ class SceneView {
   std::unique_ptr<render::Renderer> renderer_;
   render::Camera start_camera_;
   std::vector<IslandEntry> islands_;                     // by GPU slot
+  std::size_t first_free_slot_ = 0;                      // no free one is lower
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
   std::map<world::SectionKey, std::vector<render::SectionId>> sections_;

@@ -7,6 +7,7 @@
 #define SKERRY_STORED
 #define SKERRY_UNTEXTURED
 #include "include/frame/common.glsl"
+#include "include/frame/islands.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
 #include "shared/shafts.h"
@@ -14,7 +15,6 @@
 layout(local_size_x = 64) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
 layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
@@ -154,7 +154,7 @@ uint way_state(Light light, uint key, int plane, vec3 low, vec3 high) {
   bool point = kind == kLightPoint || kind == kLightSpot || (kind == kLightSphere && (kLightsSoftness == 1u || light.size == 0.0));
   if (!point) return kUnknown;
   VoxelGrid grid = voxel_grid(island);
-  vec3 middle = lattice_from_world(islands[island], light.position) * grid.per_block;
+  vec3 middle = lattice_from_world(island_at(island), light.position) * grid.per_block;
   vec3 apart = max(max(low - middle, middle - high), 0.0);
   float range = light.range * grid.per_block + kMargin;
   if (dot(apart, apart) >= range * range) return kNone;

@@ -16,7 +16,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
 layout(scalar, binding = kLightsBinding) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+#include "include/frame/islands.glsl"
 layout(scalar, binding = kLightReachBinding) readonly buffer Reaches { LightReach reaches[]; };  // if no light has one, a buffer that is never read
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
@@ -153,7 +153,7 @@ bool arrives_in(uint index, vec3 middle, vec3 half_size) {
   if (index == 0u) return true;
   ivec3 first = reaches[index - 1u].low, size = reaches[index - 1u].size;
   float per_block = reaches[index - 1u].per_block;
-  IslandTransform t = islands[reaches[index - 1u].island];
+  IslandTransform t = island_at(reaches[index - 1u].island);
   vec3 at = middle - t.translation;
   vec3 centre = vec3(dot(t.axis_x, at), dot(t.axis_y, at), dot(t.axis_z, at));
   vec3 around = vec3(dot(abs(t.axis_x), half_size), dot(abs(t.axis_y), half_size), dot(abs(t.axis_z), half_size));

@@ -11,7 +11,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+#include "include/frame/islands.glsl"
 layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
@@ -60,7 +60,7 @@ vec3 light_count(uint word, uvec2 pixel, float depth) {
   Cluster list = lights_at(pixel, z);
   uint count = here ? list.count : 0u;
   if (kChannel == kLightCountChannel) {
-    vec3 normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
+    vec3 normal = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
     uint reaching = 0u;
     for (uint i = 0u; i < count; ++i)
       if (light_received(lights[light_index(list, i)], pixel_ray(pixel) * z, normal) != vec3(0.0)) ++reaching;
@@ -74,7 +74,7 @@ vec3 channel(uint word, ivec2 pixel, float depth, vec3 ray) {
   if (kChannel == 1u) return srgb_encode(s.albedo);
   if (kChannel == 2u) return s.normal * 0.5 + 0.5;
   // Position in its island's lattice: red, green, blue repeat every block along x, y, z.
-  if (kChannel == 3u) return fract(lattice_from_world(islands[surface_island(word)], s.position));
+  if (kChannel == 3u) return fract(lattice_from_world(island_at(surface_island(word)), s.position));
   if (kChannel == 4u) return hashed_colour(surface_block(word) | (surface_island(word) << 16));
   if (kChannel == 5u) return srgb_encode(tone_map(s.emitted * exp2(-exposure.ev)));
   if (kChannel == 6u) return vec3(fract(log2(view_distance(depth, frame.near_plane))));

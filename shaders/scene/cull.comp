@@ -42,6 +42,7 @@ const uint kTranslucentRanges = 63u << kRangeTranslucent;
 shared uint draws_of_list[3];
 shared CullStats group_stats;
 shared uint sums[256];
+shared uint lists_with_draws;  // bits
 
 uvec3 unpack_box(uint packed) { return uvec3(packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u); }
 
@@ -247,11 +248,20 @@ void emit() {
     mask = first_phase(masks[view * push.section_count + section]);
     s = sections[section];
   }
+  if (lane == 0u) lists_with_draws = 0u;
+  barrier();
+  uint own_lists = 0u;
+  for (uint list = 0u; list < kListCount; ++list)
+    if (mask != 0u && draw_count(s, mask, list) != 0u) own_lists |= 1u << list;
+  if (own_lists != 0u) atomicOr(lists_with_draws, own_lists);
+  barrier();
   for (uint list = 0u; list < kListCount; ++list) {
     uint own = mask == 0u ? 0u : draw_count(s, mask, list);
     sums[lane] = own;
     barrier();
-    for (uint step = 1u; step < 256u; step <<= 1) {
+    // Most groups have no draw of most lists. Loops end early on every device, branches do not.
+    uint end_step = (lists_with_draws & (1u << list)) != 0u ? 256u : 0u;
+    for (uint step = 1u; step < end_step; step <<= 1) {
       uint other = lane >= step ? sums[lane - step] : 0u;
       barrier();
       sums[lane] += other;

@@ -24,7 +24,7 @@ invariant gl_Position;
 void main() {
   uvec2 quad = quads[gl_VertexIndex >> 2];
   uint corner = gl_VertexIndex & 3u;
-  uint face = (quad.y >> 16) & 7u;
+  uint face = surface_face(quad.y);
   uint axis = face >> 1;
   vec3 low = vec3(quad.x & 63u, (quad.x >> 6) & 63u, (quad.x >> 12) & 63u);
   float along_u = float((quad.x >> 18) & 63u) + 1.0;

@@ -8,7 +8,7 @@
 SHARED_BEGIN
 // The frame and the scene.
 SHARED_CONST uint kFrameBinding = 0u;          // FrameConstants
-SHARED_CONST uint kIslandsBinding = 1u;        // IslandTransform[]
+SHARED_CONST uint kIslandsBinding = 1u;        // texels of IslandTransform[]
 SHARED_CONST uint kMaterialsBinding = 2u;      // Material[]
 SHARED_CONST uint kBlockTexturesBinding = 3u;  // array of all blocks' textures
 SHARED_CONST uint kSkyBinding = 4u;            // SkyConstants
@@ -127,7 +127,9 @@ SHARED_CONST uint kSkyScatteringBinding = 87u;  // SkyScatter[body][row][azimuth
 SHARED_CONST uint kTailDepthsBinding = 88u;
 SHARED_CONST uint kTailLightBinding = 89u;
 
-SHARED_CONST uint kTileShaftsBinding = 90u;  // TileShafts[], of 8x8 tiles
+SHARED_CONST uint kIslandSkiesBinding = 90u;  // texels of each island's sky, see shared/indirect.h
+
+SHARED_CONST uint kTileShaftsBinding = 91u;  // TileShafts[], of 8x8 tiles
 
 SHARED_END
 #endif

@@ -12,8 +12,7 @@ SHARED_CONST uint kViewCount = 13u;  // 0 the camera, then cascades of the sun (
                                      // moon (5..8), and parts of those that may lag, two a body
 SHARED_CONST uint kListCount =
     3u;  // draw lists a view: 0 opaque, 1 cut-out and plants, 2 translucent
-SHARED_CONST uint kMaxIslands =
-    1024u;  // resident at once; their transforms fit in a 64 KiB uniform buffer
+SHARED_CONST uint kMaxIslands = 65536u;       // resident at once: what a surface's word can name
 SHARED_CONST uint kMaxQuadsPerDraw = 16384u;  // 4 vertices a quad, 16-bit indices
 SHARED_CONST uint kCullGroup = 256u;          // sections a culling work group looks at
 

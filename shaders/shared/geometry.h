@@ -13,6 +13,22 @@ SHARED_CONST uint kChunkEdge = 64u;  // voxels along a chunk's edge
 
 SHARED_CONST uint kMaxMaterials = 1024u;  // block ids with a look of their own
 
+// A surface's word: bits 0-9 block id, 10-12 face, 13-28 index into the island table, and in the
+// G-buffer bit 31, set where there is a surface.
+SHARED_CONST uint kFaceShift = 10u;
+SHARED_CONST uint kIslandShift = 13u;
+SHARED_CONST uint kSurfaceHere = 0x80000000u;
+SHARED_CONST uint kOppositeFace = 1024u;  // xor turns a face into the one that looks the other way
+SHARED_FUNCTION uint surface_block(uint word) {
+  return word & 1023u;
+}
+SHARED_FUNCTION uint surface_face(uint word) {
+  return (word >> kFaceShift) & 7u;
+}
+SHARED_FUNCTION uint surface_island(uint word) {
+  return (word >> kIslandShift) & 65535u;
+}
+
 // Quad ranges of a section, in this order in memory. Opaque and cut-out go to the G-buffer,
 // translucent to layers.
 SHARED_CONST uint kRangeOpaque = 0u;        // 6 ranges, one a face
@@ -26,8 +42,7 @@ struct Quad {
   uint geometry;  // bits 0-5 x, 6-11 y, 12-17 z: the lowest voxel, chunk-local; 18-23 extent along
                   // u minus 1; 24-29 along v minus 1; 30-31 of a translucent face: which other
                   // translucent block it touches, by Material.translucent_block, 0: none
-  uint material;  // bits 0-15 block id, 16-18 face, 19-30 index into the island table (0 from the
-                  // mesher, set on upload)
+  uint material;  // a surface's word; the island is 0 from the mesher and set on upload
 };
 
 // One resident chunk mesh. Its quads are first_quad .. first_quad + range_end[kRangeCount - 1].
@@ -42,7 +57,8 @@ struct Section {
 };
 
 // Camera-relative world from island lattice: p = x * axis_x + y * axis_y + z * axis_z + translation
-// [blocks].
+// [blocks]. kIslandTexels texels of 128 bits.
+SHARED_CONST uint kIslandTexels = 3u;
 struct IslandTransform {
   vec3 axis_x;
   vec3 axis_y;

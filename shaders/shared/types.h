@@ -11,6 +11,7 @@
 #define SHARED_BEGIN namespace skerry::shared {
 #define SHARED_END }
 #define SHARED_CONST inline constexpr
+#define SHARED_FUNCTION inline constexpr
 namespace skerry::shared {
 using uint = std::uint32_t;
 using glm::ivec3;
@@ -25,5 +26,6 @@ using glm::vec4;
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_CONST const
+#define SHARED_FUNCTION
 #endif
 #endif

@@ -6,8 +6,8 @@
 #include "include/scene/layers.glsl"
 #include "shared/bindings.h"
 
-// No uniform buffers: see cloud_ray.glsl.
-layout(scalar, binding = kIslandsBinding) readonly buffer Islands { IslandTransform islands[]; };
+#include "include/frame/islands.glsl"
+// No uniform buffer: lavapipe crashes on a fourth one in a program that marches (Mesa 22.3).
 layout(scalar, binding = kMaterialsBinding) readonly buffer Materials { Material materials[]; };
 layout(binding = kMirroredCloudsBinding, rgba16f) writeonly uniform image2D mirrored;
 layout(binding = kLayerSurfacesBinding, r32ui) readonly uniform uimage2D layer_surfaces;

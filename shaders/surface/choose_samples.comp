@@ -13,7 +13,7 @@
 layout(local_size_x = kChooseGroup) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+#include "include/frame/islands.glsl"
 layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
 layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
@@ -176,7 +176,7 @@ void choose_pixels() {
     bool surface = surface_at(pixel, word, stored_depth) && here;
     vec3 ray = pixel_ray(pixel);
     float t = view_distance(surface_depth(word != 0u ? stored_depth : 1.0), frame.near_plane);
-    vec3 normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(lit_face(word)));
+    vec3 normal = world_from_lattice_vector(island_at(surface_island(word)), face_normal(lit_face(word)));
     float apart = kAlikeBlocks + kAlikePixels * t * frame.pixel_to_ndc.y * length(frame.ray_up);
     vec3 albedo = surface_texel(word, ray, t, kTextureTaps).rgb;
     Taker by = Taker(alike_key(word), normal, dot(normal, ray * t), t, apart, is_plant(word), albedo);

@@ -11,7 +11,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+#include "include/frame/islands.glsl"
 layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
 layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;

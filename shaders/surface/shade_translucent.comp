@@ -10,7 +10,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+#include "include/frame/islands.glsl"
 layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
 layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
 layout(binding = kDepthsBinding) uniform sampler2D depths;

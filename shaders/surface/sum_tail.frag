@@ -12,7 +12,7 @@ layout(location = 0) out vec4 out_depths;  // rgb: in media from here to the ray
 layout(location = 1) out vec4 out_light;   // rgb: share of the irradiance that it sends on, times pi; a: share of the sky that it mirrors
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+#include "include/frame/islands.glsl"
 layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kDepthsBinding) uniform sampler2D opaque_depth;

@@ -26,6 +26,7 @@
 #include "shaders/shared/marker.h"
 #include "shaders/shared/occupancy.h"
 #include "shaders/shared/overlay.h"
+#include "shaders/shared/shafts.h"
 #include "shaders/shared/sky.h"
 #include "shaders/shared/temporal.h"
 #include "tests/gpu/compile_glsl.h"
@@ -157,6 +158,8 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(TileDepths, MEMBER(TileDepths, slices), MEMBER(TileDepths, nearest),
              MEMBER(TileDepths, farthest)),
       STRUCT(Cluster, MEMBER(Cluster, first), MEMBER(Cluster, count)),
+      STRUCT(TileShafts, MEMBER(TileShafts, slices), MEMBER(TileShafts, asked),
+             MEMBER(TileShafts, open)),
       STRUCT(ClusterWork, MEMBER(ClusterWork, groups_x), MEMBER(ClusterWork, groups_y),
              MEMBER(ClusterWork, groups_z), MEMBER(ClusterWork, clusters),
              MEMBER(ClusterWork, units)),

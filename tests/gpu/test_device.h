@@ -31,21 +31,16 @@ class GpuTest : public testing::Test {
   Device& device() { return *device_; }
   Buffer buffer(std::string name, std::uint64_t bytes, VkBufferUsageFlags usage,
                 Memory memory = Memory::kDevice) {
-    Result<Buffer> made = device_->create_buffer({std::move(name), bytes, usage, memory});
-    if (!made) {
-      ADD_FAILURE() << made.error().message;
-      return {};
-    }
-    return *std::move(made);
+    return made(device_->create_buffer({std::move(name), bytes, usage, memory}));
   }
-  Image image(const ImageDesc& desc) {
-    Result<Image> made = device_->create_image(desc);
-    if (!made) {
-      ADD_FAILURE() << made.error().message;
-      return {};
-    }
-    return *std::move(made);
+  /// One that shaders fetch texels of.
+  Buffer texel_buffer(std::string name, std::uint64_t bytes) {
+    constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                          VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    return made(device_->create_buffer({std::move(name), bytes, kUsage, Memory::kDevice, true}));
   }
+  Image image(const ImageDesc& desc) { return made(device_->create_image(desc)); }
   /// All of a buffer, as values of one type.
   template <class T>
   std::vector<T> contents(Buffer& from) {
@@ -60,6 +55,13 @@ class GpuTest : public testing::Test {
   }
 
  private:
+  template <class T>
+  static T made(Result<T> made) {
+    if (made) return *std::move(made);
+    ADD_FAILURE() << made.error().message;
+    return {};
+  }
+
   std::unique_ptr<Device> device_;
 };
 

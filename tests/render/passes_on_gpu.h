@@ -135,9 +135,7 @@ class PassesOnGpu : public gpu::GpuTest {
     const std::uint64_t bytes = std::uint64_t{size.width} * size.height * sizeof(glm::vec3);
     gpu::Buffer normals = back("normal values", bytes), positions = back("position values", bytes);
     SceneRefs scene = begin(input, size, tables);
-    std::vector<shared::IslandTransform> islands = tables.islands;
-    islands.resize(shared::kMaxIslands);
-    scene.islands = table("island transforms", islands);
+    scene.islands = texel_table("island transforms", tables.islands);
     const CulledDraws draws = cull(scene, 1);
     const SurfaceReads surfaces(
         GeometryPass::add(*graph_, *pipelines_, scene, draws, {store, false, false, true}));
@@ -227,6 +225,14 @@ class PassesOnGpu : public gpu::GpuTest {
   gpu::BufferRef table(const char* name, const std::vector<T>& values) {
     gpu::Buffer& made =
         *tables_.emplace_back(std::make_unique<gpu::Buffer>(back(name, values.size() * sizeof(T))));
+    uploader_->write(made, 0, std::span<const T>(values));
+    return graph_->import(made);
+  }
+  /// The same, for shaders that fetch texels.
+  template <class T>
+  gpu::BufferRef texel_table(const char* name, const std::vector<T>& values) {
+    gpu::Buffer& made = *tables_.emplace_back(
+        std::make_unique<gpu::Buffer>(texel_buffer(name, values.size() * sizeof(T))));
     uploader_->write(made, 0, std::span<const T>(values));
     return graph_->import(made);
   }

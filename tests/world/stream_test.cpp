@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "world/generate/far_island.h"
 #include "world/generate/generate.h"
 
 namespace skerry::world {
@@ -28,7 +29,7 @@ class Consumer {
     for (ReadySection& section : update.ready) {
       EXPECT_FALSE(section.mesh.quads.empty());
       std::vector<Emitter> emitters;
-      find_emitters(section.mesh, emitters);
+      if (!section.key.far) find_emitters(section.mesh, emitters);
       EXPECT_EQ(section.emitters, emitters);
       order_.push_back(section.key);
       for (const Emitter& emitter : section.emitters) shining_[section.key] += emitter.faces;
@@ -126,7 +127,8 @@ TEST(StreamLevel, DoublesWithDistance) {
   EXPECT_EQ(level_at(200.0, 100.0), 2);
   EXPECT_EQ(level_at(400.0, 100.0), 3);
   EXPECT_EQ(level_at(800.0, 100.0), 4);
-  EXPECT_EQ(level_at(1e9, 100.0), 4);
+  EXPECT_EQ(level_at(1600.0, 100.0), 5);
+  EXPECT_EQ(level_at(1e9, 100.0), 7);
 }
 
 TEST(Stream, DeliversWhatTheGeneratorAndTheMesherGive) {
@@ -212,7 +214,8 @@ TEST(Stream, ALevelIsReplacedInOneUpdate) {
     ASSERT_EQ(levels.size(), 1u) << "the island was torn";
     seen.insert(*levels.begin());
   }
-  EXPECT_EQ(seen, (std::set<std::int32_t>{0, 4}));
+  const int coarsest = far_voxel_log2(world.islands_near(world.origin(), 1000.0, 0.0).front(), 7);
+  EXPECT_EQ(seen, (std::set<std::int32_t>{0, coarsest}));
   EXPECT_EQ(world.usage().chunks, 0u);  // voxels are kept at level 0 only
   expect_same(consumer.held(), load(scene, 1).held());
 }
@@ -286,13 +289,46 @@ TEST(Stream, DriftBringsIslandsIn) {
   EXPECT_TRUE(load(scene, 4).islands().contains(far.id));
 }
 
+// Against the plan of the archipelago alone.
+TEST(Stream, ShowsEveryIslandWithinTheDistance) {
+  const WorldDesc desc{.seed = 1};
+  World world(desc);
+  const StreamSettings settings{.view_distance_blocks = 18'500.0, .detail_distance_blocks = 24.0};
+  StreamView view;
+  view.camera = moved(world.origin(), {300.0, 900.0, -100.0});  // above all islands
+  view.time_s = 5000.0;
+  std::set<std::uint64_t> expected;
+  for (const IslandSpec& spec : islands_within(desc.seed, view.camera, 19'000.0)) {
+    const glm::dvec3 away = difference_blocks(pose_at(spec, view.time_s).origin, view.camera);
+    if (glm::length(away) - spec.bounding_radius <= settings.view_distance_blocks)
+      expected.insert(spec.id);
+  }
+  ASSERT_GT(expected.size(), 4096u);
+  Jobs jobs(4);
+  Streamer streamer(world, jobs);
+  streamer.update(view, settings);
+  Consumer consumer;
+  finish(streamer, consumer);
+  EXPECT_EQ(consumer.islands(), expected);
+  EXPECT_EQ(streamer.left_out().islands, 0u);
+  std::size_t sections_of_far = 0;
+  std::set<std::uint64_t> far;
+  for (const auto& [key, mesh] : consumer.held()) {
+    if (!key.far) continue;
+    ++sections_of_far;
+    far.insert(key.island);
+  }
+  EXPECT_EQ(sections_of_far, far.size()) << "one section an island";
+  EXPECT_GT(far.size(), expected.size() * 9 / 10);
+}
+
 TEST(Stream, SaysHowManyIslandsOfTheViewItCannotKeep) {
   World world({.seed = 1});
   const WorldPos camera = world.origin();
-  constexpr double kView = 12'000.0;
+  constexpr double kView = 75'000.0;
   std::size_t place = 0, beyond = 0;
   double nearest = kView;
-  for (const IslandSpec& spec : world.islands_near(camera, kView + 500.0, 0.0)) {
+  for (const IslandSpec& spec : world.islands_near(camera, kView + 3000.0, 0.0)) {
     const glm::dvec3 away = difference_blocks(pose_at(spec, 0.0).origin, camera);
     const double distance = glm::length(away) - spec.bounding_radius;
     if (place++ < kMaxStreamedIslands || distance > kView) continue;
@@ -305,8 +341,86 @@ TEST(Stream, SaysHowManyIslandsOfTheViewItCannotKeep) {
   streamer.update({camera}, {.view_distance_blocks = kView, .detail_distance_blocks = 64.0});
   EXPECT_EQ(streamer.left_out().islands, beyond);
   EXPECT_DOUBLE_EQ(streamer.left_out().from_blocks, nearest);
+  EXPECT_EQ(streamer.stats().islands, kMaxStreamedIslands);
   streamer.update({camera}, {.view_distance_blocks = 1000.0, .detail_distance_blocks = 64.0});
   EXPECT_EQ(streamer.left_out().islands, 0u);
+}
+
+/// Islands about the origin, so small a detail distance that all but the nearest are far.
+struct FarScene : Scene {
+  FarScene() {
+    settings = {.view_distance_blocks = 2000.0, .detail_distance_blocks = 30.0};
+    view.camera = moved(view.camera, {0.0, 700.0, 0.0});
+  }
+};
+
+TEST(Stream, AnIslandIsThereAsAWholeBeforeItIsFine) {
+  Scene scene;
+  scene.settings = {.view_distance_blocks = 700.0, .detail_distance_blocks = 700.0};
+  World world(scene.desc);
+  Jobs jobs(1);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  const std::size_t islands = world.islands_near(scene.view.camera, 700.0, 0.0).size();
+  ASSERT_GT(islands, 5u);
+  std::set<std::uint64_t> coarse;
+  bool all_coarse_before_half_was_fine = false;
+  for (bool done = false; !done;) {
+    streamer.update(scene.view, scene.settings);
+    done = streamer.complete();
+    consumer.take(streamer.poll(kAllQuads));
+    std::set<std::uint64_t> fine;
+    for (const auto& [key, mesh] : consumer.held()) (key.far ? coarse : fine).insert(key.island);
+    if (consumer.islands().size() == islands && fine.size() < islands / 2)
+      all_coarse_before_half_was_fine = true;
+  }
+  EXPECT_TRUE(all_coarse_before_half_was_fine);
+  EXPECT_GT(coarse.size(), islands / 2);
+  expect_same(consumer.held(), load(scene, 2).held());
+}
+
+TEST(Stream, FarSectionsDoNotDependOnThreads) {
+  const FarScene scene;
+  const Consumer one = load(scene, 1), eight = load(scene, 8);
+  EXPECT_TRUE(std::ranges::any_of(one.held(), [](const auto& held) { return held.first.far; }));
+  EXPECT_EQ(one.order(), eight.order());
+  expect_same(one.held(), eight.held());
+}
+
+// What is not as its seed makes it comes from its blocks, at any distance.
+TEST(Stream, AnEditOfAFarIslandShows) {
+  const FarScene scene;
+  World world(scene.desc);
+  Jobs jobs(2);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  streamer.update(scene.view, scene.settings);
+  finish(streamer, consumer);
+  const IslandSpec far = world.islands_near(scene.view.camera, 1500.0, 0.0).back();
+  const auto is_far = [&] {
+    return std::ranges::any_of(consumer.held(), [&](const auto& held) {
+      return held.first.island == far.id && held.first.far;
+    });
+  };
+  ASSERT_TRUE(is_far());
+  // The middle of a voxel of the coarsest level, far above the ground.
+  ASSERT_TRUE(world.set_block(far.id, {8, 408, 8}, block::kLamp));
+  streamer.update(scene.view, scene.settings);
+  finish(streamer, consumer);
+  EXPECT_FALSE(is_far());
+  EXPECT_EQ(consumer.levels_of(far.id), std::set<std::int32_t>{kLevelCount - 1});
+  const auto lamp = consumer.shining().find({far.id, chunk_of({0, 408 / 16, 0}), kLevelCount - 1});
+  ASSERT_NE(lamp, consumer.shining().end());
+  EXPECT_EQ(lamp->second, 6);
+  expect_same(consumer.held(),
+              [&] {  // as for one who comes later
+                Streamer later(world, jobs);
+                Consumer other;
+                later.update(scene.view, scene.settings);
+                finish(later, other);
+                return other;
+              }()
+                  .held());
 }
 
 TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {

@@ -49,12 +49,18 @@ View view_of(const game::SceneOptions& options, const game::CameraPlace& camera)
   return view;
 }
 
-/// The islands that are drawn: as the streamer takes them in for a first view.
-std::vector<world::IslandSpec> specs_of(const world::World& world,
-                                        const game::SceneOptions& options, world::WorldPos camera) {
+/// The islands that are drawn: as the streamer takes them in for a first view. Errors: it would
+/// leave some out.
+Result<std::vector<world::IslandSpec>> specs_of(const world::World& world,
+                                                const game::SceneOptions& options,
+                                                world::WorldPos camera) {
   std::vector<world::IslandSpec> specs =
       world.islands_near(camera, options.settings.view_distance, options.settings.world_time_s);
-  if (specs.size() > world::kMaxStreamedIslands) specs.resize(world::kMaxStreamedIslands);
+  if (specs.size() > world::kMaxStreamedIslands)
+    return Error{
+        fmt::format("{} islands are within view.distance={} and a picture shows at most "
+                    "{}: lower view.distance",
+                    specs.size(), options.settings.view_distance, world::kMaxStreamedIslands)};
   return specs;
 }
 
@@ -273,9 +279,10 @@ Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettin
   if (!panorama) return panorama.error();
   Scene scene;
   scene.view = view_of(options, camera);
-  const std::vector<world::IslandSpec> specs = specs_of(world, options, camera.position);
-  scene.islands = islands_of(world, specs, camera.position, options.settings.world_time_s);
-  scene.lights = lights_of(world, options, camera, settings.threads, placed(specs, scene.islands));
+  const Result<std::vector<world::IslandSpec>> specs = specs_of(world, options, camera.position);
+  if (!specs) return specs.error();
+  scene.islands = islands_of(world, *specs, camera.position, options.settings.world_time_s);
+  scene.lights = lights_of(world, options, camera, settings.threads, placed(*specs, scene.islands));
   scene.view.medium = medium_at_eye(scene.islands);
   scene.time_s = options.settings.world_time_s;
   const double above = static_cast<double>(camera.position.y - world.origin().y) / 65536.0;

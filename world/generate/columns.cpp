@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <optional>
 
+#include "world/generate/design.h"
 #include "world/generate/noise.h"
 #include "world/voxel/hash.h"
 
@@ -61,26 +62,18 @@ struct Builder {
         ground(c.top.size()),
         shore(c.top.size()) {}
 
-  int radius8() const { return shape.extent.radius * kOne8; }
   void coarse_fields();
-  int outline_at(int x, int z) const;
-  int elevation_at(int x, int z, int inside) const;
-  int thickness_at(int x, int z, int inside) const;
   void base_ground();
-  void spikes(int spacing, int of_256, std::uint32_t seed);
+  void hang(const Spike& spike);
   void raise(const Butte& butte);
-  bool settle(Lake& lake) const;
   void dig(const Lake& lake);
-  int room_at(int x, int z) const;
   void finish_heights();
   void contain_water();
   void raggedness();
   void reaches();
   void roofs();
   void cover();
-  bool in_stream(int x, int z) const;
   bool steep_at(std::size_t i) const;
-  SkinId skin_of(int x, int z, std::size_t i) const;
 
   template <class F>
   void for_columns_near(int cx, int cz, int reach, F&& f) {
@@ -93,96 +86,20 @@ struct Builder {
   }
 };
 
-/// Maximum with a rounded crease of width k.
-int smooth_max(int a, int b, int k) {
-  const int h = std::max(k - std::abs(a - b), 0);
-  return std::max(a, b) + static_cast<int>(static_cast<std::int64_t>(h) * h / (4 * k));
-}
-
-/// Bends what passes three quarters of a limit so that it approaches the limit and never reaches
-/// it.
-int soft_limit(int value, int limit) {
-  const int knee = limit * 3 / 4;
-  const int room = limit - knee;
-  const int over = value - knee;
-  return over <= 0 ? value : knee + over * room / (over + room);
-}
-
-/// Distance into the outline at a place already bent by the shift, Q8.
-int Builder::outline_at(int x, int z) const {
-  const int round = std::max(kOne8, radius8() / 7);
-  int inside = -radius8();
-  for (const Lobe& lobe : shape.lobes) {
-    const int d = noise::length(x - lobe.x * kOne8, z - lobe.z * kOne8);
-    inside = smooth_max(inside, lobe.radius * kOne8 - d, round);
-  }
-  for (const Lobe& bite : shape.bites) {
-    inside = std::min(inside,
-                      noise::length(x - bite.x * kOne8, z - bite.z * kOne8) - bite.radius * kOne8);
-  }
-  return inside;
-}
-
-/// Hills, crags and peaks above the rim, Q8.
-int Builder::elevation_at(int x, int z, int inside) const {
-  const int radius = shape.extent.radius;
-  int height = noise::fractal2(shape.seed + 11, x, z, std::clamp(radius * 2 / 3, 20, 90), 3) *
-               shape.roll / 16;
-  const int inland =
-      smooth(std::clamp(inside * 48 / radius, 0, kOne12));  // full at a third of the radius
-  if (shape.crags > 0) {
-    const int ridges = noise::ridge2(shape.seed + 23, x, z, std::clamp(radius / 2, 24, 80), 4);
-    height += ((shape.crags * ridges) >> 12) * inland / 16;
-  }
-  for (const Peak& peak : shape.peaks) {
-    const int d = noise::length(x - peak.x * kOne8, z - peak.z * kOne8);
-    std::int64_t rise = kOne12 - static_cast<std::int64_t>(d) * kOne12 / (peak.radius * kOne8);
-    if (rise <= 0) continue;
-    if (peak.power == 2) rise = (rise * rise) >> 12;
-    height += static_cast<int>((rise * peak.height * inland) >> 16);
-  }
-  const int shore_rise = smooth(std::clamp(inside * kOne12 / (10 * kOne8), 0, kOne12));
-  return ((height >> 4) * shore_rise) >> 8;
-}
-
-/// How deep the rock hangs under the base plane: a tapering keel with folds, Q8.
-int Builder::thickness_at(int x, int z, int inside) const {
-  if (inside <= 0) return kOne8;
-  const int reach = std::max(kOne8, radius8() * 9 / 20);
-  const std::int64_t f =
-      std::min<std::int64_t>(kOne12, static_cast<std::int64_t>(inside) * kOne12 / reach);
-  const std::int64_t taper = (f * 1500 + ((f * f) >> 12) * 2596) >> 12;
-  const int folds =
-      noise::ridge2(shape.seed + 31, x, z, std::clamp(shape.extent.radius / 2, 14, 48), 3);
-  const int wave =
-      noise::gradient2(shape.seed + 37, x, z, std::clamp(shape.extent.radius, 16, 120));
-  const std::int64_t depth = shape.extent.depth * 84 / 100 * kOne8;
-  const std::int64_t body = depth * taper / kOne12;
-  const int lip = 3 * kOne8 + (noise::gradient2(shape.seed + 41, x, z, 17) + kOne12) * 5 / 32;
-  return lip + static_cast<int>(body * (2 * kOne12 + folds * 9 / 8 + wave / 2) / (3 * kOne12));
-}
-
 void Builder::coarse_fields() {
-  const int radius = shape.extent.radius;
-  const int bend = shape.warp * kOne8;
   for (int i = 0; i < outline.edge; ++i) {
     for (int j = 0; j < outline.edge; ++j) {
       const int x = (i * kStep - columns.half) * kOne8;
       const int z = (j * kStep - columns.half) * kOne8;
-      const int wavelength = std::clamp(radius * 3 / 4, 12, 160);
-      const int sx = (bend * noise::fractal2(shape.seed + 1, x, z, wavelength, 3) >> 12) +
-                     noise::gradient2(shape.seed + 5, x, z, 19) / 5;
-      const int sz = (bend * noise::fractal2(shape.seed + 101, x, z, wavelength, 3) >> 12) +
-                     noise::gradient2(shape.seed + 6, x, z, 19) / 5;
-      const int bound = radius8() - noise::length(x, z) - kOne8;
-      const int inside = std::min(bound, outline_at(x + sx, z + sz));
-      shift_x.node(i, j) = sx;
-      shift_z.node(i, j) = sz;
+      const Bend bend = bend_at(shape, x, z);
+      const int inside = inside_at(shape, x, z, bend);
+      shift_x.node(i, j) = bend.x;
+      shift_z.node(i, j) = bend.z;
       outline.node(i, j) = inside;
       if (inside < -8 * kOne8) continue;  // no column interpolates from a node this far outside
-      elevation.node(i, j) = elevation_at(x, z, inside);
-      thickness.node(i, j) = thickness_at(x, z, inside);
-      patches.node(i, j) = noise::fractal2(shape.seed + 51, x, z, 34, 2);
+      elevation.node(i, j) = elevation_at(shape, x, z, inside);
+      thickness.node(i, j) = thickness_at(shape, x, z, inside);
+      patches.node(i, j) = patch_at(shape, x, z);
     }
   }
 }
@@ -204,125 +121,36 @@ void Builder::base_ground() {
   }
 }
 
-/// Hanging cones of rock on a jittered grid. @param of_256 share of the grid's cells that have one.
-void Builder::spikes(int spacing, int of_256, std::uint32_t seed) {
-  const int cells = columns.half / spacing + 1;
-  for (int cx = -cells; cx <= cells; ++cx) {
-    for (int cz = -cells; cz <= cells; ++cz) {
-      Rng rng(hash2(seed, cx, cz));
-      if (!rng.chance(of_256)) continue;
-      const int x0 = cx * spacing + rng.in(0, spacing - 1);
-      const int z0 = cz * spacing + rng.in(0, spacing - 1);
-      const int reach = rng.in(spacing / 3, spacing * 4 / 5);
-      const int share = rng.in(14, 90);
-      if (!columns.has(x0, z0) || columns.inside[columns.index(x0, z0)] < 3) continue;
-      const int length = (6 - columns.bottom[columns.index(x0, z0)]) * share / 128 + reach / 2;
-      for_columns_near(x0, z0, reach, [&](int x, int z, std::size_t i) {
-        if (columns.inside[i] < 0) return;
-        const int squared = (x - x0) * (x - x0) + (z - z0) * (z - z0);
-        if (squared >= reach * reach) return;
-        const int d =
-            static_cast<int>(noise::isqrt(static_cast<std::uint64_t>(squared) * kOne8 * kOne8));
-        const int t = kOne12 - d * 16 / reach;
-        const int cone = (t + ((t * t) >> 12)) / 2;
-        columns.bottom[i] = static_cast<std::int16_t>(columns.bottom[i] - ((length * cone) >> 12));
-      });
-    }
-  }
-}
-
-void Builder::raise(const Butte& butte) {
-  const int ramp_x = noise::cosine(butte.ramp);
-  const int ramp_z = noise::sine(butte.ramp);
-  const auto square = [](std::int64_t blocks) { return blocks * blocks * kOne8 * kOne8; };
-  const int widest = std::max(butte.cliff, std::min(butte.ramp_width, butte.radius));
-  const std::int64_t foot = square(butte.radius);
-  const std::int64_t table = square(butte.radius - widest);  // nearer than this, all is up
-  const int reach = butte.radius + shape.warp * 3 / 2 + 6;
-  for_columns_near(butte.x, butte.z, reach, [&](int x, int z, std::size_t i) {
+void Builder::hang(const Spike& spike) {
+  if (!columns.has(spike.x, spike.z)) return;
+  const std::size_t foot = columns.index(spike.x, spike.z);
+  if (columns.inside[foot] < 3) return;
+  const int length = spike.length_at(columns.bottom[foot]);
+  for_columns_near(spike.x, spike.z, spike.reach, [&](int x, int z, std::size_t i) {
     if (columns.inside[i] < 0) return;
-    const std::int64_t bent_x = (x - butte.x) * kOne8 + shift_x.at(x, z);
-    const std::int64_t bent_z = (z - butte.z) * kOne8 + shift_z.at(x, z);
-    const std::int64_t squared = bent_x * bent_x + bent_z * bent_z;
-    if (squared >= foot) return;
-    if (squared <= table) {
-      ground[i] += butte.height * kOne8;
-      return;
-    }
-    const int d = std::max(1, noise::length(bent_x, bent_z));
-    const std::int64_t along = (static_cast<std::int64_t>(x - butte.x) * ramp_x +
-                                static_cast<std::int64_t>(z - butte.z) * ramp_z) *
-                               kOne8;
-    const int facing = static_cast<int>(along / d);  // cosine of the angle to the ramp, Q12
-    const int share = smooth(std::clamp((facing - 3300) * 8, 0, kOne12));
-    const int width =
-        butte.cliff * kOne8 + (std::min(butte.ramp_width, butte.radius) - butte.cliff) * share / 16;
-    const int risen = smooth((butte.radius * kOne8 - d) * 16 / std::max(1, width / kOne8));
-    ground[i] += butte.height * risen / 16;
+    columns.bottom[i] = static_cast<std::int16_t>(columns.bottom[i] - spike.depth_at(x, z, length));
   });
 }
 
-/// Finds a radius at which the whole shore lies inland, and a level. False when there is no such
-/// place.
-bool Builder::settle(Lake& lake) const {
-  constexpr int kShoreRoom = 7;
-  for (; lake.radius >= 4; lake.radius = lake.radius * 5 / 6) {
-    int lowest = 1 << 30;
-    bool inland = true;
-    for (int a = 0; a < 1024 && inland; a += 32) {
-      for (const int distance : {lake.radius + 2, lake.radius + kShoreRoom}) {
-        const int x = lake.x + distance * noise::cosine(a) / kOne12;
-        const int z = lake.z + distance * noise::sine(a) / kOne12;
-        inland = inland && columns.has(x, z) && columns.inside[columns.index(x, z)] >= 3;
-        if (inland) lowest = std::min(lowest, ground[columns.index(x, z)]);
-      }
-    }
-    if (!inland) continue;
-    if (lake.level == kLevelFromGround) lake.level = lowest / kOne8;
-    return lake.level > 0;
-  }
-  return false;
+void Builder::raise(const Butte& butte) {
+  const ButteRise rise(butte);
+  const int reach = butte.radius + shape.warp * 3 / 2 + 6;
+  for_columns_near(butte.x, butte.z, reach, [&](int x, int z, std::size_t i) {
+    if (columns.inside[i] >= 0) ground[i] += rise.at(x, z, {shift_x.at(x, z), shift_z.at(x, z)});
+  });
 }
 
 void Builder::dig(const Lake& lake) {
-  constexpr int kRim = 3;    // blocks of level ground around the water
-  constexpr int kBlend = 9;  // blocks until the old ground is reached
-  const int level = lake.level * kOne8;
-  for_columns_near(
-      lake.x, lake.z, lake.radius + kRim + kBlend + shape.warp + 6,
-      [&](int x, int z, std::size_t i) {
-        if (columns.inside[i] < 0) return;
-        // Half of the bend, and at most two blocks: the bank must not outrun its rim.
-        const int bx = std::clamp(shift_x.at(x, z) / 2, -2 * kOne8 - lake.radius * 40,
-                                  2 * kOne8 + lake.radius * 40);
-        const int bz = std::clamp(shift_z.at(x, z) / 2, -2 * kOne8 - lake.radius * 40,
-                                  2 * kOne8 + lake.radius * 40);
-        const int d = noise::length((x - lake.x) * kOne8 + bx, (z - lake.z) * kOne8 + bz) -
-                      lake.radius * kOne8;
-        if (d < 0) {
-          const int bowl = smooth(std::min(kOne12, -d * 24 / lake.radius));
-          ground[i] = std::min(ground[i], level - kOne8 - ((lake.depth * bowl) >> 4));
-          columns.water[i] = static_cast<std::int16_t>(lake.level);
-        } else if (d < (kRim + kBlend) * kOne8) {
-          const int away = smooth(std::max(0, (d - kRim * kOne8) * 16 / kBlend));
-          const int bank = level + kOne8 / 4 + d / 6;
-          ground[i] =
-              bank + static_cast<int>((static_cast<std::int64_t>(ground[i] - bank) * away) >> 12);
-          if (ground[i] < level && away < kOne12) ground[i] = std::max(ground[i], level - d / 2);
-          columns.water[i] = Columns::kDry;
-        }
-        if (d < 5 * kOne8) shore[i] = 1;
-      });
-}
-
-/// How far up and down a column reaches before it, or a crown that leans out of it, would leave the
-/// bounding sphere.
-int Builder::room_at(int x, int z) const {
-  const int sphere = shape.extent.sphere;
-  const int flat = noise::length(x, z) + kBoxMargin + 2;
-  return flat < sphere ? static_cast<int>(noise::isqrt(
-                             static_cast<std::uint64_t>(sphere * sphere - flat * flat)))
-                       : 0;
+  for_columns_near(lake.x, lake.z, lake.radius + kLakeReach + shape.warp + 6,
+                   [&](int x, int z, std::size_t i) {
+                     if (columns.inside[i] < 0) return;
+                     LakeColumn column{ground[i], columns.water[i] != Columns::kDry, shore[i] != 0};
+                     dig_at(lake, x, z, {shift_x.at(x, z), shift_z.at(x, z)}, column);
+                     ground[i] = column.ground;
+                     if (!column.wet) columns.water[i] = Columns::kDry;
+                     if (column.dug) columns.water[i] = static_cast<std::int16_t>(lake.level);
+                     shore[i] = column.shore ? 1 : 0;
+                   });
 }
 
 void Builder::finish_heights() {
@@ -333,13 +161,9 @@ void Builder::finish_heights() {
       columns.water[i] = Columns::kDry;
       continue;
     }
-    const int room = room_at(static_cast<int>(i / columns.edge) - columns.half,
-                             static_cast<int>(i % columns.edge) - columns.half);
-    const int highest = std::min(shape.extent.top, room - kTreeRoom);
-    const int top = std::clamp(ground[i] >> 8, -shape.extent.depth / 2,
-                               std::max(highest, -shape.extent.depth / 2));
-    const int keel = soft_limit(-columns.bottom[i], std::min(shape.extent.depth, room - kKeelRoom));
-    const int bottom = std::min(-keel, top - 4);
+    const int x = static_cast<int>(i / columns.edge) - columns.half;
+    const int z = static_cast<int>(i % columns.edge) - columns.half;
+    const auto [top, bottom] = heights_at(shape, x, z, {ground[i], columns.bottom[i]});
     columns.top[i] = static_cast<std::int16_t>(top);
     columns.bottom[i] = static_cast<std::int16_t>(bottom);
     if (columns.water[i] <= top) columns.water[i] = Columns::kDry;
@@ -485,20 +309,6 @@ void Builder::roofs() {
   }
 }
 
-/// Whether lava runs here: winding lines that leave the crater and end on the flanks.
-bool Builder::in_stream(int x, int z) const {
-  return std::any_of(shape.streams.begin(), shape.streams.end(), [&](int direction) {
-    const int bx = x * kOne8 + shift_x.at(x, z) * 2;
-    const int bz = z * kOne8 + shift_z.at(x, z) * 2;
-    const int along =
-        (bx / 16 * noise::cosine(direction) + bz / 16 * noise::sine(direction)) / (kOne12 / 16);
-    const int across =
-        (bz / 16 * noise::cosine(direction) - bx / 16 * noise::sine(direction)) / (kOne12 / 16);
-    const int end = radius8() * 5 / 8;
-    return along > 0 && along < end && std::abs(across) < 2 * kOne8 + (end - along) / 40;
-  });
-}
-
 /// Whether the ground falls away by more than a player climbs.
 bool Builder::steep_at(std::size_t i) const {
   constexpr int kClimb = 3;
@@ -510,46 +320,20 @@ bool Builder::steep_at(std::size_t i) const {
   return falls(top + 1) || falls(top - 1) || falls(top + edge) || falls(top - edge);
 }
 
-SkinId Builder::skin_of(int x, int z, std::size_t i) const {
-  const BiomeType& biome = biome_type(shape.biome);
-  const int patch = patches.at(x, z);
-  const int height = columns.top[i];
-  if (columns.water[i] != Columns::kDry) return biome.lake_bed;
-  if (in_stream(x, z)) return SkinId::kLava;
-  if (steep_at(i)) return SkinId::kBare;
-  if (shore[i] && patch < 2600) return biome.beach;
-  switch (shape.biome) {
-    case Biome::kHighland: {
-      const int snow_line = shape.extent.top * 5 / 16 + patch / 700;
-      if (height > snow_line + 6) return SkinId::kSnow;
-      if (height > snow_line) return SkinId::kSnowyGrass;
-      return patch > 2900 ? SkinId::kMossy : SkinId::kGrass;
-    }
-    case Biome::kMesa:
-      if (height > 8 && patch > -600) return SkinId::kDryGrass;
-      return patch > 2100 ? SkinId::kDryGrass : SkinId::kRedSand;
-    case Biome::kAutumn:
-      return patch > 1500 ? SkinId::kDryGrass : SkinId::kGrass;
-    case Biome::kTropical:
-      return columns.inside[i] < 5 + patch / 1200 && height < 6 ? SkinId::kSand : SkinId::kGrass;
-    case Biome::kMarsh:
-      return patch > 1900 ? SkinId::kMud : SkinId::kGrass;
-    case Biome::kVolcanic:
-      if (height < shape.extent.top / 4 && patch > 300) return SkinId::kDryGrass;
-      return patch < -2600 ? SkinId::kGravel : SkinId::kBasalt;
-    case Biome::kMycelium:
-      return patch > 2700 ? SkinId::kMossy : SkinId::kMycelium;
-    default:
-      return patch > 3300 ? SkinId::kDryGrass : SkinId::kGrass;
-  }
-}
-
 void Builder::cover() {
   for (int x = -columns.half; x < columns.half; ++x) {
     for (int z = -columns.half; z < columns.half; ++z) {
       const std::size_t i = columns.index(x, z);
       if (columns.top[i] == Columns::kNoGround) continue;
-      columns.skins[i] = skin_of(x, z, i);
+      columns.skins[i] = skin_at(shape, {.x = x,
+                                         .z = z,
+                                         .bend = {shift_x.at(x, z), shift_z.at(x, z)},
+                                         .patch = patches.at(x, z),
+                                         .height = columns.top[i],
+                                         .inside = columns.inside[i],
+                                         .wet = columns.water[i] != Columns::kDry,
+                                         .steep = steep_at(i),
+                                         .shore = shore[i] != 0});
       columns.highest = std::max<int>(columns.highest, std::max(columns.top[i], columns.water[i]));
       columns.lowest = std::min<int>(columns.lowest, columns.bottom[i]);
     }
@@ -573,12 +357,15 @@ Columns build_columns(Shape& shape) {
   Builder builder(shape, columns);
   builder.coarse_fields();
   builder.base_ground();
-  const int radius = shape.extent.radius;
-  builder.spikes(std::clamp(radius * 2 / 5, 12, 60), 190, shape.seed + 71);
-  builder.spikes(std::clamp(radius / 6, 8, 20), 110, shape.seed + 72);
+  for (const SpikeGrid& grid : spike_grids(shape))
+    for_spikes(grid, columns.half, [&](const Spike& spike) { builder.hang(spike); });
   for (const Butte& butte : shape.buttes) builder.raise(butte);
   for (Lake& lake : shape.lakes) {
-    if (builder.settle(lake)) builder.dig(lake);
+    const bool settled = settle(lake, kShoreSteps, [&](int x, int z) -> std::optional<int> {
+      if (!columns.has(x, z) || columns.inside[columns.index(x, z)] < 3) return std::nullopt;
+      return builder.ground[columns.index(x, z)];
+    });
+    if (settled) builder.dig(lake);
   }
   builder.finish_heights();
   builder.contain_water();

@@ -210,6 +210,13 @@ bool World::is_added(std::uint64_t id) const {
   return island && island->added;
 }
 
+bool World::is_as_generated(std::uint64_t id) const {
+  const std::shared_ptr<Island> island = find(id);
+  if (!island || island->added) return false;
+  const std::lock_guard lock(island->mutex);
+  return island->edits.empty();
+}
+
 std::vector<std::uint64_t> World::changed_islands() const {
   std::vector<std::uint64_t> ids;
   {

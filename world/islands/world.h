@@ -63,6 +63,8 @@ class World {
   /// Ids of the islands that were added, ascending.
   std::vector<std::uint64_t> added_islands() const;
   bool is_added(std::uint64_t id) const;
+  /// Whether all voxels of an island are those that the seed gives it: not added, without edits.
+  bool is_as_generated(std::uint64_t id) const;
   /// Ids of the islands that are not as the seed makes them, ascending: added, moved from their
   /// course, or with edits.
   std::vector<std::uint64_t> changed_islands() const;

@@ -105,7 +105,7 @@ BounceLight::BounceLight(const LightChunks& chunks, const LatticeLines& lines,
     for (const shared::Quad& quad : chunk->quads)
       for_each_face(quad, [&](const DrawnFace& drawn) {
         set_face(corner + drawn.voxel + to_front(drawn), drawn.direction,
-                 static_cast<std::uint16_t>(quad.material & 0xffffu), drawn.plant);
+                 static_cast<std::uint16_t>(shared::surface_block(quad.material)), drawn.plant);
       });
   }
   relit_.clear();

@@ -48,7 +48,7 @@ inline IVec3 to_front(const DrawnFace& face) {
 }
 
 inline bool is_of_plant(const shared::Quad& quad) {
-  return (quad.material >> 16 & 7u) == 6;
+  return shared::surface_face(quad.material) == 6;
 }
 
 /// Calls fn(DrawnFace) for each voxel face of a quad; once for a plant's two quads.
@@ -59,7 +59,7 @@ void for_each_face(const shared::Quad& quad, const Fn& fn) {
   };
   const IVec3 low{bits(quad.geometry, 0), bits(quad.geometry, 6), bits(quad.geometry, 12)};
   const int u = bits(quad.geometry, 18), v = bits(quad.geometry, 24);
-  const int face = static_cast<int>(quad.material >> 16 & 7u);
+  const int face = static_cast<int>(shared::surface_face(quad.material));
   if (face == 7) return;
   if (face == 6) return fn(DrawnFace{low, 2, true});
   // docs/conventions.md: u, v are z, y of x faces; x, z of y faces; x, y of z faces.

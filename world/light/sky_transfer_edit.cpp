@@ -133,7 +133,7 @@ class SkyTransfer::Edit {
     const auto face_of = [&](DrawnFace drawn, std::uint32_t material) {
       drawn.voxel = corner + drawn.voxel;
       return Face{drawn.voxel + to_front(drawn), drawn,
-                  static_cast<std::uint16_t>(material & 0xffffu)};
+                  static_cast<std::uint16_t>(shared::surface_block(material))};
     };
     FaceBits bits;
     for (const shared::Quad& quad : before_.at(at)->quads)

@@ -53,7 +53,7 @@ std::uint32_t bits(std::uint32_t word, int first, int count) {
 void add_faces(const shared::Quad& quad, BlockId block, std::vector<GlowingFace>& out) {
   const glm::uvec3 low{bits(quad.geometry, 0, 6), bits(quad.geometry, 6, 6),
                        bits(quad.geometry, 12, 6)};
-  const std::uint32_t face = bits(quad.material, 16, 3), axis = face / 2;
+  const std::uint32_t face = shared::surface_face(quad.material), axis = face / 2;
   const int u = axis == 0 ? 2 : 0, v = axis == 1 ? 2 : 1;
   const std::uint32_t along_u = bits(quad.geometry, 18, 6), along_v = bits(quad.geometry, 24, 6);
   for (std::uint32_t j = 0; j <= along_v; ++j) {
@@ -137,7 +137,7 @@ void find_emitters(const ChunkMesh& mesh, std::vector<Emitter>& out) {
   const std::span<const BlockType> types = block_types();
   std::vector<GlowingFace> faces;
   for (const shared::Quad& quad : mesh.quads) {
-    const auto block = static_cast<BlockId>(bits(quad.material, 0, 16));
+    const auto block = static_cast<BlockId>(shared::surface_block(quad.material));
     if (block < types.size() && types[block].emission > 0.0f) add_faces(quad, block, faces);
   }
   std::sort(faces.begin(), faces.end(), [](const GlowingFace& a, const GlowingFace& b) {

@@ -18,7 +18,7 @@ struct Emission {
 
   Emission(const ByteTable& byte_table, unsigned face, std::uint32_t a, std::uint32_t b,
            std::uint32_t c)
-      : table(byte_table), face_bits(face << 16), mul_a(a), mul_b(b), mul_c(c) {}
+      : table(byte_table), face_bits(face << shared::kFaceShift), mul_a(a), mul_b(b), mul_c(c) {}
 
   __attribute__((always_inline)) inline shared::Quad quad(std::uint32_t a, std::uint32_t b,
                                                           std::uint32_t c, unsigned byte) const {

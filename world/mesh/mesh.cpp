@@ -56,8 +56,8 @@ void add_plants(const Planes& planes, const Voxels& voxels, QuadSink& sink, Chun
         const int z = std::countr_zero(left);
         const auto geometry = static_cast<std::uint32_t>(x | y << 6 | z << 12);
         const std::uint32_t id = voxels.table->ids[voxels.row(x, y)[z]];
-        *quads++ = {geometry, id | kDiagonals << 16};
-        *quads++ = {geometry, id | (kDiagonals + 1) << 16};
+        *quads++ = {geometry, id | kDiagonals << shared::kFaceShift};
+        *quads++ = {geometry, id | (kDiagonals + 1) << shared::kFaceShift};
         sink.count += 2;
       }
     }
@@ -97,7 +97,7 @@ void add_by_touched(shared::Quad quad, const NumberAt& number_at, std::vector<sh
   static constexpr int kSteps[3] = {kVoxelStepX, kVoxelStepY, 1};
   static constexpr unsigned kShifts[3] = {0, 6, 12};
   static constexpr unsigned kAlongU[3] = {2, 0, 0}, kAlongV[3] = {1, 2, 1};  // axes, by the face's
-  const unsigned face = quad.material >> 16 & 7u, axis = face / 2;
+  const unsigned face = shared::surface_face(quad.material), axis = face / 2;
   const unsigned u = kAlongU[axis], v = kAlongV[axis];
   const std::uint32_t low = quad.geometry & 0x3ffffu;
   int beyond = face % 2 == 0 ? kSteps[axis] : -kSteps[axis];
@@ -214,7 +214,8 @@ void set_wide_ids(std::span<const BlockId> voxels, ChunkMesh& out) {
     const std::size_t x = quad.geometry & 63, y = quad.geometry >> 6 & 63,
                       z = quad.geometry >> 12 & 63;
     const BlockId id = voxels[(z + 1) + (x + 1) * kVoxelStepX + (y + 1) * kVoxelStepY];
-    quad.material = (quad.material & 0xffff0000u) | id;
+    quad.material =
+        shared::surface_face(quad.material) << shared::kFaceShift | shared::surface_block(id);
   }
 }
 
@@ -252,7 +253,7 @@ std::uint8_t kind_flag(BlockId id) {
 }
 
 void ByteTable::set(unsigned byte, BlockId id) {
-  ids[byte] = id;
+  ids[byte] = static_cast<BlockId>(shared::surface_block(id));
   flags[byte] = kind_flag(id);
   if (flags[byte] & kFlagOpaque) opaque.add(byte);
   if (flags[byte] & kFlagsSeeThrough) see_through.add(byte);

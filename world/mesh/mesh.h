@@ -16,7 +16,8 @@ namespace skerry::world {
 /// quad for each diagonal. Faces of one id merge into rectangles: runs along one axis, then equal
 /// runs of neighbouring rows.
 /// Within a range quads are ordered by where they end: y, then x, then z. Every CPU gives the same
-/// quads in the same order. Ids of 256 and more take a path that is some ten times slower.
+/// quads in the same order. Ids of 256 and more take a path that is some ten times slower;
+/// of those that no material can have (shared::kMaxMaterials) the lowest bits are kept.
 void mesh_chunk(std::span<const BlockId> voxels, MeshScratch& scratch, ChunkMesh& out);
 
 /// Same, for chunks with at most 256 different ids: `voxels` index `palette`. Reads half the

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 #include "engine/core/check.h"
+#include "world/generate/far_island.h"
 #include "world/stream/stream_state.h"
 
 namespace skerry::world {
@@ -21,6 +23,13 @@ int level_with_hysteresis(int level, double distance, double detail) {
   const int nearer = level_at(distance / kHysteresis, detail);
   const int further = level_at(distance * kHysteresis, detail);
   return nearer <= level && level <= further ? level : level_at(distance, detail);
+}
+
+// The first of the levels past the last one of VoxelSource at which an island is as at `level`.
+int one_section_level(const IslandSpec& spec, int level) {
+  while (level > kLevelCount && far_voxel_log2(spec, level - 1) == far_voxel_log2(spec, level))
+    --level;
+  return level;
 }
 
 // The chunks at a level whose meshes changed voxels show in: their own, and where they touch the
@@ -52,7 +61,8 @@ std::vector<IVec3> chunks_showing(const EditedBox& box, int level) {
 int level_at(double distance_blocks, double detail_distance_blocks) {
   int level = 0;
   double limit = detail_distance_blocks;
-  for (; level < kLevelCount - 1 && distance_blocks >= limit; limit *= 2.0) ++level;
+  constexpr int kLast = kLevelCount + kFarLevelCount - 1;
+  for (; level < kLast && distance_blocks >= limit; limit *= 2.0) ++level;
   return level;
 }
 
@@ -69,12 +79,14 @@ Streamer::~Streamer() {
 void Streamer::update(const StreamView& view, const StreamSettings& settings) {
   State& s = *state_;
   std::vector<std::uint64_t> voxels_unused, gone;
-  const std::vector<IslandSpec>& near = s.islands_around(view, settings);
+  std::vector<State::Near> near;
+  for (const IslandSpec& spec : s.islands_around(view, settings))
+    near.push_back(s.near_of(spec, view));
   const std::vector<EditedBox> edits = s.world.take_edits();
   {
     const std::lock_guard lock(s.mutex);
-    s.drop_far_islands(near, view, settings, gone);
-    for (const IslandSpec& spec : near) s.place_island(spec, view, settings, voxels_unused);
+    s.drop_far_islands(near, settings, gone);
+    for (const State::Near& one : near) s.place_island(one, view, settings, voxels_unused);
     for (const EditedBox& edit : edits) s.apply_edit(edit);
     s.score_tasks();
   }
@@ -91,20 +103,20 @@ void Streamer::update(const StreamView& view, const StreamSettings& settings) {
 // last answer, because the plan of a large view takes milliseconds.
 const std::vector<IslandSpec>& Streamer::State::islands_around(const StreamView& view,
                                                                const StreamSettings& settings) {
-  constexpr double kSlackBlocks = 64.0;
+  const double slack = std::max(64.0, settings.view_distance_blocks / 32.0);
   // From one end of its drift to the other.
   const double reach = settings.view_distance_blocks * kHysteresis + 2.0 * kMaxIslandDriftBlocks;
   const glm::dvec3 moved_by = difference_blocks(view.camera, around.centre);
   const std::uint64_t revision = world.revision();
   if (around.reach != reach || around.revision != revision ||
-      glm::dot(moved_by, moved_by) > kSlackBlocks * kSlackBlocks) {
+      glm::dot(moved_by, moved_by) > slack * slack) {
     around.reach = reach;
     around.revision = revision;
     around.centre = view.camera;
-    around.islands = world.islands_near(view.camera, reach + kSlackBlocks, view.time_s);
+    around.islands = world.islands_near(view.camera, reach + slack, view.time_s);
     around.left_out = {};
     for (std::size_t i = kMaxStreamedIslands; i < around.islands.size(); ++i) {
-      const double distance = distance_to(around.islands[i], view);
+      const double distance = near_of(around.islands[i], view).distance;
       if (distance > settings.view_distance_blocks) continue;
       double& nearest = around.left_out.from_blocks;
       nearest = around.left_out.islands++ == 0 ? distance : std::min(nearest, distance);
@@ -120,73 +132,86 @@ Pose Streamer::State::pose_of(const IslandSpec& spec, double time_s) const {
   return pose ? *pose : pose_at(spec, time_s);
 }
 
-double Streamer::State::distance_to(const IslandSpec& spec, const StreamView& view) const {
-  const glm::dvec3 away = difference_blocks(pose_of(spec, view.time_s).origin, view.camera);
-  return std::sqrt(glm::dot(away, away)) - spec.bounding_radius;
+Streamer::State::Near Streamer::State::near_of(const IslandSpec& spec,
+                                               const StreamView& view) const {
+  Near near{&spec, pose_of(spec, view.time_s), 0.0};
+  near.distance =
+      glm::length(difference_blocks(near.pose.origin, view.camera)) - spec.bounding_radius;
+  return near;
 }
 
-void Streamer::State::drop_far_islands(const std::vector<IslandSpec>& near, const StreamView& view,
-                                       const StreamSettings& settings,
+void Streamer::State::drop_far_islands(std::span<const Near> near, const StreamSettings& settings,
                                        std::vector<std::uint64_t>& gone) {
-  std::map<std::uint64_t, double> distances;
-  for (const IslandSpec& spec : near) distances[spec.id] = distance_to(spec, view);
+  const double limit = settings.view_distance_blocks * kHysteresis;
+  std::unordered_set<std::uint64_t> kept;
+  for (const Near& one : near)
+    if (one.distance <= limit) kept.insert(one.spec->id);
   std::erase_if(islands, [&](const auto& entry) {
     const auto& [id, island] = entry;
-    const auto distance = distances.find(id);
-    const double limit = settings.view_distance_blocks * kHysteresis;
-    if (distance != distances.end() && distance->second <= limit) return false;
+    if (kept.contains(id)) return false;
     for (const auto& [chunk, slot] : island.shown.slots) {
-      if (slot.resident) removed.push_back({id, chunk, island.shown.level});
+      if (slot.resident) removed.push_back(island.shown.key(id, chunk));
     }
     gone.push_back(id);
     return true;
   });
 }
 
-void Streamer::State::place_island(const IslandSpec& spec, const StreamView& view,
+// The level that stands for one that its distance gives an island: only what is as its seed makes
+// it has far levels, and no more of them than its size has uses for.
+int Streamer::State::level_of(const IslandSpec& spec, int level) const {
+  if (level < kLevelCount) return level;
+  if (!world.is_as_generated(spec.id)) return kLevelCount - 1;
+  return one_section_level(spec, level);
+}
+
+void Streamer::State::place_island(const Near& near, const StreamView& view,
                                    const StreamSettings& settings,
                                    std::vector<std::uint64_t>& voxels_unused) {
-  const double distance = distance_to(spec, view);
+  const IslandSpec& spec = *near.spec;
   auto found = islands.find(spec.id);
   const bool is_new = found == islands.end();
   if (is_new) {
-    if (!(distance <= settings.view_distance_blocks)) return;
+    if (!(near.distance <= settings.view_distance_blocks)) return;
     found = islands.try_emplace(spec.id).first;
     found->second.spec = spec;
   }
   StreamIsland& island = found->second;
-  const Pose pose = pose_of(spec, view.time_s);
-  const glm::dquat lattice_from_world = glm::conjugate(pose.rotation);
-  island.distance = distance;
-  island.camera = lattice_from_world * difference_blocks(view.camera, pose.origin);
+  const glm::dquat lattice_from_world = glm::conjugate(near.pose.rotation);
+  island.distance = near.distance;
+  island.camera = lattice_from_world * difference_blocks(view.camera, near.pose.origin);
   island.forward = lattice_from_world * view.forward;
   if (is_new) {
-    island.shown = start_level(spec.id, level_at(distance, settings.detail_distance_blocks));
+    const int level = level_of(spec, level_at(near.distance, settings.detail_distance_blocks));
+    // Unless the camera is among its rocks, the island is there as a whole at first.
+    const bool coarse_first =
+        level < kLevelCount && near.distance > 0.0 && world.is_as_generated(spec.id);
+    if (coarse_first) island.shown = start_level(spec, kLevelCount);
+    (coarse_first ? island.coming.emplace() : island.shown) = start_level(spec, level);
     return;
   }
   const int had = island.target().level;
-  const int level = level_with_hysteresis(had, distance, settings.detail_distance_blocks);
+  const int wanted = level_with_hysteresis(had, near.distance, settings.detail_distance_blocks);
+  if (wanted == had || (wanted >= kLevelCount && one_section_level(spec, wanted) == had)) return;
+  const int level = level_of(spec, wanted);
   if (level == had) return;
   change_level(island, level);
   if (had == 0 && island.shown.level != 0) voxels_unused.push_back(spec.id);
 }
 
 void Streamer::State::change_level(StreamIsland& island, int level) {
-  const std::uint64_t id = island.spec.id;
   island.coming.reset();
   if (level == island.shown.level) {
     for (auto& [chunk, slot] : island.shown.slots) {
       if (slot.phase != Phase::kIdle) continue;
       slot.phase = Phase::kQueued;
       ++island.shown.unmade;
-      queue_chunk(id, island.shown, chunk, false);
+      queue_chunk(island.spec.id, island.shown, chunk, false);
     }
     return;
   }
-  const bool any_resident = std::any_of(island.shown.slots.begin(), island.shown.slots.end(),
-                                        [](const auto& entry) { return entry.second.resident; });
-  StreamLevel started = start_level(id, level);
-  if (any_resident) {
+  StreamLevel started = start_level(island.spec, level);
+  if (island.shown.any_resident()) {
     island.coming = std::move(started);
   } else {
     island.shown = std::move(started);
@@ -197,8 +222,11 @@ void Streamer::State::apply_edit(const EditedBox& edit) {
   const auto found = islands.find(edit.island);
   if (found == islands.end()) return;
   StreamIsland& island = found->second;
-  for (const IVec3& chunk : chunks_showing(edit, island.shown.level)) {
-    remake(edit.island, island.shown, chunk, true);
+  if (island.target().far()) change_level(island, kLevelCount - 1);  // it is no longer as it was
+  if (!island.shown.far()) {
+    for (const IVec3& chunk : chunks_showing(edit, island.shown.level)) {
+      remake(edit.island, island.shown, chunk, true);
+    }
   }
   if (!island.coming) return;
   for (const IVec3& chunk : chunks_showing(edit, island.coming->level)) {
@@ -209,9 +237,7 @@ void Streamer::State::apply_edit(const EditedBox& edit) {
 namespace {
 
 // Moves one made chunk into an update. @return its quads.
-std::size_t hand_out(std::uint64_t island, int level, const IVec3& chunk, StreamSlot& slot,
-                     StreamUpdate& update) {
-  const SectionKey key{island, chunk, level};
+std::size_t hand_out(const SectionKey& key, StreamSlot& slot, StreamUpdate& update) {
   const std::size_t quads = slot.mesh.quads.size();
   if (slot.resident) update.removed.push_back(key);
   slot.resident = slot.has_something();
@@ -233,7 +259,7 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
     update.removed = std::exchange(s.removed, {});
     std::vector<StreamIsland*> waiting;
     for (auto& [id, island] : s.islands) {
-      if (island.swappable() || (!island.coming && island.shown.made > 0))
+      if (island.swappable() || ((!island.coming || island.shown.far()) && island.shown.made > 0))
         waiting.push_back(&island);
     }
     std::sort(waiting.begin(), waiting.end(), [](const StreamIsland* a, const StreamIsland* b) {
@@ -243,10 +269,11 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
     for (StreamIsland* island : waiting) {
       if (quads >= max_quads) break;
       const std::uint64_t id = island->spec.id;
-      const bool swap = island->swappable();
-      if (swap) {
+      // What takes the place of nothing may come in parts.
+      const bool swap = island->swappable() && island->shown.any_resident();
+      if (island->swappable()) {
         for (const auto& [chunk, slot] : island->shown.slots) {
-          if (slot.resident) update.removed.push_back({id, chunk, island->shown.level});
+          if (slot.resident) update.removed.push_back(island->shown.key(id, chunk));
         }
         if (island->shown.level == 0) voxels_unused.push_back(id);
         island->shown = std::move(*island->coming);
@@ -255,7 +282,7 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
       for (auto& [chunk, slot] : island->shown.slots) {
         if (slot.phase != Phase::kMade) continue;
         if (quads >= max_quads && !swap) break;
-        quads += hand_out(id, island->shown.level, chunk, slot, update);
+        quads += hand_out(island->shown.key(id, chunk), slot, update);
         --island->shown.made;
       }
     }
@@ -299,7 +326,10 @@ Streamer::Stats Streamer::stats() const {
   stats.tasks_left = s.tasks.size() + static_cast<std::size_t>(s.running);
   stats.chunks_made = s.chunks_made;
   for (const auto& [id, island] : s.islands) {
-    for (const auto& [chunk, slot] : island.shown.slots) stats.sections += slot.resident;
+    const StreamLevel& shown = island.shown;
+    for (const auto& [chunk, slot] : shown.slots) stats.sections += slot.resident;
+    const bool is_empty = shown.planned && shown.unmade == 0 && shown.made == 0;
+    stats.unshown += !is_empty && !shown.any_resident();
   }
   return stats;
 }

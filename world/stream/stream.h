@@ -13,14 +13,18 @@
 
 namespace skerry::world {
 
-/// Islands kept at once, the nearest: what their renderer has room for, less those on the way out.
-inline constexpr std::size_t kMaxStreamedIslands = 960;
+/// Islands kept at once, the nearest: what their renderer can name (shared::kMaxIslands), less
+/// those on the way out.
+inline constexpr std::size_t kMaxStreamedIslands = 64'000;
 
 /// Names a resident chunk mesh.
 struct SectionKey {
   std::uint64_t island = 0;
   IVec3 chunk;             ///< chunk coordinate at its level
   std::int32_t level = 0;  ///< a voxel's edge is 2^level blocks
+  /// The only section of its island, made from samples of the island's design (far_island.h); its
+  /// chunk is {0, 0, 0} and has the lattice's origin in its middle.
+  bool far = false;
   auto operator<=>(const SectionKey&) const = default;
 };
 
@@ -28,7 +32,8 @@ struct ReadySection {
   SectionKey key;
   ChunkMesh mesh;                 ///< without a quad if there is nothing to be seen of the chunk
   ChunkOccupancy leaves;          ///< cut-out voxels; empty unless asked for occupancy
-  ChunkOccupancy occupancy;       ///< empty unless asked for; of the two, one at least is not empty
+  ChunkOccupancy occupancy;       ///< empty unless asked for, and of far sections; of the two,
+                                  ///< one at least is not empty
   std::vector<Emitter> emitters;  ///< of the mesh
 };
 
@@ -49,23 +54,30 @@ struct StreamSettings {
   double detail_distance_blocks = 192.0;
 };
 
+/// Levels of detail past the last one of VoxelSource: islands as one section each.
+inline constexpr int kFarLevelCount = 3;
+
 /// An island's level of detail by the distance [blocks] from the camera to its bounding sphere
-/// (negative inside): 0 within the detail distance, one more each time the distance doubles.
+/// (negative inside): 0 within the detail distance, one more each time the distance doubles, up to
+/// kLevelCount + kFarLevelCount - 1.
 int level_at(double distance_blocks, double detail_distance_blocks);
 
 /// What a streamer makes of chunks.
 enum class StreamOf : std::uint8_t { kMeshes, kMeshesAndOccupancy };
 
 /// Keeps the islands around a camera meshed. An island is in while its bounding sphere comes within
-/// view distance, as a whole at one level of detail, so that it has no cracks.
+/// view distance, as a whole at one level of detail, so that it has no cracks. From level
+/// kLevelCount on it is one far section, unless it is not as its seed makes it: such islands have
+/// no level past the last one of VoxelSource.
 ///
-/// The frame thread calls everything here; generation and meshing run on jobs, what is near and in
-/// view first, and no call but wait_until_complete waits for them. Chunks near the camera that were
-/// edited are the exception: update() makes the first few itself, so that they are shown by the
-/// frame of the edit. An island that changes its level
-/// keeps the old one until all of the new one can replace it in one update. While the camera moves,
-/// islands near a limit keep their state (5% of the distance). A streamer that has not yet seen
-/// another view has no state to keep: what it delivers depends on the view and the settings alone.
+/// The frame thread calls everything here; generation and meshing run on jobs: islands that are new
+/// to the view as far sections at first, then what is near and in view. No call but
+/// wait_until_complete waits for them. Chunks near the camera that were edited are the exception:
+/// update() makes the first few itself, so that they are shown by the frame of the edit. An island
+/// that changes its level keeps the old one until all of the new one can replace it in one update.
+/// While the camera moves, islands near a limit keep their state (5% of the distance). A streamer
+/// that has not yet seen another view has no state to keep: what it delivers depends on the view
+/// and the settings alone.
 class Streamer {
  public:
   /// Both must outlive the streamer.
@@ -98,6 +110,7 @@ class Streamer {
 
   struct Stats {
     std::size_t islands = 0;      ///< resident or coming
+    std::size_t unshown = 0;      ///< of them, those of which nothing has been handed out yet
     std::size_t sections = 0;     ///< handed out and not removed
     std::size_t tasks_left = 0;   ///< queued or running
     std::size_t chunks_made = 0;  ///< generated and meshed so far, empty ones included

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "world/generate/far_island.h"
+
 namespace skerry::world {
 namespace {
 
@@ -12,7 +14,7 @@ using Phase = StreamSlot::Phase;
 // What lies outside a cone about the view direction waits as if it were this much further away.
 constexpr double kOutOfViewFactor = 3.0;
 constexpr double kViewConeCos = 0.5;
-constexpr double kEditedCost = -1.0;
+constexpr double kEditedCost = -2.0;
 // A block at the corner of a chunk shows in four. What is more, such as an island that was cut in
 // two, comes from the workers.
 constexpr int kEditedAFrame = 8;
@@ -35,11 +37,19 @@ bool has_cutouts(const ChunkMesh& mesh) {
 
 }  // namespace
 
-StreamLevel Streamer::State::start_level(std::uint64_t island, int level) {
+StreamLevel Streamer::State::start_level(const IslandSpec& spec, int level) {
   StreamLevel started;
-  started.level = level;
+  started.level = started.voxel_log2 = level;
   started.serial = ++last_serial;
-  push_task({island, started.serial, std::nullopt, level});
+  if (started.far()) {
+    started.voxel_log2 = far_voxel_log2(spec, level);
+    started.planned = true;
+    started.slots.try_emplace(IVec3{});
+    started.unmade = 1;
+    queue_chunk(spec.id, started, {}, false);
+  } else {
+    push_task({spec.id, started.serial, std::nullopt, level});
+  }
   return started;
 }
 
@@ -56,6 +66,7 @@ double Streamer::State::cost_of(const StreamTask& task) const {
   const auto found = islands.find(task.island);
   if (found == islands.end()) return 0.0;
   const StreamIsland& island = found->second;
+  if (task.far) return -1.0 / (1.0 + std::max(0.0, island.distance));  // before all that is finer
   if (!task.chunk) {
     return distance_cost(-island.camera, island.forward, island.spec.bounding_radius);
   }
@@ -80,7 +91,8 @@ void Streamer::State::score_tasks() {
 
 void Streamer::State::queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk,
                                   bool edited) {
-  push_task({island, level.serial, chunk, level.level, edited && level.level == 0});
+  push_task(
+      {island, level.serial, chunk, level.voxel_log2, level.far(), edited && level.level == 0});
 }
 
 // Makes a chunk once more, or for the first time.
@@ -116,7 +128,7 @@ void Streamer::State::submit_jobs() {
 }
 
 // The cheapest task that is still wanted. Chunks of a level that is about to be replaced are put
-// aside: they are only wanted if the island changes its mind.
+// aside: they are only wanted if the island changes its mind. A far section is shown meanwhile.
 bool Streamer::State::take_task(StreamTask& task) {
   while (!tasks.empty()) {
     std::pop_heap(tasks.begin(), tasks.end(), costlier);
@@ -127,7 +139,7 @@ bool Streamer::State::take_task(StreamTask& task) {
     if (!task.chunk) return true;
     StreamSlot& slot = level->slots.at(*task.chunk);
     const std::optional<StreamLevel>& coming = islands.at(task.island).coming;
-    if (coming && coming->serial != task.serial && !slot.resident) {
+    if (coming && coming->serial != task.serial && !slot.resident && !task.far) {
       slot.phase = Phase::kIdle;
       --level->unmade;
       continue;
@@ -174,6 +186,14 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
     const std::vector<IVec3> chunks = world.chunks(task.island, task.level);
     lock.lock();
     note_planned(task, chunks);
+  } else if (task.far) {
+    const auto found = islands.find(task.island);
+    const IslandSpec spec = found == islands.end() ? IslandSpec{} : found->second.spec;
+    MadeChunk chunk;
+    lock.unlock();
+    if (spec.id == task.island) far_island(spec, task.level, chunk.mesh);
+    lock.lock();
+    note_made(task, std::move(chunk));
   } else {
     std::unique_ptr<StreamScratch> scratch;
     if (!spare.empty()) {

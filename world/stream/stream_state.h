@@ -1,11 +1,13 @@
 // What Streamer keeps. Private to world/stream*.cpp.
 #pragma once
+#include <algorithm>
 #include <condition_variable>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "world/stream/stream.h"
@@ -34,13 +36,22 @@ struct StreamSlot {
 
 /// An island at one level.
 struct StreamLevel {
-  int level = 0;
+  int level = 0;             // of detail
+  int voxel_log2 = 0;        // see SectionKey::level
   std::uint64_t serial = 0;  // distinguishes results of cancelled work from those wanted
   bool planned = false;      // `slots` holds every chunk
   std::size_t unmade = 0;    // slots queued or running
   std::size_t made = 0;      // slots in phase kMade
   std::map<IVec3, StreamSlot> slots;
   std::vector<IVec3> edited_early;  // chunks edited before the plan was there
+  bool far() const { return level >= kLevelCount; }
+  SectionKey key(std::uint64_t island, IVec3 chunk) const {
+    return {island, chunk, voxel_log2, far()};
+  }
+  bool any_resident() const {
+    return std::any_of(slots.begin(), slots.end(),
+                       [](const auto& entry) { return entry.second.resident; });
+  }
 };
 
 struct StreamIsland {
@@ -56,9 +67,10 @@ struct StreamIsland {
 struct StreamTask {
   std::uint64_t island = 0, serial = 0;
   std::optional<IVec3> chunk;  // none: list the island's chunks
-  int level = 0;
-  bool edited = false;  // a chunk of level 0 that a player has changed: before all others
-  double cost = 0.0;    // least first: distance, longer for what is out of view
+  int level = 0;               // see SectionKey
+  bool far = false;            // likewise
+  bool edited = false;         // a chunk of level 0 that a player has changed: before all others
+  double cost = 0.0;           // least first: distance, longer for what is out of view
 };
 
 /// Working memory of one job.
@@ -78,22 +90,29 @@ struct MadeChunk {
 struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   State(World& world_, Jobs& jobs_, StreamOf makes_) : world(world_), jobs(jobs_), makes(makes_) {}
 
+  /// An island that may be in view.
+  struct Near {
+    const IslandSpec* spec;
+    Pose pose;
+    double distance;  // blocks from the camera to the bounding sphere
+  };
   /// Frame thread only, without the mutex.
   const std::vector<IslandSpec>& islands_around(const StreamView& view,
                                                 const StreamSettings& settings);
   Pose pose_of(const IslandSpec& spec, double time_s) const;
-  double distance_to(const IslandSpec& spec, const StreamView& view) const;
+  Near near_of(const IslandSpec& spec, const StreamView& view) const;
 
   // What is wanted (stream.cpp). Called with the mutex held.
-  void drop_far_islands(const std::vector<IslandSpec>& near, const StreamView& view,
-                        const StreamSettings& settings, std::vector<std::uint64_t>& gone);
-  void place_island(const IslandSpec& spec, const StreamView& view, const StreamSettings& settings,
+  void drop_far_islands(std::span<const Near> near, const StreamSettings& settings,
+                        std::vector<std::uint64_t>& gone);
+  void place_island(const Near& near, const StreamView& view, const StreamSettings& settings,
                     std::vector<std::uint64_t>& voxels_unused);
+  int level_of(const IslandSpec& spec, int level) const;
   void change_level(StreamIsland& island, int level);
   void apply_edit(const EditedBox& edit);
 
   // Tasks and their results (stream_state.cpp). Called with the mutex held.
-  StreamLevel start_level(std::uint64_t island, int level);
+  StreamLevel start_level(const IslandSpec& spec, int level);
   StreamLevel* find_level(std::uint64_t island, std::uint64_t serial);
   void push_task(const StreamTask& task);
   void queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk, bool edited);

@@ -21,6 +21,7 @@ struct IslandPlacement {
   FixedPos origin{};                        ///< of its lattice
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< world from lattice
   double bounding_radius = 0.0;             ///< blocks about the origin
+  bool far = false;  ///< so small in the picture that its heading may be rounded for its sky
 };
 
 /// The block that a player points at: an outline over the picture, and cracks as it is dug.

@@ -18,7 +18,7 @@ struct SceneRefs {
   gpu::BufferRef frame;           ///< shared::FrameConstants
   gpu::BufferRef sky;             ///< shared::SkyConstants
   gpu::BufferRef sky_scattering;  ///< shared::SkyScatter, of the frame that makes the sky table
-  gpu::BufferRef islands;         ///< shared::IslandTransform[island], relative to the camera
+  gpu::BufferRef islands;  ///< texels of shared::IslandTransform[island], relative to the camera
   gpu::BufferRef view_islands;  ///< shared::IslandTransform[view][island], each view's relative to
                                 ///< its own centre
   std::span<const float> edge_growth;  ///< one a view, see FrameTables; lives as long
@@ -32,7 +32,8 @@ struct SceneRefs {
   DrawLimits most_draws{};
   /// The occupancy store; empty without one.
   gpu::BufferRef occupancy_grids, occupancy_tables, occupancy_words;
-  gpu::BufferRef indirect;       ///< shaders/shared/indirect.h; a texel that is never read if off
+  /// Both of shaders/shared/indirect.h; a texel that is never read if off.
+  gpu::BufferRef indirect, island_skies;
   gpu::BufferRef light_islands;  ///< FrameInput::light_islands; empty when no light is traced
   gpu::BufferRef indices;        ///< 16-bit: 0 1 2 0 2 3, 4 5 6 ...
   gpu::BufferRef pixel_stats;    ///< shared::PixelStats

@@ -12,12 +12,14 @@
 namespace skerry::render {
 namespace {
 
-static_assert(shared::kIndirectSkies == shared::kMaxIslands);
-static_assert(shared::kIndirectFirst == shared::kMaxIslands * (1 + shared::kIndirectIslandTexels));
+static_assert(shared::kIndirectOpenRecord == shared::kMaxIslands);
+static_assert(shared::kIndirectFirst ==
+              shared::kIndirectOpenRecord + shared::kIndirectRecordTexels);
 
 constexpr std::uint64_t kTexelBytes = sizeof(glm::uvec4);
 // 96 MiB: twice what islands take at medium quality, since what replaces a grid is made beside it.
 constexpr std::uint32_t kUsualTexels = (96u << 20) / kTexelBytes;
+constexpr std::uint32_t kLeastTexels = shared::kIndirectFirst + (1u << 14);
 constexpr std::uint64_t kShareOfBudget = 2;  // most of it that light takes
 
 std::uint64_t most_texels(const gpu::Device& device, const MemoryBudget& budget) {
@@ -51,7 +53,7 @@ glm::uvec4 header(const IslandChunks& box, std::uint32_t first) {
   return {part(box.low.x, 1023) | part(box.low.y, 1023) << 10 | part(box.low.z, 1023) << 20,
           part(box.size.x, 255) | part(box.size.y, 255) << 8 | part(box.size.z, 255) << 16 |
               box.voxel_size_log2 << 24,
-          first, 1u};
+          first, shared::kIndirectFaces};
 }
 
 }  // namespace
@@ -65,8 +67,7 @@ IndirectStore::~IndirectStore() {
 
 Result<std::unique_ptr<IndirectStore>> IndirectStore::create(gpu::Device& device,
                                                              MemoryBudget& budget) {
-  const std::uint32_t texels =
-      budget.first_elements(kTexelBytes, 2 * shared::kIndirectFirst, kUsualTexels);
+  const std::uint32_t texels = budget.first_elements(kTexelBytes, kLeastTexels, kUsualTexels);
   std::unique_ptr<IndirectStore> store(new IndirectStore(device, budget, texels));
   Result<gpu::Buffer> made =
       make_table(device, budget, "light of the sky", texels * kTexelBytes, true);
@@ -75,7 +76,15 @@ Result<std::unique_ptr<IndirectStore>> IndirectStore::create(gpu::Device& device
   const Result<gpu::ArenaRange> head = store->allocate(shared::kIndirectFirst);
   SKERRY_ASSERT(head && head->first == 0);
   device.run_now([&](VkCommandBuffer commands) {
-    vkCmdFillBuffer(commands, store->texels_.handle(), 0, bytes_of(head->count), 0);
+    const auto fill = [&](std::uint64_t first, std::uint64_t end, std::uint32_t word) {
+      vkCmdFillBuffer(commands, store->texels_.handle(), bytes_of(first), bytes_of(end - first),
+                      word);
+    };
+    // Corners that see everything, and no light of lamps or of other faces.
+    constexpr std::uint64_t kOpen = shared::kIndirectOpenRecord;
+    fill(0, kOpen, 0);
+    fill(kOpen, kOpen + 2, 0xffffffffu);
+    fill(kOpen + 2, head->count, 0);
   });
   return store;
 }
@@ -184,6 +193,13 @@ void IndirectStore::finish(gpu::Uploader& uploader, std::uint32_t island) {
   entry.shown = std::exchange(entry.made, std::nullopt);
 }
 
+void IndirectStore::open_island(gpu::Uploader& uploader, std::uint32_t island) {
+  SKERRY_ASSERT(island < shared::kMaxIslands && !islands_.contains(island));
+  const glm::uvec4 open(0, 0, 0, shared::kIndirectOpen);
+  write(uploader, island, std::span<const glm::uvec4>(&open, 1));
+  islands_[island];
+}
+
 void IndirectStore::end_island(gpu::Uploader& uploader, std::uint32_t island) {
   const auto found = islands_.find(island);
   if (found == islands_.end()) return;
@@ -192,10 +208,6 @@ void IndirectStore::end_island(gpu::Uploader& uploader, std::uint32_t island) {
   free(found->second.shown);
   free(found->second.made);
   islands_.erase(found);
-}
-
-void IndirectStore::set_sky(gpu::Uploader& uploader, std::span<const glm::uvec4> irradiance) {
-  write(uploader, shared::kIndirectSkies, irradiance);
 }
 
 void IndirectStore::collect() {

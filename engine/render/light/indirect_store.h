@@ -31,8 +31,8 @@ struct ChunkSkyLight {
   bool changed = true;  ///< since it was last put
 };
 
-/// The light of the sky on surfaces, on the GPU: one buffer of texels. Writes go
-/// through the uploader's queue, records before the tables that name them.
+/// How much surfaces see of the sky, on the GPU: one buffer of texels. Writes go through the
+/// uploader's queue, records before the tables that name them.
 class IndirectStore {
  public:
   /// @param budget must outlive the store.
@@ -49,10 +49,10 @@ class IndirectStore {
   Result<void> put(gpu::Uploader& uploader, std::uint32_t island, const ChunkSkyLight& chunk);
   /// Drops the chunks that were not put since begin(), and shows the island with the others.
   void finish(gpu::Uploader& uploader, std::uint32_t island);
+  /// All faces of an island see all of their sky from now on. @pre it has no light of the sky.
+  void open_island(gpu::Uploader& uploader, std::uint32_t island);
   /// The island has no light of the sky from now on. An island without is no error.
   void end_island(gpu::Uploader& uploader, std::uint32_t island);
-  /// What the sky sends to the faces of the first islands of the table now (sky_irradiance()).
-  void set_sky(gpu::Uploader& uploader, std::span<const glm::uvec4> irradiance);
   /// Once a frame, before recording: reclaims what the GPU has finished with.
   void collect();
 

@@ -50,7 +50,7 @@ struct Inputs {
   auto bindings() const {
     return std::tuple{
         gpu::storage<shared::kLightGridBinding>(grid), gpu::storage<shared::kLightsBinding>(lights),
-        gpu::storage<shared::kIslandsBinding>(islands),
+        gpu::texels<shared::kIslandsBinding>(islands),
         gpu::storage<shared::kLightReachBinding>(reaches),
         gpu::sampled<shared::kDepthsBinding>(pixels.depth, point),
         gpu::storage<shared::kSurfacesBinding>(pixels.surfaces),

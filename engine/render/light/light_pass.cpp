@@ -41,7 +41,7 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
       [program, scene, lights, surfaces, walls, radiance](gpu::Commands& c) {
         gpu::bind(
             c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
             surfaces.bindings(scene.point_sampler), walls.bindings(),

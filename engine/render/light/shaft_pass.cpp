@@ -40,7 +40,7 @@ ClusteredLights ShaftPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines
       [program, scene, lights, surfaces, walls, shafts, tiles](gpu::Commands& c) {
         gpu::bind(
             c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             surfaces.bindings(scene.point_sampler), walls.bindings(), lights.bindings(), gpu::storage<shared::kTileShaftsBinding>(shafts));
         const std::uint32_t groups = gpu::Commands::groups(tiles, 64);

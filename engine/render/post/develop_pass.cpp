@@ -93,7 +93,7 @@ Developed DevelopPass::add_debug(gpu::FrameGraph& graph, gpu::Pipelines& pipelin
       [program, scene, surfaces, occupancy, clusters, maps, out](gpu::Commands& c) {
         gpu::bind(
             c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             surfaces.bindings(scene.point_sampler), occupancy.bindings(), clusters.bindings(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),

@@ -101,7 +101,7 @@ gpu::ImageRef smooth(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
                               {{shared::kStoreConstant, store ? 1u : 0u}})](gpu::Commands& c) {
         gpu::bind(
             c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::storage<shared::kSurfacesBinding>(words),
             gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),

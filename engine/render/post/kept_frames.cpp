@@ -1,7 +1,8 @@
 #include "engine/render/post/kept_frames.h"
 
+#include <algorithm>
+
 #include "engine/render/scene/grow_buffer.h"
-#include "shaders/shared/frame.h"
 
 namespace skerry::render {
 
@@ -38,10 +39,11 @@ Result<void> KeptFrames::ensure(VkExtent2D size) {
 }
 
 Result<void> KeptFrames::upload(gpu::Uploader& uploader, std::span<const shared::Motion> motions) {
-  if (!motions_) {
-    constexpr std::uint64_t kBytes = (shared::kMaxIslands + 1) * sizeof(shared::Motion);
+  if (!motions_ || motions_.size_bytes() < motions.size_bytes()) {
+    constexpr std::uint64_t kUsualBytes = std::uint64_t{1} << 16;
+    const std::uint64_t bytes = std::max<std::uint64_t>(2 * motions.size_bytes(), kUsualBytes);
     Result<gpu::Buffer> made =
-        device_->create_buffer({"motions", kBytes, kTexelTableUsage, gpu::Memory::kDevice, true});
+        device_->create_buffer({"motions", bytes, kTexelTableUsage, gpu::Memory::kDevice, true});
     if (!made) return made.error();
     motions_ = *std::move(made);
   }

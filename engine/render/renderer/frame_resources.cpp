@@ -35,11 +35,13 @@ std::vector<glm::u16vec4> half_texels(const Panorama& panorama) {
 }  // namespace
 
 Result<void> FrameResources::reserve(gpu::Buffer& buffer, const char* name,
-                                     std::uint64_t size_bytes) {
+                                     std::uint64_t size_bytes, ReadBy read_by) {
   if (buffer && buffer.size_bytes() >= size_bytes) return {};
   const std::uint64_t size =
       std::max({size_bytes, buffer ? buffer.size_bytes() * 2 : 0, kLeastBytes});
-  Result<gpu::Buffer> made = device_->create_buffer({name, size, kTable, gpu::Memory::kDevice});
+  const bool texels = read_by == ReadBy::kTexels;
+  Result<gpu::Buffer> made = device_->create_buffer(
+      {name, size, texels ? kTable | kTexelTableUsage : kTable, gpu::Memory::kDevice, texels});
   if (!made) return made.error();
   buffer = *std::move(made);
   return {};
@@ -47,10 +49,9 @@ Result<void> FrameResources::reserve(gpu::Buffer& buffer, const char* name,
 
 template <class T>
 Result<void> FrameResources::upload(gpu::Uploader& uploader, gpu::Buffer& to, const char* name,
-                                    std::span<const T> values) {
-  if (Result<void> ok = reserve(to, name, std::max<std::size_t>(values.size_bytes(), sizeof(T)));
-      !ok)
-    return ok;
+                                    std::span<const T> values, ReadBy read_by) {
+  const std::size_t bytes = std::max<std::size_t>(values.size_bytes(), sizeof(T));
+  if (Result<void> ok = reserve(to, name, bytes, read_by); !ok) return ok;
   if (!values.empty()) uploader.write(to, 0, values);
   return {};
 }
@@ -171,7 +172,8 @@ Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& 
       upload(uploader, sky_, "sky constants",
              std::span<const shared::SkyConstants>(&sky.constants, 1)),
       upload(uploader, islands_, "island transforms",
-             std::span<const shared::IslandTransform>(tables.islands).first(island_count)),
+             std::span<const shared::IslandTransform>(tables.islands).first(island_count),
+             ReadBy::kTexels),
       upload(uploader, view_islands_, "view island transforms",
              std::span<const shared::IslandTransform>(tables.islands)),
       upload(uploader, views_, "cull views", std::span<const shared::CullView>(tables.views)),
@@ -187,6 +189,11 @@ Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& 
 Result<void> FrameResources::upload_light_islands(gpu::Uploader& uploader,
                                                   const FrameInput& input) {
   return upload(uploader, light_islands_, "light islands", input.light_islands);
+}
+
+Result<void> FrameResources::upload_skies(gpu::Uploader& uploader,
+                                          std::span<const glm::uvec4> irradiance) {
+  return upload(uploader, island_skies_, "skies of islands", irradiance, ReadBy::kTexels);
 }
 
 Result<void> FrameResources::ensure_seen(gpu::Uploader& uploader, std::uint32_t sections) {

@@ -41,23 +41,30 @@ class FrameResources {
   gpu::Buffer& no_texels() { return no_texels_; }
   /// Makes room for so many sections in CullIn::seen. Errors: out of memory.
   Result<void> ensure_seen(gpu::Uploader& uploader, std::uint32_t sections);
+  /// Queues what the sky sends to each island (sky_irradiance()). Errors: out of memory.
+  Result<void> upload_skies(gpu::Uploader& uploader, std::span<const glm::uvec4> irradiance);
+  gpu::BufferRef import_skies(gpu::FrameGraph& graph) {
+    return graph.import(island_skies_ ? island_skies_ : no_texels_);
+  }
   gpu::BufferRef import_seen(gpu::FrameGraph& graph) { return graph.import(seen_); }
   gpu::BufferRef import_light_islands(gpu::FrameGraph& graph) {
     return graph.import(light_islands_);
   }
 
  private:
-  Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
+  enum class ReadBy : std::uint8_t { kBlocks, kTexels };
+  Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes,
+                       ReadBy read_by = ReadBy::kBlocks);
   template <class T>
   Result<void> upload(gpu::Uploader& uploader, gpu::Buffer& to, const char* name,
-                      std::span<const T> values);
+                      std::span<const T> values, ReadBy read_by = ReadBy::kBlocks);
   Result<void> create_indices(gpu::Uploader& uploader);
   Result<void> create_images(gpu::Uploader& uploader);
   Result<void> create_samplers();
 
   gpu::Device* device_;
   gpu::Buffer frame_, sky_, sky_scattering_, islands_, view_islands_, views_, light_islands_,
-      materials_, indices_, pixel_stats_, exposure_, no_texels_, seen_;
+      materials_, indices_, pixel_stats_, exposure_, no_texels_, seen_, island_skies_;
   gpu::Image block_textures_, sky_lut_, no_volume_, no_words_;
   gpu::Image panorama_;  // none: sky_lut_ is the sky
   VkSampler block_sampler_{}, lut_sampler_{}, panorama_sampler_{}, point_sampler_{};

@@ -18,7 +18,7 @@ namespace skerry::render {
 namespace {
 
 constexpr std::uint32_t kFramesInFlight = 2;
-constexpr std::uint64_t kLeastWorldBytes = std::uint64_t{4} << 20;  // what empty tables take, twice
+constexpr std::uint64_t kLeastWorldBytes = std::uint64_t{6} << 20;  // what empty tables take, twice
 
 /// What one frame in flight owns.
 struct Slot {
@@ -193,7 +193,8 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
   if (!plan.why_one_phase)
     if (Result<void> ok = resources.ensure_seen(frame_uploader, geometry->section_slots()); !ok)
       return ok;
-  if (plan.indirect) indirect->set_sky(frame_uploader, plan.sky_light);
+  if (plan.indirect)
+    if (Result<void> ok = resources.upload_skies(frame_uploader, plan.sky_light); !ok) return ok;
   if (plan.clouds)
     if (Result<void> ok = clouds.prepare(frame_uploader, *plan.clouds); !ok) return ok;
   if (occupancy && plan.settings.lights_shadows != 0 && !input.light_islands.empty())
@@ -213,6 +214,7 @@ SceneRefs Renderer::State::import_scene(gpu::FrameGraph& to, const FramePlan& pl
   s.sums_floats = device.limits().sums_floats;
   if (plan.indirect) s.indirect_light = plan.settings.indirect;
   s.indirect = to.import(plan.indirect && indirect ? indirect->texels() : resources.no_texels());
+  s.island_skies = resources.import_skies(to);
   if (!occupancy) return s;
   s.occupancy_grids = to.import(occupancy->grids());
   s.occupancy_tables = to.import(occupancy->tables());

@@ -98,7 +98,7 @@ void GeometryPass::add_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
     return recording(pipelines, drawing, surface, stored);
   };
   const std::tuple stored{gpu::storage<shared::kFrameBinding>(scene.frame),
-                          gpu::storage<shared::kIslandsBinding>(scene.islands)};
+                          gpu::texels<shared::kIslandsBinding>(scene.islands)};
 
   graph.add_pass(
       revealed ? "draw_revealed" : "draw_geometry",

@@ -14,7 +14,6 @@ namespace {
 constexpr std::uint32_t kLeastSections = 1024;
 constexpr std::uint32_t kLeastQuads = 1u << 19;
 constexpr std::uint64_t kMostQuads = std::uint64_t{1} << 29;
-constexpr std::uint32_t kIslandShift = 19;  // of Quad::material
 
 std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
   return section.range_end[end - 1] - (first == 0 ? 0 : section.range_end[first - 1]);
@@ -79,7 +78,7 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   const std::span translucent = quads.subspan(section.range_end[shared::kRangeTranslucent - 1]);
   if (!translucent.empty()) translucent_boxes_[slot] = box_of(translucent);
   scratch_.assign(quads.begin(), quads.end());
-  for (shared::Quad& quad : scratch_) quad.material |= section.island << kIslandShift;
+  for (shared::Quad& quad : scratch_) quad.material |= section.island << shared::kIslandShift;
   uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad),
                  std::span<const shared::Quad>(scratch_));
   uploader.write(sections_, std::uint64_t{slot} * sizeof(shared::Section),

@@ -22,7 +22,7 @@ VoxelBox box_of(std::span<const shared::Quad> quads) {
   SKERRY_ASSERT(!quads.empty());
   glm::uvec3 low(64), high(0);
   for (const shared::Quad& quad : quads) {
-    const std::uint32_t face = quad.material >> 16 & 7u, axis = face / 2;
+    const std::uint32_t face = shared::surface_face(quad.material), axis = face / 2;
     glm::uvec3 first(quad.geometry & 63u, quad.geometry >> 6 & 63u, quad.geometry >> 12 & 63u);
     const bool plant = face >= shared::kFaceCount;  // from corner to corner of its voxel
     if (!plant && face % 2 == 0) ++first[static_cast<int>(axis)];

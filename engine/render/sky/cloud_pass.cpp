@@ -67,7 +67,7 @@ class ViewReads {
                       gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene_, maps_),
                                                                scene_.point_sampler),
                       clouds_.light_bindings(), clouds_.media_bindings(), lights_.bindings(),
-                      walls_.bindings(), gpu::storage<shared::kIslandsBinding>(scene_.islands)};
+                      walls_.bindings(), gpu::texels<shared::kIslandsBinding>(scene_.islands)};
   }
 
  private:
@@ -205,7 +205,7 @@ gpu::ImageRef CloudPass::add_mirrored(gpu::FrameGraph& graph, gpu::Pipelines& pi
       },
       [scene, layers, maps, mirrored, program](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-                  gpu::storage<shared::kIslandsBinding>(scene.islands),
+                  gpu::texels<shared::kIslandsBinding>(scene.islands),
                   gpu::storage<shared::kMaterialsBinding>(scene.materials),
                   scene.clouds->light_bindings(), scene.clouds->media_bindings(),
                   gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),

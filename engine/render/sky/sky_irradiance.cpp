@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/packing.hpp>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -67,6 +68,17 @@ std::vector<LobeSample> make_samples() {
   const glm::vec3 scale(2.0 * std::numbers::pi / sum);
   for (LobeSample& sample : out) sample.weight *= scale;
   return out;
+}
+
+/// Headings that far islands are rounded to.
+constexpr double kHeadingStep = 2.0 * std::numbers::pi / 64.0;
+
+bool is_upright(const glm::dquat& rotation) {
+  return std::abs(rotation.x) + std::abs(rotation.z) < 1e-6;
+}
+
+int heading_of(const glm::dquat& rotation) {
+  return static_cast<int>(std::lround(2.0 * std::atan2(rotation.y, rotation.w) / kHeadingStep));
 }
 
 using Lobes = std::array<glm::vec3, shared::kSkyLobes>;
@@ -133,9 +145,23 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
   constexpr std::size_t kTexels = shared::kIndirectIslandTexels;
   static_assert(kFaces * shared::kIndirectSkyTexels == shared::kIndirectHarmonics);
   std::vector<glm::uvec4> out(islands.size() * kTexels, glm::uvec4(0));
-  for (std::size_t i = 0; i < islands.size(); ++i)
-    if (shown[i])
-      put_island(cube, bodies, islands[i].rotation, std::span(out).subspan(i * kTexels, kTexels));
+  std::map<int, std::size_t> of_heading;  // the first far island of each
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    if (!shown[i]) continue;
+    const std::span to = std::span(out).subspan(i * kTexels, kTexels);
+    glm::dquat rotation = islands[i].rotation;
+    if (islands[i].far && is_upright(rotation)) {
+      const int heading = heading_of(rotation);
+      const auto [same, is_first] = of_heading.emplace(heading, i);
+      if (!is_first) {
+        std::copy_n(out.begin() + static_cast<std::ptrdiff_t>(same->second * kTexels), kTexels,
+                    to.begin());
+        continue;
+      }
+      rotation = glm::angleAxis(heading * kHeadingStep, glm::dvec3(0.0, 1.0, 0.0));
+    }
+    put_island(cube, bodies, rotation, to);
+  }
   return out;
 }
 

@@ -104,7 +104,7 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
           gpu::Commands& c) {
         gpu::bind(
             c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::storage<shared::kSurfacesBinding>(surfaces.words),
             gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
@@ -152,7 +152,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
       pass.name("shade_samples_"),
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref :
-             {scene.frame, scene.islands, scene.materials, scene.indirect})
+             {scene.frame, scene.islands, scene.materials, scene.indirect, scene.island_skies})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
         walls.declare(b);
@@ -174,12 +174,13 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
        pass](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
             surfaces.bindings(scene.point_sampler),
             walls.bindings(),
             gpu::texels<shared::kIndirectBinding>(scene.indirect),
+            gpu::texels<shared::kIslandSkiesBinding>(scene.island_skies),
             clouds.light_bindings(),
             lights.bindings(),
             lights.blocked_bindings(),

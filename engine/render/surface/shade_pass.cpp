@@ -55,7 +55,7 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref :
-             {scene.frame, scene.islands, scene.materials, scene.indirect})
+             {scene.frame, scene.islands, scene.materials, scene.indirect, scene.island_skies})
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
         surfaces.declare(b);
@@ -70,9 +70,10 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
       [surface_program, scene, tiles, surfaces, occupancy, clouds, maps, into](gpu::Commands& c) {
         gpu::bind(
             c, surface_program, gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::storage<shared::kIslandsBinding>(scene.islands),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::texels<shared::kIndirectBinding>(scene.indirect),
+            gpu::texels<shared::kIslandSkiesBinding>(scene.island_skies),
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
             surfaces.bindings(scene.point_sampler), occupancy.bindings(), clouds.light_bindings(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),

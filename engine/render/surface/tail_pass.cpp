@@ -74,7 +74,7 @@ TranslucentPass::Layers TailPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pi
                                                  .cull = VK_CULL_MODE_NONE,
                                                  .blend = gpu::Blend::kSum})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-                  gpu::storage<shared::kIslandsBinding>(scene.islands), cutout_bindings(scene),
+                  gpu::texels<shared::kIslandsBinding>(scene.islands), cutout_bindings(scene),
                   gpu::sampled<shared::kDepthsBinding>(opaque, scene.point_sampler),
                   gpu::sampled<shared::kPreviousDepthsBinding>(last, scene.point_sampler),
                   draw_bindings(scene, draws, 0));

@@ -106,7 +106,7 @@ class LayerReads {
   auto bindings() const {
     return std::tuple{
         gpu::storage<shared::kFrameBinding>(scene_.frame),
-        gpu::storage<shared::kIslandsBinding>(scene_.islands),
+        gpu::texels<shared::kIslandsBinding>(scene_.islands),
         gpu::storage<shared::kMaterialsBinding>(scene_.materials),
         gpu::sampled<shared::kDepthsBinding>(opaque_depth_, scene_.point_sampler),
         gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.sky_sampler),

@@ -6,13 +6,6 @@
 #include "shared/geometry.h"
 #include "include/frame/halves.glsl"
 
-// G-buffer word: Quad.material (bits 0-15 block id, 16-18 face, 19-30 island), and bit 31 set where there is a surface.
-const uint kSurfaceHere = 0x80000000u;
-const uint kOppositeFace = 1u << 16;  // xor turns a face into the one that looks the other way
-uint surface_block(uint word) { return word & 0xffffu; }
-uint surface_face(uint word) { return (word >> 16) & 7u; }
-uint surface_island(uint word) { return (word >> 19) & 0xfffu; }
-
 // Unit normal of a face in the lattice; a plant's diagonals stand for a surface that faces up.
 vec3 face_normal(uint face) {
   if (face >= 6u) return vec3(0.0, 1.0, 0.0);

@@ -1,4 +1,4 @@
-// Corners take a part of all light. Needs before the include: `frame`, `islands[]`, surface.glsl.
+// Corners take a part of all light. Needs before the include: `frame`, `island_at()`, surface.glsl.
 #ifndef SKERRY_CORNERS_GLSL
 #define SKERRY_CORNERS_GLSL
 #include "shared/constants.h"
@@ -11,7 +11,7 @@ layout(constant_id = kAoConstant) const bool kAo = false;
 float surface_ao(Surface s, uint word) {
   if (!kAo) return 1.0;
   uint island = surface_island(word), face = min(surface_face(word), 5u);
-  float ao = corner_ao(island, face, lattice_from_world(islands[island], s.position));
+  float ao = corner_ao(island, face, lattice_from_world(island_at(island), s.position));
   return s.plant ? 1.0 : 1.0 - frame.ao_strength * (1.0 - ao);
 }
 #endif

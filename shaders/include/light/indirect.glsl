@@ -1,10 +1,11 @@
 // Light of the sky and weak lamps on a surface, as far as the corners of its face see it. Layout: shared/indirect.h.
-// Needs before the include: lighting.glsl, `islands[]`.
+// Needs before the include: lighting.glsl, `island_at()`.
 #ifndef SKERRY_INDIRECT_GLSL
 #define SKERRY_INDIRECT_GLSL
 
 // If the sky gives no light, a texel is bound that is never read.
 layout(binding = kIndirectBinding) uniform usamplerBuffer indirect_texels;
+layout(binding = kIslandSkiesBinding) uniform usamplerBuffer island_skies;
 
 uvec4 indirect_texel(bool known, uint index) { return texelFetch(indirect_texels, int(known ? index : 0u)); }
 
@@ -13,7 +14,7 @@ uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
   ivec3 low = (ivec3(grid.x) << ivec3(22, 12, 2)) >> 22;
   ivec3 size = ivec3(grid.y & 255u, (grid.y >> 8) & 255u, (grid.y >> 16) & 255u);
   ivec3 chunk = (voxel >> 6) - low;
-  bool known = grid.w != 0u && all(lessThan(uvec3(chunk), uvec3(size)));
+  bool known = grid.w == kIndirectFaces && all(lessThan(uvec3(chunk), uvec3(size)));
   uint table = grid.z + uint((chunk.y * size.x + chunk.x) * size.z + chunk.z) * kIndirectTableTexels;
   ivec3 brick = (voxel >> 3) & 7;
   uvec4 bricks = indirect_texel(known, table + uint(brick.y * 16 + brick.x * 2 + (brick.z >> 2)));
@@ -24,7 +25,8 @@ uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
   uint mask = far ? masks.y : masks.x, record = far ? masks.w : masks.z;
   uint bit = uint((voxel.z & 7) + 8 * (voxel.x & 3));
   known = known && ((mask >> bit) & 1u) != 0u;
-  return known ? record + kIndirectRecordTexels * bitCount(mask & ((1u << bit) - 1u)) : 0u;
+  uint unlisted = grid.w == kIndirectOpen ? kIndirectOpenRecord : 0u;
+  return known ? record + kIndirectRecordTexels * bitCount(mask & ((1u << bit) - 1u)) : unlisted;
 }
 
 // Three numbers with a shared exponent.
@@ -33,10 +35,10 @@ vec3 shared_exponent(uint word) { return vec3(word & 511u, (word >> 9) & 511u, (
 // Light of sky, sun and moon that other faces reflect. @param bounce a record's texel. @param at place between its corners.
 vec3 bounced_light(uvec4 bounce, uint island, vec2 at) {
   vec4 h_a = unpackSnorm4x8(bounce.z) * kMostBounceShape, h_b = unpackSnorm4x8(bounce.w) * kMostBounceShape;
-  uint first = kIndirectSkies + island * kIndirectIslandTexels + kIndirectHarmonics;
-  vec3 sum = uintBitsToFloat(indirect_texel(true, first + 3u).xyz);
+  uint first = island * kIndirectIslandTexels + kIndirectHarmonics;
+  vec3 sum = uintBitsToFloat(texelFetch(island_skies, int(first + 3u)).xyz);
   for (uint channel = 0u; channel < 3u; ++channel) {
-    uvec4 e = indirect_texel(true, first + channel);
+    uvec4 e = texelFetch(island_skies, int(first + channel));
     sum[channel] += dot(h_a, vec4(unpackHalf2x16(e.x), unpackHalf2x16(e.y))) + dot(h_b, vec4(unpackHalf2x16(e.z), unpackHalf2x16(e.w)));
   }
   vec4 shares = unpackUnorm4x8(bounce.y);
@@ -51,7 +53,7 @@ struct SkyLight {
 // Light of the sky and of weak lamps on a surface, as if it were matt. @param word of the G-buffer.
 SkyLight light_of_sky(Surface s, uint word) {
   if (kIndirect == kIndirectOff) return SkyLight(vec3(0.0), 0.0);
-  vec3 lattice = lattice_from_world(islands[surface_island(word)], s.position);
+  vec3 lattice = lattice_from_world(island_at(surface_island(word)), s.position);
   uint island = surface_island(word), face = surface_face(word);
   uvec4 grid = indirect_texel(true, island);
   bool plant = face >= 6u;
@@ -67,7 +69,7 @@ SkyLight light_of_sky(Surface s, uint word) {
   vec4 seen_b = mix(mix(unpackUnorm4x8(near.y), unpackUnorm4x8(near.w), at.x), mix(unpackUnorm4x8(far.y), unpackUnorm4x8(far.w), at.x), at.y);
   vec3 sum;
   for (uint channel = 0u; channel < 3u; ++channel) {
-    uvec4 lobes = indirect_texel(true, kIndirectSkies + island * kIndirectIslandTexels + face * kIndirectSkyTexels + channel);
+    uvec4 lobes = texelFetch(island_skies, int(island * kIndirectIslandTexels + face * kIndirectSkyTexels + channel));
     sum[channel] = dot(seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
                    dot(seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
   }

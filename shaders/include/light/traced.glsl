@@ -1,4 +1,4 @@
-// How much of a light reaches a surface past the voxels of islands. Needs before the include: `islands[]`, shared/light.h.
+// How much of a light reaches a surface past the voxels of islands. Needs before the include: `island_at()`, shared/light.h.
 #ifndef SKERRY_TRACED_GLSL
 #define SKERRY_TRACED_GLSL
 #include "include/scene/occupancy.glsl"
@@ -92,7 +92,7 @@ WayStart way_start(Surface s, uint word) {
   start.from = vec3(0.0);
   if (kLightsShadows == 0u) return start;
   VoxelGrid grid = voxel_grid(start.island);
-  vec3 p = lattice_from_world(islands[start.island], s.position) * grid.per_block;
+  vec3 p = lattice_from_world(island_at(start.island), s.position) * grid.per_block;
   uint face = min(surface_face(word), 5u);
   start.voxel = s.plant ? ivec3(floor(p + vec3(0.0, 0.001, 0.0))) : settled(grid, face_place(face, p), face).voxel;
   start.from = clamp(p, vec3(start.voxel), vec3(start.voxel) + 1.0);
@@ -107,7 +107,7 @@ bool way_is_open(WayStart start, Light light, vec3 to, vec3 light_middle) {
   bool open = true;
   for (uint i = 0u; open && i < light.island_count; ++i) {
     uint island = light_islands[light.first_island + i];
-    IslandTransform t = islands[island];
+    IslandTransform t = island_at(island);
     VoxelGrid grid = voxel_grid(island);
     bool own = island == start.island;
     vec3 from = own ? start.from : lattice_from_world(t, start.position) * grid.per_block;

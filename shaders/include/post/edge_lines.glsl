@@ -1,5 +1,5 @@
 // Lines at which surfaces end in the picture, and the shares of a pixel on their sides. Everything is relative to one pixel's centre, in pixels.
-// Needs before the include: common.glsl, `frame`, `islands`, `materials`, `block_textures`. Components are chosen, not indexed, and no arrays are
+// Needs before the include: common.glsl, `frame`, `island_at()`, `materials`, `block_textures`. Components are chosen, not indexed, and no arrays are
 // used: lavapipe keeps what is indexed in memory.
 #ifndef SKERRY_EDGE_LINES_GLSL
 #define SKERRY_EDGE_LINES_GLSL
@@ -23,7 +23,7 @@ Axis axis_of(vec3 axis, vec3 translation, vec3 ray) {
 }
 
 Sight sight_in(uint island, vec3 ray) {
-  IslandTransform t = islands[island];
+  IslandTransform t = island_at(island);
   return Sight(axis_of(t.axis_x, t.translation, ray), axis_of(t.axis_y, t.translation, ray), axis_of(t.axis_z, t.translation, ray));
 }
 

@@ -6,7 +6,7 @@
 #include "include/scene/stored.glsl"
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = kIslandsBinding) uniform Islands { IslandTransform islands[kMaxIslands]; };
+#include "include/frame/islands.glsl"
 
 layout(constant_id = kNormalCodeConstant) const uint kNormalCode = 0u;
 
@@ -20,7 +20,7 @@ layout(location = 1) out vec4 out_stored;  // the normal, or the position if nor
 void write_stored(uint word) {
   vec3 ray = pixel_ray(ivec2(gl_FragCoord.xy));
   vec4 position = vec4(ray * view_distance(gl_FragCoord.z, frame.near_plane), 1.0);
-  vec3 normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
+  vec3 normal = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
 #ifdef SKERRY_STORED_BOTH
   out_normal = texel_from_normal(normal, kNormalCode);
   out_position = position;

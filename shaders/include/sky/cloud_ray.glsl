@@ -9,8 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 #ifdef SKERRY_LIGHTS
-// No uniform buffer: lavapipe crashes on a fourth one in a program that marches (Mesa 22.3).
-layout(scalar, binding = kIslandsBinding) readonly buffer Islands { IslandTransform islands[]; };
+#include "include/frame/islands.glsl"
 #endif
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 layout(binding = kCloudWeatherBinding) uniform sampler2D cloud_weather;

@@ -1,4 +1,4 @@
-// How surfaces of water and glass face the light. Needs before the include: common.glsl, `frame`, `islands`, `materials`.
+// How surfaces of water and glass face the light. Needs before the include: common.glsl, `frame`, `island_at()`, `materials`.
 #ifndef SKERRY_RIPPLES_GLSL
 #define SKERRY_RIPPLES_GLSL
 
@@ -24,7 +24,7 @@ bool has_ripples(uint word) {
 // @param t of the surface along `ray`.
 vec3 shading_normal(uint word, vec3 ray, float t) {
   uint face = surface_face(word);
-  IslandTransform island = islands[surface_island(word)];
+  IslandTransform island = island_at(surface_island(word));
   if (!has_ripples(word)) return world_from_lattice_vector(island, face_normal(face));
   vec3 rippled = rippled_normal(lattice_from_world(island, ray * t), t * length(ray));
   return world_from_lattice_vector(island, rippled) * (face == 2u ? 1.0 : -1.0);

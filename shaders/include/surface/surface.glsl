@@ -1,5 +1,5 @@
 // What a pixel's surface is, from the G-buffer word and depth.
-// Needs before the include: `frame`, `islands[]`, `materials[]`, `block_textures` (sampler2DArray, repeat, trilinear), or SKERRY_UNTEXTURED.
+// Needs before the include: `frame`, `island_at()`, `materials[]`, and `block_textures` (sampler2DArray, repeat, trilinear) or SKERRY_UNTEXTURED.
 #ifndef SKERRY_SURFACE_GLSL
 #define SKERRY_SURFACE_GLSL
 #include "shared/bindings.h"
@@ -63,7 +63,7 @@ vec4 plane_texel(uint layer, uint face, vec2 uv, PlaneView view, uint max_taps) 
 // Texture of the surface a word names, where the ray meets it `t` blocks along the view axis.
 vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   uint face = surface_face(word);
-  IslandTransform island = islands[surface_island(word)];
+  IslandTransform island = island_at(surface_island(word));
   Material material = materials[surface_block(word)];
   uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
   vec3 normal = face >= 6u ? vec3(0.70710678, 0.0, face == 6u ? -0.70710678 : 0.70710678) : face_normal(face);
@@ -97,11 +97,11 @@ Surface surface_without_texture(uint word, ivec2 pixel, float depth, vec3 ray) {
 #ifdef SKERRY_STORED
   if (kPositionStored && word != 0u) s.position = texelFetch(stored_positions, pixel, 0).xyz;
 #endif
-  s.normal = world_from_lattice_vector(islands[surface_island(word)], face_normal(surface_face(word)));
+  IslandTransform island = island_at(surface_island(word));
+  s.normal = world_from_lattice_vector(island, face_normal(surface_face(word)));
 #ifdef SKERRY_STORED
   if (kNormalCode != kNormalExact && word != 0u) s.normal = normal_from_texel(texelFetch(stored_normals, pixel, 0), kNormalCode);
 #endif
-  IslandTransform island = islands[surface_island(word)];
   s.plant = surface_face(word) >= 6u;
   s.in_voxel = place_in_voxel(lattice_from_world(island, s.position));
   s.axis_x = island.axis_x;

@@ -95,7 +95,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
       through *= exp(-extinction(m) * (next - at));
     }
     uint block = surface_block(word), face = surface_face(word);
-    vec3 n = world_from_lattice_vector(islands[surface_island(word)], face_normal(face));
+    vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(face));
     bool entering = medium != block;
     Material m = materials[block];
     bool wavy = has_ripples(word);

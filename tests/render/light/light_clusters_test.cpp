@@ -164,7 +164,7 @@ class LightClustersOnGpu : public gpu::GpuTest {
     for (const std::vector<float>& layer : view.layers)
       images.push_back(image(view, VK_FORMAT_R32_SFLOAT, layer));
     graph_->begin();
-    gpu::Buffer islands = back(sizeof(shared::IslandTransform) * shared::kMaxIslands);  // not read
+    gpu::Buffer islands = texel_buffer("islands", sizeof(shared::IslandTransform));  // not read
     scene.islands = graph_->import(islands);
     ClusterDepths depths;
     depths.surfaces = graph_->import(images[0]);

@@ -17,6 +17,7 @@ namespace {
 constexpr const char* kVisibility =
     "#include \"shared/light.h\"\n"
     "layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };\n"
+    "IslandTransform island_at(uint island) { return islands[island]; }\n"
     "#include \"include/light/traced.glsl\"\n"
     R"(
   struct Question { vec3 position; uint word; Light light; };
@@ -52,7 +53,7 @@ shared::Light light_at(const glm::dvec3& place, std::uint32_t kind = shared::kLi
 }
 
 std::uint32_t word_of(std::uint32_t island, int face) {
-  return island << 19 | static_cast<std::uint32_t>(face) << 16;
+  return island << shared::kIslandShift | static_cast<std::uint32_t>(face) << shared::kFaceShift;
 }
 
 /// An island of the world: camera-relative = rotation * lattice + place.
@@ -316,12 +317,19 @@ TEST_F(Traced, TheVoxelALightStandsInDoesNotBlockItButOthersDo) {
 constexpr const char* kPixel =
     "#include \"shared/light.h\"\n"
     "layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };\n"
+    "IslandTransform island_at(uint island) { return islands[island]; }\n"
     "layout(scalar, binding = 3) readonly buffer Lights { Light lights[]; };\n"
     "struct Cluster { uint first; uint count; };\n"
     "uint light_index(Cluster list, uint i) { return list.first + i; }\n"
     "const bool kOracle = false;\n"
     "#include \"include/light/lights.glsl\"\n"
     "#include \"include/light/traced.glsl\"\n"
+    // No tile knows anything of its lights.
+    "const bool kShafts = false;\n"
+    "struct ShaftList { uint none; };\n"
+    "uint asked_of(ShaftList list, uint word, uint count) {\n"
+    "  return count - word * 32u < 32u ? (1u << (count - word * 32u)) - 1u : ~0u; }\n"
+    "uint open_of(ShaftList list, uint word) { return 0u; }\n"
     "#include \"include/light/blocked_lights.glsl\"\n"
     R"(
   struct Question { vec3 position; uint word; uint first; uint count; };
@@ -331,7 +339,7 @@ constexpr const char* kPixel =
     s.position = q.position;
     s.normal = face_normal(surface_face(q.word));
     s.plant = false;
-    return Answer(lights_reflected(Cluster(q.first, q.count), matt_brdf(vec3(1.0)),
+    return Answer(lights_reflected(Cluster(q.first, q.count), ShaftList(0u), matt_brdf(vec3(1.0)),
                                    way_start(s, q.word), vec3(0.0, 1.0, 0.0)));
   })";
 

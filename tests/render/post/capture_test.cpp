@@ -47,7 +47,7 @@ TEST_F(CaptureTest, DepthIsThatOfThePlaneBelow) {
   ASSERT_EQ(words.size(), depths.size());
   for (std::size_t i = 0; i < depths.size(); ++i) {
     EXPECT_NEAR(kNearPlane / depths[i], 8.0, 8.0 * 1e-6);
-    EXPECT_EQ(words[i] & 0xffffu, static_cast<std::uint32_t>(world::block::kGrass));
+    EXPECT_EQ(shared::surface_block(words[i]), static_cast<std::uint32_t>(world::block::kGrass));
   }
   EXPECT_EQ(renderer().captured(Capture::kShadowMaps).layers, 4u);
 }

@@ -30,7 +30,7 @@ class GBufferStoreOnGpu : public PassesOnGpu {
   }
   /// Normal of the word's face, exactly.
   glm::dvec3 normal_of(std::uint32_t word) const {
-    const std::uint32_t face = (word >> 16) & 7u, island = (word >> 19) & 0xfffu;
+    const std::uint32_t face = shared::surface_face(word), island = shared::surface_island(word);
     glm::dvec3 n(0.0);
     n[static_cast<int>(face / 2)] = face % 2 == 0 ? 1.0 : -1.0;
     return islands_[island].rotation * n;

@@ -18,7 +18,7 @@ void add_quad(GeometryStore& store, gpu::Uploader& uploader, glm::ivec3 low, glm
   const shared::Quad quad{at.x | at.y << 6 | at.z << 12 |
                               static_cast<std::uint32_t>(extent.x - 1) << 18 |
                               static_cast<std::uint32_t>(extent.y - 1) << 24,
-                          block | face << 16};
+                          block | face << shared::kFaceShift};
   shared::Section section{};
   section.island = island;
   section.voxel_size_log2 = voxel_size_log2;
@@ -51,7 +51,7 @@ TEST_F(GBuffer, WordsComeBackAsTheyWereSent) {
   for (std::uint32_t i = 0; i < free.size(); ++i) free[i] = i;
   for (int cell = 0; cell < kColumns * kRows; ++cell) {
     const auto pick = static_cast<std::size_t>(random.whole(0, std::ssize(free) - 1));
-    const Sent one{static_cast<std::uint32_t>(random.whole(1, 65535)),
+    const Sent one{static_cast<std::uint32_t>(random.whole(1, shared::kMaxMaterials - 1)),
                    cell == 0 ? shared::kMaxIslands - 1 : free[pick],
                    static_cast<std::uint32_t>(cell % 6)};
     std::erase(free, one.island);
@@ -76,9 +76,9 @@ TEST_F(GBuffer, WordsComeBackAsTheyWereSent) {
     const std::uint32_t word = drawn.words[y * kSize.width + x];
     const Sent& one = sent[static_cast<std::size_t>(cell)];
     EXPECT_EQ(word >> 31, 1u);
-    EXPECT_EQ(word & 0xffffu, one.block);
-    EXPECT_EQ(word >> 16 & 7u, one.face);
-    EXPECT_EQ(word >> 19 & 0xfffu, one.island);
+    EXPECT_EQ(shared::surface_block(word), one.block);
+    EXPECT_EQ(shared::surface_face(word), one.face);
+    EXPECT_EQ(shared::surface_island(word), one.island);
   }
 }
 
@@ -131,7 +131,7 @@ TEST_F(GBuffer, DistanceFromDepthIsExactFromTenCentimetresToAHundredKilometres) 
     nearest = std::max(nearest, static_cast<double>(kNearPlane));  // it is clipped there
     const Drawn drawn = this->drawn(input, kSize);
     for (std::uint32_t p = 0; p < drawn.words.size(); ++p) {
-      if ((drawn.words[p] >> 16 & 7u) != face || drawn.words[p] == 0) continue;
+      if (shared::surface_face(drawn.words[p]) != face || drawn.words[p] == 0) continue;
       const glm::dvec3 ray =
           ray_of(input.camera, p % kSize.width, p / kSize.width, kSize.width, kSize.height);
       const double exact = glm::dot(point, normal) / glm::dot(ray, normal);

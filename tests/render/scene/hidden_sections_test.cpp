@@ -49,8 +49,9 @@ class HiddenSections : public RendererOnGpu {
     const Captured got = renderer().captured(Capture::kSurfaces);
     std::vector<std::uint32_t> words(got.texels.size() / 4);
     std::memcpy(words.data(), got.texels.data(), got.texels.size());
-    return static_cast<std::size_t>(std::ranges::count_if(
-        words, [&](std::uint32_t word) { return word != 0 && (word >> 19 & 0xfffu) == island; }));
+    return static_cast<std::size_t>(std::ranges::count_if(words, [&](std::uint32_t word) {
+      return word != 0 && shared::surface_island(word) == island;
+    }));
   }
 
   std::vector<IslandPlacement> islands_{2};

@@ -27,7 +27,8 @@ std::vector<shared::Quad> random_quads(std::size_t count, shared::Section& secti
       const std::uint32_t x = below(64), y = below(64), z = below(64);
       const std::uint32_t room = 64 - std::max({x, y, z});
       const std::uint32_t u = plant ? 0 : below(room), v = plant ? 0 : below(room);
-      quads.push_back({x | y << 6 | z << 12 | u << 18 | v << 24, below(1000) | face << 16});
+      quads.push_back(
+          {x | y << 6 | z << 12 | u << 18 | v << 24, below(1000) | face << shared::kFaceShift});
     }
     section.range_end[range] = static_cast<std::uint32_t>(quads.size());
   }
@@ -85,7 +86,7 @@ TEST(SectionParts, ASmallMeshStaysWhole) {
 
 // A plant stands from corner to corner of its voxel.
 TEST(SectionParts, ABoxHoldsPlants) {
-  const shared::Quad plant{3u | 9u << 6 | 20u << 12, 6u << 16};
+  const shared::Quad plant{3u | 9u << 6 | 20u << 12, 6u << shared::kFaceShift};
   const VoxelBox box = box_of(std::span(&plant, 1));
   EXPECT_EQ(box.low, 3u | 9u << 7 | 20u << 14);
   EXPECT_EQ(box.high, 4u | 10u << 7 | 21u << 14);

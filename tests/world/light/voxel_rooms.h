@@ -49,8 +49,9 @@ inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {}) {
         block::kStone;
     for (int face = 0; face < 6; ++face)
       if (!stone.contains(beside(v, face)))
-        b.chunk.quads.push_back({static_cast<std::uint32_t>(x | y << 6 | z << 12),
-                                 static_cast<std::uint32_t>(block::kStone | face << 16)});
+        b.chunk.quads.push_back(
+            {static_cast<std::uint32_t>(x | y << 6 | z << 12),
+             static_cast<std::uint32_t>(block::kStone | face << shared::kFaceShift)});
   }
   for (const IVec3& v : lamps.voxels) {
     const IVec3 at = chunk_holding(v);

@@ -18,7 +18,7 @@ constexpr std::uint64_t kUploadBudget = 256u << 20;
 std::array<shared::Quad, 6> six_faces() {
   std::array<shared::Quad, 6> quads{};
   for (std::uint32_t face = 0; face < 6; ++face)
-    quads[face] = {face | face << 6 | face << 12, 1u | face << 16};
+    quads[face] = {face | face << 6 | face << 12, 1u | face << shared::kFaceShift};
   return quads;
 }
 

@@ -266,14 +266,18 @@ bool is_ground_known(game::WorldSurroundings& around, world::WorldPos place, dou
   return true;
 }
 
-/// A world that someone can play in.
+/// When there was what to be seen of a world, by the watch.
 struct Started {
-  double first_ms = 0.0;  // of the first picture, by the watch
-  int frames = 0;
+  double first_ms = 0.0;     // the first picture
+  double playable_ms = 0.0;  // ground to stand on
+  double coarse_ms = 0.0;    // something of every island
+  double complete_ms = 0.0;  // everything
+  int frames = 0;            // until it was playable
+  std::size_t islands = 0;
 };
 
-/// Draws until there is ground to stand on. Errors: nothing can be seen; no memory.
-Result<Started> wait_until_playable(gpu::Device& device, game::SceneView& view,
+/// Draws until everything is there. Errors: nothing can be seen; no memory.
+Result<Started> wait_until_complete(gpu::Device& device, game::SceneView& view,
                                     const BenchFlyOptions& options, const Stopwatch& watch) {
   game::WorldSurroundings around(view.world());
   const game::SceneView::Moment moment{view.start_camera(),
@@ -282,8 +286,8 @@ Result<Started> wait_until_playable(gpu::Device& device, game::SceneView& view,
   const world::WorldPos eye = place_of(moment.camera.position);
   const VkExtent2D size{options.scene.size.width, options.scene.size.height};
   Started out;
-  bool known = false, playable = false;
-  while (!playable) {
+  bool known = false;
+  while (out.playable_ms == 0.0 || out.coarse_ms == 0.0 || out.complete_ms == 0.0) {
     if (watch.seconds() > kLongestStart)
       return Error{fmt::format(
           "nothing can be seen after {:.0f} s: choose a --camera with an island in view",
@@ -295,10 +299,22 @@ Result<Started> wait_until_playable(gpu::Device& device, game::SceneView& view,
       return done.error();
     const Result<std::uint64_t> value = view.draw(moment, size);
     if (!value) return value.error();
-    playable = was_known && view.renderer().geometry().sections_resident() != 0 &&
-               view.renderer().mesh_uploader().pending_bytes() == 0;
-    if (playable || out.frames == 0) device.wait(*value);
-    if (out.frames++ == 0) out.first_ms = watch.milliseconds();
+    const bool handed_over = view.renderer().mesh_uploader().pending_bytes() == 0;
+    const world::Streamer::Stats stats = view.streamer().stats();
+    const bool playable =
+        was_known && handed_over && view.renderer().geometry().sections_resident() != 0;
+    const bool first = out.first_ms == 0.0, now_playable = out.playable_ms == 0.0 && playable,
+               now_coarse =
+                   out.coarse_ms == 0.0 && handed_over && stats.islands != 0 && stats.unshown == 0,
+               now_complete = out.complete_ms == 0.0 && playable && view.complete();
+    if (out.playable_ms == 0.0) ++out.frames;
+    if (!first && !now_playable && !now_coarse && !now_complete) continue;
+    device.wait(*value);
+    if (first) out.first_ms = watch.milliseconds();
+    if (now_playable) out.playable_ms = watch.milliseconds();
+    if (now_coarse) out.coarse_ms = watch.milliseconds();
+    if (now_complete) out.complete_ms = watch.milliseconds();
+    out.islands = stats.islands;
   }
   return out;
 }
@@ -348,26 +364,29 @@ int bench_start(const BenchFlyOptions& options) {
   if (!view) return fail(kFailed, view.error());
   const double view_ms = watch.milliseconds();
 
-  const Result<Started> started = wait_until_playable(**device, **view, options, watch);
+  const Result<Started> started = wait_until_complete(**device, **view, options, watch);
   if (!started) return fail(kFailed, started.error());
-  const double playable_ms = watch.milliseconds(), first_ms = started->first_ms;
-  const int frames = started->frames;
   const game::PictureSize size = options.scene.size;
   (*view)->renderer().finish();
   fmt::print(
-      "{} | {}x{} | playable after {:.0f} ms, {} frames | device {:.0f} ms, world {:.0f}, "
-      "renderer {:.0f}, first picture {:.0f} | {}\n",
-      name_of(options.scene), size.width, size.height, playable_ms, frames, device_ms,
-      open_ms - device_ms, view_ms - open_ms, first_ms - view_ms, (*device)->info().name);
+      "{} | {}x{} | playable after {:.0f} ms, {} frames | {} islands: all coarse after {:.0f} ms, "
+      "complete after {:.0f} | device {:.0f} ms, world {:.0f}, renderer {:.0f}, first picture "
+      "{:.0f} | {}\n",
+      name_of(options.scene), size.width, size.height, started->playable_ms, started->frames,
+      started->islands, started->coarse_ms, started->complete_ms, device_ms, open_ms - device_ms,
+      view_ms - open_ms, started->first_ms - view_ms, (*device)->info().name);
   const nlohmann::ordered_json row{{"name", name_of(options.scene)},
                                    {"device", (*device)->info().name},
                                    {"size", {size.width, size.height}},
                                    {"device_ms", device_ms},
                                    {"open_ms", open_ms},
                                    {"view_ms", view_ms},
-                                   {"first_picture_ms", first_ms},
-                                   {"playable_ms", playable_ms},
-                                   {"frames", frames}};
+                                   {"first_picture_ms", started->first_ms},
+                                   {"playable_ms", started->playable_ms},
+                                   {"frames", started->frames},
+                                   {"islands", started->islands},
+                                   {"coarse_ms", started->coarse_ms},
+                                   {"complete_ms", started->complete_ms}};
   if (Result<void> written = write_rows(options.json, nlohmann::ordered_json::array({row}));
       !written)
     return fail(kFailed, written.error());

@@ -24,8 +24,10 @@ struct BenchFlyOptions {
 int bench_fly(const BenchFlyOptions& options);
 
 /// Opens a world as play does, and times from now until the first picture whose chunk under the
-/// player, and those next to it, are meshed and there to stand on. Prints and writes as JSON: name,
-/// size, device_ms, open_ms, view_ms, first_picture_ms, playable_ms. @return exit status.
+/// player, and those next to it, are meshed and there to stand on, until something of every island
+/// within view distance is shown, and until everything is. Prints and writes as JSON: name, size,
+/// device_ms, open_ms, view_ms, first_picture_ms, playable_ms, frames, islands, coarse_ms,
+/// complete_ms. @return exit status.
 int bench_start(const BenchFlyOptions& options);
 
 }  // namespace skerry::tools

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "engine/core/jobs.h"
 #include "tools/skerry/bench/bench_report.h"
 #include "tools/skerry/scene/scene_device.h"
+#include "world/generate/far_island.h"
 #include "world/generate/generate.h"
 #include "world/islands/world.h"
 #include "world/mesh/mesh.h"
@@ -21,15 +23,23 @@ using namespace world;
 
 constexpr std::uint64_t kSeed = 1;
 constexpr double kRadiusBlocks = 600.0;
+constexpr std::size_t kFarRounds = 64;  // of islands that take microseconds
 
 struct Place {
   std::size_t island;
   IVec3 chunk;
 };
 
+/// What a thread meshes with.
+struct Meshing {
+  std::vector<BlockId> voxels = std::vector<BlockId>(kPaddedVoxels);
+  MeshScratch scratch;
+  ChunkMesh mesh;
+};
+
 struct Measured {
   std::size_t islands = 0, chunks = 0;
-  double plan_s = 0.0, chunk_s = 0.0;
+  double plan_s = 0.0, chunk_s = 0.0, mesh_s = 0.0, far_s = 0.0;
   std::size_t stored_bytes = 0;
 };
 
@@ -67,6 +77,22 @@ Measured measure(int threads) {
         generators[places[i].island]->generate_padded(places[i].chunk, 0, voxels);
       });
   measured.chunk_s = watch.seconds();
+  watch.restart();
+  on_all_threads(
+      jobs, places.size(), [] { return std::make_unique<Meshing>(); },
+      [&](std::size_t i, std::unique_ptr<Meshing>& of) {
+        generators[places[i].island]->generate_padded(places[i].chunk, 0, of->voxels);
+        mesh_chunk(of->voxels, of->scratch, of->mesh);
+      });
+  measured.mesh_s = watch.seconds() - measured.chunk_s;
+  watch.restart();
+  on_all_threads(
+      jobs, specs.size() * kFarRounds, [] { return ChunkMesh{}; },
+      [&](std::size_t i, ChunkMesh& mesh) {
+        const IslandSpec& spec = specs[i % specs.size()];
+        far_island(spec, far_voxel_log2(spec, kLevelCount), mesh);
+      });
+  measured.far_s = watch.seconds() / kFarRounds;
   std::vector<BlockId> voxels(kPaddedVoxels);
   for (const Place& place : places) {
     generators[place.island]->generate_padded(place.chunk, 0, voxels);
@@ -78,8 +104,9 @@ Measured measure(int threads) {
 }  // namespace
 
 int bench_generate(const BenchGenerateOptions& options) {
-  fmt::print("{:>7} {:>8} {:>7} {:>8} {:>8} {:>9} {:>14} {:>14}\n", "threads", "islands", "chunks",
-             "plan s", "chunk s", "chunks/s", "blocks/s", "bytes a chunk");
+  fmt::print("{:>7} {:>8} {:>7} {:>8} {:>8} {:>9} {:>14} {:>14} {:>9} {:>9}\n", "threads",
+             "islands", "chunks", "plan s", "chunk s", "chunks/s", "blocks/s", "bytes a chunk",
+             "near ms", "far ms");
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   std::vector<int> thread_counts{1};
   if (const int all = Jobs().threads(); all > 1) thread_counts.push_back(all);
@@ -88,9 +115,13 @@ int bench_generate(const BenchGenerateOptions& options) {
     const double chunks = static_cast<double>(m.chunks);
     const double chunks_per_s = chunks / (m.plan_s + m.chunk_s);
     const double blocks_per_s = chunks_per_s * static_cast<double>(kChunkVoxels);
+    const double islands = static_cast<double>(m.islands) / 1000.0;
+    const double near_ms = (m.plan_s + m.chunk_s + m.mesh_s) / islands, far_ms = m.far_s / islands;
     const double bytes = static_cast<double>(m.stored_bytes) / chunks;
-    fmt::print("{:>7} {:>8} {:>7} {:>8.3f} {:>8.3f} {:>9.0f} {:>14.0f} {:>14.0f}\n", threads,
-               m.islands, m.chunks, m.plan_s, m.chunk_s, chunks_per_s, blocks_per_s, bytes);
+    fmt::print(
+        "{:>7} {:>8} {:>7} {:>8.3f} {:>8.3f} {:>9.0f} {:>14.0f} {:>14.0f} {:>9.3f} {:>9.3f}\n",
+        threads, m.islands, m.chunks, m.plan_s, m.chunk_s, chunks_per_s, blocks_per_s, bytes,
+        near_ms, far_ms);
     rows.push_back({{"threads", threads},
                     {"islands", m.islands},
                     {"chunks", m.chunks},
@@ -98,7 +129,9 @@ int bench_generate(const BenchGenerateOptions& options) {
                     {"chunk_s", m.chunk_s},
                     {"chunks_per_s", chunks_per_s},
                     {"blocks_per_s", blocks_per_s},
-                    {"bytes_per_chunk", bytes}});
+                    {"bytes_per_chunk", bytes},
+                    {"near_ms_per_island", near_ms},
+                    {"far_ms_per_island", far_ms}});
   }
   if (Result<void> written = write_rows(options.json, rows); !written) {
     return fail(kFailed, written.error());

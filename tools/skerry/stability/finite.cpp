@@ -216,7 +216,8 @@ Result<Rows> materials(gpu::Device& device) {
     compare(
         *clean, *lamp,
         [&](auto x, auto y) {
-          return (clean->words[std::size_t{y} * kFiniteSize.width + x] & 0xffffu) == kLamp;
+          return shared::surface_block(clean->words[std::size_t{y} * kFiniteSize.width + x]) ==
+                 kLamp;
         },
         emission);
 

@@ -30,7 +30,7 @@ world::BlockId projected_ground(int, int y, int) {
 }
 
 std::uint32_t block_of(std::uint32_t word) {
-  return word & 0xffffu;
+  return shared::surface_block(word);
 }
 
 FrameInput input_of(const Camera& camera, std::span<const IslandPlacement> islands) {
@@ -70,7 +70,8 @@ void compare_ground(const Frame& frame, const Camera& camera, DepthError& error)
   for (std::uint32_t y = 0; y < frame.size.height; ++y) {
     for (std::uint32_t x = 0; x < frame.size.width; ++x) {
       const std::size_t i = std::size_t{y} * frame.size.width + x;
-      if (block_of(frame.words[i]) != kGrass || (frame.words[i] >> 16 & 7u) != 2u) continue;
+      if (block_of(frame.words[i]) != kGrass || shared::surface_face(frame.words[i]) != 2u)
+        continue;
       const double exact = depth_at(x, y), off = std::abs(frame.depth[i] - exact);
       error.over_allowed = std::max(error.over_allowed, off / allowed);
       ++error.pixels;
@@ -168,7 +169,7 @@ Result<Rows> near_and_far(gpu::Device& device) {
   std::array<double, kDistances.size()> seen{};
   for (std::size_t i = 0; i < frame->words.size(); ++i) {
     if (frame->words[i] == 0) continue;
-    const std::size_t wall = frame->words[i] >> 19 & 0xfffu;
+    const std::size_t wall = shared::surface_island(frame->words[i]);
     // Places are whole units: the wall is where rounding put it.
     const double exact = static_cast<double>(islands[wall].origin[2]) / 65536.0;
     relative =
