@@ -26,6 +26,7 @@ layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 #include "include/light/clustered.glsl"
 #include "include/light/corners.glsl"
 #include "include/light/traced.glsl"
+#define SKERRY_SHAFTS
 #include "include/light/shafts.glsl"
 #include "include/light/blocked_lights.glsl"
 

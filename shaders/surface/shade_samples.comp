@@ -75,7 +75,7 @@ mat2x3 light_sent(Surface s, uint word, uvec2 pixel, float z, bool here) {
   if (kLit) {
     Cluster list = lights_at(pixel, z);
     if (!here) list.count = 0u;
-    sent += lights_reflected(list, shafts_at(pixel, z), b, way_start(s, word), to_eye);
+    sent += lights_reflected(list, kNoShafts, b, way_start(s, word), to_eye);
   }
   return sent * s.ao;
 }

@@ -71,9 +71,10 @@ struct ClusteredLights {
                       gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
   }
   /// Of a pass that includes shaders/include/light/blocked_lights.glsl, beside bindings().
-  auto blocked_bindings() const {
-    return std::tuple{gpu::storage<shared::kLightReachBinding>(reaches),
-                      gpu::storage<shared::kTileShaftsBinding>(shafts ? shafts : reaches)};
+  auto reach_binding() const { return gpu::storage<shared::kLightReachBinding>(reaches); }
+  /// Of one that includes shafts.glsl with SKERRY_SHAFTS besides.
+  auto shaft_binding() const {
+    return gpu::storage<shared::kTileShaftsBinding>(shafts ? shafts : reaches);
   }
 };
 

@@ -183,7 +183,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::texels<shared::kIslandSkiesBinding>(scene.island_skies),
             clouds.light_bindings(),
             lights.bindings(),
-            lights.blocked_bindings(),
+            lights.reach_binding(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
             pass.into.bindings(scene),

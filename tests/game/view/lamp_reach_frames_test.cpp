@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/transfer/readback.h"
@@ -23,6 +24,8 @@ class LampReachFrames : public gpu::GpuTest {
     bool oracle = false;
     std::uint32_t shadows = render::kEveryLight;
     std::uint32_t tile = 16;
+    std::optional<render::FixedPos> eye{};  ///< none: where the seed starts
+    std::uint32_t random = 0;                    ///< lamps about it, of all kinds
   };
   Drawn draw(const char* seed, const Asked& asked, double turn_deg) {
     SceneOptions options;
@@ -35,11 +38,14 @@ class LampReachFrames : public gpu::GpuTest {
     options.settings.render.lights_tile = asked.tile;
     options.settings.render.lights_oracle = asked.oracle;
     options.settings.exposure_ev = 3.0;
+    options.settings.lights_random = asked.random;
     Result<std::unique_ptr<SceneView>> made = SceneView::create(device(), options);
     EXPECT_TRUE(made) << made.error().message;
     SceneView& view = **made;
     SceneView::Moment moment;
     moment.camera = view.start_camera();
+    if (asked.eye)
+      moment.camera.position = *asked.eye;
     moment.camera.yaw_deg += turn_deg;
     moment.time_of_day_s = 0.0;
     EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s));
@@ -61,6 +67,19 @@ TEST_F(LampReachFrames, EveryPixelIsThatOfAllLampsAsked) {
     }
   }
   EXPECT_GT(lights, 20u) << "there must be lamps to ask";
+}
+
+// Tiles find lamps that they need not ask, and such as nothing stands before (cull_shafts.comp).
+TEST_F(LampReachFrames, ACaveOfLampsOfAllKindsIsThatOfAllLampsAsked) {
+  const auto fixed = [](double blocks) { return static_cast<std::int64_t>(blocks * 65536.0); };
+  Asked asked{.eye = {{fixed(181.29), fixed(30.64), fixed(14.98)}}, .random = 60};
+  Asked all = asked;
+  all.oracle = true;
+  for (const double turn : {15.0, 120.0, 250.0}) {
+    const Drawn clusters = draw("4", asked, turn), oracle = draw("4", all, turn);
+    EXPECT_TRUE(clusters.picture == oracle.picture) << turn;
+    EXPECT_GT(clusters.lights, 60u);
+  }
 }
 
 // Lamps behind walls would dim those before them in the tiles that list them, and not in others.

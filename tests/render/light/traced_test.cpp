@@ -324,12 +324,7 @@ constexpr const char* kPixel =
     "const bool kOracle = false;\n"
     "#include \"include/light/lights.glsl\"\n"
     "#include \"include/light/traced.glsl\"\n"
-    // No tile knows anything of its lights.
-    "const bool kShafts = false;\n"
-    "struct ShaftList { uint none; };\n"
-    "uint asked_of(ShaftList list, uint word, uint count) {\n"
-    "  return count - word * 32u < 32u ? (1u << (count - word * 32u)) - 1u : ~0u; }\n"
-    "uint open_of(ShaftList list, uint word) { return 0u; }\n"
+    "#include \"include/light/shafts.glsl\"\n"
     "#include \"include/light/blocked_lights.glsl\"\n"
     R"(
   struct Question { vec3 position; uint word; uint first; uint count; };
@@ -339,7 +334,7 @@ constexpr const char* kPixel =
     s.position = q.position;
     s.normal = face_normal(surface_face(q.word));
     s.plant = false;
-    return Answer(lights_reflected(Cluster(q.first, q.count), ShaftList(0u), matt_brdf(vec3(1.0)),
+    return Answer(lights_reflected(Cluster(q.first, q.count), kNoShafts, matt_brdf(vec3(1.0)),
                                    way_start(s, q.word), vec3(0.0, 1.0, 0.0)));
   })";
 
