@@ -18,7 +18,7 @@ using Place = std::array<int, 3>;
 constexpr std::uint64_t kTexelBytes = sizeof(glm::uvec4);
 constexpr std::uint32_t kChunkTexels = 2 * shared::kIndirectBrickTexels + 900;
 // The store takes half of a budget.
-constexpr std::uint64_t kStoreTexels = 2 * shared::kIndirectFirst;
+constexpr std::uint64_t kStoreTexels = shared::kIndirectFirst + 23'552;
 constexpr std::uint64_t kBudget = 2 * kStoreTexels * kTexelBytes;
 
 /// Two bricks with masks and records of random bits; each mask names a record of the chunk.
