@@ -64,6 +64,7 @@ SHARED_CONST uint kPlaneConstant = 59u;        // bool: tiles that show one plan
 SHARED_CONST uint kTwoPhasesConstant = 60u;    // bool: what the last frame showed is drawn first
 SHARED_CONST uint kPanoramaConstant = 61u;     // bool: the sky's table is a panorama
 SHARED_CONST uint kTailConstant = 62u;         // bool: what lies behind the layers is summed up
+SHARED_CONST uint kMirrorWorldConstant = 63u;  // bool: water and glass mirror voxels
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;
