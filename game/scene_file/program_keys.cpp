@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 3> kSyncNames{"off", "on", "adaptive"};
 constexpr std::array<std::string_view, 3> kUploadNames{"update", "staging", "mapped"};
 constexpr std::array<std::string_view, 3> kRendererNames{"deferred", "auto", "reference"};
 constexpr std::array<std::string_view, 2> kFilterNames{"pixel", "centre"};
+constexpr std::array<std::string_view, 2> kMirrorNames{"sky", "world"};
 constexpr std::array<std::string_view, 4> kRateNames{"1", "2", "3", "4"};
 constexpr std::array<std::string_view, 4> kTileNames{"8", "16", "32", "64"};
 
@@ -217,6 +218,12 @@ constexpr SettingKey kProgramKeys[] = {
        return into(parse_integer(t, "water.layers", 1, 4), s.render.water_layers);
      },
      [](const Settings& s) { return std::to_string(s.render.water_layers); }},
+    {"water.mirror", "sky or world",
+     "What water and glass mirror: the sky as far as they see it, or the world about them as well.",
+     [](std::string_view t, Settings& s) {
+       return into_name(parse_name(t, "water.mirror", kMirrorNames), s.render.water_mirror);
+     },
+     [](const Settings& s) { return name_of(kMirrorNames, s.render.water_mirror); }},
     {"reference.samples", "1 to 65536", "Samples a pixel of renderer=reference.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "reference.samples", 1, 65536), s.reference_samples);

@@ -553,21 +553,33 @@ void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
   gather_ms_ = watch.milliseconds();
 }
 
-world::BlockId SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
-  for (const IslandEntry& entry : islands_) {
+/// The translucent block that the camera is in, and where above it that medium ends in one that
+/// light passes.
+SceneView::Medium SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
+  for (std::size_t i = 0; i < islands_.size(); ++i) {
+    const IslandEntry& entry = islands_[i];
     if (entry.sections == 0 || entry.far) continue;
     const world::Pose pose = pose_of(entry, world_time_s);
     const glm::dvec3 offset = world::difference_blocks(place(camera.position), pose.origin);
     if (glm::dot(offset, offset) > entry.spec.bounding_radius * entry.spec.bounding_radius)
       continue;
     const glm::dvec3 lattice = glm::inverse(pose.rotation) * offset;
-    const world::IVec3 voxel{static_cast<std::int32_t>(std::floor(lattice.x)),
-                             static_cast<std::int32_t>(std::floor(lattice.y)),
-                             static_cast<std::int32_t>(std::floor(lattice.z))};
+    world::IVec3 voxel{static_cast<std::int32_t>(std::floor(lattice.x)),
+                       static_cast<std::int32_t>(std::floor(lattice.y)),
+                       static_cast<std::int32_t>(std::floor(lattice.z))};
     const std::optional<world::BlockId> block = world_->block_at(entry.spec.id, voxel);
-    if (block && world::block_kind(*block) == world::BlockKind::kTranslucent) return *block;
+    if (!block || world::block_kind(*block) != world::BlockKind::kTranslucent) continue;
+    constexpr int kDeepest = 64;  // blocks
+    for (int depth = 0; depth < kDeepest; ++depth) {
+      const glm::ivec3 below(voxel.x, voxel.y++, voxel.z);
+      const world::BlockId above = world_->block_at(entry.spec.id, voxel).value_or(world::kAir);
+      if (above == *block) continue;
+      if (world::block_kind(above) == world::BlockKind::kOpaque) break;
+      return {*block, render::MediumSurface{static_cast<std::uint32_t>(i), below}};
+    }
+    return {*block, {}};
   }
-  return world::kAir;
+  return {};
 }
 
 double SceneView::reach(const render::FixedPos& camera,
@@ -609,7 +621,9 @@ Result<std::uint64_t> SceneView::draw(
   input.islands = islands;
   input.reach_blocks = reach(moment.camera.position, islands);
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
-  input.camera_medium = medium_at(moment.camera, moment.world_time_s);
+  const Medium medium = medium_at(moment.camera, moment.world_time_s);
+  input.camera_medium = medium.block;
+  input.medium_surface = medium.surface;
   gather_lights(moment, size, islands, lights_count_in_the_open(input.camera_medium));
   input.lights = lights_.lights;
   input.light_islands = lights_.islands;

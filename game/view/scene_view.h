@@ -132,7 +132,11 @@ class SceneView {
                      std::span<const render::IslandPlacement> islands, bool in_the_open);
   bool lights_count_in_the_open(std::uint32_t medium) const;
   /// Id of the translucent block the camera is in, or air.
-  world::BlockId medium_at(const render::Camera& camera, double world_time_s) const;
+  struct Medium {
+    world::BlockId block = world::kAir;
+    std::optional<render::MediumSurface> surface;
+  };
+  Medium medium_at(const render::Camera& camera, double world_time_s) const;
   std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
   double reach(const render::FixedPos& camera,
                std::span<const render::IslandPlacement> islands) const;

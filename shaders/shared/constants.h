@@ -65,6 +65,7 @@ SHARED_CONST uint kTwoPhasesConstant = 60u;    // bool: what the last frame show
 SHARED_CONST uint kPanoramaConstant = 61u;     // bool: the sky's table is a panorama
 SHARED_CONST uint kTailConstant = 62u;         // bool: what lies behind the layers is summed up
 SHARED_CONST uint kShaftsConstant = 63u;       // bool: tiles know of the ways to their lights
+SHARED_CONST uint kMirrorWorldConstant = 64u;  // bool: water and glass mirror voxels
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

@@ -49,21 +49,24 @@ struct FrameConstants {
   uvec2 size;            // of the images that are drawn [pixels]
   uvec4 layers_area;  // from xy to before zw: pixels outside show no water or glass, and its layers
                       // have any value there
-  uvec4 radiance_area;   // from xy to before zw: pixels whose radiance goes to an image before it
-                         // becomes the picture; the others go to the picture at once
-  uvec2 picture_size;    // smaller by the samples along a pixel's edge [pixels]
-  float near_plane;      // blocks
-  float display_peak;    // brightest value of the picture, sRGB-encoded, 0..1
-  float display_black;   // darkest value that the display shows apart from 0, sRGB-encoded
-  float time_s;          // seconds of play, reduced to one hour, for water ripples
-  uint shading_flat;     // 1: shadow result times light colour, no N.L
-  uint camera_medium;    // block id the camera is in: 0 air, else a translucent block
-  float shadow_blur;     // largest radius of the shadow filter [blocks]
-  float sky_horizon;     // elevation of the true horizon [rad], not positive
-  float sky_yaw;         // azimuth of a panorama's middle [rad]
-  float haze_per_block;  // extinction of clear air [1/block]
-  float body_in_air;     // where the sky lights the air: how much of it sun or moon lights first
-  float ao_strength;     // share of light that a closed corner takes, 0..1
+  uvec4 radiance_area;  // from xy to before zw: pixels whose radiance goes to an image before it
+                        // becomes the picture; the others go to the picture at once
+  uvec2 picture_size;   // smaller by the samples along a pixel's edge [pixels]
+  float near_plane;     // blocks
+  float display_peak;   // brightest value of the picture, sRGB-encoded, 0..1
+  float display_black;  // darkest value that the display shows apart from 0, sRGB-encoded
+  float time_s;         // seconds of play, reduced to one hour, for water ripples
+  uint shading_flat;    // 1: shadow result times light colour, no N.L
+  uint camera_medium;   // block id the camera is in: 0 air, else a translucent block
+  uint medium_surface;  // word of the face above the camera through which light enters that
+                        // medium, as the G-buffer has words; 0: none is known
+  vec3 medium_surface_place;  // its middle
+  float shadow_blur;          // largest radius of the shadow filter [blocks]
+  float sky_horizon;          // elevation of the true horizon [rad], not positive
+  float sky_yaw;              // azimuth of a panorama's middle [rad]
+  float haze_per_block;       // extinction of clear air [1/block]
+  float body_in_air;  // where the sky lights the air: how much of it sun or moon lights first
+  float ao_strength;  // share of light that a closed corner takes, 0..1
   Body bodies[kBodyCount];
   Cascade cascades[8];
 };

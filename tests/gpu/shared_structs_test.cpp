@@ -91,6 +91,7 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(FrameConstants, near_plane), MEMBER(FrameConstants, display_peak),
              MEMBER(FrameConstants, display_black), MEMBER(FrameConstants, time_s),
              MEMBER(FrameConstants, shading_flat), MEMBER(FrameConstants, camera_medium),
+             MEMBER(FrameConstants, medium_surface), MEMBER(FrameConstants, medium_surface_place),
              MEMBER(FrameConstants, shadow_blur), MEMBER(FrameConstants, sky_horizon),
              MEMBER(FrameConstants, sky_yaw), MEMBER(FrameConstants, haze_per_block),
              MEMBER(FrameConstants, body_in_air), MEMBER(FrameConstants, ao_strength),

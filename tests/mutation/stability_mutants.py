@@ -47,8 +47,9 @@ MUTANTS = (
     Mutant("walls_stop_no_light", "walls stop no light", "shaders/include/light/traced.glsl",
            "return float(open) / float(samples);", "return 1.0;", "rays"),
     Mutant("way_skips_its_end", "what stands just before a light stops nothing", "shaders/include/scene/march.glsl",
-           "if (opaque && voxel != spared) return true;",
-           "if (opaque && voxel != spared && distance(vec3(voxel) + 0.5, to) > 2.0) return true;", "rays"),
+           "if (opaque && voxel != spared) return Marched(true, m.share, m.face);",
+           "if (opaque && voxel != spared && distance(vec3(voxel) + 0.5, to) > 2.0) return Marched(true, m.share, m.face);",
+           "rays"),
     Mutant("columns_of_no_number", "every 32nd column is no number", "shaders/include/post/output.glsl",
            "imageStore(radiance, ivec2(pixel), vec4(what.radiance, 1.0));",
            "imageStore(radiance, ivec2(pixel), vec4(pixel.x % 32u == 7u ? vec3(uintBitsToFloat(0x7fc00000u))"

@@ -408,6 +408,24 @@ TEST(ReferenceLight, WaterTakesFresnelsAndBeersShare) {
   }
 }
 
+TEST(ReferenceLight, WaterMirrorsWhatARayMeets) {
+  // A wall of water, without ripples, and opposite to it one of lamps that begins at z = 8.
+  const Island walls{world::Volume::from_voxels({-7, -9, -30}, {3, 9, 30}, [](world::IVec3 v) {
+    if (v.x >= 0) return world::BlockId{world::block::kWater};
+    return world::BlockId{v.x == -7 && v.z >= 8 ? world::block::kLamp : world::block::kAirBlock};
+  })};
+  const double emission = world::block_types()[world::block::kLamp].emission;
+  for (const double slant : {0.5, 1.0, 2.0}) {
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(1.0, 0.0, slant));
+    const Scene scene = seen_from({-3.0, 0.5, 0.5}, forward, {walls}, 1, 1e-6);
+    const double r0 = std::pow(0.333 / 2.333, 2.0);
+    const double reflected = r0 + (1.0 - r0) * std::pow(1.0 - forward.x, 5.0);
+    const double met_at = 0.5 + slant * 9.0;  // z
+    const double expected = met_at >= 8.0 ? emission * reflected : 0.0;
+    EXPECT_NEAR(render(scene, samples(1)).radiance.pixels[0].x, expected, 1e-5) << slant;
+  }
+}
+
 TEST(ReferenceLight, CornersDarkenAFaceByTheirStrength) {
   // A step: the floor's edge at x = 0 lies under a wall that fills x < 0.
   const Island step{world::Volume::from_voxels({-9, -2, -9}, {9, 3, 9}, [](world::IVec3 v) {

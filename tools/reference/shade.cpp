@@ -166,13 +166,13 @@ double Shader::ao(const Meeting& hit) const {
   return 1.0 - scene_.ao_strength * (1.0 - corner_ao({inside[u], inside[v]}, stands));
 }
 
-glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,
-                           Sampler& sampler) const {
+glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 origin, glm::dvec3 direction,
+                           glm::dvec3 fine, Sampler& sampler) const {
   const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
   const bool plant = axis_of_face(hit.face) == 3;
-  Receiver at{direction * hit.t, normal, plant ? &hit : nullptr};
+  Receiver at{origin + direction * hit.t, normal, plant ? &hit : nullptr};
   if (!plant) at.point += normal * kOffSurface;
-  const glm::dvec3 place = on_plane(hit, tracer_.lattice_point(hit.island, glm::dvec3(0.0)),
+  const glm::dvec3 place = on_plane(hit, tracer_.lattice_point(hit.island, origin),
                                     tracer_.lattice_vector(hit.island, fine));
   const glm::dvec3 albedo =
       scene_.albedo.value_or(BlockTexels::shared().texel(hit.block, hit.face, place));
@@ -194,14 +194,14 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 
          world::emitted_radiance(type, albedo);
 }
 
-glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,
-                               Sampler& sampler) const {
+glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 origin, glm::dvec3 direction,
+                               double distance, Sampler& sampler) const {
   const double extinction = scene_.haze_per_block;
   if (extinction == 0.0 || (scene_.bodies.empty() && !scene_.sky_lights)) return radiance;
   const double clear = std::exp(-extinction * distance), lost = -std::expm1(-extinction * distance);
   // One place on the way, as likely as the air there is the last to scatter what the eye sees.
   const double at = -std::log1p(-sampler.next().x * lost) / extinction;
-  const glm::dvec3 place = direction * std::min(at, distance);
+  const glm::dvec3 place = origin + direction * std::min(at, distance);
   double lit = 0.0;
   if (!scene_.bodies.empty()) {
     const Body& body = scene_.bodies.front();
@@ -362,8 +362,8 @@ Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
                   Sampler& sampler) const {
   Seen seen;
   if (trace.hit) {
-    seen.radiance = through_air(surface(*trace.hit, direction, fine, sampler), direction,
-                                trace.hit->t, sampler);
+    seen.radiance = through_air(surface(*trace.hit, kEye, direction, fine, sampler), kEye,
+                                direction, trace.hit->t, sampler);
   } else {
     seen.radiance = behind_voxels(direction);
     seen.open = glm::dvec3(1.0);
@@ -388,7 +388,6 @@ Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
 struct Shader::Reach {
   glm::dvec3 light{0.0};     // irradiance
   glm::dvec3 mirrored{0.0};  // towards the eye
-  bool any = false;          // whether sun or moon is seen: the sky is then taken to be, too
 };
 
 /// A ray's way through media so far.
@@ -418,6 +417,10 @@ glm::dvec3 scattering_of(glm::dvec3 absorption) {
   return glm::dvec3(kShare * (absorption.x + absorption.y + absorption.z) / 3.0);
 }
 
+bool is_wavy(const Meeting& layer) {
+  return layer.block == world::block::kWater && axis_of_face(layer.face) == 1;
+}
+
 glm::dvec3 exp3(glm::dvec3 v) {
   return {std::exp(v.x), std::exp(v.y), std::exp(v.z)};
 }
@@ -444,7 +447,6 @@ Shader::Reach Shader::reach(const Receiver& at, glm::dvec3 shading_normal, glm::
     reach.mirrored += light.irradiance *
                       (mirror_lobe(shading_normal, light.to_light, to_eye, roughness, kWaterIndex) *
                        std::max(0.0, glm::dot(shading_normal, light.to_light)));
-    reach.any = reach.any || light.body;
   });
   return reach;
 }
@@ -471,31 +473,54 @@ glm::dvec3 Shader::rippled_normal(const Meeting& layer) const {
   return scene_.islands[layer.island].rotation * lattice * (layer.face == 2 ? 1.0 : -1.0);
 }
 
-/// A surface of water or glass: Fresnel's share of the sky is mirrored (from inside: of the medium
-/// itself), lights glitter, what the texture covers is a diffuse surface, the rest goes through
-/// unbent.
+/// What a surface mirrors, seen from outside: voxels, clouds and sky, but no water and glass.
+glm::dvec3 Shader::mirrored_outside(glm::dvec3 from, glm::dvec3 direction, Sampler& sampler) const {
+  Trace trace;
+  tracer_.trace(from, direction, trace);
+  Seen seen{behind_voxels(direction), glm::dvec3(0.0)};
+  if (trace.hit)
+    seen.radiance = through_air(surface(*trace.hit, from, direction, direction, sampler), from,
+                                direction, trace.hit->t, sampler);
+  return through_clouds(seen, from, direction, 0.0, trace.hit ? trace.hit->t : kFar, sampler)
+      .radiance;
+}
+
+/// The same from inside: of level water what the ray meets in it; else the medium alone, as deep as
+/// it goes.
+glm::dvec3 Shader::mirrored_inside(const Meeting& layer, glm::dvec3 from, glm::dvec3 direction,
+                                   glm::dvec3 light_in, Sampler& sampler) const {
+  constexpr double kDeep = 1e3;  // blocks
+  const auto& a = world::block_types()[layer.block].absorption;
+  const glm::dvec3 absorption(a[0], a[1], a[2]);
+  Trace trace;
+  if (is_wavy(layer)) tracer_.trace(from, direction, trace);
+  if (!trace.hit) return scattered_in(absorption, light_in, kDeep);
+  return scattered_in(absorption, light_in, trace.hit->t) +
+         transmitted_by(absorption, trace.hit->t) *
+             surface(*trace.hit, from, direction, direction, sampler);
+}
+
+/// A surface of water or glass: Fresnel's share of what it mirrors, lights that glitter, what the
+/// texture covers as a diffuse surface; the rest goes through unbent.
 void Shader::pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine,
                           Passage& passage, Sampler& sampler) const {
   const world::BlockType& type = world::block_types()[layer.block];
   const glm::dvec3 to_eye = -direction, normal = tracer_.normal(layer.island, layer.face);
   const bool entering = passage.medium != layer.block;
-  const bool wavy = layer.block == world::block::kWater && axis_of_face(layer.face) == 1;
+  const bool wavy = is_wavy(layer);
   const glm::dvec3 shading = wavy ? rippled_normal(layer) : normal;
   const double reflected =
       fresnel(std::clamp(glm::dot(shading, to_eye), 0.02, 1.0), !entering, kWaterIndex);
   constexpr double kLeastRoughness = 0.06;  // of the waves too small to draw
-  const Reach reached = reach({layer.t * direction + normal * kOffSurface, normal}, shading, to_eye,
+  const glm::dvec3 from = layer.t * direction + normal * kOffSurface;
+  const Reach reached = reach({from, normal}, shading, to_eye,
                               std::max<double>(type.roughness, kLeastRoughness), sampler);
-  glm::dvec3 mirrored(0.0);
-  if (!entering) {
-    const glm::dvec3 absorption(type.absorption[0], type.absorption[1], type.absorption[2]);
-    mirrored = scattered_in(absorption, passage.light_in, 1e3);
-  } else if (reached.any || !scene_.sky) {
-    const glm::dvec3 mirror = direction - 2.0 * glm::dot(direction, shading) * shading;
-    mirrored = through_clouds({behind_voxels(mirror), glm::dvec3(0.0)}, layer.t * direction, mirror,
-                              0.0, kFar, sampler)
-                   .radiance;
-  }
+  // A ripple may turn the ray into the surface's own plane: it is mirrored there again.
+  glm::dvec3 mirror = glm::reflect(direction, shading);
+  if (glm::dot(mirror, normal) < 0.0) mirror = glm::reflect(mirror, normal);
+  const glm::dvec3 mirrored = entering
+                                  ? mirrored_outside(from, mirror, sampler)
+                                  : mirrored_inside(layer, from, mirror, passage.light_in, sampler);
   passage.radiance += passage.through * (reached.mirrored + reflected * mirrored);
   passage.through *= 1.0 - reflected;
   if (!wavy) {

@@ -57,11 +57,11 @@ class Shader {
   std::optional<Meeting> met_from(const Receiver& at, glm::dvec3 direction) const;
   glm::dvec3 behind_voxels(glm::dvec3 direction) const;
 
-  glm::dvec3 surface(const Meeting& hit, glm::dvec3 direction, glm::dvec3 fine,
+  glm::dvec3 surface(const Meeting& hit, glm::dvec3 origin, glm::dvec3 direction, glm::dvec3 fine,
                      Sampler& sampler) const;
   double ao(const Meeting& hit) const;
-  glm::dvec3 through_air(glm::dvec3 radiance, glm::dvec3 direction, double distance,
-                         Sampler& sampler) const;
+  glm::dvec3 through_air(glm::dvec3 radiance, glm::dvec3 origin, glm::dvec3 direction,
+                         double distance, Sampler& sampler) const;
 
   double past_clouds(glm::dvec3 from, glm::dvec3 to_light, Sampler& sampler) const;
   glm::dvec3 lamps_in_cloud(glm::dvec3 p, glm::dvec3 direction, Sampler& sampler) const;
@@ -71,6 +71,9 @@ class Shader {
                       double end, Sampler& sampler) const;
   Seen through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,
                      Sampler& sampler) const;
+  glm::dvec3 mirrored_outside(glm::dvec3 from, glm::dvec3 direction, Sampler& sampler) const;
+  glm::dvec3 mirrored_inside(const Meeting& layer, glm::dvec3 from, glm::dvec3 direction,
+                             glm::dvec3 light_in, Sampler& sampler) const;
   void pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine, Passage& passage,
                     Sampler& sampler) const;
   Reach reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye, double roughness,

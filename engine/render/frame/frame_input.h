@@ -60,6 +60,12 @@ struct Fault {
   float value = 0.0f;  ///< of all four channels
 };
 
+/// The face above the camera through which light enters the medium that the camera is in.
+struct MediumSurface {
+  std::uint32_t island = 0;  ///< index into FrameInput::islands
+  glm::ivec3 block{};        ///< in the lattice of the island; its upper face is meant
+};
+
 /// Everything that decides one picture besides the resident geometry. Plain values, const once
 /// built.
 struct FrameInput {
@@ -79,6 +85,7 @@ struct FrameInput {
   bool meter = false;               ///< meter the frame even though its exposure is given
   double time_s = 0.0;              ///< seconds of play: water ripples
   std::uint32_t camera_medium = 0;  ///< block id the camera is in, if translucent; else 0
+  std::optional<MediumSurface> medium_surface;  ///< none: no light of the sky enters from above
   bool freeze_culling =
       false;  ///< keep culling with the camera of the frame in which this became true
   /// While programs for these settings are being made in the background, the frame may be drawn by

@@ -102,6 +102,12 @@ enum class Shading : std::uint8_t { kPbr, kFlat };
 /// the last frame showed. The picture is the same. kAuto: where many quads are in view.
 enum class Occlusion : std::uint8_t { kOff, kAuto, kAlways };
 
+/// What water and glass mirror besides lights. docs/decisions/0059.
+enum class WaterMirror : std::uint8_t {
+  kSky,   ///< the sky, as far as the surface sees it; else what is about it, evenly
+  kWorld  ///< what a ray through the voxels of the surface's island meets
+};
+
 inline constexpr std::uint32_t kEveryLight = ~0u;  ///< of RenderSettings::lights_shadows
 
 /// Knobs of the picture, named as the keys of docs/settings.md. Defaults are those of quality
@@ -129,6 +135,7 @@ struct RenderSettings {
   float shading_tolerance = 0.3f;  ///< how much light may differ between them, of the brightest
   int texture_taps = 2;            ///< samples along the long side of a texture footprint, 1..16
   int water_layers = 2;            ///< nearest surfaces of water and glass kept a pixel, 1..4
+  WaterMirror water_mirror = WaterMirror::kWorld;
   GBufferStore gbuffer;
   MeterSettings meter;
   BloomSettings bloom;

@@ -46,6 +46,9 @@ shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body,
   return out;
 }
 
+// Parts of a word of the G-buffer (shaders/include/frame/common.glsl).
+constexpr std::uint32_t kSurfaceHere = 1u << 31, kFaceUp = 2;
+
 void append_islands(std::vector<shared::IslandTransform>& out,
                     std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
@@ -120,6 +123,14 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   out.matrices.push_back(camera.clip_from_world);
   out.edge_growth.push_back(2.0f * camera.tan_half_x / (128.0f * static_cast<float>(size.width)));
   append_islands(out.islands, input.islands, input.camera.position);
+  if (input.camera_medium != 0 && input.medium_surface) {
+    const MediumSurface& above = *input.medium_surface;
+    const shared::IslandTransform& t = out.islands[above.island];
+    const glm::vec3 middle = glm::vec3(above.block) + glm::vec3(0.5f, 1.0f, 0.5f);
+    f.medium_surface = kSurfaceHere | above.island << 19 | kFaceUp << 16 | input.camera_medium;
+    f.medium_surface_place =
+        t.axis_x * middle.x + t.axis_y * middle.y + t.axis_z * middle.z + t.translation;
+  }
 
   for (const ActiveCascade& active : cascades) {
     f.cascades[active.slot] = shader_cascade(active, settings.shadow_size);

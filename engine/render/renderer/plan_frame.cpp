@@ -119,12 +119,19 @@ void explain_contents(FramePlan& plan) {
 
 namespace {
 
+/// Water and glass mirror what stands above them in the picture.
+glm::uvec4 mirrored_area(const FramePlan& plan) {
+  const glm::uvec4 layers = plan.contents.layers_area;
+  if (plan.settings.water_mirror != WaterMirror::kWorld) return layers;
+  return {0, 0, plan.drawn.width, layers.w};
+}
+
 glm::uvec4 radiance_area(const FramePlan& plan) {
   switch (plan.by_radiance) {
     case ByRadiance::kNothing:
       return {0, 0, 0, 0};
     case ByRadiance::kLayers:
-      return plan.contents.layers_area;
+      return mirrored_area(plan);
     case ByRadiance::kEverything:
       return {0, 0, plan.drawn.width, plan.drawn.height};
   }

@@ -11,7 +11,8 @@ const char* needs_mirrored_clouds(const FramePlan& plan) {
   if (const char* why = needs_lit_surfaces(plan)) return why;
   if (const char* why = plan.contents.features.why_not(Feature::kClouds)) return why;
   if (const char* why = plan.contents.features.why_not(Feature::kWater)) return why;
-  const bool lit = plan.input.sky.sun_casts || plan.input.sky.moon_casts;
+  const bool lit = plan.input.sky.sun_casts || plan.input.sky.moon_casts || plan.indirect ||
+                   plan.settings.water_mirror == WaterMirror::kWorld;
   return !lit || plan.input.camera_medium != 0 ? "no sky is mirrored" : nullptr;
 }
 

@@ -75,7 +75,8 @@ class LayerReads {
         layers_(in.layers),
         opaque_depth_(in.geometry.depth()),
         maps_(in.shadows.maps()),
-        walls_(scene, in.settings, false),
+        mirrors_(in.settings.water_mirror == WaterMirror::kWorld && scene.occupancy_grids),
+        walls_(scene, in.settings, mirrors_),
         clouds_(clouds_before_light(scene)),
         lights_(in.lights ? *in.lights : ClusteredLights::none(scene)),
         lit_(in.lights != nullptr) {}
@@ -85,10 +86,12 @@ class LayerReads {
         with_light({{shared::kWaterLayersConstant, layers_.count}}, scene_, bool{maps_}));
     if (layers_.mirrored_clouds) own.push_back({shared::kMirroredCloudsConstant, 1});
     if (layers_.tail_depths) own.push_back({shared::kTailConstant, 1});
+    if (mirrors_) own.push_back({shared::kMirrorWorldConstant, 1});
     return lit_ ? walls_.with_walls(lights_.with_lights(std::move(own))) : own;
   }
   void declare(gpu::PassBuilder& b) const {
-    for (const gpu::BufferRef ref : {scene_.frame, scene_.islands, scene_.materials})
+    for (const gpu::BufferRef ref :
+         {scene_.frame, scene_.islands, scene_.materials, scene_.indirect})
       b.read(ref, Use::kComputeRead);
     clouds_.declare_light(b);
     if (layers_.mirrored_clouds) b.read(layers_.mirrored_clouds, Use::kComputeSampled);
@@ -108,6 +111,7 @@ class LayerReads {
         gpu::storage<shared::kFrameBinding>(scene_.frame),
         gpu::texels<shared::kIslandsBinding>(scene_.islands),
         gpu::storage<shared::kMaterialsBinding>(scene_.materials),
+        gpu::texels<shared::kIndirectBinding>(scene_.indirect),
         gpu::sampled<shared::kDepthsBinding>(opaque_depth_, scene_.point_sampler),
         gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.sky_sampler),
         gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene_, maps_),
@@ -125,6 +129,7 @@ class LayerReads {
   SceneRefs scene_;
   TranslucentPass::Layers layers_;
   gpu::ImageRef opaque_depth_, maps_;
+  bool mirrors_;  // voxels
   WallReads walls_;
   CloudRefs clouds_;
   ClusteredLights lights_;

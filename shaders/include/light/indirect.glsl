@@ -50,10 +50,18 @@ struct SkyLight {
   float seen;       // share of the face's sky, 0..1
 };
 
-// Light of the sky and of weak lamps on a surface, as if it were matt. @param word of the G-buffer.
-SkyLight light_of_sky(Surface s, uint word) {
-  if (kIndirect == kIndirectOff) return SkyLight(vec3(0.0), 0.0);
-  vec3 lattice = lattice_from_world(island_at(surface_island(word)), s.position);
+// What a place of a face knows of its surroundings.
+struct FaceSky {
+  vec3 irradiance;  // of sky and weak lamps, and what other faces reflect
+  vec3 bounced;     // of it, what other faces reflect of sky, sun and moon
+  vec4 seen_a;      // share of each lobe of the sky that is seen, 0..1
+  vec4 seen_b;
+  bool known;       // else all is 0
+};
+
+// As if the surface were matt. @param word of the G-buffer, or of a translucent face that is seen from in front.
+FaceSky sky_of_face(vec3 position, uint word) {
+  vec3 lattice = lattice_from_world(island_at(surface_island(word)), position);
   uint island = surface_island(word), face = surface_face(word);
   uvec4 grid = indirect_texel(true, island);
   bool plant = face >= 6u;
@@ -65,20 +73,47 @@ SkyLight light_of_sky(Surface s, uint word) {
   uvec4 near = indirect_texel(record != 0u, record), far = indirect_texel(record != 0u, record + 1u);
   vec3 in_voxel = clamp(place - vec3(voxel), 0.0, 1.0);
   vec2 at = face < 2u ? in_voxel.yz : face < 4u ? in_voxel.zx : in_voxel.xy;
-  vec4 seen_a = mix(mix(unpackUnorm4x8(near.x), unpackUnorm4x8(near.z), at.x), mix(unpackUnorm4x8(far.x), unpackUnorm4x8(far.z), at.x), at.y);
-  vec4 seen_b = mix(mix(unpackUnorm4x8(near.y), unpackUnorm4x8(near.w), at.x), mix(unpackUnorm4x8(far.y), unpackUnorm4x8(far.w), at.x), at.y);
-  vec3 sum;
+  FaceSky sky;
+  sky.known = record != 0u;
+  sky.seen_a = mix(mix(unpackUnorm4x8(near.x), unpackUnorm4x8(near.z), at.x), mix(unpackUnorm4x8(far.x), unpackUnorm4x8(far.z), at.x), at.y);
+  sky.seen_b = mix(mix(unpackUnorm4x8(near.y), unpackUnorm4x8(near.w), at.x), mix(unpackUnorm4x8(far.y), unpackUnorm4x8(far.w), at.x), at.y);
   for (uint channel = 0u; channel < 3u; ++channel) {
     uvec4 lobes = texelFetch(island_skies, int(island * kIndirectIslandTexels + face * kIndirectSkyTexels + channel));
-    sum[channel] = dot(seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
-                   dot(seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
+    sky.irradiance[channel] = dot(sky.seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
+                              dot(sky.seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
   }
+  sky.bounced = vec3(0.0);
   if (kIndirect == kIndirectFull) {
     uvec4 lamps = indirect_texel(record != 0u, record + 2u);
-    sum += mix(mix(shared_exponent(lamps.x), shared_exponent(lamps.y), at.x), mix(shared_exponent(lamps.z), shared_exponent(lamps.w), at.x), at.y);
-    sum += bounced_light(indirect_texel(record != 0u, record + 3u), island, at);
+    sky.irradiance += mix(mix(shared_exponent(lamps.x), shared_exponent(lamps.y), at.x), mix(shared_exponent(lamps.z), shared_exponent(lamps.w), at.x), at.y);
+    sky.bounced = bounced_light(indirect_texel(record != 0u, record + 3u), island, at);
+    sky.irradiance += sky.bounced;
   }
-  float open = dot(seen_a + seen_b, vec4(1.0 / float(kSkyLobes)));
-  return record != 0u ? SkyLight(sum, open) : SkyLight(vec3(0.0), 0.0);
+  if (!sky.known) {
+    sky.irradiance = sky.bounced = vec3(0.0);
+    sky.seen_a = sky.seen_b = vec4(0.0);
+  }
+  return sky;
+}
+
+// Share of the face's sky that is seen, 0..1.
+float open_share(FaceSky sky) { return dot(sky.seen_a + sky.seen_b, vec4(1.0 / float(kSkyLobes))); }
+
+// Share of the sky about one direction that is seen: between the lobes about it. @param lattice unit, before the face.
+float seen_towards(FaceSky sky, uint face, vec3 lattice) {
+  uint axis = face >> 1;
+  float out_of_face = abs(axis == 0u ? lattice.x : axis == 1u ? lattice.y : lattice.z);
+  vec2 along = axis == 0u ? lattice.yz : axis == 1u ? lattice.zx : lattice.xy;
+  vec2 positive = 0.5 + 0.5 * along * inversesqrt(max(dot(along, along), 1e-12));
+  float steep = smoothstep(kSteepCosine - 0.2, kSteepCosine + 0.2, out_of_face);
+  vec2 quarters_a = mix(sky.seen_a.yw, sky.seen_a.xz, steep), quarters_b = mix(sky.seen_b.yw, sky.seen_b.xz, steep);
+  return mix(mix(quarters_b.y, quarters_b.x, positive.x), mix(quarters_a.y, quarters_a.x, positive.x), positive.y);
+}
+
+// Light of the sky and of weak lamps on a surface, as if it were matt. @param word of the G-buffer.
+SkyLight light_of_sky(Surface s, uint word) {
+  if (kIndirect == kIndirectOff) return SkyLight(vec3(0.0), 0.0);
+  FaceSky sky = sky_of_face(s.position, word);
+  return SkyLight(sky.irradiance, open_share(sky));
 }
 #endif

@@ -144,6 +144,14 @@ float air_tap(Cascade c, vec3 p) {
   return map.z >= texelFetch(shadow_maps, ivec3(ivec2(floor(map.xy)), int(c.layer)), 0).r ? 1.0 : 0.0;
 }
 
+// Whether a body's light reaches a place, by one texel of the finest map there. Inside closed walls it is as dark as air_visibility() has it.
+float place_visibility(const uint base, vec3 p) {
+  float distance = length(p);
+  bool known = distance <= frame.cascades[base + kCascades - 1u].radius;
+  Cascade c = pick_cascade(base, cascades_within(base, kCascades - 1u, distance));
+  return known ? air_tap(c, known ? p : vec3(0.0)) : 0.0;
+}
+
 // Share of three places on the way to p, in the air, that a body's light reaches; one texel each. Taken from the coarsest map that cannot leak:
 // inside closed walls of one block every texel centre nearer than a block sees the walls, and the nearest centre is within 0.71 texels. Ways that
 // leave that map take the next coarser one: only a closed room as large as that could leak. Past the last map nothing is known.

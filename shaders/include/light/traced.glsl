@@ -13,6 +13,8 @@ layout(constant_id = kLightsShadowsConstant) const uint kLightsShadows = 0u;
 const uint kEveryLight = 0xffffffffu;
 const uint kMostLightsShadows = 8u;
 
+layout(constant_id = kMirrorWorldConstant) const bool kMirrorWorld = false;  // water and glass mirror voxels
+
 layout(constant_id = kLightsSoftnessConstant) const uint kLightsSoftness = 1u;  // ways to a light that has a size
 
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
@@ -90,7 +92,7 @@ WayStart way_start(Surface s, uint word) {
   start.island = surface_island(word);
   start.voxel = ivec3(0);
   start.from = vec3(0.0);
-  if (kLightsShadows == 0u) return start;
+  if (kLightsShadows == 0u && !kMirrorWorld) return start;
   VoxelGrid grid = voxel_grid(start.island);
   vec3 p = lattice_from_world(island_at(start.island), s.position) * grid.per_block;
   uint face = min(surface_face(word), 5u);

@@ -15,6 +15,7 @@ float body_visibility(const uint first_cascade, vec3 p, vec3 normal, float n_dot
   return kShadows ? cascades_visibility(first_cascade, p, normal, n_dot_l) : 1.0;
 }
 float light_in_air(const uint first_cascade, vec3 p) { return kShadows ? air_visibility(first_cascade, p) : 1.0; }
+float light_at_place(const uint first_cascade, vec3 p) { return kShadows ? place_visibility(first_cascade, p) : 1.0; }
 
 // How far light on its way out of a plant's voxel goes [blocks].
 float way_out(Surface s, vec3 to_light) {

@@ -13,46 +13,63 @@ int empty_about(VoxelGrid grid, ivec3 voxel, out bool opaque) {
   return octant ? 1 : entry == kChunkEmpty ? 64 : (entry >> 24) == 0u ? 8 : 4;
 }
 
-// Whether an opaque voxel other than the spared one stands on the way from one point to another. Voxels are half open, as
+// What a march meets.
+struct Marched {
+  bool met;
+  float share;  // of the way, up to there
+  uint face;    // that it enters by; kFaceCount where it begins in it
+};
+
+// The first opaque voxel, other than the spared one, on the way from one point to another. Voxels are half open, as
 // docs/conventions.md has them. The way goes from voxel to voxel through one face at a time, at an edge through the one whose
 // axis comes first, whatever rounding does to where: nothing gets between two opaque voxels that share an edge, nor through a wall.
 // (J. Amanatides and A. Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987; over empty cubes at one step.)
 // @param from, to in voxels. @param voxel the one the way begins in, which may differ from floor(from) by rounding.
-bool marched_into(VoxelGrid grid, vec3 from, ivec3 voxel, vec3 to, ivec3 spared) {
+Marched march(VoxelGrid grid, vec3 from, ivec3 voxel, vec3 to, ivec3 spared) {
   vec3 way = to - from;
   bvec3 still = lessThan(abs(way), vec3(1e-20));
   bvec3 up = greaterThanEqual(way, vec3(0.0));
   vec3 per_way = mix(1.0 / way, vec3(0.0), still);  // times a distance: share of the way
   vec3 never = mix(vec3(0.0), vec3(kNever), still);
+  uvec3 facing = uvec3(0u, 2u, 4u) + uvec3(up);  // faces that look against the way
   ivec3 low = grid.low * 64, end = low + grid.size * 64;
+  Marched none = Marched(false, 1.0, kFaceCount), m = none;
   if (any(lessThan(voxel, low)) || any(greaterThanEqual(voxel, end))) {
     // From outside, where all is empty.
     vec3 to_low = (vec3(low) - from) * per_way, to_end = (vec3(end) - from) * per_way;
     bvec3 beside = bvec3(uvec3(still) & (uvec3(lessThan(from, vec3(low))) | uvec3(greaterThanEqual(from, vec3(end)))));
     vec3 enters = mix(min(to_low, to_end) - never, vec3(kNever), beside), leaves = max(to_low, to_end) + never;
     float t = max(max(enters.x, enters.y), max(enters.z, 0.0));
-    if (!(t < min(min(leaves.x, leaves.y), min(leaves.z, 1.0)))) return false;
+    if (!(t < min(min(leaves.x, leaves.y), min(leaves.z, 1.0)))) return none;
     voxel = clamp(ivec3(floor(from + way * t)), low, end - 1);
+    m.face = t == enters.x ? facing.x : t == enters.y ? facing.y : facing.z;
+    m.share = t;
+  } else {
+    m.share = 0.0;
   }
   // A way crosses each plane of the lattice once; rounding may add a few steps.
   ivec3 across = end - low;
   for (int left = across.x + across.y + across.z + 64; left > 0; --left) {
     bool opaque;
     int edge = empty_about(grid, voxel, opaque);
-    if (opaque && voxel != spared) return true;
+    if (opaque && voxel != spared) return Marched(true, m.share, m.face);
     ivec3 cube = voxel & ~(edge - 1);
     vec3 plane = vec3(cube + mix(ivec3(0), ivec3(edge), up));
     // Only planes before the end, which rounding does not decide.
     bvec3 before = mix(greaterThan(plane, to), lessThan(plane, to), up);
     vec3 next = mix(vec3(kNever), (plane - from) * per_way + never, before);
     float t = min(next.x, min(next.y, next.z));
-    if (t >= kNever) return false;
+    if (t >= kNever) return none;
     // Rounding must not take the point out of the cube it leaves, nor into another one than that behind the face it crosses.
     ivec3 at = clamp(ivec3(floor(from + way * t)), cube, cube + edge - 1);
     bvec3 through = bvec3(next.x == t, next.x != t && next.y == t, next.x != t && next.y != t);
     voxel = mix(at, cube + mix(ivec3(-1), ivec3(edge), up), through);
-    if (any(lessThan(voxel, low)) || any(greaterThanEqual(voxel, end))) return false;
+    m.share = t;
+    m.face = through.x ? facing.x : through.y ? facing.y : facing.z;
+    if (any(lessThan(voxel, low)) || any(greaterThanEqual(voxel, end))) return none;
   }
-  return true;
+  return Marched(true, 1.0, kFaceCount);
 }
+
+bool marched_into(VoxelGrid grid, vec3 from, ivec3 voxel, vec3 to, ivec3 spared) { return march(grid, from, voxel, to, spared).met; }
 #endif

@@ -3,6 +3,7 @@
 #define SKERRY_WATER_GLSL
 #include "shared/constants.h"
 #include "include/surface/media.glsl"
+#include "include/surface/mirror.glsl"
 
 // Light mirrored by a wavy surface: GGX lobe of the waves too small to draw. @param irradiance of a surface that faces the light.
 vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float roughness) {
@@ -16,7 +17,7 @@ vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float roughnes
 struct Reach {   // what lights bring to a point of a surface
   vec3 light;    // irradiance on a level surface
   vec3 mirrored; // towards the eye
-  float any;     // largest visibility of sun and moon: where neither is seen, the sky is not taken for granted either
+  float any;     // largest visibility of sun and moon: all that is known of the sky's where it lights nothing
 };
 
 struct LitPoint {       // a point of a surface, or in the open
@@ -64,7 +65,7 @@ void add_lights(inout Reach r, uvec2 pixel, float z, LitPoint at) {
   }
 }
 
-// @param z of the point along the view axis, as the depth of the pixel says.
+// Of sun, moon and lamps. @param z of the point along the view axis, as the depth of the pixel says.
 Reach light_at(uvec2 pixel, float z, LitPoint at) {
   Reach r = Reach(vec3(0.0), vec3(0.0), 0.0);
   if ((kBodies & 1u) != 0u) add_light(r, 0u, 0u, at);
@@ -73,17 +74,51 @@ Reach light_at(uvec2 pixel, float z, LitPoint at) {
   return r;
 }
 
+FaceSky sky_about(vec3 p, uint word) {
+  if (kIndirect == kIndirectOff) return FaceSky(vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), false);
+  return sky_of_face(p, word);
+}
+
+// What the nearest surface of a pixel mirrors of the world. Once a pixel: a march for each layer would cost as much again.
+Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye) {
+  uint word = layer_surface(0u, ivec2(pixel));
+  float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
+  vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
+  LitPoint at = LitPoint(ray * t, n, n, to_eye, 1.0, word);
+  return mirrored_voxels(layer_start(at), at.p, mirrored_ray(to_eye, shading_normal(word, ray, t), n), word != 0u);
+}
+
+// What a surface mirrors, seen from outside. @param nearest what it mirrors of the world, if that is known.
+vec3 mirrored_outside(LitPoint at, vec3 mirror, FaceSky around, float lit, bool known, Mirrored nearest, bool clouds, uvec2 pixel) {
+  vec3 sky = sample_sky(sky_lut, mirror, frame.sky_horizon, frame.sky_yaw);
+  if (clouds) sky = past_mirrored_clouds(mirrored_clouds, sky, pixel);
+  vec3 about = mirrored_about(around, at.word, mirror, sky, lit);
+  return !known ? about : nearest.sky ? sky : nearest.radiance;
+}
+
+// The same from inside a medium: as deep as it goes, or up to what it mirrors of the world.
+vec3 mirrored_inside(Material m, vec3 light_in, bool known, Mirrored nearest) {
+  bool met = known && !nearest.sky;
+  float way = met ? nearest.distance : 1e3;
+  return scattered(m, light_in, way) + (met ? exp(-extinction(m) * way) * nearest.radiance : vec3(0.0));
+}
+
 vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
   float ray_length = length(ray);
   vec3 to_eye = -ray / ray_length;
   float opaque = texelFetch(depths, ivec2(pixel), 0).r;
   vec3 colour = vec3(0.0), through = vec3(1.0), light_in = vec3(0.0), sky_mirrored = vec3(0.0);
+  vec3 sky_light = vec3(0.0);  // irradiance of the sky and what is about, where the medium was entered: faces seen from inside have none of their own
   uint medium = frame.camera_medium;
   float at = 0.0;  // blocks along the ray
   if (medium != 0u) {
     const vec3 up = vec3(0.0, 1.0, 0.0);
     light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.1, 0u)).light;
+    if (frame.medium_surface != 0u) sky_light = sky_about(frame.medium_surface_place, frame.medium_surface).irradiance;
+    light_in += sky_light;
   }
+  Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
+  if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye);
   for (uint k = 0u; k < kWaterLayers; ++k) {
     uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
@@ -102,11 +137,15 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     vec3 shading = shading_normal(word, ray, t);
     float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
     float reflected = fresnel(cosine, !entering, kWaterIndex);
-    vec3 mirror = reflect(-to_eye, shading);
-    Reach reach = light_at(pixel, t, LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word));
-    vec3 mirrored_sky = entering ? sample_sky(sky_lut, mirror, frame.sky_horizon, frame.sky_yaw) : scattered(m, light_in, 1e3);
-    if (kMirroredClouds && entering && k == 0u) mirrored_sky = past_mirrored_clouds(mirrored_clouds, mirrored_sky, pixel);
-    mirrored_sky *= entering ? reach.any : 1.0;
+    vec3 mirror = mirrored_ray(to_eye, shading, n);
+    LitPoint point = LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word);
+    Reach reach = light_at(pixel, t, point);
+    FaceSky around = sky_about(point.p, word);
+    if (entering) sky_light = around.irradiance;
+    reach.light += sky_light;
+    bool known = kMirrorWorld && k == 0u;
+    vec3 outside = mirrored_outside(point, mirror, around, reach.any, known, nearest, kMirroredClouds && k == 0u, pixel);
+    vec3 mirrored_sky = entering ? outside : mirrored_inside(m, light_in, known && wavy, nearest);
     if (entering) sky_mirrored = mirrored_sky;
     colour += through * (reach.mirrored + reflected * mirrored_sky);
     through *= 1.0 - reflected;

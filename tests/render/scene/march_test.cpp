@@ -163,6 +163,68 @@ TEST_F(March, FindsWhatAnExactMarchFindsOnSpecialWays) {
   compare(rays, world);
 }
 
+constexpr const char* kWhere =
+    "#include \"include/scene/march.glsl\"\n"
+    R"(
+  struct Question { vec3 from; vec3 to; uint island; };
+  struct Answer { uint met; float share; uint face; };
+  Answer answer_to(Question q) {
+    Marched m = march(voxel_grid(q.island), q.from, ivec3(floor(q.from)), q.to, ivec3(0x7fffffff));
+    return Answer(m.met ? 1u : 0u, m.share, m.face);
+  })";
+
+struct Met {
+  std::uint32_t met;
+  float share;
+  std::uint32_t face;
+};
+
+/// By steps of one voxel, in doubles. Ways along axes cross no plane of the others.
+Met first_opaque(const OpaqueAt& opaque, const Ray& ray) {
+  const glm::dvec3 from(ray.from), way = glm::dvec3(ray.to) - from;
+  glm::ivec3 voxel(glm::floor(ray.from));
+  double share = 0.0;
+  std::uint32_t face = shared::kFaceCount;
+  while (share < 1.0) {
+    if (opaque(voxel.x, voxel.y, voxel.z)) return {1, static_cast<float>(share), face};
+    double next = 2.0;
+    int axis = 0;
+    for (int a = 0; a < 3; ++a) {
+      if (way[a] == 0.0) continue;
+      const double at = (voxel[a] + (way[a] > 0.0 ? 1.0 : 0.0) - from[a]) / way[a];
+      if (at < next) axis = a;
+      next = std::min(next, at);
+    }
+    share = next;
+    voxel[axis] += way[axis] > 0.0 ? 1 : -1;
+    face = static_cast<std::uint32_t>(2 * axis + (way[axis] > 0.0 ? 1 : 0));
+  }
+  return {0, 1.0f, shared::kFaceCount};
+}
+
+TEST_F(March, SaysWhereItMeetsAVoxelAndByWhichFace) {
+  add_island(0, world, {{-1, -1, -1}, {3, 3, 3}, 0});
+  RandomPlaces random(14);
+  std::vector<Ray> rays(20000);
+  for (Ray& ray : rays)
+    for (int axis = 0; axis < 3; ++axis) {
+      ray.from[axis] = static_cast<float>(random.uniform(-90.0, 150.0));
+      ray.to[axis] = ray.from[axis] + static_cast<float>(random.uniform(-90.0, 90.0));
+    }
+  const auto answers = ask<Met>(kWhere, rays);
+  int met = 0, other = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Met exact = first_opaque(world, rays[i]);
+    met += exact.met != 0;
+    // Floats may pass on the other side of an edge.
+    const bool same = answers[i].met == exact.met && answers[i].face == exact.face &&
+                      std::abs(answers[i].share - exact.share) < 1e-4f;
+    other += !same;
+  }
+  EXPECT_GT(met, 5000);
+  EXPECT_LE(other, 10);
+}
+
 // Two voxels that share an edge leave nothing through, however long the way is.
 TEST_F(March, NothingPassesBetweenVoxelsThatShareAnEdge) {
   // A wall whose voxels meet along edges alone.

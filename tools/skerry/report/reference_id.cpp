@@ -32,7 +32,8 @@ constexpr std::string_view kUnread[] = {"view.detail",       "aa.samples",
                                         "upload.budget",     "memory.budget",
                                         "jobs.threads",      "frames.wanted",
                                         "frames.cap",        "frames.unfocused",
-                                        "frames.sync",       "water.layers"};
+                                        "frames.sync",       "water.layers",
+                                        "water.mirror"};
 
 std::string text_of(const game::WorldLight& placed) {
   const shared::Light& light = placed.light;

@@ -30,6 +30,8 @@ constexpr ReportScene kScenes[] = {
                     {"block": "glass", "from": [-6, 114, -15], "to": [6, 120, -15]},
                     {"block": "glass", "from": [-6, 114, -18], "to": [6, 120, -18]},
                     {"block": "glass", "from": [-6, 114, -21], "to": [6, 120, -21]}]})"},
+    {"shaded_water", "a lake after sunset, under a bright sky",
+     R"({"seed": 5, "time": "18:05", "camera": [52.25, 17.5, 52.75, 225, -12]})"},
     {"lava", "lava on a mountain after sunset",
      R"({"seed": 8, "time": "18:10", "camera": [250.7, 145.85, -146.0, 270, -21.8]})"},
     {"far", "islands to the horizon",
@@ -139,6 +141,8 @@ constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},
                                        {"4", "water.layers=4"}};
+constexpr TopicPoint kWaterMirrors[] = {{"sky", "water.mirror=sky"},
+                                        {"world", "water.mirror=world"}};
 constexpr TopicPoint kLightLists[] = {{"clusters", "lights.oracle=0"},
                                       {"all lights", "lights.oracle=1"}};
 constexpr TopicPoint kLightTiles[] = {{"8", "lights.tile=8"},
@@ -198,6 +202,7 @@ constexpr std::string_view kFar[] = {"far"};
 constexpr std::string_view kHiding[] = {"giant", "day"};
 constexpr std::string_view kGlow[] = {"lava"};
 constexpr std::string_view kWater[] = {"water"};
+constexpr std::string_view kMirroring[] = {"water", "shaded_water", "tank"};
 constexpr std::string_view kLayered[] = {"water", "tank", "panes"};
 constexpr std::string_view kTorches[] = {"torches"};
 constexpr std::string_view kClouds[] = {"clouds", "puff"};
@@ -243,6 +248,8 @@ constexpr Topic kTopics[] = {
      Judge::kReference, CostOf::kShading},
     {"water_layers", "water and glass surfaces, one behind another, that a pixel shows",
      kWaterLayers, kLayered, Judge::kReference, CostOf::kShading},
+    {"water_mirror", "what water and glass mirror besides lights", kWaterMirrors, kMirroring,
+     Judge::kReference, CostOf::kShading},
     {"exposure",
      "pixels of which the meter looks at one",
      kMeterStrides,
