@@ -47,7 +47,7 @@ shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body,
 }
 
 // Parts of a word of the G-buffer (shaders/include/frame/common.glsl).
-constexpr std::uint32_t kSurfaceHere = 1u << 31, kFaceUp = 2;
+constexpr std::uint32_t kFaceUp = 2;
 
 void append_islands(std::vector<shared::IslandTransform>& out,
                     std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
@@ -127,7 +127,8 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
     const MediumSurface& above = *input.medium_surface;
     const shared::IslandTransform& t = out.islands[above.island];
     const glm::vec3 middle = glm::vec3(above.block) + glm::vec3(0.5f, 1.0f, 0.5f);
-    f.medium_surface = kSurfaceHere | above.island << 19 | kFaceUp << 16 | input.camera_medium;
+    f.medium_surface = shared::kSurfaceHere | above.island << shared::kIslandShift |
+                       kFaceUp << shared::kFaceShift | input.camera_medium;
     f.medium_surface_place =
         t.axis_x * middle.x + t.axis_y * middle.y + t.axis_z * middle.z + t.translation;
   }

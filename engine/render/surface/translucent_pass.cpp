@@ -91,7 +91,7 @@ class LayerReads {
   }
   void declare(gpu::PassBuilder& b) const {
     for (const gpu::BufferRef ref :
-         {scene_.frame, scene_.islands, scene_.materials, scene_.indirect})
+         {scene_.frame, scene_.islands, scene_.materials, scene_.indirect, scene_.island_skies})
       b.read(ref, Use::kComputeRead);
     clouds_.declare_light(b);
     if (layers_.mirrored_clouds) b.read(layers_.mirrored_clouds, Use::kComputeSampled);
@@ -112,6 +112,7 @@ class LayerReads {
         gpu::texels<shared::kIslandsBinding>(scene_.islands),
         gpu::storage<shared::kMaterialsBinding>(scene_.materials),
         gpu::texels<shared::kIndirectBinding>(scene_.indirect),
+        gpu::texels<shared::kIslandSkiesBinding>(scene_.island_skies),
         gpu::sampled<shared::kDepthsBinding>(opaque_depth_, scene_.point_sampler),
         gpu::sampled<shared::kSkyTableBinding>(scene_.sky_lut, scene_.sky_sampler),
         gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene_, maps_),

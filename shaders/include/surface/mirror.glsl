@@ -60,7 +60,7 @@ Mirrored mirrored_voxels(WayStart start, vec3 p, vec3 dir, bool here) {
   uint face = min(m.face, kFaceCount - 1u);
   vec3 place = p + dir * (m.share * kMirrorReach), n = world_from_lattice_vector(t, face_normal(face)), seen;
   bool shown = shown_at(place, seen);
-  vec3 unseen = unseen_face((start.island << 19) | (face << 16), place, n);
+  vec3 unseen = unseen_face((start.island << kIslandShift) | (face << kFaceShift), place, n);
   return Mirrored(shown ? seen : unseen, m.share * kMirrorReach, !m.met);
 }
 
