@@ -52,7 +52,7 @@ struct ClusteredLights {
   Tiles tiles;              ///< those that some light reaches, kCovered alone
   std::uint32_t kinds = 0;  ///< bit a kind that the frame has; 0: there are none
   bool oracle = false;      ///< nothing is sorted: every pixel asks every light
-  gpu::BufferRef shafts;    ///< shared::TileShafts[8x8 tile], see ShaftPass; empty: nothing is known
+  gpu::BufferRef shafts;  ///< shared::TileShafts[8x8 tile], see ShaftPass; empty: nothing is known
 
   /// For a frame without lights: buffers that are never read.
   static ClusteredLights none(const SceneRefs& scene);

@@ -47,7 +47,8 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
             surfaces.bindings(scene.point_sampler), walls.bindings(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::storage<shared::kRadianceBinding>(radiance), lights.bindings(),
-            lights.reach_binding(), lights.shaft_binding(), lights.tiles.bindings(TileKind::kCovered));
+            lights.reach_binding(), lights.shaft_binding(),
+            lights.tiles.bindings(TileKind::kCovered));
         dispatch_tiles(c, lights.tiles, TileKind::kCovered);
       });
   return Shaded(radiance);

@@ -25,8 +25,8 @@ ClusteredLights ShaftPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines
   const WallReads walls(scene, in.settings, false);
   gpu::BufferRef shafts = graph.create(gpu::BufferDesc{
       "tile shafts", std::uint64_t{tiles} * sizeof(shared::TileShafts), 0, gpu::Memory::kDevice});
-  const auto program = gpu::compute(
-      pipelines, programs::kCullShafts, walls.with_walls(lights.with_lights(surfaces.with_store({}))));
+  const auto program = gpu::compute(pipelines, programs::kCullShafts,
+                                    walls.with_walls(lights.with_lights(surfaces.with_store({}))));
   graph.add_pass(
       "cull_shafts",
       [&](gpu::PassBuilder& b) {
@@ -38,11 +38,11 @@ ClusteredLights ShaftPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines
         shafts = b.write(shafts, Use::kComputeWrite);
       },
       [program, scene, lights, surfaces, walls, shafts, tiles](gpu::Commands& c) {
-        gpu::bind(
-            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::texels<shared::kIslandsBinding>(scene.islands),
-            gpu::storage<shared::kMaterialsBinding>(scene.materials),
-            surfaces.bindings(scene.point_sampler), walls.bindings(), lights.bindings(), gpu::storage<shared::kTileShaftsBinding>(shafts));
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::texels<shared::kIslandsBinding>(scene.islands),
+                  gpu::storage<shared::kMaterialsBinding>(scene.materials),
+                  surfaces.bindings(scene.point_sampler), walls.bindings(), lights.bindings(),
+                  gpu::storage<shared::kTileShaftsBinding>(shafts));
         const std::uint32_t groups = gpu::Commands::groups(tiles, 64);
         c.dispatch(std::min(groups, shared::kTileRow),
                    gpu::Commands::groups(groups, shared::kTileRow), 1);

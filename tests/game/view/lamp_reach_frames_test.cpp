@@ -25,7 +25,7 @@ class LampReachFrames : public gpu::GpuTest {
     std::uint32_t shadows = render::kEveryLight;
     std::uint32_t tile = 16;
     std::optional<render::FixedPos> eye{};  ///< none: where the seed starts
-    std::uint32_t random = 0;                    ///< lamps about it, of all kinds
+    std::uint32_t random = 0;               ///< lamps about it, of all kinds
   };
   Drawn draw(const char* seed, const Asked& asked, double turn_deg) {
     SceneOptions options;
@@ -44,8 +44,7 @@ class LampReachFrames : public gpu::GpuTest {
     SceneView& view = **made;
     SceneView::Moment moment;
     moment.camera = view.start_camera();
-    if (asked.eye)
-      moment.camera.position = *asked.eye;
+    if (asked.eye) moment.camera.position = *asked.eye;
     moment.camera.yaw_deg += turn_deg;
     moment.time_of_day_s = 0.0;
     EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s));
