@@ -27,7 +27,9 @@ FrameStep shade_lights_step() {
             return needs(plan.lights() && !plan.shows_channel() && !plan.sampled());
           }}},
           [](FrameAssembly& f) {
-            if (f.plan.settings.lights_shadows == kEveryLight && !f.plan.settings.lights_oracle)
+            // Without islands that block lights no walls are looked for.
+            if (f.plan.settings.lights_shadows == kEveryLight && f.scene.light_islands &&
+                !f.plan.settings.lights_oracle)
               f.lights = ShaftPass::add(f.graph, f.pipelines, f.scene,
                                         {*f.geometry, f.plan.settings}, *f.lights);
             f.shaded =
