@@ -553,8 +553,7 @@ void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
   gather_ms_ = watch.milliseconds();
 }
 
-/// The translucent block that the camera is in, and where above it that medium ends in one that
-/// light passes.
+/// The translucent block that the camera is in.
 SceneView::Medium SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     const IslandEntry& entry = islands_[i];

@@ -131,10 +131,9 @@ class SceneView {
   void gather_lights(const Moment& moment, VkExtent2D size,
                      std::span<const render::IslandPlacement> islands, bool in_the_open);
   bool lights_count_in_the_open(std::uint32_t medium) const;
-  /// Id of the translucent block the camera is in, or air.
   struct Medium {
-    world::BlockId block = world::kAir;
-    std::optional<render::MediumSurface> surface;
+    world::BlockId block = world::kAir;            // translucent, or air
+    std::optional<render::MediumSurface> surface;  // where it ends above, in what light passes
   };
   Medium medium_at(const render::Camera& camera, double world_time_s) const;
   std::optional<render::BlockMarker> marker_of(const Moment& moment) const;

@@ -26,9 +26,8 @@ layout(scalar, binding = kTileShaftsBinding) writeonly buffer Shafts { TileShaft
 
 // Rounding of a way stays far below this [voxels].
 const float kMargin = 1.0 / 256.0;
-// Of a step; beyond, each pixel asks.
-const int kMostCells = 16;
-const float kPieces = 8.0;  // a power of two
+const int kMostCells = 16;  // across a slab; beyond, each pixel asks
+const float kPieces = 8.0;  // of a slab; a power of two, so that they add up to 1
 
 float along(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
 int along(ivec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
@@ -61,7 +60,7 @@ uint shaft_state(VoxelGrid grid, Box box, vec3 end, ivec3 spared) {
   float slab = sign > 0.0 ? float(first_cell) : -float(first_cell) - 1.0;  // its lower side
   bool some = false;
   float piece = 0.0, thick = 1.0, per_low = 1.0 / (to - low), per_high = 1.0 / (to - high);
-  for (; slab <= to + kMargin;) {
+  while (slab <= to + kMargin) {
     // Shares of the way: where the first way enters the piece, where the last one leaves it.
     float enters = clamp((slab + piece - high) * per_high, 0.0, 1.0);
     float leaves = clamp((slab + piece + thick - low) * per_low, 0.0, 1.0);
