@@ -16,6 +16,7 @@
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/device/features.h"
 #include "game/scene_file/parse.h"
+#include "tools/skerry/farm/cpu_share.h"
 #include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
@@ -144,11 +145,12 @@ int run_on_devices(std::span<const std::uint32_t> devices, std::size_t tasks,
   if (::pipe(queue) != 0) return fail(kFailed, no_process());
   std::vector<pid_t> processes;
   int worst = kDone;
-  for (const std::uint32_t device : devices) {
+  for (std::size_t i = 0; i < devices.size(); ++i) {
     const pid_t process = fork_child();
     if (process == 0) {
       ::close(queue[1]);
-      leave(body(device, [&] { return take_number(queue[0]); }));
+      stay_on_cpu_share(i, devices.size());
+      leave(body(devices[i], [&] { return take_number(queue[0]); }));
     }
     if (process > 0) processes.push_back(process);
     if (process < 0) worst = fail(kFailed, no_process());

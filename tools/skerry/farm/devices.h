@@ -28,8 +28,8 @@ std::optional<Refusal> parse_devices(const std::optional<std::string>& text,
 /// The next task that nobody has; none: all are taken.
 using NextTask = std::function<std::optional<std::size_t>()>;
 
-/// Calls `body` in a process for each device; together they are given each task once. The tasks
-/// that a process had when it died are lost, the others go to the rest.
+/// Calls `body` in a process for each device, on a share of the processors; together they are given
+/// each task once. The tasks that a process had when it died are lost, the others go to the rest.
 /// @param body returns an exit status. @return the highest one; of a process that a signal ended:
 /// kFailed, after a line. @pre this process has no thread but its main one.
 int run_on_devices(std::span<const std::uint32_t> devices, std::size_t tasks,

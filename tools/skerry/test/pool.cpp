@@ -12,10 +12,10 @@
 #include <cstring>
 #include <list>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "tools/skerry/farm/cpu_share.h"
 #include "tools/skerry/scene/scene_device.h"
 #include "tools/skerry/test/worker.h"
 
@@ -47,7 +47,7 @@ class Pool {
         options_(options),
         done_(done),
         serve_(serve),
-        cores_(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
+        cores_(usable_cpus()),
         left_(scenes.size() * static_cast<std::size_t>(options.runs)) {
     devices_.assign(options.devices.begin(), options.devices.end());
     if (devices_.empty()) devices_.push_back(std::nullopt);
@@ -136,6 +136,9 @@ void Pool::become_worker(int jobs, int results, std::optional<std::uint32_t> dev
     ::close(sibling.jobs);
     ::close(sibling.results);
   }
+  stay_on_cpu_share(
+      static_cast<std::size_t>(std::ranges::find(devices_, device) - devices_.begin()),
+      devices_.size());
   // Worlds are made on the processor whatever draws them: more threads than cores only contend.
   serve_(jobs, results,
          {device, std::max(1, cores_ / planned_), std::max(1, cores_ / processes(false))});
