@@ -64,8 +64,9 @@ class Browser:
 
 
 def wait_for(path):
+    """Until a download is whole: its empty file is there before, and goes if the browser ends then."""
     for _ in range(10 * WAIT_S):
-        if path.exists():
+        if path.exists() and path.stat().st_size > 0:
             return
         time.sleep(0.1)
     check(False, f"{path} did not come")
