@@ -17,6 +17,9 @@ layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materia
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kDepthsBinding) uniform sampler2D opaque_depth;
 layout(binding = kPreviousDepthsBinding) uniform sampler2D last_depth;  // of the last layer
+layout(binding = kLayerSurfacesBinding) uniform usampler2DArray layer_surfaces;
+
+layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
 
 #include "include/surface/surface.glsl"
 #include "include/surface/ripples.glsl"
@@ -30,9 +33,11 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float z = gl_FragCoord.z, last = texelFetch(last_depth, pixel, 0).r, opaque = texelFetch(opaque_depth, pixel, 0).r;
   bool entering = gl_FrontFacing;
-  if (z >= last || z <= opaque || (!entering && touched != 0u)) discard;
-
   uint word = entering ? in_surface : in_surface ^ kOppositeFace;
+  // The last layer's surface once more, where two of its quads overlap (draw_quads.vert).
+  bool again = z >= last - fwidth(z) / 32.0 - z * 1e-6 && word == texelFetch(layer_surfaces, ivec3(pixel, kWaterLayers - 1u), 0).r;
+  if (z >= last || z <= opaque || (!entering && touched != 0u) || again) discard;
+
   vec3 ray = pixel_ray(pixel);
   float ray_length = length(ray), t = view_distance(z, frame.near_plane);
   float at = view_distance(last, frame.near_plane) * ray_length;

@@ -60,16 +60,16 @@ TranslucentPass::Layers TailPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pi
         declare_draws(b, scene, draws);
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kFragmentRead);
-        for (const gpu::ImageRef ref : {scene.block_textures, opaque, last})
+        for (const gpu::ImageRef ref : {scene.block_textures, opaque, last, layers.surfaces})
           b.read(ref, Use::kFragmentRead);
         b.area({{static_cast<std::int32_t>(shown.x), static_cast<std::int32_t>(shown.y)},
                 {shown.z - shown.x, shown.w - shown.y}});
         layers.tail_depths = b.color(layers.tail_depths, gpu::Load::keep());
         layers.tail_light = b.color(layers.tail_light, gpu::Load::keep());
       },
-      [scene, draws, opaque, last,
+      [scene, draws, opaque, last, words = layers.surfaces,
        program = gpu::graphics(pipelines, programs::kDrawQuadsVert, programs::kSumTailFrag,
-                               gpu::GraphicsDesc{.constants = {},
+                               gpu::GraphicsDesc{.constants = {{shared::kWaterLayersConstant, layers.count}},
                                                  .color_formats = {kSumFormat, kSumFormat},
                                                  .cull = VK_CULL_MODE_NONE,
                                                  .blend = gpu::Blend::kSum})](gpu::Commands& c) {
@@ -77,6 +77,7 @@ TranslucentPass::Layers TailPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pi
                   gpu::texels<shared::kIslandsBinding>(scene.islands), cutout_bindings(scene),
                   gpu::sampled<shared::kDepthsBinding>(opaque, scene.point_sampler),
                   gpu::sampled<shared::kPreviousDepthsBinding>(last, scene.point_sampler),
+                  gpu::sampled<shared::kLayerSurfacesBinding>(words, scene.point_sampler),
                   draw_bindings(scene, draws, 0));
         draw_list(c, scene, draws, 0, DrawList::kTranslucent);
       });

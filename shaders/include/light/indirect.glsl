@@ -45,6 +45,27 @@ vec3 bounced_light(uvec4 bounce, uint island, vec2 at) {
   return shared_exponent(bounce.x) * max(sum, 0.0) * mix(mix(shares.x, shares.y, at.x), mix(shares.z, shares.w, at.x), at.y);
 }
 
+// Pixels' middles lie past a face's edge where a rasteriser has rounded its corners, to 1/256 of a pixel.
+const float kNearEdge = 1.0 / 64.0;  // of a voxel
+
+// The record of the face at a place; of a face that has none, what a face beside it has of which the place is on the edge.
+// @param voxel what the place is in; out: that of the record. @return 0: none.
+uint record_at(uvec4 grid, uint face, vec3 place, inout ivec3 voxel) {
+  ivec3 first = voxel;
+  vec3 in_voxel = place - vec3(first);
+  ivec3 beside = ivec3(lessThan(1.0 - in_voxel, vec3(kNearEdge))) - ivec3(lessThan(in_voxel, vec3(kNearEdge)));
+  uint axis = face >> 1;
+  beside[axis] = 0;
+  uint most = beside != ivec3(0) ? 4u : 1u;  // a number that the compiler does not know: lavapipe leaves no loop early that it has unrolled
+  uint record = 0u;
+  for (uint i = 0u; i < most && record == 0u; ++i) {
+    int u = int(i & 1u), v = int(i >> 1);
+    voxel = first + beside * (axis == 0u ? ivec3(0, u, v) : axis == 1u ? ivec3(v, 0, u) : ivec3(u, v, 0));
+    record = sky_record(grid, face, voxel);
+  }
+  return record;
+}
+
 struct SkyLight {
   vec3 irradiance;  // of the surface's face
   float seen;       // share of the face's sky, 0..1
@@ -69,7 +90,7 @@ FaceSky sky_of_face(vec3 position, uint word) {
   vec3 place = lattice * exp2(-float(grid.y >> 24));
   // Of a face, the voxel behind it; of a plant, its own.
   ivec3 voxel = ivec3(floor(plant ? place + vec3(0.0, 0.001, 0.0) : place - 0.5 * face_normal(face)));
-  uint record = sky_record(grid, face, voxel);
+  uint record = record_at(grid, face, place, voxel);
   uvec4 near = indirect_texel(record != 0u, record), far = indirect_texel(record != 0u, record + 1u);
   vec3 in_voxel = clamp(place - vec3(voxel), 0.0, 1.0);
   vec2 at = face < 2u ? in_voxel.yz : face < 4u ? in_voxel.zx : in_voxel.xy;

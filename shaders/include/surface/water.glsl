@@ -119,9 +119,13 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
   }
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
   if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye);
+  uint last_word = 0u;
   for (uint k = 0u; k < kWaterLayers; ++k) {
     uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
+    // Quads of one face overlap by a hundredth of a pixel (draw_quads.vert). No medium is entered twice: it is one surface.
+    if (word == last_word) continue;
+    last_word = word;
     float t = view_distance(layer_depth(k, ivec2(pixel)), frame.near_plane);
     float next = t * ray_length;
     if (medium != 0u) {

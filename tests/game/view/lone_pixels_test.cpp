@@ -1,0 +1,79 @@
+// Where faces meet, rasterisers round and quads overlap a little. No pixel may stand out by that.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/gpu/transfer/readback.h"
+#include "game/view/scene_view.h"
+#include "tests/gpu/test_device.h"
+#include "tests/render/random_scenes.h"
+
+namespace skerry::game {
+namespace {
+
+constexpr VkExtent2D kSize{320, 180};
+
+/// Pixels of less than half the brightness of each of their eight neighbours.
+int lone_pixels(const std::vector<std::byte>& picture) {
+  const auto brightness = [&](std::uint32_t x, std::uint32_t y) {
+    const std::size_t at = (std::size_t{y} * kSize.width + x) * 4;
+    int sum = 0;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      sum += std::to_integer<int>(picture[at + channel]);
+    return sum;
+  };
+  int count = 0;
+  for (std::uint32_t y = 1; y + 1 < kSize.height; ++y)
+    for (std::uint32_t x = 1; x + 1 < kSize.width; ++x) {
+      int least = 3 * 255;
+      for (std::uint32_t i = 0; i < 9; ++i)
+        if (i != 4) least = std::min(least, brightness(x + i % 3 - 1, y + i / 3 - 1));
+      count += least > 40 && 2 * brightness(x, y) < least;
+    }
+  return count;
+}
+
+class LonePixels : public gpu::GpuTest {
+ protected:
+  /// Of views about a rocky lake in the shade, over and under its water.
+  int count(std::uint32_t layers) {
+    SceneOptions options;
+    options.seed_text = "5";
+    options.settings.view_distance = 100;
+    options.settings.exposure_ev = -1.0;
+    options.settings.render.water_layers = layers;
+    options.settings.render.leave_out.add(render::Feature::kCutouts);  // leaves are of lone pixels
+    Result<std::unique_ptr<SceneView>> made = SceneView::create(device(), options);
+    EXPECT_TRUE(made) << made.error().message;
+    SceneView& view = **made;
+    SceneView::Moment moment;
+    moment.time_of_day_s = 16.5 * 3600.0;
+    const render::FixedPos middle = render::fixed_at({40.5, 13.3, 40.5});
+    moment.camera.position = middle;
+    EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s));
+    render::RandomPlaces random(1);
+    int found = 0;
+    for (int i = 0; i < 24; ++i) {
+      moment.camera.position = render::sum(middle, render::fixed_at(random.in_box(2.0)));
+      moment.camera.yaw_deg = random.uniform(0.0, 360.0);
+      moment.camera.pitch_deg = random.uniform(-70.0, -10.0);
+      EXPECT_TRUE(view.draw(moment, kSize));
+      view.renderer().finish();
+      const auto picture = gpu::read_back(device(), view.renderer().picture(), 4);
+      EXPECT_TRUE(picture);
+      const int here = lone_pixels(*picture);
+      if (here > 0)
+        std::printf("view %d, %d layers: %d lone pixels\n", i, static_cast<int>(layers), here);
+      found += here;
+    }
+    return found;
+  }
+};
+
+TEST_F(LonePixels, ThereAreNoneWhereFacesMeet) {
+  EXPECT_EQ(count(1), 0);
+  EXPECT_EQ(count(4), 0);
+}
+
+}  // namespace
+}  // namespace skerry::game
