@@ -68,11 +68,12 @@ TranslucentPass::Layers TailPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pi
         layers.tail_light = b.color(layers.tail_light, gpu::Load::keep());
       },
       [scene, draws, opaque, last, words = layers.surfaces,
-       program = gpu::graphics(pipelines, programs::kDrawQuadsVert, programs::kSumTailFrag,
-                               gpu::GraphicsDesc{.constants = {{shared::kWaterLayersConstant, layers.count}},
-                                                 .color_formats = {kSumFormat, kSumFormat},
-                                                 .cull = VK_CULL_MODE_NONE,
-                                                 .blend = gpu::Blend::kSum})](gpu::Commands& c) {
+       program = gpu::graphics(
+           pipelines, programs::kDrawQuadsVert, programs::kSumTailFrag,
+           gpu::GraphicsDesc{.constants = {{shared::kWaterLayersConstant, layers.count}},
+                             .color_formats = {kSumFormat, kSumFormat},
+                             .cull = VK_CULL_MODE_NONE,
+                             .blend = gpu::Blend::kSum})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::texels<shared::kIslandsBinding>(scene.islands), cutout_bindings(scene),
                   gpu::sampled<shared::kDepthsBinding>(opaque, scene.point_sampler),
