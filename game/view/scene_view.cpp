@@ -20,6 +20,7 @@
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
+#include "world/islands/medium.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::game {
@@ -562,21 +563,15 @@ SceneView::Medium SceneView::medium_at(const render::Camera& camera, double worl
     const glm::dvec3 offset = world::difference_blocks(place(camera.position), pose.origin);
     if (glm::dot(offset, offset) > entry.spec.bounding_radius * entry.spec.bounding_radius)
       continue;
-    const glm::dvec3 lattice = glm::inverse(pose.rotation) * offset;
-    world::IVec3 voxel{static_cast<std::int32_t>(std::floor(lattice.x)),
-                       static_cast<std::int32_t>(std::floor(lattice.y)),
-                       static_cast<std::int32_t>(std::floor(lattice.z))};
-    const std::optional<world::BlockId> block = world_->block_at(entry.spec.id, voxel);
-    if (!block || world::block_kind(*block) != world::BlockKind::kTranslucent) continue;
-    constexpr int kDeepest = 64;  // blocks
-    for (int depth = 0; depth < kDeepest; ++depth) {
-      const glm::ivec3 below(voxel.x, voxel.y++, voxel.z);
-      const world::BlockId above = world_->block_at(entry.spec.id, voxel).value_or(world::kAir);
-      if (above == *block) continue;
-      if (world::block_kind(above) == world::BlockKind::kOpaque) break;
-      return {*block, render::MediumSurface{static_cast<std::uint32_t>(i), below}};
+    const world::Medium medium =
+        world::medium_at(*world_, entry.spec.id, glm::inverse(pose.rotation) * offset);
+    if (medium.block == world::kAir) continue;
+    Medium out{medium.block, {}};
+    if (medium.below_surface) {
+      const world::IVec3& voxel = *medium.below_surface;
+      out.surface = {static_cast<std::uint32_t>(i), {voxel.x, voxel.y, voxel.z}};
     }
-    return {*block, {}};
+    return out;
   }
   return {};
 }
