@@ -105,19 +105,26 @@ void finish(Streamer& streamer, Consumer& consumer) {
   while (!streamer.complete()) consumer.take(streamer.poll(kAllQuads));
 }
 
-/// The home island of seed 1 alone, handed out in full detail.
-struct LoadedHome {
-  Scene scene{{.seed = 1, .island_limit = 1}};
+/// A scene of which all is handed out.
+struct Loaded {
+  Scene scene;
   World world{scene.desc};
-  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
   Jobs jobs;
   Streamer streamer{world, jobs};
   Consumer consumer;
-  explicit LoadedHome(int threads) : jobs(threads) {
+  Loaded(const Scene& of, int threads) : scene(of), jobs(threads) {
     streamer.update(scene.view, scene.settings);
     finish(streamer, consumer);
   }
 };
+
+/// The home island of seed 1 alone.
+Scene home_alone() {
+  return Scene({.seed = 1, .island_limit = 1});
+}
+std::uint64_t home_of(const World& world) {
+  return world.islands_near(world.origin(), 1000.0, 0.0).front().id;
+}
 
 TEST(StreamLevel, DoublesWithDistance) {
   EXPECT_EQ(level_at(-50.0, 100.0), 0);  // inside the sphere
@@ -198,8 +205,9 @@ TEST(Stream, TheQuadBudgetHoldsUpToOneSection) {
 }
 
 TEST(Stream, ALevelIsReplacedInOneUpdate) {
-  LoadedHome loaded(4);
-  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
+  Loaded loaded(home_alone(), 4);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
+  const std::uint64_t home = home_of(world);
   EXPECT_EQ(consumer.levels_of(home), std::set<std::int32_t>{0});
   scene.settings.detail_distance_blocks = 0.0;  // everything at the coarsest level
   const glm::dvec3 out{0.0, 400.0, 0.0};
@@ -221,14 +229,9 @@ TEST(Stream, ALevelIsReplacedInOneUpdate) {
 }
 
 TEST(Stream, FlyingAwayRemovesAndReturningRestores) {
-  const Scene scene;
-  World world(scene.desc);
-  Jobs jobs(4);
-  Streamer streamer(world, jobs);
-  Consumer consumer;
+  Loaded loaded(Scene(), 4);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
   StreamView view = scene.view;
-  streamer.update(view, scene.settings);
-  finish(streamer, consumer);
   EXPECT_GT(world.usage().chunks, 0u);
   view.camera = moved(view.camera, {0.0, 3000.0, 0.0});
   streamer.update(view, scene.settings);
@@ -389,13 +392,8 @@ TEST(Stream, FarSectionsDoNotDependOnThreads) {
 
 // What is not as its seed makes it comes from its blocks, at any distance.
 TEST(Stream, AnEditOfAFarIslandShows) {
-  const FarScene scene;
-  World world(scene.desc);
-  Jobs jobs(2);
-  Streamer streamer(world, jobs);
-  Consumer consumer;
-  streamer.update(scene.view, scene.settings);
-  finish(streamer, consumer);
+  Loaded loaded(FarScene(), 2);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
   const IslandSpec far = world.islands_near(scene.view.camera, 1500.0, 0.0).back();
   const auto is_far = [&] {
     return std::ranges::any_of(consumer.held(), [&](const auto& held) {
@@ -424,8 +422,9 @@ TEST(Stream, AnEditOfAFarIslandShows) {
 }
 
 TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
-  LoadedHome loaded(2);
-  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
+  Loaded loaded(home_alone(), 2);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
+  const std::uint64_t home = home_of(world);
   // Dig out the first solid voxel found on a chunk's border, and put a lamp high in the air.
   IVec3 solid{63, 0, 0};
   for (solid.y = 80; world.block_at(home, solid).value_or(kAir) == kAir; --solid.y) {
@@ -455,8 +454,9 @@ TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
 }
 
 TEST(Stream, AnEditIsHandedOutByTheFrameThatMadeItHoweverBusyTheWorkersAre) {
-  LoadedHome loaded(1);
-  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
+  Loaded loaded(home_alone(), 1);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
+  const std::uint64_t home = home_of(world);
   std::latch busy(1);
   jobs.submit([&] { busy.wait(); });
   ASSERT_TRUE(world.set_block(home, {5, 640, 5}, block::kLamp));
@@ -474,7 +474,7 @@ TEST(Stream, EditsDuringWorkAreNeverLost) {
   Scene scene;
   scene.desc.island_limit = 1;
   World world(scene.desc);
-  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
+  const std::uint64_t home = home_of(world);
   Jobs jobs(4);
   Streamer streamer(world, jobs);
   Consumer consumer;
