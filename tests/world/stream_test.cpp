@@ -267,6 +267,66 @@ TEST(Stream, AHurriedFlightEndsWithNothingButWhatIsNear) {
   for (const std::uint64_t id : consumer.islands()) EXPECT_TRUE(allowed.contains(id));
 }
 
+/// What is in at which level, by looking at every island each time.
+class EveryIslandEachTime {
+ public:
+  void look(const World& world, const StreamView& view, const StreamSettings& settings) {
+    constexpr double kHysteresis = 1.05;
+    const double detail = settings.detail_distance_blocks;
+    for (const IslandSpec& spec : world.islands_near(view.camera, 2000.0, view.time_s)) {
+      const glm::dvec3 away = difference_blocks(pose_at(spec, view.time_s).origin, view.camera);
+      const double distance = glm::length(away) - spec.bounding_radius;
+      const auto found = levels_.find(spec.id);
+      if (found == levels_.end()) {
+        if (distance <= settings.view_distance_blocks)
+          levels_[spec.id] = level_at(distance, detail);
+      } else if (distance > settings.view_distance_blocks * kHysteresis) {
+        levels_.erase(found);
+      } else if (found->second < level_at(distance / kHysteresis, detail) ||
+                 found->second > level_at(distance * kHysteresis, detail)) {
+        found->second = level_at(distance, detail);
+      }
+    }
+  }
+  const std::map<std::uint64_t, int>& levels() const { return levels_; }
+
+ private:
+  std::map<std::uint64_t, int> levels_;
+};
+
+TEST(Stream, IslandsChangeAsIfEachWereLookedAtEachTime) {
+  Scene scene;
+  scene.settings = {.view_distance_blocks = 700.0, .detail_distance_blocks = 20.0};
+  World world(scene.desc);
+  Jobs jobs(2);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  EveryIslandEachTime truth;
+  std::size_t changes = 0;
+  std::map<std::uint64_t, int> before;
+  for (int frame = 0; frame < 400; ++frame) {
+    // Past the home island and back, while all drift; at times it stands still, or time does.
+    scene.view.camera = moved(world.origin(), {3.0 * std::min(frame, 250), 60.0 + frame % 7, 0.0});
+    scene.view.time_s = frame < 100 ? 0.0 : 5.0 * (frame - 100);
+    if (frame == 320) scene.settings.view_distance_blocks = 500.0;
+    streamer.update(scene.view, scene.settings);
+    truth.look(world, scene.view, scene.settings);
+    changes += truth.levels() != before;
+    before = truth.levels();
+    if (frame % 50 != 49) continue;
+    finish(streamer, consumer);
+    std::set<std::uint64_t> expected;
+    for (const auto& [id, level] : truth.levels()) {
+      expected.insert(id);
+      if (level < kLevelCount) {
+        EXPECT_EQ(consumer.levels_of(id), std::set<std::int32_t>{level}) << frame;
+      }
+    }
+    EXPECT_EQ(consumer.islands(), expected) << frame;
+  }
+  EXPECT_GT(changes, 30u);
+}
+
 TEST(Stream, DriftBringsIslandsIn) {
   // A limit halfway between an island's nearest and furthest place.
   const World world({.seed = 1});
