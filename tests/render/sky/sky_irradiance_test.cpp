@@ -223,8 +223,7 @@ TEST(SkyIrradiance, FarIslandsShareTheSkiesOfSixtyFourHeadings) {
     double most = 0.0;
     for (const double value : right) most = std::max(most, std::abs(value));
     // Half a step of 0.098, by which harmonics of degree 2 turn twice.
-    for (std::size_t k = 0; k < right.size(); ++k)
-      EXPECT_NEAR(found[k], right[k], 0.1 * most) << i;
+    for (std::size_t k = 0; k < right.size(); ++k) EXPECT_NEAR(found[k], right[k], 0.1 * most) << i;
   }
 }
 
