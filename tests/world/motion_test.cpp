@@ -117,7 +117,9 @@ TEST(Motion, AllPosesAtOnceAreThoseOfEachIsland) {
     for (int i = 0; i < moved_islands; ++i) {
       const IslandSpec& spec = specs[static_cast<std::size_t>(5 * i)];
       for (std::int64_t tick = 0; tick < 40; ++tick)
-        world.move_island(spec.id, tick, state_at(moved(spec.origin, {0.5 * tick, 3.0, 0.0})).pose);
+        world.move_island(
+            spec.id, tick,
+            state_at(moved(spec.origin, {0.5 * static_cast<double>(tick), 3.0, 0.0})).pose);
     }
     for (const double time_s : {0.0, 0.73, 4000.0}) {
       const IslandPoses poses = world.poses(time_s);
