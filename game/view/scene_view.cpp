@@ -20,6 +20,7 @@
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
+#include "world/islands/medium.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::game {
@@ -265,6 +266,7 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
   islands_.clear();
   first_free_slot_ = 0;
   island_slots_.clear();
+  near_slots_.clear();
   waiting_.clear();
   light_field_.remove_sections();
   island_light_.reset();
@@ -370,13 +372,12 @@ void SceneView::find_light(const render::Camera& camera, double world_time_s) {
 std::map<std::uint64_t, SkyLightFeed::NearIsland> SceneView::near_islands(
     const render::Camera& camera, double world_time_s) const {
   std::map<std::uint64_t, SkyLightFeed::NearIsland> islands;
-  for (const auto& [id, slot] : island_slots_) {
-    const IslandEntry& entry = islands_[slot];
-    if (entry.far) continue;
-    const world::Pose pose = pose_of(entry, world_time_s);
+  const world::IslandPoses poses = world_->poses(world_time_s);
+  for (const auto& [id, slot] : near_slots_) {
+    const world::IslandSpec& spec = islands_[slot].spec;
     const double centre =
-        glm::length(world::difference_blocks(place(camera.position), pose.origin));
-    islands[id] = {slot, std::max(0.0, centre - entry.spec.bounding_radius)};
+        glm::length(world::difference_blocks(place(camera.position), poses.of(spec).origin));
+    islands[id] = {slot, std::max(0.0, centre - spec.bounding_radius)};
   }
   return islands;
 }
@@ -442,6 +443,7 @@ void SceneView::release_island(std::uint64_t island) {
   if (indirect_) indirect_->end_island(uploader, slot->second);
   sky_light_.remove(island);
   if (island_light_) island_light_->end_island(island);
+  near_slots_.erase(island);
   island_slots_.erase(slot);
 }
 
@@ -505,34 +507,30 @@ Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
       return begun.error();
   }
   island_slots_.emplace(key.island, slot);
+  if (!key.far) near_slots_.emplace(key.island, slot);
   return slot;
 }
 
-// A slot without sections may name an island that the world has dropped.
-world::Pose SceneView::pose_of(const IslandEntry& entry, double world_time_s) const {
-  const std::optional<world::Pose> pose =
-      entry.sections == 0 ? std::nullopt : world_->pose(entry.spec.id, world_time_s);
-  return pose ? *pose : world::pose_at(entry.spec, world_time_s);
-}
-
-std::vector<render::IslandPlacement> SceneView::placements(double world_time_s) const {
-  std::vector<render::IslandPlacement> out;
-  out.reserve(islands_.size());
+/// Of all slots; those without sections are where their last island is.
+void SceneView::place_islands(double world_time_s) {
+  const world::IslandPoses poses = world_->poses(world_time_s);
+  placements_.clear();
+  placements_.reserve(islands_.size());
   for (const IslandEntry& entry : islands_) {
-    const world::Pose pose = pose_of(entry, world_time_s);
-    out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far});
+    const world::Pose pose = poses.of(entry.spec);
+    placements_.push_back(
+        {fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far});
   }
-  return out;
 }
 
-std::vector<PlacedIsland> SceneView::placed_islands(
-    const render::FixedPos& camera, std::span<const render::IslandPlacement> islands) const {
+std::vector<PlacedIsland> SceneView::placed_islands(const render::FixedPos& camera) const {
   std::vector<PlacedIsland> out;
-  for (const auto& [id, slot] : island_slots_)
-    if (!islands_[slot].far)
-      out.push_back({id, slot, glm::mat3_cast(islands[slot].rotation),
-                     world::difference_blocks(place(islands[slot].origin), place(camera)),
-                     islands[slot].bounding_radius});
+  for (const auto& [id, slot] : near_slots_) {
+    const render::IslandPlacement& island = placements_[slot];
+    out.push_back({id, slot, glm::mat3_cast(island.rotation),
+                   world::difference_blocks(place(island.origin), place(camera)),
+                   island.bounding_radius});
+  }
   return out;
 }
 
@@ -542,54 +540,45 @@ bool SceneView::lights_count_in_the_open(std::uint32_t medium) const {
          settings_.render.clouds.coverage > 0.0 || cloud_volumes_ || medium != world::kAir;
 }
 
-void SceneView::gather_lights(const Moment& moment, VkExtent2D size,
-                              std::span<const render::IslandPlacement> islands, bool in_the_open) {
+void SceneView::gather_lights(const Moment& moment, VkExtent2D size, bool in_the_open) {
   const Stopwatch watch;
   light_field_.gather(
       place(moment.camera.position), render::view_of(moment.camera, size.width, size.height),
-      placed_islands(moment.camera.position, islands),
+      placed_islands(moment.camera.position),
       held_light(settings_, light_field_, moment.camera.yaw_deg, moment.world_time_s), in_the_open,
       lights_);
   gather_ms_ = watch.milliseconds();
 }
 
 /// The translucent block that the camera is in.
-SceneView::Medium SceneView::medium_at(const render::Camera& camera, double world_time_s) const {
-  for (std::size_t i = 0; i < islands_.size(); ++i) {
-    const IslandEntry& entry = islands_[i];
-    if (entry.sections == 0 || entry.far) continue;
-    const world::Pose pose = pose_of(entry, world_time_s);
-    const glm::dvec3 offset = world::difference_blocks(place(camera.position), pose.origin);
-    if (glm::dot(offset, offset) > entry.spec.bounding_radius * entry.spec.bounding_radius)
-      continue;
-    const glm::dvec3 lattice = glm::inverse(pose.rotation) * offset;
-    world::IVec3 voxel{static_cast<std::int32_t>(std::floor(lattice.x)),
-                       static_cast<std::int32_t>(std::floor(lattice.y)),
-                       static_cast<std::int32_t>(std::floor(lattice.z))};
-    const std::optional<world::BlockId> block = world_->block_at(entry.spec.id, voxel);
-    if (!block || world::block_kind(*block) != world::BlockKind::kTranslucent) continue;
-    constexpr int kDeepest = 64;  // blocks
-    for (int depth = 0; depth < kDeepest; ++depth) {
-      const glm::ivec3 below(voxel.x, voxel.y++, voxel.z);
-      const world::BlockId above = world_->block_at(entry.spec.id, voxel).value_or(world::kAir);
-      if (above == *block) continue;
-      if (world::block_kind(above) == world::BlockKind::kOpaque) break;
-      return {*block, render::MediumSurface{static_cast<std::uint32_t>(i), below}};
+SceneView::Medium SceneView::medium_at(const render::Camera& camera) const {
+  for (const auto& [id, slot] : near_slots_) {
+    const render::IslandPlacement& island = placements_[slot];
+    const glm::dvec3 offset =
+        world::difference_blocks(place(camera.position), place(island.origin));
+    if (glm::dot(offset, offset) > island.bounding_radius * island.bounding_radius) continue;
+    const world::Medium medium =
+        world::medium_at(*world_, id, glm::inverse(island.rotation) * offset);
+    if (medium.block == world::kAir) continue;
+    Medium out{medium.block, {}};
+    if (medium.below_surface) {
+      const world::IVec3& voxel = *medium.below_surface;
+      out.surface = {slot, {voxel.x, voxel.y, voxel.z}};
     }
-    return {*block, {}};
+    return out;
   }
   return {};
 }
 
-double SceneView::reach(const render::FixedPos& camera,
-                        std::span<const render::IslandPlacement> islands) const {
+double SceneView::reach(const render::FixedPos& camera) const {
   // An island is in as a whole once any of it is within view distance; shadows must reach its far
   // side. In steps, because every step draws all shadow maps anew.
   double reach = settings_.view_distance;
-  for (std::size_t i = 0; i < islands.size(); ++i) {
+  for (std::size_t i = 0; i < placements_.size(); ++i) {
     if (islands_[i].sections == 0) continue;
-    const glm::dvec3 offset = world::difference_blocks(place(islands[i].origin), place(camera));
-    reach = std::max(reach, glm::length(offset) + islands[i].bounding_radius);
+    const render::IslandPlacement& island = placements_[i];
+    const glm::dvec3 offset = world::difference_blocks(place(island.origin), place(camera));
+    reach = std::max(reach, glm::length(offset) + island.bounding_radius);
   }
   return std::ceil(reach / kReachStep) * kReachStep;
 }
@@ -613,17 +602,17 @@ Result<std::uint64_t> SceneView::draw(
     const Moment& moment, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
     std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
-  const std::vector<render::IslandPlacement> islands = placements(moment.world_time_s);
+  place_islands(moment.world_time_s);
   render::FrameInput input;
   input.camera = moment.camera;
   input.anchor = fixed(world_->origin());
-  input.islands = islands;
-  input.reach_blocks = reach(moment.camera.position, islands);
+  input.islands = placements_;
+  input.reach_blocks = reach(moment.camera.position);
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
-  const Medium medium = medium_at(moment.camera, moment.world_time_s);
+  const Medium medium = medium_at(moment.camera);
   input.camera_medium = medium.block;
   input.medium_surface = medium.surface;
-  gather_lights(moment, size, islands, lights_count_in_the_open(input.camera_medium));
+  gather_lights(moment, size, lights_count_in_the_open(input.camera_medium));
   input.lights = lights_.lights;
   input.light_islands = lights_.islands;
   input.light_reaches = lights_.reaches;

@@ -124,21 +124,17 @@ class SceneView {
   void refuse_light(const std::string& why);
   void remove_section(const world::SectionKey& key);
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
-  world::Pose pose_of(const IslandEntry& entry, double world_time_s) const;
-  std::vector<render::IslandPlacement> placements(double world_time_s) const;
-  std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera,
-                                           std::span<const render::IslandPlacement> islands) const;
-  void gather_lights(const Moment& moment, VkExtent2D size,
-                     std::span<const render::IslandPlacement> islands, bool in_the_open);
+  void place_islands(double world_time_s);
+  std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera) const;
+  void gather_lights(const Moment& moment, VkExtent2D size, bool in_the_open);
   bool lights_count_in_the_open(std::uint32_t medium) const;
   struct Medium {
     world::BlockId block = world::kAir;            // translucent, or air
     std::optional<render::MediumSurface> surface;  // where it ends above, in what light passes
   };
-  Medium medium_at(const render::Camera& camera, double world_time_s) const;
+  Medium medium_at(const render::Camera& camera) const;
   std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
-  double reach(const render::FixedPos& camera,
-               std::span<const render::IslandPlacement> islands) const;
+  double reach(const render::FixedPos& camera) const;
 
   Settings settings_;
   std::unique_ptr<Jobs> jobs_;
@@ -149,6 +145,8 @@ class SceneView {
   std::vector<IslandEntry> islands_;                     // by GPU slot
   std::size_t first_free_slot_ = 0;                      // no free one is lower
   std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
+  std::map<std::uint64_t, std::uint32_t> near_slots_;    // of them, those that are not far
+  std::vector<render::IslandPlacement> placements_;      // of the last frame, by slot
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
   std::map<world::SectionKey, std::vector<render::SectionId>> sections_;
   std::deque<world::ReadySection> waiting_;  // for memory or the next frame; nearest islands first

@@ -1,14 +1,14 @@
 // Light of the sky that stays in the world, as CPU and GPU share it: for each drawn face, how much
 // of the sky its corners see. docs/decisions/0028-sky-light-on-faces.md.
 //
-// Two buffers of RGBA32_UINT texels. The first has kIndirectIslandTexels for each island: what the
-// sky sends to its six faces now (SkyIrradiance), then harmonics of what sky, sun and moon send to
-// the island: a texel a channel, halves of degrees 1 and 2 in order, then a texel with floats of
-// degree 0.
-// Of the second, texel i < kMaxIslands is island i's grid: x lowest chunk (10 bits each of x, y, z
-// from bit 0 up, two's complement), y chunks along x, y, z (8 bits each; 24-31 log2 of a voxel's
-// edge), z first texel of its tables, w one of kIndirectDark and the like. The record of a face
-// that sees all of its sky is at kIndirectOpenRecord. From kIndirectFirst on:
+// Two buffers of RGBA32_UINT texels. The first begins with a word an island, four a texel: the
+// first texel of its sky. A sky is kIndirectIslandTexels, which islands may share: what it sends to
+// their six faces now (sky_irradiance()), then harmonics of what sky, sun and moon send to them: a
+// texel a channel, halves of degrees 1 and 2 in order, then a texel with floats of degree 0. Of the
+// second, texel i < kMaxIslands is island i's grid: x lowest chunk (10 bits each of x, y, z from
+// bit 0 up, two's complement), y chunks along x, y, z (8 bits each; 24-31 log2 of a voxel's edge),
+// z first texel of its tables, w one of kIndirectDark and the like. The record of a face that sees
+// all of its sky is at kIndirectOpenRecord. From kIndirectFirst on:
 // - a table a chunk of the grid (z fastest, x, y slowest): kIndirectTableTexels, a word a brick of
 // 8^3
 //   voxels (index z + 8 x + 64 y), the first texel of the brick's masks, or 0: it has no face;
@@ -43,7 +43,7 @@ SHARED_CONST float kSteepCosine = 0.6f;
 
 SHARED_CONST uint kIndirectSkyTexels =
     3u;  // a face: red, green, blue; halves of the lobes in order
-SHARED_CONST uint kIndirectHarmonics = 18u;  // of an island's texels: after 6 faces
+SHARED_CONST uint kIndirectHarmonics = 18u;  // of a sky's texels: after 6 faces
 SHARED_CONST uint kIndirectIslandTexels = 22u;
 SHARED_CONST uint kIndirectDark = 0u;            // nothing is known of an island's faces
 SHARED_CONST uint kIndirectFaces = 1u;           // tables say what each face sees

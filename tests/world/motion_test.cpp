@@ -109,6 +109,32 @@ TEST(Motion, TheWorldKnowsEveryTickOfALongFrame) {
   }
 }
 
+TEST(Motion, AllPosesAtOnceAreThoseOfEachIsland) {
+  World world({.seed = 1, .offset_blocks = {std::int64_t{1} << 33, -700, 5}});
+  const std::vector<IslandSpec> specs = world.islands_near(world.origin(), 1500.0, 0.0);
+  ASSERT_GT(specs.size(), 20u);
+  for (const int moved_islands : {0, 1, 3}) {
+    for (int i = 0; i < moved_islands; ++i) {
+      const IslandSpec& spec = specs[static_cast<std::size_t>(5 * i)];
+      for (std::int64_t tick = 0; tick < 40; ++tick)
+        world.move_island(
+            spec.id, tick,
+            state_at(moved(spec.origin, {0.5 * static_cast<double>(tick), 3.0, 0.0})).pose);
+    }
+    for (const double time_s : {0.0, 0.73, 4000.0}) {
+      const IslandPoses poses = world.poses(time_s);
+      int off_course = 0;
+      for (const IslandSpec& spec : specs) {
+        const Pose one = *world.pose(spec.id, time_s), of_all = poses.of(spec);
+        EXPECT_EQ(difference_blocks(of_all.origin, one.origin), glm::dvec3(0.0));
+        EXPECT_EQ(of_all.rotation, one.rotation);
+        off_course += poses.is_off_course(spec.id);
+      }
+      EXPECT_EQ(off_course, moved_islands);
+    }
+  }
+}
+
 TEST(Motion, AnIslandTurnsAboutItsCentreOfMass) {
   World world(empty_world());
   const std::uint64_t id = add_island(world, {}, voxels_in({10, 0, 0}, {20, 1, 10}));

@@ -105,19 +105,26 @@ void finish(Streamer& streamer, Consumer& consumer) {
   while (!streamer.complete()) consumer.take(streamer.poll(kAllQuads));
 }
 
-/// The home island of seed 1 alone, handed out in full detail.
-struct LoadedHome {
-  Scene scene{{.seed = 1, .island_limit = 1}};
+/// A scene of which all is handed out.
+struct Loaded {
+  Scene scene;
   World world{scene.desc};
-  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
   Jobs jobs;
   Streamer streamer{world, jobs};
   Consumer consumer;
-  explicit LoadedHome(int threads) : jobs(threads) {
+  Loaded(const Scene& of, int threads) : scene(of), jobs(threads) {
     streamer.update(scene.view, scene.settings);
     finish(streamer, consumer);
   }
 };
+
+/// The home island of seed 1 alone.
+Scene home_alone() {
+  return Scene({.seed = 1, .island_limit = 1});
+}
+std::uint64_t home_of(const World& world) {
+  return world.islands_near(world.origin(), 1000.0, 0.0).front().id;
+}
 
 TEST(StreamLevel, DoublesWithDistance) {
   EXPECT_EQ(level_at(-50.0, 100.0), 0);  // inside the sphere
@@ -198,8 +205,9 @@ TEST(Stream, TheQuadBudgetHoldsUpToOneSection) {
 }
 
 TEST(Stream, ALevelIsReplacedInOneUpdate) {
-  LoadedHome loaded(4);
-  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
+  Loaded loaded(home_alone(), 4);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
+  const std::uint64_t home = home_of(world);
   EXPECT_EQ(consumer.levels_of(home), std::set<std::int32_t>{0});
   scene.settings.detail_distance_blocks = 0.0;  // everything at the coarsest level
   const glm::dvec3 out{0.0, 400.0, 0.0};
@@ -221,14 +229,9 @@ TEST(Stream, ALevelIsReplacedInOneUpdate) {
 }
 
 TEST(Stream, FlyingAwayRemovesAndReturningRestores) {
-  const Scene scene;
-  World world(scene.desc);
-  Jobs jobs(4);
-  Streamer streamer(world, jobs);
-  Consumer consumer;
+  Loaded loaded(Scene(), 4);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
   StreamView view = scene.view;
-  streamer.update(view, scene.settings);
-  finish(streamer, consumer);
   EXPECT_GT(world.usage().chunks, 0u);
   view.camera = moved(view.camera, {0.0, 3000.0, 0.0});
   streamer.update(view, scene.settings);
@@ -262,6 +265,68 @@ TEST(Stream, AHurriedFlightEndsWithNothingButWhatIsNear) {
     allowed.insert(spec.id);
   }
   for (const std::uint64_t id : consumer.islands()) EXPECT_TRUE(allowed.contains(id));
+}
+
+/// What is in at which level, by looking at every island each time.
+class EveryIslandEachTime {
+ public:
+  void look(const World& world, const StreamView& view, const StreamSettings& settings) {
+    constexpr double kHysteresis = 1.05;
+    const double detail = settings.detail_distance_blocks;
+    for (const IslandSpec& spec : world.islands_near(view.camera, 2000.0, view.time_s)) {
+      const glm::dvec3 away = difference_blocks(pose_at(spec, view.time_s).origin, view.camera);
+      const double distance = glm::length(away) - spec.bounding_radius;
+      const auto found = levels_.find(spec.id);
+      if (found == levels_.end()) {
+        if (distance <= settings.view_distance_blocks)
+          levels_[spec.id] = level_at(distance, detail);
+      } else if (distance > settings.view_distance_blocks * kHysteresis) {
+        levels_.erase(found);
+      } else if (found->second < level_at(distance / kHysteresis, detail) ||
+                 found->second > level_at(distance * kHysteresis, detail)) {
+        found->second = level_at(distance, detail);
+      }
+    }
+  }
+  const std::map<std::uint64_t, int>& levels() const { return levels_; }
+
+ private:
+  std::map<std::uint64_t, int> levels_;
+};
+
+TEST(Stream, IslandsChangeAsIfEachWereLookedAtEachTime) {
+  Scene scene;
+  scene.settings = {.view_distance_blocks = 700.0, .detail_distance_blocks = 20.0};
+  World world(scene.desc);
+  Jobs jobs(2);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  EveryIslandEachTime truth;
+  std::size_t changes = 0;
+  std::map<std::uint64_t, int> before;
+  for (int frame = 0; frame < 400; ++frame) {
+    // Past the home island and back, while all drift; at times it stands still, or time does.
+    scene.view.camera = moved(world.origin(), {3.0 * std::min(frame, 250), 60.0 + frame % 7, 0.0});
+    scene.view.time_s = frame < 100 ? 0.0 : 5.0 * (frame - 100);
+    if (frame == 320) scene.settings.view_distance_blocks = 500.0;
+    streamer.update(scene.view, scene.settings);
+    truth.look(world, scene.view, scene.settings);
+    changes += truth.levels() != before;
+    before = truth.levels();
+    if (frame % 50 != 49) continue;
+    finish(streamer, consumer);
+    EXPECT_EQ(streamer.stats().islands, truth.levels().size()) << frame;
+    for (const std::uint64_t id : consumer.islands()) {
+      ASSERT_TRUE(truth.levels().contains(id)) << frame;
+      const int level = truth.levels().at(id);
+      if (level < kLevelCount) {
+        EXPECT_EQ(consumer.levels_of(id), std::set<std::int32_t>{level}) << frame;
+      }
+    }
+    // Of the smallest, blocks sampled 16 apart may hit none.
+    EXPECT_GE(consumer.islands().size() + 2, truth.levels().size()) << frame;
+  }
+  EXPECT_GT(changes, 20u);
 }
 
 TEST(Stream, DriftBringsIslandsIn) {
@@ -389,13 +454,8 @@ TEST(Stream, FarSectionsDoNotDependOnThreads) {
 
 // What is not as its seed makes it comes from its blocks, at any distance.
 TEST(Stream, AnEditOfAFarIslandShows) {
-  const FarScene scene;
-  World world(scene.desc);
-  Jobs jobs(2);
-  Streamer streamer(world, jobs);
-  Consumer consumer;
-  streamer.update(scene.view, scene.settings);
-  finish(streamer, consumer);
+  Loaded loaded(FarScene(), 2);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
   const IslandSpec far = world.islands_near(scene.view.camera, 1500.0, 0.0).back();
   const auto is_far = [&] {
     return std::ranges::any_of(consumer.held(), [&](const auto& held) {
@@ -424,8 +484,9 @@ TEST(Stream, AnEditOfAFarIslandShows) {
 }
 
 TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
-  LoadedHome loaded(2);
-  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
+  Loaded loaded(home_alone(), 2);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
+  const std::uint64_t home = home_of(world);
   // Dig out the first solid voxel found on a chunk's border, and put a lamp high in the air.
   IVec3 solid{63, 0, 0};
   for (solid.y = 80; world.block_at(home, solid).value_or(kAir) == kAir; --solid.y) {
@@ -455,8 +516,9 @@ TEST(Stream, AnEditRemeshesItsChunkAndTheNeighbourItTouches) {
 }
 
 TEST(Stream, AnEditIsHandedOutByTheFrameThatMadeItHoweverBusyTheWorkersAre) {
-  LoadedHome loaded(1);
-  auto& [scene, world, home, jobs, streamer, consumer] = loaded;
+  Loaded loaded(home_alone(), 1);
+  auto& [scene, world, jobs, streamer, consumer] = loaded;
+  const std::uint64_t home = home_of(world);
   std::latch busy(1);
   jobs.submit([&] { busy.wait(); });
   ASSERT_TRUE(world.set_block(home, {5, 640, 5}, block::kLamp));
@@ -474,7 +536,7 @@ TEST(Stream, EditsDuringWorkAreNeverLost) {
   Scene scene;
   scene.desc.island_limit = 1;
   World world(scene.desc);
-  const std::uint64_t home = world.islands_near(world.origin(), 1000.0, 0.0).front().id;
+  const std::uint64_t home = home_of(world);
   Jobs jobs(4);
   Streamer streamer(world, jobs);
   Consumer consumer;

@@ -8,6 +8,8 @@
 #include "engine/core/check.h"
 #include "world/generate/columns.h"
 #include "world/generate/design.h"
+#include "world/mesh/face_axes.h"
+#include "world/mesh/face_slice.h"
 #include "world/voxel/voxel_source.h"
 
 namespace skerry::world {
@@ -172,42 +174,10 @@ void fill(const Design& design, int edge, int parts, FarVoxels& out) {
   }
 }
 
-/// A slice of faces that look one way, by their places along u and v.
-class Slice {
- public:
-  void set(int u, int v, BlockId id) { ids_[index(u, v)] = id; }
-  /// Merges faces of one id into rectangles, runs along u first, and clears the slice.
-  /// @param add called with u, v, both extents and the id.
-  template <class Add>
-  void merge(int u_end, int v_end, const Add& add) {
-    for (int v = 0; v < v_end; ++v) {
-      for (int u = 0; u < u_end; ++u) {
-        const BlockId id = ids_[index(u, v)];
-        if (id == kAir) continue;
-        int along_u = 1, along_v = 1;
-        while (u + along_u < u_end && ids_[index(u + along_u, v)] == id) ++along_u;
-        while (v + along_v < v_end && is_run(u, v + along_v, along_u, id)) ++along_v;
-        for (int j = 0; j < along_v; ++j)
-          std::fill_n(ids_.begin() + static_cast<std::ptrdiff_t>(index(u, v + j)), along_u, kAir);
-        add(u, v, along_u, along_v, id);
-      }
-    }
-  }
-
- private:
-  static std::size_t index(int u, int v) { return static_cast<std::size_t>(u + 2 * kHalf * v); }
-  bool is_run(int u, int v, int count, BlockId id) const {
-    const auto first = ids_.begin() + static_cast<std::ptrdiff_t>(index(u, v));
-    return std::all_of(first, first + count, [id](BlockId other) { return other == id; });
-  }
-  std::array<BlockId, std::size_t{4} * kHalf * kHalf> ids_{};
-};
-
-/// The quads of one face direction. Axes u and v as in shaders/shared/geometry.h.
-void add_faces(const FarVoxels& voxels, std::uint32_t face, BlockId rock, Slice& slice,
+/// The quads of one face direction.
+void add_faces(const FarVoxels& voxels, std::uint32_t face, BlockId rock, FaceSlice& slice,
                std::vector<Quad>& out) {
-  static constexpr std::array<std::size_t, 3> kAlongU{2, 0, 0}, kAlongV{1, 2, 1};
-  const std::size_t axis = face / 2, u = kAlongU[axis], v = kAlongV[axis];
+  const auto [axis, u, v] = axes_of_face(face);
   const int beyond = face % 2 == 0 ? 1 : -1;
   std::array<int, 3> at{};
   for (at[axis] = voxels.low[axis]; at[axis] < voxels.high[axis]; ++at[axis]) {
@@ -220,19 +190,7 @@ void add_faces(const FarVoxels& voxels, std::uint32_t face, BlockId rock, Slice&
         slice.set(at[u], at[v], face == 2 ? voxels.at(at[0], at[2]).cover : rock);
       }
     }
-    slice.merge(voxels.high[u], voxels.high[v],
-                [&](int at_u, int at_v, int along_u, int along_v, BlockId id) {
-                  std::array<int, 3> low{};
-                  low[axis] = at[axis];
-                  low[u] = at_u;
-                  low[v] = at_v;
-                  const auto bits = [](int value, int shift) {
-                    return static_cast<std::uint32_t>(value) << shift;
-                  };
-                  out.push_back({bits(low[0], 0) | bits(low[1], 6) | bits(low[2], 12) |
-                                     bits(along_u - 1, 18) | bits(along_v - 1, 24),
-                                 id | face << shared::kFaceShift});
-                });
+    slice.merge(face, at[axis], voxels.high[u], voxels.high[v], out);
   }
 }
 
@@ -256,7 +214,7 @@ void far_island(const IslandSpec& spec, int voxel_log2, ChunkMesh& out) {
     fill(design, edge, parts, voxels);
   out.quads.clear();
   out.range_end = {};
-  Slice slice;
+  FaceSlice slice;
   for (std::uint32_t range = 0; range < shared::kRangeCount; ++range) {
     if (range < shared::kFaceCount) add_faces(voxels, range, design.rock(), slice, out.quads);
     out.range_end[range] = static_cast<std::uint32_t>(out.quads.size());

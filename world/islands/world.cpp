@@ -185,6 +185,21 @@ std::optional<Pose> World::pose(std::uint64_t id, double time_s) const {
   return island ? std::optional(island->pose(time_s)) : std::nullopt;
 }
 
+IslandPoses World::poses(double time_s) const {
+  IslandPoses poses;
+  poses.time_s_ = time_s;
+  const std::lock_guard lock(islands_mutex_);
+  for (const auto& [id, island] : special_) poses.off_course_.emplace(id, island->pose(time_s));
+  return poses;
+}
+
+Pose IslandPoses::of(const IslandSpec& spec) const {
+  if (!off_course_.empty())
+    if (const auto found = off_course_.find(spec.id); found != off_course_.end())
+      return found->second;
+  return pose_at(spec, time_s_);
+}
+
 bool World::add_island(const IslandSpec& spec, std::shared_ptr<const VoxelSource> source) {
   SKERRY_ASSERT(source != nullptr);
   {

@@ -36,6 +36,20 @@ struct EditedBox {
   IVec3 min, max;  ///< lattice places at level 0, both inside
 };
 
+/// Where islands are at one time. A copy of what World knew when it was made.
+class IslandPoses {
+ public:
+  /// @param spec as World gives it; also of an island that it has dropped.
+  Pose of(const IslandSpec& spec) const;
+  /// Whether pose_at() does not place it.
+  bool is_off_course(std::uint64_t island) const { return off_course_.contains(island); }
+
+ private:
+  friend class World;
+  double time_s_ = 0.0;
+  std::unordered_map<std::uint64_t, Pose> off_course_;  // those that pose_at does not place
+};
+
 /// A seed's islands, islands that no seed made, the voxels of those that are near, and what players
 /// changed.
 ///
@@ -87,6 +101,8 @@ class World {
   /// them known again.
   std::optional<IslandSpec> island(std::uint64_t id) const;
   std::optional<Pose> pose(std::uint64_t id, double time_s) const;
+  /// pose() of many islands, without a look-up and two locks for each.
+  IslandPoses poses(double time_s) const;
 
   /// The block at a level-0 voxel, edits included. None: its chunk is not loaded.
   std::optional<BlockId> block_at(std::uint64_t id, IVec3 voxel) const;

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "engine/core/check.h"
+#include "world/mesh/face_axes.h"
 #include "world/mesh/kernel.h"
 
 namespace skerry::world {
@@ -96,9 +97,8 @@ template <class NumberAt>
 void add_by_touched(shared::Quad quad, const NumberAt& number_at, std::vector<shared::Quad>& out) {
   static constexpr int kSteps[3] = {kVoxelStepX, kVoxelStepY, 1};
   static constexpr unsigned kShifts[3] = {0, 6, 12};
-  static constexpr unsigned kAlongU[3] = {2, 0, 0}, kAlongV[3] = {1, 2, 1};  // axes, by the face's
-  const unsigned face = shared::surface_face(quad.material), axis = face / 2;
-  const unsigned u = kAlongU[axis], v = kAlongV[axis];
+  const unsigned face = shared::surface_face(quad.material);
+  const auto [axis, u, v] = axes_of_face(face);
   const std::uint32_t low = quad.geometry & 0x3ffffu;
   int beyond = face % 2 == 0 ? kSteps[axis] : -kSteps[axis];
   for (unsigned a = 0; a < 3; ++a)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <unordered_set>
 #include <utility>
@@ -79,14 +80,13 @@ Streamer::~Streamer() {
 void Streamer::update(const StreamView& view, const StreamSettings& settings) {
   State& s = *state_;
   std::vector<std::uint64_t> voxels_unused, gone;
-  std::vector<State::Near> near;
-  for (const IslandSpec& spec : s.islands_around(view, settings))
-    near.push_back(s.near_of(spec, view));
+  const IslandPoses poses = s.world.poses(view.time_s);
+  const bool is_new = s.look_around(view, settings, poses);
   const std::vector<EditedBox> edits = s.world.take_edits();
   {
     const std::lock_guard lock(s.mutex);
-    s.drop_far_islands(near, settings, gone);
-    for (const State::Near& one : near) s.place_island(one, view, settings, voxels_unused);
+    if (is_new) s.link_islands(gone);
+    s.place_islands(view, settings, poses, voxels_unused, gone);
     for (const EditedBox& edit : edits) s.apply_edit(edit);
     s.score_tasks();
   }
@@ -100,61 +100,111 @@ void Streamer::update(const StreamView& view, const StreamSettings& settings) {
 }
 
 // All islands that can matter; asked for again only when the camera has left the middle of the
-// last answer, because the plan of a large view takes milliseconds.
-const std::vector<IslandSpec>& Streamer::State::islands_around(const StreamView& view,
-                                                               const StreamSettings& settings) {
+// last answer, because the plan of a large view takes milliseconds. @return whether it is new.
+bool Streamer::State::look_around(const StreamView& view, const StreamSettings& settings,
+                                  const IslandPoses& poses) {
   const double slack = std::max(64.0, settings.view_distance_blocks / 32.0);
   // From one end of its drift to the other.
   const double reach = settings.view_distance_blocks * kHysteresis + 2.0 * kMaxIslandDriftBlocks;
   const glm::dvec3 moved_by = difference_blocks(view.camera, around.centre);
   const std::uint64_t revision = world.revision();
-  if (around.reach != reach || around.revision != revision ||
-      glm::dot(moved_by, moved_by) > slack * slack) {
-    around.reach = reach;
-    around.revision = revision;
-    around.centre = view.camera;
-    around.islands = world.islands_near(view.camera, reach + slack, view.time_s);
-    around.left_out = {};
-    for (std::size_t i = kMaxStreamedIslands; i < around.islands.size(); ++i) {
-      const double distance = near_of(around.islands[i], view).distance;
-      if (distance > settings.view_distance_blocks) continue;
-      double& nearest = around.left_out.from_blocks;
-      nearest = around.left_out.islands++ == 0 ? distance : std::min(nearest, distance);
-    }
-    if (around.islands.size() > kMaxStreamedIslands) around.islands.resize(kMaxStreamedIslands);
+  if (around.reach == reach && around.revision == revision &&
+      glm::dot(moved_by, moved_by) <= slack * slack)
+    return false;
+  around.reach = reach;
+  around.revision = revision;
+  around.centre = view.camera;
+  std::vector<IslandSpec> specs = world.islands_near(view.camera, reach + slack, view.time_s);
+  around.left_out = {};
+  for (std::size_t i = kMaxStreamedIslands; i < specs.size(); ++i) {
+    const double distance = near_of(specs[i], view, poses).distance;
+    if (distance > settings.view_distance_blocks) continue;
+    double& nearest = around.left_out.from_blocks;
+    nearest = around.left_out.islands++ == 0 ? distance : std::min(nearest, distance);
   }
-  return around.islands;
+  if (specs.size() > kMaxStreamedIslands) specs.resize(kMaxStreamedIslands);
+  around.islands.clear();
+  around.fastest = 0.0;
+  for (const IslandSpec& spec : specs) {
+    around.islands.push_back({.spec = spec});
+    // Its bob is twice as quick as its way around.
+    const double speed =
+        2.0 * glm::length(spec.drift_amplitude) * 2.0 * std::numbers::pi / spec.drift_period_s;
+    if (!poses.is_off_course(spec.id)) around.fastest = std::max(around.fastest, speed);
+  }
+  return true;
 }
 
-// Of an island that may have been moved from its course.
-Pose Streamer::State::pose_of(const IslandSpec& spec, double time_s) const {
-  const std::optional<Pose> pose = world.pose(spec.id, time_s);
-  return pose ? *pose : pose_at(spec, time_s);
-}
-
-Streamer::State::Near Streamer::State::near_of(const IslandSpec& spec,
-                                               const StreamView& view) const {
-  Near near{&spec, pose_of(spec, view.time_s), 0.0};
+Streamer::State::Near Streamer::State::near_of(const IslandSpec& spec, const StreamView& view,
+                                               const IslandPoses& poses) {
+  Near near{&spec, poses.of(spec), 0.0};
   near.distance =
       glm::length(difference_blocks(near.pose.origin, view.camera)) - spec.bounding_radius;
   return near;
 }
 
-void Streamer::State::drop_far_islands(std::span<const Near> near, const StreamSettings& settings,
-                                       std::vector<std::uint64_t>& gone) {
-  const double limit = settings.view_distance_blocks * kHysteresis;
+void Streamer::State::drop_island(StreamIsland& island, std::vector<std::uint64_t>& gone) {
+  const std::uint64_t id = island.spec.id;
+  for (const auto& [chunk, slot] : island.shown.slots)
+    if (slot.resident) removed.push_back(island.shown.key(id, chunk));
+  gone.push_back(id);
+  islands.erase(id);
+}
+
+// Finds those that are in among what is around; what is not there goes.
+void Streamer::State::link_islands(std::vector<std::uint64_t>& gone) {
   std::unordered_set<std::uint64_t> kept;
-  for (const Near& one : near)
-    if (one.distance <= limit) kept.insert(one.spec->id);
-  std::erase_if(islands, [&](const auto& entry) {
-    const auto& [id, island] = entry;
-    if (kept.contains(id)) return false;
-    for (const auto& [chunk, slot] : island.shown.slots) {
-      if (slot.resident) removed.push_back(island.shown.key(id, chunk));
-    }
-    gone.push_back(id);
-    return true;
-  });
+  for (Candidate& candidate : around.islands) {
+    kept.insert(candidate.spec.id);
+    const auto found = islands.find(candidate.spec.id);
+    if (found != islands.end()) candidate.island = &found->second;
+  }
+  for (auto entry = islands.begin(); entry != islands.end();) {
+    StreamIsland& island = entry++->second;
+    if (!kept.contains(island.spec.id)) drop_island(island, gone);
+  }
+}
+
+namespace {
+
+/// Blocks by which the distance of an island may change without a change of what is wanted of it.
+double slack_of(double distance, const StreamSettings& settings) {
+  double slack = std::min(std::abs(distance - settings.view_distance_blocks),
+                          std::abs(distance - settings.view_distance_blocks * kHysteresis));
+  double limit = settings.detail_distance_blocks;
+  for (int level = 1; level < kLevelCount + kFarLevelCount; ++level, limit *= 2.0)
+    for (const double at : {limit / kHysteresis, limit, limit * kHysteresis})
+      slack = std::min(slack, std::abs(distance - at));
+  constexpr double kRounding = 0.01;
+  return slack - kRounding;
+}
+
+}  // namespace
+
+// Looks at the islands for which something may have changed: thousands are in view, and few of
+// them come near a limit in a frame.
+void Streamer::State::place_islands(const StreamView& view, const StreamSettings& settings,
+                                    const IslandPoses& poses,
+                                    std::vector<std::uint64_t>& voxels_unused,
+                                    std::vector<std::uint64_t>& gone) {
+  around.travelled += glm::length(difference_blocks(view.camera, around.view.camera)) +
+                      around.fastest * std::abs(view.time_s - around.view.time_s);
+  const bool all = settings.view_distance_blocks != around.settings.view_distance_blocks ||
+                   settings.detail_distance_blocks != around.settings.detail_distance_blocks;
+  around.view = view;
+  around.settings = settings;
+  const double limit = settings.view_distance_blocks * kHysteresis;
+  for (Candidate& candidate : around.islands) {
+    const bool busy = candidate.island && candidate.island->busy();
+    if (!all && !busy && around.travelled < candidate.due) continue;
+    const Near near = near_of(candidate.spec, view, poses);
+    const bool steered = poses.is_off_course(candidate.spec.id);
+    candidate.due = steered ? 0.0 : around.travelled + slack_of(near.distance, settings);
+    if (near.distance <= limit)
+      place_island(candidate, near, view, settings, voxels_unused);
+    else if (candidate.island)
+      drop_island(*std::exchange(candidate.island, nullptr), gone);
+  }
 }
 
 // The level that stands for one that its distance gives an island: only what is as its seed makes
@@ -165,18 +215,17 @@ int Streamer::State::level_of(const IslandSpec& spec, int level) const {
   return one_section_level(spec, level);
 }
 
-void Streamer::State::place_island(const Near& near, const StreamView& view,
+void Streamer::State::place_island(Candidate& candidate, const Near& near, const StreamView& view,
                                    const StreamSettings& settings,
                                    std::vector<std::uint64_t>& voxels_unused) {
   const IslandSpec& spec = *near.spec;
-  auto found = islands.find(spec.id);
-  const bool is_new = found == islands.end();
+  const bool is_new = !candidate.island;
   if (is_new) {
     if (!(near.distance <= settings.view_distance_blocks)) return;
-    found = islands.try_emplace(spec.id).first;
-    found->second.spec = spec;
+    candidate.island = &islands.try_emplace(spec.id).first->second;
+    candidate.island->spec = spec;
   }
-  StreamIsland& island = found->second;
+  StreamIsland& island = *candidate.island;
   const glm::dquat lattice_from_world = glm::conjugate(near.pose.rotation);
   island.distance = near.distance;
   island.camera = lattice_from_world * difference_blocks(view.camera, near.pose.origin);

@@ -61,6 +61,8 @@ struct StreamIsland {
   StreamLevel shown;                  // what is, or becomes, visible chunk by chunk
   std::optional<StreamLevel> coming;  // replaces `shown` when all of it is made
   const StreamLevel& target() const { return coming ? *coming : shown; }
+  /// Whether something is still to be made or handed out.
+  bool busy() const { return coming || !shown.planned || shown.unmade != 0 || shown.made != 0; }
   bool swappable() const { return coming && coming->planned && coming->unmade == 0; }
 };
 
@@ -97,16 +99,19 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
     double distance;  // blocks from the camera to the bounding sphere
   };
   /// Frame thread only, without the mutex.
-  const std::vector<IslandSpec>& islands_around(const StreamView& view,
-                                                const StreamSettings& settings);
-  Pose pose_of(const IslandSpec& spec, double time_s) const;
-  Near near_of(const IslandSpec& spec, const StreamView& view) const;
+  bool look_around(const StreamView& view, const StreamSettings& settings,
+                   const IslandPoses& poses);
+  static Near near_of(const IslandSpec& spec, const StreamView& view, const IslandPoses& poses);
 
   // What is wanted (stream.cpp). Called with the mutex held.
-  void drop_far_islands(std::span<const Near> near, const StreamSettings& settings,
-                        std::vector<std::uint64_t>& gone);
-  void place_island(const Near& near, const StreamView& view, const StreamSettings& settings,
-                    std::vector<std::uint64_t>& voxels_unused);
+  struct Candidate;
+  void place_islands(const StreamView& view, const StreamSettings& settings,
+                     const IslandPoses& poses, std::vector<std::uint64_t>& voxels_unused,
+                     std::vector<std::uint64_t>& gone);
+  void drop_island(StreamIsland& island, std::vector<std::uint64_t>& gone);
+  void link_islands(std::vector<std::uint64_t>& gone);
+  void place_island(Candidate& candidate, const Near& near, const StreamView& view,
+                    const StreamSettings& settings, std::vector<std::uint64_t>& voxels_unused);
   int level_of(const IslandSpec& spec, int level) const;
   void change_level(StreamIsland& island, int level);
   void apply_edit(const EditedBox& edit);
@@ -136,12 +141,22 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   World& world;
   Jobs& jobs;
   const StreamOf makes;
+  /// An island that may come into view, and when it must be looked at again.
+  struct Candidate {
+    IslandSpec spec;
+    StreamIsland* island = nullptr;  // of `islands`; null: it is not in
+    double due = 0.0;                // of Around::travelled: until then nothing changes for it
+  };
   struct Around {
     WorldPos centre;
     double reach = -1.0;
     std::uint64_t revision = 0;
-    std::vector<IslandSpec> islands;
+    std::vector<Candidate> islands;
     LeftOut left_out;
+    double fastest = 0.0;    // an island on its course, blocks/s at most
+    double travelled = 0.0;  // blocks by which camera and any island have come nearer, at most
+    StreamView view;         // of the last update
+    StreamSettings settings;
   };
   Around around;             // frame thread only
   mutable std::mutex mutex;  // guards everything below; held for bookkeeping only

@@ -8,25 +8,27 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/packing.hpp>
-#include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "engine/core/harmonics.h"
-#include "engine/render/sky/sky_cube.h"
+#include "engine/render/sky/sky_rows.h"
 #include "shaders/shared/indirect.h"
 
 namespace skerry::render {
 namespace {
 
-constexpr int kStrata = 8;  // samples of an octant, each way
 constexpr float kMostHalf = 65504.0f;
 constexpr std::size_t kFaces = 6;
+/// Of the sky about an island: every other azimuth of SkyRows, which one depends on the heading.
+constexpr int kAround = SkyRows::kAzimuths / 2;
+constexpr int kHeadings = SkyRows::kAzimuths;
 
-/// A direction of the lattice, and for each axis the face it lights, the lobe and its share.
+/// A direction of the lattice, and for each axis the face and lobe it lights, and its share.
 struct LobeSample {
   glm::vec3 direction{};
-  std::array<std::uint8_t, 3> face{}, lobe{};
+  std::array<std::uint8_t, 3> slot{};  ///< face * kSkyLobes + lobe
   glm::vec3 weight{};  ///< cosine times solid angle, so that a whole sky of 1 sums to pi a face
 };
 
@@ -41,47 +43,43 @@ std::array<bool, 3> steep_of(const glm::dvec3& d) {
   return {best.x >= steep, best.y >= steep, best.z >= steep};
 }
 
+/// By row, then azimuth k + 1/2 of kAround.
 std::vector<LobeSample> make_samples() {
   std::vector<LobeSample> out;
   glm::dvec3 sum(0.0);
-  for (int octant = 0; octant < 8; ++octant)
-    for (int i = 0; i < kStrata; ++i)
-      for (int j = 0; j < kStrata; ++j) {
-        const double y = (i + 0.5) / kStrata, turn = (j + 0.5) / kStrata * std::numbers::pi / 2.0,
-                     flat = std::sqrt(1.0 - y * y);
-        const glm::dvec3 d{flat * std::cos(turn), y, flat * std::sin(turn)};
-        const std::array<bool, 3> steep = steep_of(d);
-        LobeSample sample;
-        for (int axis = 0; axis < 3; ++axis) {
-          const auto a = static_cast<std::size_t>(axis);
-          const auto negative = [&](int which) { return octant >> (which % 3) & 1; };
-          sample.face[a] = static_cast<std::uint8_t>(2 * axis + negative(axis));
-          sample.lobe[a] = static_cast<std::uint8_t>(
-              2 * (negative(axis + 1) + 2 * negative(axis + 2)) + (steep[a] ? 0 : 1));
-          sample.direction[axis] = static_cast<float>(negative(axis) ? -d[axis] : d[axis]);
-        }
-        sample.weight = glm::vec3(d);
-        sum += d;
-        out.push_back(sample);
+  for (int row = 0; row < SkyRows::kRows; ++row)
+    for (int k = 0; k < kAround; ++k) {
+      const glm::dvec3 d = SkyRows::direction(row, 2 * k + 1), size = glm::abs(d);
+      const std::array<bool, 3> steep = steep_of(size);
+      LobeSample sample{.direction = glm::vec3(d), .slot = {}, .weight = glm::vec3(size)};
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const auto negative = [&](int which) { return d[which % 3] < 0.0 ? 1 : 0; };
+        const int face = 2 * axis + negative(axis);
+        const int lobe = 2 * (negative(axis + 1) + 2 * negative(axis + 2)) + (steep[a] ? 0 : 1);
+        sample.slot[a] = static_cast<std::uint8_t>(face * int{shared::kSkyLobes} + lobe);
       }
+      sum += size;
+      out.push_back(sample);
+    }
   // Two faces share each axis.
   const glm::vec3 scale(2.0 * std::numbers::pi / sum);
   for (LobeSample& sample : out) sample.weight *= scale;
   return out;
 }
 
-/// Headings that far islands are rounded to.
-constexpr double kHeadingStep = 2.0 * std::numbers::pi / 64.0;
+constexpr double kHeadingStep = 2.0 * std::numbers::pi / kHeadings;
 
 bool is_upright(const glm::dquat& rotation) {
   return std::abs(rotation.x) + std::abs(rotation.z) < 1e-6;
 }
 
-int heading_of(const glm::dquat& rotation) {
-  return static_cast<int>(std::lround(2.0 * std::atan2(rotation.y, rotation.w) / kHeadingStep));
+/// In steps of kHeadingStep, any number of turns.
+double heading_of(const glm::dquat& rotation) {
+  return 2.0 * std::atan2(rotation.y, rotation.w) / kHeadingStep;
 }
 
-using Lobes = std::array<glm::vec3, shared::kSkyLobes>;
+using Lobes = std::array<glm::vec3, kFaces * shared::kSkyLobes>;
 using Harmonics = std::array<glm::vec3, kHarmonics>;
 
 void add(Harmonics& sum, const glm::vec3& direction, const glm::vec3& light) {
@@ -89,15 +87,120 @@ void add(Harmonics& sum, const glm::vec3& direction, const glm::vec3& light) {
   for (std::size_t i = 0; i < kHarmonics; ++i) sum[i] += light * basis[i];
 }
 
+void add(Lobes& sum, const LobeSample& sample, const glm::vec3& radiance) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    sum[sample.slot[axis]] += radiance * sample.weight[static_cast<int>(axis)];
+}
+
+/// The corners of an icosahedron: the mean over them is that over the sphere for polynomials up to
+/// degree 5 (R. Hardin, N. Sloane, McLaren's Improved Snub Cube, 1996).
+std::array<glm::vec3, 12> icosahedron() {
+  const glm::vec2 at = glm::normalize(glm::vec2(1.0f, std::numbers::phi_v<float>));
+  std::array<glm::vec3, 12> out;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const float a = (i & 1u) != 0 ? -at.x : at.x, b = (i & 2u) != 0 ? -at.y : at.y;
+    out[i] = i < 4 ? glm::vec3(0.0f, a, b) : i < 8 ? glm::vec3(a, b, 0.0f) : glm::vec3(b, 0.0f, a);
+  }
+  return out;
+}
+
+/// What the sky sends to islands by their headings.
+class OpenSky {
+ public:
+  OpenSky(const SkyRows& rows, const Celestial& bodies);
+  /// To an island of any heading, by those of the four nearest of kHeadings.
+  Lobes upright(double heading);
+  Lobes at_heading(int heading) { return of_heading(heading); }
+  Lobes tilted(const glm::dquat& rotation) const;
+  Harmonics harmonics(const glm::dquat& rotation) const;
+
+ private:
+  const Lobes& of_heading(int heading);
+
+  const SkyRows& rows_;
+  const Celestial& bodies_;
+  Harmonics harmonics_{};  // about the world's axes, without bodies
+  std::array<std::optional<Lobes>, kHeadings> of_heading_;
+};
+
+const std::vector<LobeSample>& samples() {
+  static const std::vector<LobeSample> kSamples = make_samples();
+  return kSamples;
+}
+
+OpenSky::OpenSky(const SkyRows& rows, const Celestial& bodies) : rows_(rows), bodies_(bodies) {
+  constexpr float kSolidAngle =
+      4.0f * std::numbers::pi_v<float> / float{SkyRows::kRows * SkyRows::kAzimuths};
+  for (int row = 0; row < SkyRows::kRows; ++row)
+    for (int k = 0; k < SkyRows::kAzimuths; ++k)
+      add(harmonics_, glm::vec3(SkyRows::direction(row, k)), rows.at(row, k) * kSolidAngle);
+}
+
+const Lobes& OpenSky::of_heading(int heading) {
+  std::optional<Lobes>& kept = of_heading_[static_cast<std::size_t>(heading & (kHeadings - 1))];
+  if (kept) return *kept;
+  kept.emplace();
+  const LobeSample* sample = samples().data();
+  for (int row = 0; row < SkyRows::kRows; ++row)
+    for (int k = 0; k < kAround; ++k)
+      add(*kept, *sample++, rows_.at(row, (2 * k + 1 - heading) & (SkyRows::kAzimuths - 1)));
+  return *kept;
+}
+
+Lobes OpenSky::upright(double heading) {
+  const double below = std::floor(heading);
+  const auto first = static_cast<int>(below);
+  const auto t = static_cast<float>(heading - below);
+  // A cubic through them (E. Catmull, R. Rom, 1974).
+  const std::array<float, 4> shares{t * (-0.5f + t * (1.0f - 0.5f * t)),
+                                    1.0f + t * t * (-2.5f + 1.5f * t),
+                                    t * (0.5f + t * (2.0f - 1.5f * t)), t * t * (-0.5f + 0.5f * t)};
+  Lobes out{};
+  for (int i = 0; i < 4; ++i) {
+    const Lobes& one = of_heading(first - 1 + i);
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k] += one[k] * shares[static_cast<std::size_t>(i)];
+  }
+  for (glm::vec3& lobe : out) lobe = glm::max(lobe, 0.0f);
+  return out;
+}
+
+Lobes OpenSky::tilted(const glm::dquat& rotation) const {
+  const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
+  Lobes out{};
+  for (const LobeSample& sample : samples())
+    add(out, sample, rows_.towards(world_from_lattice * sample.direction));
+  return out;
+}
+
+Harmonics OpenSky::harmonics(const glm::dquat& rotation) const {
+  static const std::array<glm::vec3, 12> kCorners = icosahedron();
+  const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
+  const glm::dquat lattice_from_world = glm::conjugate(rotation);
+  Harmonics out{};
+  for (const glm::vec3& corner : kCorners) {
+    const glm::vec3 d = world_from_lattice * corner;
+    const std::array<float, kHarmonics> basis = harmonics_of(d.x, d.y, d.z);
+    glm::vec3 sum(0.0f);
+    for (std::size_t i = 0; i < kHarmonics; ++i) sum += harmonics_[i] * basis[i];
+    add(out, corner, sum * (4.0f * std::numbers::pi_v<float> / 12.0f));
+  }
+  add(out, glm::vec3(lattice_from_world * bodies_.to_sun), bodies_.sun_irradiance);
+  add(out, glm::vec3(lattice_from_world * bodies_.to_moon), bodies_.moon_irradiance);
+  return out;
+}
+
 std::uint32_t packed(float a, float b) {
   return glm::packHalf2x16(
       {std::clamp(a, -kMostHalf, kMostHalf), std::clamp(b, -kMostHalf, kMostHalf)});
 }
 
-glm::uvec4 packed(const Lobes& lobes, int channel) {
+glm::uvec4 packed(const Lobes& lobes, std::size_t face, int channel) {
   glm::uvec4 out;
-  for (std::size_t i = 0; i < 4; ++i)
-    out[static_cast<int>(i)] = packed(lobes[2 * i][channel], lobes[2 * i + 1][channel]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t at = face * shared::kSkyLobes + 2 * i;
+    out[static_cast<int>(i)] = packed(lobes[at][channel], lobes[at + 1][channel]);
+  }
   return out;
 }
 
@@ -109,29 +212,11 @@ glm::uvec4 packed(const Harmonics& harmonics, int channel) {
   return out;
 }
 
-void put_island(const SkyCube& cube, const Celestial& bodies, const glm::dquat& rotation,
-                std::span<glm::uvec4> out) {
-  static const std::vector<LobeSample> kSamples = make_samples();
-  const float solid_angle = 4.0f * std::numbers::pi_v<float> / static_cast<float>(kSamples.size());
-  const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
-  const glm::dquat lattice_from_world = glm::conjugate(rotation);
-  std::array<Lobes, kFaces> faces{};
-  Harmonics harmonics{};
-  for (const LobeSample& sample : kSamples) {
-    const glm::vec3 radiance = cube.at(world_from_lattice * sample.direction);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      faces[sample.face[axis]][sample.lobe[axis]] +=
-          radiance * sample.weight[static_cast<int>(axis)];
-    add(harmonics, sample.direction, radiance * solid_angle);
-  }
-  add(harmonics, glm::vec3(lattice_from_world * bodies.to_sun), bodies.sun_irradiance);
-  add(harmonics, glm::vec3(lattice_from_world * bodies.to_moon), bodies.moon_irradiance);
-  std::size_t at = 0;
-  for (const Lobes& lobes : faces)
-    for (int channel = 0; channel < 3; ++channel) out[at++] = packed(lobes, channel);
-  for (int channel = 0; channel < 3; ++channel) out[at++] = packed(harmonics, channel);
-  for (int channel = 0; channel < 3; ++channel)
-    out[at][channel] = std::bit_cast<std::uint32_t>(harmonics[0][channel]);
+void append(std::vector<glm::uvec4>& out, const Lobes& lobes, const Harmonics& harmonics) {
+  for (std::size_t face = 0; face < kFaces; ++face)
+    for (int channel = 0; channel < 3; ++channel) out.push_back(packed(lobes, face, channel));
+  for (int channel = 0; channel < 3; ++channel) out.push_back(packed(harmonics, channel));
+  out.emplace_back(std::bit_cast<glm::uvec3>(harmonics[0]), 0);
 }
 
 }  // namespace
@@ -139,28 +224,35 @@ void put_island(const SkyCube& cube, const Celestial& bodies, const glm::dquat& 
 std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bodies,
                                        std::span<const IslandPlacement> islands,
                                        const std::vector<bool>& shown) {
-  std::optional<SkyCube> made;  // discs are not in it: smooth enough to be interpolated
-  if (!sky.panorama) made.emplace([&](glm::dvec3 d) { return sky_radiance(d, sky); });
-  const SkyCube& cube = made ? *made : sky.panorama->smooth();
-  constexpr std::size_t kTexels = shared::kIndirectIslandTexels;
+  // Discs are not in it: smooth enough to be interpolated.
+  const SkyRows rows([&](glm::dvec3 d) {
+    return sky.panorama ? glm::dvec3(sky.panorama->smooth().at(glm::vec3(d)))
+                        : sky_radiance(d, sky);
+  });
+  OpenSky open(rows, bodies);
   static_assert(kFaces * shared::kIndirectSkyTexels == shared::kIndirectHarmonics);
-  std::vector<glm::uvec4> out(islands.size() * kTexels, glm::uvec4(0));
-  std::map<int, std::size_t> of_heading;  // the first far island of each
+  std::vector<glm::uvec4> out((islands.size() + 3) / 4, glm::uvec4(0));
+  const auto dark = static_cast<std::uint32_t>(out.size());
+  out.resize(out.size() + shared::kIndirectIslandTexels, glm::uvec4(0));
+  std::array<std::uint32_t, kHeadings> of_far{};  // 0: none yet
   for (std::size_t i = 0; i < islands.size(); ++i) {
+    std::uint32_t& place = out[i / 4][static_cast<int>(i % 4)];
+    place = dark;
     if (!shown[i]) continue;
-    const std::span to = std::span(out).subspan(i * kTexels, kTexels);
-    glm::dquat rotation = islands[i].rotation;
+    const glm::dquat& rotation = islands[i].rotation;
+    const auto end = static_cast<std::uint32_t>(out.size());
     if (islands[i].far && is_upright(rotation)) {
-      const int heading = heading_of(rotation);
-      const auto [same, is_first] = of_heading.emplace(heading, i);
-      if (!is_first) {
-        std::copy_n(out.begin() + static_cast<std::ptrdiff_t>(same->second * kTexels), kTexels,
-                    to.begin());
-        continue;
-      }
-      rotation = glm::angleAxis(heading * kHeadingStep, glm::dvec3(0.0, 1.0, 0.0));
+      const auto heading = static_cast<int>(std::lround(heading_of(rotation)));
+      std::uint32_t& far = of_far[static_cast<std::size_t>(heading & (kHeadings - 1))];
+      place = far != 0 ? far : end;
+      if (std::exchange(far, place) != 0) continue;
+      append(out, open.at_heading(heading),
+             open.harmonics(glm::angleAxis(heading * kHeadingStep, glm::dvec3(0.0, 1.0, 0.0))));
+      continue;
     }
-    put_island(cube, bodies, rotation, to);
+    place = end;
+    append(out, is_upright(rotation) ? open.upright(heading_of(rotation)) : open.tilted(rotation),
+           open.harmonics(rotation));
   }
   return out;
 }

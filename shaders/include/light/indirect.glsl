@@ -32,10 +32,13 @@ uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
 // Three numbers with a shared exponent.
 vec3 shared_exponent(uint word) { return vec3(word & 511u, (word >> 9) & 511u, (word >> 18) & 511u) * exp2(float(word >> 27) - 24.0); }
 
+// The first texel of what the sky sends to an island.
+uint island_sky(uint island) { return texelFetch(island_skies, int(island >> 2))[island & 3u]; }
+
 // Light of sky, sun and moon that other faces reflect. @param bounce a record's texel. @param at place between its corners.
 vec3 bounced_light(uvec4 bounce, uint island, vec2 at) {
   vec4 h_a = unpackSnorm4x8(bounce.z) * kMostBounceShape, h_b = unpackSnorm4x8(bounce.w) * kMostBounceShape;
-  uint first = island * kIndirectIslandTexels + kIndirectHarmonics;
+  uint first = island_sky(island) + kIndirectHarmonics;
   vec3 sum = uintBitsToFloat(texelFetch(island_skies, int(first + 3u)).xyz);
   for (uint channel = 0u; channel < 3u; ++channel) {
     uvec4 e = texelFetch(island_skies, int(first + channel));
@@ -98,8 +101,9 @@ FaceSky sky_of_face(vec3 position, uint word) {
   sky.known = record != 0u;
   sky.seen_a = mix(mix(unpackUnorm4x8(near.x), unpackUnorm4x8(near.z), at.x), mix(unpackUnorm4x8(far.x), unpackUnorm4x8(far.z), at.x), at.y);
   sky.seen_b = mix(mix(unpackUnorm4x8(near.y), unpackUnorm4x8(near.w), at.x), mix(unpackUnorm4x8(far.y), unpackUnorm4x8(far.w), at.x), at.y);
+  uint first = island_sky(island) + face * kIndirectSkyTexels;
   for (uint channel = 0u; channel < 3u; ++channel) {
-    uvec4 lobes = texelFetch(island_skies, int(island * kIndirectIslandTexels + face * kIndirectSkyTexels + channel));
+    uvec4 lobes = texelFetch(island_skies, int(first + channel));
     sky.irradiance[channel] = dot(sky.seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
                               dot(sky.seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
   }

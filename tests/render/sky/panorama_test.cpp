@@ -79,8 +79,8 @@ glm::dvec3 on_face(const SkyModel& sky, const glm::dquat& rotation, std::size_t 
   glm::dvec3 sum(0.0);
   for (std::size_t channel = 0; channel < 3; ++channel)
     for (int word = 0; word < 4; ++word) {
-      const glm::vec2 pair =
-          glm::unpackHalf2x16(texels[face * shared::kIndirectSkyTexels + channel][word]);
+      const glm::vec2 pair = glm::unpackHalf2x16(
+          texels[texels[0][0] + face * shared::kIndirectSkyTexels + channel][word]);
       sum[static_cast<int>(channel)] += static_cast<double>(pair.x) + static_cast<double>(pair.y);
     }
   return sum;

@@ -20,12 +20,16 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+std::size_t first_of(const std::vector<glm::uvec4>& sky, std::size_t island) {
+  return sky[island / 4][static_cast<int>(island % 4)];
+}
+
 /// Irradiance of all lobes of a face.
 glm::dvec3 whole(const std::vector<glm::uvec4>& sky, std::size_t island, std::size_t face) {
   glm::dvec3 sum(0.0);
   for (std::size_t channel = 0; channel < 3; ++channel) {
     const glm::uvec4 words =
-        sky[island * shared::kIndirectIslandTexels + face * shared::kIndirectSkyTexels + channel];
+        sky[first_of(sky, island) + face * shared::kIndirectSkyTexels + channel];
     for (int i = 0; i < 4; ++i) {
       const glm::vec2 pair = glm::unpackHalf2x16(words[i]);
       sum[static_cast<int>(channel)] += static_cast<double>(pair.x) + static_cast<double>(pair.y);
@@ -37,7 +41,7 @@ glm::dvec3 whole(const std::vector<glm::uvec4>& sky, std::size_t island, std::si
 /// By channel.
 std::array<std::array<double, kHarmonics>, 3> harmonics_in(const std::vector<glm::uvec4>& sky,
                                                            std::size_t island) {
-  const std::size_t first = island * shared::kIndirectIslandTexels + shared::kIndirectHarmonics;
+  const std::size_t first = first_of(sky, island) + shared::kIndirectHarmonics;
   std::array<std::array<double, kHarmonics>, 3> out{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
     out[channel][0] =
@@ -83,7 +87,7 @@ TEST(SkyIrradiance, IsTheCosineWeightedSkyOfEachFace) {
     const std::vector<IslandPlacement> islands(1);
     const std::vector<glm::uvec4> lobes =
         sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true));
-    ASSERT_EQ(lobes.size(), 22u);
+    ASSERT_EQ(lobes.size(), 1u + 22u + 22u);  // which one, the dark one, its own
     for (std::size_t face = 0; face < 6; ++face) {
       const glm::dvec3 found = whole(lobes, 0, face), right = by_samples(sky, face_normal(face));
       for (int c = 0; c < 3; ++c)
@@ -156,6 +160,70 @@ TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
         EXPECT_NEAR(found, right[c], 0.06 * right[c] + 1e-6) << hour << "h face " << face;
       }
     }
+  }
+}
+
+/// All numbers of an island's sky.
+std::vector<double> numbers_of(const std::vector<glm::uvec4>& sky, std::size_t island) {
+  std::vector<double> out;
+  const std::size_t first = first_of(sky, island);
+  for (std::size_t texel = 0; texel < shared::kIndirectHarmonics; ++texel)
+    for (int word = 0; word < 4; ++word) {
+      const glm::vec2 pair = glm::unpackHalf2x16(sky[first + texel][word]);
+      out.insert(out.end(), {static_cast<double>(pair.x), static_cast<double>(pair.y)});
+    }
+  for (const auto& of_channel : harmonics_in(sky, island))
+    out.insert(out.end(), of_channel.begin(), of_channel.end());
+  return out;
+}
+
+// A turned island sees what one that is not turned sees of a sky that is turned the other way.
+TEST(SkyIrradiance, OfAnyHeadingIsThatOfTheTurnedSky) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> turn(-kPi, kPi);
+  for (const double hour : {12.0, 8.0, 18.2, 0.0})
+    for (int i = 0; i < 8; ++i) {
+      const Celestial bodies = celestial_at(hour * 3600.0, 0.5);
+      std::vector<IslandPlacement> islands(1);
+      islands[0].rotation = glm::angleAxis(turn(random), glm::dvec3(0.0, 1.0, 0.0));
+      const std::vector<double> found =
+          numbers_of(sky_irradiance(sky_model(bodies), bodies, islands, {true}), 0);
+      Celestial turned = bodies;
+      const glm::dquat back = glm::conjugate(islands[0].rotation);
+      turned.to_sun = back * bodies.to_sun, turned.to_moon = back * bodies.to_moon;
+      islands[0].rotation = glm::dquat(1.0, 0.0, 0.0, 0.0);
+      const std::vector<double> right =
+          numbers_of(sky_irradiance(sky_model(turned), turned, islands, {true}), 0);
+      double most = 0.0;
+      for (const double value : right) most = std::max(most, std::abs(value));
+      for (std::size_t k = 0; k < right.size(); ++k)
+        EXPECT_NEAR(found[k], right[k], 0.004 * most) << hour << "h number " << k;
+    }
+}
+
+TEST(SkyIrradiance, FarIslandsShareTheSkiesOfSixtyFourHeadings) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> turn(-kPi, kPi);
+  std::vector<IslandPlacement> islands(500);
+  for (IslandPlacement& island : islands) {
+    island.rotation = glm::angleAxis(turn(random), glm::dvec3(0.0, 1.0, 0.0));
+    island.far = true;
+  }
+  std::vector<bool> shown(islands.size(), true);
+  shown[3] = false;
+  const Celestial bodies = celestial_at(8.0 * 3600.0, 0.5);
+  const SkyModel sky = sky_model(bodies);
+  const std::vector<glm::uvec4> far = sky_irradiance(sky, bodies, islands, shown);
+  EXPECT_LE(far.size(), 125u + 65u * 22u);
+  for (const double value : numbers_of(far, 3)) EXPECT_EQ(value, 0.0);
+  for (IslandPlacement& island : islands) island.far = false;
+  const std::vector<glm::uvec4> near = sky_irradiance(sky, bodies, islands, shown);
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    const std::vector<double> found = numbers_of(far, i), right = numbers_of(near, i);
+    double most = 0.0;
+    for (const double value : right) most = std::max(most, std::abs(value));
+    // Half a step of 0.098, by which harmonics of degree 2 turn twice.
+    for (std::size_t k = 0; k < right.size(); ++k) EXPECT_NEAR(found[k], right[k], 0.1 * most) << i;
   }
 }
 

@@ -1,7 +1,6 @@
 #include "tools/skerry/bench/bench_fly.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,12 +37,6 @@ struct Frame {
   std::string allocated;  // what the last of them was for
   std::vector<gpu::PassTime> passes;
 };
-
-double thread_cpu_ms() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
 
 world::WorldPos place_of(const render::FixedPos& p) {
   return {p[0], p[1], p[2]};
@@ -87,7 +80,7 @@ class Flight {
       go_to(at_s);
       Frame frame;
       frame.at_s = at_s;
-      const double cpu_ms = thread_cpu_ms();
+      const double cpu_s = thread_seconds();
       const int programs = view_.renderer().programs_made();
       const std::uint64_t allocations = device.allocations();
       Stopwatch watch;
@@ -99,7 +92,7 @@ class Flight {
       if (!value) return value.error();
       frame.draw_ms = watch.milliseconds();
       moment_.exposure_ev = view_.adapted_ev(moment_.exposure_ev, frame.draw_ms * 1e-3);
-      frame.cpu_ms = thread_cpu_ms() - cpu_ms;
+      frame.cpu_ms = (thread_seconds() - cpu_s) * 1e3;
       frame.pending_bytes = view_.renderer().mesh_uploader().pending_bytes();
       frame.programs = view_.renderer().programs_made() - programs;
       frame.allocations = device.allocations() - allocations;
@@ -208,11 +201,12 @@ nlohmann::ordered_json allocations_of(const std::vector<Frame>& frames) {
 }
 
 void add_numbers(nlohmann::ordered_json& row, const std::vector<Frame>& frames) {
-  std::vector<double> ms;
+  std::vector<double> ms, cpu_ms;
   int programs = 0;
   std::uint64_t allocations = 0, late_allocations = 0;
   for (const Frame& frame : frames) {
     ms.push_back(frame.ms);
+    cpu_ms.push_back(frame.cpu_ms);
     programs += frame.programs;
     allocations += frame.allocations;
     if (frame.at_s > 0.5 * frames.back().at_s) late_allocations += frame.allocations;
@@ -223,6 +217,7 @@ void add_numbers(nlohmann::ordered_json& row, const std::vector<Frame>& frames) 
   row["ms_p99"] = spread.p99;
   row["ms_max"] = spread.max;
   row["frames_over_2x"] = spread.over_twice;
+  row["cpu_ms_median"] = spread_of(std::move(cpu_ms)).median;
   row["programs_made"] = programs;
   row["allocations"] = allocations;
   row["allocations_second_half"] = late_allocations;
@@ -233,12 +228,14 @@ void print(const nlohmann::ordered_json& row, std::uint64_t chunks_made) {
   const auto count = [&](const char* key) { return row.at(key).get<std::uint64_t>(); };
   fmt::print(
       "{} | {}x{} | {:.0f} blocks/s for {:.0f} s | {} frames | median {:.2f} ms, p99 {:.2f}, "
-      "max {:.1f} | {} over twice the median | {} programs made | {} allocations, {} of them in "
+      "max {:.1f} | {} over twice the median | CPU {:.2f} ms | {} programs made | {} allocations, "
+      "{} of them in "
       "the second half | {} | {} chunks made\n",
       row.at("name").get<std::string>(), row.at("size")[0].get<int>(), row.at("size")[1].get<int>(),
       number("speed"), number("seconds"), count("frames"), number("ms_median"), number("ms_p99"),
-      number("ms_max"), count("frames_over_2x"), count("programs_made"), count("allocations"),
-      count("allocations_second_half"), row.at("device").get<std::string>(), chunks_made);
+      number("ms_max"), count("frames_over_2x"), number("cpu_ms_median"), count("programs_made"),
+      count("allocations"), count("allocations_second_half"), row.at("device").get<std::string>(),
+      chunks_made);
 }
 
 std::string name_of(const game::SceneOptions& scene) {

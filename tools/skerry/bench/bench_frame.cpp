@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 
+#include "engine/core/clock.h"
 #include "game/input/controls.h"
 #include "game/view/scene_view.h"
 #include "tools/skerry/bench/bench_report.h"
@@ -37,6 +38,7 @@ double peak_rss_mib() {
 /// What was measured of frames, in order.
 struct Timings {
   std::vector<double> frames;                         ///< [ms]
+  std::vector<double> cpu;                            ///< of them, that the frame thread computes
   std::map<std::string, std::vector<double>> passes;  ///< on the GPU, of frames like the first ones
   int programs_made = 0;                              ///< that frames waited for
   std::uint64_t allocations = 0;                      ///< of device memory
@@ -57,8 +59,10 @@ Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
     moment.camera.yaw_deg += kTurnDegPerFrame;
     const int programs = view.renderer().programs_made();
     const std::uint64_t allocations = device.allocations();
+    const double cpu_s = thread_seconds();
     if (Result<std::uint64_t> drawn = view.draw(moment, size); !drawn) return drawn.error();
     moment.exposure_ev = view.adapted_ev(moment.exposure_ev, kAdaptSeconds);
+    const double cpu_ms = (thread_seconds() - cpu_s) * 1e3;
     if (i < kFrameWarmUp) view.renderer().wait_for_programs();
     const double now = now_ms();
     clock.turn(options.clock_rate * (now - last) * 1e-3);
@@ -67,6 +71,7 @@ Result<Timings> time_frames(const gpu::Device& device, game::SceneView& view,
       out.programs_made += view.renderer().programs_made() - programs;
       out.allocations += device.allocations() - allocations;
       out.frames.push_back(now - last);
+      out.cpu.push_back(cpu_ms);
     }
     last = now;
     if (i >= kFrameWarmUp + kMinFrames && now - start > kMaxSeconds * 1000.0) break;
@@ -123,6 +128,7 @@ nlohmann::ordered_json row_of(const game::SceneOptions& scene, const gpu::Device
           {"ms_p99", ms.p99},
           {"ms_max", ms.max},
           {"frames_over_2x", ms.over_twice},
+          {"cpu_ms_median", spread_of(timings.cpu).median},
           {"fps_median", 1000.0 / ms.median},
           {"programs_made", timings.programs_made},
           {"allocations", timings.allocations},
@@ -139,15 +145,16 @@ void print(const nlohmann::ordered_json& row) {
   const nlohmann::ordered_json& passes = row.at("gpu_ms");
   fmt::print(
       "{} | {}x{} | distance {} | shadows {} | median {:.2f} ms (p10 {:.2f}, p99 {:.2f}, max "
-      "{:.2f}; {} over twice) | {:.1f} fps | GPU {:.2f} ms | {} quads of {} | {:.0f} MiB | {} "
+      "{:.2f}; {} over twice) | {:.1f} fps | CPU {:.2f} ms | GPU {:.2f} ms | {} quads of {} | "
+      "{:.0f} MiB | {} "
       "programs made, {} allocations\n",
       row.at("name").get<std::string>(), row.at("size")[0].get<int>(), row.at("size")[1].get<int>(),
       row.at("distance").get<int>(), shadows != 0 ? fmt::format("{}", shadows) : "off",
       number("ms_median"), number("ms_p10"), number("ms_p99"), number("ms_max"),
-      row.at("frames_over_2x").get<int>(), number("fps_median"), passes.at("total").get<double>(),
-      row.at("quads_drawn").get<std::uint64_t>(), row.at("quads_resident").get<std::uint64_t>(),
-      number("peak_rss_mib"), row.at("programs_made").get<int>(),
-      row.at("allocations").get<std::uint64_t>());
+      row.at("frames_over_2x").get<int>(), number("fps_median"), number("cpu_ms_median"),
+      passes.at("total").get<double>(), row.at("quads_drawn").get<std::uint64_t>(),
+      row.at("quads_resident").get<std::uint64_t>(), number("peak_rss_mib"),
+      row.at("programs_made").get<int>(), row.at("allocations").get<std::uint64_t>());
   for (const auto& [pass, value] : passes.items())
     fmt::print("  {:<24} {:8.3f} ms\n", pass, value.get<double>());
 }
