@@ -29,9 +29,6 @@ const float kMargin = 1.0 / 256.0;
 const int kMostCells = 16;  // across a slab; beyond, each pixel asks
 const float kPieces = 8.0;  // of a slab; a power of two, so that they add up to 1
 
-float along(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
-int along(ivec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
-
 // Where ways begin, in voxels.
 struct Box {
   vec3 low, high;

@@ -23,6 +23,17 @@ glm::uvec2 tiles_before(glm::uvec2 pixel) {
 
 }  // namespace
 
+std::uint32_t tile_count(VkExtent2D picture) {
+  const glm::uvec2 all = tiles_before({picture.width, picture.height});
+  return all.x * all.y;
+}
+
+void dispatch_items(gpu::Commands& commands, std::uint32_t items) {
+  const std::uint32_t groups = gpu::Commands::groups(items, 64);
+  commands.dispatch(std::min(groups, shared::kTileRow),
+                    gpu::Commands::groups(groups, shared::kTileRow), 1);
+}
+
 void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uint64_t offset) {
   commands.fill(dispatches, offset + offsetof(shared::TileDispatch, groups_x), 4, 0);
   commands.fill(dispatches, offset + offsetof(shared::TileDispatch, groups_y), 8, 1);
@@ -70,9 +81,7 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
                   gpu::sampled<shared::kDepthsBinding>(coverage.depth, sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
                   gpu::storage<shared::kTilesBinding>(out.lists), gpu::constants(push));
-        const std::uint32_t groups = gpu::Commands::groups(looked_at.x * looked_at.y, 64);
-        c.dispatch(std::min(groups, shared::kTileRow),
-                   gpu::Commands::groups(groups, shared::kTileRow), 1);
+        dispatch_items(c, looked_at.x * looked_at.y);
       });
   return out;
 }

@@ -8,6 +8,13 @@
 
 namespace skerry::render {
 
+/// Tiles of 8x8 pixels that a picture has, parts of tiles at its right and lower side too.
+std::uint32_t tile_count(VkExtent2D picture);
+
+/// One invocation an item of the bound program, whose work groups are 64x1x1, in rows of at most
+/// kTileRow groups, which any device takes. Invocations past the last item find that themselves.
+void dispatch_items(gpu::Commands& commands, std::uint32_t items);
+
 enum class TileKind : std::uint32_t { kCovered = 0, kOpen = 1 };
 
 /// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may
