@@ -192,7 +192,7 @@ void main() {
       uint asked = 0u, open = 0u;
       uint end = min(lights_here.count, word * 32u + 32u);
       for (uint i = word * 32u; i < end; ++i) {
-        Light light = lights[light_index(lights_here, i)];
+        Light light = frame_light(light_index(lights_here, i));
         uint states = 0u;
         for (uint k = 0u; k < g.count; ++k)
           if (slice_of(g.keys[k]) == slices[list])

@@ -45,7 +45,7 @@ struct Inputs {
   }
   auto bindings() const {
     return std::tuple{
-        gpu::storage<shared::kLightGridBinding>(grid), gpu::storage<shared::kLightsBinding>(lights),
+        gpu::storage<shared::kLightGridBinding>(grid), gpu::texels<shared::kLightsBinding>(lights),
         gpu::texels<shared::kIslandsBinding>(islands),
         gpu::storage<shared::kLightReachBinding>(reaches),
         gpu::sampled<shared::kDepthsBinding>(pixels.depth, point),

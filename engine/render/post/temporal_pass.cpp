@@ -2,7 +2,6 @@
 
 #include <shader_names.h>
 
-
 #include "engine/gpu/graph/bindings.h"
 #include "engine/render/scene/tiles.h"
 #include "shaders/shared/bindings.h"
