@@ -23,18 +23,7 @@ std::vector<gpu::SpecConstant> constants(const TemporalPass::In& in, bool plane)
 Tiles find_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                  gpu::ImageRef depth, const TemporalPass::In& in) {
   const std::uint32_t tiles = tile_count(scene.size);
-  Tiles out;
-  out.dispatches = graph.create(gpu::BufferDesc{
-      "mixed tile dispatches", 2 * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
-  out.lists = graph.create(
-      gpu::BufferDesc{"mixed tiles", std::uint64_t{2} * tiles * 4, 0, gpu::Memory::kDevice});
-  graph.add_pass(
-      "find_mixed_tiles_clear",
-      [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
-      [dispatches = out.dispatches](gpu::Commands& c) {
-        for (std::uint64_t kind = 0; kind < 2; ++kind)
-          clear_dispatch(c, dispatches, kind * sizeof(shared::TileDispatch));
-      });
+  Tiles out = create_tiles(graph, "find_mixed_tiles_clear", tiles, 2);
   std::vector<gpu::SpecConstant> chosen = constants(in, false);
   chosen.pop_back();
   graph.add_pass(
