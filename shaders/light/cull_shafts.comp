@@ -29,9 +29,6 @@ const float kMargin = 1.0 / 256.0;
 const int kMostCells = 16;  // across a slab; beyond, each pixel asks
 const float kPieces = 8.0;  // of a slab; a power of two, so that they add up to 1
 
-float along(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
-int along(ivec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
-
 // Where ways begin, in voxels.
 struct Box {
   vec3 low, high;
@@ -72,12 +69,15 @@ uint shaft_state(VoxelGrid grid, Box box, vec3 end, ivec3 spared) {
     // Every way goes through pieces between where all have begun and where the first ends.
     bool any_opaque = false, all_opaque = slab + piece >= high && slab + piece + thick <= to - kMargin;
     int cell = int(sign > 0.0 ? slab : -slab - 1.0);
+    ivec2 c = c0;
     for (int i = 0; i < cells; ++i) {
-      int cu = c0.x + i % size.x, cv = c0.y + i / size.x;
-      ivec3 voxel = d == 0u ? ivec3(cell, cu, cv) : d == 1u ? ivec3(cv, cell, cu) : ivec3(cu, cv, cell);
+      ivec3 voxel = d == 0u ? ivec3(cell, c.x, c.y) : d == 1u ? ivec3(c.y, cell, c.x) : ivec3(c.x, c.y, cell);
       bool opaque = voxel != spared && voxel_opaque(grid, voxel);
       any_opaque = any_opaque || opaque;
       all_opaque = all_opaque && opaque;
+      // No division: lavapipe divides whole numbers lane by lane.
+      bool end_of_row = ++c.x == c0.x + size.x;
+      c = end_of_row ? ivec2(c0.x, c.y + 1) : c;
     }
     if (all_opaque) return kBlocked;
     if (any_opaque && thick == 1.0) {
@@ -195,7 +195,7 @@ void main() {
       uint asked = 0u, open = 0u;
       uint end = min(lights_here.count, word * 32u + 32u);
       for (uint i = word * 32u; i < end; ++i) {
-        Light light = lights[light_index(lights_here, i)];
+        Light light = frame_light(light_index(lights_here, i));
         uint states = 0u;
         for (uint k = 0u; k < g.count; ++k)
           if (slice_of(g.keys[k]) == slices[list])

@@ -15,7 +15,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
-layout(scalar, binding = kLightsBinding) readonly buffer Lights { Light lights[]; };
+#include "include/light/light_texels.glsl"
 #include "include/frame/islands.glsl"
 layout(scalar, binding = kLightReachBinding) readonly buffer Reaches { LightReach reaches[]; };  // if no light has one, a buffer that is never read
 layout(binding = kDepthsBinding) uniform sampler2D depths;
@@ -192,7 +192,7 @@ void fill_bin() {
     uint end = min(word * 32u + 32u, grid.light_count);
     // A wider margin than a cluster's: what reaches a cluster must reach its bin.
     for (uint i = word * 32u; i < end; ++i)
-      if (light_reaches(lights[i], cell, 1e-4)) bits |= 1u << (i & 31u);
+      if (light_reaches(frame_light(i), cell, 1e-4)) bits |= 1u << (i & 31u);
   }
   bins[bin * grid.light_words + word] = bits;
 }
@@ -216,9 +216,10 @@ void list_lights() {
   uint end = min((chunk + 1u) * grid.chunk_words, grid.light_words);
   for (uint word = chunk * grid.chunk_words; word < end; ++word) {
     for (uint bits = bins[bin + word]; bits != 0u; bits &= bits - 1u) {
-      uint light = word * 32u + uint(findLSB(bits));
-      if (!light_reaches(lights[light], cell, 1e-5) || !arrives_in(lights[light].reach, middle, half_size)) continue;
-      if (write) entries[first + count] = light;
+      uint index = word * 32u + uint(findLSB(bits));
+      Light light = frame_light(index);
+      if (!light_reaches(light, cell, 1e-5) || !arrives_in(light.reach, middle, half_size)) continue;
+      if (write) entries[first + count] = index;
       ++count;
     }
   }

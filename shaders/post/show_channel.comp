@@ -63,7 +63,7 @@ vec3 light_count(uint word, uvec2 pixel, float depth) {
     vec3 normal = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
     uint reaching = 0u;
     for (uint i = 0u; i < count; ++i)
-      if (light_received(lights[light_index(list, i)], pixel_ray(pixel) * z, normal) != vec3(0.0)) ++reaching;
+      if (light_received(frame_light(light_index(list, i)), pixel_ray(pixel) * z, normal) != vec3(0.0)) ++reaching;
     count = reaching;
   }
   return heat(count);

@@ -6,22 +6,14 @@
 #include "shared/bindings.h"
 #include "include/scene/coverage.glsl"
 #include "include/scene/layers.glsl"
+#include "include/scene/list_tiles.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
-layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[2]; };  // 0 covered, 1 open
-layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };           // [kind][tile]: x | y << 16
 // Pixels outside the area show no surface; tiles from first_tile on are looked at, others are in no list.
 layout(push_constant) uniform Push { uvec4 area; uvec2 size; uvec2 tile_count; uvec2 first_tile; uvec2 looked_at; } push;
-
-void list_tile(uint kind, uvec2 tile) {
-  uint slot = atomicAdd(dispatches[kind].tiles, 1u);
-  atomicMax(dispatches[kind].groups_x, min(slot + 1u, kTileRow));
-  if (slot % kTileRow == 0u) atomicMax(dispatches[kind].groups_y, slot / kTileRow + 1u);
-  tiles[kind * push.tile_count.x * push.tile_count.y + slot] = tile.x | (tile.y << 16);
-}
 
 // One invocation a tile: no barriers, which lavapipe pays for dearly.
 void main() {
@@ -38,6 +30,6 @@ void main() {
       open = open || !here;
     }
   }
-  if (covered) list_tile(0u, at);
-  if (open) list_tile(1u, at);
+  if (covered) list_tile(0u, at, push.tile_count);
+  if (open) list_tile(1u, at, push.tile_count);
 }

@@ -42,7 +42,7 @@ SHARED_CONST uint kLightIslandsBinding = 29u;  // islands that each light's reac
 
 // Clustered lights.
 SHARED_CONST uint kLightGridBinding = 30u;     // ClusterGrid
-SHARED_CONST uint kLightsBinding = 31u;        // Light[]
+SHARED_CONST uint kLightsBinding = 31u;        // texels of Light[]
 SHARED_CONST uint kClustersBinding = 32u;      // Cluster[]
 SHARED_CONST uint kLightEntriesBinding = 33u;  // lights of each cluster
 SHARED_CONST uint kTileDepthsBinding = 34u;    // TileDepths[] of 8x8 tiles

@@ -17,6 +17,8 @@ SHARED_CONST uint kLightKindCount = 5u;
 SHARED_CONST uint kLightKindMask = 7u;  // of Light.kind
 SHARED_CONST uint kLightDualBit = 8u;   // a spot that shines along -axis as well
 
+SHARED_CONST uint kLightTexels = 5u;  // of 128 bits
+
 struct Light {
   vec3 position;      // world; a directional light's is not used
   float range;        // blocks, > 0; a directional light is blocked by what lies within it
@@ -30,6 +32,7 @@ struct Light {
   uint island_count;  // bounding spheres the light's range touches
   uint reach;  // 1 + which of the frame's LightReach bounds what it can arrive at; 0: its range
                // alone
+  uint unused[3];
 };
 
 SHARED_CONST uint kReachWords = 128u;

@@ -143,7 +143,7 @@ const std::vector<Layout>& cpp_layouts() {
       STRUCT(Light, MEMBER(Light, position), MEMBER(Light, range), MEMBER(Light, intensity),
              MEMBER(Light, kind), MEMBER(Light, axis), MEMBER(Light, size),
              MEMBER(Light, cos_inner), MEMBER(Light, cos_outer), MEMBER(Light, first_island),
-             MEMBER(Light, island_count), MEMBER(Light, reach)),
+             MEMBER(Light, island_count), MEMBER(Light, reach), MEMBER(Light, unused)),
       STRUCT(LightReach, MEMBER(LightReach, low), MEMBER(LightReach, size),
              MEMBER(LightReach, per_block), MEMBER(LightReach, edge_log2),
              MEMBER(LightReach, island), MEMBER(LightReach, bits)),

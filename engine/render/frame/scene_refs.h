@@ -56,6 +56,7 @@ struct SceneRefs {
   bool count_pixels = true;  ///< see FrameInput
   bool ao = false;           ///< whether corners take light; then there is an occupancy store
   bool sums_floats = false;  ///< see gpu::DeviceLimits
+  bool on_cpu = false;       ///< the device is a CPU: a branch costs both its sides
   std::optional<CloudRefs> clouds;  ///< none: the frame has no clouds
   VkExtent2D size{};
   glm::uvec4 layers_area{}, radiance_area{};  ///< see shared::FrameConstants

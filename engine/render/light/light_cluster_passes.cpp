@@ -7,6 +7,7 @@
 #include "engine/render/light/light_clusters.h"
 
 #include "engine/gpu/graph/bindings.h"
+#include "engine/render/scene/tiles.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -15,12 +16,7 @@ namespace {
 
 using gpu::Use;
 
-/// A dispatch of one invocation an item, in work groups of 64, in rows that any device takes.
-void dispatch_items(gpu::Commands& c, std::uint32_t items) {
-  const std::uint32_t count = gpu::Commands::groups(items, shared::kClusterGroup);
-  c.dispatch(std::min(count, shared::kTileRow), gpu::Commands::groups(count, shared::kTileRow), 1);
-}
-
+static_assert(shared::kClusterGroup == 64);  // of dispatch_items()
 static_assert(offsetof(shared::TileDispatch, groups_z) == 8 &&
               offsetof(shared::ClusterWork, groups_z) == 8);
 
@@ -49,7 +45,7 @@ struct Inputs {
   }
   auto bindings() const {
     return std::tuple{
-        gpu::storage<shared::kLightGridBinding>(grid), gpu::storage<shared::kLightsBinding>(lights),
+        gpu::storage<shared::kLightGridBinding>(grid), gpu::texels<shared::kLightsBinding>(lights),
         gpu::texels<shared::kIslandsBinding>(islands),
         gpu::storage<shared::kLightReachBinding>(reaches),
         gpu::sampled<shared::kDepthsBinding>(pixels.depth, point),
@@ -101,8 +97,7 @@ struct Buffers {
 };
 
 std::uint32_t small_tile_count(const shared::ClusterGrid& grid) {
-  return gpu::Commands::groups(grid.size.x, shared::kTileEdge) *
-         gpu::Commands::groups(grid.size.y, shared::kTileEdge);
+  return tile_count({grid.size.x, grid.size.y});
 }
 
 auto program_of(gpu::Pipelines& pipelines, std::uint32_t step,

@@ -17,6 +17,9 @@ namespace skerry::render {
 namespace {
 
 using gpu::Use;
+using shared::kLightTexels;
+
+static_assert(sizeof(shared::Light) == kLightTexels * sizeof(glm::uvec4));
 
 constexpr VkBufferUsageFlags kTable =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -73,7 +76,9 @@ std::vector<shared::Light> lights_in_view(std::span<const shared::Light> lights,
 
 std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture& picture) {
   // A dispatch has a row of bins for each word of 32 lights, and a device takes 65,535 rows.
-  const std::uint64_t by_lights = limits.max_storage_range / sizeof(shared::Light);
+  // Under the oracle the lights are bound in place of lists that are never read.
+  const std::uint64_t by_lights =
+      std::min(limits.max_storage_range / sizeof(shared::Light), limits.max_texels / kLightTexels);
   const std::uint64_t words = limits.max_storage_range / sizeof(std::uint32_t) / bins_of(picture);
   return static_cast<std::uint32_t>(
       std::min(by_lights, 32 * std::min<std::uint64_t>(words, 65535)));
@@ -134,7 +139,8 @@ std::vector<gpu::SpecConstant> ClusteredLights::with_lights(
 ClusteredLights ClusteredLights::none(const SceneRefs& scene) {
   ClusteredLights out;
   out.grid = scene.frame;
-  out.lights = out.reaches = out.clusters = out.entries = scene.materials;
+  out.lights = scene.islands;
+  out.reaches = out.clusters = out.entries = scene.materials;
   return out;
 }
 
@@ -152,11 +158,12 @@ void ClusteredLights::declare(gpu::PassBuilder& builder) const {
   builder.read(entries, Use::kComputeRead);
 }
 
-Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name,
-                                    std::uint64_t size_bytes) {
+Result<void> LightClusters::reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes,
+                                    bool texels) {
   if (buffer && buffer.size_bytes() >= size_bytes) return {};
-  Result<gpu::Buffer> made =
-      device_.create_buffer({name, size_bytes, kTable, gpu::Memory::kDevice});
+  Result<gpu::Buffer> made = device_.create_buffer(
+      {name, size_bytes, texels ? kTable | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : kTable,
+       gpu::Memory::kDevice, texels});
   if (!made) return made.error();
   buffer = *std::move(made);
   return {};
@@ -169,6 +176,12 @@ std::uint64_t LightClusters::roomy(std::uint64_t size_bytes) const {
   return std::max<std::uint64_t>(std::min(bytes, device_.limits().max_storage_range), size_bytes);
 }
 
+Result<void> LightClusters::reserve_lights(std::uint64_t count) {
+  const std::uint64_t wanted = count * sizeof(shared::Light);
+  const std::uint64_t most = device_.limits().max_texels * (sizeof(shared::Light) / kLightTexels);
+  return reserve(lights_, "lights", std::min(roomy(wanted), std::max(most, wanted)), true);
+}
+
 void LightClusters::suppose(std::uint32_t kinds, const ClusterPicture& picture) {
   kinds_ = kinds;
   grid_ = cluster_grid({}, picture, kUsualLights, kUsualEntries);
@@ -176,7 +189,7 @@ void LightClusters::suppose(std::uint32_t kinds, const ClusterPicture& picture) 
 
 void LightClusters::reserve() {
   (void)reserve(entries_, "light lists", kUsualEntries * sizeof(std::uint32_t));
-  (void)reserve(lights_, "lights", roomy(kUsualLights * sizeof(shared::Light)));
+  (void)reserve_lights(kUsualLights);
   (void)reserve(reaches_, "reach of lights", roomy(kUsualLights * sizeof(shared::LightReach)));
   (void)reserve(grid_buffer_, "cluster grid", sizeof(grid_));
 }
@@ -201,7 +214,7 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
       kLeastEntries, most_entries(device_.limits()));
   if (Result<void> ok = reserve(entries_, "light lists", room * sizeof(std::uint32_t)); !ok)
     return ok;
-  if (Result<void> ok = reserve(lights_, "lights", roomy(lights.size_bytes())); !ok) return ok;
+  if (Result<void> ok = reserve_lights(lights.size()); !ok) return ok;
   if (!reaches.empty()) {
     if (Result<void> ok = reserve(reaches_, "reach of lights", roomy(reaches.size_bytes())); !ok)
       return ok;

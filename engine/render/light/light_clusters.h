@@ -48,7 +48,8 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
 
 /// A frame's lights, sorted: what a pass needs that includes shaders/include/light/clustered.glsl.
 struct ClusteredLights {
-  gpu::BufferRef grid, lights, reaches, clusters, entries;
+  gpu::BufferRef grid, reaches, clusters, entries;
+  gpu::BufferRef lights;    ///< texels of shared::Light[]
   Tiles tiles;              ///< those that some light reaches, kCovered alone
   std::uint32_t kinds = 0;  ///< bit a kind that the frame has; 0: there are none
   bool oracle = false;      ///< nothing is sorted: every pixel asks every light
@@ -67,7 +68,7 @@ struct ClusteredLights {
   }
   void declare(gpu::PassBuilder& builder) const;
   auto bindings() const {
-    return std::tuple{count_bindings(), gpu::storage<shared::kLightsBinding>(lights),
+    return std::tuple{count_bindings(), gpu::texels<shared::kLightsBinding>(lights),
                       gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
   }
   /// Of a pass that includes shaders/include/light/blocked_lights.glsl, beside bindings().
@@ -114,7 +115,9 @@ class LightClusters {
   const shared::ClusterGrid& grid() const { return grid_; }
 
  private:
-  Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes);
+  Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes,
+                       bool texels = false);
+  Result<void> reserve_lights(std::uint64_t count);
   std::uint64_t roomy(std::uint64_t size_bytes) const;
 
   gpu::Device& device_;

@@ -2,15 +2,13 @@
 
 #include <shader_names.h>
 
-#include <algorithm>
 #include <cstdint>
 
 #include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/gbuffer_formats.h"
+#include "engine/render/scene/tiles.h"
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/constants.h"
-#include "shaders/shared/frame.h"
 #include "shaders/shared/shafts.h"
 
 namespace skerry::render {
@@ -19,8 +17,7 @@ using gpu::Use;
 
 ClusteredLights ShaftPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                const SceneRefs& scene, const In& in, ClusteredLights lights) {
-  const std::uint32_t tiles = gpu::Commands::groups(scene.size.width, shared::kTileEdge) *
-                              gpu::Commands::groups(scene.size.height, shared::kTileEdge);
+  const std::uint32_t tiles = tile_count(scene.size);
   const SurfaceReads surfaces(in.geometry);
   const WallReads walls(scene, in.settings, false);
   gpu::BufferRef shafts = graph.create(gpu::BufferDesc{
@@ -43,9 +40,7 @@ ClusteredLights ShaftPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines
                   gpu::storage<shared::kMaterialsBinding>(scene.materials),
                   surfaces.bindings(scene.point_sampler), walls.bindings(), lights.bindings(),
                   gpu::storage<shared::kTileShaftsBinding>(shafts));
-        const std::uint32_t groups = gpu::Commands::groups(tiles, 64);
-        c.dispatch(std::min(groups, shared::kTileRow),
-                   gpu::Commands::groups(groups, shared::kTileRow), 1);
+        dispatch_items(c, tiles);
       });
   lights.shafts = shafts;
   return lights;

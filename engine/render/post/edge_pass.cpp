@@ -2,7 +2,6 @@
 
 #include <shader_names.h>
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "engine/gpu/graph/bindings.h"
@@ -17,11 +16,6 @@ namespace {
 
 using gpu::Use;
 
-std::uint32_t tiles_of(VkExtent2D size) {
-  return gpu::Commands::groups(size.width, shared::kTileEdge) *
-         gpu::Commands::groups(size.height, shared::kTileEdge);
-}
-
 struct EdgeLists {
   gpu::BufferRef dispatches;  ///< shared::TileDispatch of tiles, then of pixels in groups of 64
   gpu::BufferRef tiles;       ///< x | y << 16
@@ -33,7 +27,7 @@ EdgeLists make_lists(gpu::FrameGraph& graph, VkExtent2D size) {
   out.dispatches = graph.create(gpu::BufferDesc{"edge dispatches", 2 * sizeof(shared::TileDispatch),
                                                 0, gpu::Memory::kDevice});
   out.tiles = graph.create(
-      gpu::BufferDesc{"edge tiles", std::uint64_t{tiles_of(size)} * 4, 0, gpu::Memory::kDevice});
+      gpu::BufferDesc{"edge tiles", std::uint64_t{tile_count(size)} * 4, 0, gpu::Memory::kDevice});
   out.pixels = graph.create(gpu::BufferDesc{
       "edge pixels", std::uint64_t{size.width} * size.height * sizeof(shared::EdgePixel), 0,
       gpu::Memory::kDevice});
@@ -50,7 +44,6 @@ EdgeLists make_lists(gpu::FrameGraph& graph, VkExtent2D size) {
 /// @param every_pixel the second step, of the tiles that the first has listed.
 void find(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
           gpu::ImageRef depth, float bend, EdgeLists& lists, bool every_pixel) {
-  const std::uint32_t groups = gpu::Commands::groups(tiles_of(scene.size), 64);
   graph.add_pass(
       every_pixel ? "find_edges" : "find_edge_tiles",
       [&](gpu::PassBuilder& b) {
@@ -61,7 +54,7 @@ void find(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& sc
         lists.tiles = b.write(lists.tiles, Use::kComputeWrite);
         lists.pixels = b.write(lists.pixels, Use::kComputeWrite);
       },
-      [scene, depth, lists, bend, groups, every_pixel,
+      [scene, depth, lists, bend, every_pixel,
        program =
            gpu::compute(pipelines, programs::kFindEdges,
                         {{shared::kEveryPixelConstant, every_pixel ? 1u : 0u}})](gpu::Commands& c) {
@@ -73,8 +66,7 @@ void find(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& sc
         if (every_pixel)
           c.dispatch_indirect(lists.dispatches, 0);
         else
-          c.dispatch(std::min(groups, shared::kTileRow),
-                     gpu::Commands::groups(groups, shared::kTileRow), 1);
+          dispatch_items(c, tile_count(scene.size));
       });
 }
 

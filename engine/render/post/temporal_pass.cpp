@@ -2,8 +2,6 @@
 
 #include <shader_names.h>
 
-#include <algorithm>
-
 #include "engine/gpu/graph/bindings.h"
 #include "engine/render/scene/tiles.h"
 #include "shaders/shared/bindings.h"
@@ -24,20 +22,8 @@ std::vector<gpu::SpecConstant> constants(const TemporalPass::In& in, bool plane)
 /// Lists tiles with edges, then those of one plane.
 Tiles find_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                  gpu::ImageRef depth, const TemporalPass::In& in) {
-  const std::uint32_t tiles = gpu::Commands::groups(scene.size.width, shared::kTileEdge) *
-                              gpu::Commands::groups(scene.size.height, shared::kTileEdge);
-  Tiles out;
-  out.dispatches = graph.create(gpu::BufferDesc{
-      "mixed tile dispatches", 2 * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
-  out.lists = graph.create(
-      gpu::BufferDesc{"mixed tiles", std::uint64_t{2} * tiles * 4, 0, gpu::Memory::kDevice});
-  graph.add_pass(
-      "find_mixed_tiles_clear",
-      [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
-      [dispatches = out.dispatches](gpu::Commands& c) {
-        for (std::uint64_t kind = 0; kind < 2; ++kind)
-          clear_dispatch(c, dispatches, kind * sizeof(shared::TileDispatch));
-      });
+  const std::uint32_t tiles = tile_count(scene.size);
+  Tiles out = create_tiles(graph, "find_mixed_tiles_clear", tiles, 2);
   std::vector<gpu::SpecConstant> chosen = constants(in, false);
   chosen.pop_back();
   graph.add_pass(
@@ -48,15 +34,14 @@ Tiles find_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneR
         out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
-      [scene, depth, out, step = in.plan.step, groups = gpu::Commands::groups(tiles, 64),
+      [scene, depth, out, step = in.plan.step, tiles,
        program = gpu::compute(pipelines, programs::kFindMixedTiles, std::move(chosen))](
           gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
                   gpu::storage<shared::kTilesBinding>(out.lists), gpu::constants(step));
-        c.dispatch(std::min(groups, shared::kTileRow),
-                   gpu::Commands::groups(groups, shared::kTileRow), 1);
+        dispatch_items(c, tiles);
       });
   return out;
 }

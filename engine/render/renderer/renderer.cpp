@@ -212,6 +212,7 @@ SceneRefs Renderer::State::import_scene(gpu::FrameGraph& to, const FramePlan& pl
   s.haze = plan.contents.features.has(Feature::kHaze);
   s.ao = plan.ao;
   s.sums_floats = device.limits().sums_floats;
+  s.on_cpu = device.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
   if (plan.indirect) s.indirect_light = plan.settings.indirect;
   s.indirect = to.import(plan.indirect && indirect ? indirect->texels() : resources.no_texels());
   s.island_skies = resources.import_skies(to);

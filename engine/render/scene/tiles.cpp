@@ -23,28 +23,45 @@ glm::uvec2 tiles_before(glm::uvec2 pixel) {
 
 }  // namespace
 
+std::uint32_t tile_count(VkExtent2D picture) {
+  const glm::uvec2 all = tiles_before({picture.width, picture.height});
+  return all.x * all.y;
+}
+
+void dispatch_items(gpu::Commands& commands, std::uint32_t items) {
+  const std::uint32_t groups = gpu::Commands::groups(items, 64);
+  commands.dispatch(std::min(groups, shared::kTileRow),
+                    gpu::Commands::groups(groups, shared::kTileRow), 1);
+}
+
 void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uint64_t offset) {
   commands.fill(dispatches, offset + offsetof(shared::TileDispatch, groups_x), 4, 0);
   commands.fill(dispatches, offset + offsetof(shared::TileDispatch, groups_y), 8, 1);
   commands.fill(dispatches, offset + offsetof(shared::TileDispatch, tiles), 4, 0);
 }
 
+Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles,
+                   std::uint32_t kinds) {
+  Tiles out;
+  out.dispatches = graph.create(gpu::BufferDesc{
+      "tile dispatches", kinds * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
+  out.lists = graph.create(gpu::BufferDesc{
+      "tile lists", std::uint64_t{kinds} * tiles * sizeof(std::uint32_t), 0, gpu::Memory::kDevice});
+  graph.add_pass(
+      clear_name,
+      [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
+      [dispatches = out.dispatches, kinds](gpu::Commands& c) {
+        for (std::uint64_t kind = 0; kind < kinds; ++kind)
+          clear_dispatch(c, dispatches, kind * sizeof(shared::TileDispatch));
+      });
+  return out;
+}
+
 Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                      const char* name, const Coverage& coverage) {
   const VkExtent2D size = scene.size;
   const glm::uvec2 all = tiles_before({size.width, size.height});
-  Tiles out;
-  out.dispatches = graph.create(gpu::BufferDesc{"tile dispatches", 2 * sizeof(shared::TileDispatch),
-                                                0, gpu::Memory::kDevice});
-  out.lists = graph.create(
-      gpu::BufferDesc{"tile lists", std::uint64_t{2} * all.x * all.y * 4, 0, gpu::Memory::kDevice});
-  graph.add_pass(
-      std::string(name) + "_clear",
-      [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
-      [dispatches = out.dispatches](gpu::Commands& c) {
-        for (std::uint64_t kind = 0; kind < 2; ++kind)
-          clear_dispatch(c, dispatches, kind * sizeof(shared::TileDispatch));
-      });
+  Tiles out = create_tiles(graph, std::string(name) + "_clear", tile_count(size), 2);
   graph.add_pass(
       name,
       [&](gpu::PassBuilder& b) {
@@ -70,9 +87,7 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
                   gpu::sampled<shared::kDepthsBinding>(coverage.depth, sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
                   gpu::storage<shared::kTilesBinding>(out.lists), gpu::constants(push));
-        const std::uint32_t groups = gpu::Commands::groups(looked_at.x * looked_at.y, 64);
-        c.dispatch(std::min(groups, shared::kTileRow),
-                   gpu::Commands::groups(groups, shared::kTileRow), 1);
+        dispatch_items(c, looked_at.x * looked_at.y);
       });
   return out;
 }

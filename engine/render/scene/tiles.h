@@ -1,5 +1,6 @@
 #pragma once
 #include <glm/vec4.hpp>
+#include <string>
 
 #include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
@@ -8,13 +9,22 @@
 
 namespace skerry::render {
 
-enum class TileKind : std::uint32_t { kCovered = 0, kOpen = 1 };
+/// Tiles of 8x8 pixels that a picture has, parts of tiles at its right and lower side too.
+std::uint32_t tile_count(VkExtent2D picture);
+
+/// One invocation an item of the bound program, whose work groups are 64x1x1, in rows of at most
+/// kTileRow groups, which any device takes. Invocations past the last item find that themselves.
+void dispatch_items(gpu::Commands& commands, std::uint32_t items);
+
+/// kSunless: with surfaces, of which sun and moon light none; where that is looked for, kCovered is
+/// the others.
+enum class TileKind : std::uint32_t { kCovered = 0, kOpen = 1, kSunless = 2 };
 
 /// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may
-/// be of both kinds.
+/// be of several kinds.
 struct Tiles {
-  gpu::BufferRef dispatches;  ///< shared::TileDispatch[2]
-  gpu::BufferRef lists;       ///< uint[2][tile]
+  gpu::BufferRef dispatches;  ///< shared::TileDispatch[kind]
+  gpu::BufferRef lists;       ///< uint[kind][tile]
 
   /// What tiles.glsl declares.
   auto bindings(TileKind kind) const {
@@ -35,6 +45,11 @@ struct Coverage {
 
 /// Before tiles or pixels are listed: a shared::TileDispatch of none, at `offset` bytes.
 void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uint64_t offset);
+
+/// Lists of no tiles yet. @param clear_name of the pass that empties them. @param tiles that each
+/// list has room for.
+Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles,
+                   std::uint32_t kinds);
 
 /// Sorts tiles by whether any of their pixels has, or has not, a surface. @param name of the pass.
 Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,

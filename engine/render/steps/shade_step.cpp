@@ -10,7 +10,7 @@ namespace {
 ShadeIn shade_in(const FramePlan& plan) {
   const FrameFeatures& features = plan.contents.features;
   return {plan.settings.texture_taps, features.has(Feature::kStars), features.has(Feature::kDiscs),
-          std::nullopt};
+          plan.settings.lights_oracle, std::nullopt};
 }
 
 void shade(FrameAssembly& f) {

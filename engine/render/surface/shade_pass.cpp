@@ -1,7 +1,9 @@
 #include "engine/render/surface/shade_pass.h"
 
 #include <shader_names.h>
+#include <bit>
 #include <utility>
+#include <vector>
 
 #include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
@@ -34,23 +36,64 @@ std::vector<gpu::SpecConstant> constants_of_sky(const SceneRefs& scene, const Sh
   return constants;
 }
 
+/// Whether tiles that get no sun are worth finding: on a CPU, which looks for shadows at every
+/// pixel of a program that does so anywhere. A GPU's few invocations would take longer to find
+/// them.
+bool looks_for_sunless(const SceneRefs& scene, const ShadeIn& in, const ShadedFrom& from) {
+  return scene.on_cpu && !in.sampled && !in.oracle && from.shadows.maps() &&
+         !from.geometry.stored() && std::has_single_bit(scene.bodies);
+}
+
+/// As classify_tiles(), with kSunless.
+Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                         const ShadedFrom& from) {
+  const std::uint32_t tiles = tile_count(scene.size);
+  Tiles out = create_tiles(graph, "classify_tiles_clear", tiles, 3);
+  const SurfaceReads surfaces(from.geometry);
+  graph.add_pass(
+      "classify_tiles",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands})
+          b.read(ref, Use::kComputeRead);
+        surfaces.declare(b);
+        b.read(from.shadows.maps(), Use::kComputeSampled);
+        out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
+        out.lists = b.write(out.lists, Use::kComputeWrite);
+      },
+      [scene, surfaces, maps = from.shadows.maps(), out, tiles,
+       program = gpu::compute(pipelines, programs::kClassifyLitTiles,
+                              surfaces.with_depth(with_light({}, scene, true)))](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::texels<shared::kIslandsBinding>(scene.islands),
+                  gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+                  gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+                  gpu::sampled<shared::kShadowMapsBinding>(maps, scene.point_sampler),
+                  gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
+                  gpu::storage<shared::kTilesBinding>(out.lists));
+        dispatch_items(c, tiles);
+      });
+  return out;
+}
+
 /// Adds surfaces, at every pixel of their tiles.
+/// @param some_sunless whether the tiles are of classify_lit_tiles().
 void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const ShadeIn& in, const SampleIn& on, ShadeTarget& into) {
+                    const ShadeIn& in, const SampleIn& on, bool some_sunless, ShadeTarget& into) {
   const Tiles& tiles = on.tiles;
   const SurfaceReads surfaces(on.geometry);
   const gpu::ImageRef maps = on.shadows.maps();
   const OccupancyReads occupancy(scene, scene.ao && scene.bodies != 0);
   const CloudRefs clouds = clouds_before_light(scene);
-  const auto surface_program = gpu::compute(
-      pipelines, programs::kShadeSurfaces,
-      into.with_output(
-          clouds.with_clouds(with_ao(
-              surfaces.with_store(with_light(
-                  {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
-                  scene, bool{maps})),
-              bool{occupancy})),
-          scene));
+  const auto program = [&](bool sunless) {
+    std::vector<gpu::SpecConstant> constants =
+        with_light({{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
+                   scene, bool{maps});
+    if (sunless) constants.push_back({shared::kSunlessConstant, 1});
+    constants =
+        clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), bool{occupancy}));
+    return gpu::compute(pipelines, programs::kShadeSurfaces,
+                        into.with_output(std::move(constants), scene));
+  };
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
@@ -67,22 +110,28 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         into.declare(b, scene);
       },
-      [surface_program, scene, tiles, surfaces, occupancy, clouds, maps, into](gpu::Commands& c) {
-        gpu::bind(
-            c, surface_program, gpu::storage<shared::kFrameBinding>(scene.frame),
+      [lit = program(false), sunless = program(some_sunless), some_sunless, scene, tiles, surfaces,
+       occupancy, clouds, maps, into](gpu::Commands& c) {
+        const std::tuple bindings{
+            gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::texels<shared::kIndirectBinding>(scene.indirect),
             gpu::texels<shared::kIslandSkiesBinding>(scene.island_skies),
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
-            surfaces.bindings(scene.point_sampler), occupancy.bindings(), clouds.light_bindings(),
+            surfaces.bindings(scene.point_sampler),
+            occupancy.bindings(),
+            clouds.light_bindings(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
             into.bindings(scene),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
-                                                     scene.point_sampler),
-            tiles.bindings(TileKind::kCovered));
+                                                     scene.point_sampler)};
+        gpu::bind(c, lit, bindings, tiles.bindings(TileKind::kCovered));
         dispatch_tiles(c, tiles, TileKind::kCovered);
+        if (!some_sunless) return;
+        gpu::bind(c, sunless, bindings, tiles.bindings(TileKind::kSunless));
+        dispatch_tiles(c, tiles, TileKind::kSunless);
       });
 }
 
@@ -119,16 +168,19 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
 /// Adds surfaces and sky.
 void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
            const ShadedFrom& from, const ShadeIn& in, ShadeTarget& into) {
+  const bool some_sunless = looks_for_sunless(scene, in, from);
   const SampleIn on{from.geometry, from.shadows,
-                    classify_tiles(graph, pipelines, scene, "classify_tiles",
-                                   {.words = from.geometry.surfaces(),
-                                    .depth = from.geometry.depth(),
-                                    .kept = from.geometry.store().depth,
-                                    .area = {0, 0, scene.size.width, scene.size.height}})};
+                    some_sunless
+                        ? classify_lit_tiles(graph, pipelines, scene, from)
+                        : classify_tiles(graph, pipelines, scene, "classify_tiles",
+                                         {.words = from.geometry.surfaces(),
+                                          .depth = from.geometry.depth(),
+                                          .kept = from.geometry.store().depth,
+                                          .area = {0, 0, scene.size.width, scene.size.height}})};
   if (in.sampled)
     add_sample_passes(graph, pipelines, scene, on, *in.sampled, into);
   else
-    shade_surfaces(graph, pipelines, scene, in, on, into);
+    shade_surfaces(graph, pipelines, scene, in, on, some_sunless, into);
   shade_sky(graph, pipelines, scene, in, on, into);
 }
 

@@ -15,6 +15,7 @@ struct ShadeIn {
   int texture_taps = 2;  ///< samples along the long side of a texture footprint
   bool stars = false;    ///< whether any star can be seen
   bool discs = true;     ///< whether the sun's or the moon's disc may be in the picture
+  bool oracle = false;   ///< every pixel asks sun and moon, whatever is known of its tile
   /// None: the sun and the moon light every pixel. Else add() lights fewer, with the lights too.
   std::optional<SampledLight> sampled{};
 };

@@ -1,4 +1,4 @@
-// Light of a pixel's lights, past the walls that stand before them. Needs before the include: `lights[]`, light_index(list, i), lights.glsl,
+// Light of a pixel's lights, past the walls that stand before them. Needs before the include: frame_light(index), light_index(list, i), lights.glsl,
 // traced.glsl, kOracle; `list.count` lights are asked.
 #ifndef SKERRY_BLOCKED_LIGHTS_GLSL
 #define SKERRY_BLOCKED_LIGHTS_GLSL
@@ -48,17 +48,18 @@ Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to
   Strongest strongest = no_lights();
   Reflected others = Reflected(0.0);
   for (uint i = 0u; i < list.count; ++i) {
-    uint light = light_index(list, i);
-    Reflected part = sent_to_eye(lights[light], b, start, to_eye);
-    if (!arrives_at(lights[light], start)) part = Reflected(0.0);
+    uint index = light_index(list, i);
+    Light light = frame_light(index);
+    Reflected part = sent_to_eye(light, b, start, to_eye);
+    if (!arrives_at(light, start)) part = Reflected(0.0);
     others += part;
-    add_strength(strongest, strength_of(part), light);
+    add_strength(strongest, strength_of(part), index);
   }
   Reflected arrived = Reflected(0.0);
   float asked = 0.0, through = 0.0;
   uint found = lights_found(strongest);  // not a branch within: lavapipe goes through rounds that the compiler can count
   for (uint k = 0u; k < found; ++k) {
-    Light light = lights[strongest.lights[k]];
+    Light light = frame_light(strongest.lights[k]);
     Reflected part = sent_to_eye(light, b, start, to_eye);
     float visibility = traced_visibility(start, light);
     others -= part;
@@ -88,9 +89,9 @@ Reflected lights_reflected(Cluster list, ShaftList shafts, Reflectance b, WaySta
     // In the lights' order, but those with open ways in a loop of their own: where lavapipe comes by code that traces, nobody needs it.
     while (left != 0u) {
       for (; kShafts && (left & (~left + 1u) & open) != 0u; left &= left - 1u)
-        sum += light_unblocked(lights[light_index(list, first + uint(findLSB(left)))], b, start, to_eye);
+        sum += light_unblocked(frame_light(light_index(list, first + uint(findLSB(left)))), b, start, to_eye);
       if (left == 0u) break;
-      sum += light_past_walls(lights[light_index(list, first + uint(findLSB(left)))], b, start, to_eye);
+      sum += light_past_walls(frame_light(light_index(list, first + uint(findLSB(left)))), b, start, to_eye);
       left &= left - 1u;
     }
   }

@@ -7,12 +7,12 @@
 #include "shared/constants.h"
 
 layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
-layout(scalar, binding = kLightsBinding) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kClustersBinding) readonly buffer Clusters { Cluster clusters[]; };
 layout(scalar, binding = kLightEntriesBinding) readonly buffer Entries { uint entries[]; };
 
 layout(constant_id = kOracleConstant) const bool kOracle = false;  // every pixel asks every light: the truth that clusters are held against
 
+#include "include/light/light_texels.glsl"
 #include "include/light/clusters.glsl"
 #include "include/light/lights.glsl"
 

@@ -93,6 +93,8 @@ struct FacePlace {
   vec2 in_face;  // 0..1 along u and v
 };
 
+float along(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
+int along(ivec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
 ivec3 along_axis(uint axis, int n, int u, int v) {
   return axis == 0u ? ivec3(n, v, u) : axis == 1u ? ivec3(u, n, v) : ivec3(u, v, n);
 }
@@ -100,11 +102,10 @@ ivec3 along_axis(uint axis, int n, int u, int v) {
 FacePlace face_place(uint face, vec3 p) {
   FacePlace at;
   at.axis = face >> 1;
-  float normal = at.axis == 0u ? p.x : at.axis == 1u ? p.y : p.z;
   vec2 uv = at.axis == 0u ? p.zy : at.axis == 1u ? p.xz : p.xy;
   vec2 low = floor(uv);
   at.in_face = uv - low;
-  at.voxel = along_axis(at.axis, int(round(normal)) - int(face & 1u), int(low.x), int(low.y));
+  at.voxel = along_axis(at.axis, int(round(along(p, at.axis))) - int(face & 1u), int(low.x), int(low.y));
   return at;
 }
 
@@ -144,7 +145,7 @@ float corner_ao(uint island, uint face, vec3 lattice) {
   // lavapipe leaves no loop early that it has unrolled.
   uint rounds = grid.size.x > 0 ? 2u : 1u;
   for (uint round = 0u; round < rounds; ++round) {
-    int n = at.axis == 0u ? at.voxel.x : at.axis == 1u ? at.voxel.y : at.voxel.z;
+    int n = along(at.voxel, at.axis);
     int u = at.axis == 0u ? at.voxel.z : at.voxel.x, v = at.axis == 1u ? at.voxel.z : at.voxel.y;
     AxisLayout along_x = layout_x(grid), along_y = layout_y(grid), along_z = layout_z(grid);
     AxisPart in_n = part_at(choose(at.axis == 0u, along_x, choose(at.axis == 1u, along_y, along_z)), n);

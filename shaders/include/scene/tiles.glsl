@@ -4,8 +4,8 @@
 #include "shared/bindings.h"
 
 layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // x | y << 16
-layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[2]; };
-layout(push_constant) uniform Push { uint kind; } push;  // of tiles: 0 covered, 1 open
+layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[]; };
+layout(push_constant) uniform Push { uint kind; } push;  // of tiles: render::TileKind
 
 // @return false where there is no such tile; `first` is then the first pixel of some tile.
 bool listed_tile(out uvec2 first) {

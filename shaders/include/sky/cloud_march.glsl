@@ -119,8 +119,9 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < list.count; ++i) {
     uint index = light_index(list, i);
-    vec3 part = lit_by_light(lights[index], dir, t, length_blocks, extinction);
-    if (kLightsShadows == kEveryLight && part != vec3(0.0)) part *= traced_visibility(start, lights[index]);
+    Light light = frame_light(index);
+    vec3 part = lit_by_light(light, dir, t, length_blocks, extinction);
+    if (kLightsShadows == kEveryLight && part != vec3(0.0)) part *= traced_visibility(start, light);
     if (some) add_strength(strongest, luminance(part), index);
     sum += part;
   }
@@ -130,7 +131,7 @@ vec3 lit_by_lights(uvec2 pixel, vec3 dir, float t, float length_blocks, float ex
   float asked = 0.0, through = 0.0;
   uint found = lights_found(strongest);
   for (uint k = 0u; k < found; ++k) {
-    Light light = lights[strongest.lights[k]];
+    Light light = frame_light(strongest.lights[k]);
     vec3 part = lit_by_light(light, dir, t, length_blocks, extinction);
     float visibility = traced_visibility(start, light);
     sum -= part;

@@ -16,8 +16,11 @@ vec3 reflected(Surface s, Brdf b, vec3 to_eye, const uint index, const uint firs
   return n_dot_l > 0.0 ? body.irradiance * (share * visibility) : vec3(0.0);
 }
 
+layout(constant_id = kSunlessConstant) const bool kSunless = false;  // neither sun nor moon reaches any pixel
+
 // Radiance a surface sends to the eye: of sun and moon, and its own. No ambient term: what no light reaches is exactly 0.
 vec3 shade_surface(Surface s) {
+  if (kSunless) return s.emitted;
   vec3 to_eye = -normalize(s.position);
   Brdf b = surface_brdf(s, to_eye);
   vec3 radiance = vec3(0.0);

@@ -55,7 +55,7 @@ void add_lights(inout Reach r, uvec2 pixel, float z, LitPoint at) {
   WayStart start = layer_start(at);
   vec3 mirror = reflect(-at.to_eye, at.shading_normal);
   for (uint i = 0u; i < list.count; ++i) {
-    Light light = lights[light_index(list, i)];
+    Light light = frame_light(light_index(list, i));
     Arrival a = arrive(light, at.p, at.n, mirror, at.roughness * at.roughness);
     if (a.facing <= 0.0) continue;
     vec3 arrives = light.intensity;

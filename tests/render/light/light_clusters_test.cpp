@@ -421,10 +421,13 @@ TEST(ClusterGrid, TheRoomCounterCannotWrapHoweverManyLightsReachAllClusters) {
 TEST(ClusterGrid, MoreLightsThanADeviceCanSortAreCounted) {
   gpu::DeviceLimits limits;
   limits.max_storage_range = 256u << 20;
+  limits.max_texels = 1u << 27;
   EXPECT_EQ(most_lights(limits, {{1920, 1080}}), 2097120u);
   EXPECT_EQ(most_lights(limits, {{15360, 8640}}), 32u * ((64u << 20) / (240 * 135)));
   limits.max_storage_range = 1u << 20;
   EXPECT_EQ(most_lights(limits, {{64, 64}}), (1u << 20) / sizeof(shared::Light));
+  limits.max_texels = 1u << 16;
+  EXPECT_EQ(most_lights(limits, {{64, 64}}), (1u << 16) / shared::kLightTexels);
 }
 
 TEST(LightsInView, OnlyThoseThatTouchTheFrustumAndShineAreKeptInOrder) {

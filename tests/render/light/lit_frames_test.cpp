@@ -1,4 +1,5 @@
 // Frames under many lights: clusters lose none, and a frame without lights has nothing of them.
+#include <array>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <random>
@@ -18,6 +19,14 @@ world::BlockId valley(int x, int y, int z) {
   if (y < -2) return world::block::kWater;
   if (y == ground && (x * 7 + z * 3) % 11 == 0) return world::block::kFern;
   return world::block::kAirBlock;
+}
+
+/// A hall with pillars, under a roof with holes.
+world::BlockId hall(int x, int y, int z) {
+  const bool roof = y >= 2 && y < 5 && (x / 5 + z / 7) % 4 != 0;
+  const bool pillar = y < 2 && x % 9 < 2 && z % 11 < 2;
+  if (y < -6 || roof || pillar) return world::block::kMarble;
+  return y == -6 && (x * 7 + z * 3) % 23 == 0 ? world::block::kFern : world::block::kAirBlock;
 }
 
 shared::Light checked(const shared::Light& light) {
@@ -127,6 +136,40 @@ TEST_F(LitFrames, UnderWaterAndByDayAndWithCoarseDepthsToo) {
   settings.gbuffer.normal = NormalStore::kOct16;
   settings.shading = Shading::kFlat;
   expect_as_oracle(input, settings);
+}
+
+// Tiles that get no sun are shaded by a program that does not look for it.
+TEST_F(LitFrames, TilesWithoutSunLookAsIfEveryPixelHadAskedForIt) {
+  restart();
+  add(hall, {0, -1, 0}, {1, 1, 1});
+  RenderSettings settings;
+  settings.indirect = Indirect::kOff;
+  settings.leave_out.add(Feature::kHaze);
+  std::vector<Celestial> skies{celestial_at(0.0, 0.5)};  // of a full moon
+  for (const double altitude : {2.0, 20.0, 45.0, 70.0, 89.0})
+    skies.push_back(sun_at(altitude, 25.0 + 3.0 * altitude));
+  std::size_t pixels = 0, dark = 0;
+  for (const Celestial& sky : skies) {
+    for (const double yaw : {20.0, 140.0, 260.0}) {
+      for (const float blur : {0.0f, 0.15f}) {
+        FrameInput input = night({});
+        input.sky = sky;
+        input.camera = camera_at({30.3, -2.9, 28.7}, yaw, -12.0, 80.0);
+        settings.shadow_blur = blur;
+        settings.lights_oracle = false;
+        const std::vector<std::byte> by_tiles = radiance(input, settings);
+        settings.lights_oracle = true;
+        const std::vector<std::byte> by_pixels = radiance(input, settings);
+        ASSERT_EQ(by_tiles, by_pixels) << sky.to_sun.y << " " << yaw << " " << blur;
+        constexpr std::array<std::byte, 6> kNoLight{};
+        for (std::size_t i = 0; i < by_pixels.size(); i += 8, ++pixels)
+          dark += std::memcmp(&by_pixels[i], kNoLight.data(), kNoLight.size()) == 0 ? 1 : 0;
+      }
+    }
+  }
+  // Both kinds are there.
+  EXPECT_GT(dark, pixels / 4);
+  EXPECT_LT(dark, pixels * 19 / 20);
 }
 
 TEST_F(LitFrames, ListsThatDoNotFitAreAskedForAmongAllLightsAndFitLater) {
