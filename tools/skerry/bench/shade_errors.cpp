@@ -79,8 +79,8 @@ class Judge {
     out.shown = true;
     const reference::Meeting& hit = *trace.hit;
     const bool plant = hit.face >= StoredLight::kPlant;
-    const std::optional<glm::dvec3> light = stored_.at(
-        named_.ids[hit.island], hit.lattice, plant ? StoredLight::kPlant : hit.face);
+    const std::optional<glm::dvec3> light =
+        stored_.at(named_.ids[hit.island], hit.lattice, plant ? StoredLight::kPlant : hit.face);
     if (!light) return out;
     out.stored = true;
     const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
@@ -94,7 +94,8 @@ class Judge {
   }
 
  private:
-  void estimate(const reference::Shader::Receiver& at, std::uint32_t pixel, JudgedPlace& out) const {
+  void estimate(const reference::Shader::Receiver& at, std::uint32_t pixel,
+                JudgedPlace& out) const {
     const std::uint32_t count = std::max(1u, samples_ / reference::kBatches);
     glm::dvec3 squares(0.0);
     for (std::uint32_t batch = 0; batch < reference::kBatches; ++batch) {
@@ -109,8 +110,8 @@ class Judge {
     }
     constexpr auto kBatches = static_cast<double>(reference::kBatches);
     out.reference /= kBatches;
-    out.variance = glm::max(squares / kBatches - out.reference * out.reference, 0.0) /
-                   (kBatches - 1.0);
+    out.variance =
+        glm::max(squares / kBatches - out.reference * out.reference, 0.0) / (kBatches - 1.0);
   }
 
   const reference::NamedScene& named_;
