@@ -11,9 +11,9 @@
 #include "tools/measure/image.h"
 #include "tools/reference/reference.h"
 #include "tools/skerry/bench/bench_report.h"
-#include "tools/skerry/bench/shade_errors.h"
 #include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/scene/scene_device.h"
+#include "tools/skerry/shade/shade_errors.h"
 
 namespace skerry::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/skerry/bench/stored_light.h"
+#include "tools/skerry/shade/stored_light.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "tools/skerry/bench/shade_errors.h"
+#include "tools/skerry/shade/shade_errors.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +11,7 @@
 #include "game/view/light_chunk.h"
 #include "tools/reference/reference.h"
 #include "tools/reference/shade.h"
-#include "tools/skerry/bench/stored_light.h"
+#include "tools/skerry/shade/stored_light.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::tools {
