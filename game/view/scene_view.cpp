@@ -17,6 +17,7 @@
 #include "engine/render/scene/section_parts.h"
 #include "game/panorama/load_panorama.h"
 #include "game/player/player.h"
+#include "game/view/light_chunk.h"
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
@@ -26,9 +27,8 @@
 namespace skerry::game {
 namespace {
 
-constexpr std::size_t kMaxPolledQuads = 200'000;  // taken from the workers in one frame
-constexpr float kWeakLampRange = 10.0f;           // blocks: lamps that reach no further are weak
-constexpr double kReachStep = 128.0;              // blocks
+constexpr std::size_t kMaxPolledQuads = 200'000;      // taken from the workers in one frame
+constexpr double kReachStep = 128.0;                  // blocks
 constexpr std::uint32_t kFirstArenaQuads = 1u << 21;  // 16 MiB
 constexpr std::uint64_t kBytesPerMiB = std::uint64_t{1} << 20;
 // What is new leaves this share of the memory to what is built anew after an edit.
@@ -93,26 +93,6 @@ shared::Section section_record(const world::SectionKey& key, const world::ChunkM
   section.bounds_max = packed_box(mesh.bounds_max);
   std::copy(mesh.range_end.begin(), mesh.range_end.end(), section.range_end);
   return section;
-}
-
-/// Takes the weak ones out of a section's lights.
-std::vector<world::WeakLamp> take_weak(std::vector<LatticeLight>& lights, int level) {
-  const float voxel = static_cast<float>(1 << level);  // blocks
-  std::vector<world::WeakLamp> weak;
-  std::erase_if(lights, [&](const LatticeLight& light) {
-    if (light.range > kWeakLampRange) return false;
-    weak.push_back({light.place / voxel, light.intensity / (voxel * voxel), light.range / voxel});
-    return true;
-  });
-  return weak;
-}
-
-std::vector<world::StrongLamp> places_of(const std::vector<LatticeLight>& lights, int level) {
-  const float voxel = static_cast<float>(1 << level);  // blocks
-  std::vector<world::StrongLamp> places;
-  for (const LatticeLight& light : lights)
-    places.push_back({light.place / voxel, light.range / voxel, light.intensity / (voxel * voxel)});
-  return places;
 }
 
 }  // namespace
@@ -479,9 +459,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   std::vector<LatticeLight> lights = light_field_.lights_of(ready.key, ready.emitters);
   std::vector<world::WeakLamp> weak;
   if (weak_lamps_kept_) weak = take_weak(lights, ready.key.level);
-  if (island_light_)
-    island_light_->add(ready.key, {ready.occupancy, ready.leaves, ready.mesh.quads, std::move(weak),
-                                   places_of(lights, ready.key.level)});
+  if (island_light_) island_light_->add(ready.key, light_chunk_of(ready, std::move(weak), lights));
   light_field_.invalidate_reach(ready.key.island);
   light_field_.add_lights(ready.key, std::move(lights));
   return {};

@@ -255,10 +255,15 @@ Result<void> add_clouds(const game::SceneOptions& options, world::WorldPos camer
   return {};
 }
 
-/// Calls draw(scene) with the scene that options name.
-template <class Draw>
-Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettings& settings,
-                        const Draw& draw) {
+double ev_of(const game::SceneOptions& options, const measure::Picture& radiance) {
+  if (options.settings.exposure_ev) return *options.settings.exposure_ev;
+  return metered_ev(radiance, options.settings.render.meter).value_or(0.0);
+}
+
+}  // namespace
+
+Result<NamedScene> scene_from(const game::SceneOptions& options,
+                              const ReferenceSettings& settings) {
   if (options.settings.render.debug_view != render::DebugView::kNone)
     return Error{"debug.view has no reference picture: use debug.view=none or renderer=deferred"};
   if (!may_lack(options.settings.render.leave_out))
@@ -277,7 +282,8 @@ Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettin
                           options.settings.render.leave_out);
   Result<std::shared_ptr<const render::PanoramaSky>> panorama = game::load_panorama(options);
   if (!panorama) return panorama.error();
-  Scene scene;
+  NamedScene named;
+  Scene& scene = named.scene;
   scene.view = view_of(options, camera);
   const Result<std::vector<world::IslandSpec>> specs = specs_of(world, options, camera.position);
   if (!specs) return specs.error();
@@ -289,16 +295,10 @@ Result<void> with_scene(const game::SceneOptions& options, const ReferenceSettin
   add_sky(options, sky, render::eye_height_km(above), settings.body_radius, *panorama, scene);
   if (Result<void> added = add_clouds(options, camera.position, world.origin(), scene); !added)
     return added.error();
-  draw(scene);
-  return {};
+  named.world = *std::move(opened);
+  for (const world::IslandSpec& spec : *specs) named.ids.push_back(spec.id);
+  return named;
 }
-
-double ev_of(const game::SceneOptions& options, const measure::Picture& radiance) {
-  if (options.settings.exposure_ev) return *options.settings.exposure_ev;
-  return metered_ev(radiance, options.settings.render.meter).value_or(0.0);
-}
-
-}  // namespace
 
 ReferenceSettings settings_from(const game::SceneOptions& options) {
   ReferenceSettings settings;
@@ -315,10 +315,9 @@ Darkroom darkroom_from(const game::Settings& settings) {
 Result<ReferencePicture> render_reference(const game::SceneOptions& options,
                                           const ReferenceSettings& settings,
                                           const Progress& progress) {
-  ReferencePicture picture;
-  const Result<void> drawn = with_scene(
-      options, settings, [&](const Scene& scene) { picture = render(scene, settings, progress); });
-  if (!drawn) return drawn.error();
+  const Result<NamedScene> named = scene_from(options, settings);
+  if (!named) return named.error();
+  ReferencePicture picture = render(named->scene, settings, progress);
   picture.ev = ev_of(options, picture.radiance);
   return picture;
 }
@@ -327,12 +326,9 @@ Result<ReferenceBatches> render_reference_batches(const game::SceneOptions& opti
                                                   const ReferenceSettings& settings,
                                                   std::uint32_t first, std::uint32_t count,
                                                   const Progress& progress) {
-  ReferenceBatches batches;
-  const Result<void> drawn = with_scene(options, settings, [&](const Scene& scene) {
-    batches = render_batches(scene, settings, first, count, progress);
-  });
-  if (!drawn) return drawn.error();
-  return batches;
+  const Result<NamedScene> named = scene_from(options, settings);
+  if (!named) return named.error();
+  return render_batches(named->scene, settings, first, count, progress);
 }
 
 ReferencePicture merge_reference(const game::SceneOptions& options,

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "game/scene_file/options.h"
 #include "tools/measure/picture.h"
 #include "tools/reference/scene.h"
+#include "world/islands/world.h"
 
 namespace skerry::reference {
 
@@ -27,6 +29,15 @@ struct ReferenceSettings {
 
 /// Settings as the options' keys reference.* and jobs.threads give them.
 ReferenceSettings settings_from(const game::SceneOptions& options);
+
+/// A scene that options name.
+struct NamedScene {
+  std::shared_ptr<world::World> world;  ///< its voxels are made when they are asked for
+  Scene scene;
+  std::vector<std::uint64_t> ids;  ///< of its islands, in their order
+};
+/// What render_reference() draws. Errors: alike.
+Result<NamedScene> scene_from(const game::SceneOptions& options, const ReferenceSettings& settings);
 
 /// Radiance before exposure, and how far from its limit it is expected to be.
 struct ReferencePicture {

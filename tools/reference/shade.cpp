@@ -60,7 +60,7 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
     const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(pair, spread));
     if (glm::dot(at.normal, to_light) <= 0.0 || !body_seen(at, to_light)) continue;
-    take(Arrival{to_light, body.irradiance * past_clouds(at.point, to_light, sampler), true});
+    take(Arrival{to_light, body.irradiance * past_clouds(at.point, to_light, sampler), true, 0.0});
   }
   lights_.reaching(at.point, [&](const Light& light) {
     const std::optional<LightRay> ray = sample_light(light, at.point, sampler);
@@ -69,7 +69,7 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     if (tracer_.hidden(at.point, ray->to_light, ray->distance, at.plant,
                        placed ? &light.position : nullptr))
       return;
-    take(Arrival{ray->to_light, ray->irradiance, false});
+    take(Arrival{ray->to_light, ray->irradiance, false, light.range});
   });
 }
 
@@ -139,6 +139,15 @@ glm::dvec3 Shader::irradiance(const Receiver& at, Sampler& sampler) const {
   glm::dvec3 sum = kPi * from_around(at, scene_.bounces, sampler).radiance;
   arrive(at, sampler,
          [&](const Arrival& light) { sum += light.irradiance * cosine_of(light, at.normal); });
+  return sum;
+}
+
+glm::dvec3 Shader::soft_irradiance(const Receiver& at, double most_range, Sampler& sampler) const {
+  glm::dvec3 sum = kPi * from_around(at, scene_.bounces, sampler).radiance;
+  arrive(at, sampler, [&](const Arrival& light) {
+    if (!light.body && light.range <= most_range)
+      sum += light.irradiance * glm::dot(at.normal, light.to_light);
+  });
   return sum;
 }
 

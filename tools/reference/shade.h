@@ -32,6 +32,9 @@ class Shader {
                                      ///< which do not shade each other
   };
   glm::dvec3 irradiance(const Receiver& at, Sampler& sampler) const;
+  /// The part of it that comes neither from sun and moon nor from a lamp without being reflected,
+  /// but for lamps of at most this range [blocks].
+  glm::dvec3 soft_irradiance(const Receiver& at, double most_range, Sampler& sampler) const;
 
  private:
   /// One light as it arrives at a point.
@@ -39,6 +42,7 @@ class Shader {
     glm::dvec3 to_light;
     glm::dvec3 irradiance;  ///< of a surface facing it
     bool body = false;      ///< sun or moon
+    double range = 0.0;     ///< of a lamp [blocks]
   };
   struct Reach;
   struct Passage;

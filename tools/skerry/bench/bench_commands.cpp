@@ -16,6 +16,7 @@
 #include "tools/skerry/bench/bench_generate.h"
 #include "tools/skerry/bench/bench_lights.h"
 #include "tools/skerry/bench/bench_mesh.h"
+#include "tools/skerry/bench/bench_shade.h"
 #include "tools/skerry/bench/bench_upload.h"
 #include "tools/skerry/bench/bench_world.h"
 #include "tools/skerry/scene/scene_device.h"
@@ -47,6 +48,10 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_device_options(*costs_);
   lights_ = add("lights", "Time sorting and shading of 64 to 16,384 lights in a scene");
   add_scene_options(*lights_, scene_);
+  shade_ =
+      add("shade", "Compare the light that stays on surfaces with the reference, in 12 scenes");
+  add_scene_options(*shade_, scene_);
+  shade_->add_option("--only", only_, "These of the 12 scenes")->type_name("NAME");
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
   add_scene_options(*frame_, scene_);
   frame_
@@ -88,6 +93,7 @@ int BenchCommands::run() {
   if (const auto refusal = check_leftovers(*bench_)) return refuse(*refusal);
   if (const auto refusal = check_leftovers(*chosen)) return refuse(*refusal);
   if (chosen == lights_) return run_lights();
+  if (chosen == shade_) return run_shade();
   if (chosen == frame_) return run_frame();
   if (chosen == flicker_) return run_flicker();
   if (chosen == edit_) return run_edit();
@@ -100,15 +106,15 @@ int BenchCommands::run() {
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh",    "generate", "world",  "upload",
-                                         "cull",    "device",   "lights", "frame",
-                                         "flicker", "edit",     "fly",    "start"};
+  constexpr std::string_view kNames[] = {"mesh",   "generate", "world", "upload", "cull",
+                                         "device", "lights",   "shade", "frame",  "flicker",
+                                         "edit",   "fly",      "start"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
     return fail(
         kUsage,
         {"bench does not say what: give mesh, generate, world, upload, cull, device, lights, "
-         "frame, flicker, edit, fly or start"});
+         "shade, frame, flicker, edit, fly or start"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
@@ -140,6 +146,14 @@ int BenchCommands::run_lights() {
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
   options.json = path_of(json_);
   return bench_lights(options);
+}
+
+int BenchCommands::run_shade() {
+  game::SceneOptions resolved;
+  if (const auto refusal = resolve(scene_, false, resolved)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(resolved)) return refuse(*refusal);
+  if (const auto refusal = check_output(json_)) return refuse(*refusal);
+  return bench_shade({scene_.text, only_, resolved.device, path_of(json_)});
 }
 
 int BenchCommands::run_frame() {

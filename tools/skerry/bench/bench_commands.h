@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/skerry/scene/arguments.h"
 
@@ -10,8 +11,8 @@ class App;
 
 namespace skerry::tools {
 
-/// `skerry bench mesh|generate|world|upload|cull|device|lights|frame|flicker|edit|fly|
-/// start`: options, and
+/// `skerry bench mesh|generate|world|upload|cull|device|lights|shade|frame|flicker|
+/// edit|fly|start`: options, and
 /// which function each calls.
 class BenchCommands {
  public:
@@ -30,6 +31,7 @@ class BenchCommands {
   int run_mesh();
   int run_on_device(const CLI::App& chosen);
   int run_lights();
+  int run_shade();
   int run_frame();
   int run_flicker();
   int run_edit();
@@ -44,6 +46,7 @@ class BenchCommands {
   CLI::App* cull_;
   CLI::App* costs_;
   CLI::App* lights_;
+  CLI::App* shade_;
   CLI::App* frame_;
   CLI::App* flicker_;
   CLI::App* edit_;
@@ -53,6 +56,7 @@ class BenchCommands {
   std::optional<double> speed_, seconds_;
   double clock_rate_ = 0.0;
   std::optional<int> frames_;
+  std::vector<std::string> only_;
   bool validate_ = false;
   SceneArguments scene_;
 };

@@ -1,0 +1,180 @@
+#include "tools/skerry/shade/shade_errors.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <vector>
+
+#include "engine/core/jobs.h"
+#include "game/view/light_chunk.h"
+#include "tools/reference/reference.h"
+#include "tools/reference/shade.h"
+#include "tools/skerry/shade/stored_light.h"
+#include "world/voxel/blocks.h"
+
+namespace skerry::tools {
+namespace {
+
+constexpr ShadeScene kScenes[] = {
+    {"day", R"({"seed": 1, "time": "10:30"})"},
+    {"dusk", R"({"seed": 6, "time": "18:05", "camera": [-60, 145, 279, 90, -8]})"},
+    {"night", R"({"seed": 4, "time": "00:30", "settings": {"sky.moon_phase": 0.5}})"},
+    {"forest", R"({"seed": 4, "time": "11:00", "camera": [-115.4, 108.4, 230.78, 150, -21.8]})"},
+    {"cave_mouth", R"({"seed": 4, "time": "12:00", "camera": [181.29, 30.64, 14.98, 205, 3]})"},
+    {"pit", R"({"seed": 1, "time": "12:30", "camera": [0.5, 118.5, 5.5, 180, -55],
+        "blocks": [{"block": "stone", "from": [-12, 100, -12], "to": [12, 115, 12]},
+                   {"block": "sand", "from": [-5, 101, -5], "to": [5, 101, 5]},
+                   {"block": "air", "from": [-4, 102, -4], "to": [4, 115, 4]}]})"},
+    {"under_island", R"({"seed": 7, "time": "12:00", "camera": [-9, -140, -90, 0, 40]})"},
+    {"room", R"({"seed": 1, "time": "12:30", "camera": [4.5, 116.7, 4.5, 225, -8],
+        "blocks": [{"block": "stone", "from": [-8, 110, -8], "to": [8, 114, 8]},
+                   {"block": "planks", "from": [-7, 115, -7], "to": [7, 120, 7]},
+                   {"block": "air", "from": [-6, 115, -6], "to": [6, 119, 6]},
+                   {"block": "air", "from": [-7, 116, -2], "to": [-7, 118, 2]}]})"},
+    {"lava_cave", R"({"seed": 1, "time": "12:30", "camera": [4.5, 116.7, 4.5, 225, -8],
+        "blocks": [{"block": "stone", "from": [-12, 108, -12], "to": [12, 124, 12]},
+                   {"block": "air", "from": [-7, 113, -7], "to": [7, 119, 7]},
+                   {"block": "lava", "from": [-6, 112, -6], "to": [-2, 112, -2]},
+                   {"block": "stone", "from": [-1, 113, -4], "to": [0, 116, 0]}]})"},
+    {"mycelium", R"({"seed": 1, "time": "20:00", "camera": [-629, 75, -95, 180, -10],
+        "settings": {"sky.moon_phase": 0.25}})"},
+    {"turned", R"({"seed": 1, "time": "14:00", "camera": [-150, 160, -150, 45, -30],
+        "settings": {"world.time": 40000}})"},
+    {"far", R"({"seed": 5, "time": "13:00", "camera": [-60, 260, -500, 20, -18]})"},
+};
+
+double luminance_of(glm::dvec3 c) {
+  return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+
+struct JudgedPlace {
+  bool shown = false, stored = false;
+  glm::dvec3 reference{0.0}, variance{0.0}, difference{0.0};  // variance of `reference`
+};
+
+/// What one pixel shows, judged by as many samples as a reference picture has.
+class Judge {
+ public:
+  Judge(const reference::NamedScene& named, const StoredLight& stored, std::uint32_t samples)
+      : named_(named),
+        stored_(stored),
+        samples_(samples),
+        tracer_(named.scene.islands),
+        shader_(named.scene, tracer_) {}
+
+  JudgedPlace at(std::uint32_t x, std::uint32_t y) const {
+    const reference::View& view = named_.scene.view;
+    const double across = (2.0 * (x + 0.5) / view.width - 1.0) * view.tan_half_y * view.width /
+                          view.height,
+                 down = (2.0 * (y + 0.5) / view.height - 1.0) * view.tan_half_y;
+    const glm::dvec3 direction =
+        glm::normalize(view.forward + view.right * across - view.up * down);
+    reference::Trace trace;
+    tracer_.trace(glm::dvec3(0.0), direction, trace);
+    JudgedPlace out;
+    // What glows itself is next to its own lamp, where irradiance has no bound.
+    if (!trace.hit || world::block_types()[trace.hit->block].emission > 0.0f) return out;
+    out.shown = true;
+    const reference::Meeting& hit = *trace.hit;
+    const bool plant = hit.face >= StoredLight::kPlant;
+    const std::optional<glm::dvec3> light =
+        stored_.at(named_.ids[hit.island], hit.lattice, plant ? StoredLight::kPlant : hit.face);
+    if (!light) return out;
+    out.stored = true;
+    const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
+    constexpr double kOffSurface = 1e-7;  // blocks
+    const reference::Shader::Receiver receiver{
+        direction * hit.t + (plant ? glm::dvec3(0.0) : normal * kOffSurface), normal,
+        plant ? &hit : nullptr};
+    estimate(receiver, y * view.width + x, out);
+    out.difference = *light - out.reference;
+    return out;
+  }
+
+ private:
+  void estimate(const reference::Shader::Receiver& at, std::uint32_t pixel,
+                JudgedPlace& out) const {
+    const std::uint32_t count = std::max(1u, samples_ / reference::kBatches);
+    glm::dvec3 squares(0.0);
+    for (std::uint32_t batch = 0; batch < reference::kBatches; ++batch) {
+      glm::dvec3 sum(0.0);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        reference::Sampler sampler(pixel, batch, i);
+        sum += shader_.soft_irradiance(at, static_cast<double>(game::kWeakLampRange), sampler);
+      }
+      sum /= static_cast<double>(count);
+      out.reference += sum;
+      squares += sum * sum;
+    }
+    constexpr auto kBatches = static_cast<double>(reference::kBatches);
+    out.reference /= kBatches;
+    out.variance =
+        glm::max(squares / kBatches - out.reference * out.reference, 0.0) / (kBatches - 1.0);
+  }
+
+  const reference::NamedScene& named_;
+  const StoredLight& stored_;
+  std::uint32_t samples_;
+  reference::Tracer tracer_;
+  reference::Shader shader_;
+};
+
+ShadeErrors over(std::span<const JudgedPlace> places) {
+  ShadeErrors out;
+  glm::dvec3 mean(0.0), difference(0.0), squares(0.0), variance(0.0);
+  std::vector<double> off;
+  for (const JudgedPlace& place : places) {
+    out.places += place.shown;
+    out.without += place.shown && !place.stored;
+    if (!place.stored) continue;
+    mean += place.reference;
+    difference += place.difference;
+    squares += place.difference * place.difference;
+    variance += place.variance;
+    off.push_back(std::abs(luminance_of(place.difference)));
+  }
+  if (off.empty()) return out;
+  const auto per_channel = [count = static_cast<double>(off.size())](glm::dvec3 sum) {
+    return (sum.x + sum.y + sum.z) / (3.0 * count);
+  };
+  out.mean = per_channel(mean);
+  if (out.mean == 0.0) return out;
+  out.rmse = std::sqrt(std::max(0.0, per_channel(squares) - per_channel(variance))) / out.mean;
+  out.bias = per_channel(difference) / out.mean;
+  out.standard_error = std::sqrt(per_channel(variance)) / out.mean;
+  const auto at = off.begin() + static_cast<std::ptrdiff_t>(off.size() * 99 / 100);
+  std::nth_element(off.begin(), at, off.end());
+  out.worst = *at / out.mean;
+  return out;
+}
+
+}  // namespace
+
+std::span<const ShadeScene> shade_scenes() {
+  return kScenes;
+}
+
+Result<ShadeErrors> measure_shade(const game::SceneOptions& options) {
+  const reference::ReferenceSettings settings = reference::settings_from(options);
+  const Result<reference::NamedScene> named = reference::scene_from(options, settings);
+  if (!named) return named.error();
+  const Result<StoredLight> stored = StoredLight::find(options);
+  if (!stored) return stored.error();
+  const Judge judge(*named, *stored, settings.samples);
+  const reference::View& view = named->scene.view;
+  std::vector<JudgedPlace> places(std::size_t{view.width} * view.height);
+  Jobs jobs(settings.threads);
+  jobs.parallel_for(static_cast<int>(view.height), [&](int row) {
+    const auto y = static_cast<std::uint32_t>(row);
+    for (std::uint32_t x = 0; x < view.width; ++x)
+      places[std::size_t{y} * view.width + x] = judge.at(x, y);
+  });
+  ShadeErrors out = over(places);
+  out.work_seconds = stored->work_seconds();
+  out.bytes = stored->bytes();
+  return out;
+}
+
+}  // namespace skerry::tools

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "engine/core/result.h"
+#include "game/scene_file/options.h"
+
+namespace skerry::tools {
+
+/// A view in which stored light is judged.
+struct ShadeScene {
+  std::string_view name;  ///< lower-case words joined by _
+  std::string_view json;  ///< as a scene file (docs/settings.md), without size and quality
+};
+std::span<const ShadeScene> shade_scenes();
+
+/// How far stored light is from the reference's, over the surfaces that a picture's pixels show:
+/// irradiance but for direct light of sun, moon and strong lamps, linear RGB.
+struct ShadeErrors {
+  std::size_t places = 0;   ///< pixels that show a surface that does not glow
+  std::size_t without = 0;  ///< of them those whose face is not there at the level of detail
+  double mean = 0.0;        ///< of the reference's irradiance
+  double rmse = 0.0;        ///< over `mean`; the reference's own variance is taken off
+  double bias = 0.0;        ///< mean difference over `mean`
+  double worst = 0.0;       ///< 99th percentile of the difference in luminance, over `mean`
+  double standard_error =
+      0.0;                    ///< of the reference at a place, over `mean`; root of the mean square
+  double work_seconds = 0.0;  ///< of threads that found the light of all islands in view
+  std::size_t bytes = 0;      ///< that the renderer stores of it
+};
+
+/// Errors: those of reference::scene_from.
+Result<ShadeErrors> measure_shade(const game::SceneOptions& options);
+
+}  // namespace skerry::tools
