@@ -115,7 +115,7 @@ MUTANTS = (
            "pattern < static_cast<int>(shared::kSkyPatternCount) / 2", "day dusk"),
     Mutant("sky_air_missing", "the sky does not light the air", "shaders/include/surface/haze.glsl",
            "mix(sky, 1.0, lit * frame.body_in_air)", "lit * frame.body_in_air", "dusk far_view"),
-    Mutant("weak_lamps_lost", "weak lamps give no light", "game/view/scene_view.cpp",
+    Mutant("weak_lamps_lost", "weak lamps give no light", "game/view/light_chunk.cpp",
            "weak.push_back({light.place / voxel,", "if (level < 0) weak.push_back({light.place / voxel,", "mycelium village_night"),
     # What faces reflect to each other
     Mutant("bounce_once_less", "light is reflected once less", "world/light/bounce_light.h",
