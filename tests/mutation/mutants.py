@@ -127,6 +127,8 @@ MUTANTS = (
     Mutant("bounce_not_turned", "what is reflected has the sun of an island that is not turned",
            "engine/render/sky/sky_irradiance.cpp",
            "lattice_from_world * bodies_.to_sun", "bodies_.to_sun", "turned_islands"),
+    Mutant("weak_lamps_off_faces", "weak lamps light the air before faces instead of them", "world/light/lamp_light.cpp",
+           "way[axis] += 0.5f * sign;", "way[axis] += 0.0f * sign;", "mycelium volcanic"),
     Mutant("bounce_shape_lost", "faces reflect alike wherever the light comes from", "shaders/include/light/indirect.glsl",
            "sum[channel] += dot(h_a,", "sum[channel] += 0.0 * dot(h_a,", "water cave_mouth"),
     Mutant("bounce_grey", "all faces reflect alike", "world/light/bounce_light.cpp",
