@@ -115,7 +115,7 @@ MUTANTS = (
            "pattern < static_cast<int>(shared::kSkyPatternCount) / 2", "day dusk"),
     Mutant("sky_air_missing", "the sky does not light the air", "shaders/include/surface/haze.glsl",
            "mix(sky, 1.0, lit * frame.body_in_air)", "lit * frame.body_in_air", "dusk far_view"),
-    Mutant("weak_lamps_lost", "weak lamps give no light", "game/view/scene_view.cpp",
+    Mutant("weak_lamps_lost", "weak lamps give no light", "game/view/light_chunk.cpp",
            "weak.push_back({light.place / voxel,", "if (level < 0) weak.push_back({light.place / voxel,", "mycelium village_night"),
     # What faces reflect to each other
     Mutant("bounce_once_less", "light is reflected once less", "world/light/bounce_light.h",
@@ -127,6 +127,8 @@ MUTANTS = (
     Mutant("bounce_not_turned", "what is reflected has the sun of an island that is not turned",
            "engine/render/sky/sky_irradiance.cpp",
            "lattice_from_world * bodies_.to_sun", "bodies_.to_sun", "turned_islands"),
+    Mutant("weak_lamps_off_faces", "weak lamps light the air before faces instead of them", "world/light/lamp_light.cpp",
+           "way[axis] += 0.5f * sign;", "way[axis] += 0.0f * sign;", "mycelium volcanic"),
     Mutant("bounce_shape_lost", "faces reflect alike wherever the light comes from", "shaders/include/light/indirect.glsl",
            "sum[channel] += dot(h_a,", "sum[channel] += 0.0 * dot(h_a,", "water cave_mouth"),
     Mutant("bounce_grey", "all faces reflect alike", "world/light/bounce_light.cpp",

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "tests/folder.h"
+#include "tools/skerry/farm/cpu_share.h"
 
 namespace skerry::tools {
 namespace {

@@ -175,11 +175,9 @@ Result<StoredLight> StoredLight::find(const game::SceneOptions& options) {
   const bool full = options.settings.render.indirect == render::Indirect::kFull;
   StoredLight out;
   std::atomic<double> seconds = 0.0;
-  std::size_t first = 0;
   for (const auto& [id, island] : lit) {
-    out.islands_[id] = {island.level, {}, first};
+    out.islands_[id].level = island.level;
     if (!island.chunks.empty()) out.islands_[id].skies = look(island, full, jobs, seconds);
-    first += kIslandTexels;
   }
   out.work_seconds_ = seconds;
   const render::Celestial sky =
@@ -191,6 +189,11 @@ Result<StoredLight> StoredLight::find(const game::SceneOptions& options) {
   out.sky_ = render::sky_irradiance(
       render::sky_model(sky, render::eye_height_km(above), nullptr, *panorama), sky, placed,
       std::vector<bool>(placed.size(), true));
+  std::size_t number = 0;
+  for (auto& [id, island] : out.islands_) {
+    island.first = out.sky_[number / 4][static_cast<int>(number % 4)];
+    ++number;
+  }
   return out;
 }
 
