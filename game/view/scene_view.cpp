@@ -263,7 +263,8 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
 bool SceneView::occupancy_wanted() const {
   return (settings_.render.ao_strength > 0.0 &&
           settings_.render.shading != render::Shading::kFlat) ||
-         settings_.render.lights_shadows != 0;
+         settings_.render.lights_shadows != 0 ||
+         settings_.render.water_mirror == render::WaterMirror::kWorld;
 }
 
 // Occupancy and light are made of what comes along with the meshes, so that all of them are made
@@ -387,7 +388,8 @@ render::IndirectStore* SceneView::indirect_store() {
 
 /// A far section hides next to nothing of the sky from itself.
 void SceneView::open_to_sky(std::uint32_t slot) {
-  if (settings_.render.indirect == render::Indirect::kOff) return;
+  // What is kept, not what is drawn at the moment: light that is turned off and on again is there.
+  if (!island_light_ || island_light_->finds() == IslandLight::Finds::kReach) return;
   if (render::IndirectStore* store = indirect_store())
     store->open_island(renderer_->mesh_uploader(), slot);
 }
@@ -618,6 +620,7 @@ Result<std::uint64_t> SceneView::draw(
   input.lights = {};
   input.light_islands = {};
   input.marker.reset();
+  input.medium_surface.reset();
   return renderer_->draw(input, settings, size, after, waits, signals);
 }
 

@@ -57,7 +57,9 @@ uint shaft_state(VoxelGrid grid, Box box, vec3 end, ivec3 spared) {
   float slab = sign > 0.0 ? float(first_cell) : -float(first_cell) - 1.0;  // its lower side
   bool some = false;
   float piece = 0.0, thick = 1.0, per_low = 1.0 / (to - low), per_high = 1.0 / (to - high);
-  while (slab <= to + kMargin) {
+  // Beyond the island's voxels nothing is in the way.
+  float voxels_end = float(64 * (sign > 0.0 ? along(grid.low + grid.size, d) : -along(grid.low, d)));
+  while (slab <= min(to + kMargin, voxels_end)) {
     // Shares of the way: where the first way enters the piece, where the last one leaves it.
     float enters = clamp((slab + piece - high) * per_high, 0.0, 1.0);
     float leaves = clamp((slab + piece + thick - low) * per_low, 0.0, 1.0);
@@ -161,8 +163,8 @@ uint way_state(Light light, uint key, int plane, vec3 low, vec3 high) {
   uint axis = face < 6u ? face >> 1 : 1u;
   bool positive = (face & 1u) == 0u;
   float above = positive ? along(middle, axis) - along(low, axis) : along(high, axis) - along(middle, axis);
-  // A coarse normal may see what lies behind the face.
-  if (kNormalCode == kNormalExact && above <= -kMargin) return kNone;
+  // A coarse normal may see what lies behind the face, past voxels that the box leaves out.
+  if (above <= -kMargin) return kNormalCode == kNormalExact ? kNone : kUnknown;
   if (face < 6u) {
     ivec3 bound = along_axis(axis, plane, 0, 0);
     bvec3 normal = equal(uvec3(axis), uvec3(0u, 1u, 2u));

@@ -76,12 +76,13 @@ void for_spikes(const SpikeGrid& grid, int half, F&& f) {
 
 inline constexpr int kShoreSteps = 32;  ///< places that a shore is looked at, each way around
 /// Finds a radius at which the whole shore lies inland, and a level. False when there is no such
-/// place. @param ground_at(x, z) an optional: ground of a column [Q8]; none: not inland.
+/// place. @param steps places each way around; @pre a divisor of 1024. @param ground_at(x, z) an
+/// optional: ground of a column [Q8]; none: not inland.
 template <class GroundAt>
 bool settle(Lake& lake, int steps, const GroundAt& ground_at) {
   constexpr int kShoreRoom = 7;
   for (; lake.radius >= 4; lake.radius = lake.radius * 5 / 6) {
-    int lowest = 1 << 30;
+    int lowest = std::numeric_limits<int>::max();
     bool inland = true;
     for (int a = 0; a < 1024 && inland; a += 1024 / steps) {
       for (const int distance : {lake.radius + 2, lake.radius + kShoreRoom}) {

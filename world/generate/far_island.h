@@ -12,7 +12,8 @@ namespace skerry::world {
 /// height, and a column within the outline has one at least, so that the silhouette keeps its size.
 /// Upper faces have the colour of what covers the ground, the others that of the rock. Opaque
 /// alone: lakes are covered by what looks like them from afar.
-/// @param voxel_log2 a voxel's edge is 2^this blocks. @pre not more than far_voxel_log2().
+/// @param voxel_log2 a voxel's edge is 2^this blocks. @pre not less than far_voxel_log2() of
+/// the island's level, so that it fits a section.
 /// @param out replaced; quads of opaque ranges, places in voxels counted from -32.
 void far_island(const IslandSpec& spec, int voxel_log2, ChunkMesh& out);
 

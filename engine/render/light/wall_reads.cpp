@@ -5,11 +5,11 @@
 
 namespace skerry::render {
 
-WallReads::WallReads(const SceneRefs& scene, const RenderSettings& settings, bool ao)
+WallReads::WallReads(const SceneRefs& scene, const RenderSettings& settings, bool looks_up)
     : traced_(settings.lights_shadows != 0 && scene.light_islands),
       lights_(settings.lights_shadows),
       samples_(static_cast<std::uint32_t>(settings.lights_softness)),
-      occupancy_(scene, ao || traced_),
+      occupancy_(scene, looks_up || traced_),
       islands_(traced_ ? scene.light_islands : scene.materials) {}
 
 std::vector<gpu::SpecConstant> WallReads::with_walls(std::vector<gpu::SpecConstant> own) const {

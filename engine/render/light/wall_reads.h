@@ -15,8 +15,8 @@ namespace skerry::render {
 /// the settings have it.
 class WallReads {
  public:
-  /// @param corners the shader looks corners up besides (corners.glsl).
-  WallReads(const SceneRefs& scene, const RenderSettings& settings, bool ao);
+  /// @param looks_up the shader looks voxels up besides (corners, mirrors).
+  WallReads(const SceneRefs& scene, const RenderSettings& settings, bool looks_up);
   std::vector<gpu::SpecConstant> with_walls(std::vector<gpu::SpecConstant> own) const;
   void declare(gpu::PassBuilder& builder) const;
   auto bindings() const {

@@ -46,8 +46,7 @@ shared::Body shader_body(glm::dvec3 to_light, glm::vec3 irradiance, int body,
   return out;
 }
 
-// Parts of a word of the G-buffer (shaders/include/frame/common.glsl).
-constexpr std::uint32_t kFaceUp = 2;
+constexpr std::uint32_t kFaceUp = 2;  // of a word of the G-buffer (shaders/shared/geometry.h)
 
 void append_islands(std::vector<shared::IslandTransform>& out,
                     std::span<const IslandPlacement> islands, const FixedPos& relative_to) {

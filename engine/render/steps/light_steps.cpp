@@ -28,13 +28,14 @@ FrameStep shade_lights_step() {
           }}},
           [](FrameAssembly& f) {
             // Without islands that block lights no walls are looked for.
-            if (f.plan.settings.lights_shadows == kEveryLight && f.scene.light_islands &&
-                !f.plan.settings.lights_oracle)
-              f.lights = ShaftPass::add(f.graph, f.pipelines, f.scene,
-                                        {*f.geometry, f.plan.settings}, *f.lights);
-            f.shaded =
-                LightPass::add(f.graph, f.pipelines, f.scene,
-                               {*f.geometry, *f.lights, f.plan.settings}, *std::move(f.shaded));
+            const bool shafts = f.plan.settings.lights_shadows == kEveryLight &&
+                                f.scene.light_islands && !f.plan.settings.lights_oracle;
+            const ClusteredLights lights =
+                shafts ? ShaftPass::add(f.graph, f.pipelines, f.scene,
+                                        {*f.geometry, f.plan.settings}, *f.lights)
+                       : *f.lights;
+            f.shaded = LightPass::add(f.graph, f.pipelines, f.scene,
+                                      {*f.geometry, lights, f.plan.settings}, *std::move(f.shaded));
           },
           [](const FramePlan& plan) {
             return everything_if(plan.contents.features.has(Feature::kLights) && !plan.sampled());

@@ -53,14 +53,15 @@ struct Mirrored {
 
 // What a ray meets that a surface mirrors, in its own island. @param dir unit, before the surface. @param here false: there is none.
 Mirrored mirrored_voxels(WayStart start, vec3 p, vec3 dir, bool here) {
-  IslandTransform t = island_at(start.island);
-  VoxelGrid grid = voxel_grid(start.island);
+  uint island = here ? start.island : 0u;
+  IslandTransform t = island_at(island);
+  VoxelGrid grid = voxel_grid(island);
   vec3 to = start.from + lattice_from_world_vector(t, dir) * (here ? grid.per_block * kMirrorReach : 0.0);
   Marched m = march(grid, start.from, start.voxel, to, ivec3(0x7fffffff));
   uint face = min(m.face, kFaceCount - 1u);
   vec3 place = p + dir * (m.share * kMirrorReach), n = world_from_lattice_vector(t, face_normal(face)), seen;
   bool shown = shown_at(place, seen);
-  vec3 unseen = unseen_face((start.island << kIslandShift) | (face << kFaceShift), place, n);
+  vec3 unseen = unseen_face((island << kIslandShift) | (face << kFaceShift), place, n);
   return Mirrored(shown ? seen : unseen, m.share * kMirrorReach, !m.met);
 }
 

@@ -120,21 +120,22 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
   if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye);
   uint last_word = 0u;
+  float edge = length(pixel_ray(pixel + 1u) - ray) / 64.0;
   for (uint k = 0u; k < kWaterLayers; ++k) {
     uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
-    // Quads of one face overlap by a hundredth of a pixel (draw_quads.vert). No medium is entered twice: it is one surface.
-    if (word == last_word) continue;
-    last_word = word;
     float t = view_distance(layer_depth(k, ivec2(pixel)), frame.near_plane);
     float next = t * ray_length;
+    vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
+    // Quads of one face overlap by a hundredth of a pixel (draw_quads.vert): it is one surface.
+    if (word == last_word && abs(dot(n, ray)) * (next - at) < edge * next) continue;
+    last_word = word;
     if (medium != 0u) {
       Material m = materials[medium];
       colour += through * scattered(m, light_in, next - at);
       through *= exp(-extinction(m) * (next - at));
     }
-    uint block = surface_block(word), face = surface_face(word);
-    vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(face));
+    uint block = surface_block(word);
     bool entering = medium != block;
     Material m = materials[block];
     bool wavy = has_ripples(word);

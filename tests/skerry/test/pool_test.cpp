@@ -159,7 +159,7 @@ TEST(Pool, StartsAsManyProcessesADeviceAsAreWanted) {
 }
 
 TEST(Pool, SharesTheCoresAmongItsProcesses) {
-  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  const auto cores = static_cast<unsigned>(usable_cpus());
   const auto expect_threads = [](const Ran& ran, unsigned threads) {
     for (const auto& [device, processes] : ran.processes)
       for (const std::string& process : processes)

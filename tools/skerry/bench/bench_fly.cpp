@@ -273,7 +273,7 @@ struct Started {
   std::size_t islands = 0;
 };
 
-/// Draws until everything is there. Errors: nothing can be seen; no memory.
+/// Draws until everything is there. Errors: nothing can be seen; it takes too long; no memory.
 Result<Started> wait_until_complete(gpu::Device& device, game::SceneView& view,
                                     const BenchFlyOptions& options, const Stopwatch& watch) {
   game::WorldSurroundings around(view.world());
@@ -286,9 +286,10 @@ Result<Started> wait_until_complete(gpu::Device& device, game::SceneView& view,
   bool known = false;
   while (out.playable_ms == 0.0 || out.coarse_ms == 0.0 || out.complete_ms == 0.0) {
     if (watch.seconds() > kLongestStart)
-      return Error{fmt::format(
-          "nothing can be seen after {:.0f} s: choose a --camera with an island in view",
-          kLongestStart)};
+      return Error{fmt::format("after {:.0f} s {}", kLongestStart,
+                               out.playable_ms == 0.0
+                                   ? "nothing can be seen: choose a --camera with an island in view"
+                                   : "not all of the view is there: lower view.distance")};
     around.refresh(eye, 0.0, moment.world_time_s);
     // Once the ground is known its meshes are made, and handed over by the next call but one.
     const bool was_known = std::exchange(known, is_ground_known(around, eye, moment.world_time_s));
