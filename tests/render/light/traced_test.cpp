@@ -319,6 +319,7 @@ constexpr const char* kPixel =
     "layout(scalar, binding = 2) readonly buffer Islands { IslandTransform islands[]; };\n"
     "IslandTransform island_at(uint island) { return islands[island]; }\n"
     "layout(scalar, binding = 3) readonly buffer Lights { Light lights[]; };\n"
+    "Light frame_light(uint index) { return lights[index]; }\n"
     "struct Cluster { uint first; uint count; };\n"
     "uint light_index(Cluster list, uint i) { return list.first + i; }\n"
     "const bool kOracle = false;\n"
