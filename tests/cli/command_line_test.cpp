@@ -98,7 +98,8 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"test", "x.json", "--approve", "--repeat", "2"}, {"--repeat"}},
       {{"test", "x.json", "--merge", "--validate"}, {"--merge"}},
       {{"bench"},
-       {"mesh, generate, world, upload, cull, device, lights, shade, frame, flicker, edit, fly or start"}},
+       {"mesh, generate, world, upload, cull, device, lights, shade, frame, flicker, edit, fly or "
+        "start"}},
       {{"bench", "mehs"}, {"'mesh'"}},
       {{"bench", "mesh", "--inptu", "x"}, {"'--input'"}},
       {{"bench", "cull", "--device", "-1"}, {"--device"}},
