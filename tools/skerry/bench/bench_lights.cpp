@@ -17,8 +17,11 @@ namespace {
 constexpr int kLightsWarmUp = 3, kLightsFrames = 15;
 constexpr std::array<std::uint32_t, 5> kCounts{64, 256, 1024, 4096, 16384};
 
+bool shades(const std::string& pass) {
+  return pass == "shade_lights" || pass == "cull_shafts";
+}
 bool is_light_pass(const std::string& name) {
-  return name.find("light") != std::string::npos || name == "cull_shafts";
+  return name.find("light") != std::string::npos || shades(name);
 }
 
 /// Milliseconds of light passes, a value a frame.
@@ -34,8 +37,7 @@ Samples samples_of(const std::vector<render::FrameReport>& reports) {
     for (const gpu::PassTime& pass : report.passes) {
       if (!is_light_pass(pass.name)) continue;
       out.passes[pass.name].push_back(pass.ms);
-      const bool shades = pass.name == "shade_lights" || pass.name == "cull_shafts";
-      (shades ? shade : sort) += pass.ms;
+      (shades(pass.name) ? shade : sort) += pass.ms;
     }
     out.sort.push_back(sort);
     out.shade.push_back(shade);
