@@ -29,7 +29,7 @@ endif()
 # that builds in a third of the time which the whole program needs, and the sanitizers still watch all memory that the commands touch.
 file(GLOB_RECURSE measure_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tools/measure/*.cpp)
 add_executable(skerry_sanitized EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tools/skerry/main.cpp ${command_sources} ${measure_sources})
-target_link_libraries(skerry_sanitized PRIVATE skerry_game skerry_reference CLI11::CLI11 OpenSSL::Crypto)
+target_link_libraries(skerry_sanitized PRIVATE ${command_libraries})
 target_compile_options(skerry_sanitized PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
 target_link_options(skerry_sanitized PRIVATE -fsanitize=address,undefined)
 skerry_unity(skerry_sanitized)
