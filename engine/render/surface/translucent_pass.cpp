@@ -7,6 +7,7 @@
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/tiles.h"
+#include "engine/render/surface/picture_constants.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -137,6 +138,39 @@ class LayerReads {
   bool lit_;
 };
 
+struct ChangedTiles {
+  Tiles tiles;
+  std::vector<TileKind> kinds;
+};
+
+/// The picture where its radiance is another now than shading made it from.
+gpu::ImageRef refresh_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                              const SceneRefs& scene, ChangedTiles changed, const Shaded& shaded) {
+  gpu::ImageRef picture = shaded.picture();
+  graph.add_pass(
+      "refresh_picture",
+      [&](gpu::PassBuilder& b) {
+        declare_tiles(b, changed.tiles);
+        for (const gpu::BufferRef ref : {scene.frame, scene.exposure})
+          b.read(ref, Use::kComputeRead);
+        b.read(shaded.radiance(), Use::kComputeRead);
+        picture = b.write(picture, Use::kComputeWrite);
+      },
+      [frame = scene.frame, exposure = scene.exposure, changed, radiance = shaded.radiance(),
+       picture,
+       program = gpu::compute(pipelines, programs::kRefreshPicture, with_picture({}, scene))](
+          gpu::Commands& c) {
+        for (const TileKind kind : changed.kinds) {
+          gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
+                    gpu::storage<shared::kRadianceBinding>(radiance),
+                    gpu::storage<shared::kTargetBinding>(picture),
+                    gpu::storage<shared::kExposureBinding>(exposure), changed.tiles.bindings(kind));
+          dispatch_tiles(c, changed.tiles, kind);
+        }
+      });
+  return picture;
+}
+
 }  // namespace
 
 Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
@@ -148,27 +182,31 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
                                       .depth = in.layers.depth[0],
                                       .area = scene.layers_area,
                                       .area_alone = !in.inside_medium});
-  gpu::ImageRef radiance = shaded.radiance();
   const LayerReads reads(scene, in);
+  std::vector<gpu::SpecConstant> constants = reads.constants();
+  if (!scene.count_pixels) constants.push_back({shared::kCountPixelsConstant, 0});
+  if (shaded.picture()) constants.push_back({shared::kToPictureConstant, 1});
+  std::vector<TileKind> kinds{TileKind::kCovered};
+  if (in.inside_medium) kinds.push_back(TileKind::kOpen);
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {
         declare_tiles(b, tiles);
         reads.declare(b);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
-        radiance = b.write(radiance, Use::kComputeWrite);
+        shaded.radiance_ = b.write(shaded.radiance_, Use::kComputeWrite);
       },
-      [reads, tiles, radiance, stats = scene.pixel_stats, inside_medium = in.inside_medium,
-       program = gpu::compute(pipelines, programs::kShadeTranslucent, reads.constants())](
+      [reads, tiles, radiance = shaded.radiance(), stats = scene.pixel_stats, kinds,
+       program = gpu::compute(pipelines, programs::kShadeTranslucent, std::move(constants))](
           gpu::Commands& c) {
-        for (const TileKind kind : {TileKind::kCovered, TileKind::kOpen}) {
-          if (kind == TileKind::kOpen && !inside_medium) continue;
+        for (const TileKind kind : kinds) {
           gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kPixelStatsBinding>(stats),
                     gpu::storage<shared::kRadianceBinding>(radiance), tiles.bindings(kind));
           dispatch_tiles(c, tiles, kind);
         }
       });
-  shaded.radiance_ = radiance;
+  if (shaded.picture())
+    shaded.picture_ = refresh_picture(graph, pipelines, scene, {tiles, kinds}, shaded);
   return shaded;
 }
 
