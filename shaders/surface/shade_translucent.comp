@@ -63,10 +63,10 @@ void main() {
   bool here = tile_pixel(pixel);
   // A mixed tile is in both lists: each list does its own pixels.
   here = here && (layer_surface(0u, ivec2(pixel)) != 0u) == (push.kind == 0u);
-  vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
+  vec4 behind = imageLoad(radiance, ivec2(pixel));
   vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
   count_non_finite(here && !finite3(colour));
   colour = as_halves(sanitised(colour));
-  if (kCounted) count_black(here && colour == vec3(0.0), here && behind == vec3(0.0));
+  if (kCounted) count_black(here && colour == vec3(0.0), here && behind.rgb == vec3(0.0));
   if (here) imageStore(radiance, ivec2(pixel), vec4(colour, 1.0));
 }

@@ -143,6 +143,55 @@ struct ChangedTiles {
   std::vector<TileKind> kinds;
 };
 
+/// What is seen through level water by the rays that it bends, in place on the radiance of `tiles`.
+gpu::ImageRef bend_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                         const TranslucentPass::In& in, const Tiles& tiles,
+                         gpu::ImageRef radiance) {
+  gpu::ImageRef bent = graph.create(gpu::ImageDesc{
+      .name = "bent light", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = scene.size});
+  const TranslucentPass::Layers& layers = in.layers;
+  const gpu::ImageRef depths = in.geometry.depth();
+  for (const bool put : {false, true}) {
+    std::vector<gpu::SpecConstant> constants{{shared::kWaterLayersConstant, layers.count}};
+    if (put) constants.push_back({shared::kPutConstant, 1});
+    graph.add_pass(
+        put ? "put_bent_light" : "bend_light",
+        [&](gpu::PassBuilder& b) {
+          declare_tiles(b, tiles);
+          for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+            b.read(ref, Use::kComputeRead);
+          for (const gpu::ImageRef ref :
+               {layers.surfaces, depths, layers.depth[0], layers.depth[layers.count > 1 ? 1 : 0]})
+            b.read(ref, Use::kComputeSampled);
+          bent = put ? bent : b.write(bent, Use::kComputeWrite);
+          if (put) b.read(bent, Use::kComputeRead);
+          if (put)
+            radiance = b.write(radiance, Use::kComputeWrite);
+          else
+            b.read(radiance, Use::kComputeRead);
+        },
+        [scene, layers, depths, tiles, radiance, bent,
+         program = gpu::compute(pipelines, programs::kBendLight, std::move(constants))](
+            gpu::Commands& c) {
+          gpu::bind(
+              c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+              gpu::texels<shared::kIslandsBinding>(scene.islands),
+              gpu::storage<shared::kMaterialsBinding>(scene.materials),
+              gpu::sampled<shared::kDepthsBinding>(depths, scene.point_sampler),
+              gpu::sampled<shared::kLayerSurfacesBinding>(layers.surfaces, scene.point_sampler),
+              gpu::each_of<shared::kLayerDepthsBinding, 2>(
+                  [&]<std::uint32_t kBinding>(std::size_t k) {
+                    return gpu::sampled<kBinding>(layers.depth[layers.count > 1 ? k : 0],
+                                                  scene.point_sampler);
+                  }),
+              gpu::storage<shared::kRadianceBinding>(radiance),
+              gpu::storage<shared::kBentLightBinding>(bent), tiles.bindings(TileKind::kCovered));
+          dispatch_tiles(c, tiles, TileKind::kCovered);
+        });
+  }
+  return radiance;
+}
+
 /// The picture where its radiance is another now than shading made it from.
 gpu::ImageRef refresh_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                               const SceneRefs& scene, ChangedTiles changed, const Shaded& shaded) {
@@ -182,8 +231,11 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
                                       .depth = in.layers.depth[0],
                                       .area = scene.layers_area,
                                       .area_alone = !in.inside_medium});
+  if (!in.inside_medium)
+    shaded.radiance_ = bend_light(graph, pipelines, scene, in, tiles, shaded.radiance());
   const LayerReads reads(scene, in);
   std::vector<gpu::SpecConstant> constants = reads.constants();
+  if (!in.inside_medium) constants.push_back({shared::kBentConstant, 1});
   if (!scene.count_pixels) constants.push_back({shared::kCountPixelsConstant, 0});
   if (shaded.picture()) constants.push_back({shared::kToPictureConstant, 1});
   std::vector<TileKind> kinds{TileKind::kCovered};
