@@ -17,8 +17,8 @@
 #include "engine/render/scene/section_parts.h"
 #include "game/panorama/load_panorama.h"
 #include "game/player/player.h"
-#include "game/view/light_setup.h"
 #include "game/view/light_chunk.h"
+#include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
 #include "world/voxel/blocks.h"
@@ -498,7 +498,8 @@ std::vector<render::IslandPlacement> SceneView::placements(double world_time_s) 
   out.reserve(islands_.size());
   for (const IslandEntry& entry : islands_) {
     const world::Pose pose = pose_of(entry, world_time_s);
-    out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far});
+    out.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far,
+                   entry.sections != 0 ? land_of(entry.spec) : render::IslandLand{}});
   }
   return out;
 }

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "engine/core/harmonics.h"
+#include "engine/render/sky/island_shade.h"
 #include "engine/render/sky/sky_cube.h"
 #include "shaders/shared/indirect.h"
 
@@ -109,23 +110,64 @@ glm::uvec4 packed(const Harmonics& harmonics, int channel) {
   return out;
 }
 
-void put_island(const SkyCube& cube, const Celestial& bodies, const glm::dquat& rotation,
-                std::span<glm::uvec4> out) {
+const std::vector<LobeSample>& samples() {
   static const std::vector<LobeSample> kSamples = make_samples();
-  const float solid_angle = 4.0f * std::numbers::pi_v<float> / static_cast<float>(kSamples.size());
+  return kSamples;
+}
+
+/// What islands send to each other from where they hide the sky: as diffuse surfaces that face the
+/// one that looks, lit by sky, sun and moon as if nothing else was there.
+class IslandsRadiance {
+ public:
+  IslandsRadiance(const SkyCube& cube, const Celestial& bodies) {
+    for (const LobeSample& sample : samples())
+      add(light_, sample.direction,
+          cube.at(sample.direction) *
+              (4.0f * std::numbers::pi_v<float> / static_cast<float>(samples().size())));
+    add(light_, glm::vec3(bodies.to_sun), bodies.sun_irradiance);
+    add(light_, glm::vec3(bodies.to_moon), bodies.moon_irradiance);
+  }
+  /// @param direction from the one that looks, in the world.
+  glm::vec3 towards(const glm::vec3& direction) const {
+    constexpr float kAlbedo = 0.25f;  // of earth, stone and leaves
+    // Of the cosine's harmonics, over pi: R. Ramamoorthi and P. Hanrahan, 2001.
+    constexpr std::array<float, 3> kOfDegree{1.0f, 2.0f / 3.0f, 0.25f};
+    const std::array<float, kHarmonics> basis =
+        harmonics_of(-direction.x, -direction.y, -direction.z);
+    glm::vec3 sum(0.0f);
+    for (std::size_t i = 0; i < kHarmonics; ++i)
+      sum += light_[i] * (basis[i] * kOfDegree[i == 0 ? 0 : i < 4 ? 1 : 2]);
+    return glm::max(sum, 0.0f) * kAlbedo;
+  }
+
+ private:
+  Harmonics light_{};
+};
+
+void put_island(const SkyCube& cube, const Celestial& bodies, const glm::dquat& rotation,
+                const IslandShade& shade, const IslandsRadiance& islands,
+                std::span<glm::uvec4> out) {
+  const float solid_angle = 4.0f * std::numbers::pi_v<float> / static_cast<float>(samples().size());
   const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
   const glm::dquat lattice_from_world = glm::conjugate(rotation);
   std::array<Lobes, kFaces> faces{};
   Harmonics harmonics{};
-  for (const LobeSample& sample : kSamples) {
-    const glm::vec3 radiance = cube.at(world_from_lattice * sample.direction);
+  for (const LobeSample& sample : samples()) {
+    const glm::vec3 direction = world_from_lattice * sample.direction, sky = cube.at(direction);
+    const IslandShade::Open open = shade.empty() ? IslandShade::Open{} : shade.towards(direction);
+    const glm::vec3 before = open.all < 1.0f ? islands.towards(direction) : sky;
     for (std::size_t axis = 0; axis < 3; ++axis)
       faces[sample.face[axis]][sample.lobe[axis]] +=
-          radiance * sample.weight[static_cast<int>(axis)];
-    add(harmonics, sample.direction, radiance * solid_angle);
+          glm::mix(before, sky, open.face[sample.face[axis]]) *
+          sample.weight[static_cast<int>(axis)];
+    add(harmonics, sample.direction, glm::mix(before, sky, open.all) * solid_angle);
   }
-  add(harmonics, glm::vec3(lattice_from_world * bodies.to_sun), bodies.sun_irradiance);
-  add(harmonics, glm::vec3(lattice_from_world * bodies.to_moon), bodies.moon_irradiance);
+  const auto add_body = [&](const glm::dvec3& to_body, const glm::vec3& irradiance) {
+    const float open = shade.empty() ? 1.0f : shade.towards(glm::vec3(to_body)).all;
+    add(harmonics, glm::vec3(lattice_from_world * to_body), open * irradiance);
+  };
+  add_body(bodies.to_sun, bodies.sun_irradiance);
+  add_body(bodies.to_moon, bodies.moon_irradiance);
   std::size_t at = 0;
   for (const Lobes& lobes : faces)
     for (int channel = 0; channel < 3; ++channel) out[at++] = packed(lobes, channel);
@@ -144,6 +186,7 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
   const SkyCube& cube = made ? *made : sky.panorama->smooth();
   constexpr std::size_t kTexels = shared::kIndirectIslandTexels;
   static_assert(kFaces * shared::kIndirectSkyTexels == shared::kIndirectHarmonics);
+  const IslandsRadiance sent(cube, bodies);
   std::vector<glm::uvec4> out(islands.size() * kTexels, glm::uvec4(0));
   std::map<int, std::size_t> of_heading;  // the first far island of each
   for (std::size_t i = 0; i < islands.size(); ++i) {
@@ -160,7 +203,7 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
       }
       rotation = glm::angleAxis(heading * kHeadingStep, glm::dvec3(0.0, 1.0, 0.0));
     }
-    put_island(cube, bodies, rotation, to);
+    put_island(cube, bodies, rotation, IslandShade(islands, i), sent, to);
   }
   return out;
 }

@@ -12,7 +12,6 @@
 #include "tools/reference/reference.h"
 #include "tools/reference/shade.h"
 #include "tools/skerry/bench/stored_light.h"
-#include "world/voxel/blocks.h"
 
 namespace skerry::tools {
 namespace {
@@ -54,6 +53,15 @@ struct JudgedPlace {
   glm::dvec3 reference{0.0}, variance{0.0}, difference{0.0};  // variance of `reference`
 };
 
+/// Within a block of a weak lamp: irradiance of a point has no bound there, that of a plant has.
+bool beside_a_lamp(const reference::Scene& scene, glm::dvec3 place) {
+  constexpr double kBeside = 1.0;  // blocks
+  return std::ranges::any_of(scene.lights, [&](const reference::Light& light) {
+    return light.range <= static_cast<double>(game::kWeakLampRange) &&
+           glm::distance(light.position, place) < kBeside;
+  });
+}
+
 /// What one pixel shows, judged by as many samples as a reference picture has.
 class Judge {
  public:
@@ -74,8 +82,7 @@ class Judge {
     reference::Trace trace;
     tracer_.trace(glm::dvec3(0.0), direction, trace);
     JudgedPlace out;
-    // What glows itself is next to its own lamp, where irradiance has no bound.
-    if (!trace.hit || world::block_types()[trace.hit->block].emission > 0.0f) return out;
+    if (!trace.hit || beside_a_lamp(named_.scene, direction * trace.hit->t)) return out;
     out.shown = true;
     const reference::Meeting& hit = *trace.hit;
     const bool plant = hit.face >= StoredLight::kPlant;

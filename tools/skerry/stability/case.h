@@ -47,6 +47,7 @@ std::span<const Case> projection_cases();
 std::span<const Case> shadows_cases();
 std::span<const Case> finite_cases();
 std::span<const Case> light_cases();
+std::span<const Case> stored_light_cases();
 std::span<const Case> rays_cases();
 std::span<const Case> media_cases();
 std::span<const Case> cloud_cases();
