@@ -26,8 +26,8 @@
 namespace skerry::game {
 namespace {
 
-constexpr std::size_t kMaxPolledQuads = 200'000;  // taken from the workers in one frame
-constexpr double kReachStep = 128.0;              // blocks
+constexpr std::size_t kMaxPolledQuads = 200'000;      // taken from the workers in one frame
+constexpr double kReachStep = 128.0;                  // blocks
 constexpr std::uint32_t kFirstArenaQuads = 1u << 21;  // 16 MiB
 constexpr std::uint64_t kBytesPerMiB = std::uint64_t{1} << 20;
 // What is new leaves this share of the memory to what is built anew after an edit.

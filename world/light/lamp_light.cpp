@@ -80,17 +80,22 @@ LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel)
   LampLight out{};
   const glm::vec3 middle(static_cast<float>(voxel.x) + 0.5f, static_cast<float>(voxel.y) + 0.5f,
                          static_cast<float>(voxel.z) + 0.5f);
-  const glm::vec3 way = lamp.place - middle;
-  const float distance2 = glm::dot(way, way), q = distance2 / (lamp.range * lamp.range);
-  if (q >= 1.0f) return out;
+  const glm::vec3 from_middle = lamp.place - middle;
+  if (glm::dot(from_middle, from_middle) >= lamp.range * lamp.range) return out;
   const float clear = Line(air, glm::dvec3(middle), glm::dvec3(lamp.place)).clear();
   if (clear == 0.0f) return out;
-  const float window = (1.0f - q * q) * (1.0f - q * q);
-  const float reach = std::max(std::sqrt(distance2), kNearest);
-  const float facing = clear * window / (reach * reach * reach);
   for (std::size_t face = 0; face < 6; ++face) {
-    const float along = way[static_cast<int>(face / 2)] * (face % 2 == 0 ? 1.0f : -1.0f);
-    if (along > 0.0f) out[face] = lamp.intensity * (facing * along);
+    // What lies behind the voxel is half a voxel farther from the lamp than its middle.
+    const auto axis = static_cast<int>(face / 2);
+    const float sign = face % 2 == 0 ? 1.0f : -1.0f;
+    glm::vec3 way = from_middle;
+    way[axis] += 0.5f * sign;
+    const float along = way[axis] * sign;
+    const float distance2 = glm::dot(way, way), q = distance2 / (lamp.range * lamp.range);
+    if (along <= 0.0f || q >= 1.0f) continue;
+    const float window = (1.0f - q * q) * (1.0f - q * q);
+    const float reach = std::max(std::sqrt(distance2), kNearest);
+    out[face] = lamp.intensity * (clear * window * along / (reach * reach * reach));
   }
   return out;
 }

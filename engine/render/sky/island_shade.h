@@ -23,8 +23,9 @@ class IslandShade {
   bool empty() const { return hiding_.empty(); }
   /// Share of the light from one direction that arrives.
   struct Open {
-    std::array<float, 6> face{1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};  ///< on the side that it looks to
-    float all = 1.0f;                                               ///< on all of the island
+    std::array<float, 6> face{1.0f, 1.0f, 1.0f,
+                              1.0f, 1.0f, 1.0f};  ///< on the side that it looks to
+    float all = 1.0f;                             ///< on all of the island
   };
   /// @param direction unit, in the world.
   Open towards(const glm::vec3& direction) const;

@@ -52,8 +52,8 @@ struct Pair {
       : here{world::Volume::of_island(world, a), glm::dmat3(1.0), glm::dvec3(0.0)},
         there{world::Volume::of_island(world, b), glm::dmat3(1.0), between} {
     for (const auto& [spec, at] : {std::pair(&a, glm::dvec3(0.0)), std::pair(&b, between)})
-      placed.push_back({fixed_at(at), {1.0, 0.0, 0.0, 0.0}, spec->bounding_radius, false,
-                        land_of(*spec)});
+      placed.push_back(
+          {fixed_at(at), {1.0, 0.0, 0.0, 0.0}, spec->bounding_radius, false, land_of(*spec)});
   }
   /// Share of what arrives at the side of the first that looks one way.
   double by_voxels(int face, double reach, std::mt19937_64& random) const {
@@ -88,14 +88,12 @@ TEST(IslandShade, HidesAboutAsMuchAsTheVoxelsDo) {
   double hidden = 0.0, found = 0.0;
   for (const std::uint64_t seed : {1, 4}) {
     world::World world({.seed = seed});
-    const std::vector<world::IslandSpec> specs =
-        world.islands_near(world.spawn().feet, 600.0, 0.0);
+    const std::vector<world::IslandSpec> specs = world.islands_near(world.spawn().feet, 600.0, 0.0);
     ASSERT_GE(specs.size(), 2u);
     const world::IslandSpec &a = specs[0], &b = specs[1];
     const double apart = 0.8 * (a.bounding_radius + b.bounding_radius);
     for (const auto& [face, between] :
-         {std::pair(0, glm::dvec3(apart, 0.0, 0.0)),
-          std::pair(2, glm::dvec3(0.0, apart, 0.0)),
+         {std::pair(0, glm::dvec3(apart, 0.0, 0.0)), std::pair(2, glm::dvec3(0.0, apart, 0.0)),
           std::pair(3, glm::dvec3(0.3 * apart, -apart, 0.0)),
           std::pair(5, glm::dvec3(0.0, 0.2 * apart, -1.2 * apart))}) {
       const Pair pair(world, a, b, between);
@@ -131,9 +129,8 @@ TEST(IslandShade, ChangesBySmallStepsWhileIslandsPassAndTurn) {
   const std::vector<glm::vec3> directions = all_around();
   double before = -1.0, most = 0.0, least = 1.0;
   for (int frame = 0; frame < 4000; ++frame) {
-    const auto islands =
-        two_at({-200.0 + 0.1 * frame, 75.0, 10.0},
-               glm::angleAxis(frame * kPi / 60.0, glm::dvec3(0.0, 1.0, 0.0)));
+    const auto islands = two_at({-200.0 + 0.1 * frame, 75.0, 10.0},
+                                glm::angleAxis(frame * kPi / 60.0, glm::dvec3(0.0, 1.0, 0.0)));
     const render::IslandShade shade(islands, 0);
     double open = 0.0;
     for (const glm::vec3& d : directions)

@@ -175,17 +175,23 @@ TEST(SkyTransfer, AWallHidesTheQuartersBehindIt) {
   }
 }
 
-// Light by the formula of shaders/shared/light.h, at the middle of voxels.
+// Light by the formula of shaders/shared/light.h, at the faces before which a voxel is.
 TEST(LampLight, FallsOffAsLightsDo) {
   const AirVolume air = air_volume_of(chunks_of({{0, 0, 0}}));
   const WeakLamp lamp{{0.5f, 4.5f, 0.5f}, {2.0f, 1.0f, 0.5f}, 8.0f};
   const LampLight above = light_of_lamp(air, lamp, {0, 1, 0});
-  const float window = std::pow(1.0f - std::pow(3.0f / 8.0f, 4.0f), 2.0f);
-  EXPECT_NEAR(above[2].x, 2.0f / 9.0f * window, 1e-5f);
+  const float window = std::pow(1.0f - std::pow(3.5f / 8.0f, 4.0f), 2.0f);
+  EXPECT_NEAR(above[2].x, 2.0f / 12.25f * window, 1e-5f);
   EXPECT_EQ(above[3], glm::vec3(0.0f));
   const LampLight aside = light_of_lamp(air, lamp, {4, 1, 0});
-  EXPECT_NEAR(aside[2].y, 3.0f / 125.0f * std::pow(1.0f - 625.0f / 4096.0f, 2.0f), 1e-5f);
-  EXPECT_NEAR(aside[1].y, 4.0f / 125.0f * std::pow(1.0f - 625.0f / 4096.0f, 2.0f), 1e-5f);
+  const auto at = [](float across, float along) {
+    const float d2 = across * across + along * along;
+    return along / std::pow(d2, 1.5f) * std::pow(1.0f - d2 * d2 / 4096.0f, 2.0f);
+  };
+  EXPECT_NEAR(aside[2].y, at(4.0f, 3.5f), 1e-5f);
+  EXPECT_NEAR(aside[1].y, at(3.0f, 4.5f), 1e-5f);
+  // Beside the lamp, as ground is from which a glowing plant grows.
+  EXPECT_NEAR(light_of_lamp(air, lamp, {1, 4, 0})[2].y, at(1.0f, 0.5f), 1e-5f);
   EXPECT_EQ(light_of_lamp(air, lamp, {0, -5, 0})[2], glm::vec3(0.0f)) << "behind the stone";
   EXPECT_EQ(light_of_lamp(air, lamp, {8, 4, 0})[1], glm::vec3(0.0f)) << "out of range";
 }

@@ -48,7 +48,8 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_device_options(*costs_);
   lights_ = add("lights", "Time sorting and shading of 64 to 16,384 lights in a scene");
   add_scene_options(*lights_, scene_);
-  shade_ = add("shade", "Compare the light that stays on surfaces with the reference, in 12 scenes");
+  shade_ =
+      add("shade", "Compare the light that stays on surfaces with the reference, in 12 scenes");
   add_scene_options(*shade_, scene_);
   shade_->add_option("--only", only_, "These of the 12 scenes")->type_name("NAME");
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
@@ -105,10 +106,9 @@ int BenchCommands::run() {
 }
 
 int BenchCommands::refuse_unknown() const {
-  constexpr std::string_view kNames[] = {"mesh",    "generate", "world",  "upload",
-                                         "cull",    "device",   "lights", "shade",
-                                         "frame",   "flicker",  "edit",   "fly",
-                                         "start"};
+  constexpr std::string_view kNames[] = {"mesh",   "generate", "world", "upload", "cull",
+                                         "device", "lights",   "shade", "frame",  "flicker",
+                                         "edit",   "fly",      "start"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
     return fail(

@@ -9,8 +9,8 @@
 namespace skerry::tools {
 
 struct BenchShadeOptions {
-  game::SceneText typed;               ///< over each scene
-  std::vector<std::string> scenes;     ///< of shade_scenes(); empty: all
+  game::SceneText typed;            ///< over each scene
+  std::vector<std::string> scenes;  ///< of shade_scenes(); empty: all
   std::optional<std::uint32_t> device;
   std::optional<std::filesystem::path> json;
 };

@@ -1,4 +1,4 @@
-#include "tools/skerry/bench/stored_light.h"
+#include "tools/skerry/shade/stored_light.h"
 
 #include <algorithm>
 #include <array>
@@ -197,8 +197,7 @@ Result<StoredLight> StoredLight::find(const game::SceneOptions& options) {
   return out;
 }
 
-std::optional<glm::dvec3> StoredLight::at(std::uint64_t id, glm::dvec3 place,
-                                          int direction) const {
+std::optional<glm::dvec3> StoredLight::at(std::uint64_t id, glm::dvec3 place, int direction) const {
   const auto found = islands_.find(id);
   if (found == islands_.end()) return std::nullopt;
   const Island& island = found->second;
@@ -217,8 +216,7 @@ std::optional<glm::dvec3> StoredLight::at(std::uint64_t id, glm::dvec3 place,
       world::find_record(*in->second, {voxel.x & 63, voxel.y & 63, voxel.z & 63}, face);
   if (!at) return std::nullopt;
   const std::span<const glm::uvec4> record(
-      in->second->texels.begin() + static_cast<std::ptrdiff_t>(*at),
-      shared::kIndirectRecordTexels);
+      in->second->texels.begin() + static_cast<std::ptrdiff_t>(*at), shared::kIndirectRecordTexels);
   const world::FaceAxes axes(face);
   const glm::dvec3 in_voxel = glm::clamp(place - glm::dvec3(voxel), 0.0, 1.0);
   const glm::dvec2 corner{in_voxel[axes.b], in_voxel[axes.c]};

@@ -1,4 +1,4 @@
-#include "tools/skerry/bench/shade_errors.h"
+#include "tools/skerry/shade/shade_errors.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +11,7 @@
 #include "game/view/light_chunk.h"
 #include "tools/reference/reference.h"
 #include "tools/reference/shade.h"
-#include "tools/skerry/bench/stored_light.h"
+#include "tools/skerry/shade/stored_light.h"
 
 namespace skerry::tools {
 namespace {
@@ -86,8 +86,8 @@ class Judge {
     out.shown = true;
     const reference::Meeting& hit = *trace.hit;
     const bool plant = hit.face >= StoredLight::kPlant;
-    const std::optional<glm::dvec3> light = stored_.at(
-        named_.ids[hit.island], hit.lattice, plant ? StoredLight::kPlant : hit.face);
+    const std::optional<glm::dvec3> light =
+        stored_.at(named_.ids[hit.island], hit.lattice, plant ? StoredLight::kPlant : hit.face);
     if (!light) return out;
     out.stored = true;
     const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
@@ -101,7 +101,8 @@ class Judge {
   }
 
  private:
-  void estimate(const reference::Shader::Receiver& at, std::uint32_t pixel, JudgedPlace& out) const {
+  void estimate(const reference::Shader::Receiver& at, std::uint32_t pixel,
+                JudgedPlace& out) const {
     const std::uint32_t count = std::max(1u, samples_ / reference::kBatches);
     glm::dvec3 squares(0.0);
     for (std::uint32_t batch = 0; batch < reference::kBatches; ++batch) {
@@ -116,8 +117,8 @@ class Judge {
     }
     constexpr auto kBatches = static_cast<double>(reference::kBatches);
     out.reference /= kBatches;
-    out.variance = glm::max(squares / kBatches - out.reference * out.reference, 0.0) /
-                   (kBatches - 1.0);
+    out.variance =
+        glm::max(squares / kBatches - out.reference * out.reference, 0.0) / (kBatches - 1.0);
   }
 
   const reference::NamedScene& named_;
