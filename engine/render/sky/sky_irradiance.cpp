@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/core/harmonics.h"
+#include "engine/render/sky/island_shade.h"
 #include "engine/render/sky/sky_rows.h"
 #include "shaders/shared/indirect.h"
 
@@ -113,13 +114,20 @@ class OpenSky {
   Lobes at_heading(int heading) { return of_heading(heading); }
   Lobes tilted(const glm::dquat& rotation) const;
   Harmonics harmonics(const glm::dquat& rotation) const;
+  /// Takes away what other islands hide from one, and puts in its place what they send.
+  void hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& lobes,
+            Harmonics& harmonics) const;
 
  private:
   const Lobes& of_heading(int heading);
+  /// What islands send: as diffuse surfaces that face the one that looks, lit by sky, sun and moon
+  /// as if nothing else was there. @param direction from the one that looks, in the world.
+  glm::vec3 of_island(const glm::vec3& direction) const;
 
   const SkyRows& rows_;
   const Celestial& bodies_;
-  Harmonics harmonics_{};  // about the world's axes, without bodies
+  Harmonics harmonics_{};   // about the world's axes, without bodies
+  Harmonics irradiance_{};  // of it and bodies: of surfaces by their normals, over pi
   std::array<std::optional<Lobes>, kHeadings> of_heading_;
 };
 
@@ -134,6 +142,11 @@ OpenSky::OpenSky(const SkyRows& rows, const Celestial& bodies) : rows_(rows), bo
   for (int row = 0; row < SkyRows::kRows; ++row)
     for (int k = 0; k < SkyRows::kAzimuths; ++k)
       add(harmonics_, glm::vec3(SkyRows::direction(row, k)), rows.at(row, k) * kSolidAngle);
+  irradiance_ = harmonics_;
+  add(irradiance_, glm::vec3(bodies.to_sun), bodies.sun_irradiance);
+  add(irradiance_, glm::vec3(bodies.to_moon), bodies.moon_irradiance);
+  // Of the cosine's harmonics, over pi: R. Ramamoorthi and P. Hanrahan, 2001.
+  for (std::size_t i = 1; i < kHarmonics; ++i) irradiance_[i] *= i < 4 ? 2.0f / 3.0f : 0.25f;
 }
 
 const Lobes& OpenSky::of_heading(int heading) {
@@ -190,6 +203,41 @@ Harmonics OpenSky::harmonics(const glm::dquat& rotation) const {
   return out;
 }
 
+glm::vec3 OpenSky::of_island(const glm::vec3& direction) const {
+  constexpr float kAlbedo = 0.25f;  // of earth, stone and leaves
+  const std::array<float, kHarmonics> basis =
+      harmonics_of(-direction.x, -direction.y, -direction.z);
+  glm::vec3 sum(0.0f);
+  for (std::size_t i = 0; i < kHarmonics; ++i) sum += irradiance_[i] * basis[i];
+  return glm::max(sum, 0.0f) * kAlbedo;
+}
+
+void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& lobes,
+                   Harmonics& harmonics) const {
+  if (shade.empty()) return;
+  const float solid_angle = 4.0f * std::numbers::pi_v<float> / static_cast<float>(samples().size());
+  const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
+  for (const LobeSample& sample : samples()) {
+    const glm::vec3 direction = world_from_lattice * sample.direction;
+    const IslandShade::Open open = shade.towards(direction);
+    if (open.all == 1.0f) continue;
+    const glm::vec3 change = of_island(direction) - rows_.towards(direction);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      lobes[sample.slot[axis]] +=
+          change * ((1.0f - open.face[sample.slot[axis] / shared::kSkyLobes]) *
+                    sample.weight[static_cast<int>(axis)]);
+    add(harmonics, sample.direction, change * ((1.0f - open.all) * solid_angle));
+  }
+  for (glm::vec3& lobe : lobes) lobe = glm::max(lobe, 0.0f);
+  const glm::dquat lattice_from_world = glm::conjugate(rotation);
+  const auto hide_body = [&](const glm::dvec3& to_body, const glm::vec3& irradiance) {
+    add(harmonics, glm::vec3(lattice_from_world * to_body),
+        irradiance * (shade.towards(glm::vec3(to_body)).all - 1.0f));
+  };
+  hide_body(bodies_.to_sun, bodies_.sun_irradiance);
+  hide_body(bodies_.to_moon, bodies_.moon_irradiance);
+}
+
 std::uint32_t packed(float a, float b) {
   return glm::packHalf2x16(
       {std::clamp(a, -kMostHalf, kMostHalf), std::clamp(b, -kMostHalf, kMostHalf)});
@@ -235,6 +283,7 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
   const auto dark = static_cast<std::uint32_t>(out.size());
   out.resize(out.size() + shared::kIndirectIslandTexels, glm::uvec4(0));
   std::array<std::uint32_t, kHeadings> of_far{};  // 0: none yet
+  const std::vector<std::size_t> hiding = islands_that_hide(islands);
   for (std::size_t i = 0; i < islands.size(); ++i) {
     std::uint32_t& place = out[i / 4][static_cast<int>(i % 4)];
     place = dark;
@@ -251,8 +300,10 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
       continue;
     }
     place = end;
-    append(out, is_upright(rotation) ? open.upright(heading_of(rotation)) : open.tilted(rotation),
-           open.harmonics(rotation));
+    Lobes lobes = is_upright(rotation) ? open.upright(heading_of(rotation)) : open.tilted(rotation);
+    Harmonics harmonics = open.harmonics(rotation);
+    open.hide(IslandShade(islands, hiding, i), rotation, lobes, harmonics);
+    append(out, lobes, harmonics);
   }
   return out;
 }

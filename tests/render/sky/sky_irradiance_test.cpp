@@ -9,9 +9,11 @@
 #include <glm/geometric.hpp>
 #include <glm/packing.hpp>
 #include <random>
+#include <utility>
 
 #include "engine/core/harmonics.h"
 #include "engine/render/frame/celestial.h"
+#include "engine/render/sky/island_shade.h"
 #include "engine/render/sky/sky_model.h"
 #include "shaders/shared/indirect.h"
 
@@ -161,6 +163,53 @@ TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
       }
     }
   }
+}
+
+// By directions drawn evenly: light of the sky past the other island, and a quarter of what a
+// surface receives there that faces this one.
+TEST(SkyIrradiance, IsWhatOtherIslandsLetPastAndReflect) {
+  const Celestial bodies = celestial_at(9.0 * 3600.0, 0.5);
+  const SkyModel sky = sky_model(bodies);
+  std::vector<IslandPlacement> islands(2);
+  islands[0].rotation = glm::angleAxis(0.5, glm::normalize(glm::dvec3(0.2, 1.0, -0.1)));
+  islands[1].origin = {70 * 65536, 50 * 65536, -20 * 65536};
+  for (IslandPlacement& island : islands) island.land = {glm::vec3(0.0f), {50.0f, 20.0f, 40.0f}};
+  const std::vector<glm::uvec4> lobes = sky_irradiance(sky, bodies, islands, {true, true});
+  const IslandShade shade(islands, islands_that_hide(islands), 0);
+
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> even(0.0, 1.0);
+  constexpr int kSamples = 4000;
+  std::vector<std::pair<glm::dvec3, glm::dvec3>> seen;  // directions and radiance
+  for (int i = 0; i < kSamples; ++i) {
+    const double y = 1.0 - 2.0 * even(random), turn = 2.0 * kPi * even(random);
+    const double r = std::sqrt(1.0 - y * y);
+    const glm::dvec3 d{r * std::cos(turn), y, r * std::sin(turn)};
+    seen.emplace_back(d, sky_radiance(d, sky));
+  }
+  const auto facing = [&](const glm::dvec3& d) {
+    glm::dvec3 sum = glm::dvec3(bodies.sun_irradiance) * std::max(0.0, glm::dot(d, bodies.to_sun));
+    for (const auto& [from, radiance] : seen)
+      sum += radiance * (std::max(0.0, glm::dot(d, from)) * 4.0 * kPi / kSamples);
+    return sum / kPi;
+  };
+  double hidden = 0.0;
+  for (std::size_t face = 0; face < 6; ++face) {
+    const glm::dvec3 normal = islands[0].rotation * face_normal(face);
+    glm::dvec3 right(0.0), open(0.0);
+    for (const auto& [d, radiance] : seen) {
+      const double cosine = glm::dot(d, normal) * 4.0 * kPi / kSamples;
+      if (cosine <= 0.0) continue;
+      const double past = static_cast<double>(shade.towards(glm::vec3(d)).face[face]);
+      open += radiance * cosine;
+      right += radiance * (cosine * past);
+      if (past < 1.0) right += facing(-d) * (0.25 * cosine * (1.0 - past));
+    }
+    const glm::dvec3 found = whole(lobes, 0, face);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], right[c], 0.05 * right[c] + 1e-6) << face;
+    hidden = std::max(hidden, 1.0 - right.z / open.z);
+  }
+  EXPECT_GT(hidden, 0.1);
 }
 
 /// All numbers of an island's sky.

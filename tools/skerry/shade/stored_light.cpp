@@ -17,6 +17,7 @@
 #include "game/panorama/load_panorama.h"
 #include "game/player/player.h"
 #include "game/view/light_chunk.h"
+#include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
 #include "world/stream/stream.h"
@@ -90,10 +91,12 @@ std::vector<render::IslandPlacement> placements(const world::World& world, doubl
   std::vector<render::IslandPlacement> out;
   for (const auto& [id, island] : islands) {
     const world::Pose pose = *world.pose(id, time_s);
+    const world::IslandSpec spec = *world.island(id);
     out.push_back({{pose.origin.x, pose.origin.y, pose.origin.z},
                    pose.rotation,
-                   world.island(id)->bounding_radius,
-                   island.chunks.empty()});
+                   spec.bounding_radius,
+                   island.chunks.empty(),
+                   game::land_of(spec)});
   }
   return out;
 }
