@@ -20,6 +20,7 @@
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
+#include "world/light/shared_exponent.h"
 #include "world/stream/stream.h"
 
 namespace skerry::tools {
@@ -107,11 +108,6 @@ double half_of(const glm::uvec4& texel, int i) {
   return static_cast<double>(i % 2 == 0 ? pair.x : pair.y);
 }
 
-glm::dvec3 shared_exponent(std::uint32_t word) {
-  return glm::dvec3(word & 511u, word >> 9 & 511u, word >> 18 & 511u) *
-         std::exp2(static_cast<double>(word >> 27) - 24.0);
-}
-
 template <class T>
 T between_corners(const std::array<T, 4>& corners, glm::dvec2 at) {
   return glm::mix(glm::mix(corners[0], corners[1], at.x), glm::mix(corners[2], corners[3], at.x),
@@ -141,9 +137,10 @@ glm::dvec3 sky_light(std::span<const glm::uvec4> record, std::span<const glm::uv
 }
 
 glm::dvec3 lamp_light(const glm::uvec4& lamps, glm::dvec2 at) {
-  return between_corners<glm::dvec3>({shared_exponent(lamps.x), shared_exponent(lamps.y),
-                                      shared_exponent(lamps.z), shared_exponent(lamps.w)},
-                                     at);
+  std::array<glm::dvec3, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i)
+    corners[i] = world::unpack_shared_exponent(lamps[static_cast<int>(i)]);
+  return between_corners(corners, at);
 }
 
 /// @param sent harmonics of what comes from infinity: kIndirectHarmonics and the texels after.
@@ -161,7 +158,8 @@ glm::dvec3 bounced_light(const glm::uvec4& bounce, std::span<const glm::uvec4> s
       sum[c] += static_cast<double>(shared::kMostBounceShape * (i < 4 ? low[i] : high[i - 4])) *
                 half_of(texel, i);
   }
-  return shared_exponent(bounce.x) * glm::max(sum, 0.0) * between_corners(share, at);
+  return glm::dvec3(world::unpack_shared_exponent(bounce.x)) * glm::max(sum, 0.0) *
+         between_corners(share, at);
 }
 
 }  // namespace

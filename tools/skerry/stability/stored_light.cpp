@@ -17,6 +17,7 @@
 #include "engine/render/sky/sky_irradiance.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
+#include "world/light/shared_exponent.h"
 #include "world/light/sky_transfer.h"
 #include "world/voxel/blocks.h"
 
@@ -83,11 +84,6 @@ bool is_dark(Record record) {
          glm::ivec4(record[2]) == glm::ivec4(0) && record[3].x == 0;
 }
 
-glm::dvec3 shared_exponent(std::uint32_t word) {
-  return glm::dvec3(word & 511u, word >> 9 & 511u, word >> 18 & 511u) *
-         std::exp2(static_cast<double>(word >> 27) - 24.0);
-}
-
 /// Over the mean of a face's corners: the share of the sky that is seen, 0..1.
 double sky_seen(Record record) {
   double sum = 0.0;
@@ -102,7 +98,8 @@ double reflected(Record record) {
   double share = 0.0;
   for (int corner = 0; corner < 4; ++corner) share += (record[3].y >> 8 * corner & 255u) / 255.0;
   const double even = std::sqrt(4.0 * 3.14159265358979);
-  return shared_exponent(record[3].x).y * even * share / 4.0 / 3.14159265358979;
+  return static_cast<double>(world::unpack_shared_exponent(record[3].x).y) * even * share / 4.0 /
+         3.14159265358979;
 }
 
 /// How many records differ; a chunk that only one side has counts as one.
@@ -184,7 +181,8 @@ Result<Rows> weak_lamps() {
         alone(chunk_of(ground, {{glm::vec3(24.5f, 8.5f, 24.5f), glm::vec3(power), 9.0f}})), grey);
     for_each_record(*found, [&](IVec3 v, int direction, Record r) {
       double sum = 0.0;
-      for (int corner = 0; corner < 4; ++corner) sum += shared_exponent(r[2][corner]).y / 4.0;
+      for (int corner = 0; corner < 4; ++corner)
+        sum += static_cast<double>(world::unpack_shared_exponent(r[2][corner]).y) / 4.0;
       not_finite += std::isfinite(sum) ? 0.0 : 1.0;
       double& last = before[{v.x, v.y, v.z, direction}];
       darker += sum < last ? 1.0 : 0.0;
