@@ -12,6 +12,8 @@ namespace {
 
 /// Sizes as radius over distance, between which an island comes to count.
 constexpr float kUnseenSize = 0.06f, kSeenSize = 0.12f;
+/// The same of islands that are shaded, from the eye.
+constexpr float kUnshadedSize = 0.03f, kShadedSize = 0.06f;
 /// Squares of how far a ray passes the middle of a ball of radius 1: all and nothing is hidden.
 constexpr float kInnerEdge = 0.75f, kOuterEdge = 1.25f;
 /// Squares of distances from the middle: places within an ellipsoid are not hidden by it.
@@ -50,10 +52,17 @@ std::vector<std::size_t> islands_that_hide(std::span<const IslandPlacement> isla
   return out;
 }
 
+float share_of_shade(const IslandPlacement& island, const FixedPos& eye) {
+  if (!has_land(island)) return 0.0f;
+  const float radius = longest(island.land.half),
+              distance = glm::length(difference_blocks(island.origin, eye));
+  return glm::smoothstep(kUnshadedSize, kShadedSize, radius / std::max(distance, radius));
+}
+
 IslandShade::IslandShade(std::span<const IslandPlacement> islands,
-                         std::span<const std::size_t> hiding, std::size_t island) {
+                         std::span<const std::size_t> hiding, std::size_t island, float share) {
   const IslandPlacement& here = islands[island];
-  if (!has_land(here)) return;
+  if (!has_land(here) || share == 0.0f) return;
   const glm::mat3 rotation(glm::mat3_cast(here.rotation));
   const float own_radius = longest(here.land.half), own_offset = glm::length(here.land.centre);
   const glm::vec3 own_middle = rotation * here.land.centre;
@@ -68,16 +77,19 @@ IslandShade::IslandShade(std::span<const IslandPlacement> islands,
     const glm::mat3 other_rotation(glm::mat3_cast(other.rotation));
     const glm::vec3 way = between + other_rotation * other.land.centre - own_middle;
     const float distance = glm::length(way), radius = longest(other.land.half);
-    const float size = glm::smoothstep(kUnseenSize, kSeenSize, radius / std::max(distance, radius));
+    const float size =
+        share * glm::smoothstep(kUnseenSize, kSeenSize, radius / std::max(distance, radius));
     if (size == 0.0f) continue;
     Hiding& h = hiding_.emplace_back();
     const glm::mat3 scale(1.0f / other.land.half.x, 0, 0, 0, 1.0f / other.land.half.y, 0, 0, 0,
                           1.0f / other.land.half.z);
     h.ball_from_world = scale * glm::transpose(other_rotation);
     for (std::size_t p = 0; p < kPlaces; ++p) {
-      h.places[p] = h.ball_from_world * (rotation * place_of(here.land, p) - between) -
-                    scale * other.land.centre;
-      h.weight[p] = size * glm::smoothstep(kWithin, kOutside, glm::dot(h.places[p], h.places[p]));
+      const glm::vec3 place = h.ball_from_world * (rotation * place_of(here.land, p) - between) -
+                              scale * other.land.centre;
+      h.x[p] = place.x, h.y[p] = place.y, h.z[p] = place.z;
+      h.distance2[p] = glm::dot(place, place);
+      h.weight[p] = size * glm::smoothstep(kWithin, kOutside, h.distance2[p]);
     }
     h.to_middle = way / std::max(distance, 1e-6f);
     // Seen from any place of this island.
@@ -86,25 +98,26 @@ IslandShade::IslandShade(std::span<const IslandPlacement> islands,
   }
 }
 
-IslandShade::Open IslandShade::towards(const glm::vec3& direction) const {
+// Places side by side, without branches, for vectors of them.
+std::optional<IslandShade::Open> IslandShade::towards(const glm::vec3& direction) const {
   std::array<float, kPlaces> open;
   open.fill(1.0f);
-  bool hidden = false;
+  bool near = false;
   for (const Hiding& h : hiding_) {
     if (glm::dot(direction, h.to_middle) < h.cosine) continue;
+    near = true;
     const glm::vec3 ray = h.ball_from_world * direction;
-    const float length2 = glm::dot(ray, ray);
+    const float per_length2 = 1.0f / glm::dot(ray, ray);
     for (std::size_t p = 0; p < kPlaces; ++p) {
-      const float along = -glm::dot(h.places[p], ray);
-      if (along <= 0.0f || h.weight[p] == 0.0f) continue;
-      const float beside2 = glm::dot(h.places[p], h.places[p]) - along * along / length2;
-      if (beside2 >= kOuterEdge) continue;
-      open[p] *= 1.0f - h.weight[p] * (1.0f - glm::smoothstep(kInnerEdge, kOuterEdge, beside2));
-      hidden = true;
+      const float along = std::max(0.0f, -(h.x[p] * ray.x + h.y[p] * ray.y + h.z[p] * ray.z));
+      const float beside2 = h.distance2[p] - along * along * per_length2;
+      const float out = std::clamp((beside2 - kInnerEdge) / (kOuterEdge - kInnerEdge), 0.0f, 1.0f);
+      const float hidden = along > 0.0f ? 1.0f - out * out * (3.0f - 2.0f * out) : 0.0f;
+      open[p] *= 1.0f - h.weight[p] * hidden;
     }
   }
+  if (!near) return std::nullopt;
   Open out;
-  if (!hidden) return out;
   out.face.fill(0.0f);
   out.all = 0.0f;
   for (std::size_t p = 0; p < kPlaces; ++p) {
@@ -112,6 +125,7 @@ IslandShade::Open IslandShade::towards(const glm::vec3& direction) const {
       out.face[2 * axis + (p >> axis & 1)] += open[p] / 4.0f;
     out.all += open[p] / 8.0f;
   }
+  if (out.all == 1.0f) return std::nullopt;
   return out;
 }
 

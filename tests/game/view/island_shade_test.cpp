@@ -27,7 +27,11 @@ render::FixedPos fixed_at(glm::dvec3 blocks) {
 }
 
 render::IslandShade shade_of_first(const std::vector<render::IslandPlacement>& islands) {
-  return {islands, render::islands_that_hide(islands), 0};
+  return {islands, render::islands_that_hide(islands), 0, 1.0f};
+}
+
+render::IslandShade::Open open_towards(const render::IslandShade& shade, const glm::vec3& d) {
+  return shade.towards(d).value_or(render::IslandShade::Open{});
 }
 
 glm::dvec3 axis_of(int face) {
@@ -81,8 +85,8 @@ struct Pair {
     const render::IslandShade shade = shade_of_first(placed);
     double sum = 0.0;
     for (int i = 0; i < 4000; ++i)
-      sum += static_cast<double>(
-          shade.towards(glm::vec3(by_cosine(face, random))).face[static_cast<std::size_t>(face)]);
+      sum += static_cast<double>(open_towards(shade, glm::vec3(by_cosine(face, random)))
+                                     .face[static_cast<std::size_t>(face)]);
     return sum / 4000.0;
   }
 };
@@ -138,7 +142,7 @@ TEST(IslandShade, ChangesBySmallStepsWhileIslandsPassAndTurn) {
     const render::IslandShade shade = shade_of_first(islands);
     double open = 0.0;
     for (const glm::vec3& d : directions)
-      open += static_cast<double>(shade.towards(d).face[2]) / 500.0;
+      open += static_cast<double>(open_towards(shade, d).face[2]) / 500.0;
     if (before >= 0.0) most = std::max(most, std::abs(open - before));
     before = open;
     least = std::min(least, open);
@@ -157,11 +161,28 @@ TEST(IslandShade, TurnsWithTheWorld) {
   const render::IslandShade turned = shade_of_first(islands);
   double hidden = 0.0;
   for (const glm::vec3& d : all_around()) {
-    const auto a = shade.towards(d), b = turned.towards(glm::vec3(turn * glm::dvec3(d)));
+    const auto a = open_towards(shade, d),
+               b = open_towards(turned, glm::vec3(turn * glm::dvec3(d)));
     for (std::size_t face = 0; face < 6; ++face) EXPECT_NEAR(a.face[face], b.face[face], 1e-3);
     hidden += 1.0 - static_cast<double>(a.all);
   }
   EXPECT_GT(hidden, 1.0);
+}
+
+TEST(IslandShade, FadesAsTheShadedIslandGetsSmall) {
+  const auto islands = two_at({100.0, 50.0, 0.0});
+  float before = 1.0f;
+  for (double away = 0.0; away < 4000.0; away += 1.0) {
+    const float share = render::share_of_shade(islands[0], fixed_at({0.0, away, 0.0}));
+    EXPECT_LE(share, before);
+    EXPECT_GT(share, before - 0.01f);
+    if (away <= 500.0) {
+      EXPECT_EQ(share, 1.0f);
+    }
+    before = share;
+  }
+  EXPECT_EQ(before, 0.0f);
+  EXPECT_TRUE(render::IslandShade(islands, render::islands_that_hide(islands), 0, 0.0f).empty());
 }
 
 TEST(IslandShade, WhatIsFarOffOrWithoutLandHidesNothing) {

@@ -189,7 +189,7 @@ Result<StoredLight> StoredLight::find(const game::SceneOptions& options) {
       placements(world, options.settings.world_time_s, lit);
   out.sky_ = render::sky_irradiance(
       render::sky_model(sky, render::eye_height_km(above), nullptr, *panorama), sky, placed,
-      std::vector<bool>(placed.size(), true));
+      std::vector<bool>(placed.size(), true), {camera.x, camera.y, camera.z});
   std::size_t number = 0;
   for (auto& [id, island] : out.islands_) {
     island.first = out.sky_[number / 4][static_cast<int>(number % 4)];

@@ -285,7 +285,7 @@ std::vector<glm::uvec4> sent_at_noon(double times, std::span<const render::Islan
   bodies.moon_irradiance *= factor;
   sky.constants.sun.light *= factor;
   sky.constants.moon.light *= factor;
-  return render::sky_irradiance(sky, bodies, on, std::vector<bool>(on.size(), true));
+  return render::sky_irradiance(sky, bodies, on, std::vector<bool>(on.size(), true), {});
 }
 
 /// Islands side by side, 100 blocks from each other, the first one turned.
