@@ -1,7 +1,10 @@
 #include "game/view/light_setup.h"
 
+#include <glm/vector_relational.hpp>
+
 #include "game/view/held_torch.h"
 #include "game/view/scatter_lights.h"
+#include "world/generate/shape.h"
 
 namespace skerry::game {
 
@@ -23,6 +26,18 @@ std::optional<shared::Light> held_light(const Settings& settings, const LightFie
                                         double yaw_deg, double world_time_s) {
   if (!settings.lights_held) return std::nullopt;
   return held_torch(field.emission(world::block::kTorch), yaw_deg, world_time_s);
+}
+
+render::IslandLand land_of(const world::IslandSpec& spec) {
+  const auto vector = [](world::IVec3 v) { return glm::vec3(v.x, v.y, v.z); };
+  // Of generated islands, on the mean: tests/game/view/island_shade_test.cpp.
+  constexpr glm::vec3 kOfBox{0.65f, 0.6f, 0.65f};
+  // Boxes have empty room beside the land, below it, and for trees above it.
+  const glm::vec3 below(world::kBoxMargin, world::kKeelRoom, world::kBoxMargin),
+      above(world::kBoxMargin, world::kTreeRoom, world::kBoxMargin);
+  glm::vec3 low = vector(spec.box_min), high = vector(spec.box_max);
+  if (glm::all(glm::greaterThan(high - low, 2.0f * (below + above)))) low += below, high -= above;
+  return {0.5f * (low + high), kOfBox * 0.5f * (high - low)};
 }
 
 }  // namespace skerry::game

@@ -498,8 +498,9 @@ void SceneView::place_islands(double world_time_s) {
   placements_.reserve(islands_.size());
   for (const IslandEntry& entry : islands_) {
     const world::Pose pose = poses.of(entry.spec);
-    placements_.push_back(
-        {fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far});
+    const bool hides = !entry.far && entry.sections != 0;
+    placements_.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far,
+                           hides ? land_of(entry.spec) : render::IslandLand{}});
   }
 }
 

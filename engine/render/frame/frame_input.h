@@ -16,12 +16,18 @@
 
 namespace skerry::render {
 
+/// The land of an island as what it hides from others: an ellipsoid in its lattice [blocks].
+struct IslandLand {
+  glm::vec3 centre{0.0f}, half{0.0f};  ///< half its extent; 0: it hides nothing
+};
+
 /// Where an island is this frame. Its index in FrameInput::islands is what Section::island holds.
 struct IslandPlacement {
   FixedPos origin{};                        ///< of its lattice
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< world from lattice
   double bounding_radius = 0.0;             ///< blocks about the origin
   bool far = false;  ///< so small in the picture that its heading may be rounded for its sky
+  IslandLand land{};
 };
 
 /// The block that a player points at: an outline over the picture, and cracks as it is dug.

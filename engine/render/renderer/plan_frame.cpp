@@ -77,7 +77,8 @@ void plan_indirect(FramePlan& plan, const SceneFacts& facts) {
     return;
   }
   plan.sky_light = sky_irradiance(plan.sky, plan.input.sky, plan.input.islands,
-                                  islands_in_view(facts, plan.input.islands, plan.tables));
+                                  islands_in_view(facts, plan.input.islands, plan.tables),
+                                  plan.input.camera.position);
   frame.body_in_air = air_light(plan.input.sky);
   frame.haze_per_block = kClearAir;
 }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/core/harmonics.h"
+#include "engine/render/sky/island_shade.h"
 #include "engine/render/sky/sky_rows.h"
 #include "shaders/shared/indirect.h"
 
@@ -30,6 +31,7 @@ struct LobeSample {
   glm::vec3 direction{};
   std::array<std::uint8_t, 3> slot{};  ///< face * kSkyLobes + lobe
   glm::vec3 weight{};  ///< cosine times solid angle, so that a whole sky of 1 sums to pi a face
+  std::array<float, kHarmonics> basis{};  ///< harmonics of the direction
 };
 
 /// Whether the pattern nearest to a direction of the first octant is steep for an axis.
@@ -52,6 +54,7 @@ std::vector<LobeSample> make_samples() {
       const glm::dvec3 d = SkyRows::direction(row, 2 * k + 1), size = glm::abs(d);
       const std::array<bool, 3> steep = steep_of(size);
       LobeSample sample{.direction = glm::vec3(d), .slot = {}, .weight = glm::vec3(size)};
+      sample.basis = harmonics_of(sample.direction.x, sample.direction.y, sample.direction.z);
       for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const auto negative = [&](int which) { return d[which % 3] < 0.0 ? 1 : 0; };
@@ -82,9 +85,20 @@ double heading_of(const glm::dquat& rotation) {
 using Lobes = std::array<glm::vec3, kFaces * shared::kSkyLobes>;
 using Harmonics = std::array<glm::vec3, kHarmonics>;
 
-void add(Harmonics& sum, const glm::vec3& direction, const glm::vec3& light) {
-  const std::array<float, kHarmonics> basis = harmonics_of(direction.x, direction.y, direction.z);
+using Basis = std::array<float, kHarmonics>;
+
+void add(Harmonics& sum, const Basis& basis, const glm::vec3& light) {
   for (std::size_t i = 0; i < kHarmonics; ++i) sum[i] += light * basis[i];
+}
+
+void add(Harmonics& sum, const glm::vec3& direction, const glm::vec3& light) {
+  add(sum, harmonics_of(direction.x, direction.y, direction.z), light);
+}
+
+glm::vec3 sum_of(const Harmonics& harmonics, const Basis& basis) {
+  glm::vec3 sum(0.0f);
+  for (std::size_t i = 0; i < kHarmonics; ++i) sum += harmonics[i] * basis[i];
+  return sum;
 }
 
 void add(Lobes& sum, const LobeSample& sample, const glm::vec3& radiance) {
@@ -113,13 +127,16 @@ class OpenSky {
   Lobes at_heading(int heading) { return of_heading(heading); }
   Lobes tilted(const glm::dquat& rotation) const;
   Harmonics harmonics(const glm::dquat& rotation) const;
+  /// Takes away what other islands hide from one, and puts in its place what they send.
+  void hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& lobes,
+            Harmonics& harmonics) const;
 
  private:
   const Lobes& of_heading(int heading);
-
   const SkyRows& rows_;
   const Celestial& bodies_;
-  Harmonics harmonics_{};  // about the world's axes, without bodies
+  Harmonics harmonics_{};   // about the world's axes, without bodies
+  Harmonics irradiance_{};  // of it and bodies: of surfaces by their normals, over pi
   std::array<std::optional<Lobes>, kHeadings> of_heading_;
 };
 
@@ -180,14 +197,65 @@ Harmonics OpenSky::harmonics(const glm::dquat& rotation) const {
   Harmonics out{};
   for (const glm::vec3& corner : kCorners) {
     const glm::vec3 d = world_from_lattice * corner;
-    const std::array<float, kHarmonics> basis = harmonics_of(d.x, d.y, d.z);
-    glm::vec3 sum(0.0f);
-    for (std::size_t i = 0; i < kHarmonics; ++i) sum += harmonics_[i] * basis[i];
-    add(out, corner, sum * (4.0f * std::numbers::pi_v<float> / 12.0f));
+    add(out, corner,
+        sum_of(harmonics_, harmonics_of(d.x, d.y, d.z)) *
+            (4.0f * std::numbers::pi_v<float> / 12.0f));
   }
   add(out, glm::vec3(lattice_from_world * bodies_.to_sun), bodies_.sun_irradiance);
   add(out, glm::vec3(lattice_from_world * bodies_.to_moon), bodies_.moon_irradiance);
   return out;
+}
+
+/// What islands send to one: as diffuse surfaces that face it, lit by sky, sun and moon as if
+/// nothing else was there. @param light that arrives. @return about the same axes, by the direction
+/// that it comes from: radiance.
+Harmonics sent_by_islands(Harmonics light) {
+  constexpr float kAlbedo = 0.25f;  // of earth, stone and leaves
+  // Of the cosine's harmonics, over pi: R. Ramamoorthi and P. Hanrahan, 2001. Those of degree 1
+  // are of the other sign in the opposite direction.
+  for (std::size_t i = 0; i < kHarmonics; ++i)
+    light[i] *= kAlbedo * (i == 0 ? 1.0f : i < 4 ? -2.0f / 3.0f : 0.25f);
+  return light;
+}
+
+void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& lobes,
+                   Harmonics& harmonics) const {
+  if (shade.empty()) return;
+  constexpr float kSolidAngle =
+      4.0f * std::numbers::pi_v<float> / float{SkyRows::kRows * kAround / 2};
+  const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
+  const Harmonics sent = sent_by_islands(harmonics);
+  const bool upright = is_upright(rotation);
+  const double heading = upright ? heading_of(rotation) : 0.0, below = std::floor(heading);
+  const auto part = static_cast<float>(heading - below);
+  const auto sky_at = [&](int row, int k) {
+    const int azimuth = 2 * k + 1 - static_cast<int>(below);
+    constexpr int kAll = SkyRows::kAzimuths - 1;
+    return glm::mix(rows_.at(row, azimuth & kAll), rows_.at(row, (azimuth - 1) & kAll), part);
+  };
+  // Every other direction stands for two: what is hidden has soft edges.
+  for (int row = 0; row < SkyRows::kRows; ++row)
+    for (int k = row & 1; k < kAround; k += 2) {
+      const LobeSample& sample = samples()[static_cast<std::size_t>(row * kAround + k)];
+      const glm::vec3 direction = world_from_lattice * sample.direction;
+      const std::optional<IslandShade::Open> open = shade.towards(direction);
+      if (!open) continue;
+      const glm::vec3 sky = upright ? sky_at(row, k) : rows_.towards(direction);
+      const glm::vec3 change = glm::max(sum_of(sent, sample.basis), 0.0f) - sky;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        lobes[sample.slot[axis]] +=
+            change * ((1.0f - open->face[sample.slot[axis] / shared::kSkyLobes]) * 2.0f *
+                      sample.weight[static_cast<int>(axis)]);
+      add(harmonics, sample.basis, change * ((1.0f - open->all) * kSolidAngle));
+    }
+  for (glm::vec3& lobe : lobes) lobe = glm::max(lobe, 0.0f);
+  const glm::dquat lattice_from_world = glm::conjugate(rotation);
+  const auto hide_body = [&](const glm::dvec3& to_body, const glm::vec3& irradiance) {
+    if (const std::optional<IslandShade::Open> open = shade.towards(glm::vec3(to_body)))
+      add(harmonics, glm::vec3(lattice_from_world * to_body), irradiance * (open->all - 1.0f));
+  };
+  hide_body(bodies_.to_sun, bodies_.sun_irradiance);
+  hide_body(bodies_.to_moon, bodies_.moon_irradiance);
 }
 
 std::uint32_t packed(float a, float b) {
@@ -223,7 +291,7 @@ void append(std::vector<glm::uvec4>& out, const Lobes& lobes, const Harmonics& h
 
 std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bodies,
                                        std::span<const IslandPlacement> islands,
-                                       const std::vector<bool>& shown) {
+                                       const std::vector<bool>& shown, const FixedPos& eye) {
   // Discs are not in it: smooth enough to be interpolated.
   const SkyRows rows([&](glm::dvec3 d) {
     return sky.panorama ? glm::dvec3(sky.panorama->smooth().at(glm::vec3(d)))
@@ -235,6 +303,7 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
   const auto dark = static_cast<std::uint32_t>(out.size());
   out.resize(out.size() + shared::kIndirectIslandTexels, glm::uvec4(0));
   std::array<std::uint32_t, kHeadings> of_far{};  // 0: none yet
+  const std::vector<std::size_t> hiding = islands_that_hide(islands);
   for (std::size_t i = 0; i < islands.size(); ++i) {
     std::uint32_t& place = out[i / 4][static_cast<int>(i % 4)];
     place = dark;
@@ -251,8 +320,11 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
       continue;
     }
     place = end;
-    append(out, is_upright(rotation) ? open.upright(heading_of(rotation)) : open.tilted(rotation),
-           open.harmonics(rotation));
+    Lobes lobes = is_upright(rotation) ? open.upright(heading_of(rotation)) : open.tilted(rotation);
+    Harmonics harmonics = open.harmonics(rotation);
+    open.hide(IslandShade(islands, hiding, i, share_of_shade(islands[i], eye)), rotation, lobes,
+              harmonics);
+    append(out, lobes, harmonics);
   }
   return out;
 }

@@ -11,13 +11,14 @@ namespace skerry::render {
 
 /// What each lobe of an open sky sends to each face of each island: irradiance, linear RGB, without
 /// the discs of sun and moon. And the harmonics, about the island's own axes, of all that sky and
-/// bodies send. Some two microseconds an upright island, twenty one that is tilted; far ones of
-/// about the same heading have one sky in common.
+/// bodies send. Some two microseconds an upright island, twenty one that is tilted, and twelve more
+/// where others hide a part of the sky (IslandShade); far ones of about the same heading have one
+/// sky in common.
 /// @param shown one an island: others have a sky of 0 in common.
 /// @return in the layout of shaders/shared/indirect.h: which sky each island has, and the skies.
 /// What a half holds is at most what it can.
 std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bodies,
                                        std::span<const IslandPlacement> islands,
-                                       const std::vector<bool>& shown);
+                                       const std::vector<bool>& shown, const FixedPos& eye);
 
 }  // namespace skerry::render

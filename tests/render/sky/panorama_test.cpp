@@ -75,7 +75,7 @@ glm::dvec3 on_face(const SkyModel& sky, const glm::dquat& rotation, std::size_t 
   std::vector<IslandPlacement> islands(1);
   islands[0].rotation = rotation;
   const std::vector<glm::uvec4> texels =
-      sky_irradiance(sky, celestial_at(43200.0, 0.5), islands, {true});
+      sky_irradiance(sky, celestial_at(43200.0, 0.5), islands, {true}, {});
   glm::dvec3 sum(0.0);
   for (std::size_t channel = 0; channel < 3; ++channel)
     for (int word = 0; word < 4; ++word) {

@@ -9,9 +9,11 @@
 #include <glm/geometric.hpp>
 #include <glm/packing.hpp>
 #include <random>
+#include <utility>
 
 #include "engine/core/harmonics.h"
 #include "engine/render/frame/celestial.h"
+#include "engine/render/sky/island_shade.h"
 #include "engine/render/sky/sky_model.h"
 #include "shaders/shared/indirect.h"
 
@@ -86,7 +88,7 @@ TEST(SkyIrradiance, IsTheCosineWeightedSkyOfEachFace) {
     const SkyModel sky = sky_model(bodies);
     const std::vector<IslandPlacement> islands(1);
     const std::vector<glm::uvec4> lobes =
-        sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true));
+        sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true), {});
     ASSERT_EQ(lobes.size(), 1u + 22u + 22u);  // which one, the dark one, its own
     for (std::size_t face = 0; face < 6; ++face) {
       const glm::dvec3 found = whole(lobes, 0, face), right = by_samples(sky, face_normal(face));
@@ -103,7 +105,7 @@ TEST(SkyIrradiance, TurnsWithTheIsland) {
   islands[1].rotation =
       glm::dquat(std::cos(0.4), glm::dvec3(0.3, 0.9, -0.2) / std::sqrt(0.94) * std::sin(0.4));
   const std::vector<glm::uvec4> lobes =
-      sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true));
+      sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true), {});
   for (std::size_t face = 0; face < 6; ++face) {
     const glm::dvec3 found = whole(lobes, 1, face),
                      right = by_samples(sky, islands[1].rotation * face_normal(face));
@@ -118,7 +120,7 @@ TEST(SkyIrradiance, HoldsWhatASkyOfAMillionSends) {
   sky.constants.sun.light *= 1e6f;
   const std::vector<IslandPlacement> islands(1);
   const std::vector<glm::uvec4> lobes =
-      sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true));
+      sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true), {});
   for (std::size_t face = 0; face < 6; ++face) {
     const glm::dvec3 sum = whole(lobes, 0, face);
     EXPECT_TRUE(std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z));
@@ -134,10 +136,10 @@ TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
     std::vector<IslandPlacement> islands(1);
     islands[0].rotation =
         glm::dquat(std::cos(0.7), glm::dvec3(-0.5, 0.4, 0.2) / std::sqrt(0.45) * std::sin(0.7));
-    const auto all = harmonics_in(sky_irradiance(sky, bodies, islands, {true}), 0);
+    const auto all = harmonics_in(sky_irradiance(sky, bodies, islands, {true}, {}), 0);
     const glm::dvec3 sun(bodies.sun_irradiance), moon(bodies.moon_irradiance);
     bodies.sun_irradiance = bodies.moon_irradiance = glm::vec3(0.0f);
-    const auto of_sky = harmonics_in(sky_irradiance(sky, bodies, islands, {true}), 0);
+    const auto of_sky = harmonics_in(sky_irradiance(sky, bodies, islands, {true}, {}), 0);
     const glm::dquat lattice = glm::conjugate(islands[0].rotation);
     const auto by_sun = basis_of(lattice * bodies.to_sun),
                by_moon = basis_of(lattice * bodies.to_moon);
@@ -161,6 +163,54 @@ TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
       }
     }
   }
+}
+
+// By directions drawn evenly: light of the sky past the other island, and a quarter of what a
+// surface receives there that faces this one.
+TEST(SkyIrradiance, IsWhatOtherIslandsLetPastAndReflect) {
+  const Celestial bodies = celestial_at(9.0 * 3600.0, 0.5);
+  const SkyModel sky = sky_model(bodies);
+  std::vector<IslandPlacement> islands(2);
+  islands[0].rotation = glm::angleAxis(0.5, glm::normalize(glm::dvec3(0.2, 1.0, -0.1)));
+  islands[1].origin = {70 * 65536, 50 * 65536, -20 * 65536};
+  for (IslandPlacement& island : islands) island.land = {glm::vec3(0.0f), {50.0f, 20.0f, 40.0f}};
+  const std::vector<glm::uvec4> lobes = sky_irradiance(sky, bodies, islands, {true, true}, {});
+  const IslandShade shade(islands, islands_that_hide(islands), 0, 1.0f);
+
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> even(0.0, 1.0);
+  constexpr int kSamples = 4000;
+  std::vector<std::pair<glm::dvec3, glm::dvec3>> seen;  // directions and radiance
+  for (int i = 0; i < kSamples; ++i) {
+    const double y = 1.0 - 2.0 * even(random), turn = 2.0 * kPi * even(random);
+    const double r = std::sqrt(1.0 - y * y);
+    const glm::dvec3 d{r * std::cos(turn), y, r * std::sin(turn)};
+    seen.emplace_back(d, sky_radiance(d, sky));
+  }
+  const auto facing = [&](const glm::dvec3& d) {
+    glm::dvec3 sum = glm::dvec3(bodies.sun_irradiance) * std::max(0.0, glm::dot(d, bodies.to_sun));
+    for (const auto& [from, radiance] : seen)
+      sum += radiance * (std::max(0.0, glm::dot(d, from)) * 4.0 * kPi / kSamples);
+    return sum / kPi;
+  };
+  double hidden = 0.0;
+  for (std::size_t face = 0; face < 6; ++face) {
+    const glm::dvec3 normal = islands[0].rotation * face_normal(face);
+    glm::dvec3 right(0.0), open(0.0);
+    for (const auto& [d, radiance] : seen) {
+      const double cosine = glm::dot(d, normal) * 4.0 * kPi / kSamples;
+      if (cosine <= 0.0) continue;
+      const double past =
+          static_cast<double>(shade.towards(glm::vec3(d)).value_or(IslandShade::Open{}).face[face]);
+      open += radiance * cosine;
+      right += radiance * (cosine * past);
+      if (past < 1.0) right += facing(-d) * (0.25 * cosine * (1.0 - past));
+    }
+    const glm::dvec3 found = whole(lobes, 0, face);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], right[c], 0.05 * right[c] + 1e-6) << face;
+    hidden = std::max(hidden, 1.0 - right.z / open.z);
+  }
+  EXPECT_GT(hidden, 0.1);
 }
 
 /// All numbers of an island's sky.
@@ -187,13 +237,13 @@ TEST(SkyIrradiance, OfAnyHeadingIsThatOfTheTurnedSky) {
       std::vector<IslandPlacement> islands(1);
       islands[0].rotation = glm::angleAxis(turn(random), glm::dvec3(0.0, 1.0, 0.0));
       const std::vector<double> found =
-          numbers_of(sky_irradiance(sky_model(bodies), bodies, islands, {true}), 0);
+          numbers_of(sky_irradiance(sky_model(bodies), bodies, islands, {true}, {}), 0);
       Celestial turned = bodies;
       const glm::dquat back = glm::conjugate(islands[0].rotation);
       turned.to_sun = back * bodies.to_sun, turned.to_moon = back * bodies.to_moon;
       islands[0].rotation = glm::dquat(1.0, 0.0, 0.0, 0.0);
       const std::vector<double> right =
-          numbers_of(sky_irradiance(sky_model(turned), turned, islands, {true}), 0);
+          numbers_of(sky_irradiance(sky_model(turned), turned, islands, {true}, {}), 0);
       double most = 0.0;
       for (const double value : right) most = std::max(most, std::abs(value));
       for (std::size_t k = 0; k < right.size(); ++k)
@@ -213,11 +263,11 @@ TEST(SkyIrradiance, FarIslandsShareTheSkiesOfSixtyFourHeadings) {
   shown[3] = false;
   const Celestial bodies = celestial_at(8.0 * 3600.0, 0.5);
   const SkyModel sky = sky_model(bodies);
-  const std::vector<glm::uvec4> far = sky_irradiance(sky, bodies, islands, shown);
+  const std::vector<glm::uvec4> far = sky_irradiance(sky, bodies, islands, shown, {});
   EXPECT_LE(far.size(), 125u + 65u * 22u);
   for (const double value : numbers_of(far, 3)) EXPECT_EQ(value, 0.0);
   for (IslandPlacement& island : islands) island.far = false;
-  const std::vector<glm::uvec4> near = sky_irradiance(sky, bodies, islands, shown);
+  const std::vector<glm::uvec4> near = sky_irradiance(sky, bodies, islands, shown, {});
   for (std::size_t i = 0; i < islands.size(); ++i) {
     const std::vector<double> found = numbers_of(far, i), right = numbers_of(near, i);
     double most = 0.0;

@@ -17,8 +17,10 @@
 #include "game/panorama/load_panorama.h"
 #include "game/player/player.h"
 #include "game/view/light_chunk.h"
+#include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
+#include "world/light/shared_exponent.h"
 #include "world/stream/stream.h"
 
 namespace skerry::tools {
@@ -90,10 +92,12 @@ std::vector<render::IslandPlacement> placements(const world::World& world, doubl
   std::vector<render::IslandPlacement> out;
   for (const auto& [id, island] : islands) {
     const world::Pose pose = *world.pose(id, time_s);
+    const world::IslandSpec spec = *world.island(id);
     out.push_back({{pose.origin.x, pose.origin.y, pose.origin.z},
                    pose.rotation,
-                   world.island(id)->bounding_radius,
-                   island.chunks.empty()});
+                   spec.bounding_radius,
+                   island.chunks.empty(),
+                   game::land_of(spec)});
   }
   return out;
 }
@@ -102,11 +106,6 @@ std::vector<render::IslandPlacement> placements(const world::World& world, doubl
 double half_of(const glm::uvec4& texel, int i) {
   const glm::vec2 pair = glm::unpackHalf2x16(texel[i / 2]);
   return static_cast<double>(i % 2 == 0 ? pair.x : pair.y);
-}
-
-glm::dvec3 shared_exponent(std::uint32_t word) {
-  return glm::dvec3(word & 511u, word >> 9 & 511u, word >> 18 & 511u) *
-         std::exp2(static_cast<double>(word >> 27) - 24.0);
 }
 
 template <class T>
@@ -138,9 +137,10 @@ glm::dvec3 sky_light(std::span<const glm::uvec4> record, std::span<const glm::uv
 }
 
 glm::dvec3 lamp_light(const glm::uvec4& lamps, glm::dvec2 at) {
-  return between_corners<glm::dvec3>({shared_exponent(lamps.x), shared_exponent(lamps.y),
-                                      shared_exponent(lamps.z), shared_exponent(lamps.w)},
-                                     at);
+  std::array<glm::dvec3, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i)
+    corners[i] = world::unpack_shared_exponent(lamps[static_cast<int>(i)]);
+  return between_corners(corners, at);
 }
 
 /// @param sent harmonics of what comes from infinity: kIndirectHarmonics and the texels after.
@@ -158,7 +158,8 @@ glm::dvec3 bounced_light(const glm::uvec4& bounce, std::span<const glm::uvec4> s
       sum[c] += static_cast<double>(shared::kMostBounceShape * (i < 4 ? low[i] : high[i - 4])) *
                 half_of(texel, i);
   }
-  return shared_exponent(bounce.x) * glm::max(sum, 0.0) * between_corners(share, at);
+  return glm::dvec3(world::unpack_shared_exponent(bounce.x)) * glm::max(sum, 0.0) *
+         between_corners(share, at);
 }
 
 }  // namespace
@@ -188,7 +189,7 @@ Result<StoredLight> StoredLight::find(const game::SceneOptions& options) {
       placements(world, options.settings.world_time_s, lit);
   out.sky_ = render::sky_irradiance(
       render::sky_model(sky, render::eye_height_km(above), nullptr, *panorama), sky, placed,
-      std::vector<bool>(placed.size(), true));
+      std::vector<bool>(placed.size(), true), {camera.x, camera.y, camera.z});
   std::size_t number = 0;
   for (auto& [id, island] : out.islands_) {
     island.first = out.sky_[number / 4][static_cast<int>(number % 4)];

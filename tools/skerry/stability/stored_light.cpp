@@ -1,16 +1,23 @@
-// Light that stays on faces: worlds that are full, full of holes, black and white, and edits
-// without end.
+// Light that stays on faces: worlds that are full, full of holes, black and white, lamps from a
+// millionth to a million, and edits without end.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/packing.hpp>
+#include <map>
 #include <memory>
 #include <random>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "engine/core/harmonics.h"
+#include "engine/render/sky/sky_irradiance.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
+#include "world/light/shared_exponent.h"
 #include "world/light/sky_transfer.h"
 #include "world/voxel/blocks.h"
 
@@ -77,11 +84,6 @@ bool is_dark(Record record) {
          glm::ivec4(record[2]) == glm::ivec4(0) && record[3].x == 0;
 }
 
-glm::dvec3 shared_exponent(std::uint32_t word) {
-  return glm::dvec3(word & 511u, word >> 9 & 511u, word >> 18 & 511u) *
-         std::exp2(static_cast<double>(word >> 27) - 24.0);
-}
-
 /// Over the mean of a face's corners: the share of the sky that is seen, 0..1.
 double sky_seen(Record record) {
   double sum = 0.0;
@@ -96,7 +98,8 @@ double reflected(Record record) {
   double share = 0.0;
   for (int corner = 0; corner < 4; ++corner) share += (record[3].y >> 8 * corner & 255u) / 255.0;
   const double even = std::sqrt(4.0 * 3.14159265358979);
-  return shared_exponent(record[3].x).y * even * share / 4.0 / 3.14159265358979;
+  return static_cast<double>(world::unpack_shared_exponent(record[3].x).y) * even * share / 4.0 /
+         3.14159265358979;
 }
 
 /// How many records differ; a chunk that only one side has counts as one.
@@ -164,6 +167,47 @@ Result<Rows> full_and_chequered() {
       {"faces lit inside a chequered world", 0.0, if_shown(outside[1] > 0.0, lit[1])}};
 }
 
+/// One lamp over a floor, its light a millionth to a million of a torch's.
+Result<Rows> weak_lamps() {
+  const Albedo grey = albedo_of(0.5f);
+  const auto ground = [](int x, int y, int z) {
+    return y == 4 && x >= 8 && x < 40 && z >= 8 && z < 40 ? kStone : kAirBlock;
+  };
+  double darker = 0.0, worst = 0.0, brighter = 0.0;
+  std::map<std::array<int, 4>, double> before;
+  for (int decade = -6; decade <= 6; ++decade) {
+    const float power = std::pow(10.0f, static_cast<float>(decade));
+    const auto found = looked_at(
+        alone(chunk_of(ground, {{glm::vec3(24.5f, 8.5f, 24.5f), glm::vec3(power), 9.0f}})), grey);
+    for_each_record(*found, [&](IVec3 v, int direction, Record r) {
+      double sum = 0.0;
+      for (int corner = 0; corner < 4; ++corner)
+        sum += static_cast<double>(world::unpack_shared_exponent(r[2][corner]).y) / 4.0;
+      double& last = before[{v.x, v.y, v.z, direction}];
+      darker += sum < last ? 1.0 : 0.0;
+      brighter += sum > 1.5 * last ? 1.0 : 0.0;
+      last = sum;
+      // Below the lamp: each corner has the mean of the four voxels about it.
+      if (direction != 2 || v.x != 24 || v.z != 24 || v.y != 4) return;
+      double right = 0.0;
+      for (const double x : {-1.0, 0.0, 1.0})
+        for (const double z : {-1.0, 0.0, 1.0}) {
+          // Of a corner's four voxels; a voxel of the nine is in one, two or four corners.
+          const double share = (x == 0.0 ? 2.0 : 1.0) * (z == 0.0 ? 2.0 : 1.0) / 16.0;
+          const double d2 = 3.5 * 3.5 + x * x + z * z, w = 1.0 - d2 * d2 / (81.0 * 81.0);
+          right += share * static_cast<double>(power) / d2 * 3.5 / std::sqrt(d2) * w * w;
+        }
+      right = std::min(right, 511.0 * 128.0);  // the most that is kept
+      // Three numbers with an exponent in common: 9 bits each, of 2^-24 at least.
+      worst = std::max(worst, std::abs(sum - right) / std::max(right / 256.0, std::exp2(-24.0)));
+    });
+  }
+  return Rows{{"faces that a brighter weak lamp darkens, 1e-6 to 1e6", 0.0,
+               if_shown(brighter > 0.0, darker)},
+              {"error of lamp light 3.5 voxels below over the step it is kept in, 1e-6 to 1e6", 1.0,
+               if_shown(worst > 0.0, worst)}};
+}
+
 /// A minute of edits at 60 a second, of a heap of voxels that comes and goes.
 Result<Rows> a_minute_of_edits() {
   const Albedo grey = albedo_of(0.6f);
@@ -215,10 +259,81 @@ Result<Rows> comes_and_goes() {
                if_shown(changed == 1000.0 && refused == 0.0, differences(kept->faces(), first))}};
 }
 
+/// Of what the sky sends to islands: halves and floats that are no number.
+double not_finite(std::span<const glm::uvec4> texels, std::size_t islands) {
+  double count = 0.0;
+  const std::size_t first = (islands + 3) / 4;  // which sky each has, before the skies
+  for (std::size_t i = first; i < texels.size(); ++i)
+    for (int word = 0; word < 4; ++word) {
+      if ((i - first) % shared::kIndirectIslandTexels == shared::kIndirectHarmonics + 3) {
+        count += std::isfinite(std::bit_cast<float>(texels[i][word])) ? 0.0 : 1.0;
+        continue;
+      }
+      const glm::vec2 pair = glm::unpackHalf2x16(texels[i][word]);
+      count += (std::isfinite(pair.x) ? 0.0 : 1.0) + (std::isfinite(pair.y) ? 0.0 : 1.0);
+    }
+  return count;
+}
+
+std::vector<glm::uvec4> sent_at_noon(double times, std::span<const render::IslandPlacement> on) {
+  render::Celestial bodies = render::celestial_at(43200.0, 0.5);
+  render::SkyModel sky = render::sky_model(bodies);
+  const auto factor = static_cast<float>(times);
+  bodies.sun_irradiance *= factor;
+  bodies.moon_irradiance *= factor;
+  sky.constants.sun.light *= factor;
+  sky.constants.moon.light *= factor;
+  return render::sky_irradiance(sky, bodies, on, std::vector<bool>(on.size(), true), {});
+}
+
+/// Islands side by side, 100 blocks from each other, the first one turned.
+std::vector<render::IslandPlacement> field_of(int edge, double angle) {
+  std::vector<render::IslandPlacement> out;
+  for (int x = 0; x < edge; ++x)
+    for (int z = 0; z < edge; ++z)
+      out.push_back({fixed_at({100.0 * x, 7.0 * ((x + z) % 5), 100.0 * z}),
+                     {1.0, 0.0, 0.0, 0.0},
+                     60.0,
+                     false,
+                     {glm::vec3(0.0f, -10.0f, 0.0f), glm::vec3(40.0f, 25.0f, 30.0f)}});
+  out.front().rotation = glm::angleAxis(angle, glm::dvec3(0.0, 1.0, 0.0));
+  return out;
+}
+
+/// Of the first island.
+double most_of(std::span<const glm::uvec4> texels) {
+  double most = 0.0;
+  for (const glm::uvec4& texel : texels.subspan(texels[0].x, shared::kIndirectHarmonics))
+    for (int word = 0; word < 4; ++word) {
+      const glm::vec2 pair = glm::abs(glm::unpackHalf2x16(texel[word]));
+      most = std::max({most, static_cast<double>(pair.x), static_cast<double>(pair.y)});
+    }
+  return most;
+}
+
+Result<Rows> skies() {
+  const std::vector<render::IslandPlacement> one(1);
+  const double noon = most_of(sent_at_noon(1.0, one));
+  const std::vector<glm::uvec4> many = sent_at_noon(1.0, field_of(32, 0.3));
+  double wild = 0.0;
+  for (int frame = 0; frame < 60; ++frame)  // 1,000 rad/s, 60 frames a second
+    wild += not_finite(sent_at_noon(1.0, field_of(2, frame * 1000.0 / 60.0)), 4);
+  return Rows{{"numbers that are not finite under a sky of 1e6", 0.0,
+               if_shown(noon > 0.0, not_finite(sent_at_noon(1e6, one), 1))},
+              {"most light that a sky of 0 sends, its stars apart", 1e-5,
+               if_shown(noon > 0.0, most_of(sent_at_noon(0.0, one)))},
+              {"numbers that are not finite, 1,024 islands in each other's sky", 0.0,
+               if_shown(noon > 0.0, not_finite(many, 1024))},
+              {"numbers that are not finite, an island at 1,000 rad/s among others", 0.0,
+               if_shown(noon > 0.0, wild)}};
+}
+
 constexpr Case kStoredLightCases[] = {{"stored_light.albedo", black_and_white},
                                       {"stored_light.worlds", full_and_chequered},
+                                      {"stored_light.lamps", weak_lamps},
                                       {"stored_light.edits", a_minute_of_edits},
-                                      {"stored_light.comes_and_goes", comes_and_goes}};
+                                      {"stored_light.comes_and_goes", comes_and_goes},
+                                      {"stored_light.skies", skies}};
 
 }  // namespace
 
