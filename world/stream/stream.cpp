@@ -74,6 +74,7 @@ Streamer::~Streamer() {
   std::unique_lock lock(state_->mutex);
   state_->stopping = true;
   state_->tasks.clear();
+  state_->look_ahead.reset();
   state_->idle.wait(lock, [this] { return state_->running == 0; });
 }
 
@@ -99,22 +100,53 @@ void Streamer::update(const StreamView& view, const StreamSettings& settings) {
   s.submit_jobs();
 }
 
-// All islands that can matter; asked for again only when the camera has left the middle of the
-// last answer, because the plan of a large view takes milliseconds. @return whether it is new.
+bool Streamer::State::Look::holds_for(const Look& now) const {
+  return reach == now.reach && revision == now.revision &&
+         glm::length(difference_blocks(now.centre, centre)) <= slack;
+}
+
+bool Streamer::State::Look::wears_out(const Look& now) const {
+  return glm::length(difference_blocks(now.centre, centre)) > 0.5 * slack;
+}
+
+std::vector<IslandSpec> Streamer::State::ask(const Look& look) const {
+  return world.islands_near(look.centre, look.reach + look.slack, look.time_s);
+}
+
+// What a worker was asked ahead, if it has been found and holds now.
+bool Streamer::State::take_answer(const Look& now, std::vector<IslandSpec>& specs) {
+  const std::lock_guard lock(mutex);
+  if (!answer) return false;
+  Answer found = *std::exchange(answer, std::nullopt);
+  around.asked_ahead = false;
+  if (!found.look.holds_for(now)) return false;
+  around.look = found.look;
+  specs = std::move(found.specs);
+  return true;
+}
+
+// All islands that can matter. The plan of a large view takes milliseconds, so that a worker looks
+// for the next answer while the last one holds. What is in never depends on which answer it is.
+// @return whether it is new.
 bool Streamer::State::look_around(const StreamView& view, const StreamSettings& settings,
                                   const IslandPoses& poses) {
-  const double slack = std::max(64.0, settings.view_distance_blocks / 32.0);
   // From one end of its drift to the other.
   const double reach = settings.view_distance_blocks * kHysteresis + 2.0 * kMaxIslandDriftBlocks;
-  const glm::dvec3 moved_by = difference_blocks(view.camera, around.centre);
-  const std::uint64_t revision = world.revision();
-  if (around.reach == reach && around.revision == revision &&
-      glm::dot(moved_by, moved_by) <= slack * slack)
-    return false;
-  around.reach = reach;
-  around.revision = revision;
-  around.centre = view.camera;
-  std::vector<IslandSpec> specs = world.islands_near(view.camera, reach + slack, view.time_s);
+  const Look now{view.camera, view.time_s, reach,
+                 std::max(64.0, settings.view_distance_blocks / 32.0), world.revision()};
+  std::vector<IslandSpec> specs;
+  if (!take_answer(now, specs)) {
+    if (around.look.holds_for(now)) {
+      if (!around.look.wears_out(now) || std::exchange(around.asked_ahead, true)) return false;
+      const std::lock_guard lock(mutex);
+      look_ahead = now;
+      ++to_submit;
+      return false;
+    }
+    specs = ask(now);
+    around.look = now;
+    ++around.asked;
+  }
   around.left_out = {};
   for (std::size_t i = kMaxStreamedIslands; i < specs.size(); ++i) {
     const double distance = near_of(specs[i], view, poses).distance;
@@ -374,6 +406,7 @@ Streamer::Stats Streamer::stats() const {
   stats.islands = s.islands.size();
   stats.tasks_left = s.tasks.size() + static_cast<std::size_t>(s.running);
   stats.chunks_made = s.chunks_made;
+  stats.times_asked = s.around.asked;
   for (const auto& [id, island] : s.islands) {
     const StreamLevel& shown = island.shown;
     for (const auto& [chunk, slot] : shown.slots) stats.sections += slot.resident;

@@ -114,6 +114,7 @@ class Streamer {
     std::size_t sections = 0;     ///< handed out and not removed
     std::size_t tasks_left = 0;   ///< queued or running
     std::size_t chunks_made = 0;  ///< generated and meshed so far, empty ones included
+    std::size_t times_asked = 0;  ///< times that update() has waited for the archipelago's plan
   };
   Stats stats() const;
 

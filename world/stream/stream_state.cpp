@@ -153,7 +153,11 @@ bool Streamer::State::take_task(StreamTask& task) {
 void Streamer::State::run_task() {
   std::unique_lock lock(mutex);
   StreamTask task;
-  if (!stopping && take_task(task)) {
+  if (!stopping && look_ahead) {
+    ++running;
+    run_look(lock);
+    --running;
+  } else if (!stopping && take_task(task)) {
     ++running;
     running_edited += task.edited;
     run(task, lock);
@@ -164,6 +168,14 @@ void Streamer::State::run_task() {
   if (all_made() || last_edited || (stopping && running == 0)) idle.notify_all();
   lock.unlock();
   submit_jobs();
+}
+
+void Streamer::State::run_look(std::unique_lock<std::mutex>& lock) {
+  const Look look = *std::exchange(look_ahead, std::nullopt);
+  lock.unlock();
+  std::vector<IslandSpec> specs = ask(look);
+  lock.lock();
+  answer = Answer{look, std::move(specs)};
 }
 
 void Streamer::State::make_edited() {

@@ -98,9 +98,22 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
     Pose pose;
     double distance;  // blocks from the camera to the bounding sphere
   };
+  /// What the world is asked for: islands that come within `reach + slack` of a place, so that the
+  /// answer holds until the camera has moved by `slack`.
+  struct Look {
+    WorldPos centre;
+    double time_s = 0.0;
+    double reach = -1.0, slack = 0.0;  // blocks
+    std::uint64_t revision = 0;        // of the world
+    bool holds_for(const Look& now) const;
+    /// The same with the camera halfway out: time for the next answer.
+    bool wears_out(const Look& now) const;
+  };
   /// Frame thread only, without the mutex.
   bool look_around(const StreamView& view, const StreamSettings& settings,
                    const IslandPoses& poses);
+  bool take_answer(const Look& now, std::vector<IslandSpec>& specs);
+  std::vector<IslandSpec> ask(const Look& look) const;
   static Near near_of(const IslandSpec& spec, const StreamView& view, const IslandPoses& poses);
 
   // What is wanted (stream.cpp). Called with the mutex held.
@@ -126,7 +139,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   double cost_of(const StreamTask& task) const;
   bool plan_unused(std::uint64_t id) const;
   bool take_task(StreamTask& task);
-  bool all_made() const { return tasks.empty() && running == 0; }
+  bool all_made() const { return tasks.empty() && !look_ahead && running == 0; }
   void note_planned(const StreamTask& task, const std::vector<IVec3>& chunks);
   void note_made(const StreamTask& task, MadeChunk&& chunk);
 
@@ -137,6 +150,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   /// mutex.
   void make_edited();
   void run(const StreamTask& task, std::unique_lock<std::mutex>& lock);
+  void run_look(std::unique_lock<std::mutex>& lock);
 
   World& world;
   Jobs& jobs;
@@ -148,9 +162,9 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
     double due = 0.0;                // of Around::travelled: until then nothing changes for it
   };
   struct Around {
-    WorldPos centre;
-    double reach = -1.0;
-    std::uint64_t revision = 0;
+    Look look;
+    bool asked_ahead = false;  // a worker has been asked for the next answer
+    std::size_t asked = 0;     // times that update() has asked the world itself
     std::vector<Candidate> islands;
     LeftOut left_out;
     double fastest = 0.0;    // an island on its course, blocks/s at most
@@ -166,7 +180,14 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   std::size_t to_submit = 0;
   std::uint64_t last_serial = 0;
   std::size_t chunks_made = 0;
-  std::vector<StreamTask> tasks;  // heap, cheapest on top
+  std::vector<StreamTask> tasks;   // heap, cheapest on top
+  std::optional<Look> look_ahead;  // before all tasks
+  /// The answer to the last one.
+  struct Answer {
+    Look look;
+    std::vector<IslandSpec> specs;
+  };
+  std::optional<Answer> answer;
   std::map<std::uint64_t, StreamIsland> islands;
   std::vector<SectionKey> removed;  // of islands that left
   std::vector<std::unique_ptr<StreamScratch>> spare;
