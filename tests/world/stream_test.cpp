@@ -354,6 +354,50 @@ TEST(Stream, AFlightWaitsForNoPlanOfTheArchipelago) {
   EXPECT_EQ(streamer.stats().times_asked, 2u) << "after a jump the answer must be there at once";
 }
 
+// Each level of an island that reaches across several is what it is alone.
+TEST(Stream, FarEndsBringTheirLevelsWhole) {
+  Scene scene = home_alone();
+  scene.settings = {
+      .view_distance_blocks = 1500.0, .detail_distance_blocks = 50.0, .far_ends = true};
+  World world(scene.desc);
+  Jobs jobs(3);
+  Streamer streamer(world, jobs);
+  Consumer consumer;
+  const IslandSpec home = world.islands_near(world.origin(), 1000.0, 0.0).front();
+  std::size_t several = 0;
+  for (int frame = 0; frame <= 220; ++frame) {
+    // Away and back; at times what was asked for is not waited for.
+    const double away = 5.0 * (frame <= 110 ? frame : 220 - frame);
+    scene.view.camera = moved(world.origin(), {away, 60.0, 0.0});
+    streamer.update(scene.view, scene.settings);
+    consumer.take(streamer.poll(2000));
+    if (frame % 20 != 0) continue;
+    finish(streamer, consumer);
+    const double distance =
+        glm::length(difference_blocks(pose_at(home, 0.0).origin, scene.view.camera)) -
+        home.bounding_radius;
+    const std::set<std::int32_t> levels = consumer.levels_of(home.id);
+    if (level_at(distance * 1.05, 50.0) >= kLevelCount) continue;
+    ASSERT_FALSE(levels.empty());
+    EXPECT_GE(*levels.begin(), level_at(distance / 1.05, 50.0)) << frame;
+    EXPECT_LE(*levels.begin(), level_at(distance * 1.05, 50.0)) << frame;
+    EXPECT_EQ(levels.size(), static_cast<std::size_t>(*levels.rbegin() - *levels.begin() + 1));
+    EXPECT_GE(*levels.rbegin(), level_at((distance + 2.0 * home.bounding_radius) / 1.32, 50.0));
+    several += levels.size() > 1;
+    for (const std::int32_t level : levels) {
+      Scene alone = home_alone();
+      alone.settings = {.view_distance_blocks = 1500.0,
+                        .detail_distance_blocks = std::ldexp(600.0, -level)};
+      alone.view.camera = moved(world.origin(), {0.0, 0.0, home.bounding_radius + 400.0});
+      std::map<SectionKey, ChunkMesh> same;
+      for (const auto& [key, mesh] : consumer.held())
+        if (key.level == level) same.emplace(key, mesh);
+      expect_same(same, load(alone, 2).held());
+    }
+  }
+  EXPECT_GT(several, 5u);
+}
+
 TEST(Stream, DriftBringsIslandsIn) {
   // A limit halfway between an island's nearest and furthest place.
   const World world({.seed = 1});
