@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -492,11 +493,17 @@ std::vector<double> SceneView::nearest_of_levels(const render::Camera& camera) c
 }
 
 /// Decides at which level each section of the islands is drawn that are there at several.
-/// @param keep hysteresis.
+/// @param keep hysteresis, and no more than one island a frame because the camera has moved.
 void SceneView::choose_cuts(const render::Camera& camera, double world_time_s, bool keep) {
   if (settings_.view_error == 0.0) return;
+  constexpr double kLeastMove = 1.0;  // blocks, less than hysteresis
   const std::vector<double> nearest = nearest_of_levels(camera);
   const world::IslandPoses poses = world_->poses(world_time_s);
+  struct Moved {
+    std::uint64_t id = 0;
+    glm::dvec3 camera{};
+    double by = 0.0;  // blocks past the slack
+  } most;
   for (auto entry = cuts_.begin(); entry != cuts_.end();) {
     auto& [id, cut] = *entry;
     const auto row = near_slots_.lower_bound({id, INT32_MIN});
@@ -509,14 +516,20 @@ void SceneView::choose_cuts(const render::Camera& camera, double world_time_s, b
     const world::Pose pose = poses.of(islands_[row->second].spec);
     const glm::dvec3 at = glm::conjugate(pose.rotation) *
                           world::difference_blocks(place(camera.position), pose.origin);
-    const bool moved = glm::length(at - cut.camera) >= cut.slack || cut.nearest != nearest;
-    if (keep && !cut.stale && !moved) continue;
-    cut.nearest = nearest;
-    cut_island(id, cut, at, keep);
+    if (cut.stale || !keep) {
+      cut_island(id, cut, at, nearest, keep);
+      continue;
+    }
+    const bool other = cut.nearest != nearest;
+    const double by = glm::length(at - cut.camera) - std::max(cut.slack, kLeastMove);
+    if (other || by > most.by) most = {id, at, other ? std::numeric_limits<double>::max() : by};
   }
+  if (most.by > 0.0) cut_island(most.id, cuts_.at(most.id), most.camera, nearest, keep);
 }
 
-void SceneView::cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& camera, bool keep) {
+/// @param camera in lattice axes [blocks]. @param nearest see nearest_of_levels().
+void SceneView::cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& camera,
+                           const std::vector<double>& nearest, bool keep) {
   std::set<std::int32_t> waited_for;
   for (const world::ReadySection& ready : waiting_)
     if (ready.key.island == id) waited_for.insert(ready.key.level);
@@ -538,6 +551,7 @@ void SceneView::cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& c
   }
   cut.stale = false;
   cut.camera = camera;
+  cut.nearest = nearest;
   // What comes in parts shows in parts where nothing stands for it.
   for (const world::SectionKey& key : partial) show_section(key, keys.empty(), 0);
   if (levels.size() < 2) {

@@ -142,7 +142,8 @@ class SceneView {
   void remove_section(const world::SectionKey& key);
   struct IslandCut;
   void choose_cuts(const render::Camera& camera, double world_time_s, bool keep);
-  void cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& camera, bool keep);
+  void cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& camera,
+                  const std::vector<double>& nearest, bool keep);
   void show_section(const world::SectionKey& key, bool shown, std::uint8_t seams);
   std::vector<double> nearest_of_levels(const render::Camera& camera) const;
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
