@@ -50,14 +50,18 @@ struct Met {
 const uint kSteps = 12u, kHalvings = 5u;
 const float kLongest = 3.0;
 
+// Whether the nearest thing that a pixel shows is the water whose surface a word names.
+bool shows_water(ivec2 pixel, uint word) {
+  uint there = nearest_surface(pixel);
+  return has_ripples(there) && surface_face(there) == surface_face(word) && surface_island(there) == surface_island(word);
+}
+
 // The pixel that shows a place, or the nearest one of the picture, and whether what is opaque there lies before the place, under the same water.
 bool lies_behind(vec3 place, uint word, out ivec2 pixel) {
   float z = dot(place, frame.ray_forward);
   pixel = ivec2(clamp(pixel_place(place, z), vec2(0.0), vec2(frame.size) - 1.0));
-  uint there = nearest_surface(pixel);
   float opaque = texelFetch(depths, pixel, 0).r;
-  bool same_water = has_ripples(there) && surface_face(there) == surface_face(word) && surface_island(there) == surface_island(word);
-  return same_water && opaque > 0.0 && view_distance(opaque, frame.near_plane) <= z;
+  return shows_water(pixel, word) && opaque > 0.0 && view_distance(opaque, frame.near_plane) <= z;
 }
 
 // @param dir unit, into the water whose surface is at p. @param level the ray's way to a level bed where the unbent ray meets the bed [blocks].
@@ -80,13 +84,29 @@ Met met_by(vec3 p, vec3 dir, float level, uint word) {
   return Met(pixel, behind, met);
 }
 
-// Rays are bent less where what they would meet lies near the picture's edge or beyond, up to half the way to it, so that nothing is stretched to
-// more than twice its size and no step shows.
+// Rays are bent less where the picture ends, or shows the water no more, near what they would meet or before: up to half the way to there, so that
+// nothing is stretched to more than about twice its size and no step shows.
 // @param place where the picture would show what the bent ray meets, were the bed level.
-float bent_share(vec2 pixel, vec2 place) {
-  vec2 by = place - pixel, room = mix(pixel, vec2(frame.size) - pixel, greaterThan(by, vec2(0.0)));
-  vec2 share = 2.0 * abs(by) / max(room, 0.5);
-  float most = max(share.x, share.y);
+float bent_share(vec2 pixel, vec2 place, uint word) {
+  const float kLook = 4.0;  // times the way to the place
+  const uint kLooks = 12u, kLookHalvings = 4u;
+  vec2 way = (place - pixel) * kLook;
+  float on = 0.0, off = 0.0;  // shares of the way
+  bool shown = true;
+  for (uint i = 0u; i < kLooks && shown; ++i) {
+    on = off;
+    off += 1.0 / float(kLooks);
+    vec2 at = pixel + way * off;
+    shown = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(frame.size))) && shows_water(ivec2(at), word);
+  }
+  for (uint i = 0u; i < kLookHalvings; ++i) {
+    float middle = 0.5 * (on + off);
+    vec2 at = pixel + way * middle;
+    bool still = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(frame.size))) && shows_water(ivec2(at), word);
+    on = still ? middle : on;
+    off = still ? off : middle;
+  }
+  float most = shown ? 0.0 : 2.0 / max(kLook * on, 1e-3);
   return pow(1.0 + most * most * most * most, -0.25);
 }
 
@@ -108,7 +128,7 @@ void main() {
   float level = max(depth, 0.0) / max(-dot(dir, n), 0.1);
   vec3 flat_bed = p + dir * level;
   float flat_z = dot(flat_bed, frame.ray_forward);
-  dir = normalize(mix(normalize(ray), dir, bent_share(vec2(at) + 0.5, pixel_place(flat_bed, flat_z))));
+  dir = normalize(mix(normalize(ray), dir, bent_share(vec2(at) + 0.5, pixel_place(flat_bed, flat_z), word)));
   Met met = met_by(p, dir, level, word);
   bool bends = has_ripples(word) && depth > 0.0 && met.shown && !another_behind(at, ray, word, n, z);
   vec3 behind = imageLoad(radiance, bends ? met.pixel : pixel).rgb;
