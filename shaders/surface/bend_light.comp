@@ -39,49 +39,17 @@ bool another_behind(uvec2 pixel, vec3 ray, uint word, vec3 n, float near) {
   return depth > 0.0 && !are_one_surface(behind, word, n, ray, pixel_ray(pixel + 1u), near, view_distance(depth, frame.near_plane));
 }
 
-// What a bent ray meets.
-struct Met {
-  ivec2 pixel;  // that shows it
-  float way;    // blocks from the water's surface
-  bool shown;
+// A ray as the picture shows it: straight, and its places' inverse distance along the view axis changes evenly along it.
+struct Line {
+  vec2 from, to;             // pixels
+  float from_depth, to_depth;  // reverse depths
 };
 
-// Steps along a bent ray, over kLongest times the way that it would have if the bed were level; and halvings of the step that passes the bed.
-const uint kSteps = 12u, kHalvings = 5u;
-const float kLongest = 3.0;
-
-// Whether the nearest thing that a pixel shows is the water whose surface a word names.
+// Whether the nearest thing that a pixel shows is the water whose surface a word names. Pixels outside the picture, and where no water can be, stand
+// for the nearest ones that have some layer.
+ivec2 nearest_pixel(vec2 at) { return ivec2(clamp(at, vec2(frame.layers_area.xy), vec2(frame.layers_area.zw) - 1.0)); }
 bool shows_water(ivec2 pixel, uint word) {
-  uint there = nearest_surface(pixel);
-  return has_ripples(there) && surface_face(there) == surface_face(word) && surface_island(there) == surface_island(word);
-}
-
-// The pixel that shows a place, or the nearest one of the picture, and whether what is opaque there lies before the place, under the same water.
-bool lies_behind(vec3 place, uint word, out ivec2 pixel) {
-  float z = dot(place, frame.ray_forward);
-  pixel = ivec2(clamp(pixel_place(place, z), vec2(0.0), vec2(frame.size) - 1.0));
-  float opaque = texelFetch(depths, pixel, 0).r;
-  return shows_water(pixel, word) && opaque > 0.0 && view_distance(opaque, frame.near_plane) <= z;
-}
-
-// @param dir unit, into the water whose surface is at p. @param level the ray's way to a level bed where the unbent ray meets the bed [blocks].
-Met met_by(vec3 p, vec3 dir, float level, uint word) {
-  float step = level * (kLongest / float(kSteps)), before = 0.0, behind = 0.0;
-  ivec2 pixel;
-  bool met = false;
-  for (uint i = 0u; i < kSteps && !met; ++i) {
-    before = behind;
-    behind += step;
-    met = lies_behind(p + dir * behind, word, pixel);
-  }
-  for (uint i = 0u; i < kHalvings; ++i) {
-    float middle = 0.5 * (before + behind);
-    bool past = lies_behind(p + dir * middle, word, pixel);
-    before = past ? before : middle;
-    behind = past ? middle : behind;
-  }
-  lies_behind(p + dir * behind, word, pixel);
-  return Met(pixel, behind, met);
+  return texelFetch(layer_depths_0, pixel, 0).r > 0.0 && texelFetch(layer_surfaces, ivec3(pixel, 0), 0).r == word;
 }
 
 // Rays are bent less where the picture ends, or shows the water no more, near what they would meet or before: up to half the way to there, so that
@@ -89,25 +57,48 @@ Met met_by(vec3 p, vec3 dir, float level, uint word) {
 // @param place where the picture would show what the bent ray meets, were the bed level.
 float bent_share(vec2 pixel, vec2 place, uint word) {
   const float kLook = 4.0;  // times the way to the place
-  const uint kLooks = 12u, kLookHalvings = 4u;
+  const uint kLooks = 7u;   // halvings
   vec2 way = (place - pixel) * kLook;
-  float on = 0.0, off = 0.0;  // shares of the way
-  bool shown = true;
-  for (uint i = 0u; i < kLooks && shown; ++i) {
-    on = off;
-    off += 1.0 / float(kLooks);
-    vec2 at = pixel + way * off;
-    shown = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(frame.size))) && shows_water(ivec2(at), word);
-  }
-  for (uint i = 0u; i < kLookHalvings; ++i) {
+  float on = 0.0, off = 1.0;  // shares of the way
+  for (uint i = 0u; i < kLooks; ++i) {
     float middle = 0.5 * (on + off);
     vec2 at = pixel + way * middle;
-    bool still = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(frame.size))) && shows_water(ivec2(at), word);
+    ivec2 nearest = nearest_pixel(at);
+    bool still = ivec2(floor(at)) == nearest && shows_water(nearest, word);
     on = still ? middle : on;
     off = still ? off : middle;
   }
-  float most = shown ? 0.0 : 2.0 / max(kLook * on, 1e-3);
+  float most = 2.0 / max(kLook * on, 1e-3);
   return pow(1.0 + most * most * most * most, -0.25);
+}
+
+// Steps along a bent ray, over kLongest times the way that it would have if the bed were level; and halvings of the step that passes the bed.
+const uint kSteps = 6u, kHalvings = 4u;
+const float kLongest = 2.5;
+
+// Whether what is opaque at a part of the line lies before the ray, under the same water.
+bool is_passed(Line line, float part, uint word) {
+  ivec2 pixel = nearest_pixel(mix(line.from, line.to, part));
+  return texelFetch(depths, pixel, 0).r >= mix(line.from_depth, line.to_depth, part) && shows_water(pixel, word);
+}
+
+// @return the part of the line that the bed is met at; 2: it is not.
+float part_met(Line line, uint word) {
+  uint steps = min(kSteps, frame.size.x + kSteps);  // no constant, so that the loop is left early: docs/lavapipe.md
+  float before = 0.0, behind = 0.0;
+  bool met = false;
+  for (uint i = 0u; i < steps && !met; ++i) {
+    before = behind;
+    behind += 1.0 / float(kSteps);
+    met = is_passed(line, behind, word);
+  }
+  for (uint i = 0u; i < kHalvings; ++i) {
+    float middle = 0.5 * (before + behind);
+    bool past = is_passed(line, middle, word);
+    before = past ? before : middle;
+    behind = past ? middle : behind;
+  }
+  return met ? behind : 2.0;
 }
 
 void main() {
@@ -126,11 +117,18 @@ void main() {
   vec3 p = ray * z, dir = refract(normalize(ray), shading_normal(word, ray, z), 1.0 / kWaterIndex);
   float depth = opaque > 0.0 ? (view_distance(opaque, frame.near_plane) - z) * -dot(ray, n) : 0.0;
   float level = max(depth, 0.0) / max(-dot(dir, n), 0.1);
+  vec2 from = vec2(at) + frame.sample_in_pixel;
   vec3 flat_bed = p + dir * level;
-  float flat_z = dot(flat_bed, frame.ray_forward);
-  dir = normalize(mix(normalize(ray), dir, bent_share(vec2(at) + 0.5, pixel_place(flat_bed, flat_z), word)));
-  Met met = met_by(p, dir, level, word);
-  bool bends = has_ripples(word) && depth > 0.0 && met.shown && !another_behind(at, ray, word, n, z);
-  vec3 behind = imageLoad(radiance, bends ? met.pixel : pixel).rgb;
-  if (word != 0u) imageStore(bent_light, pixel, vec4(behind, bends ? met.way : 0.0));
+  dir = normalize(mix(normalize(ray), dir, bent_share(from, pixel_place(flat_bed, dot(flat_bed, frame.ray_forward)), word)));
+  // Not behind the eye.
+  float ahead = dot(dir, frame.ray_forward), longest = min(level * kLongest, ahead < 0.0 ? 0.8 * z / -ahead : 1e6);
+  vec3 end = p + dir * longest;
+  float end_z = dot(end, frame.ray_forward);
+  Line line = Line(from, pixel_place(end, end_z), frame.near_plane / z, frame.near_plane / end_z);
+  float part = part_met(line, word);
+  bool bends = has_ripples(word) && depth > 0.0 && part <= 1.0 && !another_behind(at, ray, word, n, z);
+  // Even parts of the line are not even parts of the ray.
+  float way = longest * part * z / mix(end_z, z, part);
+  vec3 behind = imageLoad(radiance, bends ? nearest_pixel(mix(line.from, line.to, part)) : pixel).rgb;
+  if (word != 0u) imageStore(bent_light, pixel, vec4(behind, bends ? way : 0.0));
 }
