@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // What is seen through level water, by rays that its surface bends, for an eye in the air: the radiance of the pixel where the picture shows the
 // place that the bent ray meets, and how far it lies from the surface [blocks]; its own pixel's and 0 where the picture does not show it. To an
-// image of its own, since pixels look at one another; then kPut copies that to the radiance image. docs/decisions/0063-water-bends-what-is-seen.md.
+// image of its own, since pixels look at one another: put_bent_light.comp copies it to the radiance image. docs/decisions/0063-water-bends-what-is-seen.md.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -16,10 +16,9 @@ layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kLayerSurfacesBinding) uniform usampler2DArray layer_surfaces;
 layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths_0;
 layout(binding = kLayerDepthsBinding + 1u) uniform sampler2D layer_depths_1;
-layout(binding = kRadianceBinding, rgba16f) uniform image2D radiance;
-layout(binding = kBentLightBinding, rgba16f) uniform image2D bent_light;
+layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
+layout(binding = kBentLightBinding) writeonly uniform image2D bent_light;
 
-layout(constant_id = kPutConstant) const bool kPut = false;
 layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
 
 #include "include/scene/layers.glsl"
@@ -106,10 +105,6 @@ void main() {
   bool here = tile_pixel(at);
   ivec2 pixel = ivec2(at);
   uint word = here ? nearest_surface(pixel) : 0u;
-  if (kPut) {
-    if (word != 0u) imageStore(radiance, pixel, imageLoad(bent_light, pixel));
-    return;
-  }
   vec3 ray = pixel_ray(pixel);
   float z = word != 0u ? view_distance(layer_depth_at(layer_depths_0, pixel, frame.layers_area), frame.near_plane) : 1.0;
   float opaque = texelFetch(depths, pixel, 0).r;

@@ -150,45 +150,52 @@ gpu::ImageRef bend_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
   gpu::ImageRef bent = graph.create(gpu::ImageDesc{
       .name = "bent light", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = scene.size});
   const TranslucentPass::Layers& layers = in.layers;
-  const gpu::ImageRef depths = in.geometry.depth();
-  for (const bool put : {false, true}) {
-    std::vector<gpu::SpecConstant> constants{{shared::kWaterLayersConstant, layers.count}};
-    if (put) constants.push_back({shared::kPutConstant, 1});
-    graph.add_pass(
-        put ? "put_bent_light" : "bend_light",
-        [&](gpu::PassBuilder& b) {
-          declare_tiles(b, tiles);
-          for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
-            b.read(ref, Use::kComputeRead);
-          for (const gpu::ImageRef ref :
-               {layers.surfaces, depths, layers.depth[0], layers.depth[layers.count > 1 ? 1 : 0]})
-            b.read(ref, Use::kComputeSampled);
-          bent = put ? bent : b.write(bent, Use::kComputeWrite);
-          if (put) b.read(bent, Use::kComputeRead);
-          if (put)
-            radiance = b.write(radiance, Use::kComputeWrite);
-          else
-            b.read(radiance, Use::kComputeRead);
-        },
-        [scene, layers, depths, tiles, radiance, bent,
-         program = gpu::compute(pipelines, programs::kBendLight, std::move(constants))](
-            gpu::Commands& c) {
-          gpu::bind(
-              c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-              gpu::texels<shared::kIslandsBinding>(scene.islands),
-              gpu::storage<shared::kMaterialsBinding>(scene.materials),
-              gpu::sampled<shared::kDepthsBinding>(depths, scene.point_sampler),
-              gpu::sampled<shared::kLayerSurfacesBinding>(layers.surfaces, scene.point_sampler),
-              gpu::each_of<shared::kLayerDepthsBinding, 2>(
-                  [&]<std::uint32_t kBinding>(std::size_t k) {
-                    return gpu::sampled<kBinding>(layers.depth[layers.count > 1 ? k : 0],
-                                                  scene.point_sampler);
-                  }),
-              gpu::storage<shared::kRadianceBinding>(radiance),
-              gpu::storage<shared::kBentLightBinding>(bent), tiles.bindings(TileKind::kCovered));
-          dispatch_tiles(c, tiles, TileKind::kCovered);
-        });
-  }
+  const gpu::ImageRef depths = in.geometry.depth(), first = layers.depth[0],
+                      second = layers.depth[layers.count > 1 ? 1 : 0];
+  graph.add_pass(
+      "bend_light",
+      [&](gpu::PassBuilder& b) {
+        declare_tiles(b, tiles);
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        for (const gpu::ImageRef ref : {layers.surfaces, depths, first, second})
+          b.read(ref, Use::kComputeSampled);
+        b.read(radiance, Use::kComputeRead);
+        bent = b.write(bent, Use::kComputeWrite);
+      },
+      [scene, words = layers.surfaces, depths, first, second, tiles, radiance, bent,
+       program = gpu::compute(pipelines, programs::kBendLight,
+                              {{shared::kWaterLayersConstant, layers.count}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::texels<shared::kIslandsBinding>(scene.islands),
+                  gpu::storage<shared::kMaterialsBinding>(scene.materials),
+                  gpu::sampled<shared::kDepthsBinding>(depths, scene.point_sampler),
+                  gpu::sampled<shared::kLayerSurfacesBinding>(words, scene.point_sampler),
+                  gpu::sampled<shared::kLayerDepthsBinding>(first, scene.point_sampler),
+                  gpu::sampled<shared::kLayerDepthsBinding + 1u>(second, scene.point_sampler),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::storage<shared::kBentLightBinding>(bent),
+                  tiles.bindings(TileKind::kCovered));
+        dispatch_tiles(c, tiles, TileKind::kCovered);
+      });
+  graph.add_pass(
+      "put_bent_light",
+      [&](gpu::PassBuilder& b) {
+        declare_tiles(b, tiles);
+        b.read(scene.frame, Use::kComputeRead);
+        b.read(first, Use::kComputeSampled);
+        b.read(bent, Use::kComputeRead);
+        radiance = b.write(radiance, Use::kComputeWrite);
+      },
+      [scene, first, tiles, radiance, bent,
+       program = gpu::compute(pipelines, programs::kPutBentLight)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::sampled<shared::kLayerDepthsBinding>(first, scene.point_sampler),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::storage<shared::kBentLightBinding>(bent),
+                  tiles.bindings(TileKind::kCovered));
+        dispatch_tiles(c, tiles, TileKind::kCovered);
+      });
   return radiance;
 }
 
