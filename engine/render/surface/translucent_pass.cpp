@@ -144,16 +144,15 @@ struct ChangedTiles {
 };
 
 /// What is seen through level water by the rays that it bends, in place on the radiance of `tiles`.
-gpu::ImageRef bend_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                         const TranslucentPass::In& in, const Tiles& tiles,
-                         gpu::ImageRef radiance) {
+gpu::ImageRef bend_rays(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                        const TranslucentPass::In& in, const Tiles& tiles, gpu::ImageRef radiance) {
   gpu::ImageRef bent = graph.create(gpu::ImageDesc{
       .name = "bent light", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = scene.size});
   const TranslucentPass::Layers& layers = in.layers;
   const gpu::ImageRef depths = in.geometry.depth(), first = layers.depth[0],
                       second = layers.depth[layers.count > 1 ? 1 : 0];
   graph.add_pass(
-      "bend_light",
+      "bend_rays",
       [&](gpu::PassBuilder& b) {
         declare_tiles(b, tiles);
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
@@ -164,7 +163,7 @@ gpu::ImageRef bend_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
         bent = b.write(bent, Use::kComputeWrite);
       },
       [scene, words = layers.surfaces, depths, first, second, tiles, radiance, bent,
-       program = gpu::compute(pipelines, programs::kBendLight,
+       program = gpu::compute(pipelines, programs::kBendRays,
                               {{shared::kWaterLayersConstant, layers.count}})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::texels<shared::kIslandsBinding>(scene.islands),
@@ -179,7 +178,7 @@ gpu::ImageRef bend_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
         dispatch_tiles(c, tiles, TileKind::kCovered);
       });
   graph.add_pass(
-      "put_bent_light",
+      "put_bent_rays",
       [&](gpu::PassBuilder& b) {
         declare_tiles(b, tiles);
         b.read(scene.frame, Use::kComputeRead);
@@ -188,7 +187,7 @@ gpu::ImageRef bend_light(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
         radiance = b.write(radiance, Use::kComputeWrite);
       },
       [scene, first, tiles, radiance, bent,
-       program = gpu::compute(pipelines, programs::kPutBentLight)](gpu::Commands& c) {
+       program = gpu::compute(pipelines, programs::kPutBentRays)](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::sampled<shared::kLayerDepthsBinding>(first, scene.point_sampler),
                   gpu::storage<shared::kRadianceBinding>(radiance),
@@ -239,7 +238,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
                                       .area = scene.layers_area,
                                       .area_alone = !in.inside_medium});
   if (!in.inside_medium)
-    shaded.radiance_ = bend_light(graph, pipelines, scene, in, tiles, shaded.radiance());
+    shaded.radiance_ = bend_rays(graph, pipelines, scene, in, tiles, shaded.radiance());
   const LayerReads reads(scene, in);
   std::vector<gpu::SpecConstant> constants = reads.constants();
   if (!in.inside_medium) constants.push_back({shared::kBentConstant, 1});

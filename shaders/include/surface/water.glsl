@@ -38,7 +38,7 @@ void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoi
   r.any = max(r.any, visibility);
 }
 
-layout(constant_id = kBentConstant) const bool kBent = false;  // bend_light.comp has been over the radiance
+layout(constant_id = kBentConstant) const bool kBent = false;  // bend_rays.comp has been over the radiance
 layout(constant_id = kLitConstant) const bool kLit = false;  // lamps are; if not, their lists are not read
 
 // Walls are looked for before every light.

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Puts what bend_light.comp found in place of the radiance of the pixels that show water or glass.
+// Puts what bend_rays.comp found in place of the radiance of the pixels that show water or glass.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 
