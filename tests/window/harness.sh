@@ -80,13 +80,16 @@ wait_until_quick() {
   sleep 2
 }
 
-await_end() {
-  local limit=$((SECONDS + 180))
+# @return whether the game ends within so many seconds.
+ends_within() {
+  local limit=$((SECONDS + $1))
   while kill -0 "$game" 2>/dev/null; do
-    [ $SECONDS -lt $limit ] || fail "it did not quit"
+    [ $SECONDS -lt $limit ] || return 1
     sleep 0.2
   done
 }
+
+await_end() { ends_within 180 || fail "it did not quit"; }
 
 # The game must end by itself and well.
 expect_end() {
@@ -95,14 +98,6 @@ expect_end() {
   wait "$game" || status=$?
   game=
   [ "$status" -eq 0 ] || fail "it exited with $status"
-}
-
-ends_within() {
-  local limit=$((SECONDS + $1))
-  while kill -0 "$game" 2>/dev/null; do
-    [ $SECONDS -lt $limit ] || return 1
-    sleep 0.2
-  done
 }
 
 # Quits as a player does: Escape pauses, and the pause's last button quits. A window that lost the focus meanwhile has paused by itself, and Escape
