@@ -388,12 +388,14 @@ Seen Shader::behind_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 f
 Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
                   Sampler& sampler) const {
   const double end = trace.hit ? trace.hit->t : kFar;
-  Seen seen;
-  if (!bends(trace)) seen = behind_media(trace, direction, fine, sampler);
   if (trace.layers.empty() && scene_.view.medium == world::kAir)
-    return through_clouds(seen, kEye, direction, 0.0, end, sampler);
+    return through_clouds(behind_media(trace, direction, fine, sampler), kEye, direction, 0.0, end,
+                          sampler);
   const double surface = trace.layers.empty() ? end : trace.layers.front().t;
-  if (!bends(trace)) seen = through_clouds(seen, kEye, direction, surface, end, sampler);
+  Seen seen;
+  if (!bends(trace))
+    seen = through_clouds(behind_media(trace, direction, fine, sampler), kEye, direction, surface,
+                          end, sampler);
   seen = through_media(trace, direction, fine, seen, sampler);
   if (scene_.view.medium != world::kAir) return seen;
   return through_clouds(seen, kEye, direction, 0.0, surface, sampler);
