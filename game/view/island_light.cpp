@@ -55,11 +55,7 @@ void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
   Island& island = islands_[key.row()];
   island.chunks[key.chunk] = std::make_shared<const world::LightChunk>(std::move(chunk));
   ++island.version;
-  if (const auto before = island.known.find(key.chunk); before != island.known.end()) {
-    before->second =
-        std::make_shared<const world::ChunkSky>(island.inherited(key.chunk, *before->second));
-    island.guessed.insert(key.chunk);
-  }
+  island.guess(key.chunk);
 }
 
 void IslandLight::close(const world::SectionKey& key, std::vector<shared::Quad> seams) {
@@ -68,11 +64,14 @@ void IslandLight::close(const world::SectionKey& key, std::vector<shared::Quad> 
     island.seams.erase(key.chunk);
   else
     island.seams[key.chunk] = std::move(seams);
-  if (const auto before = island.known.find(key.chunk); before != island.known.end()) {
-    before->second =
-        std::make_shared<const world::ChunkSky>(island.inherited(key.chunk, *before->second));
-    island.guessed.insert(key.chunk);
-  }
+  island.guess(key.chunk);
+}
+
+void IslandLight::Island::guess(world::IVec3 at) {
+  const auto before = known.find(at);
+  if (before == known.end()) return;
+  before->second = std::make_shared<const world::ChunkSky>(inherited(at, *before->second));
+  guessed.insert(at);
 }
 
 // A guess for the faces that the chunk has now, those that close it included.
