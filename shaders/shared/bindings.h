@@ -92,7 +92,7 @@ SHARED_CONST uint kTargetBinding = 68u;    // the picture
 SHARED_CONST uint kIndirectBinding = 69u;  // texels of shared/indirect.h
 
 // Light at fewer pixels than are drawn.
-SHARED_CONST uint kSamplesBinding = 70u;       // of light, at the points of a grid
+SHARED_CONST uint kSamplesBinding = 70u;  // of light, at the points of a grid
 // TileDispatch[2], see choose_samples.comp, then pixels: x in bits 0-15, y in bits 16-31.
 SHARED_CONST uint kListedPixelsBinding = 72u;
 

@@ -27,7 +27,7 @@ MUTANTS = (
            " : finite3(c) ? clamp(c, vec3(0.0), vec3(kMaxRadiance)) : vec3(0.0);",
            LIT + " rays exposure.metered_frames"),
     Mutant("sun_gives_nothing", "the sun gives surfaces no light", "shaders/include/surface/lighting.glsl",
-           "if ((kBodies & 1u) != 0u) radiance += reflected(s, b, to_eye, 0u, 0u);", "",
+           "if ((kBodies & 1u) != 0u) radiance += reflected(s, depth, b, to_eye, 0u, 0u);", "",
            "coordinates shadows.pictures shadows.camera_motion shadows.sun_motion light.sun worlds.solid"),
     Mutant("lights_give_nothing", "lights give surfaces no light", "shaders/include/light/lights.glsl",
            "r.facing = irradiance * max(dot(normal, r.to_light), 0.0);", "r.facing = 0.0;",

@@ -91,8 +91,8 @@ glm::dvec3 Shader::left_by_media(const Trace& trace, glm::dvec3 direction, doubl
   for (const Meeting& layer : trace.layers) {
     if (layer.t > to) break;
     advance(layer.t);
-    medium = leaves(layer, tracer_.lattice_vector(layer.island, direction)) ? world::kAir
-                                                                             : layer.block;
+    medium =
+        leaves(layer, tracer_.lattice_vector(layer.island, direction)) ? world::kAir : layer.block;
   }
   // A medium without an end lets nothing through.
   if (medium != world::kAir) advance(to);
@@ -122,10 +122,10 @@ Shader::Way Shader::way_of_body(const Receiver& at, glm::dvec3 to_light) const {
     trace_from(at, bent, trace);
     if (const Meeting* surface = leaves_water(trace, bent)) {
       const Receiver above{at.point + bent * surface->t + up * kOffSurface, up};
-      return {bent, left_by_media(trace, bent, surface->t, medium) *
-                        left_of_body(above, to_light, world::kAir) *
-                        ((1.0 - fresnel(cosine, false, kWaterIndex)) * cosine /
-                         glm::dot(up, bent))};
+      return {bent,
+              left_by_media(trace, bent, surface->t, medium) *
+                  left_of_body(above, to_light, world::kAir) *
+                  ((1.0 - fresnel(cosine, false, kWaterIndex)) * cosine / glm::dot(up, bent))};
     }
     if (trace.hit && scene_.shadows) return {bent, glm::dvec3(0.0)};
   }

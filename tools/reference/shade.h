@@ -52,8 +52,8 @@ class Shader {
   double cosine_of(const Arrival& light, glm::dvec3 normal) const;
   /// How light of a body comes to a place.
   struct Way {
-    glm::dvec3 to_light{};   ///< unit, where the light comes from at the place
-    glm::dvec3 share{0.0};   ///< of the irradiance that there would be without voxels; 0: hidden
+    glm::dvec3 to_light{};  ///< unit, where the light comes from at the place
+    glm::dvec3 share{0.0};  ///< of the irradiance that there would be without voxels; 0: hidden
   };
   Way way_of_body(const Receiver& at, glm::dvec3 to_light) const;
   glm::dvec3 left_of_body(const Receiver& at, glm::dvec3 to_light, world::BlockId medium) const;

@@ -170,8 +170,8 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
       },
       [unlit = shading_program(pipelines, scene, on, light, nullptr, pass),
        lit = shading_program(pipelines, scene, on, light, light.lights, pass),
-       some_lit = light.lights != nullptr, scene, surfaces, walls, water = on.water,
-       clouds, lights, maps, pass](gpu::Commands& c) {
+       some_lit = light.lights != nullptr, scene, surfaces, walls, water = on.water, clouds, lights,
+       maps, pass](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::texels<shared::kIslandsBinding>(scene.islands),

@@ -63,9 +63,9 @@ Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
       [scene, surfaces, water, maps = from.shadows.maps(), out, tiles,
-       program = gpu::compute(
-           pipelines, programs::kClassifyLitTiles,
-           water.with_water(surfaces.with_depth(with_light({}, scene, true))))](gpu::Commands& c) {
+       program = gpu::compute(pipelines, programs::kClassifyLitTiles,
+                              water.with_water(surfaces.with_depth(with_light({}, scene, true))))](
+          gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::texels<shared::kIslandsBinding>(scene.islands),
                   gpu::storage<shared::kSurfacesBinding>(surfaces.words),
@@ -93,9 +93,8 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         with_light({{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
                    scene, bool{maps});
     if (sunless) constants.push_back({shared::kSunlessConstant, 1});
-    constants =
-        on.water.with_water(clouds.with_clouds(
-            with_ao(surfaces.with_store(std::move(constants)), bool{occupancy})));
+    constants = on.water.with_water(
+        clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), bool{occupancy})));
     return gpu::compute(pipelines, programs::kShadeSurfaces,
                         into.with_output(std::move(constants), scene));
   };

@@ -31,8 +31,8 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
                                              .extent = scene.size,
                                              .layers = out.count,
                                              .array = true});
-  out.under_water = graph.create(gpu::ImageDesc{
-      .name = "under water", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
+  out.under_water = graph.create(
+      gpu::ImageDesc{.name = "under water", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
   for (std::uint32_t k = 0; k < out.count; ++k) {
     gpu::ImageRef& depth = out.depth[k];
     depth = graph.create(gpu::ImageDesc{
@@ -40,10 +40,11 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
     const gpu::ImageRef previous = k == 0 ? opaque_depth : out.depth[k - 1];
     const auto program = gpu::graphics(
         pipelines, programs::kDrawQuadsVert, programs::kWriteLayerFrag,
-        gpu::GraphicsDesc{.constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
-                          .color_formats = std::vector<VkFormat>(k == 0 ? 2 : 1, VK_FORMAT_R32_UINT),
-                          .depth_format = VK_FORMAT_D32_SFLOAT,
-                          .cull = VK_CULL_MODE_NONE});
+        gpu::GraphicsDesc{
+            .constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
+            .color_formats = std::vector<VkFormat>(k == 0 ? 2 : 1, VK_FORMAT_R32_UINT),
+            .depth_format = VK_FORMAT_D32_SFLOAT,
+            .cull = VK_CULL_MODE_NONE});
     graph.add_pass(
         kNames[k],
         [&](gpu::PassBuilder& b) {

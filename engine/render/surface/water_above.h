@@ -25,9 +25,7 @@ class WaterAbove {
     if (any_) own.push_back({shared::kUnderWaterConstant, 1});
     return own;
   }
-  void declare(gpu::PassBuilder& builder) const {
-    builder.read(depth_, gpu::Use::kComputeSampled);
-  }
+  void declare(gpu::PassBuilder& builder) const { builder.read(depth_, gpu::Use::kComputeSampled); }
   auto binding(VkSampler point) const {
     return gpu::sampled<shared::kUnderWaterBinding>(depth_, point);
   }

@@ -58,12 +58,12 @@ bool shaded_in_water(Depth depth, vec3 p, vec3 normal, vec3 to_light, const uint
   if (!kShadows) return false;
   float distance = length(p);
   Cascade c = pick_cascade(first_cascade, min(cascades_within(first_cascade, kCascades, distance), kCascades - 1u));
-  vec3 q = p + normal * (1.5 * c.texel_blocks);
+  vec3 q = p + normal * (0.5 * c.texel_blocks);
   vec3 map = vec3(dot(c.map_from_world_x, vec4(q, 1.0)), dot(c.map_from_world_y, vec4(q, 1.0)), dot(c.map_from_world_z, vec4(q, 1.0)));
   bool known = all(greaterThanEqual(map.xy, vec2(0.0))) && all(lessThan(map.xy, vec2(textureSize(shadow_maps, 0).xy)));
   float nearest = texelFetch(shadow_maps, ivec3(known ? ivec2(floor(map.xy)) : ivec2(0), int(c.layer)), 0).r;
   float way = (nearest - map.z) / c.depth_per_block;
-  return known && way > 0.25 && way * dot(depth.up, to_light) < depth.blocks - kShoreBlocks;
+  return known && way > 0.25 + 2.0 * c.texel_blocks && way * dot(depth.up, to_light) < depth.blocks - kShoreBlocks;
 }
 
 // Light of the sky that comes to a place under an open surface, of what would without water, to 2% up to an optical depth of 2: of an even sky on
