@@ -72,10 +72,11 @@ struct Settings {
   render::PanoramaPlacement ambient;   ///< of the scene's panorama, when it is read
   std::uint32_t view_distance = 1000;  ///< blocks, 32 .. 16384
   std::uint32_t view_detail = 192;     ///< blocks drawn at full detail, 32 .. 4096
-  std::uint32_t shadow_samples = 1;    ///< places on the discs of sun and moon, 1 .. 1024
-  std::uint32_t lights_random = 0;     ///< torches scattered over what the first camera sees
-  bool lights_held = false;            ///< a torch in the hand
-  std::optional<double> exposure_ev;   ///< stops, -20 .. 20; none: metered
+  double view_error = 1.0;  ///< pixels that coarser sections of an island may be off by; 0: none
+  std::uint32_t shadow_samples = 1;   ///< places on the discs of sun and moon, 1 .. 1024
+  std::uint32_t lights_random = 0;    ///< torches scattered over what the first camera sees
+  bool lights_held = false;           ///< a torch in the hand
+  std::optional<double> exposure_ev;  ///< stops, -20 .. 20; none: metered
   RendererKind renderer = RendererKind::kAuto;
   UploadMode upload_path = UploadMode::kUpdate;
   std::uint64_t upload_budget_bytes = 8u << 20;    ///< a frame, 65536 .. 2^30

@@ -87,6 +87,13 @@ constexpr SettingKey kWorldKeys[] = {
        return into(parse_integer(t, "view.detail", 32, 4096), s.view_detail);
      },
      [](const Settings& s) { return std::to_string(s.view_detail); }},
+    {"view.error", "pixels, 0 to 16",
+     "Far ends of islands are drawn so coarse that their surface is off by no more; 0: each island "
+     "is drawn in the detail that its nearest part asks for.",
+     [](std::string_view t, Settings& s) {
+       return into_number(parse_number(t, "view.error", 0.0, 16.0), s.view_error);
+     },
+     [](const Settings& s) { return fmt::format("{}", s.view_error); }},
     {"view.occlusion", "off, auto or always",
      "Leaves out what is hidden behind the rest; auto: where much is in view. Same picture.",
      [](std::string_view t, Settings& s) {

@@ -30,7 +30,6 @@ struct IslandLight::Search {
   world::LightChunks chunks;
   std::shared_ptr<std::atomic<double>> work;
   std::uint64_t version = 0;
-  int level = 0;
   bool sky = false;
   std::span<const world::FaceAlbedo> albedo;      // empty: bounces are not looked for
   std::shared_ptr<const Reaches> reaches_before;  // none: of no chunks
@@ -53,21 +52,45 @@ constexpr int kCallsToWait = 64;  // start() with nothing new, before it asks wh
 IslandLight::IslandLight(WorkerThreads& threads, Finds finds) : threads_(threads), finds_(finds) {}
 
 void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
-  Island& island = islands_[key.island];
-  island.level = key.level;
-  if (const auto before = island.known.find(key.chunk);
-      before != island.known.end() && island.known_level == key.level) {
-    before->second =
-        std::make_shared<const world::ChunkSky>(world::inherit_faces(*before->second, chunk.quads));
-    island.guessed.insert(key.chunk);
-  }
+  Island& island = islands_[key.row()];
   island.chunks[key.chunk] = std::make_shared<const world::LightChunk>(std::move(chunk));
   ++island.version;
+  island.guess(key.chunk);
+}
+
+void IslandLight::close(const world::SectionKey& key, std::vector<shared::Quad> seams) {
+  Island& island = islands_[key.row()];
+  if (seams.empty())
+    island.seams.erase(key.chunk);
+  else
+    island.seams[key.chunk] = std::move(seams);
+  island.guess(key.chunk);
+}
+
+void IslandLight::Island::guess(world::IVec3 at) {
+  const auto before = known.find(at);
+  if (before == known.end()) return;
+  before->second = std::make_shared<const world::ChunkSky>(inherited(at, *before->second));
+  guessed.insert(at);
+}
+
+// A guess for the faces that the chunk has now, those that close it included.
+world::ChunkSky IslandLight::Island::inherited(world::IVec3 at,
+                                               const world::ChunkSky& before) const {
+  const auto chunk = chunks.find(at);
+  std::vector<shared::Quad> quads;
+  if (chunk != chunks.end()) quads = chunk->second->quads;
+  if (const auto closing = seams.find(at); closing != seams.end()) {
+    const std::vector<shared::Quad> lit = world::lit_faces(before, closing->second);
+    quads.insert(quads.end(), lit.begin(), lit.end());
+  }
+  return world::inherit_faces(before, quads);
 }
 
 void IslandLight::remove(const world::SectionKey& key) {
-  const auto found = islands_.find(key.island);
+  const auto found = islands_.find(key.row());
   if (found == islands_.end()) return;
+  found->second.seams.erase(key.chunk);
   if (found->second.chunks.erase(key.chunk) == 0) return;
   ++found->second.version;
 }
@@ -124,33 +147,31 @@ void IslandLight::end_look(Search& search) {
 
 struct IslandLight::Rank {
   double distance = 0.0;
-  std::uint64_t id = 0;
+  world::IslandLevel row;
   Island* island = nullptr;
 };
 
 /// Islands, the nearest first; those without a distance last.
 std::vector<IslandLight::Rank> IslandLight::by_distance(const Distances& distances) {
   std::vector<Rank> out;
-  for (auto& [id, island] : islands_) {
-    const auto found = distances.find(id);
+  for (auto& [row, island] : islands_) {
+    const auto found = distances.find(row);
     out.push_back(
-        {found == distances.end() ? std::numeric_limits<double>::infinity() : found->second, id,
+        {found == distances.end() ? std::numeric_limits<double>::infinity() : found->second, row,
          &island});
   }
-  std::ranges::sort(out, {}, [](const Rank& rank) { return std::pair(rank.distance, rank.id); });
+  std::ranges::sort(out, {}, [](const Rank& rank) { return std::pair(rank.distance, rank.row); });
   return out;
 }
 
-void IslandLight::begin(Island& island, bool keep) {
+void IslandLight::begin(const world::IslandLevel& row, Island& island, bool keep) {
   island.search = std::make_shared<Search>();
   island.search->chunks = island.chunks;
   island.search->work = work_;
   island.search->version = island.asked = island.version;
-  island.search->level = island.level;
   island.search->sky = finds_ != Finds::kReach;
-  island.search->keep = keep && island.search->sky && island.level == 0;
+  island.search->keep = keep && island.search->sky && row.level == 0;
   island.search->transfer = std::move(island.kept);
-  // Chunks of another level are other ones: nothing of what is known is taken.
   island.search->reaches_before = island.reaches;
   if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
   run(threads_, island.search);
@@ -169,14 +190,15 @@ void IslandLight::start(const world::Streamer& streamer,
     Island& island = *ranks[i].island;
     if (i > kKept) island.kept.reset();
     busy |= island.search || island.asked != island.version;
-    if (island.search || island.asked == island.version || !streamer.settled(ranks[i].id)) continue;
-    begin(island, i < kKept);
+    if (island.search || island.asked == island.version || !streamer.settled(ranks[i].row.island))
+      continue;
+    begin(ranks[i].row, island, i < kKept);
   }
   // When there is nothing else to do, the nearest one is looked at once more for edits to come.
   if (busy || ranks.empty() || finds_ == Finds::kReach) return;
   Island& nearest = *ranks.front().island;
-  if (!nearest.kept && nearest.level == 0 && streamer.settled(ranks.front().id))
-    begin(nearest, true);
+  const world::IslandLevel& row = ranks.front().row;
+  if (!nearest.kept && row.level == 0 && streamer.settled(row.island)) begin(row, nearest, true);
 }
 
 bool IslandLight::settled() const {
@@ -185,8 +207,8 @@ bool IslandLight::settled() const {
   });
 }
 
-IslandLight::Found IslandLight::guesses(std::uint64_t id, Island& island) {
-  Found found{id, island.known_level, {}};
+IslandLight::Found IslandLight::guesses(const world::IslandLevel& row, Island& island) {
+  Found found{row, {}};
   for (const auto& [at, sky] : island.known)
     found.chunks.push_back({at, sky, island.guessed.contains(at)});
   island.guessed.clear();
@@ -195,46 +217,43 @@ IslandLight::Found IslandLight::guesses(std::uint64_t id, Island& island) {
 
 std::vector<IslandLight::FoundReach> IslandLight::poll_reach() {
   std::vector<FoundReach> out;
-  for (auto& [id, island] : islands_) {
+  for (auto& [row, island] : islands_) {
     if (!island.search || !island.search->reach_done || island.search->reach_taken) continue;
     island.search->reach_taken = true;
     island.reaches = island.search->reaches;
     if (island.search->version != island.version) continue;
     for (const auto& [at, reach] : island.search->reaches->found)
-      out.push_back({{id, at, island.search->level}, reach});
+      out.push_back({{row.island, at, row.level}, reach});
   }
   return out;
 }
 
 std::vector<IslandLight::Found> IslandLight::poll() {
   std::vector<Found> out;
-  for (auto& [id, island] : islands_) {
+  for (auto& [row, island] : islands_) {
     if (!island.search || !island.search->done || !island.search->reach_taken) {
-      if (!island.guessed.empty()) out.push_back(guesses(id, island));
+      if (!island.guessed.empty()) out.push_back(guesses(row, island));
       continue;
     }
     const std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
-    if (search->keep && search->level == island.level) island.kept = std::move(search->transfer);
+    if (search->keep) island.kept = std::move(search->transfer);
     if (finds_ == Finds::kReach) continue;
-    Found found{id, search->level, {}};
+    Found found{row, {}};
     Skies skies;
     for (auto& [at, sky] : search->found) {
       // Edited since the look began: what is new is guessed once more.
       const auto now = island.chunks.find(at);
-      if (now != island.chunks.end() && search->level == island.level &&
-          now->second != search->chunks[at])
-        sky =
-            std::make_shared<const world::ChunkSky>(world::inherit_faces(*sky, now->second->quads));
+      if (now != island.chunks.end() &&
+          (now->second != search->chunks[at] || island.seams.contains(at)))
+        sky = std::make_shared<const world::ChunkSky>(island.inherited(at, *sky));
       const auto before = island.known.find(at);
-      const bool same = island.known_level == search->level && before != island.known.end() &&
-                        !island.guessed.contains(at) &&
+      const bool same = before != island.known.end() && !island.guessed.contains(at) &&
                         (before->second == sky || *before->second == *sky);
       skies[at] = same ? before->second : std::move(sky);
       found.chunks.push_back({at, skies[at], !same});
     }
     island.guessed.clear();
     island.known = std::move(skies);
-    island.known_level = search->level;
     out.push_back(std::move(found));
   }
   return out;

@@ -29,17 +29,21 @@ class IslandLight {
   IslandLight(WorkerThreads& threads, Finds finds);
   Finds finds() const { return finds_; }
 
-  /// Takes in a chunk. An island's chunks are of one level at a time. One that takes the place of
-  /// another has a guess (world::inherit_faces) until its island has been looked at again.
+  /// Takes in a chunk. Each level of an island is looked at as if it were an island of its own. A
+  /// chunk that takes the place of another has a guess (world::inherit_faces) until its level has
+  /// been looked at again.
   void add(const world::SectionKey& key, world::LightChunk chunk);
   /// Removes it. A chunk that was not added is ignored.
   void remove(const world::SectionKey& key);
-  /// Removes an island and its light.
-  void end_island(std::uint64_t island) { islands_.erase(island); }
+  /// What closes a chunk where another level is drawn beside it, in place of what did. These faces
+  /// get the light of faces next to them.
+  void close(const world::SectionKey& key, std::vector<shared::Quad> seams);
+  /// Removes a level of an island and its light.
+  void end_island(const world::IslandLevel& row) { islands_.erase(row); }
   /// Looks at islands that have changed and whose chunks have all come: what is not there yet would
   /// let light into rooms that it closes. The nearest one first.
-  /// @param distances called when they are needed: of islands from the camera, by id.
-  using Distances = std::map<std::uint64_t, double>;
+  /// @param distances called when they are needed: of islands from the camera.
+  using Distances = std::map<world::IslandLevel, double>;
   void start(const world::Streamer& streamer, const std::function<Distances()>& distances);
   /// Waits until all that was started has been found.
   void wait() { threads_.wait(); }
@@ -52,11 +56,10 @@ class IslandLight {
   struct FoundChunk {
     world::IVec3 at;
     std::shared_ptr<const world::ChunkSky> sky;
-    bool changed = true;  ///< against what poll() last said of the island at this level
+    bool changed = true;  ///< against what poll() last said
   };
   struct Found {
-    std::uint64_t island = 0;
-    int level = 0;
+    world::IslandLevel row;
     std::vector<FoundChunk> chunks;  ///< ascending
   };
   /// What has been found of the sky since the last call. An island that has changed meanwhile is
@@ -80,31 +83,32 @@ class IslandLight {
     world::LampReaches found;
   };
   struct Island {
-    int level = 0;
     world::LightChunks chunks;
+    std::map<world::IVec3, std::vector<shared::Quad>> seams;
     std::uint64_t version = 0;  // grows with every change
     std::uint64_t asked = 0;    // version that was looked at last
     std::shared_ptr<Search> search;
     std::unique_ptr<world::SkyTransfer> kept;  // of the version that was asked last
     std::shared_ptr<const Reaches> reaches;    // alike
     Skies known;                               // as poll() last said, or says next
-    int known_level = -1;
-    std::set<world::IVec3> guessed;  // of `known`, since poll() last said
+    std::set<world::IVec3> guessed;            // of `known`, since poll() last said
+    world::ChunkSky inherited(world::IVec3 at, const world::ChunkSky& before) const;
+    void guess(world::IVec3 at);  // what is known of a chunk, for the faces that it has now
   };
-  static Found guesses(std::uint64_t id, Island& island);
+  static Found guesses(const world::IslandLevel& row, Island& island);
   static void run(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void follow_bounces(WorkerThreads& threads, std::shared_ptr<Search> search, int step);
   static void end_look(Search& search);
   struct Rank;
   std::vector<Rank> by_distance(const Distances& distances);
-  void begin(Island& island, bool keep);
+  void begin(const world::IslandLevel& row, Island& island, bool keep);
 
   WorkerThreads& threads_;
   const Finds finds_;
   std::shared_ptr<std::atomic<double>> work_ = std::make_shared<std::atomic<double>>(0.0);
   int calls_with_nothing_new_ = 0;
-  std::map<std::uint64_t, Island> islands_;
+  std::map<world::IslandLevel, Island> islands_;
 };
 
 }  // namespace skerry::game

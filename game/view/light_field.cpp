@@ -16,11 +16,14 @@ class Writer {
  public:
   Writer(std::span<const PlacedIsland> islands, FrameLights& out) : islands_(islands), out_(out) {}
 
-  /// Of the lights that follow, none reaches beyond this sphere.
-  void within(glm::dvec3 centre, double radius) {
+  /// Of the lights that follow, none reaches beyond this sphere. @param own the level of an island
+  /// that they are on: it stands for the island; null: none.
+  void within(glm::dvec3 centre, double radius, const PlacedIsland* own = nullptr) {
     out_.near.clear();
-    for (const PlacedIsland& island : islands_)
-      if (touches(island, centre, radius)) out_.near.push_back(&island);
+    for (const PlacedIsland& island : islands_) {
+      const bool stands = own && own->id == island.id ? own == &island : island.main;
+      if (stands && touches(island, centre, radius)) out_.near.push_back(&island);
+    }
   }
 
   void write(const shared::Light& light, glm::dvec3 position) {
@@ -155,17 +158,21 @@ void LightField::gather_groups(const Groups& groups, const std::optional<render:
                                std::span<const PlacedIsland> islands, bool in_the_open,
                                FrameLights& out) const {
   Writer writer(islands, out);
-  auto island = islands.begin();
+  auto first = islands.begin();
   for (const auto& [key, group] : groups) {
     // Both are in order of islands' ids.
-    island = std::find_if(island, islands.end(),
-                          [&key = key](const PlacedIsland& one) { return one.id >= key.island; });
-    if (island == islands.end()) return;
-    if (island->id != key.island) continue;
+    first = std::find_if(first, islands.end(),
+                         [&key = key](const PlacedIsland& one) { return one.id >= key.island; });
+    if (first == islands.end()) return;
+    if (first->id != key.island) continue;
+    if (&groups == &emitted_ && hidden_.contains(key)) continue;
+    auto island = first;  // at the level of the lamp, if it is there
+    for (auto one = first; one != islands.end() && one->id == key.island; ++one)
+      if (one->level == key.level) island = one;
     const glm::dvec3 corner = island->rotation * group.corner + island->origin;
     const glm::dvec3 centre = corner + island->rotation * glm::dvec3(group.centre);
     if (view && !in_view(*view, centre, group.reach)) continue;
-    writer.within(centre, group.reach);
+    writer.within(centre, group.reach, &*island);
     const bool known = !group.bricks.empty() && !stale_.contains(key.island);
     // Within a chunk, float is exact to a few millionths of a block.
     const glm::mat3 rotation(island->rotation);

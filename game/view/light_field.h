@@ -29,6 +29,8 @@ struct PlacedIsland {
   glm::dmat3 rotation{1.0};
   glm::dvec3 origin{};  ///< of its lattice, relative to the camera [blocks]
   double radius = 0.0;  ///< of its voxels about the origin [blocks]
+  std::int32_t level = 0;
+  bool main = true;  ///< the finest of its levels: the one that lamps of other islands are held to
 };
 
 /// The lights of one frame, as FrameInput takes them.
@@ -61,11 +63,22 @@ class LightField {
   void set_reach(const world::SectionKey& key, std::vector<world::LampReach::Bricks> reach);
   /// To be called whenever a voxel of the island changes.
   void invalidate_reach(std::uint64_t island) { stale_.insert(island); }
+  /// Whether a section's lights shine; at first they do. One without lights is no concern.
+  void show(const world::SectionKey& key, bool shown) {
+    if (shown)
+      hidden_.erase(key);
+    else
+      hidden_.insert(key);
+  }
   /// Forgets them. A section without lights is no concern.
-  void remove(const world::SectionKey& key) { emitted_.erase(key); }
+  void remove(const world::SectionKey& key) {
+    emitted_.erase(key);
+    hidden_.erase(key);
+  }
   /// Forgets all that add() took in.
   void remove_sections() {
     emitted_.clear();
+    hidden_.clear();
     stale_.clear();
   }
   /// Lights that no section brings, kept for good. Keys are of level 0.
@@ -76,9 +89,9 @@ class LightField {
 
   /// @param camera what world lights are seen from. @param view none: everything is gathered, as if
   /// the camera looked to all sides. @param islands in order of their ids; lights on others are
-  /// left out. @param held a light relative to the camera. @param in_the_open lights count where
-  /// no surface is or walls hide them, too, as in clouds, in water or without shadows. @param out
-  /// replaced; keeps its memory.
+  /// left out; an island's levels in ascending order. @param held a light relative to the camera.
+  /// @param in_the_open lights count where no surface is or walls hide them, too, as in clouds, in
+  /// water or without shadows. @param out replaced; keeps its memory.
   void gather(const world::WorldPos& camera, const std::optional<render::CameraView>& view,
               std::span<const PlacedIsland> islands, const std::optional<shared::Light>& held,
               bool in_the_open, FrameLights& out) const;
@@ -102,7 +115,8 @@ class LightField {
 
   std::vector<BlockEmission> emission_;  // by block id
   Groups emitted_, scattered_;
-  std::set<std::uint64_t> stale_;  // islands whose groups' bricks no longer hold
+  std::set<world::SectionKey> hidden_;  // of emitted_
+  std::set<std::uint64_t> stale_;       // islands whose groups' bricks no longer hold
   std::vector<WorldLight> world_;
 };
 

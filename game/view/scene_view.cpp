@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -98,7 +99,7 @@ shared::Section section_record(const world::SectionKey& key, const world::ChunkM
 }  // namespace
 
 SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> world)
-    : settings_(options.settings), world_(std::move(world)) {
+    : settings_(options.settings), world_(std::move(world)), picture_rows_(options.size.height) {
   jobs_ = std::make_unique<Jobs>(static_cast<int>(settings_.jobs_threads));
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
   if (options.camera) {
@@ -167,7 +168,7 @@ void SceneView::update_streamer(const render::Camera& camera, double world_time_
   if (wanted != std::exchange(asked_before_, wanted)) fit_ = {};
   const ViewFit::Distances shown = fit_.of(wanted);
   streamer_->update({place(camera.position), forward_of(camera), world_time_s},
-                    {shown.view_blocks, shown.detail_blocks});
+                    {shown.view_blocks, shown.detail_blocks, settings_.view_error > 0.0});
   const world::Streamer::LeftOut& left_out = streamer_->left_out();
   if (left_out.islands == 0 || std::exchange(islands_left_out_, true)) return;
   notices_.push_back(fmt::format(
@@ -189,6 +190,7 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
     add_waiting(UINT64_MAX);
   } while (!waiting_.empty() && show_less(camera));
   renderer_->set_upload_budget(UINT64_MAX);
+  choose_cuts(camera, world_time_s, false);
   find_light(camera, world_time_s);
   if (!island_light_) return {};
   island_light_->wait();
@@ -219,6 +221,7 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
   } else if (!waiting_.empty() && !more_next_frame_ && frames_since_lowered_ > kFramesToLetGo) {
     show_less(camera);
   }
+  choose_cuts(camera, world_time_s, true);
   find_light(camera, world_time_s);
   hand_over_light(camera, world_time_s, settings_.upload_budget_bytes);
   return {};
@@ -247,6 +250,7 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
   first_free_slot_ = 0;
   island_slots_.clear();
   near_slots_.clear();
+  cuts_.clear();
   waiting_.clear();
   light_field_.remove_sections();
   island_light_.reset();
@@ -298,10 +302,10 @@ Result<void> SceneView::follow_settings() {
 
 void SceneView::take_in(world::StreamUpdate update) {
   // An island all of whose sections are replaced keeps its slot, and its light until there is new.
-  std::vector<std::uint64_t> held;
+  std::vector<world::IslandLevel> held;
   for (const world::ReadySection& ready : update.ready)
-    if (sections_.contains(ready.key)) held.push_back(ready.key.island);
-  for (const std::uint64_t island : held) ++islands_[island_slots_.at(island)].sections;
+    if (sections_.contains(ready.key)) held.push_back(ready.key.row());
+  for (const world::IslandLevel& row : held) ++islands_[island_slots_.at(row)].sections;
   // Thousands at once when a large island changes its level.
   const std::set<world::SectionKey> removed(update.removed.begin(), update.removed.end());
   for (const world::SectionKey& key : removed)
@@ -313,7 +317,7 @@ void SceneView::take_in(world::StreamUpdate update) {
     if (removed.contains(ready.key) && add_section(ready)) continue;
     waiting_.push_back(std::move(ready));
   }
-  for (const std::uint64_t island : held) release_island(island);
+  for (const world::IslandLevel& row : held) release_island(row);
 }
 
 /// An island that comes at once, as when its level of detail changes, is copied over several
@@ -340,25 +344,25 @@ void SceneView::find_light(const render::Camera& camera, double world_time_s) {
   if (waiting_.empty())
     island_light_->start(*streamer_, [&] {
       IslandLight::Distances distances;
-      for (const auto& [id, island] : near_islands(camera, world_time_s))
-        distances[id] = island.distance;
+      for (const auto& [row, island] : near_islands(camera, world_time_s))
+        distances[row] = island.distance;
       return distances;
     });
   for (IslandLight::FoundReach& found : island_light_->poll_reach())
     light_field_.set_reach(found.section, std::move(found.reach));
   for (IslandLight::Found& found : island_light_->poll())
-    if (island_slots_.contains(found.island)) sky_light_.add(std::move(found));
+    if (island_slots_.contains(found.row)) sky_light_.add(std::move(found));
 }
 
-std::map<std::uint64_t, SkyLightFeed::NearIsland> SceneView::near_islands(
+std::map<world::IslandLevel, SkyLightFeed::NearIsland> SceneView::near_islands(
     const render::Camera& camera, double world_time_s) const {
-  std::map<std::uint64_t, SkyLightFeed::NearIsland> islands;
+  std::map<world::IslandLevel, SkyLightFeed::NearIsland> islands;
   const world::IslandPoses poses = world_->poses(world_time_s);
-  for (const auto& [id, slot] : near_slots_) {
+  for (const auto& [row, slot] : near_slots_) {
     const world::IslandSpec& spec = islands_[slot].spec;
     const double centre =
         glm::length(world::difference_blocks(place(camera.position), poses.of(spec).origin));
-    islands[id] = {slot, std::max(0.0, centre - spec.bounding_radius)};
+    islands[row] = {slot, std::max(0.0, centre - spec.bounding_radius)};
   }
   return islands;
 }
@@ -407,25 +411,27 @@ void SceneView::remove_section(const world::SectionKey& key) {
   light_field_.remove(key);
   light_field_.invalidate_reach(key.island);
   if (island_light_) island_light_->remove(key);
-  const auto slot = island_slots_.find(key.island);
-  for (const render::SectionId section : found->second)
+  const auto slot = island_slots_.find(key.row());
+  for (const render::SectionId section : found->second.parts)
     renderer_->geometry().remove(uploader, section);
+  if (found->second.closing) renderer_->geometry().remove(uploader, *found->second.closing);
   if (occupancy_ && !key.far) occupancy_->remove(uploader, slot->second, chunk_place(key));
   sections_.erase(found);
-  release_island(key.island);
+  if (const auto cut = cuts_.find(key.island); cut != cuts_.end()) cut->second.stale = true;
+  release_island(key.row());
 }
 
-/// One section of it less; the last one takes the island with it.
-void SceneView::release_island(std::uint64_t island) {
+/// One section of it less; the last one takes the level of the island with it.
+void SceneView::release_island(const world::IslandLevel& row) {
   gpu::Uploader& uploader = renderer_->mesh_uploader();
-  const auto slot = island_slots_.find(island);
+  const auto slot = island_slots_.find(row);
   if (--islands_[slot->second].sections != 0) return;
   first_free_slot_ = std::min<std::size_t>(first_free_slot_, slot->second);
   if (occupancy_ && !islands_[slot->second].far) occupancy_->end_island(uploader, slot->second);
   if (indirect_) indirect_->end_island(uploader, slot->second);
-  sky_light_.remove(island);
-  if (island_light_) island_light_->end_island(island);
-  near_slots_.erase(island);
+  sky_light_.remove(row);
+  if (island_light_) island_light_->end_island(row);
+  near_slots_.erase(row);
   island_slots_.erase(slot);
 }
 
@@ -436,7 +442,9 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   ++islands_[*slot].sections;
   // Building beyond the island's box widens it.
   if (const auto spec = world_->island(ready.key.island)) islands_[*slot].spec = *spec;
-  std::vector<render::SectionId>& sections = sections_[ready.key];
+  ResidentSection& section = sections_[ready.key];
+  section.seams = ready.seams;
+  if (!ready.key.far) cuts_[ready.key.island].stale = true;
   if (occupancy_ && ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
     const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
                                      ready.occupancy.table, ready.occupancy.words};
@@ -455,7 +463,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
         remove_section(ready.key);
         return added.error();
       }
-      sections.push_back(*added);
+      section.parts.push_back(*added);
     }
   if (ready.key.far) return {};
   std::vector<LatticeLight> lights = light_field_.lights_of(ready.key, ready.emitters);
@@ -467,9 +475,134 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   return {};
 }
 
+/// How near a section of each level may come before its voxels show [blocks]: what is made at full
+/// detail is drawn so, and beyond that a level's surface may be off by view.error pixels.
+std::vector<double> SceneView::nearest_of_levels(const render::Camera& camera) const {
+  // A surface is off by a quarter of a voxel's edge in the mean.
+  constexpr double kShareOfVoxel = 0.25;
+  const double pixels_a_block_away = 0.5 * static_cast<double>(picture_rows_) *
+                                     static_cast<double>(settings_.render.render_scale) /
+                                     std::tan(0.5 * glm::radians(double{camera.fov_deg}));
+  std::vector<double> nearest{0.0};
+  for (int level = 1; level < world::kLevelCount; ++level) {
+    const double voxel = std::ldexp(1.0, level);
+    nearest.push_back(std::max(static_cast<double>(settings_.view_detail) * 0.5 * voxel,
+                               kShareOfVoxel * voxel * pixels_a_block_away / settings_.view_error));
+  }
+  return nearest;
+}
+
+/// Decides at which level each section of the islands is drawn that are there at several.
+/// @param keep hysteresis, and no more than one island a frame because the camera has moved.
+void SceneView::choose_cuts(const render::Camera& camera, double world_time_s, bool keep) {
+  if (settings_.view_error == 0.0) return;
+  constexpr double kLeastMove = 1.0;  // blocks, less than hysteresis
+  const std::vector<double> nearest = nearest_of_levels(camera);
+  const world::IslandPoses poses = world_->poses(world_time_s);
+  struct Moved {
+    std::uint64_t id = 0;
+    glm::dvec3 camera{};
+    double by = 0.0;  // blocks past the slack
+  } most;
+  for (auto entry = cuts_.begin(); entry != cuts_.end();) {
+    auto& [id, cut] = *entry;
+    const auto row = near_slots_.lower_bound({id, INT32_MIN});
+    if (row == near_slots_.end() || row->first.island != id) {
+      entry = cuts_.erase(entry);
+      continue;
+    }
+    ++entry;
+    if (!cut.stale && !cut.split) continue;
+    const world::Pose pose = poses.of(islands_[row->second].spec);
+    const glm::dvec3 at = glm::conjugate(pose.rotation) *
+                          world::difference_blocks(place(camera.position), pose.origin);
+    if (cut.stale || !keep) {
+      cut_island(id, cut, at, nearest, keep);
+      continue;
+    }
+    const bool other = cut.nearest != nearest;
+    const double by = glm::length(at - cut.camera) - std::max(cut.slack, kLeastMove);
+    if (other || by > most.by) most = {id, at, other ? std::numeric_limits<double>::max() : by};
+  }
+  if (most.by > 0.0) cut_island(most.id, cuts_.at(most.id), most.camera, nearest, keep);
+}
+
+/// @param camera in lattice axes [blocks]. @param nearest see nearest_of_levels().
+void SceneView::cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& camera,
+                           const std::vector<double>& nearest, bool keep) {
+  std::set<std::int32_t> waited_for;
+  for (const world::ReadySection& ready : waiting_)
+    if (ready.key.island == id) waited_for.insert(ready.key.level);
+  std::vector<world::SectionKey> keys, partial;
+  std::vector<world::TreeNode> nodes;
+  std::set<std::int32_t> levels;
+  constexpr std::int32_t kFirst = INT32_MIN;
+  for (auto section = sections_.lower_bound({id, {kFirst, kFirst, kFirst}, kFirst});
+       section != sections_.end() && section->first.island == id; ++section) {
+    const world::SectionKey& key = section->first;
+    if (key.far) continue;
+    if (waited_for.contains(key.level)) {
+      partial.push_back(key);
+      continue;
+    }
+    keys.push_back(key);
+    nodes.push_back({key.level, key.chunk});
+    levels.insert(key.level);
+  }
+  cut.stale = false;
+  cut.camera = camera;
+  cut.nearest = nearest;
+  // What comes in parts shows in parts where nothing stands for it.
+  for (const world::SectionKey& key : partial) show_section(key, keys.empty(), 0);
+  if (levels.size() < 2) {
+    for (const world::SectionKey& key : keys) show_section(key, true, 0);
+    cut.split.reset();
+    return;
+  }
+  world::SectionCut now =
+      world::cut_of(nodes, camera, cut.nearest, keep && cut.split ? &*cut.split : nullptr);
+  for (std::size_t i = 0; i < keys.size(); ++i) show_section(keys[i], now.drawn[i], now.seams[i]);
+  cut.split = std::move(now.split);
+  cut.slack = now.slack;
+}
+
+/// @param seams at which faces another level is drawn, a bit each.
+void SceneView::show_section(const world::SectionKey& key, bool shown, std::uint8_t seams) {
+  gpu::Uploader& uploader = renderer_->mesh_uploader();
+  ResidentSection& section = sections_.at(key);
+  if (section.shown != shown) {
+    for (const render::SectionId part : section.parts)
+      renderer_->geometry().show(uploader, part, shown);
+    light_field_.show(key, shown);
+    section.shown = shown;
+  }
+  for (std::uint32_t face = 0; face < shared::kFaceCount; ++face)
+    if (section.seams[face].empty()) seams = static_cast<std::uint8_t>(seams & ~(1u << face));
+  if (section.closed == seams) return;
+  section.closed = seams;
+  if (section.closing) renderer_->geometry().remove(uploader, *section.closing);
+  section.closing.reset();
+  world::ChunkMesh mesh;
+  for (std::uint32_t range = 0; range < shared::kRangeCount; ++range) {
+    if (range < shared::kFaceCount && (seams >> range & 1u) != 0)
+      mesh.quads.insert(mesh.quads.end(), section.seams[range].begin(), section.seams[range].end());
+    mesh.range_end[range] = static_cast<std::uint32_t>(mesh.quads.size());
+  }
+  if (!mesh.quads.empty()) {
+    shared::Section record = section_record(key, mesh, island_slots_.at(key.row()));
+    const render::VoxelBox box = render::box_of(mesh.quads);
+    record.bounds_min = box.low;
+    record.bounds_max = box.high;
+    // Without memory for it, a crack is better than no picture.
+    Result<render::SectionId> added = renderer_->geometry().add(uploader, record, mesh.quads);
+    if (added) section.closing = *added;
+  }
+  if (island_light_) island_light_->close(key, std::move(mesh.quads));
+}
+
 // The slot of a section's island; a new one if this is the first of its sections.
 Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
-  if (const auto found = island_slots_.find(key.island); found != island_slots_.end())
+  if (const auto found = island_slots_.find(key.row()); found != island_slots_.end())
     return found->second;
   while (first_free_slot_ < islands_.size() && islands_[first_free_slot_].sections != 0)
     ++first_free_slot_;
@@ -486,8 +619,8 @@ Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
         !begun)
       return begun.error();
   }
-  island_slots_.emplace(key.island, slot);
-  if (!key.far) near_slots_.emplace(key.island, slot);
+  island_slots_.emplace(key.row(), slot);
+  if (!key.far) near_slots_.emplace(key.row(), slot);
   return slot;
 }
 
@@ -506,11 +639,12 @@ void SceneView::place_islands(double world_time_s) {
 
 std::vector<PlacedIsland> SceneView::placed_islands(const render::FixedPos& camera) const {
   std::vector<PlacedIsland> out;
-  for (const auto& [id, slot] : near_slots_) {
+  for (const auto& [row, slot] : near_slots_) {
     const render::IslandPlacement& island = placements_[slot];
-    out.push_back({id, slot, glm::mat3_cast(island.rotation),
+    const bool main = out.empty() || out.back().id != row.island;
+    out.push_back({row.island, slot, glm::mat3_cast(island.rotation),
                    world::difference_blocks(place(island.origin), place(camera)),
-                   island.bounding_radius});
+                   island.bounding_radius, row.level, main});
   }
   return out;
 }
@@ -533,13 +667,13 @@ void SceneView::gather_lights(const Moment& moment, VkExtent2D size, bool in_the
 
 /// The translucent block that the camera is in.
 SceneView::Medium SceneView::medium_at(const render::Camera& camera) const {
-  for (const auto& [id, slot] : near_slots_) {
+  for (const auto& [row, slot] : near_slots_) {
     const render::IslandPlacement& island = placements_[slot];
     const glm::dvec3 offset =
         world::difference_blocks(place(camera.position), place(island.origin));
     if (glm::dot(offset, offset) > island.bounding_radius * island.bounding_radius) continue;
     const world::Medium medium =
-        world::medium_at(*world_, id, glm::inverse(island.rotation) * offset);
+        world::medium_at(*world_, row.island, glm::inverse(island.rotation) * offset);
     if (medium.block == world::kAir) continue;
     Medium out{medium.block, {}};
     if (medium.below_surface) {
@@ -573,8 +707,9 @@ std::optional<double> SceneView::adapted_ev(std::optional<double> ev, double sec
 /// None if nothing of the island is drawn.
 std::optional<render::BlockMarker> SceneView::marker_of(const Moment& moment) const {
   if (!moment.marked) return std::nullopt;
-  const auto slot = island_slots_.find(moment.marked->island);
-  if (slot == island_slots_.end()) return std::nullopt;
+  const auto slot = island_slots_.lower_bound({moment.marked->island, INT32_MIN});
+  if (slot == island_slots_.end() || slot->first.island != moment.marked->island)
+    return std::nullopt;
   return render::BlockMarker{slot->second, moment.marked->min, moment.marked->max,
                              static_cast<float>(moment.marked->dug)};
 }
@@ -583,6 +718,7 @@ Result<std::uint64_t> SceneView::draw(
     const Moment& moment, VkExtent2D size,
     const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
     std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
+  picture_rows_ = size.height;
   place_islands(moment.world_time_s);
   render::FrameInput input;
   input.camera = moment.camera;

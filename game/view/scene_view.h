@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "game/view/sky_light_feed.h"
 #include "game/view/view_fit.h"
 #include "world/islands/world.h"
+#include "world/stream/cut.h"
 #include "world/stream/stream.h"
 
 namespace skerry::game {
@@ -105,6 +107,21 @@ class SceneView {
     bool far = false;            // shown as one far section: no occupancy, no lamps
     int level = 0;               // of detail
   };
+  struct ResidentSection {
+    std::vector<render::SectionId> parts;
+    world::SeamFaces seams;
+    std::uint8_t closed = 0;  // at which faces `seams` are drawn, a bit each
+    std::optional<render::SectionId> closing;
+    bool shown = true;
+  };
+  /// Which sections of an island are drawn.
+  struct IslandCut {
+    bool stale = true;    // sections came or went
+    glm::dvec3 camera{};  // that it was made for, in lattice axes [blocks]
+    std::vector<double> nearest;
+    double slack = 0.0;
+    std::optional<std::set<world::TreeNode>> split;  // none: the island is drawn at one level
+  };
   bool occupancy_wanted() const;
   Result<void> follow_settings();
   ViewFit::Distances asked() const;
@@ -115,15 +132,21 @@ class SceneView {
   bool show_less(const render::Camera& camera);
   Result<void> restart_with_less(const render::Camera& camera, const std::string& why);
   Result<void> add_section(const world::ReadySection& ready);
-  void release_island(std::uint64_t island);
+  void release_island(const world::IslandLevel& row);
   void find_light(const render::Camera& camera, double world_time_s);
-  std::map<std::uint64_t, SkyLightFeed::NearIsland> near_islands(const render::Camera& camera,
-                                                                 double world_time_s) const;
+  std::map<world::IslandLevel, SkyLightFeed::NearIsland> near_islands(const render::Camera& camera,
+                                                                      double world_time_s) const;
   bool hand_over_light(const render::Camera& camera, double world_time_s, std::uint64_t most_bytes);
   render::IndirectStore* indirect_store();
   void open_to_sky(std::uint32_t slot);
   void refuse_light(const std::string& why);
   void remove_section(const world::SectionKey& key);
+  struct IslandCut;
+  void choose_cuts(const render::Camera& camera, double world_time_s, bool keep);
+  void cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& camera,
+                  const std::vector<double>& nearest, bool keep);
+  void show_section(const world::SectionKey& key, bool shown, std::uint8_t seams);
+  std::vector<double> nearest_of_levels(const render::Camera& camera) const;
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
   void place_islands(double world_time_s);
   std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera) const;
@@ -143,13 +166,15 @@ class SceneView {
   std::unique_ptr<world::Streamer> streamer_;
   std::unique_ptr<render::Renderer> renderer_;
   render::Camera start_camera_;
-  std::vector<IslandEntry> islands_;                     // by GPU slot
-  std::size_t first_free_slot_ = 0;                      // no free one is lower
-  std::map<std::uint64_t, std::uint32_t> island_slots_;  // island id -> slot
-  std::map<std::uint64_t, std::uint32_t> near_slots_;    // of them, those that are not far
-  std::vector<render::IslandPlacement> placements_;      // of the last frame, by slot
+  std::vector<IslandEntry> islands_;                          // by GPU slot
+  std::size_t first_free_slot_ = 0;                           // no free one is lower
+  std::map<world::IslandLevel, std::uint32_t> island_slots_;  // slots
+  std::map<world::IslandLevel, std::uint32_t> near_slots_;    // of them, those that are not far
+  std::map<std::uint64_t, IslandCut> cuts_;                   // of islands that are not far
+  std::uint32_t picture_rows_;                                // of the last frame, or as asked for
+  std::vector<render::IslandPlacement> placements_;           // of the last frame, by slot
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
-  std::map<world::SectionKey, std::vector<render::SectionId>> sections_;
+  std::map<world::SectionKey, ResidentSection> sections_;
   std::deque<world::ReadySection> waiting_;  // for memory or the next frame; nearest islands first
   bool more_next_frame_ = false;             // what waits was enough for one frame
   ViewFit fit_;

@@ -25,7 +25,7 @@ render::IslandChunks box_of(const IslandLight::Found& found) {
   glm::ivec3 low(INT32_MAX), high(INT32_MIN);
   for (const IslandLight::FoundChunk& chunk : found.chunks)
     low = glm::min(low, place(chunk)), high = glm::max(high, place(chunk));
-  return {low, high - low + 1, static_cast<std::uint32_t>(found.level)};
+  return {low, high - low + 1, static_cast<std::uint32_t>(found.row.level)};
 }
 
 bool same_box(const render::IslandChunks& a, const render::IslandChunks& b) {
@@ -36,7 +36,7 @@ bool same_box(const render::IslandChunks& a, const render::IslandChunks& b) {
 
 void SkyLightFeed::add(IslandLight::Found found) {
   if (found.chunks.empty()) return;
-  Entry& entry = entries_[found.island];
+  Entry& entry = entries_[found.row];
   const render::IslandChunks box = box_of(found);
   // A find that replaces one before it was all put: what that one would have changed. What was put
   // of another grid is dropped with it.
@@ -84,7 +84,7 @@ SkyLightFeed::Put SkyLightFeed::put(render::IndirectStore& store, gpu::Uploader&
 }
 
 std::vector<SkyLightFeed::Entry*> SkyLightFeed::nearest(
-    State state, const std::map<std::uint64_t, NearIsland>& islands) {
+    State state, const std::map<world::IslandLevel, NearIsland>& islands) {
   std::vector<Entry*> out;
   for (auto& [id, entry] : entries_) {
     const auto at = islands.find(id);
@@ -138,7 +138,7 @@ void SkyLightFeed::take_back(render::IndirectStore& store, gpu::Uploader& upload
 /// The nearest island without light waits again, if there is room for it or farther ones can make
 /// it. @return whether there is one.
 bool SkyLightFeed::try_dark_again(render::IndirectStore& store,
-                                  const std::map<std::uint64_t, NearIsland>& islands) {
+                                  const std::map<world::IslandLevel, NearIsland>& islands) {
   for (Entry* entry : nearest(State::kDark, islands)) {
     std::uint64_t room = store.bytes_left();
     if (room < entry->dark_until) continue;
@@ -159,7 +159,7 @@ bool SkyLightFeed::idle() const {
 }
 
 bool SkyLightFeed::hand_over(render::IndirectStore& store, gpu::Uploader& uploader,
-                             const std::map<std::uint64_t, NearIsland>& islands,
+                             const std::map<world::IslandLevel, NearIsland>& islands,
                              std::uint64_t most_bytes) {
   for (Entry* entry : nearest(State::kWaiting, islands)) {
     const Put result = put(store, uploader, *entry, most_bytes);

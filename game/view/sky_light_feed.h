@@ -23,8 +23,8 @@ class SkyLightFeed {
  public:
   /// Takes in what is known of an island now.
   void add(IslandLight::Found found);
-  /// Forgets an island. Its light in the store is the caller's to end.
-  void remove(std::uint64_t island) { entries_.erase(island); }
+  /// Forgets a level of an island. Its light in the store is the caller's to end.
+  void remove(const world::IslandLevel& row) { entries_.erase(row); }
   void clear() { entries_.clear(); }
   /// Whether hand_over() can have anything to do.
   bool idle() const;
@@ -37,7 +37,7 @@ class SkyLightFeed {
   /// one waits. @return whether there is more to put, now or once the GPU is done with what has
   /// been freed.
   bool hand_over(render::IndirectStore& store, gpu::Uploader& uploader,
-                 const std::map<std::uint64_t, NearIsland>& islands, std::uint64_t most_bytes);
+                 const std::map<world::IslandLevel, NearIsland>& islands, std::uint64_t most_bytes);
   /// Takes all light out of the store; hand_over() puts it again, the nearest islands first.
   void take_back(render::IndirectStore& store, gpu::Uploader& uploader);
   /// Why islands were left without light since the last call, once.
@@ -61,14 +61,14 @@ class SkyLightFeed {
   enum class Put : std::uint8_t { kDone, kPaused, kFull };
   Put put(render::IndirectStore& store, gpu::Uploader& uploader, Entry& entry,
           std::uint64_t most_bytes);
-  std::vector<Entry*> nearest(State state, const std::map<std::uint64_t, NearIsland>& islands);
+  std::vector<Entry*> nearest(State state, const std::map<world::IslandLevel, NearIsland>& islands);
   std::vector<Entry*> lit_beyond(double distance);
   bool make_room(render::IndirectStore& store, gpu::Uploader& uploader, const Entry& entry);
   void go_dark(render::IndirectStore& store, gpu::Uploader& uploader, Entry& entry);
   bool try_dark_again(render::IndirectStore& store,
-                      const std::map<std::uint64_t, NearIsland>& islands);
+                      const std::map<world::IslandLevel, NearIsland>& islands);
 
-  std::map<std::uint64_t, Entry> entries_;
+  std::map<world::IslandLevel, Entry> entries_;
   std::optional<std::string> refusal_;
   std::string why_;  // the store's last refusal
 };

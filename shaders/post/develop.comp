@@ -13,20 +13,21 @@ layout(scalar, binding = kPixelStatsBinding) buffer Stats { PixelStats stats; };
 layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
 layout(constant_id = kBloomConstant) const bool kBloom = false;  // if not, something is bound in place of its image
 layout(binding = kCoarseBloomBinding, rgba16f) readonly uniform image2D coarse;
-layout(push_constant) uniform Push { uvec4 area; BloomStep step; } push;  // area: from xy to before zw
+layout(push_constant) uniform Push { BloomStep step; } push;
 uvec2 coarse_size() { return push.step.coarse_size; }
 const int kTileTexels = 128;
 #include "include/post/bloom.glsl"
 
+#include "include/frame/pixel_stats.glsl"
 #include "include/post/picture.glsl"
 
 void main() {
-  uvec2 pixel = push.area.xy + gl_GlobalInvocationID.xy;
-  bool here = all(lessThan(pixel, push.area.zw));
-  vec3 colour = imageLoad(radiance, ivec2(min(pixel, push.area.zw - 1u))).rgb;
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  bool here = all(lessThan(pixel, frame.size));
+  vec3 colour = imageLoad(radiance, ivec2(min(pixel, frame.size - 1u))).rgb;
   vec3 glow = kBloom ? push.step.intensity * spread_from_coarser() : vec3(0.0);
   count_non_finite(here && !finite3(colour));
   colour = sanitised(colour);
-  count_black(here && colour == vec3(0.0));
+  count_black(here && colour == vec3(0.0), false);
   if (here) put_developed(pixel, developed(colour, glow));
 }

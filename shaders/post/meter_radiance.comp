@@ -15,7 +15,7 @@ layout(local_size_x = kMeterGroup, local_size_y = kMeterGroup) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
-layout(binding = kMeteredBinding, r32f) readonly uniform image2D metered;  // luminance where pixels went to the picture at once
+layout(binding = kMeteredBinding, r32f) readonly uniform image2D metered;  // luminance of pixels whose radiance is not kept
 layout(scalar, binding = kHistogramBinding) buffer Histogram { uint counts[kHistogramBins]; };
 layout(scalar, binding = kExposureBinding) buffer Chosen { Exposure exposure; };
 layout(binding = kPictureBinding, rgba8) uniform image2D picture;  // of the debug view

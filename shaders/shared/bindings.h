@@ -131,5 +131,7 @@ SHARED_CONST uint kIslandSkiesBinding = 90u;  // texels of each island's sky, se
 
 SHARED_CONST uint kTileShaftsBinding = 91u;  // TileShafts[], of 8x8 tiles
 
+SHARED_CONST uint kBentLightBinding = 92u;  // see bend_rays.comp
+
 SHARED_END
 #endif

@@ -49,8 +49,8 @@ struct FrameConstants {
   uvec2 size;            // of the images that are drawn [pixels]
   uvec4 layers_area;  // from xy to before zw: pixels outside show no water or glass, and its layers
                       // have any value there
-  uvec4 radiance_area;  // from xy to before zw: pixels whose radiance goes to an image before it
-                        // becomes the picture; the others go to the picture at once
+  uvec4 radiance_area;  // from xy to before zw: pixels whose radiance is kept as an image beside
+                        // the picture, or before it is made
   uvec2 picture_size;   // smaller by the samples along a pixel's edge [pixels]
   float near_plane;     // blocks
   float display_peak;   // brightest value of the picture, sRGB-encoded, 0..1

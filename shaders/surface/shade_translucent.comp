@@ -39,6 +39,7 @@ uint layer_surface(uint k, ivec2 pixel) {
 layout(binding = kMirroredCloudsBinding) uniform sampler2D mirrored_clouds;
 layout(constant_id = kMirroredCloudsConstant) const bool kMirroredClouds = false;  // whether they are known
 
+layout(constant_id = kToPictureConstant) const bool kCounted = false;  // all pixels are in the picture and in the counts already
 layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
 
 layout(binding = kTailDepthsBinding) uniform sampler2D tail_depths;
@@ -46,6 +47,7 @@ layout(binding = kTailLightBinding) uniform sampler2D tail_light;
 layout(constant_id = kTailConstant) const bool kTail = false;  // they are known where the last layer has a surface
 
 #include "include/scene/tiles.glsl"
+#include "include/frame/pixel_stats.glsl"
 #include "include/surface/surface.glsl"
 #include "include/sky/sky.glsl"
 #include "include/surface/lighting.glsl"
@@ -61,8 +63,10 @@ void main() {
   bool here = tile_pixel(pixel);
   // A mixed tile is in both lists: each list does its own pixels.
   here = here && (layer_surface(0u, ivec2(pixel)) != 0u) == (push.kind == 0u);
-  vec3 behind = imageLoad(radiance, ivec2(pixel)).rgb;
+  vec4 behind = imageLoad(radiance, ivec2(pixel));
   vec3 colour = look_through(pixel, pixel_ray(pixel), behind);
-  if (here && !finite3(colour)) atomicAdd(stats.non_finite, 1u);
-  if (here) imageStore(radiance, ivec2(pixel), vec4(as_halves(sanitised(colour)), 1.0));
+  count_non_finite(here && !finite3(colour));
+  colour = as_halves(sanitised(colour));
+  if (kCounted) count_black(here && colour == vec3(0.0), here && behind.rgb == vec3(0.0));
+  if (here) imageStore(radiance, ivec2(pixel), vec4(colour, 1.0));
 }

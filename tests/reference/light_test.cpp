@@ -391,20 +391,28 @@ TEST(ReferenceLight, HazeIsLitOnlyWhereTheSunReachesIt) {
   EXPECT_NEAR(render(scene, samples(4096)).radiance.pixels[0].x, expected, 1e-3);
 }
 
-TEST(ReferenceLight, WaterTakesFresnelsAndBeersShare) {
-  // Two blocks of water over a lamp, looked down at.
+TEST(ReferenceLight, WaterTakesFresnelsAndBeersShareOfAWayThatSnellBends) {
+  // Two blocks of water over lamps, looked down at from so far that there are no ripples.
   const Island pool{world::Volume::from_voxels({-9, -3, -9}, {9, 0, 9}, [](world::IVec3 v) {
     return world::BlockId{v.y == -3 ? world::block::kLamp : world::block::kWater};
   })};
-  Scene scene = seen_from({0.5, 4.0, 0.5}, {0.0, -1.0, 0.0}, {pool}, 1, 1e-6);
   const world::BlockType& water = world::block_types()[world::block::kWater];
   const world::BlockType& lamp = world::block_types()[world::block::kLamp];
   const float mean = (water.absorption[0] + water.absorption[1] + water.absorption[2]) / 3.0f;
-  const glm::vec3 seen = render(scene, samples(1)).radiance.pixels[0];
-  for (int c = 0; c < 3; ++c) {
-    const double extinction = water.absorption[static_cast<std::size_t>(c)] + 0.3 * mean;
-    const double reflected = std::pow(0.333 / 2.333, 2.0);
-    EXPECT_NEAR(seen[c], lamp.emission * (1.0 - reflected) * std::exp(-2.0 * extinction), 2e-6);
+  for (const double degrees : {0.0, 30.0, 60.0, 75.0}) {
+    SCOPED_TRACE(degrees);
+    const double angle = degrees * kPi / 180.0, cosine = std::cos(angle);
+    const glm::dvec3 direction(std::sin(angle), -cosine, 0.0);
+    const Scene scene =
+        seen_from(glm::dvec3(0.5, 0.0, 0.5) - 600.0 * direction, direction, {pool}, 1, 1e-6);
+    const glm::vec3 seen = render(scene, samples(1)).radiance.pixels[0];
+    const double way = 2.0 / std::cos(std::asin(std::sin(angle) / 1.333));
+    const double upright = std::pow(0.333 / 2.333, 2.0);
+    const double reflected = upright + (1.0 - upright) * std::pow(1.0 - cosine, 5.0);
+    for (int c = 0; c < 3; ++c) {
+      const double extinction = water.absorption[static_cast<std::size_t>(c)] + 0.3 * mean;
+      EXPECT_NEAR(seen[c], lamp.emission * (1.0 - reflected) * std::exp(-way * extinction), 1e-5);
+    }
   }
 }
 

@@ -63,13 +63,15 @@ class Browser:
         self.driver.wait(WAIT_S)
 
 
-def wait_for(path):
-    """Until a download is whole: its empty file is there before, and goes if the browser ends then."""
+def downloaded(path):
+    """The bytes of a download, read while the browser runs: its empty file is there before them, and a browser that
+    ends may remove what it has not yet noted as saved.
+    """
     for _ in range(10 * WAIT_S):
-        if path.exists() and path.stat().st_size > 0:
-            return
+        if path.exists() and (saved := path.read_bytes()):
+            return saved
         time.sleep(0.1)
-    check(False, f"{path} did not come")
+    return check(False, f"{path} did not come")  # ends the test
 
 
 def main(program, folder):
@@ -77,6 +79,7 @@ def main(program, folder):
         print("skipped: there is no chromedriver with chromium")
         sys.exit(77)
     folder = Path(folder).resolve()
+    decisions = folder / "decisions.json"
     shutil.rmtree(folder, ignore_errors=True)
     scenes, report, downloads = folder / "scenes", folder / "report", folder / "downloads"
     for made in (scenes, downloads):
@@ -96,10 +99,10 @@ def main(program, folder):
         shown = browser.value('return document.querySelector(".decisions output").textContent')
         check(shown == "2 decided", shown)
         browser.click(".decisions button")
-        wait_for(downloads / "decisions.json")
+        decisions.write_bytes(downloaded(downloads / "decisions.json"))
     finally:
         browser.close()
-    done = run("test", "approve", downloads / "decisions.json", scenes)
+    done = run("test", "approve", decisions, scenes)
     check(done.stdout.count("approved: ") == 1 and "rejected: dusk" in done.stdout, done)
     check((scenes / "day.png").exists() and not (scenes / "dusk.png").exists(), "what was applied")
     run("test", scenes / "day.json")

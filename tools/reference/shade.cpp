@@ -367,8 +367,9 @@ Seen Shader::through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction
           behind.open * met.clear};
 }
 
-Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
-                  Sampler& sampler) const {
+/// Without water, glass and clouds.
+Seen Shader::behind_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
+                          Sampler& sampler) const {
   Seen seen;
   if (trace.hit) {
     seen.radiance = through_air(surface(*trace.hit, kEye, direction, fine, sampler), kEye,
@@ -381,11 +382,20 @@ Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
       if (moon_hides_stars(fine, *scene_.sky)) seen.open = glm::dvec3(0.0);
     }
   }
+  return seen;
+}
+
+Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
+                  Sampler& sampler) const {
   const double end = trace.hit ? trace.hit->t : kFar;
   if (trace.layers.empty() && scene_.view.medium == world::kAir)
-    return through_clouds(seen, kEye, direction, 0.0, end, sampler);
+    return through_clouds(behind_media(trace, direction, fine, sampler), kEye, direction, 0.0, end,
+                          sampler);
   const double surface = trace.layers.empty() ? end : trace.layers.front().t;
-  seen = through_clouds(seen, kEye, direction, surface, end, sampler);
+  Seen seen;
+  if (!bends(trace))
+    seen = through_clouds(behind_media(trace, direction, fine, sampler), kEye, direction, surface,
+                          end, sampler);
   seen = through_media(trace, direction, fine, seen, sampler);
   if (scene_.view.medium != world::kAir) return seen;
   return through_clouds(seen, kEye, direction, 0.0, surface, sampler);
@@ -482,6 +492,12 @@ glm::dvec3 Shader::rippled_normal(const Meeting& layer) const {
   return scene_.islands[layer.island].rotation * lattice * (layer.face == 2 ? 1.0 : -1.0);
 }
 
+/// Whether what is seen is seen through level water, from the air.
+bool Shader::bends(const Trace& trace) const {
+  return scene_.view.medium == world::kAir && !trace.layers.empty() &&
+         is_wavy(trace.layers.front());
+}
+
 /// What a surface mirrors, seen from outside: voxels, clouds and sky, but no water and glass.
 glm::dvec3 Shader::mirrored_outside(glm::dvec3 from, glm::dvec3 direction, Sampler& sampler) const {
   Trace trace;
@@ -510,9 +526,10 @@ glm::dvec3 Shader::mirrored_inside(const Meeting& layer, glm::dvec3 from, glm::d
 }
 
 /// A surface of water or glass: Fresnel's share of what it mirrors, lights that glitter, what the
-/// texture covers as a diffuse surface; the rest goes through unbent.
-void Shader::pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine,
-                          Passage& passage, Sampler& sampler) const {
+/// texture covers as a diffuse surface; the rest goes through.
+void Shader::pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine, Passage& passage,
+                          Sampler& sampler) const {
+  const glm::dvec3 direction = ray.direction;
   const world::BlockType& type = world::block_types()[layer.block];
   const glm::dvec3 to_eye = -direction, normal = tracer_.normal(layer.island, layer.face);
   const bool entering = passage.medium != layer.block;
@@ -521,7 +538,7 @@ void Shader::pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3
   const double reflected =
       fresnel(std::clamp(glm::dot(shading, to_eye), 0.02, 1.0), !entering, kWaterIndex);
   constexpr double kLeastRoughness = 0.06;  // of the waves too small to draw
-  const glm::dvec3 from = layer.t * direction + normal * kOffSurface;
+  const glm::dvec3 from = ray.origin + layer.t * direction + normal * kOffSurface;
   const Reach reached = reach({from, normal}, shading, to_eye,
                               std::max<double>(type.roughness, kLeastRoughness), sampler);
   // A ripple may turn the ray into the surface's own plane: it is mirrored there again.
@@ -533,7 +550,7 @@ void Shader::pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3
   passage.radiance += passage.through * (reached.mirrored + reflected * mirrored);
   passage.through *= 1.0 - reflected;
   if (!wavy) {
-    const glm::dvec3 place = on_plane(layer, tracer_.lattice_point(layer.island, glm::dvec3(0.0)),
+    const glm::dvec3 place = on_plane(layer, tracer_.lattice_point(layer.island, ray.origin),
                                       tracer_.lattice_vector(layer.island, fine));
     const glm::dvec4 texel = BlockTexels::shared().texel(layer.block, layer.face, place);
     passage.radiance += passage.through * texel.w * glm::dvec3(texel) / kPi * reached.light;
@@ -550,11 +567,33 @@ Seen Shader::through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 
   passage.medium = scene_.view.medium;
   if (passage.medium != world::kAir)  // the light half a block ahead stands for all of it
     passage.light_in = irradiance({direction * 0.5, glm::dvec3(0.0, 1.0, 0.0)}, sampler);
-  for (const Meeting& layer : trace.layers) {
-    passage.advance(layer.t);
-    pass_surface(layer, direction, fine, passage, sampler);
+  Ray ray{kEye, direction};
+  Trace bent;
+  const Trace* rest = &trace;
+  // Only the first surface bends a ray: what else it meets, it goes through straight.
+  if (bends(trace)) {
+    const Meeting& surface = trace.layers.front();
+    passage.advance(surface.t);
+    pass_surface(surface, ray, fine, passage, sampler);
+    const glm::dvec3 normal = tracer_.normal(surface.island, surface.face);
+    ray = {direction * surface.t - normal * kOffSurface,
+           glm::refract(direction, rippled_normal(surface), 1.0 / kWaterIndex)};
+    fine = ray.direction;
+    tracer_.trace(ray.origin, ray.direction, bent);
+    rest = &bent;
+    passage.at = 0.0;
+    behind = {behind_voxels(ray.direction), glm::dvec3(1.0)};
+    if (bent.hit)
+      behind = {
+          through_air(this->surface(*bent.hit, ray.origin, ray.direction, ray.direction, sampler),
+                      kEye, direction, surface.t + bent.hit->t, sampler),
+          glm::dvec3(0.0)};
   }
-  passage.advance(trace.hit ? trace.hit->t : std::max(kOpenWater, passage.at));
+  for (const Meeting& layer : rest->layers) {
+    passage.advance(layer.t);
+    pass_surface(layer, ray, fine, passage, sampler);
+  }
+  passage.advance(rest->hit ? rest->hit->t : std::max(kOpenWater, passage.at));
   return {passage.radiance + passage.through * behind.radiance, passage.through * behind.open};
 }
 

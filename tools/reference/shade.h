@@ -73,12 +73,18 @@ class Shader {
                          double air, Sampler& sampler) const;
   Seen through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction, double begin,
                       double end, Sampler& sampler) const;
+  Seen behind_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
+                    Sampler& sampler) const;
   Seen through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,
                      Sampler& sampler) const;
   glm::dvec3 mirrored_outside(glm::dvec3 from, glm::dvec3 direction, Sampler& sampler) const;
   glm::dvec3 mirrored_inside(const Meeting& layer, glm::dvec3 from, glm::dvec3 direction,
                              glm::dvec3 light_in, Sampler& sampler) const;
-  void pass_surface(const Meeting& layer, glm::dvec3 direction, glm::dvec3 fine, Passage& passage,
+  struct Ray {
+    glm::dvec3 origin, direction;
+  };
+  bool bends(const Trace& trace) const;
+  void pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine, Passage& passage,
                     Sampler& sampler) const;
   Reach reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye, double roughness,
               Sampler& sampler) const;

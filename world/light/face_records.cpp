@@ -106,6 +106,27 @@ std::optional<std::size_t> nearest_record(const ChunkSky& chunk, const DrawnFace
 
 }  // namespace
 
+std::vector<shared::Quad> lit_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
+  const auto is_lit = [&](IVec3 voxel) {
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        for (int z = -1; z <= 1; ++z) {
+          if (x * x + y * y + z * z > 2) continue;
+          for (int direction = 0; direction < 6; ++direction)
+            if (find_record(before, voxel + IVec3{x, y, z}, direction)) return true;
+        }
+    return false;
+  };
+  std::vector<shared::Quad> out;
+  for (const shared::Quad& quad : quads)
+    for_each_face(quad, [&](const DrawnFace& face) {
+      if (!is_lit(face.voxel)) return;
+      const IVec3 at = face.voxel;
+      out.push_back({static_cast<std::uint32_t>(at.x | at.y << 6 | at.z << 12), quad.material});
+    });
+  return out;
+}
+
 ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
   return pack_faces(quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
     const std::optional<std::size_t> from = nearest_record(before, face);

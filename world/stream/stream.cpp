@@ -74,6 +74,7 @@ Streamer::~Streamer() {
   std::unique_lock lock(state_->mutex);
   state_->stopping = true;
   state_->tasks.clear();
+  state_->look_ahead.reset();
   state_->idle.wait(lock, [this] { return state_->running == 0; });
 }
 
@@ -99,22 +100,53 @@ void Streamer::update(const StreamView& view, const StreamSettings& settings) {
   s.submit_jobs();
 }
 
-// All islands that can matter; asked for again only when the camera has left the middle of the
-// last answer, because the plan of a large view takes milliseconds. @return whether it is new.
+bool Streamer::State::Look::holds_for(const Look& now) const {
+  return reach == now.reach && revision == now.revision &&
+         glm::length(difference_blocks(now.centre, centre)) <= slack;
+}
+
+bool Streamer::State::Look::wears_out(const Look& now) const {
+  return glm::length(difference_blocks(now.centre, centre)) > 0.5 * slack;
+}
+
+std::vector<IslandSpec> Streamer::State::ask(const Look& look) const {
+  return world.islands_near(look.centre, look.reach + look.slack, look.time_s);
+}
+
+// What a worker was asked ahead, if it has been found and holds now.
+bool Streamer::State::take_answer(const Look& now, std::vector<IslandSpec>& specs) {
+  const std::lock_guard lock(mutex);
+  if (!answer) return false;
+  Answer found = *std::exchange(answer, std::nullopt);
+  around.asked_ahead = false;
+  if (!found.look.holds_for(now)) return false;
+  around.look = found.look;
+  specs = std::move(found.specs);
+  return true;
+}
+
+// All islands that can matter. The plan of a large view takes milliseconds, so that a worker looks
+// for the next answer while the last one holds. What is in never depends on which answer it is.
+// @return whether it is new.
 bool Streamer::State::look_around(const StreamView& view, const StreamSettings& settings,
                                   const IslandPoses& poses) {
-  const double slack = std::max(64.0, settings.view_distance_blocks / 32.0);
   // From one end of its drift to the other.
   const double reach = settings.view_distance_blocks * kHysteresis + 2.0 * kMaxIslandDriftBlocks;
-  const glm::dvec3 moved_by = difference_blocks(view.camera, around.centre);
-  const std::uint64_t revision = world.revision();
-  if (around.reach == reach && around.revision == revision &&
-      glm::dot(moved_by, moved_by) <= slack * slack)
-    return false;
-  around.reach = reach;
-  around.revision = revision;
-  around.centre = view.camera;
-  std::vector<IslandSpec> specs = world.islands_near(view.camera, reach + slack, view.time_s);
+  const Look now{view.camera, view.time_s, reach,
+                 std::max(64.0, settings.view_distance_blocks / 32.0), world.revision()};
+  std::vector<IslandSpec> specs;
+  if (!take_answer(now, specs)) {
+    if (around.look.holds_for(now)) {
+      if (!around.look.wears_out(now) || std::exchange(around.asked_ahead, true)) return false;
+      const std::lock_guard lock(mutex);
+      look_ahead = now;
+      ++to_submit;
+      return false;
+    }
+    specs = ask(now);
+    around.look = now;
+    ++around.asked;
+  }
   around.left_out = {};
   for (std::size_t i = kMaxStreamedIslands; i < specs.size(); ++i) {
     const double distance = near_of(specs[i], view, poses).distance;
@@ -143,10 +175,20 @@ Streamer::State::Near Streamer::State::near_of(const IslandSpec& spec, const Str
   return near;
 }
 
+namespace {
+
+void remove_level(std::uint64_t island, const StreamLevel& level,
+                  std::vector<SectionKey>& removed) {
+  for (const auto& [chunk, slot] : level.slots)
+    if (slot.resident) removed.push_back(level.key(island, chunk));
+}
+
+}  // namespace
+
 void Streamer::State::drop_island(StreamIsland& island, std::vector<std::uint64_t>& gone) {
   const std::uint64_t id = island.spec.id;
-  for (const auto& [chunk, slot] : island.shown.slots)
-    if (slot.resident) removed.push_back(island.shown.key(id, chunk));
+  remove_level(id, island.shown, removed);
+  for (const auto& [at, level] : island.beyond) remove_level(id, level, removed);
   gone.push_back(id);
   islands.erase(id);
 }
@@ -167,14 +209,22 @@ void Streamer::State::link_islands(std::vector<std::uint64_t>& gone) {
 
 namespace {
 
+// How far past the limit of a level an island must end to have it beside the level of its near end,
+// as a share of the distance: less of it is not worth another level.
+constexpr double kFarEndBeyond = 1.25;
+
 /// Blocks by which the distance of an island may change without a change of what is wanted of it.
-double slack_of(double distance, const StreamSettings& settings) {
+double slack_of(double distance, double radius, const StreamSettings& settings) {
   double slack = std::min(std::abs(distance - settings.view_distance_blocks),
                           std::abs(distance - settings.view_distance_blocks * kHysteresis));
   double limit = settings.detail_distance_blocks;
   for (int level = 1; level < kLevelCount + kFarLevelCount; ++level, limit *= 2.0)
     for (const double at : {limit / kHysteresis, limit, limit * kHysteresis})
       slack = std::min(slack, std::abs(distance - at));
+  limit = settings.detail_distance_blocks * kFarEndBeyond;
+  for (int level = 1; settings.far_ends && level < kLevelCount; ++level, limit *= 2.0)
+    for (const double at : {limit / kHysteresis, limit, limit * kHysteresis})
+      slack = std::min(slack, std::abs(distance + 2.0 * radius - at));
   constexpr double kRounding = 0.01;
   return slack - kRounding;
 }
@@ -190,7 +240,8 @@ void Streamer::State::place_islands(const StreamView& view, const StreamSettings
   around.travelled += glm::length(difference_blocks(view.camera, around.view.camera)) +
                       around.fastest * std::abs(view.time_s - around.view.time_s);
   const bool all = settings.view_distance_blocks != around.settings.view_distance_blocks ||
-                   settings.detail_distance_blocks != around.settings.detail_distance_blocks;
+                   settings.detail_distance_blocks != around.settings.detail_distance_blocks ||
+                   settings.far_ends != around.settings.far_ends;
   around.view = view;
   around.settings = settings;
   const double limit = settings.view_distance_blocks * kHysteresis;
@@ -199,7 +250,9 @@ void Streamer::State::place_islands(const StreamView& view, const StreamSettings
     if (!all && !busy && around.travelled < candidate.due) continue;
     const Near near = near_of(candidate.spec, view, poses);
     const bool steered = poses.is_off_course(candidate.spec.id);
-    candidate.due = steered ? 0.0 : around.travelled + slack_of(near.distance, settings);
+    candidate.due = steered ? 0.0
+                            : around.travelled +
+                                  slack_of(near.distance, candidate.spec.bounding_radius, settings);
     if (near.distance <= limit)
       place_island(candidate, near, view, settings, voxels_unused);
     else if (candidate.island)
@@ -237,15 +290,37 @@ void Streamer::State::place_island(Candidate& candidate, const Near& near, const
         level < kLevelCount && near.distance > 0.0 && world.is_as_generated(spec.id);
     if (coarse_first) island.shown = start_level(spec, kLevelCount);
     (coarse_first ? island.coming.emplace() : island.shown) = start_level(spec, level);
+    change_far_end(island, settings);
     return;
   }
   const int had = island.target().level;
   const int wanted = level_with_hysteresis(had, near.distance, settings.detail_distance_blocks);
-  if (wanted == had || (wanted >= kLevelCount && one_section_level(spec, wanted) == had)) return;
-  const int level = level_of(spec, wanted);
-  if (level == had) return;
-  change_level(island, level);
-  if (had == 0 && island.shown.level != 0) voxels_unused.push_back(spec.id);
+  const bool same =
+      wanted == had || (wanted >= kLevelCount && one_section_level(spec, wanted) == had);
+  const int level = same ? had : level_of(spec, wanted);
+  if (level != had) {
+    change_level(island, level);
+    if (had == 0 && island.shown.level != 0) voxels_unused.push_back(spec.id);
+  }
+  change_far_end(island, settings);
+}
+
+// Starts the levels that the far end of an island wants, and drops those that it does not.
+void Streamer::State::change_far_end(StreamIsland& island, const StreamSettings& settings) {
+  const double end = (island.distance + 2.0 * island.spec.bounding_radius) / kFarEndBeyond;
+  const bool none = !settings.far_ends || island.target().far();
+  const int had = island.far_end;
+  island.far_end = none ? 0
+                        : std::min(kLevelCount - 1, level_with_hysteresis(
+                                                        had, end, settings.detail_distance_blocks));
+  for (auto entry = island.beyond.begin(); entry != island.beyond.end();) {
+    const bool wanted = island.wants_beyond(entry->first);
+    if (!wanted) remove_level(island.spec.id, entry->second, removed);
+    entry = wanted ? std::next(entry) : island.beyond.erase(entry);
+  }
+  for (int level = island.target().level + 1; level <= island.far_end; ++level)
+    if (level != island.shown.level && !island.beyond.contains(level))
+      island.beyond.emplace(level, start_level(island.spec, level, true));
 }
 
 void Streamer::State::change_level(StreamIsland& island, int level) {
@@ -259,7 +334,9 @@ void Streamer::State::change_level(StreamIsland& island, int level) {
     }
     return;
   }
-  StreamLevel started = start_level(island.spec, level);
+  // It may be there for the far end.
+  auto known = island.beyond.extract(level);
+  StreamLevel started = known ? std::move(known.mapped()) : start_level(island.spec, level);
   if (island.shown.any_resident()) {
     island.coming = std::move(started);
   } else {
@@ -277,6 +354,8 @@ void Streamer::State::apply_edit(const EditedBox& edit) {
       remake(edit.island, island.shown, chunk, true);
     }
   }
+  for (auto& [at, level] : island.beyond)
+    for (const IVec3& chunk : chunks_showing(edit, at)) remake(edit.island, level, chunk, true);
   if (!island.coming) return;
   for (const IVec3& chunk : chunks_showing(edit, island.coming->level)) {
     remake(edit.island, *island.coming, chunk, true);
@@ -293,8 +372,31 @@ std::size_t hand_out(const SectionKey& key, StreamSlot& slot, StreamUpdate& upda
   slot.phase = Phase::kDone;
   if (slot.resident)
     update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.leaves, {}),
-                            std::exchange(slot.occupancy, {}), std::exchange(slot.emitters, {})});
+                            std::exchange(slot.occupancy, {}), std::exchange(slot.emitters, {}),
+                            std::exchange(slot.seams, {})});
   return quads;
+}
+
+// Hands out the levels of far ends of which all is made. @return quads.
+std::size_t hand_out_beyond(StreamIsland& island, StreamUpdate& update) {
+  std::size_t quads = 0;
+  for (auto& [at, level] : island.beyond) {
+    if (!level.all_made() || level.made == 0) continue;
+    for (auto& [chunk, slot] : level.slots) {
+      if (slot.phase != Phase::kMade) continue;
+      quads += hand_out(level.key(island.spec.id, chunk), slot, update);
+      --level.made;
+    }
+  }
+  return quads;
+}
+
+// They stand beside the blocks of the island, not beside its far section.
+bool has_beyond(const StreamIsland& island) {
+  return !island.shown.far() &&
+         std::any_of(island.beyond.begin(), island.beyond.end(), [](const auto& entry) {
+           return entry.second.all_made() && entry.second.made > 0;
+         });
 }
 
 }  // namespace
@@ -308,7 +410,8 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
     update.removed = std::exchange(s.removed, {});
     std::vector<StreamIsland*> waiting;
     for (auto& [id, island] : s.islands) {
-      if (island.swappable() || ((!island.coming || island.shown.far()) && island.shown.made > 0))
+      if (island.swappable() || ((!island.coming || island.shown.far()) && island.shown.made > 0) ||
+          has_beyond(island))
         waiting.push_back(&island);
     }
     std::sort(waiting.begin(), waiting.end(), [](const StreamIsland* a, const StreamIsland* b) {
@@ -321,12 +424,13 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
       // What takes the place of nothing may come in parts.
       const bool swap = island->swappable() && island->shown.any_resident();
       if (island->swappable()) {
-        for (const auto& [chunk, slot] : island->shown.slots) {
-          if (slot.resident) update.removed.push_back(island->shown.key(id, chunk));
-        }
-        if (island->shown.level == 0) voxels_unused.push_back(id);
-        island->shown = std::move(*island->coming);
+        StreamLevel before = std::exchange(island->shown, std::move(*island->coming));
         island->coming.reset();
+        if (before.level == 0) voxels_unused.push_back(id);
+        if (island->wants_beyond(before.level) && before.all_made())
+          island->beyond.emplace(before.level, std::move(before));
+        else
+          remove_level(id, before, update.removed);
       }
       for (auto& [chunk, slot] : island->shown.slots) {
         if (slot.phase != Phase::kMade) continue;
@@ -334,6 +438,7 @@ StreamUpdate Streamer::poll(std::size_t max_quads) {
         quads += hand_out(island->shown.key(id, chunk), slot, update);
         --island->shown.made;
       }
+      if (has_beyond(*island)) quads += hand_out_beyond(*island, update);
     }
   }
   for (const std::uint64_t id : voxels_unused) s.world.release_voxels(id);
@@ -348,18 +453,15 @@ bool Streamer::complete() const {
   const State& s = *state_;
   const std::lock_guard lock(s.mutex);
   if (!s.all_made() || !s.removed.empty()) return false;
-  return std::all_of(s.islands.begin(), s.islands.end(), [](const auto& entry) {
-    return !entry.second.coming && entry.second.shown.made == 0;
-  });
+  return std::none_of(s.islands.begin(), s.islands.end(),
+                      [](const auto& entry) { return entry.second.busy(); });
 }
 
 bool Streamer::settled(std::uint64_t island) const {
   const State& s = *state_;
   const std::lock_guard lock(s.mutex);
   const auto found = s.islands.find(island);
-  if (found == s.islands.end() || found->second.coming) return false;
-  const StreamLevel& shown = found->second.shown;
-  return shown.planned && shown.unmade == 0 && shown.made == 0;
+  return found != s.islands.end() && !found->second.busy();
 }
 
 void Streamer::wait_until_complete() {
@@ -374,9 +476,12 @@ Streamer::Stats Streamer::stats() const {
   stats.islands = s.islands.size();
   stats.tasks_left = s.tasks.size() + static_cast<std::size_t>(s.running);
   stats.chunks_made = s.chunks_made;
+  stats.times_asked = s.around.asked;
   for (const auto& [id, island] : s.islands) {
     const StreamLevel& shown = island.shown;
     for (const auto& [chunk, slot] : shown.slots) stats.sections += slot.resident;
+    for (const auto& [at, level] : island.beyond)
+      for (const auto& [chunk, slot] : level.slots) stats.sections += slot.resident;
     const bool is_empty = shown.planned && shown.unmade == 0 && shown.made == 0;
     stats.unshown += !is_empty && !shown.any_resident();
   }

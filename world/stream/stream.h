@@ -10,12 +10,21 @@
 #include "world/mesh/emitters.h"
 #include "world/mesh/mesh.h"
 #include "world/mesh/occupancy.h"
+#include "world/mesh/seams.h"
 
 namespace skerry::world {
 
 /// Islands kept at once, the nearest: what their renderer can name (shared::kMaxIslands), less
 /// those on the way out.
 inline constexpr std::size_t kMaxStreamedIslands = 64'000;
+
+/// An island at one of its levels: what has a row of the renderer's island table.
+struct IslandLevel {
+  std::uint64_t island = 0;
+  std::int32_t level = 0;  ///< a voxel's edge is 2^level blocks
+  bool far = false;        ///< see SectionKey
+  auto operator<=>(const IslandLevel&) const = default;
+};
 
 /// Names a resident chunk mesh.
 struct SectionKey {
@@ -25,6 +34,7 @@ struct SectionKey {
   /// The only section of its island, made from samples of the island's design (far_island.h); its
   /// chunk is {0, 0, 0} and has the lattice's origin in its middle.
   bool far = false;
+  IslandLevel row() const { return {island, level, far}; }
   auto operator<=>(const SectionKey&) const = default;
 };
 
@@ -35,6 +45,7 @@ struct ReadySection {
   ChunkOccupancy occupancy;       ///< empty unless asked for, and of far sections; of the two,
                                   ///< one at least is not empty
   std::vector<Emitter> emitters;  ///< of the mesh
+  SeamFaces seams;                ///< none of far sections
 };
 
 /// What to change: first remove, then add. A key that is replaced stands in both lists.
@@ -52,6 +63,9 @@ struct StreamView {
 struct StreamSettings {
   double view_distance_blocks = 1000.0;
   double detail_distance_blocks = 192.0;
+  /// Islands that reach across levels have those that their far ends want, too, so that each of
+  /// their sections can be drawn at a level of its own (cut.h).
+  bool far_ends = false;
 };
 
 /// Levels of detail past the last one of VoxelSource: islands as one section each.
@@ -68,7 +82,8 @@ enum class StreamOf : std::uint8_t { kMeshes, kMeshesAndOccupancy };
 /// Keeps the islands around a camera meshed. An island is in while its bounding sphere comes within
 /// view distance, as a whole at one level of detail, so that it has no cracks. From level
 /// kLevelCount on it is one far section, unless it is not as its seed makes it: such islands have
-/// no level past the last one of VoxelSource.
+/// no level past the last one of VoxelSource. With StreamSettings::far_ends it also has the levels
+/// of its far ends, each as a whole and in one update.
 ///
 /// The frame thread calls everything here; generation and meshing run on jobs: islands that are new
 /// to the view as far sections at first, then what is near and in view. No call but
@@ -114,6 +129,7 @@ class Streamer {
     std::size_t sections = 0;     ///< handed out and not removed
     std::size_t tasks_left = 0;   ///< queued or running
     std::size_t chunks_made = 0;  ///< generated and meshed so far, empty ones included
+    std::size_t times_asked = 0;  ///< times that update() has waited for the archipelago's plan
   };
   Stats stats() const;
 

@@ -15,6 +15,7 @@ using Phase = StreamSlot::Phase;
 constexpr double kOutOfViewFactor = 3.0;
 constexpr double kViewConeCos = 0.5;
 constexpr double kEditedCost = -2.0;
+constexpr double kBeyondCost = 1e6;
 // A block at the corner of a chunk shows in four. What is more, such as an island that was cut in
 // two, comes from the workers.
 constexpr int kEditedAFrame = 8;
@@ -37,7 +38,7 @@ bool has_cutouts(const ChunkMesh& mesh) {
 
 }  // namespace
 
-StreamLevel Streamer::State::start_level(const IslandSpec& spec, int level) {
+StreamLevel Streamer::State::start_level(const IslandSpec& spec, int level, bool beyond) {
   StreamLevel started;
   started.level = started.voxel_log2 = level;
   started.serial = ++last_serial;
@@ -48,7 +49,12 @@ StreamLevel Streamer::State::start_level(const IslandSpec& spec, int level) {
     started.unmade = 1;
     queue_chunk(spec.id, started, {}, false);
   } else {
-    push_task({spec.id, started.serial, std::nullopt, level});
+    StreamTask task;
+    task.island = spec.id;
+    task.serial = started.serial;
+    task.level = level;
+    task.beyond = beyond;
+    push_task(task);
   }
   return started;
 }
@@ -58,7 +64,10 @@ StreamLevel* Streamer::State::find_level(std::uint64_t island, std::uint64_t ser
   if (found == islands.end()) return nullptr;
   StreamIsland& state = found->second;
   if (state.shown.serial == serial) return &state.shown;
-  return state.coming && state.coming->serial == serial ? &*state.coming : nullptr;
+  if (state.coming && state.coming->serial == serial) return &*state.coming;
+  for (auto& [at, level] : state.beyond)
+    if (level.serial == serial) return &level;
+  return nullptr;
 }
 
 double Streamer::State::cost_of(const StreamTask& task) const {
@@ -67,13 +76,14 @@ double Streamer::State::cost_of(const StreamTask& task) const {
   if (found == islands.end()) return 0.0;
   const StreamIsland& island = found->second;
   if (task.far) return -1.0 / (1.0 + std::max(0.0, island.distance));  // before all that is finer
+  const double last = task.beyond ? kBeyondCost : 0.0;
   if (!task.chunk) {
-    return distance_cost(-island.camera, island.forward, island.spec.bounding_radius);
+    return last + distance_cost(-island.camera, island.forward, island.spec.bounding_radius);
   }
   const double edge = static_cast<double>(kChunkEdge << task.level);
   const glm::dvec3 centre{(task.chunk->x + 0.5) * edge, (task.chunk->y + 0.5) * edge,
                           (task.chunk->z + 0.5) * edge};
-  return distance_cost(centre - island.camera, island.forward, edge * 0.5);
+  return last + distance_cost(centre - island.camera, island.forward, edge * 0.5);
 }
 
 void Streamer::State::push_task(const StreamTask& task) {
@@ -91,8 +101,10 @@ void Streamer::State::score_tasks() {
 
 void Streamer::State::queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk,
                                   bool edited) {
-  push_task(
-      {island, level.serial, chunk, level.voxel_log2, level.far(), edited && level.level == 0});
+  const StreamIsland& of = islands.at(island);
+  const bool beyond = level.serial != of.shown.serial && level.serial != of.target().serial;
+  push_task({island, level.serial, chunk, level.voxel_log2, level.far(), edited && level.level == 0,
+             beyond});
 }
 
 // Makes a chunk once more, or for the first time.
@@ -138,8 +150,8 @@ bool Streamer::State::take_task(StreamTask& task) {
     if (!level) continue;
     if (!task.chunk) return true;
     StreamSlot& slot = level->slots.at(*task.chunk);
-    const std::optional<StreamLevel>& coming = islands.at(task.island).coming;
-    if (coming && coming->serial != task.serial && !slot.resident && !task.far) {
+    const StreamIsland& island = islands.at(task.island);
+    if (island.coming && level == &island.shown && !slot.resident && !task.far) {
       slot.phase = Phase::kIdle;
       --level->unmade;
       continue;
@@ -153,7 +165,11 @@ bool Streamer::State::take_task(StreamTask& task) {
 void Streamer::State::run_task() {
   std::unique_lock lock(mutex);
   StreamTask task;
-  if (!stopping && take_task(task)) {
+  if (!stopping && look_ahead) {
+    ++running;
+    run_look(lock);
+    --running;
+  } else if (!stopping && take_task(task)) {
     ++running;
     running_edited += task.edited;
     run(task, lock);
@@ -164,6 +180,14 @@ void Streamer::State::run_task() {
   if (all_made() || last_edited || (stopping && running == 0)) idle.notify_all();
   lock.unlock();
   submit_jobs();
+}
+
+void Streamer::State::run_look(std::unique_lock<std::mutex>& lock) {
+  const Look look = *std::exchange(look_ahead, std::nullopt);
+  lock.unlock();
+  std::vector<IslandSpec> specs = ask(look);
+  lock.lock();
+  answer = Answer{look, std::move(specs)};
 }
 
 void Streamer::State::make_edited() {
@@ -211,6 +235,7 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
       chunk.occupancy = occupancy_of(padded, BlockKind::kOpaque);
       if (has_cutouts(chunk.mesh)) chunk.leaves = occupancy_of(padded, BlockKind::kCutout);
     }
+    if (any && makes == StreamOf::kMeshesAndOccupancy) chunk.seams = seam_faces(padded);
     if (task.level == 0) chunk.voxels = any ? chunk_from_padded(padded) : Chunk(kAir);
     lock.lock();
     spare.push_back(std::move(scratch));
@@ -228,7 +253,9 @@ bool Streamer::State::plan_unused(std::uint64_t id) const {
     return level.level > 0 && level.planned && level.unmade == 0;
   };
   const StreamIsland& island = found->second;
-  return unused(island.shown) && (!island.coming || unused(*island.coming));
+  return unused(island.shown) && (!island.coming || unused(*island.coming)) &&
+         std::all_of(island.beyond.begin(), island.beyond.end(),
+                     [&](const auto& entry) { return unused(entry.second); });
 }
 
 void Streamer::State::note_planned(const StreamTask& task, const std::vector<IVec3>& chunks) {
@@ -256,6 +283,7 @@ void Streamer::State::note_made(const StreamTask& task, MadeChunk&& chunk) {
   slot.mesh = std::move(chunk.mesh);
   slot.emitters = std::move(chunk.emitters);
   slot.leaves = std::move(chunk.leaves);
+  slot.seams = std::move(chunk.seams);
   slot.occupancy = std::move(chunk.occupancy);
   const bool nothing_to_say = !slot.has_something() && !slot.resident;
   slot.phase = nothing_to_say ? Phase::kDone : Phase::kMade;

@@ -29,6 +29,7 @@ struct StreamSlot {
   ChunkMesh mesh;
   std::vector<Emitter> emitters;
   ChunkOccupancy leaves, occupancy;
+  SeamFaces seams;
   bool has_something() const {
     return !mesh.quads.empty() || occupancy.fill != ChunkOccupancy::Fill::kEmpty;
   }
@@ -48,6 +49,7 @@ struct StreamLevel {
   SectionKey key(std::uint64_t island, IVec3 chunk) const {
     return {island, chunk, voxel_log2, far()};
   }
+  bool all_made() const { return planned && unmade == 0; }
   bool any_resident() const {
     return std::any_of(slots.begin(), slots.end(),
                        [](const auto& entry) { return entry.second.resident; });
@@ -60,10 +62,18 @@ struct StreamIsland {
   glm::dvec3 camera{}, forward{};     // in lattice axes, blocks
   StreamLevel shown;                  // what is, or becomes, visible chunk by chunk
   std::optional<StreamLevel> coming;  // replaces `shown` when all of it is made
+  int far_end = 0;                    // the level that its far end wants
+  std::map<int, StreamLevel> beyond;  // by level, past that of `target` up to `far_end`
   const StreamLevel& target() const { return coming ? *coming : shown; }
+  bool wants_beyond(int level) const { return level > target().level && level <= far_end; }
   /// Whether something is still to be made or handed out.
-  bool busy() const { return coming || !shown.planned || shown.unmade != 0 || shown.made != 0; }
-  bool swappable() const { return coming && coming->planned && coming->unmade == 0; }
+  bool busy() const {
+    const auto left = [](const StreamLevel& level) { return !level.all_made() || level.made != 0; };
+    return coming || left(shown) ||
+           std::any_of(beyond.begin(), beyond.end(),
+                       [&](const auto& entry) { return left(entry.second); });
+  }
+  bool swappable() const { return coming && coming->all_made(); }
 };
 
 struct StreamTask {
@@ -72,6 +82,7 @@ struct StreamTask {
   int level = 0;               // see SectionKey
   bool far = false;            // likewise
   bool edited = false;         // a chunk of level 0 that a player has changed: before all others
+  bool beyond = false;         // of a level of a far end: after all others
   double cost = 0.0;           // least first: distance, longer for what is out of view
 };
 
@@ -86,6 +97,7 @@ struct MadeChunk {
   ChunkMesh mesh;
   std::vector<Emitter> emitters;
   ChunkOccupancy leaves, occupancy;
+  SeamFaces seams;
   std::optional<Chunk> voxels;  // of level 0
 };
 
@@ -98,9 +110,22 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
     Pose pose;
     double distance;  // blocks from the camera to the bounding sphere
   };
+  /// What the world is asked for: islands that come within `reach + slack` of a place, so that the
+  /// answer holds until the camera has moved by `slack`.
+  struct Look {
+    WorldPos centre;
+    double time_s = 0.0;
+    double reach = -1.0, slack = 0.0;  // blocks
+    std::uint64_t revision = 0;        // of the world
+    bool holds_for(const Look& now) const;
+    /// The same with the camera halfway out: time for the next answer.
+    bool wears_out(const Look& now) const;
+  };
   /// Frame thread only, without the mutex.
   bool look_around(const StreamView& view, const StreamSettings& settings,
                    const IslandPoses& poses);
+  bool take_answer(const Look& now, std::vector<IslandSpec>& specs);
+  std::vector<IslandSpec> ask(const Look& look) const;
   static Near near_of(const IslandSpec& spec, const StreamView& view, const IslandPoses& poses);
 
   // What is wanted (stream.cpp). Called with the mutex held.
@@ -114,10 +139,11 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
                     const StreamSettings& settings, std::vector<std::uint64_t>& voxels_unused);
   int level_of(const IslandSpec& spec, int level) const;
   void change_level(StreamIsland& island, int level);
+  void change_far_end(StreamIsland& island, const StreamSettings& settings);
   void apply_edit(const EditedBox& edit);
 
   // Tasks and their results (stream_state.cpp). Called with the mutex held.
-  StreamLevel start_level(const IslandSpec& spec, int level);
+  StreamLevel start_level(const IslandSpec& spec, int level, bool beyond = false);
   StreamLevel* find_level(std::uint64_t island, std::uint64_t serial);
   void push_task(const StreamTask& task);
   void queue_chunk(std::uint64_t island, const StreamLevel& level, IVec3 chunk, bool edited);
@@ -126,7 +152,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   double cost_of(const StreamTask& task) const;
   bool plan_unused(std::uint64_t id) const;
   bool take_task(StreamTask& task);
-  bool all_made() const { return tasks.empty() && running == 0; }
+  bool all_made() const { return tasks.empty() && !look_ahead && running == 0; }
   void note_planned(const StreamTask& task, const std::vector<IVec3>& chunks);
   void note_made(const StreamTask& task, MadeChunk&& chunk);
 
@@ -137,6 +163,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   /// mutex.
   void make_edited();
   void run(const StreamTask& task, std::unique_lock<std::mutex>& lock);
+  void run_look(std::unique_lock<std::mutex>& lock);
 
   World& world;
   Jobs& jobs;
@@ -148,9 +175,9 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
     double due = 0.0;                // of Around::travelled: until then nothing changes for it
   };
   struct Around {
-    WorldPos centre;
-    double reach = -1.0;
-    std::uint64_t revision = 0;
+    Look look;
+    bool asked_ahead = false;  // a worker has been asked for the next answer
+    std::size_t asked = 0;     // times that update() has asked the world itself
     std::vector<Candidate> islands;
     LeftOut left_out;
     double fastest = 0.0;    // an island on its course, blocks/s at most
@@ -166,7 +193,14 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
   std::size_t to_submit = 0;
   std::uint64_t last_serial = 0;
   std::size_t chunks_made = 0;
-  std::vector<StreamTask> tasks;  // heap, cheapest on top
+  std::vector<StreamTask> tasks;   // heap, cheapest on top
+  std::optional<Look> look_ahead;  // before all tasks
+  /// The answer to the last one.
+  struct Answer {
+    Look look;
+    std::vector<IslandSpec> specs;
+  };
+  std::optional<Answer> answer;
   std::map<std::uint64_t, StreamIsland> islands;
   std::vector<SectionKey> removed;  // of islands that left
   std::vector<std::unique_ptr<StreamScratch>> spare;

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/processors.h"
+
 namespace skerry::gpu {
 namespace {
 
-constexpr unsigned kMostWorkers = 8;
+constexpr int kMostWorkers = 8;
 
 /// A core is left to the frame.
-unsigned worker_count() {
-  return std::clamp(std::thread::hardware_concurrency(), 2u, kMostWorkers + 1) - 1;
+int worker_count() {
+  return std::clamp(usable_cpus(), 2, kMostWorkers + 1) - 1;
 }
 
 }  // namespace
@@ -29,7 +31,7 @@ void PipelineQueue::add(Pipeline& pipeline, std::function<void(Pipeline&)> compi
     ++pending_;
   }
   if (workers_.empty())
-    for (unsigned i = 0; i < worker_count(); ++i) workers_.emplace_back([this] { work(); });
+    for (int i = 0; i < worker_count(); ++i) workers_.emplace_back([this] { work(); });
   added_.notify_one();
 }
 

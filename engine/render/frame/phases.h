@@ -46,8 +46,9 @@ class Shadows {
   gpu::ImageRef maps_;
 };
 
-/// Which pixels' radiance is an image before it becomes the picture; the others go to the picture
-/// at once. kLayers: where water or glass may be seen.
+/// Which pixels' radiance is kept as an image: none's, and all go to the picture at once; that of
+/// the part of the picture which water or glass may show or mirror, beside the picture; or all
+/// pixels', and the develop pass makes the picture.
 enum class ByRadiance : std::uint8_t { kNothing, kLayers, kEverything };
 
 /// Every pixel has its light: scene radiance, linear, finite; or it is in the picture already.
@@ -55,15 +56,15 @@ class Shaded {
  public:
   Shaded(Shaded&&) = default;
   Shaded& operator=(Shaded&&) = default;
-  gpu::ImageRef radiance() const { return radiance_; }  ///< RGBA16F; empty: all are in the picture
-  gpu::ImageRef picture() const { return picture_; }    ///< empty: none is
+  gpu::ImageRef radiance() const { return radiance_; }  ///< RGBA16F; empty: none is kept
+  gpu::ImageRef picture() const { return picture_; }    ///< all pixels are in it; empty: none is
   gpu::ImageRef metered() const { return metered_; }    ///< see ShadeTarget
 
  private:
   friend struct ShadePass;
   friend struct LightPass;
-  friend struct CloudPass;
   friend struct TranslucentPass;
+  friend struct CloudPass;
   friend struct FaultPass;
   friend struct ResolvePass;
   explicit Shaded(gpu::ImageRef radiance) : radiance_(radiance) {}

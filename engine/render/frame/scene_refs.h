@@ -59,7 +59,7 @@ struct SceneRefs {
   bool on_cpu = false;       ///< the device is a CPU: a branch costs both its sides
   std::optional<CloudRefs> clouds;  ///< none: the frame has no clouds
   VkExtent2D size{};
-  glm::uvec4 layers_area{}, radiance_area{};  ///< see shared::FrameConstants
+  glm::uvec4 layers_area{};  ///< see shared::FrameConstants
 };
 
 }  // namespace skerry::render

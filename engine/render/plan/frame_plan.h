@@ -34,7 +34,7 @@ struct FramePlan {
   bool ao = false;                      ///< corners take light
   bool indirect = false;                ///< the sky lights surfaces
   std::vector<glm::uvec4> sky_light{};  ///< what it sends to them, see sky_irradiance()
-  ByRadiance by_radiance = ByRadiance::kEverything;  ///< the rest goes to the picture at once
+  ByRadiance by_radiance = ByRadiance::kEverything;
   ShadowPlan shadows{};
   FrameTables tables{};
   FrameContents contents;

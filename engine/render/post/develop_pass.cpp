@@ -16,16 +16,10 @@ using gpu::Use;
 
 Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                            Shaded shaded, const Bloom* bloom, gpu::Image& picture) {
-  gpu::ImageRef out = shaded.picture() ? shaded.picture() : graph.import(picture);
-  if (!shaded.radiance()) return Developed(out);
+  if (shaded.picture()) return Developed(shaded.picture());
+  gpu::ImageRef out = graph.import(picture);
   const gpu::ImageRef radiance = shaded.radiance(), glow = bloom ? bloom->glow : gpu::ImageRef{};
-  struct Push {
-    glm::uvec4 area;
-    shared::BloomStep step;
-  };
-  const glm::uvec4 all(0, 0, scene.size.width, scene.size.height);
-  const Push push{shaded.picture() ? scene.radiance_area : all,
-                  bloom ? bloom->step : shared::BloomStep{}};
+  const shared::BloomStep step = bloom ? bloom->step : shared::BloomStep{};
   std::vector<gpu::SpecConstant> constants = with_picture({}, scene);
   if (glow) constants.push_back({shared::kBloomConstant, 1});
   graph.add_pass(
@@ -38,7 +32,7 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         out = b.write(out, Use::kComputeWrite);
       },
-      [scene, radiance, glow, push, out,
+      [scene, radiance, glow, step, out,
        program =
            gpu::compute(pipelines, programs::kDevelop, std::move(constants))](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
@@ -46,9 +40,9 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
                   gpu::storage<shared::kRadianceBinding>(radiance),
                   gpu::storage<shared::kCoarseBloomBinding>(glow ? glow : radiance),
                   gpu::storage<shared::kTargetBinding>(out),
-                  gpu::storage<shared::kExposureBinding>(scene.exposure), gpu::constants(push));
-        c.dispatch(gpu::Commands::groups(push.area.z - push.area.x, 8),
-                   gpu::Commands::groups(push.area.w - push.area.y, 8), 1);
+                  gpu::storage<shared::kExposureBinding>(scene.exposure), gpu::constants(step));
+        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
+                   gpu::Commands::groups(scene.size.height, 8), 1);
       });
   return Developed(out);
 }

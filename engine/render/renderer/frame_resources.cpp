@@ -233,7 +233,6 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
   s.size = size;
   s.layers_area = tables.constants.layers_area;
-  s.radiance_area = tables.constants.radiance_area;
   s.count_pixels = input.count_pixels;
   s.tone = settings.tone;
   s.calibrated = settings.display != DisplaySettings{};

@@ -87,7 +87,25 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   return SectionId{slot};
 }
 
+void GeometryStore::show(gpu::Uploader& uploader, SectionId id, bool shown) {
+  const auto hidden = hidden_.find(id.slot);
+  if (shown == (hidden == hidden_.end())) return;
+  shared::Section& record = records_[id.slot];
+  if (shown) {
+    record = hidden->second;
+    hidden_.erase(hidden);
+    count(record, 1);
+  } else {
+    count(record, -1);
+    hidden_.emplace(id.slot, record);
+    record = {};
+  }
+  uploader.write(sections_, std::uint64_t{id.slot} * sizeof(shared::Section),
+                 std::span<const shared::Section>(&record, 1));
+}
+
 void GeometryStore::remove(gpu::Uploader& uploader, SectionId id) {
+  show(uploader, id, true);
   SKERRY_ASSERT(id.slot < records_.size() &&
                 records_[id.slot].range_end[shared::kRangeCount - 1] != 0);
   const shared::Section old = records_[id.slot];

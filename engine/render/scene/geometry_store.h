@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -48,6 +49,8 @@ class GeometryStore {
   /// what there is, what to lower.
   Result<SectionId> add(gpu::Uploader& uploader, shared::Section section,
                         std::span<const shared::Quad> quads);
+  /// Whether it is drawn and casts shadows; at first it does. Its quads stay where they are.
+  void show(gpu::Uploader& uploader, SectionId id, bool shown);
   /// Its quads may be overwritten once the GPU has finished everything submitted so far.
   void remove(gpu::Uploader& uploader, SectionId id);
   /// Once a frame, before recording: reclaims what the GPU has finished with.
@@ -88,6 +91,7 @@ class GeometryStore {
   gpu::Buffer quads_, sections_;
   std::vector<shared::Section> records_;  // CPU copy, one a slot; free slots have no ranges
   std::vector<VoxelBox> translucent_boxes_;
+  std::map<std::uint32_t, shared::Section> hidden_;  // by slot, whose records have no ranges
   std::vector<std::uint32_t> free_slots_;
   std::vector<shared::Quad> scratch_;
   std::uint32_t section_capacity_ = 0;

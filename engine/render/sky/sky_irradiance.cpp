@@ -280,7 +280,7 @@ glm::uvec4 packed(const Harmonics& harmonics, int channel) {
 }
 
 /// Takes away what steps and overhangs hide that voxels of a coarse level have not got: shares of
-/// light that arrives at levels 1, 2 and from 3 on, measured: decision 0063.
+/// light that arrives at levels 1, 2 and from 3 on, measured: decision 0065.
 void coarsen(int level, Lobes& lobes, Harmonics& harmonics) {
   constexpr std::array<float, 4> kSide{1.0f, 0.93f, 0.92f, 0.88f},
       kLevel{1.0f, 0.98f, 0.95f, 0.95f};

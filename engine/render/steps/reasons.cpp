@@ -44,7 +44,7 @@ const char* needs_last_part(const FramePlan& plan) {
 
 const char* needs_radiance(const FramePlan& plan) {
   if (const char* why = needs_lit_scene(plan)) return why;
-  if (plan.by_radiance == ByRadiance::kNothing) return "nothing comes between shading and picture";
+  if (plan.by_radiance != ByRadiance::kEverything) return "shading makes the picture";
   return needs_last_part(plan);
 }
 

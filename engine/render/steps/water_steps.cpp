@@ -15,7 +15,7 @@ FrameStep draw_translucent_step() {
 }
 
 FrameStep shade_translucent_step() {
-  return {{{needs_water, {"classify_translucent_tiles", "shade_translucent"}}},
+  return {{{needs_water, {"classify_translucent_tiles", "bend_rays", "shade_translucent"}}},
           [](FrameAssembly& f) {
             f.shaded = TranslucentPass::add(f.graph, f.pipelines, f.scene,
                                             {*f.geometry, *f.shadows, f.layers, f.lights_or_null(),

@@ -28,9 +28,9 @@ struct ShadedFrom {
 
 /// Where shading puts pixels.
 struct ShadeOut {
-  ByRadiance by_radiance;        ///< what goes to an image of radiance
-  gpu::Image& picture;           ///< that the rest goes to: RGBA8, of the frame's size
-  const MeterSettings* metered;  ///< null: the meter looks at none of the rest
+  ByRadiance by_radiance;
+  gpu::Image& picture;           ///< RGBA8, of the frame's size
+  const MeterSettings* metered;  ///< null: the meter looks at nothing that is in the picture
 };
 
 /// Light for every pixel, in compute, by tiles: surfaces under sun and moon, sky elsewhere.

@@ -12,8 +12,9 @@ namespace skerry::render {
 
 /// What shading passes write to, as shaders/include/post/output.glsl has it.
 struct ShadeTarget {
-  gpu::ImageRef radiance;  ///< RGBA16F; empty: every pixel goes to the picture at once
-  gpu::ImageRef picture;   ///< RGBA8; empty: none does. If both, by FrameConstants::radiance_area
+  gpu::ImageRef radiance;  ///< RGBA16F; empty: no pixel's is kept
+  gpu::ImageRef picture;   ///< RGBA8, of all pixels; empty: none. If both, radiance is that of
+                           ///< FrameConstants::radiance_area
   gpu::ImageRef metered;   ///< R32F, luminance for the meter of what goes to the picture, a texel
                            ///< for each meter_stride x meter_stride pixels; empty: none is kept
   std::uint32_t meter_stride = 0;  ///< 0 without `metered`

@@ -7,6 +7,7 @@
 #include "engine/render/light/light_constants.h"
 #include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/tiles.h"
+#include "engine/render/surface/picture_constants.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
 
@@ -137,6 +138,94 @@ class LayerReads {
   bool lit_;
 };
 
+struct ChangedTiles {
+  Tiles tiles;
+  std::vector<TileKind> kinds;
+};
+
+/// What is seen through level water by the rays that it bends, in place on the radiance of `tiles`.
+gpu::ImageRef bend_rays(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                        const TranslucentPass::In& in, const Tiles& tiles, gpu::ImageRef radiance) {
+  gpu::ImageRef bent = graph.create(gpu::ImageDesc{
+      .name = "bent light", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = scene.size});
+  const TranslucentPass::Layers& layers = in.layers;
+  const gpu::ImageRef depths = in.geometry.depth(), first = layers.depth[0],
+                      second = layers.depth[layers.count > 1 ? 1 : 0];
+  graph.add_pass(
+      "bend_rays",
+      [&](gpu::PassBuilder& b) {
+        declare_tiles(b, tiles);
+        for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+          b.read(ref, Use::kComputeRead);
+        for (const gpu::ImageRef ref : {layers.surfaces, depths, first, second})
+          b.read(ref, Use::kComputeSampled);
+        b.read(radiance, Use::kComputeRead);
+        bent = b.write(bent, Use::kComputeWrite);
+      },
+      [scene, words = layers.surfaces, depths, first, second, tiles, radiance, bent,
+       program = gpu::compute(pipelines, programs::kBendRays,
+                              {{shared::kWaterLayersConstant, layers.count}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::texels<shared::kIslandsBinding>(scene.islands),
+                  gpu::storage<shared::kMaterialsBinding>(scene.materials),
+                  gpu::sampled<shared::kDepthsBinding>(depths, scene.point_sampler),
+                  gpu::sampled<shared::kLayerSurfacesBinding>(words, scene.point_sampler),
+                  gpu::sampled<shared::kLayerDepthsBinding>(first, scene.point_sampler),
+                  gpu::sampled<shared::kLayerDepthsBinding + 1u>(second, scene.point_sampler),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::storage<shared::kBentLightBinding>(bent),
+                  tiles.bindings(TileKind::kCovered));
+        dispatch_tiles(c, tiles, TileKind::kCovered);
+      });
+  graph.add_pass(
+      "put_bent_rays",
+      [&](gpu::PassBuilder& b) {
+        declare_tiles(b, tiles);
+        b.read(scene.frame, Use::kComputeRead);
+        b.read(first, Use::kComputeSampled);
+        b.read(bent, Use::kComputeRead);
+        radiance = b.write(radiance, Use::kComputeWrite);
+      },
+      [scene, first, tiles, radiance, bent,
+       program = gpu::compute(pipelines, programs::kPutBentRays)](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::sampled<shared::kLayerDepthsBinding>(first, scene.point_sampler),
+                  gpu::storage<shared::kRadianceBinding>(radiance),
+                  gpu::storage<shared::kBentLightBinding>(bent),
+                  tiles.bindings(TileKind::kCovered));
+        dispatch_tiles(c, tiles, TileKind::kCovered);
+      });
+  return radiance;
+}
+
+/// The picture where its radiance is another now than shading made it from.
+gpu::ImageRef refresh_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                              const SceneRefs& scene, ChangedTiles changed, const Shaded& shaded) {
+  gpu::ImageRef picture = shaded.picture();
+  graph.add_pass(
+      "refresh_picture",
+      [&](gpu::PassBuilder& b) {
+        declare_tiles(b, changed.tiles);
+        for (const gpu::BufferRef ref : {scene.frame, scene.exposure})
+          b.read(ref, Use::kComputeRead);
+        b.read(shaded.radiance(), Use::kComputeRead);
+        picture = b.write(picture, Use::kComputeWrite);
+      },
+      [frame = scene.frame, exposure = scene.exposure, changed, radiance = shaded.radiance(),
+       picture,
+       program = gpu::compute(pipelines, programs::kRefreshPicture, with_picture({}, scene))](
+          gpu::Commands& c) {
+        for (const TileKind kind : changed.kinds) {
+          gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
+                    gpu::storage<shared::kRadianceBinding>(radiance),
+                    gpu::storage<shared::kTargetBinding>(picture),
+                    gpu::storage<shared::kExposureBinding>(exposure), changed.tiles.bindings(kind));
+          dispatch_tiles(c, changed.tiles, kind);
+        }
+      });
+  return picture;
+}
+
 }  // namespace
 
 Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
@@ -148,27 +237,34 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
                                       .depth = in.layers.depth[0],
                                       .area = scene.layers_area,
                                       .area_alone = !in.inside_medium});
-  gpu::ImageRef radiance = shaded.radiance();
+  if (!in.inside_medium)
+    shaded.radiance_ = bend_rays(graph, pipelines, scene, in, tiles, shaded.radiance());
   const LayerReads reads(scene, in);
+  std::vector<gpu::SpecConstant> constants = reads.constants();
+  if (!in.inside_medium) constants.push_back({shared::kBentConstant, 1});
+  if (!scene.count_pixels) constants.push_back({shared::kCountPixelsConstant, 0});
+  if (shaded.picture()) constants.push_back({shared::kToPictureConstant, 1});
+  std::vector<TileKind> kinds{TileKind::kCovered};
+  if (in.inside_medium) kinds.push_back(TileKind::kOpen);
   graph.add_pass(
       "shade_translucent",
       [&](gpu::PassBuilder& b) {
         declare_tiles(b, tiles);
         reads.declare(b);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
-        radiance = b.write(radiance, Use::kComputeWrite);
+        shaded.radiance_ = b.write(shaded.radiance_, Use::kComputeWrite);
       },
-      [reads, tiles, radiance, stats = scene.pixel_stats, inside_medium = in.inside_medium,
-       program = gpu::compute(pipelines, programs::kShadeTranslucent, reads.constants())](
+      [reads, tiles, radiance = shaded.radiance(), stats = scene.pixel_stats, kinds,
+       program = gpu::compute(pipelines, programs::kShadeTranslucent, std::move(constants))](
           gpu::Commands& c) {
-        for (const TileKind kind : {TileKind::kCovered, TileKind::kOpen}) {
-          if (kind == TileKind::kOpen && !inside_medium) continue;
+        for (const TileKind kind : kinds) {
           gpu::bind(c, program, reads.bindings(), gpu::storage<shared::kPixelStatsBinding>(stats),
                     gpu::storage<shared::kRadianceBinding>(radiance), tiles.bindings(kind));
           dispatch_tiles(c, tiles, kind);
         }
       });
-  shaded.radiance_ = radiance;
+  if (shaded.picture())
+    shaded.picture_ = refresh_picture(graph, pipelines, scene, {tiles, kinds}, shaded);
   return shaded;
 }
 

@@ -48,6 +48,11 @@ bool in_area(uvec2 pixel, uvec4 area) { return all(greaterThanEqual(pixel, area.
   (frame.ray_forward + frame.ray_right * ((float((pixel).x) + frame.sample_in_pixel.x) * frame.pixel_to_ndc.x - 1.0) - \
    frame.ray_up * ((float((pixel).y) + frame.sample_in_pixel.y) * frame.pixel_to_ndc.y - 1.0))
 
+// Where the picture shows a place [pixels], by the inverse of pixel_ray() for the pixels' corners. @param z its distance along the view axis.
+#define pixel_place(place, z) \
+  ((vec2(dot(place, frame.ray_right) / dot(frame.ray_right, frame.ray_right), -dot(place, frame.ray_up) / dot(frame.ray_up, frame.ray_up)) / \
+    max(z, 1e-3) + 1.0) / frame.pixel_to_ndc)
+
 // Distance along the view axis from reverse-Z infinite depth. @pre depth > 0.
 float view_distance(float depth, float near_plane) { return near_plane / depth; }
 

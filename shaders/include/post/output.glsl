@@ -1,12 +1,13 @@
-// Where a shading pass puts its pixels: to the picture at once, or, where something comes between it and the picture, to an image of scene
-// radiance. Both give the same picture. Needs before the include: `frame`, `stats` (PixelStats).
+// Where a shading pass puts its pixels: to the picture, to an image of scene radiance where something comes between it and the picture, or to both
+// where a later pass may look at the radiance. Both give the same picture. Needs before the include: `frame`, `stats` (PixelStats).
 #ifndef SKERRY_OUTPUT_GLSL
 #define SKERRY_OUTPUT_GLSL
 #include "shared/constants.h"
+#include "include/frame/pixel_stats.glsl"
 #include "include/post/picture.glsl"
 #include "include/post/meter.glsl"
 
-// If both, frame.radiance_area decides. Where one is false, something is bound in place of its image; and in place of the exposure.
+// If both, frame.radiance_area says whose radiance is kept. Where one is false, something is bound in place of its image; and in place of the exposure.
 layout(constant_id = kToPictureConstant) const bool kToPicture = false;
 layout(constant_id = kToRadianceConstant) const bool kToRadiance = true;
 layout(constant_id = kMeterStrideConstant) const uint kMeterStride = 0u;  // 0: no luminance is kept
@@ -14,7 +15,7 @@ layout(constant_id = kMeterStrideConstant) const uint kMeterStride = 0u;  // 0: 
 layout(binding = kRadianceBinding) writeonly uniform image2D radiance;
 layout(binding = kMeteredBinding) writeonly uniform image2D metered;  // [cell of stride x stride pixels]
 
-bool has_radiance(uvec2 pixel) {
+bool keeps_radiance(uvec2 pixel) {
   return kToRadiance && (!kToPicture || in_area(pixel, frame.radiance_area));
 }
 
@@ -32,15 +33,14 @@ Shown shown(vec3 colour, bool here) {
 
 // Every invocation calls this once a pixel; `here` says which have one.
 void put_shown(uvec2 pixel, Shown what, bool here) {
-  bool kept = has_radiance(pixel);
-  if (kToRadiance && here && kept) imageStore(radiance, ivec2(pixel), vec4(what.radiance, 1.0));
+  bool kept = keeps_radiance(pixel);
+  if (here && kept) imageStore(radiance, ivec2(pixel), vec4(what.radiance, 1.0));
   if (!kToPicture) return;
-  here = here && !kept;
-  count_black(here && what.radiance == vec3(0.0));
+  count_black(here && what.radiance == vec3(0.0), false);
   if (here) put_developed(pixel, what.encoded);
   if (kMeterStride != 0u) {
     uvec2 cell = pixel / kMeterStride;
-    if (here && metered_pixel(cell, kMeterStride, frame.picture_size) == pixel)
+    if (here && !kept && metered_pixel(cell, kMeterStride, frame.picture_size) == pixel)
       imageStore(metered, ivec2(cell), vec4(exact_luminance(what.radiance)));
   }
 }

@@ -1,11 +1,9 @@
-// Pixels of the picture: exposed, tone-mapped, dithered. Needs before the include: `frame`, `stats` (PixelStats).
+// Pixels of the picture: exposed, tone-mapped, dithered. Needs before the include: `frame`.
 #ifndef SKERRY_PICTURE_GLSL
 #define SKERRY_PICTURE_GLSL
-#extension GL_KHR_shader_subgroup_ballot : require
 #include "shared/bindings.h"
 #include "shared/constants.h"
 #include "shared/exposure.h"
-#include "include/frame/pixel_stats.glsl"
 #include "include/post/tonemap.glsl"
 
 layout(binding = kTargetBinding) writeonly uniform image2D target;
@@ -24,12 +22,4 @@ vec3 developed(vec3 radiance, vec3 glow) {
 void put_developed(uvec2 pixel, vec3 encoded) {
   imageStore(target, ivec2(pixel), vec4(floor(dithered(encoded, pixel) * 255.0 + 0.5) / 255.0, 1.0));
 }
-
-// Of pixels that are black before tone mapping. Every invocation calls this once a pixel.
-void count_black(bool black) {
-  if (!kCountPixels) return;
-  uint count = subgroupBallotBitCount(subgroupBallot(black));
-  if (count != 0u && subgroupElect()) atomicAdd(stats.black, count);
-}
-
 #endif

@@ -14,9 +14,7 @@ vec3 mirrored_ray(vec3 to_eye, vec3 shading_normal, vec3 normal) {
 // The radiance of a place, if the picture shows it, and no water or glass there changes it in this pass.
 bool shown_at(vec3 p, out vec3 seen) {
   float z = dot(p, frame.ray_forward);
-  vec2 ndc = vec2(dot(p, frame.ray_right) / dot(frame.ray_right, frame.ray_right), -dot(p, frame.ray_up) / dot(frame.ray_up, frame.ray_up)) /
-             max(z, 1e-3);
-  vec2 place = (ndc + 1.0) / frame.pixel_to_ndc;
+  vec2 place = pixel_place(p, z);
   bool inside = frame.camera_medium == 0u && z > frame.near_plane && all(greaterThanEqual(place, vec2(frame.radiance_area.xy))) &&
                 all(lessThan(place, vec2(frame.radiance_area.zw)));
   ivec2 pixel = ivec2(inside ? place : vec2(frame.radiance_area.xy));

@@ -38,6 +38,7 @@ void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoi
   r.any = max(r.any, visibility);
 }
 
+layout(constant_id = kBentConstant) const bool kBent = false;  // bend_rays.comp has been over the radiance
 layout(constant_id = kLitConstant) const bool kLit = false;  // lamps are; if not, their lists are not read
 
 // Walls are looked for before every light.
@@ -103,7 +104,8 @@ vec3 mirrored_inside(Material m, vec3 light_in, bool known, Mirrored nearest) {
   return scattered(m, light_in, way) + (met ? exp(-extinction(m) * way) * nearest.radiance : vec3(0.0));
 }
 
-vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
+// @param behind radiance of what is opaque there; w: how far it lies from the water's surface by a bent ray [blocks], or 0.
+vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   float ray_length = length(ray);
   vec3 to_eye = -ray / ray_length;
   float opaque = texelFetch(depths, ivec2(pixel), 0).r;
@@ -120,15 +122,13 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
   if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye);
   uint last_word = 0u;
-  float edge = length(pixel_ray(pixel + 1u) - ray) / 64.0;
   for (uint k = 0u; k < kWaterLayers; ++k) {
     uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
     float t = view_distance(layer_depth(k, ivec2(pixel)), frame.near_plane);
     float next = t * ray_length;
     vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
-    // Quads of one face overlap by a hundredth of a pixel (draw_quads.vert): it is one surface.
-    if (word == last_word && abs(dot(n, ray)) * (next - at) < edge * next) continue;
+    if (are_one_surface(word, last_word, n, ray, pixel_ray(pixel + 1u), at / ray_length, t)) continue;
     last_word = word;
     if (medium != 0u) {
       Material m = materials[medium];
@@ -164,7 +164,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     medium = entering ? block : 0u;
     at = next;
   }
-  float end = end_of_media(opaque, at, ray_length);
+  float end = kBent && behind.w > 0.0 ? at + behind.w : end_of_media(opaque, at, ray_length);
   bool tail = kTail && layer_surface(kWaterLayers - 1u, ivec2(pixel)) != 0u;
   if (tail) {
     vec4 depths_behind = texelFetch(tail_depths, ivec2(pixel), 0), light_behind = texelFetch(tail_light, ivec2(pixel), 0);
@@ -180,6 +180,6 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec3 behind) {
     colour += through * scattered(m, light_in, max(end - at, 0.0));
     through *= exp(-extinction(m) * max(end - at, 0.0));
   }
-  return colour + through * behind;
+  return colour + through * behind.rgb;
 }
 #endif

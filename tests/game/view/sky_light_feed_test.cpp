@@ -12,7 +12,7 @@ namespace skerry::game {
 namespace {
 
 using Texels = std::vector<glm::uvec4>;
-using Islands = std::map<std::uint64_t, SkyLightFeed::NearIsland>;
+using Islands = std::map<world::IslandLevel, SkyLightFeed::NearIsland>;
 using Place = std::array<int, 3>;
 
 constexpr std::uint64_t kTexelBytes = sizeof(glm::uvec4);
@@ -55,7 +55,7 @@ class LightOfManyIslands : public gpu::GpuTest {
 
   /// An island of a row of chunks from `low` on, all of them new.
   IslandLight::Found island(std::uint64_t id, int low, int chunks) {
-    IslandLight::Found found{id, 0, {}};
+    IslandLight::Found found{{id}, {}};
     for (int z = 0; z < chunks; ++z)
       found.chunks.push_back({{-1, 0, low + z}, random_chunk(random_), true});
     return found;
@@ -134,7 +134,7 @@ class LightOfManyIslands : public gpu::GpuTest {
 };
 
 TEST_F(LightOfManyIslands, SpreadOverFramesIsShownWhenAllOfItIsThere) {
-  const Islands islands{{7, {3, 10.0}}};
+  const Islands islands{{{7}, {3, 10.0}}};
   const IslandLight::Found old = island(7, -2, 4), now = island(7, -3, 6);
   feed_.add(old);
   EXPECT_EQ(settle(islands), 1);
@@ -150,7 +150,7 @@ TEST_F(LightOfManyIslands, SpreadOverFramesIsShownWhenAllOfItIsThere) {
 }
 
 TEST_F(LightOfManyIslands, AnEditIsShownAtOnceAndWhatIsGoneIsDropped) {
-  const Islands islands{{7, {3, 10.0}}};
+  const Islands islands{{{7}, {3, 10.0}}};
   IslandLight::Found found = island(7, 0, 5);
   feed_.add(found);
   settle(islands);
@@ -173,7 +173,7 @@ TEST_F(LightOfManyIslands, AnEditIsShownAtOnceAndWhatIsGoneIsDropped) {
 // changed must not be lost.
 TEST_F(LightOfManyIslands, WhateverInterruptsTheLastFindIsShown) {
   for (int round = 0; round < 40; ++round) {
-    const Islands islands{{7, {3, 10.0}}};
+    const Islands islands{{{7}, {3, 10.0}}};
     IslandLight::Found found = island(7, 0, 4);
     for (int edit = 0; edit < 12; ++edit) {
       feed_.add(found);
@@ -198,7 +198,8 @@ TEST_F(LightOfManyIslands, WhateverInterruptsTheLastFindIsShown) {
 /// Islands of four chunks, `count` of them, each farther than the one before.
 Islands row_of_islands(std::uint32_t count) {
   Islands islands;
-  for (std::uint32_t i = 0; i < count; ++i) islands[100 + i] = {i, 100.0 * (i + 1)};
+  for (std::uint32_t i = 0; i < count; ++i)
+    islands[world::IslandLevel{100 + i}] = {i, 100.0 * (i + 1)};
   return islands;
 }
 
@@ -233,9 +234,9 @@ TEST_F(LightOfManyIslands, WithoutRoomTheFarthestAreDark) {
     EXPECT_EQ(wrong(texels(), slot, found.at(100 + slot)), 0) << slot;
 
   // One that leaves makes room for the nearest of the dark ones.
-  feed_.remove(111);
+  feed_.remove(world::IslandLevel{111});
   store_->end_island(*uploader_, 11);
-  islands.erase(111);
+  islands.erase(world::IslandLevel{111});
   settle(islands);
   settle(islands);
   other.erase(11);
@@ -245,7 +246,7 @@ TEST_F(LightOfManyIslands, WithoutRoomTheFarthestAreDark) {
 
 TEST_F(LightOfManyIslands, ACameraThatGoesToAndFroMakesNoneBlink) {
   Islands islands = row_of_islands(12);
-  for (const auto& [id, near] : islands) feed_.add(island(id, 0, 4));
+  for (const auto& [row, near] : islands) feed_.add(island(row.island, 0, 4));
   settle(islands);
   const std::set<std::uint32_t> before = lit_slots();
   for (int i = 0; i < 20; ++i) {

@@ -53,18 +53,32 @@ int most_apart(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_
 
 TEST_F(ShadeTargets, TheWayToThePictureDoesNotShow) {
   add(pond, {0, -1, 0}, {1, 0, 1});
-  for (const bool water : {true, false}) {
+  struct Case {
+    const char* name;
+    Camera camera;
+    bool water = true;
+    std::uint32_t medium = world::block::kAirBlock;
+  };
+  const std::vector<Case> cases{
+      {"over it", view().camera},
+      {"far off, below which there is meadow", camera_at({22.0, 9.0, -27.0}, 0.0, -5.0, 40.0)},
+      {"turned away", camera_at({22.0, 7.0, 40.0}, 10.0, -12.0, 80.0), false},
+      {"inside", camera_at({22.0, -1.5, 26.0}, 10.0, 5.0, 80.0), true, world::block::kWater}};
+  for (const Case& each : cases) {
     for (const int rate : {1, 2, 4}) {
-      SCOPED_TRACE(testing::Message() << water << ", " << rate);
+      SCOPED_TRACE(testing::Message() << each.name << ", " << rate);
       FrameInput in = view();
-      if (!water) in.camera = camera_at({22.0, 7.0, 40.0}, 10.0, -12.0, 80.0);
+      in.camera = each.camera;
+      in.camera_medium = each.medium;
       const std::vector<std::uint8_t> at_once = picture_of(in, rate);
-      EXPECT_EQ(has_pass("develop"), water) << "no pixel, or water's part of the picture";
+      EXPECT_FALSE(has_pass("develop"));
+      EXPECT_EQ(has_pass("refresh_picture"), each.water);
       const std::optional<float> ev = report_.metered_ev;
       const shared::PixelStats counts = report_.pixels;
       in.capture = true;
       const std::vector<std::uint8_t> by_radiance = picture_of(in, rate);
       EXPECT_TRUE(has_pass("develop"));
+      EXPECT_FALSE(has_pass("refresh_picture"));
       // A sky of fewer pixels is mixed as it is encoded there, and as radiance here.
       EXPECT_LE(most_apart(at_once, by_radiance), rate == 1 ? 0 : 1);
       ASSERT_TRUE(ev.has_value());

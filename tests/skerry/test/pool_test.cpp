@@ -15,8 +15,8 @@
 #include <string>
 #include <thread>
 
+#include "engine/core/processors.h"
 #include "tests/folder.h"
-#include "tools/skerry/farm/cpu_share.h"
 
 namespace skerry::tools {
 namespace {

@@ -83,7 +83,6 @@ std::set<int> cpus_after(const Body& body) {
 
 TEST(StayOnCpuShare, GivesEachProcessProcessorsOfItsOwn) {
   const std::set<int> all = cpus_after([] {});
-  EXPECT_EQ(static_cast<std::size_t>(usable_cpus()), all.size());
   const std::size_t shares = all.size();
   std::set<int> together;
   for (std::size_t share = 0; share < shares; ++share) {

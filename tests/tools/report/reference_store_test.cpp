@@ -224,7 +224,7 @@ constexpr const char* kUnread[] = {
     "renderer=deferred",   "shading.rate=4",    "shading.tolerance=0.2", "lights.shadows=off",
     "lights.softness=8",   "lights.tile=64",    "lights.oracle=1",       "upload.path=mapped",
     "upload.budget=65536", "memory.budget=256", "jobs.threads=1",        "frames.cap=30",
-    "water.layers=4"};
+    "water.layers=4",      "view.error=4"};
 
 TEST(ReferenceId, LeavesOutWhatTheReferenceDoesNotRead) {
   const game::SceneOptions plain = scene();

@@ -1,12 +1,9 @@
 #include "tools/skerry/farm/cpu_share.h"
 
 #include <hwloc.h>
-#include <sched.h>
 
-#include <algorithm>
 #include <climits>
 #include <memory>
-#include <thread>
 
 #include "engine/core/check.h"
 
@@ -36,12 +33,6 @@ Topology usable_topology() {
 }
 
 }  // namespace
-
-int usable_cpus() {
-  cpu_set_t set;
-  if (::sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
 
 std::vector<std::vector<unsigned>> cpu_shares(hwloc_topology* topology, std::size_t shares) {
   SKERRY_ASSERT(shares > 0);

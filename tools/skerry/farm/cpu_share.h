@@ -7,9 +7,6 @@ struct hwloc_topology;  // of <hwloc.h>
 
 namespace skerry::tools {
 
-/// How many processors this process may use: those of its affinity, which Slurm and taskset set.
-int usable_cpus();
-
 /// Splits a machine's processors into equal parts of neighbours: cores stay whole and caches are
 /// not shared between parts as long as there are enough of them (hwloc_distrib).
 /// @param topology loaded. @return the processors of each part, ascending, as the system numbers

@@ -33,7 +33,7 @@ constexpr std::string_view kUnread[] = {"view.detail",       "aa.samples",
                                         "jobs.threads",      "frames.wanted",
                                         "frames.cap",        "frames.unfocused",
                                         "frames.sync",       "water.layers",
-                                        "water.mirror"};
+                                        "water.mirror",      "view.error"};
 
 std::string text_of(const game::WorldLight& placed) {
   const shared::Light& light = placed.light;

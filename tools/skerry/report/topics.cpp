@@ -113,6 +113,11 @@ constexpr TopicPoint kDistances[] = {{"200", "view.distance=200"},
 constexpr TopicPoint kDetails[] = {{"64", "view.detail=64"},   {"128", "view.detail=128"},
                                    {"192", "view.detail=192"}, {"320", "view.detail=320"},
                                    {"512", "view.detail=512"}, {"1024", "view.detail=1024"}};
+constexpr TopicPoint kErrors[] = {{"0", "view.error=0"},
+                                  {"0.5", "view.error=0.5"},
+                                  {"1", "view.error=1"},
+                                  {"2", "view.error=2"},
+                                  {"4", "view.error=4"}};
 constexpr TopicPoint kOcclusions[] = {{"off", "view.occlusion=off"},
                                       {"auto", "view.occlusion=auto"},
                                       {"always", "view.occlusion=always"}};
@@ -231,6 +236,8 @@ constexpr Topic kTopics[] = {
      CostOf::kFrame, true, "view.distance=4000"},
     {"view_detail", "blocks up to which everything is drawn in full detail", kDetails, kFar,
      Judge::kReference, CostOf::kFrame, true},
+    {"view_error", "pixels that far ends of islands may be off by; 0: none are coarser", kErrors,
+     kFar, Judge::kReference, CostOf::kFrame, true},
     {"view_occlusion", "whether what the last frame's surfaces hide is left out", kOcclusions,
      kHiding, Judge::kEqual, CostOf::kShading},
     {"shading_rate", "pixels that share light where it is alike, and how much it may differ",

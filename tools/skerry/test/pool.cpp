@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/processors.h"
 #include "tools/skerry/farm/cpu_share.h"
 #include "tools/skerry/scene/scene_device.h"
 #include "tools/skerry/test/worker.h"

@@ -1,0 +1,339 @@
+// Islands drawn at several levels at once: which sections, and that their surfaces are closed.
+#include "world/stream/cut.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+#include <memory>
+#include <random>
+#include <set>
+
+#include "world/islands/world.h"
+#include "world/light/face_records.h"
+#include "world/mesh/mesh.h"
+#include "world/mesh/seams.h"
+
+namespace skerry::world {
+namespace {
+
+/// The corner of lower coordinates of a node, and its edge [blocks].
+struct Cube {
+  explicit Cube(const TreeNode& node)
+      : edge(kChunkEdge << node.level),
+        low{node.chunk.x * edge, node.chunk.y * edge, node.chunk.z * edge} {}
+  int edge;
+  std::array<int, 3> low;
+
+  double distance(const glm::dvec3& p) const {
+    double squares = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const double below = low[static_cast<std::size_t>(i)] - p[i];
+      const double above = p[i] - (low[static_cast<std::size_t>(i)] + edge);
+      const double out = std::max({below, above, 0.0});
+      squares += out * out;
+    }
+    return std::sqrt(squares);
+  }
+  bool overlaps(const Cube& other) const {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (low[i] >= other.low[i] + other.edge || other.low[i] >= low[i] + edge) return false;
+    return true;
+  }
+  /// Whether the other lies at one of this cube's faces.
+  bool touches(const Cube& other, std::size_t face) const {
+    const std::size_t axis = face / 2;
+    const int here = low[axis] + (face % 2 == 0 ? edge : 0);
+    const int there = other.low[axis] + (face % 2 == 0 ? 0 : other.edge);
+    if (here != there) return false;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (i != axis && (low[i] >= other.low[i] + other.edge || other.low[i] >= low[i] + edge))
+        return false;
+    return true;
+  }
+};
+
+/// A made-up island: random chunks of level 0, and at coarser levels most of what holds them.
+std::vector<TreeNode> random_sections(std::mt19937& random, std::initializer_list<int> levels) {
+  std::uniform_int_distribution<int> place(-6, 5), of_ten(0, 9);
+  std::set<TreeNode> all;
+  for (int i = 0; i < 120; ++i) {
+    const IVec3 chunk{place(random), place(random) / 2, place(random)};
+    for (const int level : levels) {
+      const auto at = [level](int v) {
+        return static_cast<std::int32_t>(std::floor(std::ldexp(v, -level)));
+      };
+      if (of_ten(random) > 0) all.insert({level, {at(chunk.x), at(chunk.y), at(chunk.z)}});
+    }
+  }
+  return {all.begin(), all.end()};
+}
+
+constexpr std::array<double, 5> kNearest{0.0, 70.0, 150.0, 290.0, 600.0};
+
+glm::dvec3 random_camera(std::mt19937& random) {
+  std::uniform_real_distribution<double> in(-600.0, 600.0);
+  return {in(random), in(random) / 2, in(random)};
+}
+
+TEST(SectionCut, DrawsEachPlaceOnceAndAsCoarseAsItMay) {
+  std::mt19937 random(1);
+  std::size_t mixed = 0;
+  for (int round = 0; round < 150; ++round) {
+    const bool gap = round % 3 == 2;  // a level that is not there yet
+    const std::vector<TreeNode> sections =
+        gap ? random_sections(random, {0, 2, 3}) : random_sections(random, {0, 1, 2, 3});
+    const glm::dvec3 camera = random_camera(random);
+    const SectionCut cut = cut_of(sections, camera, kNearest, nullptr);
+    std::set<int> levels;
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      const Cube cube(sections[i]);
+      bool finer = false, coarser = false;
+      for (std::size_t k = 0; k < sections.size(); ++k) {
+        const Cube other(sections[k]);
+        if (k == i || !cut.drawn[k] || !cube.overlaps(other)) continue;
+        ASSERT_FALSE(cut.drawn[i]) << "drawn twice";
+        finer |= other.edge < cube.edge;
+        coarser |= other.edge > cube.edge;
+      }
+      const double nearest = kNearest[static_cast<std::size_t>(sections[i].level)];
+      if (cut.drawn[i]) {
+        levels.insert(sections[i].level);
+        ASSERT_TRUE(sections[i].level == 0 || cube.distance(camera) >= nearest) << "too near";
+      } else if (finer) {
+        ASSERT_LT(cube.distance(camera), nearest) << "it could have been this coarse";
+      } else if (!coarser && sections[i].level == 0) {
+        // Something that holds it stands for it, and is empty; it must be far enough for that.
+        bool may = false;
+        for (const int level : gap ? std::vector{2, 3} : std::vector{1, 2, 3}) {
+          const auto at = [level](int v) {
+            return static_cast<std::int32_t>(std::floor(std::ldexp(v, -level)));
+          };
+          const IVec3 c = sections[i].chunk;
+          may |= Cube({level, {at(c.x), at(c.y), at(c.z)}}).distance(camera) >=
+                 kNearest[static_cast<std::size_t>(level)];
+        }
+        ASSERT_TRUE(may) << "lost";
+      }
+    }
+    mixed += levels.size() > 1;
+  }
+  EXPECT_GT(mixed, 75u);
+}
+
+TEST(SectionCut, NamesEachFaceAtWhichAnotherLevelIsDrawn) {
+  std::mt19937 random(2);
+  std::size_t seams = 0;
+  for (int round = 0; round < 100; ++round) {
+    const std::vector<TreeNode> sections = random_sections(random, {0, 1, 2, 3});
+    const SectionCut cut = cut_of(sections, random_camera(random), kNearest, nullptr);
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      if (!cut.drawn[i]) {
+        ASSERT_EQ(cut.seams[i], 0);
+        continue;
+      }
+      for (std::size_t face = 0; face < 6; ++face) {
+        bool same = false, other = false;
+        for (std::size_t k = 0; k < sections.size(); ++k) {
+          if (!cut.drawn[k] || !Cube(sections[i]).touches(Cube(sections[k]), face)) continue;
+          (sections[k].level == sections[i].level ? same : other) = true;
+        }
+        const bool seam = (cut.seams[i] >> face & 1) != 0;
+        ASSERT_TRUE(seam || !other);
+        ASSERT_FALSE(seam && same);
+        seams += seam;
+      }
+    }
+  }
+  EXPECT_GT(seams, 1000u);
+}
+
+TEST(SectionCut, StaysWhileTheCameraMovesLessThanItsSlack) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> in(-1.0, 1.0);
+  for (int round = 0; round < 200; ++round) {
+    const std::vector<TreeNode> sections = random_sections(random, {0, 1, 2, 3});
+    const glm::dvec3 camera = random_camera(random);
+    const SectionCut first = cut_of(sections, camera, kNearest, nullptr);
+    ASSERT_GT(first.slack, 0.0);
+    const glm::dvec3 way = glm::normalize(glm::dvec3(in(random), in(random), in(random) + 1e-6));
+    const SectionCut after =
+        cut_of(sections, camera + way * (0.999 * first.slack), kNearest, &first.split);
+    EXPECT_EQ(after.drawn, first.drawn);
+    EXPECT_EQ(after.seams, first.seams);
+    // 5% about the limits: what is there and back is what it was.
+    const SectionCut back = cut_of(sections, camera, kNearest, &after.split);
+    EXPECT_EQ(back.drawn, first.drawn);
+  }
+}
+
+/// A section as it is drawn: its opaque voxels, and the outer sides of them that have a face.
+struct Drawn {
+  std::vector<BlockId> padded = std::vector<BlockId>(kPaddedVoxels);
+  std::array<std::bitset<64 * 64 * 64>, 6> faces;
+
+  static std::size_t index(int x, int y, int z) {
+    return static_cast<std::size_t>(z + 64 * (x + 64 * y));
+  }
+  bool opaque(int x, int y, int z) const {
+    const auto at = static_cast<std::size_t>(z + 1 + kPaddedEdge * (x + 1 + kPaddedEdge * (y + 1)));
+    return block_kind(padded[at]) == BlockKind::kOpaque;
+  }
+  void add(std::span<const shared::Quad> quads) {
+    for (const shared::Quad& quad : quads) {
+      if (shared::surface_face(quad.material) >= 6) continue;
+      for_each_face(quad, [&](const DrawnFace& face) {
+        faces[static_cast<std::size_t>(face.direction)].set(
+            index(face.voxel.x, face.voxel.y, face.voxel.z));
+      });
+    }
+  }
+};
+
+/// An island drawn by a cut; what it is made of comes from its blocks.
+class CutIsland {
+ public:
+  CutIsland(World& world, std::uint64_t id, int levels, const glm::dvec3& camera,
+            std::span<const double> nearest, bool seams) {
+    std::vector<TreeNode> sections;
+    std::map<TreeNode, std::unique_ptr<Drawn>> all;
+    std::map<TreeNode, SeamFaces> closing;
+    MeshScratch scratch;
+    for (int level = 0; level < levels; ++level)
+      for (const IVec3& chunk : world.chunks(id, level)) {
+        auto drawn = std::make_unique<Drawn>();
+        if (!world.generate_padded(id, chunk, level, drawn->padded)) continue;
+        ChunkMesh mesh;
+        mesh_chunk(drawn->padded, scratch, mesh);
+        drawn->add({mesh.quads.data(), mesh.range_end[shared::kRangeCutout - 1]});
+        const TreeNode node{level, chunk};
+        sections.push_back(node);
+        closing[node] = seam_faces(drawn->padded);
+        all[node] = std::move(drawn);
+      }
+    const SectionCut cut = cut_of(sections, camera, nearest, nullptr);
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      if (!cut.drawn[i]) continue;
+      Drawn& drawn = *(drawn_[sections[i]] = std::move(all[sections[i]]));
+      levels_.insert(sections[i].level);
+      for (std::size_t face = 0; seams && face < 6; ++face)
+        if ((cut.seams[i] >> face & 1) != 0) drawn.add(closing[sections[i]][face]);
+    }
+    highest_ = levels;
+  }
+
+  const std::set<int>& levels() const { return levels_; }
+
+  /// Blocks' sides with rock behind and none in front that no face covers, along random lines.
+  std::size_t holes(std::mt19937& random, int lines) const {
+    std::size_t count = 0;
+    for (int i = 0; i < lines; ++i) {
+      const auto& [node, drawn] =
+          *std::next(drawn_.begin(), static_cast<std::ptrdiff_t>(random() % drawn_.size()));
+      const Cube cube(node);
+      const std::size_t axis = random() % 3;
+      std::array<int, 3> at = cube.low;
+      for (std::size_t a = 0; a < 3; ++a)
+        if (a != axis) at[a] += static_cast<int>(random() % static_cast<unsigned>(cube.edge));
+      // Some blocks past both ends, where the neighbours are.
+      at[axis] -= 4;
+      for (int step = 0; step < cube.edge + 8; ++step, ++at[axis]) {
+        std::array<int, 3> next = at;
+        ++next[axis];
+        const bool here = solid(at), there = solid(next);
+        if (here && !there) count += !has_face(at, 2 * axis);
+        if (there && !here) count += !has_face(next, 2 * axis + 1);
+      }
+    }
+    return count;
+  }
+
+ private:
+  const Drawn* find(const std::array<int, 3>& block, std::array<int, 3>& voxel) const {
+    for (int level = 0; level < highest_; ++level) {
+      const auto chunk = [&](std::size_t a) { return block[a] >> (6 + level); };
+      const auto found = drawn_.find({level, {chunk(0), chunk(1), chunk(2)}});
+      if (found == drawn_.end()) continue;
+      for (std::size_t a = 0; a < 3; ++a) voxel[a] = (block[a] >> level) & 63;
+      return found->second.get();
+    }
+    return nullptr;
+  }
+  bool solid(const std::array<int, 3>& block) const {
+    std::array<int, 3> voxel{};
+    const Drawn* drawn = find(block, voxel);
+    return drawn && drawn->opaque(voxel[0], voxel[1], voxel[2]);
+  }
+  bool has_face(const std::array<int, 3>& block, std::size_t face) const {
+    std::array<int, 3> voxel{};
+    const Drawn* drawn = find(block, voxel);
+    return drawn && drawn->faces[face].test(Drawn::index(voxel[0], voxel[1], voxel[2]));
+  }
+
+  std::map<TreeNode, std::unique_ptr<Drawn>> drawn_;
+  std::set<int> levels_;
+  int highest_ = 0;
+};
+
+TEST(SectionCut, SurfacesAreClosedWhereLevelsMeet) {
+  std::mt19937 random(4);
+  std::size_t mixed = 0, without_seams = 0;
+  constexpr std::array<double, 4> kNear{0.0, 16.0, 60.0, 150.0};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    World world({.seed = seed});
+    const IslandSpec spec = world.islands_near(world.origin(), 300.0, 0.0).front();
+    std::uniform_real_distribution<double> along(-1.0, 1.0);
+    const glm::dvec3 camera(along(random) * spec.bounding_radius, 40.0,
+                            along(random) * spec.bounding_radius);
+    const CutIsland island(world, spec.id, 4, camera, kNear, true);
+    mixed += island.levels().size() > 1;
+    EXPECT_EQ(island.holes(random, 3000), 0u) << "seed " << seed;
+    if (seed <= 4)
+      without_seams += CutIsland(world, spec.id, 4, camera, kNear, false).holes(random, 3000);
+  }
+  EXPECT_GT(mixed, 15u);
+  EXPECT_GT(without_seams, 0u) << "there is something to close";
+}
+
+TEST(SeamFaces, AreTheBordersFacesThatTheMeshLeavesOut) {
+  std::mt19937 random(5);
+  MeshScratch scratch;
+  constexpr std::array<BlockId, 6> kIds{kAir,         block::kStone, block::kStone,
+                                        block::kDirt, block::kWater, block::kGlowFern};
+  Drawn alone;
+  for (BlockId& id : alone.padded) id = kIds[random() % kIds.size()];
+  ChunkMesh mesh;
+  mesh_chunk(alone.padded, scratch, mesh);
+  std::array<std::bitset<64 * 64 * 64>, 6> expected;
+  Drawn drawn;
+  drawn.add({mesh.quads.data(), mesh.range_end[shared::kRangeCutout - 1]});
+  const SeamFaces seams = seam_faces(alone.padded);
+  for (std::size_t face = 0; face < 6; ++face) {
+    Drawn closing;
+    closing.add(seams[face]);
+    EXPECT_TRUE((closing.faces[face] & drawn.faces[face]).none()) << "drawn twice";
+    for (std::size_t other = 0; other < 6; ++other)
+      EXPECT_TRUE(other == face || closing.faces[other].none());
+    const std::size_t axis = face / 2;
+    for (int i = 0; i < 64; ++i)
+      for (int j = 0; j < 64; ++j) {
+        std::array<int, 3> at{};
+        at[axis] = face % 2 == 0 ? 63 : 0;
+        at[(axis + 1) % 3] = i;
+        at[(axis + 2) % 3] = j;
+        const std::size_t index = Drawn::index(at[0], at[1], at[2]);
+        EXPECT_EQ(drawn.faces[face].test(index) || closing.faces[face].test(index),
+                  alone.opaque(at[0], at[1], at[2]));
+        if (closing.faces[face].test(index)) expected[face].set(index);
+      }
+    EXPECT_EQ(closing.faces[face].count(), expected[face].count()) << "on the border alone";
+  }
+}
+
+}  // namespace
+}  // namespace skerry::world
