@@ -37,9 +37,9 @@ SHARED_CONST ivec3 kSkyPatterns[16] = {
 
 // A face's hemisphere has four quarters (bit 0: negative along the axis after its own, bit 1: along
 // the one after that), and each of them two lobes, 2 * quarter + (0 steep, 1 grazing): the cells of
-// the patterns whose cosine to the face is at least kSteepCosine, and the others.
+// the patterns that rise or fall at least by kSteepSine, and the others: sky changes by height.
 SHARED_CONST uint kSkyLobes = 8u;
-SHARED_CONST float kSteepCosine = 0.6f;
+SHARED_CONST float kSteepSine = 0.6f;
 
 SHARED_CONST uint kIndirectSkyTexels =
     3u;  // a face: red, green, blue; halves of the lobes in order

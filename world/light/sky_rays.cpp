@@ -41,7 +41,7 @@ LobeWeights make_weights(int axis) {
     out.weight[k] =
         static_cast<std::uint32_t>(std::lround(cell_share(along, std::min(b, c), std::max(b, c))));
     const double length = std::sqrt(static_cast<double>(along * along + b * b + c * c));
-    if (along / length >= static_cast<double>(shared::kSteepCosine)) out.steep |= 1u << k;
+    if (p.y / length >= static_cast<double>(shared::kSteepSine)) out.steep |= 1u << k;
   }
   return out;
 }

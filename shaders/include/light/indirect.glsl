@@ -128,10 +128,9 @@ float open_share(FaceSky sky) { return dot(sky.seen_a + sky.seen_b, vec4(1.0 / f
 // Share of the sky about one direction that is seen: between the lobes about it. @param lattice unit, before the face.
 float seen_towards(FaceSky sky, uint face, vec3 lattice) {
   uint axis = face >> 1;
-  float out_of_face = abs(axis == 0u ? lattice.x : axis == 1u ? lattice.y : lattice.z);
   vec2 along = axis == 0u ? lattice.yz : axis == 1u ? lattice.zx : lattice.xy;
   vec2 positive = 0.5 + 0.5 * along * inversesqrt(max(dot(along, along), 1e-12));
-  float steep = smoothstep(kSteepCosine - 0.2, kSteepCosine + 0.2, out_of_face);
+  float steep = smoothstep(kSteepSine - 0.2, kSteepSine + 0.2, abs(lattice.y));
   vec2 quarters_a = mix(sky.seen_a.yw, sky.seen_a.xz, steep), quarters_b = mix(sky.seen_b.yw, sky.seen_b.xz, steep);
   return mix(mix(quarters_b.y, quarters_b.x, positive.x), mix(quarters_a.y, quarters_a.x, positive.x), positive.y);
 }

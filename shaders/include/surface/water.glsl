@@ -119,7 +119,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     const vec3 up = vec3(0.0, 1.0, 0.0);
     Depth depth = depth_in_medium(ray / ray_length * 0.5);
     light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.1, 0u, depth)).light;
-    if (frame.medium_surface != 0u) sky_light = sky_about(frame.medium_surface_place, frame.medium_surface).irradiance;
+    if (frame.medium_surface != 0u) sky_light = frame.medium_light * sky_about(frame.medium_surface_place, frame.medium_surface).irradiance;
     light_in += sky_light * sky_share(depth);
   }
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);

@@ -54,8 +54,8 @@ LitIslands chunks_in_view(world::World& world, const game::SceneOptions& options
   while (!streamer.complete())
     for (const world::ReadySection& section : streamer.poll(SIZE_MAX).ready) {
       LitIsland& island = out[section.key.island];
-      if (section.key.far) continue;
       island.level = section.key.level;
+      if (section.key.far) continue;
       std::vector<game::LatticeLight> lights = field.lights_of(section.key, section.emitters);
       std::vector<world::WeakLamp> weak;
       if (full) weak = game::take_weak(lights, section.key.level);
@@ -97,6 +97,7 @@ std::vector<render::IslandPlacement> placements(const world::World& world, doubl
                    pose.rotation,
                    spec.bounding_radius,
                    island.chunks.empty(),
+                   island.level,
                    game::land_of(spec)});
   }
   return out;

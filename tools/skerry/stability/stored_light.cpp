@@ -295,6 +295,7 @@ std::vector<render::IslandPlacement> field_of(int edge, double angle) {
                      {1.0, 0.0, 0.0, 0.0},
                      60.0,
                      false,
+                     0,
                      {glm::vec3(0.0f, -10.0f, 0.0f), glm::vec3(40.0f, 25.0f, 30.0f)}});
   out.front().rotation = glm::angleAxis(angle, glm::dvec3(0.0, 1.0, 0.0));
   return out;
