@@ -33,6 +33,14 @@ inline std::int16_t select(bool condition, std::int16_t yes, std::int16_t no) {
   return static_cast<std::int16_t>((yes & mask) | (no & ~mask));
 }
 
+/// noise::smooth() of the heights within a cell.
+constexpr auto kSmooth = [] {
+  std::array<int, sideways::kCellHeight> out{};
+  for (int y = 0; y < sideways::kCellHeight; ++y)
+    out[static_cast<std::size_t>(y)] = noise::smooth(y * noise::kOne12 / sideways::kCellHeight);
+  return out;
+}();
+
 /// [first, end) along an axis.
 struct Range {
   int first = 0, end = 0;
@@ -91,14 +99,14 @@ class RowCover {
 
 /// Larger than a stack should hold; one a thread.
 struct Scratch {
-  std::array<std::int16_t, std::size_t{kLayers} * kLayer> rock, filled;  // blocks of each voxel
+  std::array<std::int16_t, std::size_t{kLayers} * kLayer> rock, water;  // blocks of each voxel
   Masks arches, holes;  // which of 2 x 2 x 2 places in a voxel they take
   std::array<SkinId, std::size_t{kLayers} * kLayer> skins;  // of ground in a voxel; bare: none
 };
 
 /// Fills one padded chunk of a coarse level. A voxel is solid where half of its blocks are or more:
-/// columns are summed up exactly, what shifts sideways exactly at level 1 and in 2 x 2 x 2 places
-/// at level 2, arches and caves in so many places at any level.
+/// columns are summed up exactly, what shifts sideways from half of its blocks at level 1 and in
+/// 2 x 2 x 2 places at level 2, arches and caves in so many places at any level.
 class CoarseFiller {
  public:
   CoarseFiller(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId> out,
@@ -123,7 +131,8 @@ class CoarseFiller {
   void sum_rows();
   /// Of the voxels of a row along z.
   struct RowSums {
-    RowCover rock, filled;
+    RowCover rock, water;
+    bool wet = true;          // that `water` is not all zero
     SkinId* skins = nullptr;  // of its first voxel in the lowest layer
     std::array<bool, kPadded> ragged{};
   };
@@ -208,12 +217,13 @@ void CoarseFiller::sum_ragged(int k, int x, int z, RowSums& row) {
   const int step = places_edge();
   if ((x & (step - 1)) != step / 2 || (z & (step - 1)) != step / 2) return;
   const int weight = step * step;
+  // At level 1 half of the blocks, as on a chessboard.
+  const int y_step = std::max(step, 2), phase = step > 1 ? step / 2 : (x ^ z) & 1;
   const Columns::Reach reach = columns_.reach_at(x, z);
   const std::size_t column = columns_.index(x, z);
   const int core_low = std::max(reach.core_bottom, reach.bottom),
             core_top = std::max<int>(core_low, std::min(reach.core_top, reach.top));
   row.rock.add(k, core_low, core_top, weight);
-  row.filled.add(k, core_low, core_top, weight);
   const int i = sideways::floor_to(x, kCell), j = sideways::floor_to(z, kCell);
   int cell = INT32_MIN;
   sideways::Shift low{}, high{};
@@ -226,19 +236,18 @@ void CoarseFiller::sum_ragged(int k, int x, int z, RowSums& row) {
   const auto look = [&](int first, int end) {
     first = std::max(first, y_low_ + layers_.first * edge_);
     end = std::min(end, y_low_ + layers_.end * edge_);
-    for (int y = first + ((step / 2 - first) & (step - 1)); y < end; y += step) {
+    for (int y = first + ((phase - first) & (y_step - 1)); y < end; y += y_step) {
       if (const int at = sideways::floor_to(y, kCellHeight); at != cell) {
         cell = at;
         low = shift_at_cell(cell);
         high = shift_at_cell(cell + 1);
       }
-      const int t = noise::smooth((y - cell * kCellHeight) * noise::kOne12 / kCellHeight);
+      const int t = kSmooth[static_cast<std::size_t>(y - cell * kCellHeight)];
       const auto mix = [t](int a, int b) { return a + (((b - a) * t) >> 12); };
       const std::size_t from =
           columns_.shifted_index(x, z, column, mix(low.x, high.x), mix(low.z, high.z));
       if (y < columns_.bottom[from] || y >= columns_.top[from]) continue;
-      row.rock.add_block(k, y, weight * step);
-      row.filled.add_block(k, y, weight * step);
+      row.rock.add_block(k, y, weight * y_step);
       // The turf comes along with the rock, and only with its upper end: ledges below an overhang
       // are bare.
       if (y >= columns_.top[from] - kLedgeTurf) note_skin(k, y, columns_.skins[from], row);
@@ -261,13 +270,13 @@ void CoarseFiller::sum_column(int k, int x, int z, RowSums& row, Wet& wet) {
     return sum_ragged(k, x, z, row);
   }
   if (columns_.top[c] == Columns::kNoGround) return;
-  const bool has_water = columns_.water[c] > columns_.top[c];
-  if (has_water) {
+  row.rock.add(k, columns_.bottom[c], columns_.top[c], 1);
+  if (columns_.water[c] > columns_.top[c]) {
+    row.water.add(k, columns_.top[c], columns_.water[c], 1);
+    row.wet = true;
     ++wet.columns;
     wet.level = std::max(wet.level, columns_.water[c]);
   }
-  row.rock.add(k, columns_.bottom[c], columns_.top[c], 1);
-  row.filled.add(k, columns_.bottom[c], has_water ? columns_.water[c] : columns_.top[c], 1);
   note_skin(k, columns_.top[c] - 1, columns_.skins[c], row);
 }
 
@@ -282,7 +291,8 @@ void CoarseFiller::sum_rows() {
   for (int i = rows_.first; i < rows_.end; ++i) {
     const int first = i * kPadded;
     row.rock.clear();
-    row.filled.clear();
+    if (row.wet) row.water.clear();
+    row.wet = false;
     row.skins = &scratch_.skins[static_cast<std::size_t>(first)];
     row.ragged.fill(false);
     for (int k = along_.first; k < along_.end; ++k) {
@@ -296,7 +306,10 @@ void CoarseFiller::sum_rows() {
         ragged_.push_back(static_cast<std::size_t>(first + k));
     }
     row.rock.sum(&scratch_.rock[static_cast<std::size_t>(first)]);
-    row.filled.sum(&scratch_.filled[static_cast<std::size_t>(first)]);
+    if (row.wet) row.water.sum(&scratch_.water[static_cast<std::size_t>(first)]);
+    for (int j = layers_.first; !row.wet && j < layers_.end; ++j)
+      std::fill_n(&scratch_.water[static_cast<std::size_t>(j * kLayer + first)], kPadded,
+                  std::int16_t{0});
   }
 }
 
@@ -381,7 +394,6 @@ void CoarseFiller::carve(int i, int j, std::size_t at) {
   const unsigned left = (rock | scratch_.arches[at]) & ~unsigned{scratch_.holes[at]};
   const int more = (std::popcount(left) - std::popcount(rock)) * step * step * step;
   scratch_.rock[at] = static_cast<std::int16_t>(std::max(scratch_.rock[at] + more, 0));
-  scratch_.filled[at] = static_cast<std::int16_t>(std::max(scratch_.filled[at] + more, 0));
 }
 
 /// Sheets that are thinner than a voxel, as at an island's rim, may lie in two voxels, of which
@@ -392,12 +404,12 @@ void CoarseFiller::fill_sheets() {
   for (int j = layers_.first + 1; j + 1 < layers_.end; ++j) {
     for (int i = first_place(); i < end_place(); ++i) {
       const std::size_t at = static_cast<std::size_t>(j) * kLayer + static_cast<std::size_t>(i);
-      const int here = scratch_.filled[at], below = scratch_.filled[at - kLayer],
-                above = scratch_.filled[at + kLayer];
+      const auto filled = [this](std::size_t of) { return scratch_.rock[of] + scratch_.water[of]; };
+      const int here = filled(at), below = filled(at - kLayer), above = filled(at + kLayer);
       if (here == 0 || std::max({here, below, above}) >= half || here < above || here <= below ||
           below + here + above < least)
         continue;
-      scratch_.rock[at] = scratch_.filled[at] = static_cast<std::int16_t>(half);
+      scratch_.rock[at] = static_cast<std::int16_t>(half);
     }
   }
 }
@@ -437,7 +449,7 @@ void CoarseFiller::paint_layer(int j, BlockId* out) {
   const auto height = static_cast<std::int16_t>(y_low_ + j * edge_);
   const std::size_t first = static_cast<std::size_t>(j) * kLayer;
   const std::int16_t* const rock_of = &scratch_.rock[first];
-  const std::int16_t* const filled_of = &scratch_.filled[first];
+  const std::int16_t* const water_of = &scratch_.water[first];
   const auto liquid = static_cast<std::int16_t>(plan_.biome().liquid);
   const auto rock = static_cast<std::int16_t>(
       plan_.bands[static_cast<std::size_t>((height + edge_ / 2) & (kBandPeriod - 1))]);
@@ -446,7 +458,7 @@ void CoarseFiller::paint_layer(int j, BlockId* out) {
   for (int i = first_place(); i < end_place(); ++i)
     carved_[i] = cut && scratch_.holes[first + i] != 0 ? kUnderground : std::int16_t{0};
   for (int i = first_place(); i < end_place(); ++i) {
-    const std::int16_t filled = select(filled_of[i] >= half, -1, 0);
+    const std::int16_t filled = select(rock_of[i] + water_of[i] >= half, -1, 0);
     // The uppermost voxel of a lake is of its liquid, however shallow it is.
     const std::int16_t surface = select(depth_[i] == 0, select(height < water_[i], -1, 0), 0);
     const auto solid =

@@ -165,10 +165,10 @@ void for_levels(const std::array<double, kLevelCount - 1>& bounds, F&& f) {
   }
 }
 
-// At level 1 only thin sheets, which the filter loses, are others; at level 2 ragged rock is looked
-// at in places, and at level 3 it is not shifted.
+// Others are thin sheets, which the filter loses, and ragged rock, which is looked at in half of
+// its blocks at level 1, in places at level 2, and is not shifted beyond.
 TEST(CoarseLevels, RockIsWhereHalfOfTheBlocksAre) {
-  for_levels({0.03, 0.16, 0.14, 0.20},
+  for_levels({0.08, 0.16, 0.14, 0.20},
              [](const Sums& sums, double bound) { EXPECT_LT(sums.wrong / sums.surface, bound); });
 }
 
@@ -181,7 +181,7 @@ TEST(CoarseLevels, VolumesOfRockAndOfCrownsStay) {
 
 // Islands of 70 blocks are nine voxels wide at level 4, and their rims are thinner than a voxel.
 TEST(CoarseLevels, SilhouettesAreNearlyTheBestOfSuchVoxels) {
-  for_levels({1.15, 1.26, 1.33, 1.38},
+  for_levels({1.17, 1.26, 1.33, 1.38},
              [](const Sums& sums, double bound) { EXPECT_LT(sums.off / sums.least_off, bound); });
   for_levels({0.02, 0.02, 0.08, 0.17}, [](const Sums& sums, double bound) {
     EXPECT_NEAR(sums.area / sums.area_f, 1.0, bound);
