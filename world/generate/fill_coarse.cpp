@@ -490,11 +490,11 @@ void CoarseFiller::fill() {
 }
 
 /// Upright rows of stamps in air, such as crystals, are drawn a voxel thick and so much shorter
-/// that their faces keep their area: what glows keeps its light. What a voxel is too much or too
-/// little for that is left to chance.
+/// that their faces keep their area: what glows keeps its light.
 void CoarseFiller::stamps() {
   constexpr int kFaces = 4, kVoxelFaces = 5;  // of a row's block that are seen, of a voxel
   const std::vector<Stamp>& all = plan_.stamps;
+  int area = 0;  // of rows so far that no voxel stands for
   for (std::size_t i = 0; i < all.size();) {
     const Stamp& first = all[i++];
     if (!first.into_air || block_kind(first.id) == BlockKind::kPlant) continue;
@@ -505,10 +505,9 @@ void CoarseFiller::stamps() {
     const int up = goes_on(-1, 1) ? -1 : 1;
     std::size_t length = 1;
     for (; goes_on(up, length); ++length) ++i;
-    const auto area = static_cast<std::uint64_t>(length) * kFaces << 32;
-    const auto voxel_area = static_cast<std::uint64_t>(kVoxelFaces * edge_ * edge_);
-    const std::uint32_t chance = hash2(plan_.shape.seed + 511, first.x, first.z);
-    const auto count = static_cast<int>((area / voxel_area + chance) >> 32);
+    area += static_cast<int>(length) * kFaces;
+    const int count = area / (kVoxelFaces * edge_ * edge_);
+    area %= kVoxelFaces * edge_ * edge_;
     // From the first voxel that is not solid yet.
     const int y = (first.y + up * edge_ / 2) >> level_;
     for (int n = 0; n < count; ++n) {
