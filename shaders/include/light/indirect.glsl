@@ -77,6 +77,7 @@ struct SkyLight {
 // What a place of a face knows of its surroundings.
 struct FaceSky {
   vec3 irradiance;  // of sky and weak lamps, and what other faces reflect
+  vec3 lamps;       // of it, weak lamps and what is reflected of lamps
   vec3 bounced;     // of it, what other faces reflect of sky, sun and moon
   vec4 seen_a;      // share of each lobe of the sky that is seen, 0..1
   vec4 seen_b;
@@ -107,15 +108,15 @@ FaceSky sky_of_face(vec3 position, uint word) {
     sky.irradiance[channel] = dot(sky.seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
                               dot(sky.seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
   }
-  sky.bounced = vec3(0.0);
+  sky.bounced = sky.lamps = vec3(0.0);
   if (kIndirect == kIndirectFull) {
     uvec4 lamps = indirect_texel(record != 0u, record + 2u);
-    sky.irradiance += mix(mix(shared_exponent(lamps.x), shared_exponent(lamps.y), at.x), mix(shared_exponent(lamps.z), shared_exponent(lamps.w), at.x), at.y);
+    sky.lamps = mix(mix(shared_exponent(lamps.x), shared_exponent(lamps.y), at.x), mix(shared_exponent(lamps.z), shared_exponent(lamps.w), at.x), at.y);
     sky.bounced = bounced_light(indirect_texel(record != 0u, record + 3u), island, at);
-    sky.irradiance += sky.bounced;
+    sky.irradiance += sky.lamps + sky.bounced;
   }
   if (!sky.known) {
-    sky.irradiance = sky.bounced = vec3(0.0);
+    sky.irradiance = sky.bounced = sky.lamps = vec3(0.0);
     sky.seen_a = sky.seen_b = vec4(0.0);
   }
   return sky;
@@ -144,9 +145,10 @@ float seen_towards(FaceSky sky, uint face, vec3 lattice) {
 }
 
 // Light of the sky and of weak lamps on a surface, as if it were matt. @param word of the G-buffer.
-SkyLight light_of_sky(Surface s, uint word) {
+// @param share of what does not come from lamps, that is left on its way.
+SkyLight light_of_sky(Surface s, uint word, vec3 share) {
   if (kIndirect == kIndirectOff) return SkyLight(vec3(0.0), 0.0);
   FaceSky sky = sky_of_face(s.position, word);
-  return SkyLight(sky.irradiance, open_share(sky, surface_face(word)));
+  return SkyLight((sky.irradiance - sky.lamps) * share + sky.lamps, open_share(sky, surface_face(word)));
 }
 #endif
