@@ -26,9 +26,9 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr int kFlickerFrames = 120;
-constexpr double kSlowTurnDeg = 0.06;       // about half a pixel of 1280
-constexpr double kWalkBlocks = 4.3 / 60.0;  // blocks
-constexpr double kDriftSeconds = 0.25;      // islands then move as fast as steered ones
+constexpr double kSlowTurnDeg = 0.06;        // about half a pixel of 1280
+constexpr double kWalkBlocks = 4.3 / 60.0;   // blocks
+constexpr double kDriftSeconds = 0.25;       // islands then move as fast as steered ones
 constexpr double kSunSeconds = 24.0 / 60.0;  // of the day: 24 times as fast as it is, 60 frames/s
 
 /// What moves from one frame to the next.
