@@ -123,14 +123,23 @@ FaceSky sky_of_face(vec3 position, uint word) {
 }
 
 // Share of the face's sky that is seen, 0..1.
-float open_share(FaceSky sky) { return dot(sky.seen_a + sky.seen_b, vec4(1.0 / float(kSkyLobes))); }
+float open_share(FaceSky sky, uint face) {
+  vec4 parts = face >> 1 == 1u || face >= 6u ? vec4(0.125) : vec4(vec3(1.0 / 12.0), 0.25);
+  return dot(sky.seen_a + sky.seen_b, parts);
+}
 
 // Share of the sky about one direction that is seen: between the lobes about it. @param lattice unit, before the face.
 float seen_towards(FaceSky sky, uint face, vec3 lattice) {
   uint axis = face >> 1;
-  vec2 along = axis == 0u ? lattice.yz : axis == 1u ? lattice.zx : lattice.xy;
+  vec2 along = axis == 0u ? lattice.yz : axis == 1u ? lattice.zx : lattice.yx;
   vec2 positive = 0.5 + 0.5 * along * inversesqrt(max(dot(along, along), 1e-12));
   float steep = smoothstep(kSteepSine - 0.2, kSteepSine + 0.2, abs(lattice.y));
+  if (axis != 1u) {
+    float below = smoothstep(-0.1, 0.1, -lattice.y), low = (1.0 - smoothstep(kLowSine - 0.1, kLowSine + 0.1, lattice.y)) * (1.0 - below);
+    vec4 parts = vec4(steep * (1.0 - below), 0.0, low, below);
+    parts.y = 1.0 - parts.x - low - below;
+    return dot(mix(sky.seen_b, sky.seen_a, positive.y), parts);
+  }
   vec2 quarters_a = mix(sky.seen_a.yw, sky.seen_a.xz, steep), quarters_b = mix(sky.seen_b.yw, sky.seen_b.xz, steep);
   return mix(mix(quarters_b.y, quarters_b.x, positive.x), mix(quarters_a.y, quarters_a.x, positive.x), positive.y);
 }
@@ -140,6 +149,6 @@ float seen_towards(FaceSky sky, uint face, vec3 lattice) {
 SkyLight light_of_sky(Surface s, uint word, vec3 share) {
   if (kIndirect == kIndirectOff) return SkyLight(vec3(0.0), 0.0);
   FaceSky sky = sky_of_face(s.position, word);
-  return SkyLight((sky.irradiance - sky.lamps) * share + sky.lamps, open_share(sky));
+  return SkyLight((sky.irradiance - sky.lamps) * share + sky.lamps, open_share(sky, surface_face(word)));
 }
 #endif
