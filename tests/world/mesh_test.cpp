@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "world/mesh/kernel.h"
 #include "world/voxel/chunk.h"
@@ -471,6 +473,52 @@ TEST(Mesh, PalettesOfEverySizeKeepTheirIds) {
     Padded chunk;
     chunk.fill([&](int, int, int) { return static_cast<BlockId>(chance.below(count) * 3); });
     mesher.check(chunk);
+  }
+}
+
+// The ranges of leaves join those of opaque faces, in the order of the mesher's ranges.
+TEST(Mesh, ClosedLeavesAreOpaqueFaces) {
+  Chance chance{11};
+  Padded padded;
+  constexpr std::array<BlockId, 6> kIds{kAir,            block::kStone,     block::kOakLeaves,
+                                        block::kOakLeaves, block::kTallGrass, block::kWater};
+  padded.fill([&](int, int, int) { return kIds[static_cast<std::size_t>(chance.below(6))]; });
+  MeshScratch scratch;
+  ChunkMesh open, closed;
+  mesh_chunk(padded.ids, scratch, open);
+  closed = open;
+  close_cutouts(closed);
+  const auto quads_of = [](const ChunkMesh& mesh, std::uint32_t range) {
+    return std::vector<Quad>(mesh.quads.begin() + (range == 0 ? 0 : mesh.range_end[range - 1]),
+                             mesh.quads.begin() + mesh.range_end[range]);
+  };
+  const auto end_of = [](const Quad& quad) {
+    const std::uint32_t axis = shared::surface_face(quad.material) / 2;
+    std::array<std::uint32_t, 3> end{quad.geometry & 63u, quad.geometry >> 6 & 63u,
+                                     quad.geometry >> 12 & 63u};
+    end[static_cast<std::size_t>(kAxisU[axis])] += quad.geometry >> 18 & 63u;
+    end[static_cast<std::size_t>(kAxisV[axis])] += quad.geometry >> 24 & 63u;
+    return std::array{end[1], end[0], end[2]};
+  };
+  const auto bits = [](const std::vector<Quad>& quads) {
+    std::multiset<std::pair<std::uint32_t, std::uint32_t>> out;
+    for (const Quad& quad : quads) out.emplace(quad.geometry, quad.material);
+    return out;
+  };
+  for (std::uint32_t range = 0; range < shared::kRangeCount; ++range) {
+    const std::vector<Quad> now = quads_of(closed, range);
+    std::vector<Quad> wanted = quads_of(open, range);
+    if (range < shared::kFaceCount) {
+      const std::vector<Quad> leaves = quads_of(open, shared::kRangeCutout + range);
+      ASSERT_FALSE(leaves.empty());
+      wanted.insert(wanted.end(), leaves.begin(), leaves.end());
+      EXPECT_TRUE(std::is_sorted(now.begin(), now.end(), [&](const Quad& a, const Quad& b) {
+        return end_of(a) < end_of(b);
+      }));
+    } else if (range < shared::kRangePlant) {
+      wanted.clear();
+    }
+    EXPECT_EQ(bits(now), bits(wanted)) << "range " << range;
   }
 }
 

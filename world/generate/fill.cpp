@@ -1,8 +1,9 @@
+#include "world/generate/fill.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
 
-#include "world/generate/plan.h"
 #include "world/generate/sideways.h"
 
 namespace skerry::world {
@@ -14,7 +15,6 @@ constexpr int kLayer = kPadded * kPadded;
 constexpr int kLookAbove = 6;
 constexpr int kLookBelow = 1;              // what the lowest layer's plants stand on
 constexpr int kLedgeTurf = 4;              // blocks under the top that may still bear turf
-constexpr int kFinestShifted = 1;          // coarser voxels are larger than the sideways shift
 constexpr std::int16_t kUnderground = 64;  // depth of rock below a cave: no turf there
 
 constexpr std::int16_t kDeepest = 2 * kUnderground;
@@ -37,18 +37,14 @@ struct Ragged {
   Columns::Reach reach;
 };
 
-/// Fills one padded chunk, layer by layer from above: whole layers are plain loops over 66 x 66
-/// values that vectorise.
+/// Fills one padded chunk of level 0, layer by layer from above: whole layers are plain loops over
+/// 66 x 66 values that vectorise.
 class Filler {
  public:
-  Filler(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId> out);
-
-  /// Whether the chunk is plainly outside of all that the plan holds.
-  bool empty() const;
+  Filler(const IslandPlan& plan, IVec3 chunk, std::span<BlockId> out);
   void fill();
 
  private:
-  int block_of(int voxel) const { return (voxel << level_) + (1 << level_) / 2; }
   void gather();
   void shift_rock(int y);
   template <class F>
@@ -61,7 +57,6 @@ class Filler {
   const IslandPlan& plan_;
   const Columns& columns_;
   Canvas canvas_;
-  int level_;
   std::span<BlockId> out_;
   int low_ = Columns::kNoRock, high_ = Columns::kNoGround;
   Row top_, bottom_, water_, roof_, cover_, skin_top_, skin_below_, below_depth_, top_depth_,
@@ -73,44 +68,27 @@ class Filler {
   std::vector<sideways::Shift> corners_;
 };
 
-Filler::Filler(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId> out)
+Filler::Filler(const IslandPlan& plan, IVec3 chunk, std::span<BlockId> out)
     : plan_(plan),
       columns_(plan.columns),
-      canvas_{chunk.x * kChunkEdge - 1, chunk.y * kChunkEdge - 1, chunk.z * kChunkEdge - 1, level,
-              out},
-      level_(level),
+      canvas_{chunk.x * kChunkEdge - 1, chunk.y * kChunkEdge - 1, chunk.z * kChunkEdge - 1, 0, out},
       out_(out) {
-  const int size = kPadded << level;
-  const int x = canvas_.x0 << level;
-  const int y = canvas_.y0 << level;
-  const int z = canvas_.z0 << level;
-  const int above = kLookAbove << level;
-  const int below = kLookBelow << level;
+  const int x = canvas_.x0, y = canvas_.y0, z = canvas_.z0;
   const auto near = [&](const Ball& b) {
-    return b.x + b.radius >= x && b.x - b.radius < x + size && b.z + b.radius >= z &&
-           b.z - b.radius < z + size && b.y + b.radius >= y - below &&
-           b.y - b.radius < y + size + above;
+    return b.x + b.radius >= x && b.x - b.radius < x + kPadded && b.z + b.radius >= z &&
+           b.z - b.radius < z + kPadded && b.y + b.radius >= y - kLookBelow &&
+           b.y - b.radius < y + kPadded + kLookAbove;
   };
   std::copy_if(plan.solids.begin(), plan.solids.end(), std::back_inserter(solids_), near);
   std::copy_if(plan.holes.begin(), plan.holes.end(), std::back_inserter(holes_), near);
 }
 
-bool Filler::empty() const {
-  const int y = canvas_.y0 << level_;
-  const int size = kPadded << level_;
-  const int reach = columns_.half;
-  const auto apart = [&](int first) {
-    return (first << level_) >= reach || ((first + kPadded) << level_) <= -reach;
-  };
-  return y >= plan_.highest || y + size <= plan_.lowest || apart(canvas_.x0) || apart(canvas_.z0);
-}
-
 void Filler::gather() {
   int at = 0;
   for (int i = 0; i < kPadded; ++i) {
-    const int x = block_of(canvas_.x0 + i);
+    const int x = canvas_.x0 + i;
     for (int k = 0; k < kPadded; ++k, ++at) {
-      const int z = block_of(canvas_.z0 + k);
+      const int z = canvas_.z0 + k;
       if (!columns_.has(x, z)) {
         top_[at] = Columns::kNoGround;
         bottom_[at] = Columns::kNoRock;
@@ -131,10 +109,10 @@ void Filler::gather() {
       // Depth 1 is the top; bare rock has neither top nor turf.
       const bool bare = columns_.skins[c] == SkinId::kBare;
       top_depth_[at] = bare ? 0 : 1;
-      below_depth_[at] = static_cast<std::int16_t>(bare ? 0 : 1 + (cover.below_depth >> level_));
+      below_depth_[at] = static_cast<std::int16_t>(bare ? 0 : 1 + cover.below_depth);
       low_ = std::min<int>(low_, bottom_[at]);
       high_ = std::max<int>(high_, std::max(top_[at], water_[at]));
-      if (level_ <= kFinestShifted && columns_.ragged[c] > 0) {
+      if (columns_.ragged[c] > 0) {
         ragged_.push_back({static_cast<std::int16_t>(at), static_cast<std::int16_t>(x),
                            static_cast<std::int16_t>(z), columns_.reach_at(x, z)});
         low_ = std::min<int>(low_, ragged_.back().reach.bottom);
@@ -153,9 +131,9 @@ void Filler::gather() {
 /// Rock of the ragged columns in the layer at block height y.
 void Filler::shift_rock(int y) {
   if (ragged_.empty()) return;
-  const int cx0 = sideways::floor_to(block_of(canvas_.x0), sideways::kCell);
-  const int cz0 = sideways::floor_to(block_of(canvas_.z0), sideways::kCell);
-  const int edge = (kPadded << level_) / sideways::kCell + 3;
+  const int cx0 = sideways::floor_to(canvas_.x0, sideways::kCell);
+  const int cz0 = sideways::floor_to(canvas_.z0, sideways::kCell);
+  const int edge = kPadded / sideways::kCell + 3;
   corners_.resize(static_cast<std::size_t>(edge) * edge);
   for (int i = 0; i < edge; ++i) {
     for (int k = 0; k < edge; ++k) {
@@ -182,7 +160,7 @@ void Filler::shift_rock(int y) {
     skin_top_[r.at] = static_cast<std::int16_t>(cover.top);
     skin_below_[r.at] = static_cast<std::int16_t>(cover.below);
     top_depth_[r.at] = turf ? 1 : 0;
-    below_depth_[r.at] = static_cast<std::int16_t>(turf ? 1 + (cover.below_depth >> level_) : 0);
+    below_depth_[r.at] = static_cast<std::int16_t>(turf ? 1 + cover.below_depth : 0);
     solid_[r.at] = y >= columns_.bottom[from] && y < columns_.top[from] ? -1 : 0;
     // Bands follow the shift, so that strata undulate along a cliff.
     rock_[r.at] = static_cast<std::int16_t>(
@@ -194,21 +172,18 @@ void Filler::shift_rock(int y) {
 /// ball.
 template <class F>
 void Filler::for_ball_voxels(const std::vector<Ball>& balls, int y, F&& f) {
-  const int size = 1 << level_;
   for (const Ball& b : balls) {
     const int dy = y - b.y;
     const int flat = b.radius * b.radius - dy * dy;
     if (flat <= 0 || y < b.floor) continue;
     for (int i = 0; i < kPadded; ++i) {
-      const int dx = block_of(canvas_.x0 + i) - b.x;
+      const int dx = canvas_.x0 + i - b.x;
       const int rest = flat - dx * dx;
       if (rest <= 0) continue;
       const int reach = static_cast<int>(
           noise::isqrt(static_cast<std::uint64_t>(rest - 1)));  // largest |dz| with dz^2 < rest
-      const int half = size / 2;
-      const int first = std::max(0, -sideways::floor_to(-(b.z - reach - half), size) - canvas_.z0);
-      const int last =
-          std::min(kPadded - 1, sideways::floor_to(b.z + reach - half, size) - canvas_.z0);
+      const int first = std::max(0, b.z - reach - canvas_.z0);
+      const int last = std::min(kPadded - 1, b.z + reach - canvas_.z0);
       if (first <= last) f(b, i * kPadded + first, i * kPadded + last);
     }
   }
@@ -260,7 +235,7 @@ void Filler::paint_layer(int y, BlockId* out) {
 void Filler::fill() {
   gather();
   for (int j = kPadded - 1 + kLookAbove; j >= -kLookBelow; --j) {
-    const int y = block_of(canvas_.y0 + j);
+    const int y = canvas_.y0 + j;
     BlockId* out = j >= kPadded ? nullptr
                    : j < 0      ? ground_below_.data()
                                 : &out_[static_cast<std::size_t>(j) * kLayer];
@@ -273,15 +248,13 @@ void Filler::fill() {
     solid_layer(y);
     paint_layer(y, out);
   }
-  if (level_ == 0) {
-    ores();
-    for (const Stamp& s : plan_.stamps) {
-      BlockId* voxel = canvas_.find(s.x, s.y, s.z);
-      if (voxel != nullptr && (*voxel == kAir) == s.into_air) *voxel = s.id;
-    }
+  ores();
+  for (const Stamp& s : plan_.stamps) {
+    BlockId* voxel = canvas_.find(s.x, s.y, s.z);
+    if (voxel != nullptr && (*voxel == kAir) == s.into_air) *voxel = s.id;
   }
   for (const Tree& tree : plan_.trees) draw_tree(tree, canvas_);
-  if (level_ == 0) plants();
+  plants();
 }
 
 /// Small lumps of ore in the rock, richer with depth.
@@ -342,15 +315,30 @@ void Filler::plants() {
   }
 }
 
+/// Whether a chunk is plainly outside of all that a plan holds.
+bool apart(const IslandPlan& plan, IVec3 chunk, int level) {
+  const int reach = plan.columns.half, size = kPadded << level;
+  const auto low = [level](std::int32_t at) { return (at * kChunkEdge - 1) * (1 << level); };
+  const auto beside = [&](int first) { return first >= reach || first + size <= -reach; };
+  return low(chunk.y) >= plan.highest || low(chunk.y) + size <= plan.lowest ||
+         beside(low(chunk.x)) || beside(low(chunk.z));
+}
+
 }  // namespace
 
+void fill_fine(const IslandPlan& plan, IVec3 chunk, std::span<BlockId> out) {
+  Filler(plan, chunk, out).fill();
+}
+
 bool fill_padded(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId> out) {
-  Filler filler(plan, chunk, level, out);
-  if (filler.empty()) {
+  if (apart(plan, chunk, level)) {
     std::fill(out.begin(), out.end(), kAir);
     return false;
   }
-  filler.fill();
+  if (level == 0)
+    fill_fine(plan, chunk, out);
+  else
+    fill_coarse(plan, chunk, level, out);
   return std::any_of(out.begin(), out.end(), [](BlockId id) { return id != kAir; });
 }
 

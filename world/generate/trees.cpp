@@ -1,9 +1,12 @@
 #include "world/generate/trees.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdlib>
 
 #include "world/generate/noise.h"
+#include "world/voxel/coords.h"
 #include "world/voxel/hash.h"
 
 namespace skerry::world {
@@ -56,39 +59,141 @@ bool yields(BlockId id) {
   return id == kAir || block_kind(id) == BlockKind::kPlant;
 }
 
-/// Draws one tree at any level: a shape is asked at voxel centres, in half blocks.
+/// Where the voxels of level 0 go: leaves take air only, logs also replace leaves and plants.
+class FineTarget {
+ public:
+  FineTarget(const Tree& tree, const Canvas& canvas)
+      : canvas_(canvas), leaf_(crown_of(tree.kind)), log_(trunk_of(tree.kind)) {}
+
+  int sample_level() const { return 0; }
+  IVec3 low() const { return {canvas_.x0, canvas_.y0, canvas_.z0}; }
+  IVec3 high() const {
+    return {canvas_.x0 + kPadded - 1, canvas_.y0 + kPadded - 1, canvas_.z0 + kPadded - 1};
+  }
+  void leaf(int x, int y, int z) {
+    BlockId* voxel = canvas_.find(x, y, z);
+    if (yields(*voxel)) *voxel = leaf_;
+  }
+  void log(int x, int y, int z) {
+    BlockId* voxel = canvas_.find(x, y, z);
+    if (voxel != nullptr && (yields(*voxel) || *voxel == leaf_)) *voxel = log_;
+  }
+
+ private:
+  const Canvas& canvas_;
+  BlockId leaf_, log_;
+};
+
+/// What fills the voxels of a coarse level: each is looked at in 2 x 2 x 2 places, one bit each.
+class CoarseTarget {
+ public:
+  CoarseTarget(const Tree& tree, const Canvas& canvas)
+      : tree_(tree),
+        canvas_(canvas),
+        low_{(tree.x - kTreeReach) >> canvas.level, tree.y >> canvas.level,
+             (tree.z - kTreeReach) >> canvas.level},
+        count_{((tree.x + kTreeReach) >> canvas.level) - low_.x + 1,
+               ((tree.y + kTreeHeight) >> canvas.level) - low_.y + 1,
+               ((tree.z + kTreeReach) >> canvas.level) - low_.z + 1} {}
+
+  int sample_level() const { return canvas_.level - 1; }
+  IVec3 low() const { return {2 * low_.x, 2 * low_.y, 2 * low_.z}; }
+  IVec3 high() const {
+    return {2 * (low_.x + count_.x) - 1, 2 * (low_.y + count_.y) - 1, 2 * (low_.z + count_.z) - 1};
+  }
+  void leaf(int x, int y, int z) { mark(leaves_, x, y, z); }
+  /// Of the first coarse level alone: beyond it a trunk is thinner than a quarter of a voxel.
+  void log(int x, int y, int z) {
+    if (canvas_.level == 1) mark(logs_, x, y, z);
+  }
+
+  /// As many voxels of leaves as the crown has, the fullest ones; what a voxel is too much or too
+  /// little for the crown is left to chance. Where the trunk is bare it is drawn as thick as a
+  /// voxel.
+  void put() {
+    std::array<int, 9> voxels_with{};  // by leaves of eight
+    int leaves = 0;
+    for (int i = 0; i < size(); ++i) {
+      const int of_eight = std::popcount(leaves_[static_cast<std::size_t>(i)]);
+      ++voxels_with[static_cast<std::size_t>(of_eight)];
+      leaves += of_eight;
+    }
+    int left = (leaves + static_cast<int>(mix32(tree_.seed) >> 29)) / 8;
+    int least = 8;
+    while (least > 0 && voxels_with[static_cast<std::size_t>(least)] <= left)
+      left -= voxels_with[static_cast<std::size_t>(least--)];
+    // Of the voxels that are as full as the last one, every few: `left` of them.
+    const int of = voxels_with[static_cast<std::size_t>(least)];
+    int at = of / 2;
+    for (int i = 0; i < size(); ++i) {
+      const int of_eight = std::popcount(leaves_[static_cast<std::size_t>(i)]);
+      bool taken = of_eight > least;
+      if (of_eight == least && of_eight > 0) {
+        at += left;
+        taken = at >= of;
+        if (taken) at -= of;
+      }
+      if (taken)
+        put(i, crown_of(tree_.kind));
+      else if (logs_[static_cast<std::size_t>(i)] != 0)
+        put(i, trunk_of(tree_.kind));
+    }
+  }
+
+ private:
+  // Of level 1, the finest one.
+  static constexpr int kWide = kTreeReach + 2, kHigh = kTreeHeight / 2 + 2;
+  using Masks = std::array<std::uint8_t, std::size_t{kWide} * kWide * kHigh>;
+
+  int size() const { return count_.x * count_.y * count_.z; }
+  void mark(Masks& masks, int x, int y, int z) const {
+    const int i = ((y >> 1) - low_.y) * count_.x * count_.z + ((x >> 1) - low_.x) * count_.z +
+                  ((z >> 1) - low_.z);
+    std::uint8_t& mask = masks[static_cast<std::size_t>(i)];
+    mask = static_cast<std::uint8_t>(mask | 1u << ((x & 1) | (y & 1) << 1 | (z & 1) << 2));
+  }
+  void put(int i, BlockId id) const {
+    BlockId* voxel = canvas_.find(low_.x + i / count_.z % count_.x,
+                                  low_.y + i / (count_.x * count_.z), low_.z + i % count_.z);
+    if (voxel != nullptr && yields(*voxel)) *voxel = id;
+  }
+
+  const Tree& tree_;
+  const Canvas& canvas_;
+  const IVec3 low_, count_;  // coarse voxels
+  Masks leaves_{}, logs_{};
+};
+
+/// Draws one tree at any level: a shape is asked at the centres of samples, in half blocks.
+template <class Target>
 class Painter {
  public:
-  Painter(const Tree& tree, const Canvas& canvas)
-      : tree_(tree), canvas_(canvas), leaf_(crown_of(tree.kind)), log_(trunk_of(tree.kind)) {}
+  Painter(const Tree& tree, Target& target) : tree_(tree), target_(target) {}
 
   /// Calls shape(dx, dy, dz) with half blocks from the trunk's lowest voxel's centre; true is a
   /// leaf.
   template <class Shape>
   void fill(int reach, int low, int high, Shape&& shape) const {
-    const int level = canvas_.level;
+    const int level = target_.sample_level();
     const int size = 1 << level;
-    const int x_end = (tree_.x + reach) >> level;
-    const int y_end = (tree_.y + high) >> level;
-    const int z_end = (tree_.z + reach) >> level;
-    const int y_first = std::max((tree_.y + low) >> level, canvas_.y0);
-    for (int y = y_first; y <= std::min(y_end, canvas_.y0 + kPadded - 1); ++y) {
-      for (int x = std::max((tree_.x - reach) >> level, canvas_.x0);
-           x <= std::min(x_end, canvas_.x0 + kPadded - 1); ++x) {
-        for (int z = std::max((tree_.z - reach) >> level, canvas_.z0);
-             z <= std::min(z_end, canvas_.z0 + kPadded - 1); ++z) {
-          const auto centre = [level, size](int voxel, int block) {
-            return 2 * ((voxel << level) - block) + size - 1;
-          };
-          if (!shape(centre(x, tree_.x), centre(y, tree_.y), centre(z, tree_.z))) continue;
-          BlockId* voxel = canvas_.find(x, y, z);
-          if (yields(*voxel)) *voxel = leaf_;
+    const IVec3 first = target_.low(), last = target_.high();
+    const int x_end = std::min((tree_.x + reach) >> level, last.x);
+    const int y_end = std::min((tree_.y + high) >> level, last.y);
+    const int z_end = std::min((tree_.z + reach) >> level, last.z);
+    const auto centre = [level, size](int voxel, int block) {
+      return 2 * ((voxel << level) - block) + size - 1;
+    };
+    for (int y = std::max((tree_.y + low) >> level, first.y); y <= y_end; ++y) {
+      for (int x = std::max((tree_.x - reach) >> level, first.x); x <= x_end; ++x) {
+        for (int z = std::max((tree_.z - reach) >> level, first.z); z <= z_end; ++z) {
+          if (shape(centre(x, tree_.x), centre(y, tree_.y), centre(z, tree_.z)))
+            target_.leaf(x, y, z);
         }
       }
     }
   }
 
-  /// An ellipsoid around (cx, cy, cz) blocks from the foot, with a rough shell at full detail.
+  /// An ellipsoid around (cx, cy, cz) blocks from the foot, with a rough shell.
   void ball(int cx, int cy, int cz, int rx, int ry) const {
     const int ax = 2 * rx + 1;
     const int ay = 2 * ry + 1;
@@ -102,26 +207,12 @@ class Painter {
     });
   }
 
-  /// Up to `most` of 256, by voxel; none at coarse levels, where it would only be noise.
+  /// Up to `most`, by sample.
   int roughness(int x, int y, int z, int most) const {
-    if (canvas_.level > 0) return 20;
     return static_cast<int>(hash3(tree_.seed, x, y, z) >> 24) * most / 256;
   }
 
-  /// One leaf, full detail only.
-  void leaf(int dx, int dy, int dz) const {
-    BlockId* voxel = canvas_.find(tree_.x + dx, tree_.y + dy, tree_.z + dz);
-    if (voxel != nullptr && yields(*voxel)) *voxel = leaf_;
-  }
-
-  /// A log, at the two finest levels: beyond them it is thinner than half a voxel.
-  void log(int dx, int dy, int dz) const {
-    const int level = canvas_.level;
-    if (level > 1) return;
-    BlockId* voxel =
-        canvas_.find((tree_.x + dx) >> level, (tree_.y + dy) >> level, (tree_.z + dz) >> level);
-    if (voxel != nullptr && (yields(*voxel) || *voxel == leaf_)) *voxel = log_;
-  }
+  void log(int dx, int dy, int dz) const { target_.log(tree_.x + dx, tree_.y + dy, tree_.z + dz); }
 
   void trunk(int height) const {
     for (int y = 0; y < height; ++y) log(0, y, 0);
@@ -129,12 +220,12 @@ class Painter {
 
  private:
   const Tree& tree_;
-  const Canvas& canvas_;
-  BlockId leaf_, log_;
+  Target& target_;
 };
 
 /// Several overlapping balls on a trunk, with visible limbs.
-void draw_broadleaf(const Tree& tree, const Painter& paint) {
+template <class Target>
+void draw_broadleaf(const Tree& tree, const Painter<Target>& paint) {
   const int h = tree.height;
   const int r = tree.spread;
   Rng rng(tree.seed);
@@ -153,7 +244,8 @@ void draw_broadleaf(const Tree& tree, const Painter& paint) {
   paint.trunk(h + r / 3);
 }
 
-void draw_birch(const Tree& tree, const Painter& paint) {
+template <class Target>
+void draw_birch(const Tree& tree, const Painter<Target>& paint) {
   const int r = tree.spread;
   paint.ball(0, tree.height - 1, 0, r, r * 2);
   paint.ball(0, tree.height + r - 1, 0, std::max(1, r - 1), r + 1);
@@ -161,7 +253,8 @@ void draw_birch(const Tree& tree, const Painter& paint) {
 }
 
 /// Whorls of branches: the radius grows downwards in a saw-tooth.
-void draw_pine(const Tree& tree, const Painter& paint) {
+template <class Target>
+void draw_pine(const Tree& tree, const Painter<Target>& paint) {
   const int tip = tree.height + 2;
   const int foot = std::max(2, tree.height / 5);
   const int r = tree.spread;
@@ -176,7 +269,8 @@ void draw_pine(const Tree& tree, const Painter& paint) {
 }
 
 /// A leaning trunk with eight drooping fronds.
-void draw_palm(const Tree& tree, const Painter& paint) {
+template <class Target>
+void draw_palm(const Tree& tree, const Painter<Target>& paint) {
   Rng rng(tree.seed);
   const int h = tree.height;
   const int lean = rng.in(0, 1023);
@@ -210,7 +304,8 @@ void draw_palm(const Tree& tree, const Painter& paint) {
 }
 
 /// A wide, flat crown from which strands hang.
-void draw_willow(const Tree& tree, const Painter& paint) {
+template <class Target>
+void draw_willow(const Tree& tree, const Painter<Target>& paint) {
   const int h = tree.height;
   const int r = tree.spread;
   paint.ball(0, h, 0, r, std::max(2, r / 2));
@@ -232,7 +327,8 @@ void draw_willow(const Tree& tree, const Painter& paint) {
 }
 
 /// A giant mushroom: a dome, hollow below.
-void draw_shroom(const Tree& tree, const Painter& paint) {
+template <class Target>
+void draw_shroom(const Tree& tree, const Painter<Target>& paint) {
   const int h = tree.height;
   const int r = tree.spread;
   const int rise = tree.kind == TreeKind::kShroomRed ? r : std::max(2, r * 2 / 3);
@@ -245,6 +341,26 @@ void draw_shroom(const Tree& tree, const Painter& paint) {
     return inside(2 * r + 1, 2 * rise + 1) && !inside(2 * r - 2, 2 * rise - 2);
   });
   paint.trunk(h + rise - 1);
+}
+
+template <class Target>
+void draw_shape(const Tree& tree, Target& target) {
+  const Painter<Target> paint(tree, target);
+  switch (tree.kind) {
+    case TreeKind::kBirch:
+      return draw_birch(tree, paint);
+    case TreeKind::kPine:
+      return draw_pine(tree, paint);
+    case TreeKind::kPalm:
+      return draw_palm(tree, paint);
+    case TreeKind::kWillow:
+      return draw_willow(tree, paint);
+    case TreeKind::kShroomRed:
+    case TreeKind::kShroomGlow:
+      return draw_shroom(tree, paint);
+    default:
+      return draw_broadleaf(tree, paint);
+  }
 }
 
 }  // namespace
@@ -289,22 +405,13 @@ void draw_tree(const Tree& tree, const Canvas& canvas) {
       apart(tree.y, canvas.y0, 0, kTreeHeight)) {
     return;
   }
-  const Painter paint(tree, canvas);
-  switch (tree.kind) {
-    case TreeKind::kBirch:
-      return draw_birch(tree, paint);
-    case TreeKind::kPine:
-      return draw_pine(tree, paint);
-    case TreeKind::kPalm:
-      return draw_palm(tree, paint);
-    case TreeKind::kWillow:
-      return draw_willow(tree, paint);
-    case TreeKind::kShroomRed:
-    case TreeKind::kShroomGlow:
-      return draw_shroom(tree, paint);
-    default:
-      return draw_broadleaf(tree, paint);
+  if (canvas.level == 0) {
+    FineTarget target(tree, canvas);
+    return draw_shape(tree, target);
   }
+  CoarseTarget target(tree, canvas);
+  draw_shape(tree, target);
+  target.put();
 }
 
 }  // namespace skerry::world

@@ -1,7 +1,11 @@
 #include "world/mesh/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 #include "engine/core/check.h"
 #include "world/mesh/face_axes.h"
@@ -319,6 +323,38 @@ void mesh_chunk(std::span<const BlockId> voxels, MeshScratch& scratch, ChunkMesh
 void mesh_chunk(std::span<const std::uint8_t> voxels, std::span<const BlockId> palette,
                 MeshScratch& scratch, ChunkMesh& out) {
   mesh_chunk_with(*kernels().front(), voxels, palette, scratch, out);
+}
+
+void close_cutouts(ChunkMesh& mesh) {
+  const auto begin_of = [&mesh](std::uint32_t range) {
+    return mesh.quads.begin() + (range == 0 ? 0 : mesh.range_end[range - 1]);
+  };
+  if (begin_of(shared::kRangeCutout) == begin_of(shared::kRangePlant)) return;
+  const auto end_order = [](const shared::Quad& quad) {
+    const auto bits = [&quad](unsigned first) { return quad.geometry >> first & 63u; };
+    std::array<unsigned, 3> end{bits(0) + 1, bits(6) + 1, bits(12) + 1};
+    const auto [axis, u, v] = axes_of_face(shared::surface_face(quad.material));
+    end[u] += bits(18);
+    end[v] += bits(24);
+    return std::array{end[1], end[0], end[2]};
+  };
+  std::vector<shared::Quad> quads;
+  quads.reserve(mesh.quads.size());
+  std::array<std::uint32_t, shared::kRangeCount> ends{};
+  for (std::uint32_t range = 0; range < shared::kRangeCount; ++range) {
+    if (range < shared::kFaceCount) {
+      const std::uint32_t cutout = shared::kRangeCutout + range;
+      std::merge(begin_of(range), begin_of(range + 1), begin_of(cutout), begin_of(cutout + 1),
+                 std::back_inserter(quads), [&](const shared::Quad& a, const shared::Quad& b) {
+                   return end_order(a) < end_order(b);
+                 });
+    } else if (range >= shared::kRangePlant) {
+      quads.insert(quads.end(), begin_of(range), begin_of(range + 1));
+    }
+    ends[range] = static_cast<std::uint32_t>(quads.size());
+  }
+  mesh.quads = std::move(quads);
+  std::copy(ends.begin(), ends.end(), mesh.range_end.begin());
 }
 
 }  // namespace skerry::world

@@ -27,4 +27,8 @@ void mesh_chunk(std::span<const BlockId> voxels, MeshScratch& scratch, ChunkMesh
 void mesh_chunk(std::span<const std::uint8_t> voxels, std::span<const BlockId> palette,
                 MeshScratch& scratch, ChunkMesh& out);
 
+/// Makes cut-out blocks opaque ones. A coarse voxel of leaves stands for what blocks of them cover,
+/// behind each other: a texture with holes would be far more open than they are.
+void close_cutouts(ChunkMesh& mesh);
+
 }  // namespace skerry::world

@@ -235,6 +235,7 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
       chunk.occupancy = occupancy_of(padded, BlockKind::kOpaque);
       if (has_cutouts(chunk.mesh)) chunk.leaves = occupancy_of(padded, BlockKind::kCutout);
     }
+    if (task.level > 0) close_cutouts(chunk.mesh);
     if (any && makes == StreamOf::kMeshesAndOccupancy) chunk.seams = seam_faces(padded);
     if (task.level == 0) chunk.voxels = any ? chunk_from_padded(padded) : Chunk(kAir);
     lock.lock();

@@ -28,6 +28,7 @@ constexpr std::size_t kFarRounds = 64;  // of islands that take microseconds
 struct Place {
   std::size_t island;
   IVec3 chunk;
+  int level = 0;
 };
 
 /// What a thread meshes with.
@@ -39,7 +40,7 @@ struct Meshing {
 
 struct Measured {
   std::size_t islands = 0, chunks = 0;
-  double plan_s = 0.0, chunk_s = 0.0, mesh_s = 0.0, far_s = 0.0;
+  double plan_s = 0.0, chunk_s = 0.0, coarse_s = 0.0, mesh_s = 0.0, far_s = 0.0;
   std::size_t stored_bytes = 0;
 };
 
@@ -67,7 +68,7 @@ Measured measure(int threads) {
   measured.plan_s = watch.seconds();
   std::vector<Place> places;
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    for (const IVec3& chunk : generators[i]->chunks(0)) places.push_back({i, chunk});
+    for (const IVec3& chunk : generators[i]->chunks(0)) places.push_back({i, chunk, 0});
   }
   measured.chunks = places.size();
   watch.restart();
@@ -77,6 +78,19 @@ Measured measure(int threads) {
         generators[places[i].island]->generate_padded(places[i].chunk, 0, voxels);
       });
   measured.chunk_s = watch.seconds();
+  std::vector<Place> coarse;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    for (int level = 1; level < kLevelCount; ++level)
+      for (const IVec3& chunk : generators[i]->chunks(level)) coarse.push_back({i, chunk, level});
+  }
+  watch.restart();
+  on_all_threads(
+      jobs, coarse.size(), [] { return std::vector<BlockId>(kPaddedVoxels); },
+      [&](std::size_t i, std::vector<BlockId>& voxels) {
+        const Place& place = coarse[i];
+        generators[place.island]->generate_padded(place.chunk, place.level, voxels);
+      });
+  measured.coarse_s = watch.seconds();
   watch.restart();
   on_all_threads(
       jobs, places.size(), [] { return std::make_unique<Meshing>(); },
@@ -104,9 +118,9 @@ Measured measure(int threads) {
 }  // namespace
 
 int bench_generate(const BenchGenerateOptions& options) {
-  fmt::print("{:>7} {:>8} {:>7} {:>8} {:>8} {:>9} {:>14} {:>14} {:>9} {:>9}\n", "threads",
+  fmt::print("{:>7} {:>8} {:>7} {:>8} {:>8} {:>9} {:>14} {:>14} {:>9} {:>9} {:>9}\n", "threads",
              "islands", "chunks", "plan s", "chunk s", "chunks/s", "blocks/s", "bytes a chunk",
-             "near ms", "far ms");
+             "near ms", "coarse ms", "far ms");
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   std::vector<int> thread_counts{1};
   if (const int all = Jobs().threads(); all > 1) thread_counts.push_back(all);
@@ -116,12 +130,14 @@ int bench_generate(const BenchGenerateOptions& options) {
     const double chunks_per_s = chunks / (m.plan_s + m.chunk_s);
     const double blocks_per_s = chunks_per_s * static_cast<double>(kChunkVoxels);
     const double islands = static_cast<double>(m.islands) / 1000.0;
-    const double near_ms = (m.plan_s + m.chunk_s + m.mesh_s) / islands, far_ms = m.far_s / islands;
+    const double near_ms = (m.plan_s + m.chunk_s + m.mesh_s) / islands, far_ms = m.far_s / islands,
+                 coarse_ms = m.coarse_s / islands;
     const double bytes = static_cast<double>(m.stored_bytes) / chunks;
     fmt::print(
-        "{:>7} {:>8} {:>7} {:>8.3f} {:>8.3f} {:>9.0f} {:>14.0f} {:>14.0f} {:>9.3f} {:>9.3f}\n",
+        "{:>7} {:>8} {:>7} {:>8.3f} {:>8.3f} {:>9.0f} {:>14.0f} {:>14.0f} {:>9.3f} {:>9.3f} "
+        "{:>9.3f}\n",
         threads, m.islands, m.chunks, m.plan_s, m.chunk_s, chunks_per_s, blocks_per_s, bytes,
-        near_ms, far_ms);
+        near_ms, coarse_ms, far_ms);
     rows.push_back({{"threads", threads},
                     {"islands", m.islands},
                     {"chunks", m.chunks},
@@ -131,6 +147,7 @@ int bench_generate(const BenchGenerateOptions& options) {
                     {"blocks_per_s", blocks_per_s},
                     {"bytes_per_chunk", bytes},
                     {"near_ms_per_island", near_ms},
+                    {"coarse_ms_per_island", coarse_ms},
                     {"far_ms_per_island", far_ms}});
   }
   if (Result<void> written = write_rows(options.json, rows); !written) {
