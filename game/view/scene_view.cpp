@@ -417,7 +417,7 @@ void SceneView::remove_section(const world::SectionKey& key) {
   if (found->second.closing) renderer_->geometry().remove(uploader, *found->second.closing);
   if (occupancy_ && !key.far) occupancy_->remove(uploader, slot->second, chunk_place(key));
   sections_.erase(found);
-  if (const auto cut = cuts_.find(key.island); cut != cuts_.end()) cut->second.stale = true;
+  cuts_.remove(key);
   release_island(key.row());
 }
 
@@ -444,7 +444,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   if (const auto spec = world_->island(ready.key.island)) islands_[*slot].spec = *spec;
   ResidentSection& section = sections_[ready.key];
   section.seams = ready.seams;
-  if (!ready.key.far) cuts_[ready.key.island].stale = true;
+  cuts_.add(ready.key);
   if (occupancy_ && ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
     const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
                                      ready.occupancy.table, ready.occupancy.words};
@@ -493,77 +493,21 @@ std::vector<double> SceneView::nearest_of_levels(const render::Camera& camera) c
 }
 
 /// Decides at which level each section of the islands is drawn that are there at several.
-/// @param keep hysteresis, and no more than one island a frame because the camera has moved.
 void SceneView::choose_cuts(const render::Camera& camera, double world_time_s, bool keep) {
-  if (settings_.view_error == 0.0) return;
-  constexpr double kLeastMove = 1.0;  // blocks, less than hysteresis
-  const std::vector<double> nearest = nearest_of_levels(camera);
   const world::IslandPoses poses = world_->poses(world_time_s);
-  struct Moved {
-    std::uint64_t id = 0;
-    glm::dvec3 camera{};
-    double by = 0.0;  // blocks past the slack
-  } most;
-  for (auto entry = cuts_.begin(); entry != cuts_.end();) {
-    auto& [id, cut] = *entry;
+  SectionCuts::View view{.nearest = nearest_of_levels(camera), .keep = keep};
+  view.camera_in = [&](std::uint64_t id) {
     const auto row = near_slots_.lower_bound({id, INT32_MIN});
-    if (row == near_slots_.end() || row->first.island != id) {
-      entry = cuts_.erase(entry);
-      continue;
-    }
-    ++entry;
-    if (!cut.stale && !cut.split) continue;
     const world::Pose pose = poses.of(islands_[row->second].spec);
-    const glm::dvec3 at = glm::conjugate(pose.rotation) *
-                          world::difference_blocks(place(camera.position), pose.origin);
-    if (cut.stale || !keep) {
-      cut_island(id, cut, at, nearest, keep);
-      continue;
-    }
-    const bool other = cut.nearest != nearest;
-    const double by = glm::length(at - cut.camera) - std::max(cut.slack, kLeastMove);
-    if (other || by > most.by) most = {id, at, other ? std::numeric_limits<double>::max() : by};
-  }
-  if (most.by > 0.0) cut_island(most.id, cuts_.at(most.id), most.camera, nearest, keep);
-}
-
-/// @param camera in lattice axes [blocks]. @param nearest see nearest_of_levels().
-void SceneView::cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& camera,
-                           const std::vector<double>& nearest, bool keep) {
-  std::set<std::int32_t> waited_for;
+    return glm::conjugate(pose.rotation) *
+           world::difference_blocks(place(camera.position), pose.origin);
+  };
+  std::optional<world::IslandLevel> last;
   for (const world::ReadySection& ready : waiting_)
-    if (ready.key.island == id) waited_for.insert(ready.key.level);
-  std::vector<world::SectionKey> keys, partial;
-  std::vector<world::TreeNode> nodes;
-  std::set<std::int32_t> levels;
-  constexpr std::int32_t kFirst = INT32_MIN;
-  for (auto section = sections_.lower_bound({id, {kFirst, kFirst, kFirst}, kFirst});
-       section != sections_.end() && section->first.island == id; ++section) {
-    const world::SectionKey& key = section->first;
-    if (key.far) continue;
-    if (waited_for.contains(key.level)) {
-      partial.push_back(key);
-      continue;
-    }
-    keys.push_back(key);
-    nodes.push_back({key.level, key.chunk});
-    levels.insert(key.level);
-  }
-  cut.stale = false;
-  cut.camera = camera;
-  cut.nearest = nearest;
-  // What comes in parts shows in parts where nothing stands for it.
-  for (const world::SectionKey& key : partial) show_section(key, keys.empty(), 0);
-  if (levels.size() < 2) {
-    for (const world::SectionKey& key : keys) show_section(key, true, 0);
-    cut.split.reset();
-    return;
-  }
-  world::SectionCut now =
-      world::cut_of(nodes, camera, cut.nearest, keep && cut.split ? &*cut.split : nullptr);
-  for (std::size_t i = 0; i < keys.size(); ++i) show_section(keys[i], now.drawn[i], now.seams[i]);
-  cut.split = std::move(now.split);
-  cut.slack = now.slack;
+    if (last != ready.key.row()) view.coming.insert(*(last = ready.key.row()));
+  cuts_.choose(view, [this](const world::SectionKey& key, bool shown, std::uint8_t seams) {
+    show_section(key, shown, seams);
+  });
 }
 
 /// @param seams at which faces another level is drawn, a bit each.

@@ -19,10 +19,10 @@
 #include "game/scene_file/options.h"
 #include "game/view/island_light.h"
 #include "game/view/light_field.h"
+#include "game/view/section_cuts.h"
 #include "game/view/sky_light_feed.h"
 #include "game/view/view_fit.h"
 #include "world/islands/world.h"
-#include "world/stream/cut.h"
 #include "world/stream/stream.h"
 
 namespace skerry::game {
@@ -114,14 +114,6 @@ class SceneView {
     std::optional<render::SectionId> closing;
     bool shown = true;
   };
-  /// Which sections of an island are drawn.
-  struct IslandCut {
-    bool stale = true;    // sections came or went
-    glm::dvec3 camera{};  // that it was made for, in lattice axes [blocks]
-    std::vector<double> nearest;
-    double slack = 0.0;
-    std::optional<std::set<world::TreeNode>> split;  // none: the island is drawn at one level
-  };
   bool occupancy_wanted() const;
   Result<void> follow_settings();
   ViewFit::Distances asked() const;
@@ -141,10 +133,7 @@ class SceneView {
   void open_to_sky(std::uint32_t slot);
   void refuse_light(const std::string& why);
   void remove_section(const world::SectionKey& key);
-  struct IslandCut;
   void choose_cuts(const render::Camera& camera, double world_time_s, bool keep);
-  void cut_island(std::uint64_t id, IslandCut& cut, const glm::dvec3& camera,
-                  const std::vector<double>& nearest, bool keep);
   void show_section(const world::SectionKey& key, bool shown, std::uint8_t seams);
   std::vector<double> nearest_of_levels(const render::Camera& camera) const;
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
@@ -170,9 +159,9 @@ class SceneView {
   std::size_t first_free_slot_ = 0;                           // no free one is lower
   std::map<world::IslandLevel, std::uint32_t> island_slots_;  // slots
   std::map<world::IslandLevel, std::uint32_t> near_slots_;    // of them, those that are not far
-  std::map<std::uint64_t, IslandCut> cuts_;                   // of islands that are not far
-  std::uint32_t picture_rows_;                                // of the last frame, or as asked for
-  std::vector<render::IslandPlacement> placements_;           // of the last frame, by slot
+  SectionCuts cuts_;
+  std::uint32_t picture_rows_;                       // of the last frame, or as asked for
+  std::vector<render::IslandPlacement> placements_;  // of the last frame, by slot
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
   std::map<world::SectionKey, ResidentSection> sections_;
   std::deque<world::ReadySection> waiting_;  // for memory or the next frame; nearest islands first

@@ -233,6 +233,18 @@ MUTANTS = (
     Mutant("view_one_percent_wider", "the field of view is 1% too wide", "engine/render/frame/camera.cpp",
            "view.tan_half_x = static_cast<float>(tan_x);", "view.tan_half_x = static_cast<float>(tan_x * 1.01);",
            "overhead day"),
+    # Levels of detail
+    Mutant("coarse_crowns_lost", "far trees have an eighth of their leaves", "world/generate/trees.cpp",
+           "int left = (leaves + static_cast<int>(mix32(tree_.seed) >> 29)) / 8;",
+           "int left = (leaves + static_cast<int>(mix32(tree_.seed) >> 29)) / 64;", "coarse_levels day marsh"),
+    Mutant("coarse_crystals_lost", "crystals of far islands do not glow", "world/generate/fill_coarse.cpp",
+           "const int count = area / (kVoxelFaces * edge_ * edge_);", "const int count = 0;", "coarse_levels moonlit"),
+    Mutant("coarse_rock_full", "only coarse voxels that are rock from end to end are solid",
+           "world/generate/fill_coarse.cpp",
+           "const auto half = static_cast<std::int16_t>(edge_ * edge_ * edge_ / 2);",
+           "const auto half = static_cast<std::int16_t>(edge_ * edge_ * edge_);", "coarse_levels day"),
+    Mutant("coarse_leaves_open", "far crowns are outlines", "world/stream/stream_state.cpp",
+           "if (task.level > 0) close_cutouts(chunk.mesh);", "", "marsh closeup"),
     # Textures
     Mutant("alpha_threshold", "leaves and plants are thinner", "shaders/include/scene/cutout.glsl",
            "alpha < 0.5", "alpha < 0.8",

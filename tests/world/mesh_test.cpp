@@ -480,8 +480,8 @@ TEST(Mesh, PalettesOfEverySizeKeepTheirIds) {
 TEST(Mesh, ClosedLeavesAreOpaqueFaces) {
   Chance chance{11};
   Padded padded;
-  constexpr std::array<BlockId, 6> kIds{kAir,            block::kStone,     block::kOakLeaves,
-                                        block::kOakLeaves, block::kTallGrass, block::kWater};
+  constexpr std::array<BlockId, 6> kIds{
+      kAir, block::kStone, block::kOakLeaves, block::kOakLeaves, block::kTallGrass, block::kWater};
   padded.fill([&](int, int, int) { return kIds[static_cast<std::size_t>(chance.below(6))]; });
   MeshScratch scratch;
   ChunkMesh open, closed;

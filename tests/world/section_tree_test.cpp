@@ -1,5 +1,5 @@
 // Islands drawn at several levels at once: which sections, and that their surfaces are closed.
-#include "world/stream/cut.h"
+#include "world/stream/section_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +74,54 @@ std::vector<TreeNode> random_sections(std::mt19937& random, std::initializer_lis
   return {all.begin(), all.end()};
 }
 
+/// A tree, and what it has told of its sections.
+class ToldTree {
+ public:
+  explicit ToldTree(const std::vector<TreeNode>& sections) {
+    for (const TreeNode& section : sections) add(section);
+  }
+  void add(const TreeNode& section) {
+    tree.add(section);
+    told[section] = {};
+  }
+  void remove(const TreeNode& section) {
+    tree.remove(section);
+    told.erase(section);
+  }
+  /// @return how many sections have changed.
+  std::size_t cut(const glm::dvec3& camera, std::span<const double> nearest, bool keep = false) {
+    const auto changes = tree.cut(camera, nearest, keep);
+    for (const SectionTree::Change& change : changes)
+      told.at(change.section) = {change.drawn, change.seams};
+    return changes.size();
+  }
+
+  struct Told {
+    bool drawn = true;
+    std::uint8_t seams = 0;
+    bool operator==(const Told&) const = default;
+  };
+  SectionTree tree;
+  std::map<TreeNode, Told> told;
+};
+
+/// By section, what a new tree says.
+struct SectionCut {
+  std::vector<bool> drawn;
+  std::vector<std::uint8_t> seams;
+};
+SectionCut cut_of(const std::vector<TreeNode>& sections, const glm::dvec3& camera,
+                  std::span<const double> nearest) {
+  ToldTree tree(sections);
+  tree.cut(camera, nearest);
+  SectionCut out;
+  for (const TreeNode& section : sections) {
+    out.drawn.push_back(tree.told.at(section).drawn);
+    out.seams.push_back(tree.told.at(section).seams);
+  }
+  return out;
+}
+
 constexpr std::array<double, 5> kNearest{0.0, 70.0, 150.0, 290.0, 600.0};
 
 glm::dvec3 random_camera(std::mt19937& random) {
@@ -81,7 +129,7 @@ glm::dvec3 random_camera(std::mt19937& random) {
   return {in(random), in(random) / 2, in(random)};
 }
 
-TEST(SectionCut, DrawsEachPlaceOnceAndAsCoarseAsItMay) {
+TEST(SectionTree, DrawsEachPlaceOnceAndAsCoarseAsItMay) {
   std::mt19937 random(1);
   std::size_t mixed = 0;
   for (int round = 0; round < 150; ++round) {
@@ -89,7 +137,7 @@ TEST(SectionCut, DrawsEachPlaceOnceAndAsCoarseAsItMay) {
     const std::vector<TreeNode> sections =
         gap ? random_sections(random, {0, 2, 3}) : random_sections(random, {0, 1, 2, 3});
     const glm::dvec3 camera = random_camera(random);
-    const SectionCut cut = cut_of(sections, camera, kNearest, nullptr);
+    const SectionCut cut = cut_of(sections, camera, kNearest);
     std::set<int> levels;
     for (std::size_t i = 0; i < sections.size(); ++i) {
       const Cube cube(sections[i]);
@@ -126,12 +174,12 @@ TEST(SectionCut, DrawsEachPlaceOnceAndAsCoarseAsItMay) {
   EXPECT_GT(mixed, 75u);
 }
 
-TEST(SectionCut, NamesEachFaceAtWhichAnotherLevelIsDrawn) {
+TEST(SectionTree, NamesEachFaceAtWhichAnotherLevelIsDrawn) {
   std::mt19937 random(2);
   std::size_t seams = 0;
   for (int round = 0; round < 100; ++round) {
     const std::vector<TreeNode> sections = random_sections(random, {0, 1, 2, 3});
-    const SectionCut cut = cut_of(sections, random_camera(random), kNearest, nullptr);
+    const SectionCut cut = cut_of(sections, random_camera(random), kNearest);
     for (std::size_t i = 0; i < sections.size(); ++i) {
       if (!cut.drawn[i]) {
         ASSERT_EQ(cut.seams[i], 0);
@@ -153,23 +201,69 @@ TEST(SectionCut, NamesEachFaceAtWhichAnotherLevelIsDrawn) {
   EXPECT_GT(seams, 1000u);
 }
 
-TEST(SectionCut, StaysWhileTheCameraMovesLessThanItsSlack) {
+TEST(SectionTree, StaysWhileTheCameraMovesLessThanItsSlack) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> in(-1.0, 1.0);
   for (int round = 0; round < 200; ++round) {
     const std::vector<TreeNode> sections = random_sections(random, {0, 1, 2, 3});
     const glm::dvec3 camera = random_camera(random);
-    const SectionCut first = cut_of(sections, camera, kNearest, nullptr);
-    ASSERT_GT(first.slack, 0.0);
+    ToldTree tree(sections);
+    tree.cut(camera, kNearest);
+    const auto first = tree.told;
+    ASSERT_GT(tree.tree.slack(), 0.0);
     const glm::dvec3 way = glm::normalize(glm::dvec3(in(random), in(random), in(random) + 1e-6));
-    const SectionCut after =
-        cut_of(sections, camera + way * (0.999 * first.slack), kNearest, &first.split);
-    EXPECT_EQ(after.drawn, first.drawn);
-    EXPECT_EQ(after.seams, first.seams);
+    EXPECT_EQ(tree.cut(camera + way * (0.999 * tree.tree.slack()), kNearest, true), 0u);
     // 5% about the limits: what is there and back is what it was.
-    const SectionCut back = cut_of(sections, camera, kNearest, &after.split);
-    EXPECT_EQ(back.drawn, first.drawn);
+    EXPECT_EQ(tree.cut(camera, kNearest, true), 0u);
+    EXPECT_EQ(tree.told, first);
   }
+}
+
+// Sections come and go in parts, levels as wholes, and the camera moves.
+TEST(SectionTree, IsAfterAnyChangesWhatANewTreeIs) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<TreeNode> pool = random_sections(random, {0, 1, 2, 3});
+    ToldTree tree({});
+    std::set<TreeNode> there;
+    for (int step = 0; step < 40; ++step) {
+      std::shuffle(pool.begin(), pool.end(), random);
+      for (std::size_t i = 0; i < random() % 60; ++i) {
+        if (there.erase(pool[i]) != 0) {
+          tree.remove(pool[i]);
+          if (random() % 4 != 0) continue;  // a fourth is replaced
+        }
+        there.insert(pool[i]);
+        tree.add(pool[i]);
+      }
+      const std::uint32_t coming = random() % 3 == 0 ? random() % 16 : 0;
+      const glm::dvec3 camera = random_camera(random);
+      ToldTree fresh({there.begin(), there.end()});
+      tree.tree.set_coming(coming);
+      fresh.tree.set_coming(coming);
+      tree.cut(camera, kNearest);
+      fresh.cut(camera, kNearest);
+      ASSERT_EQ(tree.told, fresh.told) << "round " << round << " step " << step;
+    }
+  }
+}
+
+TEST(SectionTree, LevelsThatComeInPartsAreNotDrawn) {
+  std::mt19937 random(6);
+  const std::vector<TreeNode> sections = random_sections(random, {0, 1, 2});
+  ToldTree tree(sections);
+  const auto levels_drawn = [&](std::uint32_t coming) {
+    tree.tree.set_coming(coming);
+    tree.cut({0.0, 0.0, 0.0}, kNearest);
+    std::set<int> levels;
+    for (const auto& [section, told] : tree.told)
+      if (told.drawn) levels.insert(section.level);
+    return levels;
+  };
+  EXPECT_EQ(levels_drawn(0b000), (std::set{0, 1, 2}));
+  EXPECT_EQ(levels_drawn(0b001), (std::set{1, 2}));
+  EXPECT_EQ(levels_drawn(0b011), (std::set{2}));
+  EXPECT_EQ(levels_drawn(0b111), (std::set{0})) << "nothing stands for the finest one";
 }
 
 /// A section as it is drawn: its opaque voxels, and the outer sides of them that have a face.
@@ -216,7 +310,7 @@ class CutIsland {
         closing[node] = seam_faces(drawn->padded);
         all[node] = std::move(drawn);
       }
-    const SectionCut cut = cut_of(sections, camera, nearest, nullptr);
+    const SectionCut cut = cut_of(sections, camera, nearest);
     for (std::size_t i = 0; i < sections.size(); ++i) {
       if (!cut.drawn[i]) continue;
       Drawn& drawn = *(drawn_[sections[i]] = std::move(all[sections[i]]));
@@ -280,10 +374,10 @@ class CutIsland {
   int highest_ = 0;
 };
 
-TEST(SectionCut, SurfacesAreClosedWhereLevelsMeet) {
+TEST(SectionTree, SurfacesAreClosedWhereLevelsMeet) {
   std::mt19937 random(4);
   std::size_t mixed = 0, without_seams = 0;
-  constexpr std::array<double, 4> kNear{0.0, 16.0, 60.0, 150.0};
+  constexpr std::array<double, kLevelCount> kNear{0.0, 16.0, 60.0, 150.0, 1e9};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     World world({.seed = seed});
     const IslandSpec spec = world.islands_near(world.origin(), 300.0, 0.0).front();
