@@ -333,8 +333,10 @@ MUTANTS = (
     Mutant("sky_of_nothing_glows", "a dark sky sends a little", "engine/render/sky/sky_rows.cpp",
            "glm::vec3(radiance(direction(row, k)));", "glm::vec3(radiance(direction(row, k))) + 1e-3f;",
            "stored_light.skies"),
-    Mutant("ways_without_length", "what an island hides is no number", "engine/render/sky/island_shade.cpp",
-           "1.0f / glm::dot(ray, ray);", "1.0f / std::max(0.0f, glm::dot(ray, ray) - 1.0f);", "stored_light.skies"),
+    Mutant("no_sky_is_no_number", "where an island hides all of the sky is no number", "engine/render/sky/island_shade.cpp",
+           "open[p] *= 1.0f - h.weight[p] * hidden;",
+           "const float left = 1.0f - h.weight[p] * hidden;\n      open[p] *= left / std::max(left, 0.0f);",
+           "stored_light.skies"),
     # Pace
     Mutant("pace_by_one_frame", "one late frame lowers the quality", "game/pace/quality_control.cpp",
            "if (ms <= kLateShare * budget_ms) return false;",
