@@ -13,7 +13,7 @@ constexpr int kPadded = kChunkEdge + 2;
 constexpr int kLayer = kPadded * kPadded;
 // Layers read above the chunk: they say how deep below the turf it starts.
 constexpr int kLookAbove = 6;
-constexpr int kLookBelow = 1;              // what the lowest layer's plants stand on
+constexpr int kLookBelow = 1;  // what the lowest layer's plants stand on
 
 using Row = std::array<std::int16_t, kLayer>;
 
