@@ -76,6 +76,22 @@ constexpr const char* kLabels[] = {
     word("Bricks"),
     word("Torch"),
     word("Lamp"),
+    word("White glass"),
+    word("Light grey glass"),
+    word("Grey glass"),
+    word("Black glass"),
+    word("Brown glass"),
+    word("Red glass"),
+    word("Orange glass"),
+    word("Yellow glass"),
+    word("Lime glass"),
+    word("Green glass"),
+    word("Teal glass"),
+    word("Sky blue glass"),
+    word("Blue glass"),
+    word("Violet glass"),
+    word("Plum glass"),
+    word("Pink glass"),
 };
 static_assert(std::size(kLabels) == world::block::kBuiltInCount);
 

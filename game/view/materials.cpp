@@ -24,6 +24,8 @@ std::vector<shared::Material> material_table() {
     m.absorption = {type.absorption[0], type.absorption[1], type.absorption[2]};
     m.roughness = type.roughness;
     m.metalness = type.metalness;
+    m.scattering = type.scattering;
+    m.liquid = type.liquid ? 1u : 0u;
     const auto alike = std::find_if(table.begin(), table.end(), [&](const shared::Material& other) {
       return other.emission == m.emission && other.metalness == m.metalness &&
              std::abs(other.roughness - m.roughness) < 0.1f;

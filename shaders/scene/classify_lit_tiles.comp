@@ -14,7 +14,7 @@ layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
-layout(binding = kUnderWaterBinding) uniform usampler2D under_water;
+layout(binding = kMediaLightBinding) uniform usampler2D media_light;
 
 layout(constant_id = kUnderWaterConstant) const bool kUnderWater = false;  // as in under_water.glsl
 
@@ -86,7 +86,7 @@ void main() {
       bool here = is_covered(word, depth);
       covered = covered || here;
       open = open || !here;
-      if (kUnderWater) in_water = in_water || (in_area(uvec2(pixel), frame.layers_area) && texelFetch(under_water, pixel, 0).r != 0u);
+      if (kUnderWater) in_water = in_water || (in_area(uvec2(pixel), frame.layers_area) && texelFetch(media_light, pixel, 0).r != 0u);
       faces |= here ? 1u << surface_face(word) : 0u;
       least_island = min(least_island, here ? surface_island(word) : ~0u);
       most_island = max(most_island, here ? surface_island(word) : 0u);

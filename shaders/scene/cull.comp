@@ -79,8 +79,9 @@ uint visible_ranges(Section s, CullView view) {
   uint faces = uint(from_plus.x) | (uint(from_minus.x) << 1) | (uint(from_plus.y) << 2) | (uint(from_minus.y) << 3) |
                (uint(from_plus.z) << 4) | (uint(from_minus.z) << 5);
   uint mask = (faces << kRangeOpaque) | (faces << kRangeCutout) | (1u << kRangePlant);
-  if (view.orthographic == 0u) mask |= kTranslucentRanges;  // drawn from both sides; casts no shadow
-  return mask;
+  // Drawn from both sides; casts no shadow.
+  if (view.orthographic == 0u) mask |= kTranslucentRanges;
+  return view.glass != 0u ? kTranslucentRanges : mask;
 }
 
 bool draws_section(CullView view, uint section) {

@@ -48,8 +48,8 @@ void main() {
   voxel += axis == 0u ? vec3(0.0, by_v, by_u) : axis == 1u ? vec3(by_u, 0.0, by_v) : axis == 2u ? vec3(by_u, by_v, 0.0) : vec3(0.0);
   p = vec4(dot(t.x, vec4(voxel, 1.0)), dot(t.y, vec4(voxel, 1.0)), dot(t.z, vec4(voxel, 1.0)), 1.0);
   gl_Position = push.clip_from_source * p;
-  out_surface = quad.y | kSurfaceHere;
-  out_uv = vec2(float(quad.x >> 30), 0.0);
+  out_surface = (quad.y & ((1u << kTouchedShift) - 1u)) | kSurfaceHere;
+  out_uv = vec2(float(touched_by(quad.x, quad.y)), 0.0);
   // In voxels: cut-outs of coarse levels show one texture a voxel. v runs downwards, so its sign is turned.
   if (kTextured) out_uv = axis == 0u ? vec2(u, -v) : axis == 1u ? vec2(u, v) : vec2(u, -v);
 }

@@ -96,7 +96,7 @@ SHARED_CONST uint kSamplesBinding = 70u;  // of light, at the points of a grid
 // TileDispatch[2], see choose_samples.comp, then pixels: x in bits 0-15, y in bits 16-31.
 SHARED_CONST uint kListedPixelsBinding = 71u;
 
-SHARED_CONST uint kUnderWaterBinding = 72u;  // see write_layer.frag
+SHARED_CONST uint kMediaLightBinding = 72u;  // see find_media_light.comp
 
 // Past walls: LightReach[].
 SHARED_CONST uint kLightReachBinding = 73u;
@@ -134,6 +134,8 @@ SHARED_CONST uint kIslandSkiesBinding = 90u;  // texels of each island's sky, se
 SHARED_CONST uint kTileShaftsBinding = 91u;  // TileShafts[], of 8x8 tiles
 
 SHARED_CONST uint kBentLightBinding = 92u;  // see bend_rays.comp
+
+SHARED_CONST uint kGlassMapsBinding = 93u;  // see sum_glass.frag
 
 SHARED_END
 #endif

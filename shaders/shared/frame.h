@@ -8,8 +8,9 @@ SHARED_BEGIN
 SHARED_CONST uint kBodyCount = 2u;          // 0 the sun, 1 the moon
 SHARED_CONST float kBodyRadius = 0.00465f;  // of the discs they light from [rad]
 SHARED_CONST uint kCascadeCount = 4u;       // a body
-SHARED_CONST uint kViewCount = 13u;  // 0 the camera, then cascades of the sun (1..4) and of the
-                                     // moon (5..8), and parts of those that may lag, two a body
+SHARED_CONST uint kViewCount = 17u;  // 0 the camera, then cascades of the sun (1..4) and of the
+                                     // moon (5..8), parts of those that may lag, two a body, and
+                                     // glass before one body's cascades
 SHARED_CONST uint kListCount =
     3u;  // draw lists a view: 0 opaque, 1 cut-out and plants, 2 translucent
 SHARED_CONST uint kMaxIslands = 65536u;       // resident at once: what a surface's word can name
@@ -33,6 +34,8 @@ struct Cascade {
   float texel_blocks;     // a texel's edge [blocks]
   float depth_per_block;  // change of depth for one block towards the light
   uint layer;             // of the shadow map array
+  uint glass_layer;       // of the array of maps of glass
+  uvec4 glass_area;  // its texels that show glass, from xy to before zw; empty: none stands before
 };
 
 struct FrameConstants {
@@ -49,17 +52,20 @@ struct FrameConstants {
   uvec2 size;            // of the images that are drawn [pixels]
   uvec4 layers_area;  // from xy to before zw: pixels outside show no water or glass, and its layers
                       // have any value there
-  uvec4 radiance_area;  // from xy to before zw: pixels whose radiance is kept as an image beside
-                        // the picture, or before it is made
-  uvec2 picture_size;   // smaller by the samples along a pixel's edge [pixels]
-  float near_plane;     // blocks
-  float display_peak;   // brightest value of the picture, sRGB-encoded, 0..1
-  float display_black;  // darkest value that the display shows apart from 0, sRGB-encoded
-  float time_s;         // seconds of play, reduced to one hour, for water ripples
-  uint shading_flat;    // 1: shadow result times light colour, no N.L
-  uint camera_medium;   // block id the camera is in: 0 air, else a translucent block
-  uint medium_surface;  // word of the face above the camera through which light enters that
-                        // medium, as the G-buffer has words; 0: none is known
+  uvec4 radiance_area;    // from xy to before zw: pixels whose radiance is kept as an image beside
+                          // the picture, or before it is made
+  uvec2 picture_size;     // smaller by the samples along a pixel's edge [pixels]
+  float near_plane;       // blocks
+  float display_peak;     // brightest value of the picture, sRGB-encoded, 0..1
+  float display_black;    // darkest value that the display shows apart from 0, sRGB-encoded
+  float time_s;           // seconds of play, reduced to one hour, for water ripples
+  uint shading_flat;      // 1: shadow result times light colour, no N.L
+  uint glass_body;        // whose light is known to pass through glass: the brighter one's
+  float glass_per_texel;  // texels of a map of glass along one of a shadow map; the middle of each
+                          // is that of one
+  uint camera_medium;         // block id the camera is in: 0 air, else a translucent block
+  uint medium_surface;        // word of the face above the camera through which light enters that
+                              // medium, as the G-buffer has words; 0: none is known
   vec3 medium_surface_place;  // its middle
   float medium_light;         // share of the light that enters there, which reaches the camera
   float shadow_blur;          // largest radius of the shadow filter [blocks]
@@ -79,6 +85,7 @@ struct CullView {
   uint orthographic;  // 0 or 1
   uint enabled;       // 0: nothing is drawn in this view
   uint first_section, section_limit;  // slots that it draws, [first, limit); limit 0: there is none
+  uint glass;  // 1: translucent quads alone are drawn; 0: of an orthographic view, all others
 };
 
 // Source-relative world from voxel coordinates of one section: p.x = dot(x, (v, 1)). The source is

@@ -40,10 +40,15 @@ SHARED_CONST uint kRangeCount = 19u;
 // One merged rectangle of faces, 8 bytes.
 struct Quad {
   uint geometry;  // bits 0-5 x, 6-11 y, 12-17 z: the lowest voxel, chunk-local; 18-23 extent along
-                  // u minus 1; 24-29 along v minus 1; 30-31 of a translucent face: which other
-                  // translucent block it touches, by Material.translucent_block, 0: none
-  uint material;  // a surface's word; the island is 0 from the mesher and set on upload
+                  // u minus 1; 24-29 along v minus 1; 30-31 see touched_by()
+  uint material;  // bits 0-28 a surface's word; the island is 0 from the mesher and set on upload;
+                  // 29-31 see touched_by()
 };
+// Which other translucent block a translucent face touches, by Material.translucent_block; 0: none.
+SHARED_CONST uint kTouchedShift = 29u;  // of all but its two lowest bits, in Quad.material
+SHARED_FUNCTION uint touched_by(uint geometry, uint material) {
+  return (geometry >> 30) | ((material >> kTouchedShift) << 2);
+}
 
 // One resident chunk mesh. Its quads are first_quad .. first_quad + range_end[kRangeCount - 1].
 struct Section {
@@ -77,11 +82,13 @@ struct Material {
   uint layer_bottom;  // for -y
   uint emission;     // half floats. Bits 0-15: radiance = albedo * this [the unit of sun radiance];
                      // 16-31: the albedo from which texels emit in full (see kGlowRise), 0: all do
-  vec3 absorption;   // translucent kinds: extinction per block of path [1/block]; else 0
+  vec3 absorption;   // translucent kinds [1/block of path]; else 0
   float roughness;   // 0..1 perceptual
   float metalness;   // 0..1: how much of what it reflects is mirrored, in its own colour
   uint light_class;  // equal for ids that light shows alike, but for their textures
   uint translucent_block;  // of row n, not of id n: the nth translucent block's id, see Quad; or 0
+  float scattering;  // translucent kinds: evenly to all sides, white [1/block of path]; else 0
+  uint liquid;       // 1: level surfaces ripple
 };
 
 // Arguments of vkCmdDrawIndexedIndirect (VkDrawIndexedIndirectCommand). firstInstance carries the

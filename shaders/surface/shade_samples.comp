@@ -21,7 +21,7 @@ layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 layout(binding = kSamplesBinding, rgba32ui) writeonly uniform uimage2D samples;  // of the first
 layout(scalar, binding = kListedPixelsBinding) readonly buffer Pixels { TileDispatch listed[2]; uint pixels[]; };  // see choose_samples.comp
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
-layout(binding = kUnderWaterBinding) uniform usampler2D under_water;
+layout(binding = kMediaLightBinding) uniform usampler2D media_light;
 
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 

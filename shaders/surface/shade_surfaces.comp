@@ -19,7 +19,7 @@ layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
-layout(binding = kUnderWaterBinding) uniform usampler2D under_water;
+layout(binding = kMediaLightBinding) uniform usampler2D media_light;
 
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 

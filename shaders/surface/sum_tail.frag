@@ -9,7 +9,7 @@
 layout(location = 0) flat in uint in_surface;
 layout(location = 1) in vec2 in_touched;  // x: see draw_quads.vert
 layout(location = 0) out vec4 out_depths;  // rgb: in media from here to the ray's end, negative where one ends; a: of this surface
-layout(location = 1) out vec4 out_light;   // rgb: share of the irradiance that it sends on, times pi; a: share of the sky that it mirrors
+layout(location = 1) out vec4 out_light;   // rgb: share of the irradiance that it and media send on, times pi; a: share of the sky that it mirrors
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 #include "include/frame/islands.glsl"
@@ -43,8 +43,14 @@ void main() {
   float at = view_distance(last, frame.near_plane) * ray_length;
   float to_end = end_of_media(opaque, at, ray_length) - t * ray_length;
   Material m = materials[surface_block(word)];
-  vec3 in_media = extinction(m) * (entering ? to_end : -to_end);
-  if (touched != 0u) in_media -= extinction(materials[materials[touched].translucent_block]) * to_end;
+  float begun = entering ? to_end : -to_end;
+  vec3 in_media = extinction(m) * begun;
+  float scattered_in_media = m.scattering * begun;
+  if (touched != 0u) {
+    Material left = materials[materials[touched].translucent_block];
+    in_media -= extinction(left) * to_end;
+    scattered_in_media -= left.scattering * to_end;
+  }
 
   float cosine = clamp(dot(shading_normal(word, ray, t), -ray / ray_length), 0.02, 1.0);
   float reflected = fresnel(cosine, !entering, kWaterIndex);
@@ -52,7 +58,7 @@ void main() {
   float covered = (1.0 - reflected) * texel.a, taken = reflected + covered;
   float depth = -log(max(1.0 - taken, kLeastTransmittance)), by_depth = depth / taken;
   // From inside, the medium itself is what is mirrored.
-  vec3 sent = covered * texel.rgb + (entering ? vec3(0.0) : 0.25 * reflected * scattering(m) / max(extinction(m), 1e-6));
+  vec3 sent = covered * texel.rgb + (entering ? vec3(0.0) : 0.25 * reflected * m.scattering / max(extinction(m), 1e-6));
   out_depths = vec4(in_media, depth);
-  out_light = by_depth * vec4(sent, entering ? reflected : 0.0);
+  out_light = by_depth * vec4(sent, entering ? reflected : 0.0) + vec4(vec3(0.25 * scattered_in_media), 0.0);
 }

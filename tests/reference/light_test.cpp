@@ -398,7 +398,6 @@ TEST(ReferenceLight, WaterTakesFresnelsAndBeersShareOfAWayThatSnellBends) {
   })};
   const world::BlockType& water = world::block_types()[world::block::kWater];
   const world::BlockType& lamp = world::block_types()[world::block::kLamp];
-  const float mean = (water.absorption[0] + water.absorption[1] + water.absorption[2]) / 3.0f;
   for (const double degrees : {0.0, 30.0, 60.0, 75.0}) {
     SCOPED_TRACE(degrees);
     const double angle = degrees * kPi / 180.0, cosine = std::cos(angle);
@@ -410,7 +409,8 @@ TEST(ReferenceLight, WaterTakesFresnelsAndBeersShareOfAWayThatSnellBends) {
     const double upright = std::pow(0.333 / 2.333, 2.0);
     const double reflected = upright + (1.0 - upright) * std::pow(1.0 - cosine, 5.0);
     for (int c = 0; c < 3; ++c) {
-      const double extinction = water.absorption[static_cast<std::size_t>(c)] + 0.3 * mean;
+      const double extinction = static_cast<double>(water.absorption[static_cast<std::size_t>(c)]) +
+                                static_cast<double>(water.scattering);
       EXPECT_NEAR(seen[c], lamp.emission * (1.0 - reflected) * std::exp(-way * extinction), 1e-5);
     }
   }

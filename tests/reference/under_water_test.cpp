@@ -23,8 +23,9 @@ Island lake() {
 }
 
 glm::dvec3 extinction_of(world::BlockId block) {
-  const auto& a = world::block_types()[block].absorption;
-  return glm::dvec3(a[0], a[1], a[2]) + 0.3 * (a[0] + a[1] + a[2]) / 3.0;
+  const world::BlockType& type = world::block_types()[block];
+  const auto& a = type.absorption;
+  return glm::dvec3(a[0], a[1], a[2]) + static_cast<double>(type.scattering);
 }
 
 /// Schlick's, from the air.

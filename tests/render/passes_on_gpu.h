@@ -36,7 +36,7 @@ class PassesOnGpu : public gpu::GpuTest {
     uploader_ = std::make_unique<gpu::Uploader>(device(), gpu::UploadPath::kUpdateBuffer);
     shadows_ = std::make_unique<ShadowMaps>(device());
     Result<std::unique_ptr<GeometryStore>> store =
-        GeometryStore::create(device(), budget_, 1u << 12);
+        GeometryStore::create(device(), budget_, {}, 1u << 12);
     ASSERT_TRUE(store) << store.error().message;
     store_ = *std::move(store);
     std::vector<std::uint16_t> index(shared::kMaxQuadsPerDraw * 6);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <set>
 
 namespace skerry::world {
@@ -43,7 +45,7 @@ TEST(Blocks, TranslucentOnesAreNumberedFromOne) {
       EXPECT_EQ(translucent_block(number), block);
     }
   }
-  EXPECT_EQ(count, 2u);
+  EXPECT_EQ(count, 18u);
   EXPECT_EQ(translucent_number(60000), 0u);
   EXPECT_EQ(translucent_block(0), kAir);
   EXPECT_EQ(translucent_block(count + 1), kAir);
@@ -52,9 +54,10 @@ TEST(Blocks, TranslucentOnesAreNumberedFromOne) {
 
 TEST(Blocks, PropertiesStayInTheirRanges) {
   for (const BlockType& type : block_types()) {
-    EXPECT_LT(type.side, Texture::kCount) << type.name;
-    EXPECT_LT(type.top, Texture::kCount) << type.name;
-    EXPECT_LT(type.bottom, Texture::kCount) << type.name;
+    constexpr int kColours = 16;
+    for (const Texture face : {type.side, type.top, type.bottom})
+      EXPECT_LT(static_cast<int>(face), static_cast<int>(Texture::kStainedGlass) + kColours)
+          << type.name;
     EXPECT_GE(type.roughness, 0.0f) << type.name;
     EXPECT_LE(type.roughness, 1.0f) << type.name;
     EXPECT_GE(type.metalness, 0.0f) << type.name;
@@ -66,6 +69,8 @@ TEST(Blocks, PropertiesStayInTheirRanges) {
     const bool absorbs =
         type.absorption[0] > 0.0f || type.absorption[1] > 0.0f || type.absorption[2] > 0.0f;
     EXPECT_EQ(absorbs, type.kind == BlockKind::kTranslucent) << type.name;
+    EXPECT_EQ(type.scattering > 0.0f, type.kind == BlockKind::kTranslucent) << type.name;
+    EXPECT_TRUE(!type.liquid || type.kind == BlockKind::kTranslucent) << type.name;
   }
 }
 
@@ -84,6 +89,23 @@ TEST(Blocks, WaterTakesRedFirst) {
   EXPECT_GT(a[1], a[2]);
 }
 
+TEST(Blocks, StainedGlassTakesLeastOfItsOwnColour) {
+  const auto least = [](BlockId id) {
+    const auto& a = block_types()[id].absorption;
+    return std::min_element(a.begin(), a.end()) - a.begin();
+  };
+  EXPECT_EQ(least(block::kRedGlass), 0);
+  EXPECT_EQ(least(block::kGreenGlass), 1);
+  EXPECT_EQ(least(block::kBlueGlass), 2);
+  for (int id = block::kWhiteGlass; id <= block::kPinkGlass; ++id) {
+    EXPECT_TRUE(is_glass(static_cast<BlockId>(id)));
+    EXPECT_TRUE(block_types()[static_cast<std::size_t>(id)].name.ends_with("_glass"));
+  }
+  EXPECT_TRUE(is_glass(block::kGlass));
+  EXPECT_FALSE(is_glass(block::kWater));
+  EXPECT_FALSE(is_glass(block::kIce));
+}
+
 TEST(Blocks, UnknownIdsAreOpaqueAndSolid) {
   EXPECT_EQ(block_kind(block::kBuiltInCount), BlockKind::kOpaque);
   EXPECT_EQ(block_kind(65535), BlockKind::kOpaque);
@@ -94,6 +116,8 @@ TEST(Blocks, PlayersStandOnOpaqueCutoutAndGlassOnly) {
   EXPECT_TRUE(is_solid(block::kStone));
   EXPECT_TRUE(is_solid(block::kOakLeaves));
   EXPECT_TRUE(is_solid(block::kGlass));
+  EXPECT_TRUE(is_solid(block::kWhiteGlass));
+  EXPECT_TRUE(is_solid(block::kPinkGlass));
   EXPECT_FALSE(is_solid(kAir));
   EXPECT_FALSE(is_solid(block::kWater));
   EXPECT_FALSE(is_solid(block::kTallGrass));

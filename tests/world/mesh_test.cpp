@@ -113,7 +113,7 @@ std::vector<Face> covered_faces(const ChunkMesh& mesh) {
       EXPECT_EQ(face >= 6, plant);
       if (plant) {
         EXPECT_EQ(u + v, 0);
-        EXPECT_EQ(q.geometry >> 30, 0u);
+        EXPECT_EQ(shared::touched_by(q.geometry, q.material), 0u);
         faces.push_back({range, low[0], low[1], low[2], face, id});
         continue;
       }
@@ -122,7 +122,8 @@ std::vector<Face> covered_faces(const ChunkMesh& mesh) {
           std::array<int, 3> p = low;
           p[static_cast<std::size_t>(kAxisU[static_cast<std::size_t>(face / 2)])] += i;
           p[static_cast<std::size_t>(kAxisV[static_cast<std::size_t>(face / 2)])] += j;
-          faces.push_back({range, p[0], p[1], p[2], face, id, q.geometry >> 30});
+          faces.push_back(
+              {range, p[0], p[1], p[2], face, id, shared::touched_by(q.geometry, q.material)});
         }
     }
   }

@@ -55,7 +55,7 @@ bool Shader::body_seen(const Receiver& at, glm::dvec3 to_light) const {
 namespace {
 
 bool is_wavy(const Meeting& layer) {
-  return layer.block == world::block::kWater && axis_of_face(layer.face) == 1;
+  return world::block_types()[layer.block].liquid && axis_of_face(layer.face) == 1;
 }
 
 /// Whether a ray goes out of the block whose surface it meets.
@@ -84,8 +84,7 @@ glm::dvec3 Shader::left_by_media(const Trace& trace, glm::dvec3 direction, doubl
   glm::dvec3 left(1.0);
   double at = 0.0;
   const auto advance = [&](double next) {
-    const auto& a = world::block_types()[medium].absorption;
-    if (medium != world::kAir) left *= transmitted_by({a[0], a[1], a[2]}, next - at);
+    if (medium != world::kAir) left *= transmitted_by(medium_of(medium), next - at);
     at = next;
   };
   for (const Meeting& layer : trace.layers) {
@@ -538,10 +537,9 @@ struct Shader::Passage {
   /// Goes on inside the medium, if it is in one.
   void advance(double to) {
     if (medium != world::kAir) {
-      const auto& a = world::block_types()[medium].absorption;
-      const glm::dvec3 absorption(a[0], a[1], a[2]);
-      radiance += through * scattered_in(absorption, light_in, to - at);
-      through *= transmitted_by(absorption, to - at);
+      const Medium inside = medium_of(medium);
+      radiance += through * scattered_in(inside, light_in, to - at);
+      through *= transmitted_by(inside, to - at);
     }
     at = to;
   }
@@ -549,27 +547,26 @@ struct Shader::Passage {
 
 namespace {
 
-/// A medium scatters this share of its mean absorption, the same at all wavelengths.
-glm::dvec3 scattering_of(glm::dvec3 absorption) {
-  constexpr double kShare = 0.3;
-  return glm::dvec3(kShare * (absorption.x + absorption.y + absorption.z) / 3.0);
-}
-
 glm::dvec3 exp3(glm::dvec3 v) {
   return {std::exp(v.x), std::exp(v.y), std::exp(v.z)};
 }
 
 }  // namespace
 
-glm::dvec3 scattered_in(glm::dvec3 absorption, glm::dvec3 irradiance, double length_blocks) {
-  const glm::dvec3 scattering = scattering_of(absorption), extinction = absorption + scattering;
+Medium medium_of(world::BlockId block) {
+  const world::BlockType& type = world::block_types()[block];
+  return {{type.absorption[0], type.absorption[1], type.absorption[2]}, type.scattering};
+}
+
+glm::dvec3 scattered_in(const Medium& medium, glm::dvec3 irradiance, double length_blocks) {
+  const glm::dvec3 extinction = medium.extinction();
   if (extinction.x <= 0.0 || extinction.y <= 0.0 || extinction.z <= 0.0) return glm::dvec3(0.0);
-  return scattering / extinction * irradiance * (1.0 - exp3(extinction * -length_blocks)) /
+  return medium.scattering / extinction * irradiance * (1.0 - exp3(extinction * -length_blocks)) /
          (4.0 * kPi);
 }
 
-glm::dvec3 transmitted_by(glm::dvec3 absorption, double length_blocks) {
-  return exp3((absorption + scattering_of(absorption)) * -length_blocks);
+glm::dvec3 transmitted_by(const Medium& medium, double length_blocks) {
+  return exp3(medium.extinction() * -length_blocks);
 }
 
 Shader::Reach Shader::reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye,
@@ -630,13 +627,12 @@ glm::dvec3 Shader::mirrored_outside(glm::dvec3 from, glm::dvec3 direction, Sampl
 glm::dvec3 Shader::mirrored_inside(const Meeting& layer, glm::dvec3 from, glm::dvec3 direction,
                                    glm::dvec3 light_in, Sampler& sampler) const {
   constexpr double kDeep = 1e3;  // blocks
-  const auto& a = world::block_types()[layer.block].absorption;
-  const glm::dvec3 absorption(a[0], a[1], a[2]);
+  const Medium medium = medium_of(layer.block);
   Trace trace;
   if (is_wavy(layer)) tracer_.trace(from, direction, trace);
-  if (!trace.hit) return scattered_in(absorption, light_in, kDeep);
-  return scattered_in(absorption, light_in, trace.hit->t) +
-         transmitted_by(absorption, trace.hit->t) *
+  if (!trace.hit) return scattered_in(medium, light_in, kDeep);
+  return scattered_in(medium, light_in, trace.hit->t) +
+         transmitted_by(medium, trace.hit->t) *
              surface(*trace.hit, from, direction, direction, sampler);
 }
 

@@ -3,21 +3,22 @@
 namespace skerry::world {
 namespace {
 
-constexpr double kLoose = 0.25, kWood = 0.4, kRock = 0.5, kHard = 0.7, kHardest = 1.2;
+constexpr double kBrittle = 0.15, kLoose = 0.25, kWood = 0.4, kRock = 0.5, kHard = 0.7,
+                 kHardest = 1.2;
 
 }  // namespace
 
 double dig_seconds(BlockId id) {
   if (block_kind(id) == BlockKind::kPlant) return 0.0;
   if (block_kind(id) == BlockKind::kCutout) return 0.1;
+  if (is_glass(id)) return kBrittle;
   switch (id) {
-    case block::kGlass:
     case block::kLamp:
     case block::kSnow:
     case block::kMushroomCapRed:
     case block::kMushroomCapGlow:
     case block::kMushroomStem:
-      return 0.15;
+      return kBrittle;
     case block::kGravel:
     case block::kDirt:
     case block::kGrass:

@@ -112,6 +112,10 @@ void add_by_touched(shared::Quad quad, const NumberAt& number_at, std::vector<sh
   const auto number = [&](int i, int j) {
     return number_at(static_cast<std::size_t>(beyond + i * kSteps[u] + j * kSteps[v]));
   };
+  const auto push = [&](std::uint32_t geometry, unsigned touched) {
+    out.push_back(
+        {geometry | touched << 30, quad.material | touched >> 2 << shared::kTouchedShift});
+  };
   const auto all_alike = [&] {
     for (int j = 0; j < along_v; ++j)
       for (int i = 0; i < along_u; ++i)
@@ -119,7 +123,7 @@ void add_by_touched(shared::Quad quad, const NumberAt& number_at, std::vector<sh
     return true;
   };
   if (all_alike()) {
-    out.push_back({quad.geometry | number(0, 0) << 30, quad.material});
+    push(quad.geometry, number(0, 0));
     return;
   }
   for (int j = 0; j < along_v; ++j) {
@@ -128,7 +132,7 @@ void add_by_touched(shared::Quad quad, const NumberAt& number_at, std::vector<sh
       const auto at = low + (static_cast<std::uint32_t>(i) << kShifts[u]) +
                       (static_cast<std::uint32_t>(j) << kShifts[v]);
       const auto extent = static_cast<std::uint32_t>(end - i - 1) << 18;
-      out.push_back({at | extent | number(i, j) << 30, quad.material});
+      push(at | extent, number(i, j));
     }
   }
 }

@@ -25,6 +25,23 @@ constexpr BlockType ore(std::string_view name, Texture all, float roughness, flo
 constexpr BlockType leaves(std::string_view name, Texture all) {
   return {name, kCutout, all, all, all, 0.0f, 0.8f, {}};
 }
+constexpr BlockType translucent(std::string_view name, Texture all, std::array<float, 3> absorption,
+                                float scattering) {
+  BlockType out{name, kTranslucent, all, all, all, 0.0f, 0.05f, absorption};
+  out.scattering = scattering;
+  return out;
+}
+constexpr BlockType liquid(std::string_view name, Texture all, std::array<float, 3> absorption,
+                           float scattering) {
+  BlockType out = translucent(name, all, absorption, scattering);
+  out.liquid = true;
+  return out;
+}
+/// @param colour of the layers of stained glass, 0..15.
+constexpr BlockType stained(int colour, std::string_view name, std::array<float, 3> absorption) {
+  return translucent(name, static_cast<Texture>(static_cast<int>(T::kStainedGlass) + colour),
+                     absorption, 0.01f);
+}
 constexpr BlockType plant(std::string_view name, Texture all, float emission = 0.0f,
                           float glows_from = 0.0f) {
   return {name, kPlant, all, all, all, emission, 0.85f, {}, 0.0f, glows_from};
@@ -36,7 +53,8 @@ constexpr BlockType crystal(std::string_view name, Texture all, float roughness,
 
 // One row an id, in the order of block::. Emission is in units of the sun's radiance on white: a
 // glow plant lights its corner, lava and lamps light a room, and a torch, being small, burns the
-// brighter. Water takes red first, so that deep lakes turn blue-green.
+// brighter. Water takes red first, so that deep lakes turn blue-green. What a block of stained
+// glass lets through has the colour of its texture, and the brighter that is the more.
 constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     {"air", kAir, T::kStone, T::kStone, T::kStone, 0.0f, 1.0f, {}},
     opaque("stone", T::kStone),
@@ -96,15 +114,31 @@ constexpr std::array<BlockType, block::kBuiltInCount> kTable = {{
     opaque("mushroom_cap_glow", T::kMushroomCapGlow, 0.6f, 1.8f),
     opaque("mushroom_stem", T::kMushroomStem, 0.8f),
     sided("mycelium", T::kMyceliumSide, T::kMyceliumTop, T::kDirt),
-    {"water", kTranslucent, T::kWater, T::kWater, T::kWater, 0.0f, 0.05f, {0.25f, 0.08f, 0.05f}},
-    {"glass", kTranslucent, T::kGlass, T::kGlass, T::kGlass, 0.0f, 0.05f, {0.05f, 0.02f, 0.03f}},
+    liquid("water", T::kWater, {0.25f, 0.08f, 0.05f}, 0.038f),
+    translucent("glass", T::kGlass, {0.05f, 0.02f, 0.03f}, 0.01f),
     sided("planks", T::kPlanks, T::kPlanks, T::kPlanks, 0.8f),
     opaque("bricks", T::kBricks, 0.85f),
     plant("torch", T::kTorch, 32.0f, 1.0f),
     opaque("lamp", T::kLamp, 0.5f, 8.0f),
+    stained(0, "white_glass", {0.17f, 0.22f, 0.36f}),
+    stained(1, "light_grey_glass", {0.46f, 0.50f, 0.60f}),
+    stained(2, "grey_glass", {0.94f, 0.94f, 0.82f}),
+    stained(3, "black_glass", {1.75f, 1.80f, 1.50f}),
+    stained(4, "brown_glass", {0.87f, 1.79f, 2.59f}),
+    stained(5, "red_glass", {0.57f, 2.83f, 3.15f}),
+    stained(6, "orange_glass", {0.31f, 1.77f, 3.62f}),
+    stained(7, "yellow_glass", {0.23f, 0.82f, 3.05f}),
+    stained(8, "lime_glass", {0.82f, 0.50f, 2.61f}),
+    stained(9, "green_glass", {1.71f, 0.88f, 2.49f}),
+    stained(10, "teal_glass", {2.63f, 0.79f, 0.91f}),
+    stained(11, "sky_glass", {1.56f, 0.71f, 0.34f}),
+    stained(12, "blue_glass", {2.65f, 1.83f, 0.62f}),
+    stained(13, "violet_glass", {1.37f, 2.11f, 0.67f}),
+    stained(14, "plum_glass", {0.61f, 2.14f, 1.04f}),
+    stained(15, "pink_glass", {0.24f, 1.18f, 0.97f}),
 }};
 
-constexpr unsigned kMostTranslucent = 3;
+constexpr unsigned kMostTranslucent = 31;
 constexpr std::array kTranslucentBlocks = [] {
   std::array<BlockId, kMostTranslucent + 1> blocks{};
   unsigned number = 0;
@@ -135,7 +169,11 @@ BlockId translucent_block(unsigned number) {
 
 bool is_solid(BlockId id) {
   const BlockKind kind = block_kind(id);
-  return kind == kOpaque || kind == kCutout || id == block::kGlass;
+  return kind == kOpaque || kind == kCutout || is_glass(id);
+}
+
+bool is_glass(BlockId id) {
+  return block_kind(id) == kTranslucent && !kTable[id].liquid;
 }
 
 }  // namespace skerry::world

@@ -96,7 +96,9 @@ enum class Texture : std::uint8_t {
   kBricks,
   kTorch,
   kLamp,
-  kCount
+  kCount,
+  /// Layers in colours follow: 16 of wool, then 16 of stained glass, whose first this is.
+  kStainedGlass = kCount + 16
 };
 
 /// The properties of a block id. World data, mesher, renderer and player all read this
@@ -105,14 +107,15 @@ struct BlockType {
   std::string_view name;  ///< lower-case words joined by '_', unique
   BlockKind kind = BlockKind::kAir;
   Texture side{}, top{}, bottom{};
-  float emission = 0.0f;   ///< radiance = albedo * this; 0: none
-  float roughness = 0.9f;  ///< perceptual, 0..1
-  std::array<float, 3>
-      absorption{};        ///< translucent only: extinction per block of path, linear RGB [1/block]
+  float emission = 0.0f;              ///< radiance = albedo * this; 0: none
+  float roughness = 0.9f;             ///< perceptual, 0..1
+  std::array<float, 3> absorption{};  ///< translucent only: of light, linear RGB [1/block of path]
   float metalness = 0.0f;  ///< 0..1: how much of what it reflects is mirrored, in its own colour
   /// Texels whose brightest channel of albedo is this or more emit in full, darker ones less, and
   /// none does whose is lower by shared::kGlowRise or more: a torch's stick is wood. 0: all do.
   float glows_from = 0.0f;
+  float scattering = 0.0f;  ///< translucent only: evenly to all sides, white [1/block of path]
+  bool liquid = false;      ///< translucent only: players swim in it, and its level surface ripples
 };
 
 /// Named ids of the built-in blocks. The order is saved in worlds: append only.
@@ -182,6 +185,22 @@ enum : BlockId {
   kBricks,
   kTorch,
   kLamp,
+  kWhiteGlass,
+  kLightGreyGlass,
+  kGreyGlass,
+  kBlackGlass,
+  kBrownGlass,
+  kRedGlass,
+  kOrangeGlass,
+  kYellowGlass,
+  kLimeGlass,
+  kGreenGlass,
+  kTealGlass,
+  kSkyGlass,
+  kBlueGlass,
+  kVioletGlass,
+  kPlumGlass,
+  kPinkGlass,
   kBuiltInCount
 };
 }  // namespace block
@@ -191,11 +210,13 @@ std::span<const BlockType> block_types();
 /// The kind of any id; ids outside the table count as opaque.
 BlockKind block_kind(BlockId id);
 /// The number of a translucent block among those of the table, in their order, from 1 on; 0: it is
-/// not translucent. Faces name what they touch by it, in two bits.
+/// not translucent. Faces name what they touch by it (shared::Quad).
 unsigned translucent_number(BlockId id);
 /// The block of that number; kAir if there is none.
 BlockId translucent_block(unsigned number);
 /// Whether a player can stand on it: opaque and cut-out blocks and glass.
 bool is_solid(BlockId id);
+/// Whether it is a translucent block that is no liquid.
+bool is_glass(BlockId id);
 
 }  // namespace skerry::world

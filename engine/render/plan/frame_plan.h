@@ -6,6 +6,7 @@
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/settings.h"
+#include "engine/render/light/glass_plan.h"
 #include "engine/render/light/shadow_plan.h"
 #include "engine/render/plan/frame_contents.h"
 #include "engine/render/plan/frame_history.h"
@@ -36,6 +37,7 @@ struct FramePlan {
   std::vector<glm::uvec4> sky_light{};  ///< what it sends to them, see sky_irradiance()
   ByRadiance by_radiance = ByRadiance::kEverything;
   ShadowPlan shadows{};
+  GlassPlan glass{};
   FrameTables tables{};
   FrameContents contents;
   std::optional<CloudPlan> clouds{};                ///< none: the frame has none

@@ -86,8 +86,8 @@ shared::IslandTransform transform_of(const IslandPlacement& island, const FixedP
 }
 
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
-                         std::span<const ActiveCascade> cascades,
-                         std::span<const PartAhead> ahead) {
+                         std::span<const ActiveCascade> cascades, std::span<const PartAhead> ahead,
+                         const GlassPlan& glass) {
   FrameTables out;
   const CameraView camera = view_of(input.camera, size.width, size.height);
   shared::FrameConstants& f = out.constants;
@@ -142,6 +142,21 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
     append_light(out, part.cascade, whole_area(part.cascade), part.to_light, part.islands);
     out.views.back().first_section = part.sections.first;
     out.views.back().section_limit = part.sections.end;
+  }
+  f.glass_body = glass.body;
+  f.glass_per_texel = glass.per_shadow_texel;
+  for (std::uint32_t layer = 0; layer < glass.maps.size(); ++layer) {
+    const GlassMap& map = glass.maps[layer];
+    append_light(out, map.cascade, map.shadow_area, map.to_light, input.islands);
+    out.views.back().glass = 1;
+    // Where quads overlapped, the map would count what is behind them twice.
+    out.edge_growth.back() = 0.0f;
+    const float half_texel = 1.0f / static_cast<float>(map.cascade.key.map_size);
+    out.matrices.back()[3] -= glm::vec4(half_texel, half_texel, 0.0f, 0.0f);
+    const glm::uvec2 first(map.area.offset.x, map.area.offset.y);
+    f.cascades[map.slot].glass_layer = layer;
+    f.cascades[map.slot].glass_area =
+        glm::uvec4(first, first + glm::uvec2(map.area.extent.width, map.area.extent.height));
   }
   return out;
 }

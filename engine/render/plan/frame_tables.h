@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/render/frame/frame_input.h"
+#include "engine/render/light/glass_plan.h"
 #include "engine/render/light/shadow_maps.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
@@ -26,10 +27,10 @@ struct FrameTables {
 shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to);
 
 /// The camera's view comes first, then those of the cascades that are drawn, then those of parts
-/// ahead.
+/// ahead, then those of glass.
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
                          std::span<const ActiveCascade> cascades,
-                         std::span<const PartAhead> ahead = {});
+                         std::span<const PartAhead> ahead = {}, const GlassPlan& glass = {});
 
 /// The sky whose sun and moon stand at the middle of a part's share of their discs: points of a
 /// sunflower (H. Vogel, A better way to construct the sunflower head, 1979), which cover it evenly.

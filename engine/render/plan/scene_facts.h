@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 
@@ -16,6 +17,8 @@ namespace skerry::render {
 struct SceneFacts {
   std::span<const shared::Section> sections;    ///< one a slot; free slots have no ranges
   std::span<const VoxelBox> translucent_boxes;  ///< of the sections' water and glass, one a slot
+  /// GeometryStore::glass_boxes(); null: there is none.
+  const std::map<std::uint32_t, VoxelBox>* glass_boxes = nullptr;
   std::uint32_t sections_resident = 0;
   std::uint64_t quads_resident = 0, translucent_quads = 0, cutout_quads = 0;
   const GeometryChanges* changes = nullptr;  ///< never null in a plan

@@ -17,6 +17,7 @@ struct Supposed {
   std::uint32_t bodies = 0;  // bit a body that gives light
   std::uint32_t lights = 0;  // bit a kind that is in view
   Water water = Water::kNone;
+  bool glass = false;  // is, before what the bodies light
   bool stars = false, discs = false;
   bool clouds = true;      // that there are, are in view
   bool cloud_sky = false;  // lights them by itself
@@ -95,6 +96,7 @@ void suppose(FramePlan& plan, const FrameNeeds& needs, const Supposed& what) {
   absent_unless(plan.clouds.has_value(), Feature::kClouds);
   plan.input.camera_medium =
       what.water == Water::kAroundEye && features.has(Feature::kWater) ? kSomeBlock : 0;
+  plan.glass.maps.assign(what.glass && !plan.shadows.cascades.empty() ? 1 : 0, {});
   plan.contents = {features, {}, plan.tables.constants.layers_area, {}};
   plan.contents.cutouts_in_view.assign(1 + plan.shadows.cascades.size(),
                                        features.has(Feature::kCutouts));
@@ -123,7 +125,7 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
   FramePlan plan = common_of(now, needs);
   if (!why_never_two_phases(plan.settings)) {
     plan.why_one_phase = nullptr;
-    suppose(plan, needs, {3u, kTorches, Water::kInView, false, false});
+    suppose(plan, needs, {3u, kTorches, Water::kInView});
     visit(plan);
   }
   plan.why_one_phase = kSupposed;
@@ -143,15 +145,19 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
   // Day before night: both, sun, moon, neither.
   for (const std::uint32_t bodies : {3u, 1u, 2u, 0u}) {
     for (const Water water : {Water::kNone, Water::kInView, Water::kAroundEye})
-      for (const std::uint32_t lights : kinds) visit_with({bodies, lights, water, false, false});
+      for (const std::uint32_t lights : kinds) {
+        visit_with({bodies, lights, water});
+        if (water == Water::kInView && bodies != 0)
+          visit_with({.bodies = bodies, .lights = lights, .water = water, .glass = true});
+      }
     // Stars and discs concern the sky alone, which goes to the picture, or for lights to an image
     // of radiance, or for water to both.
     for (const bool stars : {false, true}) {
       if (stars && plan.sky.panorama) continue;
       for (const bool discs : {false, true}) {
-        visit_with({bodies, 0, Water::kNone, stars, discs});
-        visit_with({bodies, 0, Water::kInView, stars, discs});
-        visit_with({bodies, kTorches, Water::kInView, stars, discs});
+        visit_with({bodies, 0, Water::kNone, false, stars, discs});
+        visit_with({bodies, 0, Water::kInView, false, stars, discs});
+        visit_with({bodies, kTorches, Water::kInView, false, stars, discs});
       }
     }
   }

@@ -113,6 +113,13 @@ Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
                                  .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
   if (!image) return image.error();
   no_depths_ = *std::move(image);
+  image = device_->create_image({.name = "no layers",
+                                 .format = VK_FORMAT_R32_UINT,
+                                 .extent = {1, 1},
+                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                 .array = true});
+  if (!image) return image.error();
+  no_layers_ = *std::move(image);
   return {};
 }
 
@@ -234,6 +241,7 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.no_volume = graph.import(no_volume_);
   s.no_words = graph.import(no_words_);
   s.no_depths = graph.import(no_depths_);
+  s.no_layers = graph.import(no_layers_);
   s.block_sampler = block_sampler_;
   s.lut_sampler = lut_sampler_;
   s.point_sampler = point_sampler_;

@@ -180,8 +180,11 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   if (plan.geometry)
     plan.shadows = plan_shadows(plan.input, settings, facts.sections, *facts.changes,
                                 history.shadows, facts.shadow_generation);
-  plan.tables =
-      build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades, plan.shadows.ahead);
+  if (plan.geometry && facts.glass_boxes)
+    plan.glass =
+        plan_glass(plan.input, settings, plan.shadows.cascades, facts.sections, *facts.glass_boxes);
+  plan.tables = build_tables(plan.input, settings, plan.drawn, plan.shadows.cascades,
+                             plan.shadows.ahead, plan.glass);
   if (plan.sky.panorama)
     plan.tables.constants.sky_yaw = static_cast<float>(plan.sky.panorama->yaw());
   plan.tables.constants.picture_size = {plan.picture.width, plan.picture.height};

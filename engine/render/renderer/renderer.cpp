@@ -104,6 +104,7 @@ struct Renderer::State {
   FrameResources resources;
   std::uint64_t upload_budget;
   MemoryBudget world_budget;  // outlives the stores
+  BlockSet glass;
   std::unique_ptr<GeometryStore> geometry;
   std::unique_ptr<OccupancyStore> occupancy;  // null: never asked for
   std::unique_ptr<IndirectStore> indirect;    // null: never asked for
@@ -124,8 +125,9 @@ struct Renderer::State {
 };
 
 Result<void> Renderer::State::create(const RendererDesc& desc) {
+  glass = glass_among(desc.materials);
   Result<std::unique_ptr<GeometryStore>> store =
-      GeometryStore::create(device, world_budget, desc.arena_quads);
+      GeometryStore::create(device, world_budget, glass, desc.arena_quads);
   if (!store) return store.error();
   geometry = *std::move(store);
   if (Result<void> ok = resources.create(frame_uploader, desc.materials); !ok) return ok;
@@ -137,6 +139,7 @@ Result<void> Renderer::State::create(const RendererDesc& desc) {
 SceneFacts Renderer::State::facts() const {
   return {.sections = geometry->records(),
           .translucent_boxes = geometry->translucent_boxes(),
+          .glass_boxes = &geometry->glass_boxes(),
           .sections_resident = geometry->sections_resident(),
           .quads_resident = geometry->quads_resident(),
           .translucent_quads = geometry->translucent_quads(),
@@ -477,8 +480,8 @@ Result<void> Renderer::restart_world(std::uint64_t bytes) {
   s.device.run_now([](VkCommandBuffer) {});  // the old tables are retired until then
   s.device.collect();
   s.world_budget = MemoryBudget(std::max(bytes, kLeastWorldBytes));
-  Result<std::unique_ptr<GeometryStore>> geometry =
-      GeometryStore::create(s.device, s.world_budget, kLeastWorldBytes / 4 / sizeof(shared::Quad));
+  Result<std::unique_ptr<GeometryStore>> geometry = GeometryStore::create(
+      s.device, s.world_budget, s.glass, kLeastWorldBytes / 4 / sizeof(shared::Quad));
   if (!geometry) return geometry.error();
   s.geometry = *std::move(geometry);
   if (had_occupancy)

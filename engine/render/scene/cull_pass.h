@@ -53,17 +53,25 @@ CulledDraws add_hidden_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                               const SceneRefs& scene, const CullIn& in, gpu::ImageRef depth,
                               const CulledDraws& first);
 
+/// Push constants of draw_quads.vert.
+struct DrawPush {
+  glm::mat4 clip_from_source;
+  std::uint32_t first_transform;
+  float edge_growth;
+};
+inline DrawPush draw_push(const SceneRefs& scene, const CulledDraws& draws, std::uint32_t view) {
+  return {scene.clip_from_source[view], view * draws.section_slots, scene.edge_growth[view]};
+}
+
+/// What draw_quads.vert declares besides.
+inline auto drawn_from(const SceneRefs& scene, const CulledDraws& draws) {
+  return std::tuple{gpu::storage<shared::kQuadsBinding>(scene.quads),
+                    gpu::storage<shared::kSectionTransformsBinding>(draws.transforms)};
+}
+
 /// What draw_quads.vert declares, for one view.
 inline auto draw_bindings(const SceneRefs& scene, const CulledDraws& draws, std::uint32_t view) {
-  struct Push {
-    glm::mat4 clip_from_source;
-    std::uint32_t first_transform;
-    float edge_growth;
-  };
-  return std::tuple{gpu::storage<shared::kQuadsBinding>(scene.quads),
-                    gpu::storage<shared::kSectionTransformsBinding>(draws.transforms),
-                    gpu::constants(Push{scene.clip_from_source[view], view * draws.section_slots,
-                                        scene.edge_growth[view]})};
+  return std::tuple{drawn_from(scene, draws), gpu::constants(draw_push(scene, draws, view))};
 }
 
 /// What cutout.glsl declares.

@@ -1,6 +1,7 @@
 #include "engine/render/scene/geometry_store.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "engine/core/check.h"
 #include "engine/gpu/device/device.h"
@@ -32,14 +33,24 @@ std::uint32_t most_runs(const shared::Section& section, std::uint32_t first, std
 
 }  // namespace
 
+BlockSet glass_among(std::span<const shared::Material> materials) {
+  BlockSet out;
+  for (std::size_t id = 0; id < std::min(materials.size(), out.size()); ++id)
+    out[id] = materials[id].liquid == 0 &&
+              (materials[id].absorption != glm::vec3(0.0f) || materials[id].scattering != 0.0f);
+  return out;
+}
+
 Result<std::unique_ptr<GeometryStore>> GeometryStore::create(gpu::Device& device,
                                                              MemoryBudget& budget,
+                                                             const BlockSet& glass,
                                                              std::uint32_t arena_quads) {
   arena_quads =
       budget.first_elements(sizeof(shared::Quad), std::min(arena_quads, kLeastQuads), arena_quads);
   const std::uint32_t sections_first =
       budget.first_elements(sizeof(shared::Section), kLeastSections, kUsualSections);
   std::unique_ptr<GeometryStore> store(new GeometryStore(device, budget, arena_quads));
+  store->glass_ = glass;
   Result<gpu::Buffer> quads =
       make_table(device, budget, "quad arena", std::uint64_t{arena_quads} * sizeof(shared::Quad));
   if (!quads) return quads.error();
@@ -77,6 +88,11 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   records_[slot] = section;
   const std::span translucent = quads.subspan(section.range_end[shared::kRangeTranslucent - 1]);
   if (!translucent.empty()) translucent_boxes_[slot] = box_of(translucent);
+  scratch_.clear();
+  std::ranges::copy_if(translucent, std::back_inserter(scratch_), [&](const shared::Quad& quad) {
+    return glass_[shared::surface_block(quad.material)];
+  });
+  if (!scratch_.empty()) glass_boxes_[slot] = box_of(scratch_);
   scratch_.assign(quads.begin(), quads.end());
   for (shared::Quad& quad : scratch_) quad.material |= section.island << shared::kIslandShift;
   uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad),
@@ -114,6 +130,7 @@ void GeometryStore::remove(gpu::Uploader& uploader, SectionId id) {
   uploader.write(sections_, std::uint64_t{id.slot} * sizeof(shared::Section),
                  std::span<const shared::Section>(&records_[id.slot], 1));
   arena_.free({old.first_quad, old.range_end[shared::kRangeCount - 1]}, device_->next_value());
+  glass_boxes_.erase(id.slot);
   free_slots_.push_back(id.slot);
 }
 

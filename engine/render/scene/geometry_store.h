@@ -1,4 +1,5 @@
 #pragma once
+#include <bitset>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -26,6 +27,11 @@ inline constexpr std::uint32_t kUsualSections = 8192;
 /// Likewise draws of their lists.
 inline constexpr DrawLimits kUsualDraws{2 * kUsualSections, kUsualSections, kUsualSections / 2};
 
+using BlockSet = std::bitset<shared::kMaxMaterials>;
+
+/// Blocks that take light which passes, and are no liquid. @param materials by block id.
+BlockSet glass_among(std::span<const shared::Material> materials);
+
 /// A resident chunk mesh; only GeometryStore makes one.
 struct SectionId {
   std::uint32_t slot = ~0u;
@@ -38,9 +44,11 @@ struct SectionId {
 class GeometryStore {
  public:
   /// @param budget must outlive the store.
+  /// @param glass block ids: see glass_boxes().
   /// @param arena_quads capacity to begin with, less if that is much of the budget; it doubles when
   /// full, up to the device's largest storage buffer and what the budget has left.
   static Result<std::unique_ptr<GeometryStore>> create(gpu::Device& device, MemoryBudget& budget,
+                                                       const BlockSet& glass,
                                                        std::uint32_t arena_quads);
   ~GeometryStore();
 
@@ -76,6 +84,9 @@ class GeometryStore {
   std::span<const shared::Section> records() const { return records_; }
   /// Of each slot's translucent quads; of any value where it has none.
   std::span<const VoxelBox> translucent_boxes() const { return translucent_boxes_; }
+  /// By slot, of sections that have quads of glass, these quads' box; of those that are not shown,
+  /// too.
+  const std::map<std::uint32_t, VoxelBox>& glass_boxes() const { return glass_boxes_; }
   /// For kept shadow maps: what invalidates them.
   const GeometryChanges& changes() const { return changes_; }
 
@@ -91,6 +102,8 @@ class GeometryStore {
   gpu::Buffer quads_, sections_;
   std::vector<shared::Section> records_;  // CPU copy, one a slot; free slots have no ranges
   std::vector<VoxelBox> translucent_boxes_;
+  BlockSet glass_;
+  std::map<std::uint32_t, VoxelBox> glass_boxes_;
   std::map<std::uint32_t, shared::Section> hidden_;  // by slot, whose records have no ranges
   std::vector<std::uint32_t> free_slots_;
   std::vector<shared::Quad> scratch_;

@@ -13,6 +13,7 @@
 #include "engine/render/post/picture.h"
 #include "engine/render/scene/cull_pass.h"
 #include "engine/render/sky/clouds.h"
+#include "engine/render/surface/media_light.h"
 #include "engine/render/surface/translucent_pass.h"
 
 namespace skerry::render {
@@ -40,6 +41,7 @@ struct FrameAssembly {
   std::optional<Geometry> geometry{};
   std::optional<Shadows> shadows{};
   TranslucentPass::Layers layers{};
+  MediaLight media{};
   std::optional<ClusteredLights> lights{};
   std::optional<Shaded> shaded{};
   Metered metered{};

@@ -130,7 +130,7 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
        {shared::kStepConstant, pass.step}},
       scene, maps);
   if (pass.every_pixel) constants.push_back({shared::kEveryPixelConstant, 1});
-  constants = on.water.with_water(clouds_before_light(scene).with_clouds(
+  constants = on.media.with_media(clouds_before_light(scene).with_clouds(
       with_ao(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.ao)));
   if (lights) {
     constants = WallReads(scene, light.settings, scene.ao)
@@ -156,7 +156,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
         walls.declare(b);
-        on.water.declare(b);
+        on.media.declare(b, scene);
         clouds.declare_light(b);
         lights.declare(b);
         if (maps) b.read(maps, Use::kComputeSampled);
@@ -170,7 +170,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
       },
       [unlit = shading_program(pipelines, scene, on, light, nullptr, pass),
        lit = shading_program(pipelines, scene, on, light, light.lights, pass),
-       some_lit = light.lights != nullptr, scene, surfaces, walls, water = on.water, clouds, lights,
+       some_lit = light.lights != nullptr, scene, surfaces, walls, media = on.media, clouds, lights,
        maps, pass](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
@@ -179,7 +179,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
             surfaces.bindings(scene.point_sampler),
             walls.bindings(),
-            water.binding(scene.point_sampler),
+            media.binding(scene),
             gpu::texels<shared::kIndirectBinding>(scene.indirect),
             gpu::texels<shared::kIslandSkiesBinding>(scene.island_skies),
             clouds.light_bindings(),

@@ -3,8 +3,8 @@
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/light/light_clusters.h"
 #include "engine/render/scene/tiles.h"
+#include "engine/render/surface/media_light.h"
 #include "engine/render/surface/shade_target.h"
-#include "engine/render/surface/water_above.h"
 
 namespace skerry::render {
 
@@ -12,7 +12,7 @@ namespace skerry::render {
 struct SampleIn {
   const Geometry& geometry;
   const Shadows& shadows;
-  WaterAbove water;
+  const MediaLight& media;
   Tiles tiles;  ///< of the geometry
 };
 

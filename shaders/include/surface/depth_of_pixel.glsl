@@ -1,14 +1,21 @@
-// How deep under water lies what a pixel shows. Needs before the include: under_water.glsl, `under_water`.
+// What media do to the light that comes to what a pixel shows. Needs before the include: under_water.glsl, `media_light`.
 #ifndef SKERRY_DEPTH_OF_PIXEL_GLSL
 #define SKERRY_DEPTH_OF_PIXEL_GLSL
+#include "include/surface/packed_share.glsl"
 
-// Of what a pixel shows behind water and glass, if the nearest of them is level water, or that which the eye is in. @param word of the surface,
-// which is taken to belong to the island whose water it is.
+// How deep lies what a pixel shows behind water and glass, if the nearest of them is level water, or that which the eye is in; and what glass on
+// its way leaves of a body's light. @param word of the surface, which is taken to belong to the island whose water it is.
 Depth depth_of_pixel(uvec2 pixel, uint word, vec3 p) {
-  if (!kUnderWater) return no_depth();
-  uint above = in_area(pixel, frame.layers_area) ? texelFetch(under_water, ivec2(pixel), 0).r : 0u;
-  Depth depth = depth_below(unpackHalf2x16(above).y, surface_island(word), above & 0x3ffu);
-  if (frame.camera_medium != 0u && above == 0u) depth = depth_in_medium(p);
+  if (!kUnderWater && !kGlass) return no_depth();
+  // Without glass only the pixels of the area are written.
+  bool known = kGlass || in_area(pixel, frame.layers_area);
+  uvec2 found = known ? texelFetch(media_light, ivec2(pixel), 0).rg : uvec2(0u);
+  Depth depth = no_depth();
+  if (kUnderWater) {
+    depth = depth_below(unpackHalf2x16(found.x).y, surface_island(word), found.x & 0x3ffu);
+    if (frame.camera_medium != 0u && found.x == 0u) depth = depth_in_medium(p);
+  }
+  if (kGlass) depth.through_glass = unpacked_share(found.y);
   return depth;
 }
 #endif

@@ -31,7 +31,9 @@ BodyLight light_of_body(Surface s, Depth depth, const uint index, const uint fir
   }
   float visibility = surface_visibility(asked, body.to_light, first_cascade, faces) * light_through_clouds(index, s.position);
   bool reached = n_dot_l > 0.0 && !shaded;
-  return BodyLight(way.to_light, reached ? body.irradiance * way.share * visibility : vec3(0.0), n_dot_l);
+  vec3 share = way.share * visibility;
+  if (kGlass && index == frame.glass_body) share *= depth.through_glass;
+  return BodyLight(way.to_light, reached ? body.irradiance * share : vec3(0.0), n_dot_l);
 }
 
 // Radiance that a surface sends to the eye under one body. A face turned away is in its own block's shadow.

@@ -18,11 +18,7 @@ float fresnel(float cosine, bool leaving, float n) {
   return r0 + (1.0 - r0) * pow(1.0 - cosine, 5.0);
 }
 
-// A medium scatters this share of its mean absorption, white.
-const float kScattering = 0.3;
-
-vec3 scattering(Material medium) { return vec3(kScattering * dot(medium.absorption, vec3(1.0 / 3.0))); }
-vec3 extinction(Material medium) { return medium.absorption + scattering(medium); }
+vec3 extinction(Material medium) { return medium.absorption + medium.scattering; }
 
 // 1 - exp(-x), to the last digits for small x.
 vec3 opacities(vec3 x) { return mix(1.0 - exp(-x), x * (1.0 - x * (0.5 - x * (1.0 / 6.0))), lessThan(x, vec3(0.02))); }
@@ -30,11 +26,8 @@ vec3 opacities(vec3 x) { return mix(1.0 - exp(-x), x * (1.0 - x * (0.5 - x * (1.
 // Radiance a stretch of medium sends towards the eye when `light` falls on it: single scattering, isotropic phase 1 / (4 pi).
 vec3 scattered(Material medium, vec3 light, float path) {
   vec3 total = max(extinction(medium), vec3(1e-6));
-  return scattering(medium) / total * light * (0.25 * kInvPi) * opacities(total * path);
+  return medium.scattering / total * light * (0.25 * kInvPi) * opacities(total * path);
 }
-
-// Of optical depths in media: what they scatter of the light that falls on them towards the eye, where nothing dims it.
-vec3 scattered_share(vec3 depths) { return vec3(kScattering / (1.0 + kScattering) * 0.25 * kInvPi * dot(depths, vec3(1.0 / 3.0))); }
 
 // Of light that comes evenly from all of a way of optical depth x: (1 - exp(-x)) / x.
 vec3 mean_transmittance(vec3 x) { return mix(opacities(x) / max(x, 1e-6), 1.0 - 0.5 * x, lessThan(x, vec3(1e-4))); }

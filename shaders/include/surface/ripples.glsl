@@ -16,10 +16,7 @@ vec3 rippled_normal(vec3 lattice, float distance) {
 }
 
 // Water that lies level in its lattice.
-bool has_ripples(uint word) {
-  Material m = materials[surface_block(word)];
-  return (surface_face(word) >> 1) == 1u && m.roughness < 0.2 && m.absorption.r > 0.05;
-}
+bool has_ripples(uint word) { return (surface_face(word) >> 1) == 1u && materials[surface_block(word)].liquid != 0u; }
 
 // @param t of the surface along `ray`.
 vec3 shading_normal(uint word, vec3 ray, float t) {

@@ -12,15 +12,17 @@ struct Depth {
   float blocks;     // to the water's surface; 0: not under water
   vec3 up;          // the surface's normal
   vec3 extinction;  // 1/block
+  vec3 through_glass;  // share of the light of frame.glass_body that glass on its way lets through
 };
-Depth no_depth() { return Depth(0.0, vec3(0.0, 1.0, 0.0), vec3(0.0)); }
+Depth no_depth() { return Depth(0.0, vec3(0.0, 1.0, 0.0), vec3(0.0), vec3(1.0)); }
 
 // @param island whose water it is. @param block of that water.
 Depth depth_below(float blocks, uint island, uint block) {
-  return Depth(blocks, world_from_lattice_vector(island_at(island), vec3(0.0, 1.0, 0.0)), extinction(materials[block]));
+  return Depth(blocks, world_from_lattice_vector(island_at(island), vec3(0.0, 1.0, 0.0)), extinction(materials[block]), vec3(1.0));
 }
 
-layout(constant_id = kUnderWaterConstant) const bool kUnderWater = false;  // something may be; if not, something is bound that is never read
+layout(constant_id = kUnderWaterConstant) const bool kUnderWater = false;  // something may be
+layout(constant_id = kGlassConstant) const bool kGlass = false;  // light may come through glass
 
 // Of a place in the medium that the eye is in.
 Depth depth_in_medium(vec3 p) {

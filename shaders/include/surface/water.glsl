@@ -172,9 +172,13 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   if (tail) {
     vec4 depths_behind = texelFetch(tail_depths, ivec2(pixel), 0), light_behind = texelFetch(tail_light, ivec2(pixel), 0);
     vec3 in_media = depths_behind.rgb;
-    if (medium != 0u) in_media += extinction(materials[medium]) * max(end - at, 0.0);
+    vec3 sent_on = light_behind.rgb;
+    if (medium != 0u) {
+      in_media += extinction(materials[medium]) * max(end - at, 0.0);
+      sent_on += 0.25 * materials[medium].scattering * max(end - at, 0.0);
+    }
     in_media = max(in_media, 0.0);
-    vec3 sent = light_behind.rgb * (kInvPi * light_in) + light_behind.a * sky_mirrored + scattered_share(in_media) * light_in;
+    vec3 sent = max(sent_on, 0.0) * (kInvPi * light_in) + light_behind.a * sky_mirrored;
     vec3 depth = in_media + depths_behind.a;
     colour += through * sent * mean_transmittance(depth);
     through *= exp(-depth);

@@ -8,8 +8,8 @@
 #include "engine/render/light/shadow_pass.h"
 #include "engine/render/post/develop_pass.h"
 #include "engine/render/scene/geometry_pass.h"
+#include "engine/render/surface/media_light.h"
 #include "engine/render/surface/shade_pass.h"
-#include "engine/render/surface/translucent_pass.h"
 
 namespace skerry::render {
 namespace {
@@ -43,11 +43,10 @@ template <class... Inputs>
 constexpr bool kShades = requires(Inputs... inputs) {
   ShadedFrom{inputs...};
 };
-using Layers = TranslucentPass::Layers;
-static_assert(kShades<const Geometry&, const Shadows&, const Layers&>);
-static_assert(!kShades<const Shadows&, const Geometry&, const Layers&>);
+static_assert(kShades<const Geometry&, const Shadows&, const MediaLight&>);
+static_assert(!kShades<const Shadows&, const Geometry&, const MediaLight&>);
 static_assert(!kShades<const Geometry&>);
-static_assert(!kShades<const Shaded&, const Shadows&, const Layers&>);
+static_assert(!kShades<const Shaded&, const Shadows&, const MediaLight&>);
 
 // Translucent surfaces and development use a picture up: only a phase that is given away will do.
 template <class Input>

@@ -31,7 +31,8 @@ world::BlockId reef(int x, int y, int z) {
 }
 
 const std::array<float, 3>& kAbsorption = world::block_types()[world::block::kWater].absorption;
-const double kScattering = 0.3 * (kAbsorption[0] + kAbsorption[1] + kAbsorption[2]) / 3.0;
+const double kScattering =
+    static_cast<double>(world::block_types()[world::block::kWater].scattering);
 glm::dvec3 extinction_of_water() {
   return glm::dvec3(kAbsorption[0], kAbsorption[1], kAbsorption[2]) + kScattering;
 }

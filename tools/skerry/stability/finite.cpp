@@ -223,6 +223,7 @@ Result<Rows> materials(gpu::Device& device) {
 
     table = good;
     table[kGlass].absorption = glm::vec3(value);
+    table[kGlass].scattering = value;
     table[kGlass].roughness = value;
     stage = room_stage(device, table);
     if (!stage) return stage.error();

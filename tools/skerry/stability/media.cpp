@@ -20,12 +20,18 @@ using world::block::kLamp;
 constexpr VkExtent2D kMediaSize{96, 54};
 constexpr double kEye = 0.5, kLamps = 40.0;  // z of the eye and of the wall of lamps
 
-/// Extinction a block of a medium with white absorption a: it scatters 0.3 of it besides
-/// (shaders/include/surface/media.glsl).
-constexpr double kExtinctionPerAbsorption = 1.3;
+/// What the media scatter of what they absorb.
+constexpr double kScatteringPerAbsorption = 0.3;
+constexpr double kExtinctionPerAbsorption = 1.0 + kScatteringPerAbsorption;
+
+void set_medium(shared::Material& material, double absorption) {
+  material.absorption = glm::vec3(static_cast<float>(absorption));
+  material.scattering = static_cast<float>(kScatteringPerAbsorption * absorption);
+}
 
 /// Radiance below which a half's steps would be coarse: what is compared is above.
 constexpr double kFaintest = 1.0 / 1024.0;
+constexpr double kHalfStep = 1.0 / 1024.0;  // of radiance near 1
 
 struct Glass {
   double front, back;  // z; the eye is inside when front is behind it
@@ -40,7 +46,7 @@ struct Glass {
 
 Result<Frame> look(gpu::Device& device, const Glass& glass, double absorption) {
   std::vector<shared::Material> table = game::material_table();
-  table[kGlass].absorption = glm::vec3(static_cast<float>(absorption));
+  set_medium(table[kGlass], absorption);
   table[kLamp].emission = glm::packHalf1x16(1.0f);
   auto stage = Stage::create(device, table);
   if (!stage) return stage.error();
@@ -141,7 +147,7 @@ Result<Rows> many_panes(gpu::Device& device) {
 /// this light does not reach: nothing else is there to be seen.
 Result<Frame> glow(gpu::Device& device, double absorption, float irradiance) {
   std::vector<shared::Material> table = game::material_table();
-  table[kGlass].absorption = glm::vec3(static_cast<float>(absorption));
+  set_medium(table[kGlass], absorption);
   table[kLamp].emission = 0;
   auto stage = Stage::create(device, table);
   if (!stage) return stage.error();
@@ -186,11 +192,68 @@ Result<Rows> faint_media(gpu::Device& device) {
                std::ldexp(1.0, -9), off}};
 }
 
+/// A floor, from between it and glass that a light from straight above passes.
+Result<Frame> lit_floor(gpu::Device& device, const Glass& glass, double absorption) {
+  std::vector<shared::Material> table = game::material_table();
+  set_medium(table[kGlass], absorption);
+  auto stage = Stage::create(device, table);
+  if (!stage) return stage.error();
+  const auto scene = [&](int, int y, int) -> world::BlockId {
+    if (y < 0) return world::block::kStone;
+    return glass.holds(y) ? kGlass : kAirBlock;
+  };
+  if (Result<void> added = (*stage)->add(scene, {0, -1, 0}, {1, 1, 1}); !added)
+    return added.error();
+  render::FrameInput in;
+  in.camera = camera_at({32.5, 4.0, 32.5}, 0.0, -90.0);
+  const std::vector<render::IslandPlacement> islands{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
+  in.islands = islands;
+  in.sky = moon_above(100.0f);
+  in.capture = true;
+  render::RenderSettings settings;
+  settings.leave_out.add(render::Feature::kHaze);
+  return (*stage)->draw(in, settings, kMediaSize);
+}
+
+/// The share of a light that comes through glass to a floor against exp(-tau).
+Result<Rows> lit_through(gpu::Device& device, const Glass& glass, const std::string& what) {
+  const auto clear = lit_floor(device, glass, 0.0);
+  if (!clear) return clear.error();
+  double off = 0.0, beyond = 0.0, darkest = 1.0;
+  for (int decade = -6; decade <= 4; ++decade) {
+    const double tau = std::pow(10.0, decade), exact = std::exp(-tau);
+    const auto frame = lit_floor(device, glass, tau / glass.depth() / kExtinctionPerAbsorption);
+    if (!frame) return frame.error();
+    for (std::uint32_t i = 0; i < clear->radiance.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        const double all = static_cast<double>(clear->radiance[i][c]);
+        if (all < kFaintest) return Error{"the floor has no light"};
+        const double share = static_cast<double>(frame->radiance[i][c]) / all;
+        // What is not a number is as far off as can be.
+        off = std::isfinite(share) ? std::max(off, std::abs(share - exact)) : 1.0;
+        beyond += !(share >= 0.0 && share <= 1.0 + kHalfStep);
+        darkest = std::min(darkest, share);
+      }
+  }
+  return Rows{{"error of light that comes through, optical depth 1e-6 to 1e4, " + what, 4e-3, off},
+              {"lights below 0 or above all of it, " + what, 0.0, if_shown(darkest < 0.5, beyond)}};
+}
+
+Result<Rows> light_through_slab(gpu::Device& device) {
+  return lit_through(device, {8.0, 24.0}, "slab of 16 blocks");
+}
+
+Result<Rows> light_through_panes(gpu::Device& device) {
+  return lit_through(device, {8.0, 63.0, 28}, "28 panes");
+}
+
 constexpr Case kMediaCases[] = {{"media.inside", inside},
                                 {"media.slab", slab},
                                 {"media.slabs", slabs},
                                 {"media.panes", many_panes},
-                                {"media.faint", faint_media}};
+                                {"media.faint", faint_media},
+                                {"media.light_slab", light_through_slab},
+                                {"media.light_panes", light_through_panes}};
 
 }  // namespace
 

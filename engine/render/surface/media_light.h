@@ -1,0 +1,48 @@
+#pragma once
+#include <vector>
+
+#include "engine/gpu/graph/bindings.h"
+#include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
+#include "engine/render/frame/phases.h"
+#include "engine/render/frame/scene_refs.h"
+#include "engine/render/surface/translucent_pass.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
+
+namespace skerry::render {
+
+/// What water and glass do to the light that comes to what pixels show, for shaders that ask
+/// shaders/include/surface/depth_of_pixel.glsl.
+class MediaLight {
+ public:
+  /// None does anything.
+  MediaLight() = default;
+  /// @param layers that lie before the surfaces; without any, a frame without water and glass.
+  /// @param shadow_maps that the maps of glass belong to. @param glass maps of GlassPass; empty:
+  /// glass takes no light.
+  static MediaLight add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                        const Geometry& geometry, const TranslucentPass::Layers& layers,
+                        gpu::ImageRef shadow_maps, gpu::ImageRef glass);
+
+  std::vector<gpu::SpecConstant> with_media(std::vector<gpu::SpecConstant> own) const {
+    if (water_) own.push_back({shared::kUnderWaterConstant, 1});
+    if (glass_) own.push_back({shared::kGlassConstant, 1});
+    return own;
+  }
+  void declare(gpu::PassBuilder& builder, const SceneRefs& scene) const {
+    builder.read(image(scene), gpu::Use::kComputeSampled);
+  }
+  auto binding(const SceneRefs& scene) const {
+    return gpu::sampled<shared::kMediaLightBinding>(image(scene), scene.point_sampler);
+  }
+
+ private:
+  /// Something else in place of what is then never read.
+  gpu::ImageRef image(const SceneRefs& scene) const { return image_ ? image_ : scene.no_depths; }
+
+  gpu::ImageRef image_;  // RG32_UINT, see shaders/surface/find_media_light.comp
+  bool water_ = false, glass_ = false;
+};
+
+}  // namespace skerry::render
