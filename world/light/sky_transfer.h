@@ -83,9 +83,9 @@ class SkyTransfer {
           if (wanted_.has({x, y, z})) fn(IVec3{x, y, z});
   }
   void spread(const Lamp& lamp, LampLightMap& into) const;
-  Corners bounced(const Around& around, int face) const;
+  Corners bounced(const Around& around, int face, bool plant) const;
   ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const;
-  void append_record(IVec3 front, int face, std::vector<glm::uvec4>& texels) const;
+  void append_record(IVec3 front, int face, bool plant, std::vector<glm::uvec4>& texels) const;
 
   LightChunks chunks_;
   AirVolume air_;

@@ -407,7 +407,7 @@ class SkyTransfer::Edit {
     if (!record) return;
     const bool plant = direction == 2 && is_plant(at, local);
     std::vector<glm::uvec4> texels;
-    of_.append_record(voxel + to_front({local, direction, plant}), direction, texels);
+    of_.append_record(voxel + to_front({local, direction, plant}), direction, plant, texels);
     if (std::equal(texels.begin(), texels.end(),
                    known.texels.begin() + static_cast<std::ptrdiff_t>(*record)))
       return;
@@ -444,7 +444,7 @@ class SkyTransfer::Edit {
               texels.insert(texels.end(), from, from + shared::kIndirectRecordTexels);
               return;
             }
-          of_.append_record(front, face.direction, texels);
+          of_.append_record(front, face.direction, face.plant, texels);
         }));
   }
 
