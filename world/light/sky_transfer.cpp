@@ -11,8 +11,8 @@ namespace skerry::world {
 namespace {
 
 // Share of a strong lamp's range, whose end is where its light is the least that counts, within
-// which surfaces reflect it: beyond, it is less than ten times as much.
-constexpr float kBouncedShare = 0.316f;
+// which surfaces reflect it: beyond, it is less than four times as much.
+constexpr float kBouncedShare = 0.5f;
 
 // Beyond a quarter more, numbers of voxels that edits may make before all is begun anew.
 constexpr std::size_t kSpareNumbers = 65536;

@@ -65,8 +65,15 @@ class SkyTransfer {
   /// A lamp that spreads its light. @see spread
   struct Lamp {
     WeakLamp lamp;        // from the lattice's origin
-    float within = 0.0f;  // voxels: beyond, along any axis, it gives nothing
+    float within = 0.0f;  // voxels: beyond it gives nothing
     bool weak = false;
+    bool reaches(IVec3 voxel) const {
+      const glm::vec3 off = glm::vec3(static_cast<float>(voxel.x) + 0.5f,
+                                      static_cast<float>(voxel.y) + 0.5f,
+                                      static_cast<float>(voxel.z) + 0.5f) -
+                            lamp.place;
+      return off.x * off.x + off.y * off.y + off.z * off.z < within * within;
+    }
   };
   struct Around;
   class Edit;
@@ -80,7 +87,7 @@ class SkyTransfer {
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x)
         for (int z = low.z; z <= high.z; ++z)
-          if (wanted_.has({x, y, z})) fn(IVec3{x, y, z});
+          if (wanted_.has({x, y, z}) && lamp.reaches({x, y, z})) fn(IVec3{x, y, z});
   }
   void spread(const Lamp& lamp, LampLightMap& into) const;
   Corners bounced(const Around& around, int face, bool plant) const;

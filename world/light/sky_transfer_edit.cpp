@@ -293,7 +293,7 @@ class SkyTransfer::Edit {
       if (!of_.wanted_.has(voxel)) continue;
       LampLight weak{}, strong{};
       for (const Lamp& lamp : all) {
-        if (!reaches(lamp, voxel)) continue;
+        if (!lamp.reaches(voxel)) continue;
         const LampLight light = light_of_lamp(of_.air_, lamp.lamp, voxel);
         for (std::size_t face = 0; face < 6; ++face)
           (lamp.weak ? weak : strong)[face] += light[face];
@@ -302,13 +302,6 @@ class SkyTransfer::Edit {
       const bool is_new = set_light(of_.lamp_light_, voxel, weak);
       if ((of_.bounces_ && set_light(of_.all_lamps_, voxel, strong)) || is_new) changed_at(voxel);
     }
-  }
-
-  static bool reaches(const Lamp& lamp, IVec3 voxel) {
-    const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
-        high(glm::floor(lamp.lamp.place + lamp.within));
-    return voxel.x >= low.x && voxel.x <= high.x && voxel.y >= low.y && voxel.y <= high.y &&
-           voxel.z >= low.z && voxel.z <= high.z;
   }
 
   /// @return whether it was other.
@@ -340,7 +333,7 @@ class SkyTransfer::Edit {
   void find_relit(const Lamp& lamp, std::set<IVec3>& relit) const {
     std::vector<IVec3> near;
     for (const IVec3& voxel : voxels_)
-      if (reaches({lamp.lamp, lamp.within + 1.0f, lamp.weak}, voxel)) near.push_back(voxel);
+      if (Lamp{lamp.lamp, lamp.within + 1.0f, lamp.weak}.reaches(voxel)) near.push_back(voxel);
     if (near.empty()) return;
     of_.for_each_reached(lamp, [&](IVec3 voxel) {
       if (std::ranges::any_of(
