@@ -133,6 +133,23 @@ AirVolume air_volume_of(const LightChunks& chunks) {
   return out;
 }
 
+VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high) {
+  const auto aligned = [](int z) { return static_cast<int>(floor_div(z, 64)) * 64; };
+  low.z = aligned(low.z), high.z = aligned(high.z) + 63;
+  const IVec3 size{high.x + 1 - low.x, high.y + 1 - low.y, high.z + 1 - low.z};
+  VoxelBits out(low, size, false);
+  for (const auto& [at, chunk] : chunks) {
+    const IVec3 corner{corner_of(at).x - low.x, corner_of(at).y - low.y, corner_of(at).z - low.z};
+    const auto apart = [](int from, int length) { return from >= length || from <= -kChunkEdge; };
+    if (apart(corner.x, size.x) || apart(corner.y, size.y) || apart(corner.z, size.z)) continue;
+    for_each_byte(chunk->opaque, [&](int x, int y, int z, std::uint32_t eight) {
+      if (out.has_row(corner.x + x, corner.y + y))
+        out.row(corner.x + x, corner.y + y)[corner.z / 64] |= std::uint64_t{eight} << z;
+    });
+  }
+  return out;
+}
+
 std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& chunk) {
   if (!air.has_leaves && has_leaves(chunk)) return std::nullopt;
   const IVec3 corner = corner_of(at), size{kChunkEdge, kChunkEdge, kChunkEdge};

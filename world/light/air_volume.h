@@ -89,6 +89,10 @@ struct AirVolume {
 };
 AirVolume air_volume_of(const LightChunks& chunks);
 
+/// The opaque voxels alone, of a box. @param low, high its voxels, both included; along z it may be
+/// made larger.
+VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high);
+
 /// Takes the voxels of a chunk that has changed into a volume that was made with it.
 /// @return those whose bits have changed; none, and nothing is taken in: the volume has no room for
 /// them, or knew no leaves.

@@ -8,7 +8,7 @@ namespace skerry::world {
 namespace {
 
 constexpr float kWideWithin = 4.0f;  // voxels: from there on, a face is narrow (to 2% of its mean)
-constexpr double kTogether = 1e-6;  // of the way: crossings that count as one
+constexpr double kTogether = 1e-6;   // of the way: crossings that count as one
 
 int floor_to_int(double v) {
   return static_cast<int>(std::floor(v));

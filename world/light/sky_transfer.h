@@ -68,10 +68,10 @@ class SkyTransfer {
     float within = 0.0f;  // voxels: beyond it gives nothing
     bool weak = false;
     bool reaches(IVec3 voxel) const {
-      const glm::vec3 off = glm::vec3(static_cast<float>(voxel.x) + 0.5f,
-                                      static_cast<float>(voxel.y) + 0.5f,
-                                      static_cast<float>(voxel.z) + 0.5f) -
-                            lamp.place;
+      const glm::vec3 off =
+          glm::vec3(static_cast<float>(voxel.x) + 0.5f, static_cast<float>(voxel.y) + 0.5f,
+                    static_cast<float>(voxel.z) + 0.5f) -
+          lamp.place;
       return off.x * off.x + off.y * off.y + off.z * off.z < within * within;
     }
   };
@@ -80,10 +80,12 @@ class SkyTransfer {
   void look_along(int octant, int pattern, const VoxelBits& open, VoxelBits& passed);
   static std::vector<Lamp> lamps_of(const LightChunk& chunk, IVec3 at);
   /// Calls fn(voxel) for each whose view is kept and that a lamp can light.
+  /// @param from, to of those alone that are in this box.
   template <class Fn>
-  void for_each_reached(const Lamp& lamp, const Fn& fn) const {
-    const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
-        high(glm::floor(lamp.lamp.place + lamp.within));
+  void for_each_reached(const Lamp& lamp, const Fn& fn, glm::vec3 from = glm::vec3(-1e9f),
+                        glm::vec3 to = glm::vec3(1e9f)) const {
+    const glm::ivec3 low(glm::floor(glm::max(lamp.lamp.place - lamp.within, from))),
+        high(glm::floor(glm::min(lamp.lamp.place + lamp.within, to)));
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x)
         for (int z = low.z; z <= high.z; ++z)

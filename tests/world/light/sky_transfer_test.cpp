@@ -201,8 +201,10 @@ TEST(LampLight, IsTheMeanOverFacesOfWhatAPointGives) {
   std::uniform_real_distribution<double> even(-5.0, 6.0);
   for (int i = 0; i < 60; ++i) {
     // The first ones are in the voxel, or next to it.
-    const glm::dvec3 place = glm::dvec3(even(random), even(random), even(random)) *
-                             (i < 20 ? 0.15 : i < 40 ? 0.4 : 1.0);
+    const glm::dvec3 place =
+        glm::dvec3(even(random), even(random), even(random)) * (i < 20   ? 0.15
+                                                                : i < 40 ? 0.4
+                                                                         : 1.0);
     const WeakLamp lamp{glm::vec3(place), {4.0f, 2.0f, 1.0f}, 1000.0f};
     const LampLight light = light_of_lamp(air, lamp, {0, 0, 0});
     for (int face = 0; face < 6; ++face) {
@@ -248,10 +250,10 @@ TEST(LampLight, EndsAtItsRangeAndBehindWalls) {
   // The window of shaders/shared/light.h, at the middle of the face.
   for (const IVec3 voxel : {IVec3{0, 1, 0}, IVec3{4, 1, 0}}) {
     const double d2 = voxel.x * voxel.x + 3.5 * 3.5;
-    EXPECT_NEAR(light_of_lamp(air, lamp, voxel)[2].x,
-                2.0 * mean_over_face({0.5, 4.5, 0.5}, voxel, 2) *
-                    std::pow(1.0 - d2 * d2 / 4096.0, 2.0),
-                2e-3)
+    EXPECT_NEAR(
+        light_of_lamp(air, lamp, voxel)[2].x,
+        2.0 * mean_over_face({0.5, 4.5, 0.5}, voxel, 2) * std::pow(1.0 - d2 * d2 / 4096.0, 2.0),
+        2e-3)
         << voxel.x;
   }
   EXPECT_EQ(light_of_lamp(air, lamp, {0, 1, 0})[3], glm::vec3(0.0f)) << "looks away";
@@ -312,12 +314,13 @@ TEST(SkyTransfer, APlantDimsTheGroundBelowItAndLightsIt) {
   for (std::size_t word = 0; word < 8; ++word)
     for (int shift = 0; shift < 32; shift += 8)
       // A corner is the mean of four voxels, one of them the plant's.
-      EXPECT_NEAR((plant[word] >> shift & 255u) - (ground[word] >> shift & 255u), 255.0 / 16.0, 1.0);
+      EXPECT_NEAR((plant[word] >> shift & 255u) - (ground[word] >> shift & 255u), 255.0 / 16.0,
+                  1.0);
   // Under an even sky of radiance 1, light is pi where nothing hides the sky.
   const auto bounced = [](const std::vector<std::uint32_t>& record) {
     const std::uint32_t c = record[12];
-    return (c & 511u) * std::exp2(static_cast<double>(c >> 27) - 24.0) *
-           (record[13] & 255u) / 255.0 * std::sqrt(4.0 * std::numbers::pi);
+    return (c & 511u) * std::exp2(static_cast<double>(c >> 27) - 24.0) * (record[13] & 255u) /
+           255.0 * std::sqrt(4.0 * std::numbers::pi);
   };
   EXPECT_NEAR(bounced(ground) - bounced(plant), std::numbers::pi / 16.0, 0.02);
 }
