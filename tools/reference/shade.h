@@ -40,7 +40,7 @@ class Shader {
   /// One light as it arrives at a point.
   struct Arrival {
     glm::dvec3 to_light;
-    glm::dvec3 irradiance;  ///< of a surface facing it
+    glm::dvec3 irradiance;        ///< of a surface facing it
     const Light* lamp = nullptr;  ///< none: sun or moon
   };
   struct Reach;

@@ -54,8 +54,7 @@ Result<nlohmann::ordered_json> row_of(gpu::Device& device, const ShadeScene& lis
   fmt::print(
       "{:<14} {:>7.0f} {:>6.1f}% {:>9.2g} {:>6.1f}% {:>7.1f}% {:>6.1f}% {:>6.1f}% {:>7.4f} "
       "{:>7.4f} {:>7.2f} {:>6.1f}\n",
-      listed.name, errors->places,
-      100.0 * errors->without / std::max(1.0, errors->places),
+      listed.name, errors->places, 100.0 * errors->without / std::max(1.0, errors->places),
       errors->mean, 100.0 * errors->rmse, 100.0 * errors->worst, 100.0 * errors->bias,
       100.0 * errors->standard_error, flip_mean, flip_p99, errors->work_seconds,
       static_cast<double>(errors->bytes) / (1024.0 * 1024.0));

@@ -100,9 +100,10 @@ class Judge {
           out.lattice = place.hit.lattice;
           out.direction = place.direction;
         }
-        const glm::dvec3 exact = shader_.soft_irradiance(
-            {place.point, place.normal, place.direction == StoredLight::kPlant ? &place.hit : nullptr},
-            place.most_range, sampler);
+        const glm::dvec3 exact =
+            shader_.soft_irradiance({place.point, place.normal,
+                                     place.direction == StoredLight::kPlant ? &place.hit : nullptr},
+                                    place.most_range, sampler);
         sum.count += 1.0;
         sum.reference += exact;
         sum.difference += *place.light - exact;
@@ -190,7 +191,9 @@ ShadeErrors over(std::span<const JudgedPlace> places) {
     off.push_back(std::abs(luminance_of(place.difference)));
   }
   if (off.empty()) return out;
-  const auto per_channel = [count](glm::dvec3 sum) { return (sum.x + sum.y + sum.z) / (3.0 * count); };
+  const auto per_channel = [count](glm::dvec3 sum) {
+    return (sum.x + sum.y + sum.z) / (3.0 * count);
+  };
   out.mean = per_channel(mean);
   if (out.mean == 0.0) return out;
   out.rmse = std::sqrt(std::max(0.0, per_channel(squares) - per_channel(variance))) / out.mean;
@@ -241,8 +244,7 @@ Result<ShadeErrors> measure_shade(const game::SceneOptions& options) {
   return out;
 }
 
-Result<ShadePictures> draw_shade(game::SceneOptions options,
-                                 std::span<const LightDetail> details) {
+Result<ShadePictures> draw_shade(game::SceneOptions options, std::span<const LightDetail> details) {
   options.settings.reference_filter = game::ReferenceFilter::kCentre;
   ShadePictures out;
   std::vector<JudgedPlace> places;
