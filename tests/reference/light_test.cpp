@@ -117,6 +117,29 @@ TEST(ReferenceLight, AClosedRoomHoldsTheLampsFluxOverOneMinusItsAlbedo) {
   }
 }
 
+// A glowing plant is a lamp among its own planes, where a point's light has no bound: it reflects
+// what comes from other lamps alone.
+TEST(ReferenceLight, APlantReflectsNoLightOfTheLampInItsOwnVoxel) {
+  Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0},
+                          {single_block(world::block::kGlowFern, {0.5, 0.5, 0.5})});
+  scene.bounces = 1;
+  const auto reflected = [&](glm::dvec3 lamp) {
+    scene.lights = {{.position = lamp, .intensity = glm::dvec3(1.0)}};
+    const Tracer tracer(scene.islands);
+    const Shader shader(scene, tracer);
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < 4000; ++i) {
+      Sampler sampler(1, 2, i);
+      // Lamps of any range are left out but for what is reflected of them.
+      sum += shader.soft_irradiance({{-1.0, 0.5, 0.5}, {1.0, 0.0, 0.0}}, 0.0, sampler).x;
+    }
+    return sum / 4000.0;
+  };
+  EXPECT_EQ(reflected({0.5, 0.5, 0.5}), 0.0);
+  EXPECT_EQ(reflected({0.5, 0.95, 0.5}), 0.0);
+  EXPECT_GT(reflected({0.5, 1.05, 0.5}), 0.0);
+}
+
 // Under a sky of radiance 1 an open plane receives pi; at the foot of a wall without end half of
 // that comes from the sky, and the wall sends back rho times its own half.
 TEST(ReferenceLight, AWallOfAlbedoRhoGivesBackItsHalfOfTheSky) {

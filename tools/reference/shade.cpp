@@ -141,8 +141,7 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     const Way way = way_of_body(at, to_light);
     if (glm::dot(at.normal, way.to_light) <= 0.0 || way.share == glm::dvec3(0.0)) continue;
     take(Arrival{way.to_light,
-                 body.irradiance * way.share * past_clouds(at.point, to_light, sampler), true,
-                 0.0});
+                 body.irradiance * way.share * past_clouds(at.point, to_light, sampler), nullptr});
   }
   lights_.reaching(at.point, [&](const Light& light) {
     const std::optional<LightRay> ray = sample_light(light, at.point, sampler);
@@ -151,7 +150,7 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     if (tracer_.hidden(at.point, ray->to_light, ray->distance, at.plant,
                        placed ? &light.position : nullptr))
       return;
-    take(Arrival{ray->to_light, ray->irradiance, false, light.range});
+    take(Arrival{ray->to_light, ray->irradiance, &light});
   });
 }
 
@@ -213,8 +212,14 @@ Shader::Followed Shader::follow(const Receiver& at, glm::dvec3 direction, Sample
   return out;
 }
 
+bool Shader::is_in(glm::dvec3 point, const Meeting& hit) const {
+  const glm::ivec3 voxel(glm::floor(tracer_.lattice_point(hit.island, point)));
+  return voxel == glm::ivec3(hit.voxel.x, hit.voxel.y, hit.voxel.z);
+}
+
 /// Radiance that a surface sends back of the light that arrives there. Its own light is left out:
-/// it arrives as that of a lamp. Long ways end by lot, as likely as the surface swallows light.
+/// it arrives as that of a lamp, and a glowing plant does not reflect that of the lamp that stands
+/// for it, a point among its planes. Long ways end by lot, as likely as the surface swallows light.
 glm::dvec3 Shader::bounced(const Meeting& hit, glm::dvec3 point, int bounces,
                            Sampler& sampler) const {
   constexpr int kSurely = 4;  // bounces
@@ -225,8 +230,10 @@ glm::dvec3 Shader::bounced(const Meeting& hit, glm::dvec3 point, int bounces,
   const glm::dvec3 albedo =
       scene_.albedo.value_or(BlockTexels::shared().texel(hit.block, hit.face, hit.lattice));
   glm::dvec3 irradiance(0.0);
-  arrive(at, sampler,
-         [&](const Arrival& light) { irradiance += light.irradiance * cosine_of(light, normal); });
+  arrive(at, sampler, [&](const Arrival& light) {
+    if (!plant || !light.lamp || !is_in(light.lamp->position, hit))
+      irradiance += light.irradiance * cosine_of(light, normal);
+  });
   double goes_on = 1.0;
   if (scene_.bounces - bounces >= kSurely)
     goes_on = std::min(1.0, std::max({albedo.x, albedo.y, albedo.z}));
@@ -250,7 +257,7 @@ Shader::Around Shader::from_around(const Receiver& at, int bounces, Sampler& sam
 }
 
 double Shader::cosine_of(const Arrival& light, glm::dvec3 normal) const {
-  return scene_.flat_shading && light.body ? 1.0 : glm::dot(normal, light.to_light);
+  return scene_.flat_shading && !light.lamp ? 1.0 : glm::dot(normal, light.to_light);
 }
 
 glm::dvec3 Shader::irradiance(const Receiver& at, Sampler& sampler) const {
@@ -263,7 +270,7 @@ glm::dvec3 Shader::irradiance(const Receiver& at, Sampler& sampler) const {
 glm::dvec3 Shader::soft_irradiance(const Receiver& at, double most_range, Sampler& sampler) const {
   glm::dvec3 sum = kPi * from_around(at, scene_.bounces, sampler).radiance;
   arrive(at, sampler, [&](const Arrival& light) {
-    if (!light.body && light.range <= most_range)
+    if (light.lamp && light.lamp->range <= most_range)
       sum += light.irradiance * glm::dot(at.normal, light.to_light);
   });
   return sum;

@@ -40,9 +40,8 @@ class Shader {
   /// One light as it arrives at a point.
   struct Arrival {
     glm::dvec3 to_light;
-    glm::dvec3 irradiance;  ///< of a surface facing it
-    bool body = false;      ///< sun or moon
-    double range = 0.0;     ///< of a lamp [blocks]
+    glm::dvec3 irradiance;        ///< of a surface facing it
+    const Light* lamp = nullptr;  ///< none: sun or moon
   };
   struct Reach;
   struct Passage;
@@ -75,6 +74,7 @@ class Shader {
   Around from_around(const Receiver& at, int bounces, Sampler& sampler) const;
   glm::dvec3 beyond_voxels(glm::dvec3 direction) const;
   glm::dvec3 bounced(const Meeting& hit, glm::dvec3 point, int bounces, Sampler& sampler) const;
+  bool is_in(glm::dvec3 point, const Meeting& hit) const;
   void trace_from(const Receiver& at, glm::dvec3 direction, Trace& out) const;
   glm::dvec3 behind_voxels(glm::dvec3 direction) const;
 

@@ -6,6 +6,7 @@
 
 #include "engine/core/check.h"
 #include "shaders/shared/occupancy.h"
+#include "world/light/face_records.h"
 #include "world/voxel/chunk.h"
 
 namespace skerry::world {
@@ -62,6 +63,18 @@ void fill(VoxelBits& bits, IVec3 corner, const ChunkOccupancy& chunk) {
   });
 }
 
+/// Whether leaves or plants are in it.
+bool has_leaves(const LightChunk& chunk) {
+  return chunk.leaves.fill != ChunkOccupancy::Fill::kEmpty ||
+         std::ranges::any_of(chunk.quads, is_of_plant);
+}
+
+void fill_plants(VoxelBits& bits, IVec3 corner, const LightChunk& chunk) {
+  for (const shared::Quad& quad : chunk.quads)
+    if (is_of_plant(quad))
+      for_each_face(quad, [&](const DrawnFace& face) { bits.set(corner + face.voxel); });
+}
+
 }  // namespace
 
 VoxelBits::VoxelBits(IVec3 low, IVec3 size, bool value) : low_(low), size_(size) {
@@ -90,7 +103,7 @@ AirVolume air_volume_of(const LightChunks& chunks) {
   for (const auto& [at, chunk] : chunks) {
     widen(box, corner_of(at), chunk->opaque);
     widen(box, corner_of(at), chunk->leaves);
-    out.has_leaves = out.has_leaves || chunk->leaves.fill != ChunkOccupancy::Fill::kEmpty;
+    out.has_leaves = out.has_leaves || has_leaves(*chunk);
     // Glass and plants may stand away from all else.
     for (const shared::Quad& q : chunk->quads) {
       const IVec3 c = corner_of(at);
@@ -110,19 +123,37 @@ AirVolume air_volume_of(const LightChunks& chunks) {
   const IVec3 size{box.high.x + kMargin + 1 - low.x, box.high.y + kMargin + 1 - low.y,
                    aligned(box.high.z + kMargin) + 64 - low.z};
   out.opaque = VoxelBits(low, size, false);
-  if (out.has_leaves) out.leaves = VoxelBits(low, size, false);
+  if (out.has_leaves) out.leaves = out.plants = VoxelBits(low, size, false);
   for (const auto& [at, chunk] : chunks) {
     fill(out.opaque, corner_of(at), chunk->opaque);
-    if (out.has_leaves) fill(out.leaves, corner_of(at), chunk->leaves);
+    if (!out.has_leaves) continue;
+    fill(out.leaves, corner_of(at), chunk->leaves);
+    fill_plants(out.plants, corner_of(at), *chunk);
+  }
+  return out;
+}
+
+VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high) {
+  const auto aligned = [](int z) { return static_cast<int>(floor_div(z, 64)) * 64; };
+  low.z = aligned(low.z), high.z = aligned(high.z) + 63;
+  const IVec3 size{high.x + 1 - low.x, high.y + 1 - low.y, high.z + 1 - low.z};
+  VoxelBits out(low, size, false);
+  for (const auto& [at, chunk] : chunks) {
+    const IVec3 corner{corner_of(at).x - low.x, corner_of(at).y - low.y, corner_of(at).z - low.z};
+    const auto apart = [](int from, int length) { return from >= length || from <= -kChunkEdge; };
+    if (apart(corner.x, size.x) || apart(corner.y, size.y) || apart(corner.z, size.z)) continue;
+    for_each_byte(chunk->opaque, [&](int x, int y, int z, std::uint32_t eight) {
+      if (out.has_row(corner.x + x, corner.y + y))
+        out.row(corner.x + x, corner.y + y)[corner.z / 64] |= std::uint64_t{eight} << z;
+    });
   }
   return out;
 }
 
 std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& chunk) {
-  if (!air.has_leaves && chunk.leaves.fill != ChunkOccupancy::Fill::kEmpty) return std::nullopt;
+  if (!air.has_leaves && has_leaves(chunk)) return std::nullopt;
   const IVec3 corner = corner_of(at), size{kChunkEdge, kChunkEdge, kChunkEdge};
-  std::array<VoxelBits*, 2> kinds{&air.opaque, air.has_leaves ? &air.leaves : nullptr};
-  const std::array<const ChunkOccupancy*, 2> now{&chunk.opaque, &chunk.leaves};
+  const std::array<VoxelBits*, 3> kinds{&air.opaque, &air.leaves, &air.plants};
   struct Word {
     VoxelBits* of;
     int x, y, word;  // from the volume's lowest voxel
@@ -130,9 +161,12 @@ std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const Lig
   };
   std::vector<Word> words;  // that change
   std::vector<IVec3> out;
-  for (std::size_t kind = 0; kind < kinds.size() && kinds[kind]; ++kind) {
+  for (std::size_t kind = 0; kind < (air.has_leaves ? kinds.size() : 1); ++kind) {
     VoxelBits bits(corner, size, false);
-    fill(bits, corner, *now[kind]);
+    if (kind < 2)
+      fill(bits, corner, kind == 0 ? chunk.opaque : chunk.leaves);
+    else
+      fill_plants(bits, corner, chunk);
     VoxelBits& before = *kinds[kind];
     const IVec3 low = before.low();
     for (int y = 0; y < size.y; ++y)

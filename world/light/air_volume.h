@@ -34,7 +34,7 @@ struct StrongLamp {
 /// One chunk as light sees it. Immutable once shared.
 struct LightChunk {
   ChunkOccupancy opaque;
-  ChunkOccupancy leaves;            ///< cut-out blocks: they let about half of the light past
+  ChunkOccupancy leaves;            ///< cut-out blocks
   std::vector<shared::Quad> quads;  ///< all that is drawn of the chunk
   std::vector<WeakLamp> lamps{};
   std::vector<StrongLamp> strong{};  ///< all other lamps
@@ -82,12 +82,16 @@ class VoxelBits {
   std::vector<std::uint64_t> words_;
 };
 
-/// Opaque voxels of an island and its leaves, in a box two voxels larger than they are.
+/// Opaque voxels of an island, its leaves and its plants, in a box two voxels larger than they are.
 struct AirVolume {
-  VoxelBits opaque, leaves;
-  bool has_leaves = false;
+  VoxelBits opaque, leaves, plants;
+  bool has_leaves = false;  ///< or plants; else the bits of both are empty
 };
 AirVolume air_volume_of(const LightChunks& chunks);
+
+/// The opaque voxels alone, of a box. @param low, high its voxels, both included; along z it may be
+/// made larger.
+VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high);
 
 /// Takes the voxels of a chunk that has changed into a volume that was made with it.
 /// @return those whose bits have changed; none, and nothing is taken in: the volume has no room for

@@ -118,10 +118,15 @@ BounceLight::Number BounceLight::number_of(IVec3 front, int direction) const {
   return numbers_[wanted_.of(front) * 6 + static_cast<std::size_t>(direction)];
 }
 
-std::optional<BounceLight::Light> BounceLight::received(IVec3 front, int direction) const {
+std::optional<BounceLight::Light> BounceLight::received(IVec3 front, int direction,
+                                                        bool plant) const {
   const Number number = number_of(front, direction);
   if (number == 0) return std::nullopt;
-  return unpacked(leaving_[static_cast<std::size_t>(steps_ - 1)][number - 1]);
+  const auto last = static_cast<std::size_t>(steps_ - 1);
+  Light light = unpacked(leaving_[last][number - 1]);
+  if (plant || !faces_[number - 1].plant) return light;
+  light *= 1.0f - kUnderPlant;
+  return light.add(unpacked(leaving_[last - 1][number - 1]), kUnderPlant * kPi);
 }
 
 bool BounceLight::set_face(IVec3 front, int direction, std::uint16_t block, bool plant) {
@@ -197,7 +202,8 @@ BounceLight::Number BounceLight::entered(IVec3 voxel, const LatticeLines::Touche
     const Number number = number_of(voxel + axis_vector(axes.own, axes.sign), direction);
     if (number != 0) return number;
   }
-  return 0;
+  const Number plant = number_of(voxel, 2);
+  return plant != 0 && faces_[plant - 1].plant ? plant : 0;
 }
 
 // Voxels that are touched at once stop a line together.
@@ -479,8 +485,12 @@ std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const Se
   relit_.clear();
   relooked_.clear();
   std::vector<Changed> out;
-  for (const Number number : changed[static_cast<std::size_t>(steps_ - 1) % 2].all())
+  const auto last = static_cast<std::size_t>(steps_ - 1) % 2;
+  for (const Number number : changed[last].all())
     out.push_back({faces_[number].front, faces_[number].direction});
+  for (const Number number : changed[1 - last].all())
+    if (faces_[number].plant && !changed[last].has(number))
+      out.push_back({faces_[number].front, faces_[number].direction});
   return out;
 }
 

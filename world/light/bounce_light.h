@@ -72,9 +72,12 @@ class BounceLight {
   /// Follows the light. Steps go from 0 to steps() - 1; the parts of a step may be done at once,
   /// each by one thread. @param seen by number of the voxel. @param lamps direct light.
   void follow(int step, int part, std::span<const SeenSky> seen, const LampLightMap& lamps);
+  /// Share of the light on the ground below a plant that the plant takes, and sends its own for.
+  static constexpr float kUnderPlant = 0.25f;
   /// After all steps: what a face receives that was reflected at least once. @param front the voxel
-  /// before the face; of a plant, its own, and the face looks up. None: there is no such face.
-  std::optional<Light> received(IVec3 front, int face) const;
+  /// before the face; of a plant, its own, and the face looks up. @param plant whether that is
+  /// asked of a plant rather than the ground below it. None: there is no such face.
+  std::optional<Light> received(IVec3 front, int face, bool plant) const;
 
   // --- After an edit: first voxels, then faces, then lines, then light ---
 

@@ -7,11 +7,22 @@
 namespace skerry::world {
 namespace {
 
-constexpr float kNearest = 0.5f;    // voxels: nearer, light grows no more
-constexpr double kTogether = 1e-6;  // of the way: crossings that count as one
+constexpr float kWideWithin = 4.0f;  // voxels: from there on, a face is narrow (to 2% of its mean)
+constexpr double kTogether = 1e-6;   // of the way: crossings that count as one
 
 int floor_to_int(double v) {
   return static_cast<int>(std::floor(v));
+}
+
+/// Mean over a voxel's face of what a point of intensity 1 gives it, which is the solid angle that
+/// the face takes up. @param b, c from the lamp to the face's middle, along the face. @param height
+/// of the lamp above it, positive.
+float solid_angle_of_face(float b, float c, float height) {
+  const auto corner = [height](float u, float v) {
+    return std::atan2(u * v, height * std::sqrt(u * u + v * v + height * height));
+  };
+  return corner(b + 0.5f, c + 0.5f) - corner(b - 0.5f, c + 0.5f) - corner(b + 0.5f, c - 0.5f) +
+         corner(b - 0.5f, c - 0.5f);
 }
 
 /// What is left of the light between two points, 0..1. Steps through the voxels that the line
@@ -65,7 +76,9 @@ class Line {
     if (v == end_) return;
     const IVec3 voxel{v.x, v.y, v.z};
     if (air_.opaque.at(voxel)) left_ = 0.0f;
-    if (air_.has_leaves && air_.leaves.at(voxel)) left_ *= 0.5f;
+    if (!air_.has_leaves) return;
+    if (air_.leaves.at(voxel)) left_ *= 0.5f;
+    if (air_.plants.at(voxel)) left_ *= 0.75f;
   }
 
   const AirVolume& air_;
@@ -94,8 +107,10 @@ LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel)
     const float distance2 = glm::dot(way, way), q = distance2 / (lamp.range * lamp.range);
     if (along <= 0.0f || q >= 1.0f) continue;
     const float window = (1.0f - q * q) * (1.0f - q * q);
-    const float reach = std::max(std::sqrt(distance2), kNearest);
-    out[face] = lamp.intensity * (clear * window * along / (reach * reach * reach));
+    const float share = distance2 < kWideWithin * kWideWithin
+                            ? solid_angle_of_face(way[(axis + 1) % 3], way[(axis + 2) % 3], along)
+                            : along / (distance2 * std::sqrt(distance2));
+    out[face] = lamp.intensity * (clear * window * share);
   }
   return out;
 }

@@ -230,25 +230,46 @@ bool LampReach::Bricks::at(IVec3 voxel) const {
   return bits[static_cast<std::size_t>(bit / 32)] >> bit % 32 & 1u;
 }
 
-LampReach::LampReach(const LightChunks& chunks) {
-  AirVolume air = air_volume_of(chunks);
-  opaque_ = std::move(air.opaque);
+LampReach::LampReach(const LightChunks& chunks) : opaque_(air_volume_of(chunks).opaque) {
+  take_faces(chunks);
+}
+
+LampReach::LampReach(const LightChunks& chunks, IVec3 low, IVec3 high)
+    : opaque_(opaque_within(chunks, low, high)) {
+  take_faces(chunks);
+}
+
+void LampReach::take_faces(const LightChunks& chunks) {
   if (opaque_.size().x == 0) return;
   all_round_ = VoxelBits(opaque_.low(), opaque_.size(), false);
   plants_ = all_round_;
   fronts_.fill(all_round_);
+  const glm::ivec3 low = vector_of(opaque_.low()), last = low + vector_of(opaque_.size()) - 1;
+  const auto set = [&](VoxelBits& bits, IVec3 voxel) {
+    const glm::ivec3 v = vector_of(voxel);
+    if (glm::all(glm::greaterThanEqual(v, low)) && glm::all(glm::lessThanEqual(v, last)))
+      bits.set(voxel);
+  };
   for (const auto& [at, chunk] : chunks) {
     const IVec3 corner = corner_of(at);
-    for (const shared::Quad& quad : chunk->quads)
+    for (const shared::Quad& quad : chunk->quads) {
+      const glm::ivec3 first =
+          vector_of(corner) +
+          glm::ivec3(quad.geometry & 63u, quad.geometry >> 6 & 63u, quad.geometry >> 12 & 63u);
+      const int most =
+          static_cast<int>(1 + std::max(quad.geometry >> 18 & 63u, quad.geometry >> 24 & 63u));
+      if (glm::any(glm::lessThan(first + most, low)) || glm::any(glm::greaterThan(first - 1, last)))
+        continue;
       for_each_face(quad, [&](const DrawnFace& face) {
         const IVec3 voxel = corner + face.voxel;
-        if (face.plant) return plants_.set(voxel);
+        if (face.plant) return set(plants_, voxel);
         const FaceAxes axes(face.direction);
         const IVec3 front = voxel + axis_vector(axes.own, axes.sign);
-        if (opaque_.at(voxel)) return fronts_[static_cast<std::size_t>(face.direction)].set(front);
-        all_round_.set(voxel);
-        all_round_.set(front);
+        if (opaque_.at(voxel)) return set(fronts_[static_cast<std::size_t>(face.direction)], front);
+        set(all_round_, voxel);
+        set(all_round_, front);
       });
+    }
   }
 }
 
@@ -358,13 +379,15 @@ LampReaches reaches_of(const LightChunks& chunks) {
 
 LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
                           const LampReaches& known) {
+  constexpr int kAround = 2;  // faces are asked for on both sides of them
   const std::vector<EditBox> changed = changed_boxes(before, chunks);
   struct Asked {
     IVec3 at;
     std::size_t lamp;
   };
   std::vector<Asked> asked;
-  LightChunks around;  // chunks that those can reach
+  LightChunks around;    // chunks that those can reach
+  EditBox reached, all;  // by those, and of those chunks
   LampReaches out;
   for (const auto& [at, chunk] : chunks) {
     const auto found = known.find(at);
@@ -384,6 +407,9 @@ LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
         }
       }
       asked.push_back({at, i});
+      const glm::vec3 place = glm::vec3(vector_of(corner_of(at))) + lamp.place;
+      reached.take(glm::ivec3(glm::floor(place - lamp.range)) - kAround,
+                   glm::ivec3(glm::floor(place + lamp.range)) + kAround);
       for (const auto& [other, its] : chunks) {
         const glm::ivec3 low = vector_of(corner_of(other));
         if (is_near({low - 1, low + kChunkEdge}, at, lamp)) around.emplace(other, its);
@@ -391,7 +417,13 @@ LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
     }
   }
   if (asked.empty()) return out;
-  const LampReach reach(around);
+  for (const auto& [at, chunk] : around) {
+    const glm::ivec3 corner = vector_of(corner_of(at));
+    all.take(corner - kAround, corner + kChunkEdge - 1 + kAround);
+  }
+  const auto voxel = [](const glm::ivec3& v) { return IVec3{v.x, v.y, v.z}; };
+  const LampReach reach(around, voxel(glm::max(reached.low, all.low)),
+                        voxel(glm::min(reached.high, all.high)));
   for (const Asked& a : asked) out[a.at][a.lamp] = reach.of(a.at, chunks.at(a.at)->strong[a.lamp]);
   return out;
 }

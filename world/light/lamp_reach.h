@@ -20,6 +20,8 @@ namespace skerry::world {
 class LampReach {
  public:
   explicit LampReach(const LightChunks& chunks);
+  /// For lamps whose range is in a box of voxels, or beyond all chunks. @param low, high included.
+  LampReach(const LightChunks& chunks, IVec3 low, IVec3 high);
 
   /// Bricks of voxels, in the lattice of the chunks' level, of which the light may arrive at a
   /// drawn face or at a plant. Faces count for the voxels on both of their sides.
@@ -36,6 +38,7 @@ class LampReach {
   Bricks of(IVec3 chunk, const StrongLamp& lamp) const;
 
  private:
+  void take_faces(const LightChunks& chunks);
   VoxelBits opaque_;
   std::array<VoxelBits, 6> fronts_;  // voxels in front of faces, by direction
   VoxelBits plants_;

@@ -13,7 +13,8 @@ VoxelBits solid_of(const AirVolume& air) {
   if (!air.has_leaves) return solid;
   for (int y = 0; y < solid.size().y; ++y)
     for (int x = 0; x < solid.size().x; ++x)
-      for (int w = 0; w < solid.row_words(); ++w) solid.row(x, y)[w] |= air.leaves.row(x, y)[w];
+      for (int w = 0; w < solid.row_words(); ++w)
+        solid.row(x, y)[w] |= air.leaves.row(x, y)[w] | air.plants.row(x, y)[w];
   return solid;
 }
 
@@ -27,7 +28,8 @@ LatticeLines::LatticeLines(const AirVolume& air) : air_(air), solid_(solid_of(ai
 }
 
 void LatticeLines::changed(IVec3 voxel) {
-  solid_.set(voxel, air_.opaque.at(voxel) || (air_.has_leaves && air_.leaves.at(voxel)));
+  solid_.set(voxel, air_.opaque.at(voxel) ||
+                        (air_.has_leaves && (air_.leaves.at(voxel) || air_.plants.at(voxel))));
 }
 
 LatticeLines::Way LatticeLines::way_along(IVec3 vector) const {
@@ -81,10 +83,14 @@ bool LatticeLines::inside(IVec3 v) const {
 
 bool LatticeLines::open(IVec3 voxel, std::size_t way) const {
   if (air_.opaque.at(voxel)) return false;
-  if (!air_.has_leaves || !air_.leaves.at(voxel)) return true;
+  if (!air_.has_leaves) return true;
+  const bool leaves = air_.leaves.at(voxel);
+  if (!leaves && !air_.plants.at(voxel)) return true;
   const int leaf_set = static_cast<int>(way % shared::kSkyPatternCount) % kLeafSets;
   const auto word = static_cast<int>(floor_div(voxel.z, 64));
-  return (leaves_that_stop(leaf_set, voxel.x, voxel.y, word) >> (voxel.z & 63) & 1u) == 0;
+  const std::uint64_t stopped = leaves ? leaves_that_stop(leaf_set, voxel.x, voxel.y, word)
+                                       : plants_that_stop(leaf_set, voxel.x, voxel.y, word);
+  return (stopped >> (voxel.z & 63) & 1u) == 0;
 }
 
 bool LatticeLines::stopped(IVec3 from, std::size_t number) const {

@@ -38,7 +38,7 @@ class LatticeLines {
 
   const Way& way(std::size_t number) const { return ways_[number]; }
   bool inside(IVec3 voxel) const;
-  /// Whether a line passes a voxel. Leaves stop half of the ways.
+  /// Whether a line passes a voxel. Leaves stop half of the ways, plants a quarter.
   bool open(IVec3 voxel, std::size_t way) const;
   /// Whether a line touches what is not open on its way once along the vector.
   bool stopped(IVec3 from, std::size_t way) const;
@@ -48,7 +48,7 @@ class LatticeLines {
  private:
   Way way_along(IVec3 vector) const;
   const AirVolume& air_;
-  VoxelBits solid_;  // opaque voxels and leaves
+  VoxelBits solid_;  // opaque voxels, leaves and plants
   std::vector<Way> ways_;
 };
 

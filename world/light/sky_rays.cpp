@@ -115,6 +115,11 @@ std::uint64_t leaves_that_stop(int leaf_set, int x, int y, int z_word) {
   return mix64(place + 0x9e3779b97f4a7c15u);
 }
 
+std::uint64_t plants_that_stop(int leaf_set, int x, int y, int z_word) {
+  return leaves_that_stop(leaf_set, x, y, z_word) &
+         leaves_that_stop(leaf_set + kLeafSets, x, y, z_word);
+}
+
 const LobeWeights& lobe_weights(int axis) {
   static const std::array<LobeWeights, 3> kWeights{make_weights(0), make_weights(1),
                                                    make_weights(2)};

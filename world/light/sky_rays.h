@@ -24,6 +24,8 @@ std::vector<IVec3> voxels_between(IVec3 direction);
 inline constexpr int kLeafSets = 8;
 /// Bit z % 64: whether leaves there stop the rays of a set. @param z_word z / 64, rounded down.
 std::uint64_t leaves_that_stop(int leaf_set, int x, int y, int z_word);
+/// Alike of plants, which stop a quarter.
+std::uint64_t plants_that_stop(int leaf_set, int x, int y, int z_word);
 
 /// What each of an octant's patterns weighs for a face of this axis: its cell's share of the
 /// irradiance of the octant under an even sky, of 65280. The cell of a pattern holds the directions

@@ -26,6 +26,9 @@ struct SkyTransfer::Around {
 
 namespace {
 
+// Of the ground's sky, that a plant on it takes: 1/4, as BounceLight::kUnderPlant has it.
+constexpr std::uint32_t kPartUnderPlant = 4;
+
 using LobeShares = std::array<std::uint32_t, shared::kSkyLobes>;  // of 65280
 
 /// What a face's lobes see of the sky from a voxel.
@@ -71,12 +74,12 @@ glm::uvec4 packed(const Corners& corners) {
 }  // namespace
 
 /// What a face's corners receive that other faces have reflected.
-SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face) const {
+SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face, bool plant) const {
   Corners out{};
   if (!bounces_) return out;
   std::array<std::optional<BounceLight::Light>, 9> lights;
   for (std::size_t at = 0; at < lights.size(); ++at)
-    if (around.air[at]) lights[at] = bounces_->received(around.voxels[at], face);
+    if (around.air[at]) lights[at] = bounces_->received(around.voxels[at], face, plant);
   for (std::size_t corner = 0; corner < 4; ++corner) {
     float count = 0.0f;
     BounceLight::Light& sum = out[corner];
@@ -90,8 +93,10 @@ SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face) const 
   return out;
 }
 
-/// @param front the voxel before the face.
-void SkyTransfer::append_record(IVec3 front, int face, std::vector<glm::uvec4>& texels) const {
+/// @param front the voxel before the face. @param plant whether it is that of a plant, which does
+/// not shade itself as it does the ground below it.
+void SkyTransfer::append_record(IVec3 front, int face, bool plant,
+                                std::vector<glm::uvec4>& texels) const {
   const FaceAxes axes(face);
   Around around;
   std::array<LobeShares, 9> views{};
@@ -106,8 +111,10 @@ void SkyTransfer::append_record(IVec3 front, int face, std::vector<glm::uvec4>& 
     if (const auto lit = lamp_light_.find(index); lit != lamp_light_.end())
       lamps[at] = lit->second[static_cast<std::size_t>(face)];
     views[at] = lobes_from(seen_[index], axes);
+    if (!plant && face == 2 && air_.has_leaves && air_.plants.at(voxel))
+      for (std::uint32_t& lobe : views[at]) lobe -= lobe / kPartUnderPlant;
   }
-  const Corners bounces = bounced(around, face);
+  const Corners bounces = bounced(around, face, plant);
   std::array<std::uint32_t, 8> words{};
   glm::uvec4 lamp_words(0);
   for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -132,7 +139,7 @@ void SkyTransfer::append_record(IVec3 front, int face, std::vector<glm::uvec4>& 
 ChunkSky SkyTransfer::faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const {
   const IVec3 corner = corner_of(chunk);
   return pack_faces(quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
-    append_record(corner + face.voxel + to_front(face), face.direction, texels);
+    append_record(corner + face.voxel + to_front(face), face.direction, face.plant, texels);
   });
 }
 

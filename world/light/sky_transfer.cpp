@@ -11,13 +11,13 @@ namespace skerry::world {
 namespace {
 
 // Share of a strong lamp's range, whose end is where its light is the least that counts, within
-// which surfaces reflect it: beyond, it is less than ten times as much.
-constexpr float kBouncedShare = 0.316f;
+// which surfaces reflect it: beyond, it is less than four times as much.
+constexpr float kBouncedShare = 0.5f;
 
 // Beyond a quarter more, numbers of voxels that edits may make before all is begun anew.
 constexpr std::size_t kSpareNumbers = 65536;
 
-/// Which voxels rays pass: air, and half of the leaves.
+/// Which voxels rays pass: air, and some of the leaves and plants.
 VoxelBits open_to(const AirVolume& air, int leaf_set) {
   const IVec3 low = air.opaque.low(), size = air.opaque.size();
   VoxelBits open(low, size, true);
@@ -25,11 +25,15 @@ VoxelBits open_to(const AirVolume& air, int leaf_set) {
     for (int x = 0; x < size.x; ++x) {
       std::uint64_t* row = open.row(x, y);
       const std::uint64_t* opaque = air.opaque.row(x, y);
-      const std::uint64_t* leaves = air.has_leaves ? air.leaves.row(x, y) : nullptr;
+      for (int w = 0; w < open.row_words(); ++w) row[w] = ~opaque[w];
+      if (!air.has_leaves) continue;
+      const std::uint64_t *leaves = air.leaves.row(x, y), *plants = air.plants.row(x, y);
       for (int w = 0; w < open.row_words(); ++w) {
-        row[w] = ~opaque[w];
-        if (!leaves || leaves[w] == 0) continue;
-        row[w] &= ~(leaves[w] & leaves_that_stop(leaf_set, low.x + x, low.y + y, low.z / 64 + w));
+        const int z = low.z / 64 + w;
+        if (leaves[w] != 0)
+          row[w] &= ~(leaves[w] & leaves_that_stop(leaf_set, low.x + x, low.y + y, z));
+        if (plants[w] != 0)
+          row[w] &= ~(plants[w] & plants_that_stop(leaf_set, low.x + x, low.y + y, z));
       }
     }
   }

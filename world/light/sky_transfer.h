@@ -65,27 +65,36 @@ class SkyTransfer {
   /// A lamp that spreads its light. @see spread
   struct Lamp {
     WeakLamp lamp;        // from the lattice's origin
-    float within = 0.0f;  // voxels: beyond, along any axis, it gives nothing
+    float within = 0.0f;  // voxels: beyond it gives nothing
     bool weak = false;
+    bool reaches(IVec3 voxel) const {
+      const glm::vec3 off =
+          glm::vec3(static_cast<float>(voxel.x) + 0.5f, static_cast<float>(voxel.y) + 0.5f,
+                    static_cast<float>(voxel.z) + 0.5f) -
+          lamp.place;
+      return off.x * off.x + off.y * off.y + off.z * off.z < within * within;
+    }
   };
   struct Around;
   class Edit;
   void look_along(int octant, int pattern, const VoxelBits& open, VoxelBits& passed);
   static std::vector<Lamp> lamps_of(const LightChunk& chunk, IVec3 at);
   /// Calls fn(voxel) for each whose view is kept and that a lamp can light.
+  /// @param from, to of those alone that are in this box.
   template <class Fn>
-  void for_each_reached(const Lamp& lamp, const Fn& fn) const {
-    const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
-        high(glm::floor(lamp.lamp.place + lamp.within));
+  void for_each_reached(const Lamp& lamp, const Fn& fn, glm::vec3 from = glm::vec3(-1e9f),
+                        glm::vec3 to = glm::vec3(1e9f)) const {
+    const glm::ivec3 low(glm::floor(glm::max(lamp.lamp.place - lamp.within, from))),
+        high(glm::floor(glm::min(lamp.lamp.place + lamp.within, to)));
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x)
         for (int z = low.z; z <= high.z; ++z)
-          if (wanted_.has({x, y, z})) fn(IVec3{x, y, z});
+          if (wanted_.has({x, y, z}) && lamp.reaches({x, y, z})) fn(IVec3{x, y, z});
   }
   void spread(const Lamp& lamp, LampLightMap& into) const;
-  Corners bounced(const Around& around, int face) const;
+  Corners bounced(const Around& around, int face, bool plant) const;
   ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const;
-  void append_record(IVec3 front, int face, std::vector<glm::uvec4>& texels) const;
+  void append_record(IVec3 front, int face, bool plant, std::vector<glm::uvec4>& texels) const;
 
   LightChunks chunks_;
   AirVolume air_;

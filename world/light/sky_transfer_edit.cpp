@@ -289,11 +289,14 @@ class SkyTransfer::Edit {
     std::set<IVec3> relit(wanted_.begin(), wanted_.end());
     for (const IVec3& at : edited_) find_relit(at, relit);
     for (const Lamp& lamp : all) find_relit(lamp, relit);
+    std::erase_if(all, [&](const Lamp& lamp) {
+      return std::ranges::none_of(relit, [&](IVec3 voxel) { return lamp.reaches(voxel); });
+    });
     for (const IVec3& voxel : relit) {
       if (!of_.wanted_.has(voxel)) continue;
       LampLight weak{}, strong{};
       for (const Lamp& lamp : all) {
-        if (!reaches(lamp, voxel)) continue;
+        if (!lamp.reaches(voxel)) continue;
         const LampLight light = light_of_lamp(of_.air_, lamp.lamp, voxel);
         for (std::size_t face = 0; face < 6; ++face)
           (lamp.weak ? weak : strong)[face] += light[face];
@@ -302,13 +305,6 @@ class SkyTransfer::Edit {
       const bool is_new = set_light(of_.lamp_light_, voxel, weak);
       if ((of_.bounces_ && set_light(of_.all_lamps_, voxel, strong)) || is_new) changed_at(voxel);
     }
-  }
-
-  static bool reaches(const Lamp& lamp, IVec3 voxel) {
-    const glm::ivec3 low(glm::floor(lamp.lamp.place - lamp.within)),
-        high(glm::floor(lamp.lamp.place + lamp.within));
-    return voxel.x >= low.x && voxel.x <= high.x && voxel.y >= low.y && voxel.y <= high.y &&
-           voxel.z >= low.z && voxel.z <= high.z;
   }
 
   /// @return whether it was other.
@@ -339,14 +335,44 @@ class SkyTransfer::Edit {
   /// Where a lamp's light passes a voxel that has changed.
   void find_relit(const Lamp& lamp, std::set<IVec3>& relit) const {
     std::vector<IVec3> near;
-    for (const IVec3& voxel : voxels_)
-      if (reaches({lamp.lamp, lamp.within + 1.0f, lamp.weak}, voxel)) near.push_back(voxel);
+    glm::vec3 low(1e9f), high(-1e9f);  // of all that lies behind them
+    for (const IVec3& voxel : voxels_) {
+      if (!Lamp{lamp.lamp, lamp.within + 1.0f, lamp.weak}.reaches(voxel)) continue;
+      near.push_back(voxel);
+      const Cone cone = behind(voxel, lamp);
+      low = glm::min(low, cone.low);
+      high = glm::max(high, cone.high);
+    }
     if (near.empty()) return;
-    of_.for_each_reached(lamp, [&](IVec3 voxel) {
-      if (std::ranges::any_of(
-              near, [&](IVec3 other) { return may_touch(voxel, lamp.lamp.place, other); }))
-        relit.insert(voxel);
-    });
+    of_.for_each_reached(
+        lamp,
+        [&](IVec3 voxel) {
+          if (std::ranges::any_of(
+                  near, [&](IVec3 other) { return may_touch(voxel, lamp.lamp.place, other); }))
+            relit.insert(voxel);
+        },
+        low, high);
+  }
+
+  /// A box about all middles of voxels within a lamp's reach from which the line to it comes within
+  /// a block of a voxel's middle.
+  struct Cone {
+    glm::vec3 low, high;
+  };
+  static Cone behind(IVec3 voxel, const Lamp& lamp) {
+    constexpr float kNear = 1.0f;
+    const glm::vec3 way =
+        glm::vec3(static_cast<float>(voxel.x) + 0.5f, static_cast<float>(voxel.y) + 0.5f,
+                  static_cast<float>(voxel.z) + 0.5f) -
+        lamp.lamp.place;
+    const float distance = std::sqrt(glm::dot(way, way));
+    if (distance < 2.0f * kNear)
+      return {lamp.lamp.place - lamp.within, lamp.lamp.place + lamp.within};
+    // Such a line passes lamp + way + off; its voxel lies there or up to so many times as far.
+    const float times = lamp.within / (distance - kNear);
+    const glm::vec3 from = way - kNear, to = way + kNear;
+    return {lamp.lamp.place + glm::min(from, from * std::max(times, 1.0f)) - 1.0f,
+            lamp.lamp.place + glm::max(to, to * std::max(times, 1.0f)) + 1.0f};
   }
 
   // --- Records ---
@@ -407,7 +433,7 @@ class SkyTransfer::Edit {
     if (!record) return;
     const bool plant = direction == 2 && is_plant(at, local);
     std::vector<glm::uvec4> texels;
-    of_.append_record(voxel + to_front({local, direction, plant}), direction, texels);
+    of_.append_record(voxel + to_front({local, direction, plant}), direction, plant, texels);
     if (std::equal(texels.begin(), texels.end(),
                    known.texels.begin() + static_cast<std::ptrdiff_t>(*record)))
       return;
@@ -444,7 +470,7 @@ class SkyTransfer::Edit {
               texels.insert(texels.end(), from, from + shared::kIndirectRecordTexels);
               return;
             }
-          of_.append_record(front, face.direction, texels);
+          of_.append_record(front, face.direction, face.plant, texels);
         }));
   }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -175,23 +176,87 @@ TEST(SkyTransfer, AWallHidesTheQuartersBehindIt) {
   }
 }
 
-// Light by the formula of shaders/shared/light.h, at the faces before which a voxel is.
-TEST(LampLight, FallsOffAsLightsDo) {
+/// Mean over the side behind a voxel, which a face of a direction is at, of what a point of
+/// intensity 1 gives it: a sum over its parts.
+double mean_over_face(glm::dvec3 lamp, IVec3 voxel, int face) {
+  constexpr int kParts = 200;
+  const int axis = face / 2;
+  double sum = 0.0;
+  for (int i = 0; i < kParts; ++i)
+    for (int j = 0; j < kParts; ++j) {
+      glm::dvec3 place(voxel.x, voxel.y, voxel.z);
+      place[axis] += face % 2 == 0 ? 0.0 : 1.0;
+      place[(axis + 1) % 3] += (i + 0.5) / kParts;
+      place[(axis + 2) % 3] += (j + 0.5) / kParts;
+      const glm::dvec3 way = lamp - place;
+      const double along = face % 2 == 0 ? way[axis] : -way[axis];
+      sum += std::max(0.0, along) / std::pow(glm::dot(way, way), 1.5);
+    }
+  return sum / (kParts * kParts);
+}
+
+TEST(LampLight, IsTheMeanOverFacesOfWhatAPointGives) {
+  const AirVolume air = air_volume_of(chunks_of({{20, 20, 20}}));
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> even(-5.0, 6.0);
+  for (int i = 0; i < 60; ++i) {
+    // The first ones are in the voxel, or next to it.
+    const glm::dvec3 place =
+        glm::dvec3(even(random), even(random), even(random)) * (i < 20   ? 0.15
+                                                                : i < 40 ? 0.4
+                                                                         : 1.0);
+    const WeakLamp lamp{glm::vec3(place), {4.0f, 2.0f, 1.0f}, 1000.0f};
+    const LampLight light = light_of_lamp(air, lamp, {0, 0, 0});
+    for (int face = 0; face < 6; ++face) {
+      const double mean = mean_over_face(glm::dvec3(lamp.place), {0, 0, 0}, face);
+      // From 4 blocks on as if the face were a point.
+      const glm::vec3& found = light[static_cast<std::size_t>(face)];
+      EXPECT_NEAR(found.x, 4.0 * mean, 4.0 * (glm::length(place - 0.5) < 3.5 ? 2e-3 : 4e-2) * mean)
+          << place.x << ' ' << place.y << ' ' << place.z << ' ' << face;
+      EXPECT_EQ(found.y, 0.5f * found.x);
+      EXPECT_EQ(found.z, 0.25f * found.x);
+    }
+  }
+}
+
+// Faces take up all directions about a lamp, wherever it stands.
+TEST(LampLight, AllOfItFallsOnTheWallsOfAClosedRoom) {
+  const IVec3 size{4, 3, 5};
+  Voxels room;
+  for (int x = -1; x <= size.x; ++x)
+    for (int y = -1; y <= size.y; ++y)
+      for (int z = -1; z <= size.z; ++z)
+        if (x < 0 || y < 0 || z < 0 || x == size.x || y == size.y || z == size.z)
+          room.insert({x, y, z});
+  const AirVolume air = air_volume_of(chunks_of(room));
+  for (const glm::vec3 place : {glm::vec3(1.5f, 0.5f, 2.5f), glm::vec3(3.9f, 2.2f, 0.3f)}) {
+    const WeakLamp lamp{place, glm::vec3(1.0f), 1000.0f};
+    double sum = 0.0;
+    for (int x = 0; x < size.x; ++x)
+      for (int y = 0; y < size.y; ++y)
+        for (int z = 0; z < size.z; ++z) {
+          const LampLight light = light_of_lamp(air, lamp, {x, y, z});
+          for (int face = 0; face < 6; ++face)
+            if (room.contains(beside({x, y, z}, face ^ 1)))
+              sum += static_cast<double>(light[static_cast<std::size_t>(face)].x);
+        }
+    EXPECT_NEAR(sum, 4.0 * std::numbers::pi, 0.01 * 4.0 * std::numbers::pi) << place.x;
+  }
+}
+
+TEST(LampLight, EndsAtItsRangeAndBehindWalls) {
   const AirVolume air = air_volume_of(chunks_of({{0, 0, 0}}));
   const WeakLamp lamp{{0.5f, 4.5f, 0.5f}, {2.0f, 1.0f, 0.5f}, 8.0f};
-  const LampLight above = light_of_lamp(air, lamp, {0, 1, 0});
-  const float window = std::pow(1.0f - std::pow(3.5f / 8.0f, 4.0f), 2.0f);
-  EXPECT_NEAR(above[2].x, 2.0f / 12.25f * window, 1e-5f);
-  EXPECT_EQ(above[3], glm::vec3(0.0f));
-  const LampLight aside = light_of_lamp(air, lamp, {4, 1, 0});
-  const auto at = [](float across, float along) {
-    const float d2 = across * across + along * along;
-    return along / std::pow(d2, 1.5f) * std::pow(1.0f - d2 * d2 / 4096.0f, 2.0f);
-  };
-  EXPECT_NEAR(aside[2].y, at(4.0f, 3.5f), 1e-5f);
-  EXPECT_NEAR(aside[1].y, at(3.0f, 4.5f), 1e-5f);
-  // Beside the lamp, as ground is from which a glowing plant grows.
-  EXPECT_NEAR(light_of_lamp(air, lamp, {1, 4, 0})[2].y, at(1.0f, 0.5f), 1e-5f);
+  // The window of shaders/shared/light.h, at the middle of the face.
+  for (const IVec3 voxel : {IVec3{0, 1, 0}, IVec3{4, 1, 0}}) {
+    const double d2 = voxel.x * voxel.x + 3.5 * 3.5;
+    EXPECT_NEAR(
+        light_of_lamp(air, lamp, voxel)[2].x,
+        2.0 * mean_over_face({0.5, 4.5, 0.5}, voxel, 2) * std::pow(1.0 - d2 * d2 / 4096.0, 2.0),
+        2e-3)
+        << voxel.x;
+  }
+  EXPECT_EQ(light_of_lamp(air, lamp, {0, 1, 0})[3], glm::vec3(0.0f)) << "looks away";
   EXPECT_EQ(light_of_lamp(air, lamp, {0, -5, 0})[2], glm::vec3(0.0f)) << "behind the stone";
   EXPECT_EQ(light_of_lamp(air, lamp, {8, 4, 0})[1], glm::vec3(0.0f)) << "out of range";
 }
@@ -209,6 +274,55 @@ TEST(LampLight, DoesNotPassBetweenBlocksThatTouch) {
   EXPECT_FALSE(lit(edge, {2, 2, 3}));
   EXPECT_FALSE(lit(corner, {2, 2, 2}));
   EXPECT_FALSE(lit(corner, {0, 0, 0}));
+}
+
+// A quarter of what a lamp sends, and of the lines to the sky: by a hash that differs from set to
+// set, and from that of leaves.
+TEST(SkyTransfer, PlantsStopAQuarterOfWhatPassesTheirVoxel) {
+  const AirVolume air = air_volume_of(chunks_of({{0, 0, 0}}, {}, {{1, 5, 1}, {1, 4, 1}}));
+  const AirVolume none = air_volume_of(chunks_of({{0, 0, 0}}));
+  const WeakLamp lamp{{1.5f, 7.5f, 1.5f}, glm::vec3(1.0f), 100.0f};
+  const auto at = [&](const AirVolume& volume, IVec3 voxel) {
+    return static_cast<double>(light_of_lamp(volume, lamp, voxel)[2].x);
+  };
+  EXPECT_NEAR(at(air, {1, 2, 1}), 0.75 * 0.75 * at(none, {1, 2, 1}), 1e-6);
+  EXPECT_NEAR(at(air, {1, 4, 1}), 0.75 * at(none, {1, 4, 1}), 1e-6) << "not by its own";
+  std::array<int, kLeafSets> stopped{};
+  int beside_others = 0, count = 0;
+  for (int x = 0; x < 20; ++x)
+    for (int y = 0; y < 20; ++y, ++count)
+      for (int set = 0; set < kLeafSets; ++set) {
+        const std::uint64_t bits = plants_that_stop(set, x, y, 3);
+        stopped[static_cast<std::size_t>(set)] += std::popcount(bits);
+        beside_others += std::popcount(bits & plants_that_stop((set + 1) % kLeafSets, x, y, 3));
+      }
+  for (const int bits : stopped) EXPECT_NEAR(bits / (64.0 * count), 0.25, 0.01);
+  EXPECT_NEAR(beside_others / (64.0 * count * kLeafSets), 0.0625, 0.005);
+}
+
+// A plant on open ground takes a quarter of the sky of the ground below it, itself sees as much of
+// it as that would, and sends its own light down: among white surfaces nothing is lost by it.
+TEST(SkyTransfer, APlantDimsTheGroundBelowItAndLightsIt) {
+  Voxels stone;
+  for (int x = -12; x < 12; ++x)
+    for (int z = -12; z < 12; ++z) stone.insert({x, 0, z});
+  const SkyTransfer::Skies sky = sky_of(chunks_of(stone, {}, {{0, 1, 0}}));
+  const std::vector<std::uint32_t> ground = record_of(sky, {0, 0, 0}, 2),
+                                   plant = record_of(sky, {0, 1, 0}, 2);
+  ASSERT_EQ(ground.size(), 16u);
+  ASSERT_EQ(plant.size(), 16u);
+  for (std::size_t word = 0; word < 8; ++word)
+    for (int shift = 0; shift < 32; shift += 8)
+      // A corner is the mean of four voxels, one of them the plant's.
+      EXPECT_NEAR((plant[word] >> shift & 255u) - (ground[word] >> shift & 255u), 255.0 / 16.0,
+                  1.0);
+  // Under an even sky of radiance 1, light is pi where nothing hides the sky.
+  const auto bounced = [](const std::vector<std::uint32_t>& record) {
+    const std::uint32_t c = record[12];
+    return (c & 511u) * std::exp2(static_cast<double>(c >> 27) - 24.0) * (record[13] & 255u) /
+           255.0 * std::sqrt(4.0 * std::numbers::pi);
+  };
+  EXPECT_NEAR(bounced(ground) - bounced(plant), std::numbers::pi / 16.0, 0.02);
 }
 
 TEST(SkyTransfer, DoesNotDependOnTheOrderOfQuads) {

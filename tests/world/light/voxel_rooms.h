@@ -35,7 +35,9 @@ struct Lamps {
 };
 
 /// Chunks of stone voxels with a quad for each face that is not covered by stone.
-inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {}) {
+/// @param plants voxels in which tall grass stands.
+inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {},
+                             const Voxels& plants = {}) {
   struct Building {
     std::vector<BlockId> padded = std::vector<BlockId>(kPaddedVoxels, kAir);
     LightChunk chunk;
@@ -53,6 +55,10 @@ inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {}) {
             {static_cast<std::uint32_t>(x | y << 6 | z << 12),
              static_cast<std::uint32_t>(block::kStone | face << shared::kFaceShift)});
   }
+  for (const IVec3& v : plants)
+    building[chunk_holding(v)].chunk.quads.push_back(
+        {static_cast<std::uint32_t>((v.x & 63) | (v.y & 63) << 6 | (v.z & 63) << 12),
+         static_cast<std::uint32_t>(block::kTallGrass) | 6u << shared::kFaceShift});
   for (const IVec3& v : lamps.voxels) {
     const IVec3 at = chunk_holding(v);
     const auto place = [](int voxel, int chunk) {

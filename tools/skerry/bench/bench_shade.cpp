@@ -52,11 +52,9 @@ Result<nlohmann::ordered_json> row_of(gpu::Device& device, const ShadeScene& lis
   if (!flip) return flip.error();
   const double flip_mean = measure::mean_of(*flip), flip_p99 = measure::quantile_of(*flip, 0.99);
   fmt::print(
-      "{:<14} {:>7} {:>6.1f}% {:>9.2g} {:>6.1f}% {:>7.1f}% {:>6.1f}% {:>6.1f}% {:>7.4f} "
+      "{:<14} {:>7.0f} {:>6.1f}% {:>9.2g} {:>6.1f}% {:>7.1f}% {:>6.1f}% {:>6.1f}% {:>7.4f} "
       "{:>7.4f} {:>7.2f} {:>6.1f}\n",
-      listed.name, errors->places,
-      100.0 * static_cast<double>(errors->without) /
-          static_cast<double>(std::max<std::size_t>(1, errors->places)),
+      listed.name, errors->places, 100.0 * errors->without / std::max(1.0, errors->places),
       errors->mean, 100.0 * errors->rmse, 100.0 * errors->worst, 100.0 * errors->bias,
       100.0 * errors->standard_error, flip_mean, flip_p99, errors->work_seconds,
       static_cast<double>(errors->bytes) / (1024.0 * 1024.0));

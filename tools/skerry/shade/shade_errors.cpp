@@ -1,6 +1,7 @@
 #include "tools/skerry/shade/shade_errors.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -48,12 +49,14 @@ double luminance_of(glm::dvec3 c) {
   return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
+/// What one pixel shows.
 struct JudgedPlace {
-  bool shown = false, stored = false;
-  std::uint64_t island = 0;  // and so on, of StoredLight::at()
+  double shown = 0.0, stored = 0.0;  // share of its samples
+  std::uint64_t island = 0;          // and so on, of StoredLight::at(): the first stored place
   glm::dvec3 lattice{0.0};
   int direction = 0;
-  glm::dvec3 reference{0.0}, variance{0.0}, difference{0.0};  // variance of `reference`
+  // Means over stored places, and the variance of `difference` as an estimate.
+  glm::dvec3 reference{0.0}, difference{0.0}, variance{0.0};
 };
 
 /// Within a block of a weak lamp: irradiance of a point has no bound there, that of a plant has.
@@ -65,93 +68,130 @@ bool beside_a_lamp(const reference::Scene& scene, glm::dvec3 place) {
   });
 }
 
-/// What one pixel shows, judged by as many samples as a reference picture has.
+/// Judges what pixels show by as many samples as a reference picture has.
 class Judge {
  public:
-  Judge(const reference::NamedScene& named, const StoredLight& stored, std::uint32_t samples)
+  Judge(const reference::NamedScene& named, const StoredLight& stored,
+        const reference::ReferenceSettings& settings)
       : named_(named),
         stored_(stored),
-        samples_(samples),
+        settings_(settings),
         tracer_(named.scene.islands),
         shader_(named.scene, tracer_) {}
 
   JudgedPlace at(std::uint32_t x, std::uint32_t y) const {
-    const reference::View& view = named_.scene.view;
-    const double across = (2.0 * (x + 0.5) / view.width - 1.0) * view.tan_half_y * view.width /
-                          view.height,
-                 down = (2.0 * (y + 0.5) / view.height - 1.0) * view.tan_half_y;
-    const glm::dvec3 direction =
-        glm::normalize(view.forward + view.right * across - view.up * down);
-    reference::Trace trace;
-    tracer_.trace(glm::dvec3(0.0), direction, trace);
+    const bool centred = settings_.filter == game::ReferenceFilter::kCentre;
+    const std::uint32_t count = std::max(1u, settings_.samples / reference::kBatches);
+    constexpr auto kBatches = static_cast<double>(reference::kBatches);
     JudgedPlace out;
-    if (!trace.hit || beside_a_lamp(named_.scene, direction * trace.hit->t)) return out;
-    out.shown = true;
-    const reference::Meeting& hit = *trace.hit;
-    const bool plant = hit.face >= StoredLight::kPlant;
-    out.island = named_.ids[hit.island];
-    out.lattice = hit.lattice;
-    out.direction = plant ? StoredLight::kPlant : hit.face;
-    const std::optional<glm::dvec3> light = stored_.at(out.island, out.lattice, out.direction);
-    if (!light) return out;
-    out.stored = true;
-    const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
-    constexpr double kOffSurface = 1e-7;  // blocks
-    const reference::Shader::Receiver receiver{
-        direction * hit.t + (plant ? glm::dvec3(0.0) : normal * kOffSurface), normal,
-        plant ? &hit : nullptr};
-    // At coarser levels lamps that are weak one by one stand for many, and are lights of the frame.
-    const double most_range =
-        stored_.level_of(out.island) == 0 ? double{game::kWeakLampRange} : 0.0;
-    estimate(receiver, y * view.width + x, most_range, out);
-    out.difference = *light - out.reference;
+    Place place;
+    if (centred) place = place_towards(glm::dvec2(x, y) + 0.5);
+    std::array<Sum, reference::kBatches> batches;
+    Sum all;
+    for (std::uint32_t batch = 0; batch < reference::kBatches; ++batch) {
+      Sum& sum = batches[batch];
+      for (std::uint32_t i = 0; i < count; ++i) {
+        reference::Sampler sampler(y * named_.scene.view.width + x, batch, i);
+        if (!centred) place = place_towards(glm::dvec2(x, y) + sampler.next());
+        out.shown += place.shown ? 1.0 : 0.0;
+        if (!place.light) continue;
+        if (all.count + sum.count == 0.0) {
+          out.island = place.island;
+          out.lattice = place.hit.lattice;
+          out.direction = place.direction;
+        }
+        const glm::dvec3 exact =
+            shader_.soft_irradiance({place.point, place.normal,
+                                     place.direction == StoredLight::kPlant ? &place.hit : nullptr},
+                                    place.most_range, sampler);
+        sum.count += 1.0;
+        sum.reference += exact;
+        sum.difference += *place.light - exact;
+      }
+      all.count += sum.count;
+      all.reference += sum.reference;
+      all.difference += sum.difference;
+    }
+    out.shown /= kBatches * count;
+    out.stored = all.count / (kBatches * count);
+    if (all.count == 0.0) return out;
+    out.reference = all.reference / all.count;
+    out.difference = all.difference / all.count;
+    // Of a ratio: batches have different numbers of stored places.
+    for (const Sum& sum : batches) {
+      const glm::dvec3 off = (sum.difference - sum.count * out.difference) / all.count;
+      out.variance += off * off * (kBatches / (kBatches - 1.0));
+    }
     return out;
   }
 
  private:
-  void estimate(const reference::Shader::Receiver& at, std::uint32_t pixel, double most_range,
-                JudgedPlace& out) const {
-    const std::uint32_t count = std::max(1u, samples_ / reference::kBatches);
-    glm::dvec3 squares(0.0);
-    for (std::uint32_t batch = 0; batch < reference::kBatches; ++batch) {
-      glm::dvec3 sum(0.0);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        reference::Sampler sampler(pixel, batch, i);
-        sum += shader_.soft_irradiance(at, most_range, sampler);
-      }
-      sum /= static_cast<double>(count);
-      out.reference += sum;
-      squares += sum * sum;
-    }
-    constexpr auto kBatches = static_cast<double>(reference::kBatches);
-    out.reference /= kBatches;
-    out.variance =
-        glm::max(squares / kBatches - out.reference * out.reference, 0.0) / (kBatches - 1.0);
+  struct Place {
+    bool shown = false;
+    std::optional<glm::dvec3> light;  // that is stored there
+    std::uint64_t island = 0;
+    reference::Meeting hit;
+    int direction = 0;
+    glm::dvec3 point{}, normal{};
+    double most_range = 0.0;  // of lamps whose light is stored
+  };
+  struct Sum {
+    double count = 0.0;
+    glm::dvec3 reference{0.0}, difference{0.0};
+  };
+
+  /// @param pixel its middle is at 1/2.
+  Place place_towards(glm::dvec2 pixel) const {
+    const reference::View& view = named_.scene.view;
+    const double across = (2.0 * pixel.x / view.width - 1.0) * view.tan_half_y * view.width /
+                          view.height,
+                 down = (2.0 * pixel.y / view.height - 1.0) * view.tan_half_y;
+    const glm::dvec3 direction =
+        glm::normalize(view.forward + view.right * across - view.up * down);
+    thread_local reference::Trace trace;
+    tracer_.trace(glm::dvec3(0.0), direction, trace);
+    Place out;
+    if (!trace.hit || beside_a_lamp(named_.scene, direction * trace.hit->t)) return out;
+    out.shown = true;
+    out.hit = *trace.hit;
+    const bool plant = out.hit.face >= StoredLight::kPlant;
+    out.island = named_.ids[out.hit.island];
+    out.direction = plant ? StoredLight::kPlant : out.hit.face;
+    out.light = stored_.at(out.island, out.hit.lattice, out.direction);
+    if (!out.light) return out;
+    out.normal = tracer_.normal(out.hit.island, out.hit.face);
+    constexpr double kOffSurface = 1e-7;  // blocks
+    out.point = direction * out.hit.t + (plant ? glm::dvec3(0.0) : out.normal * kOffSurface);
+    // At coarser levels lamps that are weak one by one stand for many, and are lights of the frame.
+    if (stored_.level_of(out.island) == 0) out.most_range = double{game::kWeakLampRange};
+    return out;
   }
 
   const reference::NamedScene& named_;
   const StoredLight& stored_;
-  std::uint32_t samples_;
+  const reference::ReferenceSettings& settings_;
   reference::Tracer tracer_;
   reference::Shader shader_;
 };
 
 ShadeErrors over(std::span<const JudgedPlace> places) {
   ShadeErrors out;
+  double count = 0.0;
   glm::dvec3 mean(0.0), difference(0.0), squares(0.0), variance(0.0);
   std::vector<double> off;
   for (const JudgedPlace& place : places) {
     out.places += place.shown;
-    out.without += place.shown && !place.stored;
-    if (!place.stored) continue;
-    mean += place.reference;
-    difference += place.difference;
-    squares += place.difference * place.difference;
-    variance += place.variance;
+    out.without += place.shown - place.stored;
+    if (place.stored == 0.0) continue;
+    count += place.stored;
+    mean += place.stored * place.reference;
+    difference += place.stored * place.difference;
+    squares += place.stored * place.difference * place.difference;
+    variance += place.stored * place.variance;
     off.push_back(std::abs(luminance_of(place.difference)));
   }
   if (off.empty()) return out;
-  const auto per_channel = [count = static_cast<double>(off.size())](glm::dvec3 sum) {
+  const auto per_channel = [count](glm::dvec3 sum) {
     return (sum.x + sum.y + sum.z) / (3.0 * count);
   };
   out.mean = per_channel(mean);
@@ -179,7 +219,7 @@ Result<std::vector<JudgedPlace>> judged_places(const game::SceneOptions& options
   const reference::ReferenceSettings settings = reference::settings_from(options);
   const Result<reference::NamedScene> named = reference::scene_from(options, settings);
   if (!named) return named.error();
-  const Judge judge(*named, stored, settings.samples);
+  const Judge judge(*named, stored, settings);
   const reference::View& view = named->scene.view;
   std::vector<JudgedPlace> places(std::size_t{view.width} * view.height);
   Jobs jobs(settings.threads);
@@ -204,8 +244,8 @@ Result<ShadeErrors> measure_shade(const game::SceneOptions& options) {
   return out;
 }
 
-Result<ShadePictures> draw_shade(const game::SceneOptions& options,
-                                 std::span<const LightDetail> details) {
+Result<ShadePictures> draw_shade(game::SceneOptions options, std::span<const LightDetail> details) {
+  options.settings.reference_filter = game::ReferenceFilter::kCentre;
   ShadePictures out;
   std::vector<JudgedPlace> places;
   for (const LightDetail& detail : details) {
@@ -220,7 +260,7 @@ Result<ShadePictures> draw_shade(const game::SceneOptions& options,
         out.stored.emplace_back(options.size.width, options.size.height, std::vector<glm::vec3>{});
     for (const JudgedPlace& place : places)
       picture.pixels.emplace_back(
-          place.stored
+          place.stored > 0.0
               ? stored->at(place.island, place.lattice, place.direction).value_or(glm::dvec3(0.0))
               : glm::dvec3(0.0));
   }

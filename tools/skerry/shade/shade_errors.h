@@ -19,16 +19,17 @@ struct ShadeScene {
 std::span<const ShadeScene> shade_scenes();
 
 /// How far stored light is from the reference's, over the surfaces that a picture's pixels show:
-/// irradiance but for direct light of sun, moon and strong lamps, linear RGB.
+/// irradiance but for direct light of sun, moon and strong lamps, linear RGB. With the reference's
+/// filter `pixel` both are means over the pixel, with `centre` of its middle.
 struct ShadeErrors {
-  std::size_t places = 0;   ///< pixels that show a surface, farther than a block from weak lamps,
-                            ///< which count as points
-  std::size_t without = 0;  ///< of them those whose face is not there at the level of detail
-  double mean = 0.0;        ///< of the reference's irradiance
-  double rmse = 0.0;        ///< over `mean`; the reference's own variance is taken off
-  double bias = 0.0;        ///< mean difference over `mean`
-  double worst = 0.0;       ///< 99th percentile of the difference in luminance, over `mean`
-  double standard_error = 0.0;  ///< root mean square of the reference's own, over `mean`
+  double places = 0.0;   ///< pixels that show a surface, farther than a block from weak lamps,
+                         ///< which count as points; in part if they show it in part
+  double without = 0.0;  ///< of them what has no face at the level of detail
+  double mean = 0.0;     ///< of the reference's irradiance
+  double rmse = 0.0;     ///< over `mean`; the reference's own variance is taken off
+  double bias = 0.0;     ///< mean difference over `mean`
+  double worst = 0.0;    ///< 99th percentile of the difference in luminance, over `mean`
+  double standard_error = 0.0;  ///< root mean square of a pixel's own, over `mean`
   double work_seconds = 0.0;    ///< of threads that found the light of all islands in view
   std::size_t bytes = 0;        ///< that the renderer stores of it
 };
@@ -43,9 +44,8 @@ struct ShadePictures {
   std::vector<measure::Picture> stored;  ///< one a detail
   double standard_error = 0.0;           ///< root mean square of the reference's, over its mean
 };
-/// @pre `details` is not empty. Errors: those of measure_shade().
-Result<ShadePictures> draw_shade(const game::SceneOptions& options,
-                                 std::span<const LightDetail> details);
+/// Of pixels' middles. @pre `details` is not empty. Errors: those of measure_shade().
+Result<ShadePictures> draw_shade(game::SceneOptions options, std::span<const LightDetail> details);
 /// What finding that light takes, of all threads [ms]. Errors: those of StoredLight::find.
 Result<double> shade_work_ms(const game::SceneOptions& options, const LightDetail& detail);
 
