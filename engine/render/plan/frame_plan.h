@@ -6,7 +6,7 @@
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/settings.h"
-#include "engine/render/light/glass_plan.h"
+#include "engine/render/glass/glass_plan.h"
 #include "engine/render/light/shadow_plan.h"
 #include "engine/render/plan/frame_contents.h"
 #include "engine/render/plan/frame_history.h"

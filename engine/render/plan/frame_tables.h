@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/render/frame/frame_input.h"
-#include "engine/render/light/glass_plan.h"
+#include "engine/render/glass/glass_plan.h"
 #include "engine/render/light/shadow_maps.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"

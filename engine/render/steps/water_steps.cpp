@@ -1,6 +1,6 @@
 #include "engine/render/steps/water_steps.h"
 
-#include "engine/render/light/glass_pass.h"
+#include "engine/render/glass/glass_pass.h"
 #include "engine/render/steps/reasons.h"
 #include "engine/render/surface/tail_pass.h"
 

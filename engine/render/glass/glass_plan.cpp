@@ -1,4 +1,4 @@
-#include "engine/render/light/glass_plan.h"
+#include "engine/render/glass/glass_plan.h"
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/render/frame/phases.h"
-#include "engine/render/light/glass_plan.h"
+#include "engine/render/glass/glass_plan.h"
 #include "engine/render/scene/cull_pass.h"
 
 namespace skerry::render {

@@ -1,4 +1,4 @@
-#include "engine/render/light/glass_pass.h"
+#include "engine/render/glass/glass_pass.h"
 
 #include <shader_names.h>
 
