@@ -1,5 +1,6 @@
 #include "world/light/face_records.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -88,39 +89,77 @@ std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int d
 
 namespace {
 
-std::optional<std::size_t> nearest_record(const ChunkSky& chunk, const DrawnFace& face) {
-  if (const auto own = find_record(chunk, face.voxel, face.direction)) return own;
-  std::optional<std::size_t> best;
-  int least = 1 << 20;
-  for (int y = -2; y <= 2; ++y)
-    for (int x = -2; x <= 2; ++x)
-      for (int z = -2; z <= 2; ++z)
-        for (int direction = 0; direction < 6; ++direction) {
-          const int away = x * x + y * y + z * z + (direction == face.direction ? 0 : 100);
-          if (away >= least) continue;
-          const auto found = find_record(chunk, face.voxel + IVec3{x, y, z}, direction);
-          if (found) best = found, least = away;
-        }
-  return best;
+constexpr int kGuessReach = 2;  // voxels
+
+/// Steps to the voxels about one, the nearest first.
+const std::vector<IVec3>& steps_around() {
+  static const std::vector<IVec3> all = [] {
+    std::vector<IVec3> steps;
+    for (int y = -kGuessReach; y <= kGuessReach; ++y)
+      for (int x = -kGuessReach; x <= kGuessReach; ++x)
+        for (int z = -kGuessReach; z <= kGuessReach; ++z) steps.push_back({x, y, z});
+    std::ranges::stable_sort(steps, {}, [](const IVec3& step) {
+      return step.x * step.x + step.y * step.y + step.z * step.z;
+    });
+    return steps;
+  }();
+  return all;
 }
+
+std::optional<std::size_t> nearest_record(const ChunkSky& chunk, const DrawnFace& face) {
+  for (const IVec3& step : steps_around())
+    if (const auto found = find_record(chunk, face.voxel + step, face.direction)) return found;
+  for (const IVec3& step : steps_around())
+    for (int direction = 0; direction < 6; ++direction)
+      if (const auto found = find_record(chunk, face.voxel + step, direction)) return found;
+  return std::nullopt;
+}
+
+/// The voxels of a chunk that have a face with a record: a word for each row along z.
+class VoxelsWithRecords {
+ public:
+  explicit VoxelsWithRecords(const ChunkSky& chunk) : rows_(std::size_t{kEdge} * kEdge, 0) {
+    for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
+      if (chunk.table[at] == 0) continue;
+      const std::size_t first = (chunk.table[at] - 1) * shared::kIndirectBrickTexels;
+      for (std::size_t word = 0; word < 16; ++word) {
+        std::uint32_t mask = 0;
+        for (std::size_t direction = 0; direction < 6; ++direction)
+          mask |= chunk.texels[first + direction * 8 + word / 2][static_cast<int>(word % 2)];
+        const IVec3 voxel = voxel_at(at, word, 0);
+        for (int x = 0; x < 4; ++x)
+          rows_[index(voxel.x + x, voxel.y)] |= std::uint64_t{mask >> 8 * x & 255u} << voxel.z;
+      }
+    }
+  }
+
+  /// Whether a voxel is one of them, or shares an edge with one.
+  bool near(IVec3 voxel) const {
+    std::uint64_t found = 0;
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const int row_x = voxel.x + x, row_y = voxel.y + y;
+        if (std::min(row_x, row_y) < 0 || std::max(row_x, row_y) >= kEdge) continue;
+        const std::uint64_t row = rows_[index(row_x, row_y)];
+        found |= x != 0 && y != 0 ? row : row | row << 1 | row >> 1;
+      }
+    return (found >> voxel.z & 1u) != 0;
+  }
+
+ private:
+  static constexpr int kEdge = shared::kChunkEdge;
+  static std::size_t index(int x, int y) { return static_cast<std::size_t>(x + kEdge * y); }
+  std::vector<std::uint64_t> rows_;
+};
 
 }  // namespace
 
 std::vector<shared::Quad> lit_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
-  const auto is_lit = [&](IVec3 voxel) {
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        for (int z = -1; z <= 1; ++z) {
-          if (x * x + y * y + z * z > 2) continue;
-          for (int direction = 0; direction < 6; ++direction)
-            if (find_record(before, voxel + IVec3{x, y, z}, direction)) return true;
-        }
-    return false;
-  };
+  const VoxelsWithRecords lit(before);
   std::vector<shared::Quad> out;
   for (const shared::Quad& quad : quads)
     for_each_face(quad, [&](const DrawnFace& face) {
-      if (!is_lit(face.voxel)) return;
+      if (!lit.near(face.voxel)) return;
       const IVec3 at = face.voxel;
       out.push_back({static_cast<std::uint32_t>(at.x | at.y << 6 | at.z << 12), quad.material});
     });
@@ -133,6 +172,61 @@ ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> qua
     for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
       texels.push_back(from ? before.texels[*from + i] : glm::uvec4(0));
   });
+}
+
+ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
+  std::vector<BrickFaces> bricks;
+  std::vector<std::uint32_t> slots(shared::kBricksPerChunk, 0);  // 1 + index in `bricks`
+  for (const shared::Quad& quad : quads)
+    for_each_face(quad, [&](const DrawnFace& face) {
+      if (find_record(before, face.voxel, face.direction)) return;
+      std::uint32_t& slot = slots[brick_index(face.voxel)];
+      if (slot == 0) {
+        bricks.emplace_back();
+        slot = static_cast<std::uint32_t>(bricks.size());
+      }
+      bricks[slot - 1].masks[static_cast<std::size_t>(face.direction)][word_of(face.voxel)] |=
+          1u << bit_of(face.voxel);
+    });
+  if (bricks.empty()) return before;
+  ChunkSky out;
+  out.table.assign(shared::kBricksPerChunk, 0);
+  std::uint32_t stored = 0;
+  for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at)
+    if (before.table[at] != 0 || slots[at] != 0) out.table[at] = ++stored;
+  out.texels.reserve(before.texels.size() + bricks.size() * shared::kIndirectBrickTexels);
+  out.texels.assign(stored * shared::kIndirectBrickTexels, glm::uvec4(0));
+  static const BrickFaces kNone;
+  for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
+    if (out.table[at] == 0) continue;
+    const BrickFaces& more = slots[at] == 0 ? kNone : bricks[slots[at] - 1];
+    for (std::size_t direction = 0; direction < 6; ++direction)
+      for (std::size_t word = 0; word < 16; ++word) {
+        const std::size_t in_brick = direction * 8 + word / 2;
+        const auto half = static_cast<int>(word % 2);
+        const glm::uvec4 old =
+            before.table[at] == 0
+                ? glm::uvec4(0)
+                : before.texels[(before.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
+        glm::uvec4& now =
+            out.texels[(out.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
+        now[half] = old[half] | more.masks[direction][word];
+        now[2 + half] = static_cast<std::uint32_t>(out.texels.size());
+        std::size_t from = old[2 + half];
+        for (std::uint32_t left = now[half]; left != 0; left &= left - 1) {
+          const int bit = std::countr_zero(left);
+          const DrawnFace face{voxel_at(at, word, bit), static_cast<int>(direction), false};
+          std::optional<std::size_t> record = from;
+          if ((old[half] >> bit & 1u) != 0)
+            from += shared::kIndirectRecordTexels;
+          else
+            record = nearest_record(before, face);
+          for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
+            out.texels.push_back(record ? before.texels[*record + i] : glm::uvec4(0));
+        }
+      }
+  }
+  return out;
 }
 
 }  // namespace skerry::world
