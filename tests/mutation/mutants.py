@@ -235,6 +235,9 @@ MUTANTS = (
            "const auto half = static_cast<std::int16_t>(edge_ * edge_ * edge_);", "coarse_levels day"),
     Mutant("coarse_leaves_open", "far crowns are outlines", "world/stream/stream_state.cpp",
            "if (task.level > 0) close_cutouts(chunk.mesh);", "", "marsh closeup"),
+    Mutant("seams_open", "holes where levels of an island meet", "world/stream/section_tree.cpp",
+           "if (is_other_level(beside(node.place, face)))",
+           "if (is_other_level(beside(node.place, face)) && face > 5)", "level_seams"),
     # Textures
     Mutant("alpha_threshold", "leaves and plants are thinner", "shaders/include/scene/cutout.glsl",
            "alpha < 0.5", "alpha < 0.8",

@@ -208,8 +208,7 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
             before.table[at] == 0
                 ? glm::uvec4(0)
                 : before.texels[(before.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
-        glm::uvec4& now =
-            out.texels[(out.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
+        glm::uvec4& now = out.texels[(out.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
         now[half] = old[half] | more.masks[direction][word];
         now[2 + half] = static_cast<std::uint32_t>(out.texels.size());
         std::size_t from = old[2 + half];

@@ -55,6 +55,13 @@ int cracks(const Words& coarse, const Words& full) {
   return count;
 }
 
+std::size_t rows_of(const Words& words) {
+  std::set<std::uint32_t> rows;
+  for (const std::uint32_t word : words)
+    if ((word & shared::kSurfaceHere) != 0) rows.insert(shared::surface_island(word));
+  return rows.size();
+}
+
 class CracksTest : public gpu::GpuTest {
  protected:
   std::unique_ptr<SceneView> view_of(int seed, std::uint32_t detail) {
@@ -113,22 +120,21 @@ class CracksTest : public gpu::GpuTest {
       moment.camera.position = {place.x, place.y, place.z};
       const Words of_full = seen(*full, moment), of_coarse = seen(*coarse, moment);
       const int found = cracks(of_coarse, of_full);
-      EXPECT_EQ(found, 0) << "seed " << seed << " frame " << i << " at " << at.x << " " << at.y
-                          << " " << at.z;
-      std::set<std::uint32_t> rows;
-      for (const std::uint32_t word : of_coarse)
-        if ((word & shared::kSurfaceHere) != 0) rows.insert(shared::surface_island(word));
-      mixed_ += rows.size() > 2;
+      const glm::dvec3 camera = world::difference_blocks(place, coarse->world().origin());
+      EXPECT_EQ(found, 0) << "--seed " << seed << " --camera=" << camera.x << "," << camera.y << ","
+                          << camera.z << "," << moment.camera.yaw_deg << ","
+                          << moment.camera.pitch_deg;
+      mixed_ += rows_of(of_coarse) > rows_of(of_full);
     }
   }
 
-  int mixed_ = 0;  // frames that show more than two levels or islands
+  int mixed_ = 0;  // frames that show an island at several levels
 };
 
 TEST_F(CracksTest, ThereAreNoneInAFlight) {
   const int seeds = asked("SKERRY_CRACK_SEEDS", 3), frames = asked("SKERRY_CRACK_FRAMES", 20);
   for (int seed = 1; seed <= seeds; ++seed) fly(seed, frames);
-  EXPECT_GT(mixed_, seeds * frames / 3);
+  EXPECT_GT(mixed_, seeds * frames / 4);
 }
 
 }  // namespace
