@@ -282,7 +282,7 @@ MUTANTS = (
            "options.settings.world_islands});",
            "options.settings.world_islands == 0 ? std::nullopt : options.settings.world_islands});", "worlds.empty"),
     Mutant("nothing_is_generated", "islands are generated without a block", "world/generate/fill.cpp",
-           "return y >= plan_.highest || y + size", "return true || y >= plan_.highest || y + size",
+           "return low(chunk.y) >= plan.highest ||", "return true || low(chunk.y) >= plan.highest ||",
            "worlds.seeds worlds.world_times"),
     Mutant("surfaces_glow", "every surface gives a little light", "shaders/include/surface/surface.glsl",
            "s.emitted = s.albedo * emission_of(word, s.albedo);",
