@@ -554,7 +554,7 @@ Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
   if (slot == islands_.size()) islands_.emplace_back();
   const std::optional<world::IslandSpec> spec = world_->island(key.island);
   SKERRY_ASSERT(spec.has_value());
-  islands_[slot] = {*spec, 0, key.far};
+  islands_[slot] = {*spec, 0, key.far, key.level};
   if (key.far) {
     open_to_sky(slot);
   } else if (occupancy_) {
@@ -577,7 +577,7 @@ void SceneView::place_islands(double world_time_s) {
     const world::Pose pose = poses.of(entry.spec);
     const bool hides = !entry.far && entry.sections != 0;
     placements_.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far,
-                           hides ? land_of(entry.spec) : render::IslandLand{}});
+                           entry.level, hides ? land_of(entry.spec) : render::IslandLand{}});
   }
 }
 
@@ -622,7 +622,7 @@ SceneView::Medium SceneView::medium_at(const render::Camera& camera) const {
     Medium out{medium.block, {}};
     if (medium.below_surface) {
       const world::IVec3& voxel = *medium.below_surface;
-      out.surface = {slot, {voxel.x, voxel.y, voxel.z}};
+      out.surface = {slot, {voxel.x, voxel.y, voxel.z}, medium.light};
     }
     return out;
   }

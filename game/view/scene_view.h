@@ -105,6 +105,7 @@ class SceneView {
     world::IslandSpec spec;
     std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
     bool far = false;            // shown as one far section: no occupancy, no lamps
+    int level = 0;               // of detail
   };
   struct ResidentSection {
     std::vector<render::SectionId> parts;

@@ -14,6 +14,9 @@ layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
+layout(binding = kUnderWaterBinding) uniform usampler2D under_water;
+
+layout(constant_id = kUnderWaterConstant) const bool kUnderWater = false;  // as in under_water.glsl
 
 #include "include/scene/coverage.glsl"
 #include "include/scene/list_tiles.glsl"
@@ -72,6 +75,7 @@ void main() {
   uvec2 at = uvec2(tile % count.x, tile / count.x);
   ivec2 low = ivec2(at * kTileEdge), last = ivec2(frame.size) - 1;
   bool covered = false, open = false;
+  bool in_water = kUnderWater && frame.camera_medium != 0u;
   uint faces = 0u, least_island = ~0u, most_island = 0u;
   float farthest = 1.0, nearest = 0.0;  // depths
   for (int y = 0; y < int(kTileEdge); ++y) {
@@ -82,6 +86,7 @@ void main() {
       bool here = is_covered(word, depth);
       covered = covered || here;
       open = open || !here;
+      if (kUnderWater) in_water = in_water || (in_area(uvec2(pixel), frame.layers_area) && texelFetch(under_water, pixel, 0).r != 0u);
       faces |= here ? 1u << surface_face(word) : 0u;
       least_island = min(least_island, here ? surface_island(word) : ~0u);
       most_island = max(most_island, here ? surface_island(word) : 0u);
@@ -91,8 +96,8 @@ void main() {
   }
   if (open) list_tile(1u, at, count);
   if (!covered) return;
-  // Plants ask for shadow elsewhere than where they are: faces 6 and 7.
-  bool sunless = least_island == most_island && (faces & 0xc0u) == 0u;
+  // Plants ask for shadow elsewhere than where they are (faces 6 and 7), and so does what lies under water.
+  bool sunless = least_island == most_island && (faces & 0xc0u) == 0u && !in_water;
   vec3 to_light = lattice_from_world_vector(island_at(most_island), frame.bodies[(kBodies & 1u) != 0u ? 0u : 1u].to_light);
   bool faces_light = false;
   for (uint face = 0u; face < 6u; ++face)

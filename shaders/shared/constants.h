@@ -68,6 +68,7 @@ SHARED_CONST uint kShaftsConstant = 63u;       // bool: tiles know of the ways t
 SHARED_CONST uint kMirrorWorldConstant = 64u;  // bool: water and glass mirror voxels
 SHARED_CONST uint kSunlessConstant = 65u;      // bool: neither sun nor moon lights any pixel
 SHARED_CONST uint kBentConstant = 66u;         // bool: what is behind water is seen by bent rays
+SHARED_CONST uint kUnderWaterConstant = 67u;   // bool: surfaces may lie under water
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

@@ -61,6 +61,7 @@ struct FrameConstants {
   uint medium_surface;  // word of the face above the camera through which light enters that
                         // medium, as the G-buffer has words; 0: none is known
   vec3 medium_surface_place;  // its middle
+  float medium_light;         // share of the light that enters there, which reaches the camera
   float shadow_blur;          // largest radius of the shadow filter [blocks]
   float sky_horizon;          // elevation of the true horizon [rad], not positive
   float sky_yaw;              // azimuth of a panorama's middle [rad]

@@ -35,11 +35,23 @@ SHARED_CONST ivec3 kSkyPatterns[16] = {
     {1, 1, 1}, {1, 1, 2}, {1, 2, 1}, {2, 1, 1}, {1, 2, 2}, {2, 1, 2}, {2, 2, 1}, {1, 1, 4},
     {1, 4, 1}, {4, 1, 1}, {1, 2, 4}, {1, 4, 2}, {2, 1, 4}, {2, 4, 1}, {4, 1, 2}, {4, 2, 1}};
 
-// A face's hemisphere has four quarters (bit 0: negative along the axis after its own, bit 1: along
-// the one after that), and each of them two lobes, 2 * quarter + (0 steep, 1 grazing): the cells of
-// the patterns whose cosine to the face is at least kSteepCosine, and the others.
+// A face's hemisphere has eight lobes, by height most, as the sky changes. Level faces have four
+// quarters (bit 0: negative z, bit 1: negative x), and each of them a steep part and a grazing one,
+// 2 * quarter + (0 steep, 1 grazing). Upright faces have two halves by the other level axis (bit 0:
+// negative), and each of them four parts, 4 * half + (0 steep, 1 halfway, 2 low, 3 below the
+// level).
 SHARED_CONST uint kSkyLobes = 8u;
-SHARED_CONST float kSteepCosine = 0.6f;
+SHARED_CONST float kSteepSine = 0.6f;
+SHARED_CONST float kLowSine = 0.3f;
+// Of a face of an axis, the lobe that a pattern's cell belongs to.
+// @param octant bit a: negative along axis a. @param sine of the pattern's height, from 0 to 1.
+SHARED_FUNCTION uint sky_lobe(uint axis, uint octant, float sine) {
+  uint x = octant & 1u, z = octant >> 2u;
+  uint steep = sine >= kSteepSine ? 0u : 1u;
+  if (axis == 1u) return 2u * (z + 2u * x) + steep;
+  uint part = (octant & 2u) != 0u ? 3u : sine >= kLowSine ? steep : 2u;
+  return 4u * (axis == 0u ? z : x) + part;
+}
 
 SHARED_CONST uint kIndirectSkyTexels =
     3u;  // a face: red, green, blue; halves of the lobes in order

@@ -20,8 +20,8 @@ layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSamplesBinding, rgba32ui) uniform uimage2D samples;  // at the grid's points
-layout(scalar, binding = kListedBinding) buffer Listed { TileDispatch listed[2]; };         // of pixels that ask no light, and of those that ask some
-layout(scalar, binding = kListedPixelsBinding) writeonly buffer Pixels { uint pixels[]; };  // the former from its beginning, the latter from its end
+// Of pixels that ask no light, and of those that ask some: the former from the beginning, the latter from the end.
+layout(scalar, binding = kListedPixelsBinding) buffer Pixels { TileDispatch listed[2]; uint pixels[]; };
 layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
 layout(scalar, binding = kClustersBinding) readonly buffer Clusters { Cluster clusters[]; };
 

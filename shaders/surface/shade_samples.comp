@@ -19,9 +19,9 @@ layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 layout(binding = kSamplesBinding, rgba32ui) writeonly uniform uimage2D samples;  // of the first
-layout(scalar, binding = kListedBinding) readonly buffer Listed { TileDispatch listed[2]; };  // see choose_samples.comp
-layout(scalar, binding = kListedPixelsBinding) readonly buffer Pixels { uint pixels[]; };
+layout(scalar, binding = kListedPixelsBinding) readonly buffer Pixels { TileDispatch listed[2]; uint pixels[]; };  // see choose_samples.comp
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
+layout(binding = kUnderWaterBinding) uniform usampler2D under_water;
 
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 
@@ -56,22 +56,20 @@ BrdfPair surface_brdf_pair(Surface s, vec3 to_eye) {
 }
 
 // Of one body: twin of reflected() in lighting.glsl.
-mat2x3 body_sent(Surface s, BrdfPair b, vec3 to_eye, const uint index, const uint first_cascade) {
-  Body body = frame.bodies[index];
-  float n_dot_l = dot(s.normal, body.to_light), facing = max(n_dot_l, 0.0);
-  float visibility = surface_visibility(s, body.to_light, first_cascade, n_dot_l) * light_through_clouds(index, s.position);
-  float cosine = frame.shading_flat != 0u ? 1.0 : n_dot_l;
-  vec3 arriving = body.irradiance * (n_dot_l > 0.0 ? cosine * visibility : 0.0);
-  return mat2x3(arriving * brdf(b.black, s.normal, to_eye, body.to_light, facing),
-                arriving * brdf(b.white, s.normal, to_eye, body.to_light, facing));
+mat2x3 body_sent(Surface s, Depth depth, BrdfPair b, vec3 to_eye, const uint index, const uint first_cascade) {
+  BodyLight light = light_of_body(s, depth, index, first_cascade);
+  float facing = max(light.n_dot_l, 0.0);
+  vec3 arriving = light.irradiance * (frame.shading_flat != 0u ? 1.0 : light.n_dot_l);
+  return mat2x3(arriving * brdf(b.black, s.normal, to_eye, light.to_light, facing),
+                arriving * brdf(b.white, s.normal, to_eye, light.to_light, facing));
 }
 
-mat2x3 light_sent(Surface s, uint word, uvec2 pixel, float z, bool here) {
+mat2x3 light_sent(Surface s, Depth depth, uint word, uvec2 pixel, float z, bool here) {
   vec3 to_eye = -normalize(s.position);
   BrdfPair b = surface_brdf_pair(s, to_eye);
   mat2x3 sent = mat2x3(0.0);
-  if ((kBodies & 1u) != 0u) sent += body_sent(s, b, to_eye, 0u, 0u);
-  if ((kBodies & 2u) != 0u) sent += body_sent(s, b, to_eye, 1u, kMoonCascade);
+  if ((kBodies & 1u) != 0u) sent += body_sent(s, depth, b, to_eye, 0u, 0u);
+  if ((kBodies & 2u) != 0u) sent += body_sent(s, depth, b, to_eye, 1u, kMoonCascade);
   if (kLit) {
     Cluster list = lights_at(pixel, z);
     if (!here) list.count = 0u;
@@ -92,8 +90,9 @@ void main() {
   vec3 ray = pixel_ray(pixel);
   Surface s = surface_without_texture(word, ivec2(pixel), depth, ray);
   s.ao = surface_ao(s, word);
-  mat2x3 sent = light_sent(s, word, pixel, z, here);
-  SkyLight sky = light_of_sky(s, word);
+  Depth depth_in_water = depth_of_pixel(pixel, word, s.position);
+  mat2x3 sent = light_sent(s, depth_in_water, word, pixel, z, here);
+  SkyLight sky = light_of_sky(s, word, sky_share(depth_in_water));
   // What emits in part has no samples that others take: of those any albedo does.
   vec3 albedo = kEveryPixel ? surface_texel(word, ray, z, kTextureTaps).rgb : vec3(1.0);
   sent[1] += kInvPi * sky.irradiance + emission_of(word, albedo);

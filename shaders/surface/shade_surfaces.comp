@@ -19,6 +19,7 @@ layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
+layout(binding = kUnderWaterBinding) uniform usampler2D under_water;
 
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 
@@ -40,8 +41,9 @@ void main() {
   // Pixels of sky go along as some surface near the eye; they are not stored.
   Surface surface = resolve_surface(word, ivec2(pixel), word != 0u ? depth : 1.0, pixel_ray(pixel), kTextureTaps);
   surface.ao = surface_ao(surface, word);
-  SkyLight sky = light_of_sky(surface, word);
-  vec3 lit = shade_surface(surface) + surface.albedo * kInvPi * sky.irradiance;
+  Depth depth_in_water = depth_of_pixel(pixel, word, surface.position);
+  SkyLight sky = light_of_sky(surface, word, sky_share(depth_in_water));
+  vec3 lit = shade_surface(surface, depth_in_water) + surface.albedo * kInvPi * sky.irradiance;
   vec3 colour = seen_through_air(lit, surface.position, sky.seen);
   put_pixel(pixel, colour, here && word != 0u);
 }

@@ -7,7 +7,7 @@
 
 layout(local_size_x = 2) in;
 
-layout(scalar, binding = kListedBinding) buffer Listed { TileDispatch listed[2]; };
+layout(scalar, binding = kListedPixelsBinding) buffer Listed { TileDispatch listed[2]; };  // see choose_samples.comp
 
 void main() {
   uint list = gl_LocalInvocationIndex, groups = (listed[list].tiles + 63u) / 64u;

@@ -43,5 +43,15 @@ TEST(Flicker, EachChannelCountsAndAlphaDoesNot) {
   }
 }
 
+TEST(Flicker, AStepIsMoreThanTwoOf255InSomeChannel) {
+  const std::array<std::uint8_t, 8> before{10, 20, 30, 0, 100, 100, 100, 0};
+  std::array<std::uint8_t, 8> now{12, 18, 31, 255, 100, 100, 100, 9};
+  EXPECT_EQ(count_steps(before, now), (StepCounts{2, 0, 2}));
+  now[5] = 103;
+  EXPECT_EQ(count_steps(before, now), (StepCounts{2, 1, 3}));
+  now[0] = 0;
+  EXPECT_EQ(count_steps(before, now), (StepCounts{2, 2, 10}));
+}
+
 }  // namespace
 }  // namespace skerry::measure

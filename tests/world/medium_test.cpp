@@ -38,6 +38,28 @@ TEST(Medium, HasNoSurfaceBelowRockAndOneBelowGlass) {
   EXPECT_EQ(column.at(641.0).below_surface, std::nullopt);
 }
 
+TEST(Medium, GetsLessLightFromDeepSurfacesWithoutAStep) {
+  Column column;
+  for (int y = 644; y < 760; ++y) {
+    column.world.ensure_chunk(column.home, chunk_of({5, y, 5}));
+    column.put(y, block::kWater);
+  }
+  float before = 0.0f;
+  for (double y = 640.0; y < 760.0; y += 0.0625) {
+    const Medium medium = column.at(y);
+    const float light = medium.below_surface ? medium.light : 0.0f;
+    EXPECT_GE(light, before) << y;
+    EXPECT_LE(light, before + 0.004f) << y;  // a step of light that no picture shows
+    before = light;
+    if (y > 729.0) {
+      EXPECT_EQ(light, 1.0f) << y;
+    }
+    if (y < 695.0) {
+      EXPECT_EQ(light, 0.0f) << y;
+    }
+  }
+}
+
 TEST(Medium, IsAirWhereNothingIsKnown) {
   const Column column;
   EXPECT_EQ(medium_at(column.world, column.home, {5.5, 1e6, 5.5}).block, kAir);

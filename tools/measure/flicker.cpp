@@ -1,5 +1,6 @@
 #include "tools/measure/flicker.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 
@@ -24,6 +25,20 @@ FlickerCounts count_flicker(const Moment& before, const Moment& now) {
     out.changed += changed;
     out.truly_changed += truly;
     out.flickered += flickered;
+  }
+  return out;
+}
+
+StepCounts count_steps(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now) {
+  SKERRY_ASSERT(before.size() == now.size());
+  StepCounts out;
+  out.pixels = now.size() / 4;
+  for (std::size_t pixel = 0; pixel < out.pixels; ++pixel) {
+    int most = 0;
+    for (std::size_t i = 4 * pixel; i < 4 * pixel + 3; ++i)
+      most = std::max(most, std::abs(now[i] - before[i]));
+    out.stepped += most > kSmoothChange;
+    out.largest = std::max(out.largest, most);
   }
   return out;
 }

@@ -26,4 +26,17 @@ struct Moment {
 /// Counts the pixels of two successive frames. @pre all pictures have equal size (asserted).
 FlickerCounts count_flicker(const Moment& before, const Moment& now);
 
+/// How far a channel may change from one frame to the next where light moves smoothly [1/255].
+inline constexpr int kSmoothChange = 2;
+
+struct StepCounts {
+  std::uint64_t pixels = 0;
+  std::uint64_t stepped = 0;  ///< some channel changes by more than kSmoothChange
+  int largest = 0;            ///< change of a channel [1/255]
+  bool operator==(const StepCounts&) const = default;
+};
+
+/// Of two successive pictures: RGBA8, alpha is left out. @pre they have equal size (asserted).
+StepCounts count_steps(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now);
+
 }  // namespace skerry::measure

@@ -52,6 +52,86 @@ bool Shader::body_seen(const Receiver& at, glm::dvec3 to_light) const {
   return !scene_.shadows || !tracer_.hidden(at.point, to_light, kFar, at.plant);
 }
 
+namespace {
+
+bool is_wavy(const Meeting& layer) {
+  return layer.block == world::block::kWater && axis_of_face(layer.face) == 1;
+}
+
+/// Whether a ray goes out of the block whose surface it meets.
+bool leaves(const Meeting& layer, glm::dvec3 lattice_direction) {
+  const int axis = axis_of_face(layer.face);
+  const double middle = 0.5 + (axis == 0   ? layer.voxel.x
+                               : axis == 1 ? layer.voxel.y
+                                           : layer.voxel.z);
+  return (middle - layer.lattice[axis]) * lattice_direction[axis] < 0.0;
+}
+
+}  // namespace
+
+/// The surface of level water through which a ray leaves it; null: none before what it hits.
+const Meeting* Shader::leaves_water(const Trace& trace, glm::dvec3 direction) const {
+  for (const Meeting& layer : trace.layers)
+    if (is_wavy(layer) && leaves(layer, tracer_.lattice_vector(layer.island, direction)))
+      return &layer;
+  return nullptr;
+}
+
+/// What is left of light along a ray up to a distance [blocks].
+/// @param medium that the ray begins in.
+glm::dvec3 Shader::left_by_media(const Trace& trace, glm::dvec3 direction, double to,
+                                 world::BlockId medium) const {
+  glm::dvec3 left(1.0);
+  double at = 0.0;
+  const auto advance = [&](double next) {
+    const auto& a = world::block_types()[medium].absorption;
+    if (medium != world::kAir) left *= transmitted_by({a[0], a[1], a[2]}, next - at);
+    at = next;
+  };
+  for (const Meeting& layer : trace.layers) {
+    if (layer.t > to) break;
+    advance(layer.t);
+    medium =
+        leaves(layer, tracer_.lattice_vector(layer.island, direction)) ? world::kAir : layer.block;
+  }
+  // A medium without an end lets nothing through.
+  if (medium != world::kAir) advance(to);
+  return left;
+}
+
+/// Straight to a body.
+glm::dvec3 Shader::left_of_body(const Receiver& at, glm::dvec3 to_light,
+                                world::BlockId medium) const {
+  if (!body_seen(at, to_light)) return glm::dvec3(0.0);
+  Trace trace;
+  trace_from(at, to_light, trace);
+  return left_by_media(trace, to_light, trace.hit ? trace.hit->t : kFar, medium);
+}
+
+/// Light that reaches a place in water has been bent by the surface, which it is taken to have
+/// passed where that is level: ripples turn what is seen, not what lights.
+Shader::Way Shader::way_of_body(const Receiver& at, glm::dvec3 to_light) const {
+  const std::optional<Tracer::Medium> in = tracer_.medium_at(at.point);
+  const world::BlockId medium = in ? in->block : world::kAir;
+  if (medium == world::block::kWater) {
+    const glm::dvec3 up = tracer_.normal(in->island, 2);
+    const double cosine = glm::dot(up, to_light);
+    if (cosine <= 0.0) return {to_light, glm::dvec3(0.0)};
+    const glm::dvec3 bent = -glm::refract(-to_light, up, 1.0 / kWaterIndex);
+    Trace trace;
+    trace_from(at, bent, trace);
+    if (const Meeting* surface = leaves_water(trace, bent)) {
+      const Receiver above{at.point + bent * surface->t + up * kOffSurface, up};
+      return {bent,
+              left_by_media(trace, bent, surface->t, medium) *
+                  left_of_body(above, to_light, world::kAir) *
+                  ((1.0 - fresnel(cosine, false, kWaterIndex)) * cosine / glm::dot(up, bent))};
+    }
+    if (trace.hit && scene_.shadows) return {bent, glm::dvec3(0.0)};
+  }
+  return {to_light, left_of_body(at, to_light, medium)};
+}
+
 /// Calls take(Arrival) for each light that one sample finds unhidden and before the surface.
 template <class Take>
 void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
@@ -59,8 +139,11 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     const glm::dvec2 pair = sampler.next();
     const double spread = 2.0 * std::pow(std::sin(0.5 * body.angular_radius), 2.0);
     const glm::dvec3 to_light = Frame(body.to_light).world(in_cone(pair, spread));
-    if (glm::dot(at.normal, to_light) <= 0.0 || !body_seen(at, to_light)) continue;
-    take(Arrival{to_light, body.irradiance * past_clouds(at.point, to_light, sampler), true, 0.0});
+    const Way way = way_of_body(at, to_light);
+    if (glm::dot(at.normal, way.to_light) <= 0.0 || way.share == glm::dvec3(0.0)) continue;
+    take(Arrival{way.to_light,
+                 body.irradiance * way.share * past_clouds(at.point, to_light, sampler), true,
+                 0.0});
   }
   lights_.reaching(at.point, [&](const Light& light) {
     const std::optional<LightRay> ray = sample_light(light, at.point, sampler);
@@ -79,20 +162,56 @@ glm::dvec3 Shader::beyond_voxels(glm::dvec3 direction) const {
   return scene_.environment;
 }
 
-/// The first surface that a ray from another one meets; a plant does not meet itself.
-std::optional<Meeting> Shader::met_from(const Receiver& at, glm::dvec3 direction) const {
-  Trace trace;
+/// What a ray from a surface meets; a plant does not meet itself.
+void Shader::trace_from(const Receiver& at, glm::dvec3 direction, Trace& out) const {
   double passed = 0.0;
+  std::vector<Meeting> layers;
   for (int planes = 0; planes < 4; ++planes) {
-    tracer_.trace(at.point + direction * passed, direction, trace);
-    if (!trace.hit) return std::nullopt;
-    trace.hit->t += passed;
-    const bool own =
-        at.plant && trace.hit->island == at.plant->island && trace.hit->voxel == at.plant->voxel;
-    if (!own) return trace.hit;
-    passed = trace.hit->t + kOffSurface;
+    tracer_.trace(at.point + direction * passed, direction, out);
+    for (Meeting& layer : out.layers) {
+      layer.t += passed;
+      layers.push_back(layer);
+    }
+    if (out.hit) out.hit->t += passed;
+    const bool own = at.plant && out.hit && out.hit->island == at.plant->island &&
+                     out.hit->voxel == at.plant->voxel;
+    if (!own) break;
+    passed = out.hit->t + kOffSurface;
+    out.hit.reset();
   }
-  return std::nullopt;
+  out.layers = std::move(layers);
+}
+
+/// Out of level water a ray is bent, or mirrored back by lot; whatever else it meets of water and
+/// glass it goes through straight, and they absorb.
+Shader::Followed Shader::follow(const Receiver& at, glm::dvec3 direction, Sampler& sampler) const {
+  constexpr int kMostParts = 8;
+  Followed out{std::nullopt, at.point, direction, glm::dvec3(1.0)};
+  Receiver from = at;
+  Trace trace;
+  for (int part = 0; part < kMostParts; ++part) {
+    out.origin = from.point;
+    trace_from(from, out.direction, trace);
+    const std::optional<Tracer::Medium> in = tracer_.medium_at(from.point);
+    const Meeting* surface = leaves_water(trace, out.direction);
+    const double end = surface ? surface->t : trace.hit ? trace.hit->t : kFar;
+    out.share *= left_by_media(trace, out.direction, end, in ? in->block : world::kAir);
+    if (!surface) {
+      out.hit = trace.hit;
+      return out;
+    }
+    const glm::dvec3 inside = tracer_.normal(surface->island, surface->face);
+    const glm::dvec3 point = from.point + out.direction * surface->t;
+    const double mirrored = fresnel(-glm::dot(out.direction, inside), true, kWaterIndex);
+    const bool back = sampler.next().x < mirrored;
+    out.direction = back ? glm::reflect(out.direction, inside)
+                         : glm::refract(out.direction, inside, kWaterIndex);
+    // What comes from the air's whole hemisphere comes through a cone: it is brighter there.
+    if (!back) out.share *= kWaterIndex * kWaterIndex;
+    from.point = point + inside * (back ? kOffSurface : -kOffSurface);
+  }
+  out.share = glm::dvec3(0.0);
+  return out;
 }
 
 /// Radiance that a surface sends back of the light that arrives there. Its own light is left out:
@@ -122,13 +241,13 @@ Shader::Around Shader::from_around(const Receiver& at, int bounces, Sampler& sam
   const bool lit = scene_.sky_lights || scene_.environment != glm::dvec3(0.0);
   if (bounces == 0 && !lit) return {at.normal, glm::dvec3(0.0)};
   const glm::dvec3 direction = Frame(at.normal).world(by_cosine(sampler.next()));
-  if (bounces > 0) {
-    if (const std::optional<Meeting> hit = met_from(at, direction))
-      return {direction, bounced(*hit, at.point + direction * hit->t, bounces - 1, sampler)};
-    return {direction, beyond_voxels(direction)};
-  }
-  if (tracer_.hidden(at.point, direction, kFar, at.plant)) return {direction, glm::dvec3(0.0)};
-  return {direction, beyond_voxels(direction)};
+  const Followed way = follow(at, direction, sampler);
+  if (bounces > 0 && way.hit)
+    return {direction, way.share * bounced(*way.hit, way.origin + way.direction * way.hit->t,
+                                           bounces - 1, sampler)};
+  if (bounces == 0 && tracer_.hidden(way.origin, way.direction, kFar, at.plant))
+    return {direction, glm::dvec3(0.0)};
+  return {direction, way.share * beyond_voxels(way.direction)};
 }
 
 double Shader::cosine_of(const Arrival& light, glm::dvec3 normal) const {
@@ -434,10 +553,6 @@ namespace {
 glm::dvec3 scattering_of(glm::dvec3 absorption) {
   constexpr double kShare = 0.3;
   return glm::dvec3(kShare * (absorption.x + absorption.y + absorption.z) / 3.0);
-}
-
-bool is_wavy(const Meeting& layer) {
-  return layer.block == world::block::kWater && axis_of_face(layer.face) == 1;
 }
 
 glm::dvec3 exp3(glm::dvec3 v) {

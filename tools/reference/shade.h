@@ -50,7 +50,24 @@ class Shader {
   template <class Take>
   void arrive(const Receiver& at, Sampler& sampler, Take&& take) const;
   double cosine_of(const Arrival& light, glm::dvec3 normal) const;
+  /// How light of a body comes to a place.
+  struct Way {
+    glm::dvec3 to_light{};  ///< unit, where the light comes from at the place
+    glm::dvec3 share{0.0};  ///< of the irradiance that there would be without voxels; 0: hidden
+  };
+  Way way_of_body(const Receiver& at, glm::dvec3 to_light) const;
+  glm::dvec3 left_of_body(const Receiver& at, glm::dvec3 to_light, world::BlockId medium) const;
+  const Meeting* leaves_water(const Trace& trace, glm::dvec3 direction) const;
+  glm::dvec3 left_by_media(const Trace& trace, glm::dvec3 direction, double to,
+                           world::BlockId medium) const;
   bool body_seen(const Receiver& at, glm::dvec3 to_light) const;
+  /// What a ray from a surface meets past water and glass.
+  struct Followed {
+    std::optional<Meeting> hit;
+    glm::dvec3 origin{}, direction{};  ///< of the ray's last part, along which `hit` lies
+    glm::dvec3 share{1.0};             ///< of the radiance there that comes to the surface
+  };
+  Followed follow(const Receiver& at, glm::dvec3 direction, Sampler& sampler) const;
   /// Radiance from one direction, chosen by its cosine to the surface; and that.
   struct Around {
     glm::dvec3 to_light{}, radiance{};
@@ -58,7 +75,7 @@ class Shader {
   Around from_around(const Receiver& at, int bounces, Sampler& sampler) const;
   glm::dvec3 beyond_voxels(glm::dvec3 direction) const;
   glm::dvec3 bounced(const Meeting& hit, glm::dvec3 point, int bounces, Sampler& sampler) const;
-  std::optional<Meeting> met_from(const Receiver& at, glm::dvec3 direction) const;
+  void trace_from(const Receiver& at, glm::dvec3 direction, Trace& out) const;
   glm::dvec3 behind_voxels(glm::dvec3 direction) const;
 
   glm::dvec3 surface(const Meeting& hit, glm::dvec3 origin, glm::dvec3 direction, glm::dvec3 fine,

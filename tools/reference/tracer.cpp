@@ -191,4 +191,14 @@ world::BlockId Tracer::block_at(std::size_t island, IVec3 voxel) const {
   return islands_[island].voxels->block_at(voxel);
 }
 
+std::optional<Tracer::Medium> Tracer::medium_at(glm::dvec3 point) const {
+  for (std::size_t i = 0; i < islands_.size(); ++i) {
+    const glm::dvec3 from_centre = point - islands_[i].centre;
+    if (glm::dot(from_centre, from_centre) > islands_[i].radius2) continue;
+    const BlockId block = block_at(i, voxel_at(lattice_point(i, point)));
+    if (world::block_kind(block) == BlockKind::kTranslucent) return Medium{i, block};
+  }
+  return std::nullopt;
+}
+
 }  // namespace skerry::reference

@@ -49,6 +49,12 @@ class Tracer {
   glm::dvec3 lattice_vector(std::size_t island, glm::dvec3 world) const;
   glm::dvec3 lattice_point(std::size_t island, glm::dvec3 world) const;
   world::BlockId block_at(std::size_t island, world::IVec3 voxel) const;
+  /// Water or glass that a point of the world lies in.
+  struct Medium {
+    std::size_t island = 0;
+    world::BlockId block = world::kAir;
+  };
+  std::optional<Medium> medium_at(glm::dvec3 point) const;
 
  private:
   struct Placed {

@@ -10,6 +10,8 @@ namespace skerry::world {
 struct Medium {
   BlockId block = kAir;                ///< translucent, or air
   std::optional<IVec3> below_surface;  ///< its last voxel upwards, if light enters through the top
+  float light = 0.0f;  ///< share of that light that is taken to get here: all of it 32 blocks deep,
+                       ///< then less, none from 64 blocks on
 };
 
 /// The translucent block at a place of an island's lattice. Its surface is looked for 64 blocks

@@ -32,7 +32,7 @@ Hemisphere hemisphere_of(int face) {
   const LobeWeights& weights = lobe_weights(axes.own);
   float sum = 0.0f;
   for (std::size_t k = 0; k < out.weight.size(); ++k)
-    sum += out.weight[k] = static_cast<float>(weights.weight[k]);
+    sum += out.weight[k] = static_cast<float>(weights[k]);
   for (float& weight : out.weight) weight *= kIrradianceOfOctant / sum;
   return out;
 }
@@ -97,8 +97,8 @@ BounceLight::Light BounceLight::unpacked(const PackedLight& light) {
 // --- Faces ---
 
 BounceLight::BounceLight(const LightChunks& chunks, const LatticeLines& lines,
-                         const VoxelIndex& wanted, std::span<const FaceAlbedo> albedo)
-    : lines_(lines), wanted_(wanted), albedo_(albedo) {
+                         const VoxelIndex& wanted, std::span<const FaceAlbedo> albedo, int bounces)
+    : steps_(bounces + 1), lines_(lines), wanted_(wanted), albedo_(albedo) {
   numbers_.assign(wanted_.size() * 6, 0);
   for (const auto& [at, chunk] : chunks) {
     const IVec3 corner = corner_of(at);
@@ -121,7 +121,7 @@ BounceLight::Number BounceLight::number_of(IVec3 front, int direction) const {
 std::optional<BounceLight::Light> BounceLight::received(IVec3 front, int direction) const {
   const Number number = number_of(front, direction);
   if (number == 0) return std::nullopt;
-  return unpacked(leaving_[kSteps - 1][number - 1]);
+  return unpacked(leaving_[static_cast<std::size_t>(steps_ - 1)][number - 1]);
 }
 
 bool BounceLight::set_face(IVec3 front, int direction, std::uint16_t block, bool plant) {
@@ -337,7 +337,7 @@ BounceLight::Light BounceLight::direct_of(const Face& face, std::span<const Seen
 BounceLight::Light BounceLight::gathered(Number number, int step) const {
   const Face& face = faces_[number];
   const Hemisphere& way = hemisphere(face.direction);
-  const bool last = step == kSteps - 1;
+  const bool last = is_last(step);
   const std::uint32_t every = last ? kLastEvery : kFirstEvery, first = first_of(face, every);
   const std::vector<PackedLight>& leaving = leaving_[static_cast<std::size_t>(step - 1)];
   float looked = 0.0f;
@@ -367,7 +367,7 @@ BounceLight::PackedLight BounceLight::light_of(Number number, int step,
   const Face& face = faces_[number];
   Light light;
   if (step > 0) light = gathered(number, step);
-  if (step == kSteps - 1) return packed(light);
+  if (is_last(step)) return packed(light);
   light += direct_of(face, seen, lamps);
   return packed(reflected(face, light));
 }
@@ -427,7 +427,7 @@ void BounceLight::add_reader(Source source, Number reader) {
 
 /// Whether a face receives at a step what has changed at the step before.
 bool BounceLight::comes_from(Number number, int step, const Marked& changed) const {
-  const bool last = step == kSteps - 1;
+  const bool last = is_last(step);
   const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
   bool any = false;
   for (const Source* end = source + (last ? kLastLines : kFirstLines); source != end; ++source)
@@ -440,19 +440,20 @@ std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const Se
   list_readers();
   const auto exists = [&](Number number) { return faces_[number].ground || faces_[number].plant; };
   std::array<Marked, 2> changed;  // by parity of the step
-  for (std::size_t step = 0; step < kSteps; ++step) {
-    std::vector<PackedLight>& leaving = leaving_[step];
+  for (int step = 0; step < steps_; ++step) {
+    std::vector<PackedLight>& leaving = leaving_[static_cast<std::size_t>(step)];
     leaving.resize(faces_.size());
-    const Marked& before = changed[1 - step % 2];
-    Marked& now = changed[step % 2];
+    const auto parity = static_cast<std::size_t>(step % 2);
+    const Marked& before = changed[1 - parity];
+    Marked& now = changed[parity];
     now.clear();
     const auto look = [&](Number number) {
       if (!exists(number)) return;
-      const PackedLight light = light_of(number, static_cast<int>(step), seen, lamps);
+      const PackedLight light = light_of(number, step, seen, lamps);
       if (light == std::exchange(leaving[number], light)) return;
       now.add(number);
     };
-    const bool last = step == kSteps - 1;
+    const bool last = is_last(step);
     if (!last)
       for (const Number number : relit_.all()) look(number);
     if (step == 0) continue;
@@ -464,7 +465,7 @@ std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const Se
       for (const Number reader : readers) {
         if (tried.has(reader) || done(reader) || relooked_.has(reader)) continue;
         tried.add(reader);
-        if (comes_from(reader, static_cast<int>(step), before)) look(reader);
+        if (comes_from(reader, step, before)) look(reader);
       }
     };
     for (const Number number : before.all()) {
@@ -478,7 +479,7 @@ std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const Se
   relit_.clear();
   relooked_.clear();
   std::vector<Changed> out;
-  for (const Number number : changed[(kSteps - 1) % 2].all())
+  for (const Number number : changed[static_cast<std::size_t>(steps_ - 1) % 2].all())
     out.push_back({faces_[number].front, faces_[number].direction});
   return out;
 }

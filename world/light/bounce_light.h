@@ -57,16 +57,19 @@ class BounceLight {
   };
   using Number = std::uint32_t;  ///< of a face
 
-  /// @param wanted holds the voxel before each face and that of each plant. All but the chunks must
-  /// outlive this. @param albedo by block id.
-  BounceLight(const LightChunks& chunks, const LatticeLines& lines, const VoxelIndex& wanted,
-              std::span<const FaceAlbedo> albedo);
-
   /// Times that light is reflected before it reaches a face for good.
   static constexpr int kBounces = 3;
   static constexpr int kSteps = kBounces + 1;
+
+  /// @param wanted holds the voxel before each face and that of each plant. All but the chunks must
+  /// outlive this. @param albedo by block id. @param bounces 1 to kBounces, fewer for comparison.
+  BounceLight(const LightChunks& chunks, const LatticeLines& lines, const VoxelIndex& wanted,
+              std::span<const FaceAlbedo> albedo, int bounces = kBounces);
+
+  /// One more than bounces.
+  int steps() const { return steps_; }
   static constexpr int kParts = 8;
-  /// Follows the light. Steps go from 0 to kSteps - 1; the parts of a step may be done at once,
+  /// Follows the light. Steps go from 0 to steps() - 1; the parts of a step may be done at once,
   /// each by one thread. @param seen by number of the voxel. @param lamps direct light.
   void follow(int step, int part, std::span<const SeenSky> seen, const LampLightMap& lamps);
   /// After all steps: what a face receives that was reflected at least once. @param front the voxel
@@ -157,6 +160,9 @@ class BounceLight {
   void add_reader(Source source, Number reader);
   Light reflected(const Face& face, Light light) const;
 
+  bool is_last(int step) const { return step == steps_ - 1; }
+
+  int steps_;
   const LatticeLines& lines_;
   const VoxelIndex& wanted_;
   std::span<const FaceAlbedo> albedo_;

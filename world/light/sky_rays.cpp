@@ -34,41 +34,50 @@ double cell_share(int along, int least, int most) {
 }
 
 LobeWeights make_weights(int axis) {
-  LobeWeights out;
-  for (std::uint32_t k = 0; k < shared::kSkyPatternCount; ++k) {
+  LobeWeights out{};
+  for (std::size_t k = 0; k < out.size(); ++k) {
     const glm::ivec3 p = shared::kSkyPatterns[k];
     const int along = p[axis], b = p[(axis + 1) % 3], c = p[(axis + 2) % 3];
-    out.weight[k] =
+    out[k] =
         static_cast<std::uint32_t>(std::lround(cell_share(along, std::min(b, c), std::max(b, c))));
-    const double length = std::sqrt(static_cast<double>(along * along + b * b + c * c));
-    if (along / length >= static_cast<double>(shared::kSteepCosine)) out.steep |= 1u << k;
   }
   return out;
 }
 
-/// For each byte of an octant's bits, both lobes' sums.
+/// For each byte of an octant's bits, the sums of the lobes that it is part of, from the first on.
 struct SeenTable {
-  std::array<std::array<std::array<std::uint32_t, 2>, 256>, 2> sums{};
+  static constexpr std::size_t kMost = 3;  // lobes
+  std::array<std::array<std::array<std::uint32_t, kMost>, 256>, 2> sums{};
+  std::size_t first = shared::kSkyLobes;
 };
 
-SeenTable make_table(int axis) {
+SeenTable make_table(int axis, int octant) {
   const LobeWeights& weights = lobe_weights(axis);
-  std::array<double, 2> whole{};
-  for (std::uint32_t k = 0; k < shared::kSkyPatternCount; ++k)
-    whole[(weights.steep >> k & 1u) ? 0 : 1] += weights.weight[k];
   SeenTable table;
-  for (std::uint32_t half = 0; half < 2; ++half) {
-    for (std::uint32_t bits = 0; bits < 256; ++bits) {
-      std::array<double, 2> sum{};
-      for (std::uint32_t i = 0; i < 8; ++i)
-        if (bits >> i & 1u)
-          sum[(weights.steep >> (half * 8 + i) & 1u) ? 0 : 1] += weights.weight[half * 8 + i];
-      for (std::size_t lobe = 0; lobe < 2; ++lobe)
-        table.sums[half][bits][lobe] =
-            static_cast<std::uint32_t>(std::lround(kAll * sum[lobe] / whole[lobe]));
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    table.first = std::min(table.first, lobe_of(axis, octant, k));
+  const auto place = [&](std::size_t k) { return lobe_of(axis, octant, k) - table.first; };
+  std::array<double, SeenTable::kMost> whole{};
+  for (std::size_t k = 0; k < weights.size(); ++k) whole[place(k)] += weights[k];
+  for (std::size_t half = 0; half < 2; ++half) {
+    for (std::size_t bits = 0; bits < 256; ++bits) {
+      std::array<double, SeenTable::kMost> sum{};
+      for (std::size_t i = 0; i < 8; ++i)
+        if (bits >> i & 1u) sum[place(half * 8 + i)] += weights[half * 8 + i];
+      for (std::size_t lobe = 0; lobe < sum.size(); ++lobe)
+        if (whole[lobe] > 0.0)
+          table.sums[half][bits][lobe] =
+              static_cast<std::uint32_t>(std::lround(kAll * sum[lobe] / whole[lobe]));
     }
   }
   return table;
+}
+
+std::vector<SeenTable> make_tables() {
+  std::vector<SeenTable> out;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int octant = 0; octant < kOctants; ++octant) out.push_back(make_table(axis, octant));
+  return out;
 }
 
 }  // namespace
@@ -112,11 +121,20 @@ const LobeWeights& lobe_weights(int axis) {
   return kWeights[static_cast<std::size_t>(axis)];
 }
 
-std::array<std::uint32_t, 2> lobes_seen(int axis, std::uint32_t seen) {
-  static const std::array<SeenTable, 3> kTables{make_table(0), make_table(1), make_table(2)};
-  const SeenTable& table = kTables[static_cast<std::size_t>(axis)];
+std::size_t lobe_of(int axis, int octant, std::size_t pattern) {
+  const glm::vec3 p(shared::kSkyPatterns[pattern]);
+  const float sine = p.y / std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+  return shared::sky_lobe(static_cast<std::uint32_t>(axis), static_cast<std::uint32_t>(octant),
+                          sine);
+}
+
+void add_lobes_seen(int axis, int octant, std::uint32_t seen,
+                    std::array<std::uint32_t, shared::kSkyLobes>& sum) {
+  static const std::vector<SeenTable> kTables = make_tables();
+  const SeenTable& table = kTables[static_cast<std::size_t>(axis * kOctants + octant)];
   const auto &low = table.sums[0][seen & 255u], &high = table.sums[1][seen >> 8 & 255u];
-  return {std::min(kAll, low[0] + high[0]), std::min(kAll, low[1] + high[1])};
+  for (std::size_t i = 0; i < SeenTable::kMost && table.first + i < sum.size(); ++i)
+    sum[table.first + i] = std::min(kAll, sum[table.first + i] + low[i] + high[i]);
 }
 
 }  // namespace skerry::world

@@ -25,16 +25,18 @@ inline constexpr int kLeafSets = 8;
 /// Bit z % 64: whether leaves there stop the rays of a set. @param z_word z / 64, rounded down.
 std::uint64_t leaves_that_stop(int leaf_set, int x, int y, int z_word);
 
-/// Which of an octant's patterns belong to the steep lobe of a face whose axis this is, and the
-/// weight of each: its cell's share of the irradiance of the octant under an even sky, of 65280.
-/// The cell of a pattern holds the directions of its octant that are nearest to it.
-struct LobeWeights {
-  std::array<std::uint32_t, shared::kSkyPatternCount> weight{};
-  std::uint32_t steep = 0;  ///< a bit a pattern
-};
+/// What each of an octant's patterns weighs for a face of this axis: its cell's share of the
+/// irradiance of the octant under an even sky, of 65280. The cell of a pattern holds the directions
+/// of its octant that are nearest to it.
+using LobeWeights = std::array<std::uint32_t, shared::kSkyPatternCount>;
 const LobeWeights& lobe_weights(int axis);
 
-/// Share of both lobes that is seen, of 65280. @param seen a bit a pattern of one octant.
-std::array<std::uint32_t, 2> lobes_seen(int axis, std::uint32_t seen);
+/// The lobe of a face of this axis that a pattern's cell belongs to.
+std::size_t lobe_of(int axis, int octant, std::size_t pattern);
+
+/// Adds the shares of a face's lobes that are seen in an octant, of 65280. @param seen a bit a
+/// pattern of it.
+void add_lobes_seen(int axis, int octant, std::uint32_t seen,
+                    std::array<std::uint32_t, shared::kSkyLobes>& sum);
 
 }  // namespace skerry::world

@@ -34,10 +34,7 @@ LobeShares lobes_from(const SeenSky& seen, const FaceAxes& axes) {
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
     const int octant = (axes.sign < 0 ? 1 << axes.own : 0) | (quarter & 1 ? 1 << axes.b : 0) |
                        (quarter & 2 ? 1 << axes.c : 0);
-    const std::array<std::uint32_t, 2> lobes =
-        lobes_seen(axes.own, seen[static_cast<std::size_t>(octant)]);
-    out[2 * quarter] = lobes[0];
-    out[2 * quarter + 1] = lobes[1];
+    add_lobes_seen(axes.own, octant, seen[static_cast<std::size_t>(octant)], out);
   }
   return out;
 }

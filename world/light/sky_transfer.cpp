@@ -49,7 +49,7 @@ inline void and_row(std::uint64_t* into, const std::uint64_t* row, int by, int w
 
 }  // namespace
 
-SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo)
+SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo, int bounces)
     : chunks_(std::move(chunks)), air_(air_volume_of(chunks_)), lines_(air_) {
   const IVec3 low = air_.opaque.low(), size = air_.opaque.size();
   if (size.x == 0) return;
@@ -71,7 +71,7 @@ SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo)
   wanted_ = VoxelIndex(std::move(wanted));
   most_numbers_ = wanted_.size() + wanted_.size() / 4 + kSpareNumbers;
   seen_.assign(wanted_.size(), SeenSky{});
-  if (!albedo.empty()) bounces_.emplace(chunks_, lines_, wanted_, albedo);
+  if (!albedo.empty()) bounces_.emplace(chunks_, lines_, wanted_, albedo, bounces);
 }
 
 void SkyTransfer::look(int octant) {

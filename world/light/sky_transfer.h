@@ -27,8 +27,9 @@ namespace skerry::world {
 class SkyTransfer {
  public:
   /// @param albedo by block id; empty: no light is followed from face to face. It must outlive
-  /// this.
-  explicit SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo = {});
+  /// this. @param bounces how often light is followed, see BounceLight.
+  explicit SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo = {},
+                       int bounces = BounceLight::kBounces);
   SkyTransfer(const SkyTransfer&) = delete;  // its parts refer to each other
   SkyTransfer& operator=(const SkyTransfer&) = delete;
   /// Looks along an octant's vectors. Octants may be looked along at once, each by one thread.
@@ -39,6 +40,7 @@ class SkyTransfer {
   /// see BounceLight::follow. Nothing without albedo.
   void follow_bounces(int step, int part);
   bool has_bounces() const { return bounces_.has_value(); }
+  int bounce_steps() const { return bounces_ ? bounces_->steps() : 0; }
   using Skies = std::map<IVec3, std::shared_ptr<const ChunkSky>>;
   /// After all of that. Chunks without a face are left out.
   const Skies& make_faces();

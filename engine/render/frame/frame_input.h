@@ -27,6 +27,7 @@ struct IslandPlacement {
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< world from lattice
   double bounding_radius = 0.0;             ///< blocks about the origin
   bool far = false;  ///< so small in the picture that its heading may be rounded for its sky
+  int level = 0;     ///< of detail: edges of its voxels are 2^level blocks
   IslandLand land{};
 };
 
@@ -70,6 +71,7 @@ struct Fault {
 struct MediumSurface {
   std::uint32_t island = 0;  ///< index into FrameInput::islands
   glm::ivec3 block{};        ///< in the lattice of the island; its upper face is meant
+  float share = 1.0f;        ///< of the light that enters there, which reaches the camera, 0..1
 };
 
 /// Everything that decides one picture besides the resident geometry. Plain values, const once

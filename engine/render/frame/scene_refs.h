@@ -42,7 +42,7 @@ struct SceneRefs {
   bool panorama = false;    ///< `sky_lut` is one
   VkSampler sky_sampler{};  ///< of `sky_lut`
   /// One texel each, never written: bound where a program's choices leave a binding unread.
-  gpu::ImageRef no_volume, no_words;
+  gpu::ImageRef no_volume, no_words, no_depths;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};
   std::uint32_t islands_per_view = 0;
   std::uint32_t bodies = 0;  ///< that give light: bit 0 the sun, bit 1 the moon

@@ -128,6 +128,7 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
     const glm::vec3 middle = glm::vec3(above.block) + glm::vec3(0.5f, 1.0f, 0.5f);
     f.medium_surface = shared::kSurfaceHere | above.island << shared::kIslandShift |
                        kFaceUp << shared::kFaceShift | input.camera_medium;
+    f.medium_light = above.share;
     f.medium_surface_place =
         t.axis_x * middle.x + t.axis_y * middle.y + t.axis_z * middle.z + t.translation;
   }

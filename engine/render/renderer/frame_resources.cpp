@@ -107,6 +107,12 @@ Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
                                  .usage = VK_IMAGE_USAGE_STORAGE_BIT});
   if (!image) return image.error();
   no_words_ = *std::move(image);
+  image = device_->create_image({.name = "no depths",
+                                 .format = VK_FORMAT_R32_UINT,
+                                 .extent = {1, 1},
+                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
+  if (!image) return image.error();
+  no_depths_ = *std::move(image);
   return {};
 }
 
@@ -227,6 +233,7 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.sky_sampler = s.panorama ? panorama_sampler_ : lut_sampler_;
   s.no_volume = graph.import(no_volume_);
   s.no_words = graph.import(no_words_);
+  s.no_depths = graph.import(no_depths_);
   s.block_sampler = block_sampler_;
   s.lut_sampler = lut_sampler_;
   s.point_sampler = point_sampler_;

@@ -34,15 +34,14 @@ struct LobeSample {
   std::array<float, kHarmonics> basis{};  ///< harmonics of the direction
 };
 
-/// Whether the pattern nearest to a direction of the first octant is steep for an axis.
-std::array<bool, 3> steep_of(const glm::dvec3& d) {
+/// How high the pattern is that is nearest to a direction of the first octant.
+float sine_of_pattern(const glm::dvec3& d) {
   glm::dvec3 best(0.0);
   for (const glm::ivec3& pattern : shared::kSkyPatterns) {
     const glm::dvec3 p = glm::normalize(glm::dvec3(pattern));
     if (glm::dot(p, d) > glm::dot(best, d)) best = p;
   }
-  const auto steep = static_cast<double>(shared::kSteepCosine);
-  return {best.x >= steep, best.y >= steep, best.z >= steep};
+  return static_cast<float>(best.y);
 }
 
 /// By row, then azimuth k + 1/2 of kAround.
@@ -52,15 +51,16 @@ std::vector<LobeSample> make_samples() {
   for (int row = 0; row < SkyRows::kRows; ++row)
     for (int k = 0; k < kAround; ++k) {
       const glm::dvec3 d = SkyRows::direction(row, 2 * k + 1), size = glm::abs(d);
-      const std::array<bool, 3> steep = steep_of(size);
+      const float sine = sine_of_pattern(size);
+      std::uint32_t octant = 0;
+      for (int axis = 0; axis < 3; ++axis) octant |= (d[axis] < 0.0 ? 1u : 0u) << axis;
       LobeSample sample{.direction = glm::vec3(d), .slot = {}, .weight = glm::vec3(size)};
       sample.basis = harmonics_of(sample.direction.x, sample.direction.y, sample.direction.z);
       for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const auto negative = [&](int which) { return d[which % 3] < 0.0 ? 1 : 0; };
-        const int face = 2 * axis + negative(axis);
-        const int lobe = 2 * (negative(axis + 1) + 2 * negative(axis + 2)) + (steep[a] ? 0 : 1);
-        sample.slot[a] = static_cast<std::uint8_t>(face * int{shared::kSkyLobes} + lobe);
+        const auto a = static_cast<std::uint32_t>(axis);
+        const std::uint32_t face = 2 * a + (octant >> a & 1u);
+        sample.slot[a] =
+            static_cast<std::uint8_t>(face * shared::kSkyLobes + shared::sky_lobe(a, octant, sine));
       }
       sum += size;
       out.push_back(sample);
@@ -93,6 +93,18 @@ void add(Harmonics& sum, const Basis& basis, const glm::vec3& light) {
 
 void add(Harmonics& sum, const glm::vec3& direction, const glm::vec3& light) {
   add(sum, harmonics_of(direction.x, direction.y, direction.z), light);
+}
+
+/// Of degrees 1 and 2 of sun and moon, for what faces reflect. A point that is cut off at degree 2
+/// is negative to its sides and too bright behind them. The share was measured: decision 0067.
+constexpr float kShapeOfBodies = 0.8f;
+
+/// Sun or moon. @param shape share of degrees 1 and 2.
+void add_body(Harmonics& sum, const glm::vec3& direction, const glm::vec3& irradiance, float mean,
+              float shape) {
+  const Basis basis = harmonics_of(direction.x, direction.y, direction.z);
+  for (std::size_t i = 0; i < kHarmonics; ++i)
+    sum[i] += irradiance * (basis[i] * (i == 0 ? mean : shape));
 }
 
 glm::vec3 sum_of(const Harmonics& harmonics, const Basis& basis) {
@@ -133,6 +145,9 @@ class OpenSky {
 
  private:
   const Lobes& of_heading(int heading);
+  /// Sun and moon. @param mean share of degree 0. @param shape of degrees 1 and 2.
+  void add_bodies(Harmonics& sum, const glm::dquat& lattice_from_world, float mean,
+                  float shape) const;
   const SkyRows& rows_;
   const Celestial& bodies_;
   Harmonics harmonics_{};   // about the world's axes, without bodies
@@ -190,6 +205,14 @@ Lobes OpenSky::tilted(const glm::dquat& rotation) const {
   return out;
 }
 
+void OpenSky::add_bodies(Harmonics& sum, const glm::dquat& lattice_from_world, float mean,
+                         float shape) const {
+  add_body(sum, glm::vec3(lattice_from_world * bodies_.to_sun), bodies_.sun_irradiance, mean,
+           shape);
+  add_body(sum, glm::vec3(lattice_from_world * bodies_.to_moon), bodies_.moon_irradiance, mean,
+           shape);
+}
+
 Harmonics OpenSky::harmonics(const glm::dquat& rotation) const {
   static const std::array<glm::vec3, 12> kCorners = icosahedron();
   const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
@@ -201,8 +224,7 @@ Harmonics OpenSky::harmonics(const glm::dquat& rotation) const {
         sum_of(harmonics_, harmonics_of(d.x, d.y, d.z)) *
             (4.0f * std::numbers::pi_v<float> / 12.0f));
   }
-  add(out, glm::vec3(lattice_from_world * bodies_.to_sun), bodies_.sun_irradiance);
-  add(out, glm::vec3(lattice_from_world * bodies_.to_moon), bodies_.moon_irradiance);
+  add_bodies(out, lattice_from_world, 1.0f, kShapeOfBodies);
   return out;
 }
 
@@ -224,7 +246,10 @@ void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& 
   constexpr float kSolidAngle =
       4.0f * std::numbers::pi_v<float> / float{SkyRows::kRows * kAround / 2};
   const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
-  const Harmonics sent = sent_by_islands(harmonics);
+  const glm::dquat lattice_from_world = glm::conjugate(rotation);
+  Harmonics arriving = harmonics;
+  add_bodies(arriving, lattice_from_world, 0.0f, 1.0f - kShapeOfBodies);
+  const Harmonics sent = sent_by_islands(arriving);
   const bool upright = is_upright(rotation);
   const double heading = upright ? heading_of(rotation) : 0.0, below = std::floor(heading);
   const auto part = static_cast<float>(heading - below);
@@ -249,10 +274,10 @@ void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& 
       add(harmonics, sample.basis, change * ((1.0f - open->all) * kSolidAngle));
     }
   for (glm::vec3& lobe : lobes) lobe = glm::max(lobe, 0.0f);
-  const glm::dquat lattice_from_world = glm::conjugate(rotation);
   const auto hide_body = [&](const glm::dvec3& to_body, const glm::vec3& irradiance) {
     if (const std::optional<IslandShade::Open> open = shade.towards(glm::vec3(to_body)))
-      add(harmonics, glm::vec3(lattice_from_world * to_body), irradiance * (open->all - 1.0f));
+      add_body(harmonics, glm::vec3(lattice_from_world * to_body), irradiance * (open->all - 1.0f),
+               1.0f, kShapeOfBodies);
   };
   hide_body(bodies_.to_sun, bodies_.sun_irradiance);
   hide_body(bodies_.to_moon, bodies_.moon_irradiance);
@@ -278,6 +303,18 @@ glm::uvec4 packed(const Harmonics& harmonics, int channel) {
   for (std::size_t i = 0; i < 4; ++i)
     out[static_cast<int>(i)] = packed(harmonics[2 * i + 1][channel], harmonics[2 * i + 2][channel]);
   return out;
+}
+
+/// Takes away what steps and overhangs hide that voxels of a coarse level have not got: shares of
+/// light that arrives at levels 1, 2 and from 3 on, measured: decision 0065.
+void coarsen(int level, Lobes& lobes, Harmonics& harmonics) {
+  constexpr std::array<float, 4> kSide{1.0f, 0.93f, 0.92f, 0.88f},
+      kLevel{1.0f, 0.98f, 0.95f, 0.95f};
+  if (level == 0) return;
+  const auto at = static_cast<std::size_t>(std::min(level, 3));
+  for (std::size_t i = 0; i < lobes.size(); ++i)
+    lobes[i] *= i / shared::kSkyLobes / 2 == 1 ? kLevel[at] : kSide[at];
+  for (glm::vec3& harmonic : harmonics) harmonic *= kSide[at];
 }
 
 void append(std::vector<glm::uvec4>& out, const Lobes& lobes, const Harmonics& harmonics) {
@@ -315,13 +352,17 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
       std::uint32_t& far = of_far[static_cast<std::size_t>(heading & (kHeadings - 1))];
       place = far != 0 ? far : end;
       if (std::exchange(far, place) != 0) continue;
-      append(out, open.at_heading(heading),
-             open.harmonics(glm::angleAxis(heading * kHeadingStep, glm::dvec3(0.0, 1.0, 0.0))));
+      Lobes lobes = open.at_heading(heading);
+      Harmonics harmonics =
+          open.harmonics(glm::angleAxis(heading * kHeadingStep, glm::dvec3(0.0, 1.0, 0.0)));
+      coarsen(islands[i].level, lobes, harmonics);
+      append(out, lobes, harmonics);
       continue;
     }
     place = end;
     Lobes lobes = is_upright(rotation) ? open.upright(heading_of(rotation)) : open.tilted(rotation);
     Harmonics harmonics = open.harmonics(rotation);
+    coarsen(islands[i].level, lobes, harmonics);
     open.hide(IslandShade(islands, hiding, i, share_of_shade(islands[i], eye)), rotation, lobes,
               harmonics);
     append(out, lobes, harmonics);

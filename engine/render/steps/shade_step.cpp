@@ -19,7 +19,7 @@ void shade(FrameAssembly& f) {
     in.sampled.emplace(SampledLight{f.lights_or_null(), f.plan.settings,
                                     static_cast<std::uint32_t>(f.plan.settings.shading_rate)});
   std::optional<ShadedFrom> from;
-  if (f.plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows});
+  if (f.plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows, f.layers});
   f.shaded =
       ShadePass::add(f.graph, f.pipelines, f.scene, from ? &*from : nullptr, in,
                      {f.plan.by_radiance, f.owners.picture.fresh(),

@@ -22,6 +22,8 @@ namespace {
 
 using gpu::Use;
 
+constexpr VkDeviceSize kDispatches = 2 * sizeof(shared::TileDispatch);
+
 /// One of two passes: the points of a grid, then all pixels.
 struct SamplePass {
   std::uint32_t step;     ///< pixels between the grid's points
@@ -29,8 +31,8 @@ struct SamplePass {
   gpu::ImageRef samples;  ///< light at the grid's points
   ShadeTarget into;       ///< of the second pass
   /// shared::TileDispatch[2] in groups of 64: of pixels that ask no light, of those that ask some;
-  /// x | y << 16 of the first from the beginning, of the others from the end.
-  gpu::BufferRef listed, pixels;
+  /// then x | y << 16 of the first from the beginning, of the others from the end.
+  gpu::BufferRef listed;
 
   std::string name(const char* what) const { return what + std::to_string(every_pixel ? 1 : step); }
   /// The second pass reads samples, and writes none: they stand in where the shader may write.
@@ -64,7 +66,7 @@ void add_clear(gpu::FrameGraph& graph, SamplePass& pass) {
   graph.add_pass(
       pass.name("choose_samples_") + "_clear",
       [&](gpu::PassBuilder& b) { pass.listed = b.write(pass.listed, Use::kTransferWrite); },
-      [listed = pass.listed](gpu::Commands& c) { c.fill(listed, 0, VK_WHOLE_SIZE, 0); });
+      [listed = pass.listed](gpu::Commands& c) { c.fill(listed, 0, kDispatches, 0); });
 }
 
 void add_sizing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SamplePass& pass) {
@@ -73,7 +75,7 @@ void add_sizing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SamplePass& p
       [&](gpu::PassBuilder& b) { pass.listed = b.write(pass.listed, Use::kComputeWrite); },
       [listed = pass.listed,
        program = gpu::compute(pipelines, programs::kSizeSamples)](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kListedBinding>(listed));
+        gpu::bind(c, program, gpu::storage<shared::kListedPixelsBinding>(listed));
         c.dispatch(1, 1, 1);
       });
 }
@@ -94,7 +96,6 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
         declare_tiles(b, on.tiles);
         lights.declare_counts(b);
         pass.listed = b.write(pass.listed, Use::kComputeWrite);
-        pass.pixels = b.write(pass.pixels, Use::kComputeWrite);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         pass.into.declare(b, scene);
       },
@@ -111,8 +112,7 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats), pass.into.bindings(scene),
             gpu::storage<shared::kSamplesBinding>(pass.samples),
-            gpu::storage<shared::kListedBinding>(pass.listed),
-            gpu::storage<shared::kListedPixelsBinding>(pass.pixels), lights.count_bindings(),
+            gpu::storage<shared::kListedPixelsBinding>(pass.listed), lights.count_bindings(),
             tiles.bindings(TileKind::kCovered));
         if (pass.every_pixel) return dispatch_tiles(c, tiles, TileKind::kCovered);
         const VkExtent2D size = points(scene.size, pass.step);
@@ -130,8 +130,8 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
        {shared::kStepConstant, pass.step}},
       scene, maps);
   if (pass.every_pixel) constants.push_back({shared::kEveryPixelConstant, 1});
-  constants = clouds_before_light(scene).with_clouds(
-      with_ao(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.ao));
+  constants = on.water.with_water(clouds_before_light(scene).with_clouds(
+      with_ao(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.ao)));
   if (lights) {
     constants = WallReads(scene, light.settings, scene.ao)
                     .with_walls(lights->with_lights(std::move(constants)));
@@ -156,6 +156,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
         walls.declare(b);
+        on.water.declare(b);
         clouds.declare_light(b);
         lights.declare(b);
         if (maps) b.read(maps, Use::kComputeSampled);
@@ -163,15 +164,14 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         b.read(scene.sky_lut, Use::kComputeSampled);
         b.read(pass.listed, Use::kIndirect);
         b.read(pass.listed, Use::kComputeRead);
-        b.read(pass.pixels, Use::kComputeRead);
         pass.declare_samples(b);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         pass.into.declare(b, scene);
       },
       [unlit = shading_program(pipelines, scene, on, light, nullptr, pass),
        lit = shading_program(pipelines, scene, on, light, light.lights, pass),
-       some_lit = light.lights != nullptr, scene, surfaces, walls, clouds, lights, maps,
-       pass](gpu::Commands& c) {
+       some_lit = light.lights != nullptr, scene, surfaces, walls, water = on.water, clouds, lights,
+       maps, pass](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::texels<shared::kIslandsBinding>(scene.islands),
@@ -179,6 +179,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
             surfaces.bindings(scene.point_sampler),
             walls.bindings(),
+            water.binding(scene.point_sampler),
             gpu::texels<shared::kIndirectBinding>(scene.indirect),
             gpu::texels<shared::kIslandSkiesBinding>(scene.island_skies),
             clouds.light_bindings(),
@@ -190,8 +191,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::storage<shared::kSamplesBinding>(pass.samples),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler),
-            gpu::storage<shared::kListedBinding>(pass.listed),
-            gpu::storage<shared::kListedPixelsBinding>(pass.pixels)};
+            gpu::storage<shared::kListedPixelsBinding>(pass.listed)};
         gpu::bind(c, unlit, bindings);
         c.dispatch_indirect(pass.listed, 0);
         if (!some_lit) return;
@@ -211,15 +211,13 @@ void add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneR
                                            .format = VK_FORMAT_R32G32B32A32_UINT,
                                            .extent = points(scene.size, light.rate)}),
                   .into = into,
-                  .listed = {},
-                  .pixels = {}};
+                  .listed = {}};
   for (const bool every_pixel : {false, true}) {
     pass.every_pixel = every_pixel;
     const VkExtent2D size = points(scene.size, every_pixel ? 1 : light.rate);
-    pass.listed = graph.create(gpu::BufferDesc{"sample dispatch", 2 * sizeof(shared::TileDispatch),
-                                               0, gpu::Memory::kDevice});
-    pass.pixels = graph.create(gpu::BufferDesc{
-        "sample list", std::uint64_t{size.width} * size.height * 4, 0, gpu::Memory::kDevice});
+    pass.listed = graph.create(
+        gpu::BufferDesc{"sample list", kDispatches + std::uint64_t{size.width} * size.height * 4, 0,
+                        gpu::Memory::kDevice});
     add_clear(graph, pass);
     add_choosing(graph, pipelines, scene, on, light, pass);
     add_sizing(graph, pipelines, pass);

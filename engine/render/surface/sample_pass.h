@@ -4,6 +4,7 @@
 #include "engine/render/light/light_clusters.h"
 #include "engine/render/scene/tiles.h"
 #include "engine/render/surface/shade_target.h"
+#include "engine/render/surface/water_above.h"
 
 namespace skerry::render {
 
@@ -11,6 +12,7 @@ namespace skerry::render {
 struct SampleIn {
   const Geometry& geometry;
   const Shadows& shadows;
+  WaterAbove water;
   Tiles tiles;  ///< of the geometry
 };
 

@@ -50,23 +50,27 @@ Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
   const std::uint32_t tiles = tile_count(scene.size);
   Tiles out = create_tiles(graph, "classify_tiles_clear", tiles, 3);
   const SurfaceReads surfaces(from.geometry);
+  const WaterAbove water(scene, from.layers);
   graph.add_pass(
       "classify_tiles",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.islands})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
+        water.declare(b);
         b.read(from.shadows.maps(), Use::kComputeSampled);
         out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
-      [scene, surfaces, maps = from.shadows.maps(), out, tiles,
+      [scene, surfaces, water, maps = from.shadows.maps(), out, tiles,
        program = gpu::compute(pipelines, programs::kClassifyLitTiles,
-                              surfaces.with_depth(with_light({}, scene, true)))](gpu::Commands& c) {
+                              water.with_water(surfaces.with_depth(with_light({}, scene, true))))](
+          gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::texels<shared::kIslandsBinding>(scene.islands),
                   gpu::storage<shared::kSurfacesBinding>(surfaces.words),
                   gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+                  water.binding(scene.point_sampler),
                   gpu::sampled<shared::kShadowMapsBinding>(maps, scene.point_sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
                   gpu::storage<shared::kTilesBinding>(out.lists));
@@ -89,8 +93,8 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         with_light({{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
                    scene, bool{maps});
     if (sunless) constants.push_back({shared::kSunlessConstant, 1});
-    constants =
-        clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), bool{occupancy}));
+    constants = on.water.with_water(
+        clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), bool{occupancy})));
     return gpu::compute(pipelines, programs::kShadeSurfaces,
                         into.with_output(std::move(constants), scene));
   };
@@ -103,6 +107,7 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         declare_tiles(b, tiles);
         surfaces.declare(b);
         occupancy.declare(b);
+        on.water.declare(b);
         clouds.declare_light(b);
         b.read(scene.block_textures, Use::kComputeSampled);
         b.read(scene.sky_lut, Use::kComputeSampled);
@@ -111,7 +116,7 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         into.declare(b, scene);
       },
       [lit = program(false), sunless = program(some_sunless), some_sunless, scene, tiles, surfaces,
-       occupancy, clouds, maps, into](gpu::Commands& c) {
+       occupancy, water = on.water, clouds, maps, into](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::texels<shared::kIslandsBinding>(scene.islands),
@@ -121,6 +126,7 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
             surfaces.bindings(scene.point_sampler),
             occupancy.bindings(),
+            water.binding(scene.point_sampler),
             clouds.light_bindings(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
             gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
@@ -169,7 +175,7 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
 void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
            const ShadedFrom& from, const ShadeIn& in, ShadeTarget& into) {
   const bool some_sunless = looks_for_sunless(scene, in, from);
-  const SampleIn on{from.geometry, from.shadows,
+  const SampleIn on{from.geometry, from.shadows, WaterAbove(scene, from.layers),
                     some_sunless
                         ? classify_lit_tiles(graph, pipelines, scene, from)
                         : classify_tiles(graph, pipelines, scene, "classify_tiles",

@@ -24,6 +24,7 @@ struct ShadeIn {
 struct ShadedFrom {
   const Geometry& geometry;
   const Shadows& shadows;
+  const TranslucentPass::Layers& layers;  ///< that lie before them
 };
 
 /// Where shading puts pixels.

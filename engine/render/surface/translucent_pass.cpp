@@ -31,6 +31,8 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
                                              .extent = scene.size,
                                              .layers = out.count,
                                              .array = true});
+  out.under_water = graph.create(
+      gpu::ImageDesc{.name = "under water", .format = VK_FORMAT_R32_UINT, .extent = scene.size});
   for (std::uint32_t k = 0; k < out.count; ++k) {
     gpu::ImageRef& depth = out.depth[k];
     depth = graph.create(gpu::ImageDesc{
@@ -38,14 +40,17 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
     const gpu::ImageRef previous = k == 0 ? opaque_depth : out.depth[k - 1];
     const auto program = gpu::graphics(
         pipelines, programs::kDrawQuadsVert, programs::kWriteLayerFrag,
-        gpu::GraphicsDesc{.constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
-                          .color_formats = {VK_FORMAT_R32_UINT},
-                          .depth_format = VK_FORMAT_D32_SFLOAT,
-                          .cull = VK_CULL_MODE_NONE});
+        gpu::GraphicsDesc{
+            .constants = {{shared::kFirstLayerConstant, k == 0 ? 1u : 0u}},
+            .color_formats = std::vector<VkFormat>(k == 0 ? 2 : 1, VK_FORMAT_R32_UINT),
+            .depth_format = VK_FORMAT_D32_SFLOAT,
+            .cull = VK_CULL_MODE_NONE});
     graph.add_pass(
         kNames[k],
         [&](gpu::PassBuilder& b) {
           declare_draws(b, scene, draws);
+          for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
+            b.read(ref, Use::kFragmentRead);
           b.read(opaque_depth, Use::kFragmentRead);
           if (k > 0) b.read(previous, Use::kFragmentRead);
           // Only depth says where the layer has a surface, and only in the area: a clear of both
@@ -53,10 +58,13 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           // a hundredth of it.
           b.area(area);
           out.surfaces = b.color(out.surfaces, gpu::Load::discarded(), k);
+          if (k == 0) out.under_water = b.color(out.under_water, gpu::Load::cleared({}));
           depth = b.depth(depth, gpu::Load::cleared({}));
         },
         [scene, draws, opaque_depth, previous, program](gpu::Commands& c) {
-          gpu::bind(c, program,
+          gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                    gpu::texels<shared::kIslandsBinding>(scene.islands),
+                    gpu::storage<shared::kMaterialsBinding>(scene.materials),
                     gpu::sampled<shared::kDepthsBinding>(opaque_depth, scene.point_sampler),
                     gpu::sampled<shared::kPreviousDepthsBinding>(previous, scene.point_sampler),
                     draw_bindings(scene, draws, 0));

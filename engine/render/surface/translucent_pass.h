@@ -17,6 +17,7 @@ struct TranslucentPass {
     gpu::ImageRef surfaces;              ///< array of words, of any value where there is no surface
     std::array<gpu::ImageRef, 4> depth;  ///< read through shaders/include/scene/layers.glsl:
                                          ///< reverse-Z, 0 where there is no surface
+    gpu::ImageRef under_water;           ///< R32_UINT, see shaders/surface/write_layer.frag
     std::uint32_t count = 0;
     gpu::ImageRef tail_depths, tail_light;  ///< of TailPass; empty: what is behind is not drawn
     gpu::ImageRef mirrored_clouds;          ///< CloudPass::add_mirrored(); empty: none are mirrored

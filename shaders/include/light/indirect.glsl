@@ -77,6 +77,7 @@ struct SkyLight {
 // What a place of a face knows of its surroundings.
 struct FaceSky {
   vec3 irradiance;  // of sky and weak lamps, and what other faces reflect
+  vec3 lamps;       // of it, weak lamps and what is reflected of lamps
   vec3 bounced;     // of it, what other faces reflect of sky, sun and moon
   vec4 seen_a;      // share of each lobe of the sky that is seen, 0..1
   vec4 seen_b;
@@ -107,38 +108,47 @@ FaceSky sky_of_face(vec3 position, uint word) {
     sky.irradiance[channel] = dot(sky.seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
                               dot(sky.seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
   }
-  sky.bounced = vec3(0.0);
+  sky.bounced = sky.lamps = vec3(0.0);
   if (kIndirect == kIndirectFull) {
     uvec4 lamps = indirect_texel(record != 0u, record + 2u);
-    sky.irradiance += mix(mix(shared_exponent(lamps.x), shared_exponent(lamps.y), at.x), mix(shared_exponent(lamps.z), shared_exponent(lamps.w), at.x), at.y);
+    sky.lamps = mix(mix(shared_exponent(lamps.x), shared_exponent(lamps.y), at.x), mix(shared_exponent(lamps.z), shared_exponent(lamps.w), at.x), at.y);
     sky.bounced = bounced_light(indirect_texel(record != 0u, record + 3u), island, at);
-    sky.irradiance += sky.bounced;
+    sky.irradiance += sky.lamps + sky.bounced;
   }
   if (!sky.known) {
-    sky.irradiance = sky.bounced = vec3(0.0);
+    sky.irradiance = sky.bounced = sky.lamps = vec3(0.0);
     sky.seen_a = sky.seen_b = vec4(0.0);
   }
   return sky;
 }
 
 // Share of the face's sky that is seen, 0..1.
-float open_share(FaceSky sky) { return dot(sky.seen_a + sky.seen_b, vec4(1.0 / float(kSkyLobes))); }
+float open_share(FaceSky sky, uint face) {
+  vec4 parts = face >> 1 == 1u || face >= 6u ? vec4(0.125) : vec4(vec3(1.0 / 12.0), 0.25);
+  return dot(sky.seen_a + sky.seen_b, parts);
+}
 
 // Share of the sky about one direction that is seen: between the lobes about it. @param lattice unit, before the face.
 float seen_towards(FaceSky sky, uint face, vec3 lattice) {
   uint axis = face >> 1;
-  float out_of_face = abs(axis == 0u ? lattice.x : axis == 1u ? lattice.y : lattice.z);
-  vec2 along = axis == 0u ? lattice.yz : axis == 1u ? lattice.zx : lattice.xy;
+  vec2 along = axis == 0u ? lattice.yz : axis == 1u ? lattice.zx : lattice.yx;
   vec2 positive = 0.5 + 0.5 * along * inversesqrt(max(dot(along, along), 1e-12));
-  float steep = smoothstep(kSteepCosine - 0.2, kSteepCosine + 0.2, out_of_face);
+  float steep = smoothstep(kSteepSine - 0.2, kSteepSine + 0.2, abs(lattice.y));
+  if (axis != 1u) {
+    float below = smoothstep(-0.1, 0.1, -lattice.y), low = (1.0 - smoothstep(kLowSine - 0.1, kLowSine + 0.1, lattice.y)) * (1.0 - below);
+    vec4 parts = vec4(steep * (1.0 - below), 0.0, low, below);
+    parts.y = 1.0 - parts.x - low - below;
+    return dot(mix(sky.seen_b, sky.seen_a, positive.y), parts);
+  }
   vec2 quarters_a = mix(sky.seen_a.yw, sky.seen_a.xz, steep), quarters_b = mix(sky.seen_b.yw, sky.seen_b.xz, steep);
   return mix(mix(quarters_b.y, quarters_b.x, positive.x), mix(quarters_a.y, quarters_a.x, positive.x), positive.y);
 }
 
 // Light of the sky and of weak lamps on a surface, as if it were matt. @param word of the G-buffer.
-SkyLight light_of_sky(Surface s, uint word) {
+// @param share of what does not come from lamps, that is left on its way.
+SkyLight light_of_sky(Surface s, uint word, vec3 share) {
   if (kIndirect == kIndirectOff) return SkyLight(vec3(0.0), 0.0);
   FaceSky sky = sky_of_face(s.position, word);
-  return SkyLight(sky.irradiance, open_share(sky));
+  return SkyLight((sky.irradiance - sky.lamps) * share + sky.lamps, open_share(sky, surface_face(word)));
 }
 #endif

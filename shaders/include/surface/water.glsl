@@ -26,15 +26,17 @@ struct LitPoint {       // a point of a surface, or in the open
   vec3 to_eye;
   float roughness;
   uint word;            // of the surface; 0 in the open
+  Depth depth;          // under water
 };
 
 void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoint at) {
   Body body = frame.bodies[index];
-  float n_dot_l = dot(at.n, body.to_light);
-  float visibility = n_dot_l > 0.0 ? body_visibility(first_cascade, at.p, at.n, n_dot_l) : 0.0;
-  vec3 irradiance = body.irradiance * (visibility * light_through_clouds(index, at.p));
+  BodyWay way = body_way(at.depth, body.to_light);
+  float n_dot_l = dot(at.n, way.to_light), cosine = dot(at.n, body.to_light);
+  float visibility = cosine > 0.0 ? body_visibility(first_cascade, near_surface(at.depth, at.p, way.to_light), at.n, cosine) : 0.0;
+  vec3 irradiance = body.irradiance * way.share * (visibility * light_through_clouds(index, at.p));
   r.light += irradiance * max(n_dot_l, 0.0);
-  r.mirrored += glitter(irradiance, body.to_light, at.shading_normal, at.to_eye, at.roughness);
+  r.mirrored += glitter(irradiance, way.to_light, at.shading_normal, at.to_eye, at.roughness);
   r.any = max(r.any, visibility);
 }
 
@@ -76,7 +78,7 @@ Reach light_at(uvec2 pixel, float z, LitPoint at) {
 }
 
 FaceSky sky_about(vec3 p, uint word) {
-  if (kIndirect == kIndirectOff) return FaceSky(vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), false);
+  if (kIndirect == kIndirectOff) return FaceSky(vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), false);
   return sky_of_face(p, word);
 }
 
@@ -85,7 +87,7 @@ Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye) {
   uint word = layer_surface(0u, ivec2(pixel));
   float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
   vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
-  LitPoint at = LitPoint(ray * t, n, n, to_eye, 1.0, word);
+  LitPoint at = LitPoint(ray * t, n, n, to_eye, 1.0, word, no_depth());
   return mirrored_voxels(layer_start(at), at.p, mirrored_ray(to_eye, shading_normal(word, ray, t), n), word != 0u);
 }
 
@@ -115,9 +117,10 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   float at = 0.0;  // blocks along the ray
   if (medium != 0u) {
     const vec3 up = vec3(0.0, 1.0, 0.0);
-    light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.1, 0u)).light;
-    if (frame.medium_surface != 0u) sky_light = sky_about(frame.medium_surface_place, frame.medium_surface).irradiance;
-    light_in += sky_light;
+    Depth depth = depth_in_medium(ray / ray_length * 0.5);
+    light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.1, 0u, depth)).light;
+    if (frame.medium_surface != 0u) sky_light = frame.medium_light * sky_about(frame.medium_surface_place, frame.medium_surface).irradiance;
+    light_in += sky_light * sky_share(depth);
   }
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
   if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye);
@@ -143,7 +146,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = mirrored_ray(to_eye, shading, n);
-    LitPoint point = LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word);
+    LitPoint point = LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word, no_depth());
     Reach reach = light_at(pixel, t, point);
     FaceSky around = sky_about(point.p, word);
     if (entering) sky_light = around.irradiance;

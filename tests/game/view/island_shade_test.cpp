@@ -61,7 +61,7 @@ struct Pair {
         there{world::Volume::of_island(world, b), glm::dmat3(1.0), between} {
     for (const auto& [spec, at] : {std::pair(&a, glm::dvec3(0.0)), std::pair(&b, between)})
       placed.push_back(
-          {fixed_at(at), {1.0, 0.0, 0.0, 0.0}, spec->bounding_radius, false, land_of(*spec)});
+          {fixed_at(at), {1.0, 0.0, 0.0, 0.0}, spec->bounding_radius, false, 0, land_of(*spec)});
   }
   /// Share of what arrives at the side of the first that looks one way.
   double by_voxels(int face, double reach, std::mt19937_64& random) const {
@@ -118,8 +118,8 @@ TEST(IslandShade, HidesAboutAsMuchAsTheVoxelsDo) {
 /// Two islands of one shape, the second at a place.
 std::vector<render::IslandPlacement> two_at(glm::dvec3 between, glm::dquat turned = {1, 0, 0, 0}) {
   const render::IslandLand land{{0.0f, -10.0f, 0.0f}, {60.0f, 30.0f, 45.0f}};
-  return {{{}, {1.0, 0.0, 0.0, 0.0}, 80.0, false, land},
-          {fixed_at(between), turned, 80.0, false, land}};
+  return {{{}, {1.0, 0.0, 0.0, 0.0}, 80.0, false, 0, land},
+          {fixed_at(between), turned, 80.0, false, 0, land}};
 }
 
 std::vector<glm::vec3> all_around() {

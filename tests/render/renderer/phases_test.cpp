@@ -43,10 +43,11 @@ template <class... Inputs>
 constexpr bool kShades = requires(Inputs... inputs) {
   ShadedFrom{inputs...};
 };
-static_assert(kShades<const Geometry&, const Shadows&>);
-static_assert(!kShades<const Shadows&, const Geometry&>);
+using Layers = TranslucentPass::Layers;
+static_assert(kShades<const Geometry&, const Shadows&, const Layers&>);
+static_assert(!kShades<const Shadows&, const Geometry&, const Layers&>);
 static_assert(!kShades<const Geometry&>);
-static_assert(!kShades<const Shaded&, const Shadows&>);
+static_assert(!kShades<const Shaded&, const Shadows&, const Layers&>);
 
 // Translucent surfaces and development use a picture up: only a phase that is given away will do.
 template <class Input>

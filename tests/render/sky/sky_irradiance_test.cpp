@@ -129,6 +129,7 @@ TEST(SkyIrradiance, HoldsWhatASkyOfAMillionSends) {
     for (const double value : of_channel) EXPECT_TRUE(std::isfinite(value));
 }
 
+// Sun and moon are blurred: four fifths of what they have beside their mean.
 TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
   for (const double hour : {12.0, 8.0, 18.2, 0.0}) {
     Celestial bodies = celestial_at(hour * 3600.0, 0.5);
@@ -146,7 +147,7 @@ TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
     for (int c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < kHarmonics; ++i)
         EXPECT_NEAR(all[static_cast<std::size_t>(c)][i] - of_sky[static_cast<std::size_t>(c)][i],
-                    sun[c] * by_sun[i] + moon[c] * by_moon[i], 4e-3)
+                    (sun[c] * by_sun[i] + moon[c] * by_moon[i]) * (i == 0 ? 1.0 : 0.8), 4e-3)
             << hour << "h harmonic " << i;
     // Irradiance by harmonics up to degree 2 (R. Ramamoorthi, P. Hanrahan, 2001).
     for (std::size_t face = 0; face < 6; ++face) {

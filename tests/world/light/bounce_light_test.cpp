@@ -281,16 +281,16 @@ TEST(BounceLight, IsNearToLightFollowedAlongAllDirections) {
 
 /// Shares of the open hemisphere's light, of pi, in the middle of a face: of the sky itself.
 double sky_share(const SkyTransfer::Skies& faces, IVec3 voxel, int face) {
-  const LobeWeights& weights = lobe_weights(face / 2);
-  std::array<double, 2> whole{};
-  for (std::size_t k = 0; k < shared::kSkyPatternCount; ++k)
-    whole[(weights.steep >> k & 1u) != 0 ? 0 : 1] += weights.weight[k] / 65280.0 / 4.0;
+  std::array<double, shared::kSkyLobes> whole{};
+  for (int octant = 0; octant < kOctants; ++octant)
+    for (std::size_t k = 0; k < shared::kSkyPatternCount; ++k)
+      if ((octant >> face / 2 & 1) == face % 2)
+        whole[lobe_of(face / 2, octant, k)] += lobe_weights(face / 2)[k] / 65280.0 / 4.0;
   const std::vector<std::uint32_t> record = test::record_of(faces, voxel, face);
   double sum = 0.0;
   for (std::size_t corner = 0; corner < 4; ++corner)
     for (std::size_t lobe = 0; lobe < 8; ++lobe)
-      sum += (record[2 * corner + lobe / 4] >> (8 * (lobe % 4)) & 255u) / 255.0 / 4.0 *
-             whole[lobe % 2];
+      sum += (record[2 * corner + lobe / 4] >> (8 * (lobe % 4)) & 255u) / 255.0 / 4.0 * whole[lobe];
   return sum;
 }
 

@@ -229,6 +229,42 @@ TEST(SkyTransfer, DoesNotDependOnTheOrderOfQuads) {
       [](const auto& a, const auto& b) { return a.first == b.first && *a.second == *b.second; }));
 }
 
+// Each lobe has the cells of its patterns, and all of its light when all of them are seen.
+TEST(SkyRays, LobesAreSeenByTheWeightsOfTheirPatterns) {
+  for (int face = 0; face < 6; ++face) {
+    std::array<double, 8> whole{}, odd{};
+    std::array<std::uint32_t, 8> seen_whole{}, seen_odd{};
+    const int axis = face / 2;
+    for (int octant = 0; octant < kOctants; ++octant) {
+      if ((octant >> axis & 1) != face % 2) continue;
+      add_lobes_seen(axis, octant, 0xffffu, seen_whole);
+      add_lobes_seen(axis, octant, 0xaaaau, seen_odd);
+      for (std::size_t k = 0; k < 16; ++k) {
+        whole[lobe_of(axis, octant, k)] += lobe_weights(axis)[k];
+        if (k % 2 == 1) odd[lobe_of(axis, octant, k)] += lobe_weights(axis)[k];
+      }
+    }
+    for (std::size_t lobe = 0; lobe < 8; ++lobe) {
+      EXPECT_EQ(seen_whole[lobe], 65280u) << face << ' ' << lobe;
+      EXPECT_NEAR(seen_odd[lobe] / 65280.0, odd[lobe] / whole[lobe], 1e-4) << face << ' ' << lobe;
+    }
+  }
+}
+
+// Of an upright face, what is below the level is a lobe, and high parts of the sky have their own:
+// directions of one lobe are at like heights.
+TEST(SkyRays, LobesOfUprightFacesAreSplitByHeight) {
+  for (const int axis : {0, 2})
+    for (int octant = 0; octant < kOctants; ++octant)
+      for (std::size_t k = 0; k < 16; ++k) {
+        const glm::dvec3 p = glm::normalize(glm::dvec3(shared::kSkyPatterns[k]));
+        const std::size_t part = lobe_of(axis, octant, k) % 4;
+        const bool below = (octant & 2) != 0;
+        EXPECT_EQ(part, below ? 3u : p.y > 0.6 ? 0u : p.y > 0.3 ? 1u : 2u) << axis << ' ' << octant;
+        EXPECT_EQ(lobe_of(axis, octant, k) / 4, octant >> (2 - axis) & 1u) << axis << ' ' << octant;
+      }
+}
+
 // The weights of the lobes are integrals over the cells of the patterns: done again by a sum over a
 // grid that the table was not made with.
 TEST(SkyRays, WeightsAreTheIntegralsOfTheirCells) {
@@ -251,8 +287,7 @@ TEST(SkyRays, WeightsAreTheIntegralsOfTheirCells) {
   }
   for (int axis = 0; axis < 3; ++axis)
     for (std::size_t k = 0; k < 16; ++k)
-      EXPECT_NEAR(lobe_weights(axis).weight[k] / 65280.0, share[static_cast<std::size_t>(axis)][k],
-                  2e-3)
+      EXPECT_NEAR(lobe_weights(axis)[k] / 65280.0, share[static_cast<std::size_t>(axis)][k], 2e-3)
           << axis << ' ' << k;
 }
 

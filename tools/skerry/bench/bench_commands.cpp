@@ -58,7 +58,9 @@ BenchCommands::BenchCommands(CLI::App& app)
       ->add_option("--clock", clock_rate_,
                    "Seconds of the day that pass in one, as 24 in play (default 0)")
       ->check(CLI::Range(0.0, 86400.0));
-  flicker_ = add("flicker", "Measure how much of the picture flickers in a turn, a walk, a drift");
+  flicker_ = add(
+      "flicker",
+      "Measure how much of the picture flickers in a turn, a walk, a drift, the way of the sun");
   add_scene_options(*flicker_, scene_);
   flicker_->add_option("--frames", frames_, "Frames of each motion (default 120)")
       ->check(CLI::Range(2, 10000));

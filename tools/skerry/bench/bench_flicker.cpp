@@ -26,18 +26,20 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr int kFlickerFrames = 120;
-constexpr double kSlowTurnDeg = 0.06;       // about half a pixel of 1280
-constexpr double kWalkBlocks = 4.3 / 60.0;  // blocks
-constexpr double kDriftSeconds = 0.25;      // islands then move as fast as steered ones
+constexpr double kSlowTurnDeg = 0.06;        // about half a pixel of 1280
+constexpr double kWalkBlocks = 4.3 / 60.0;   // blocks
+constexpr double kDriftSeconds = 0.25;       // islands then move as fast as steered ones
+constexpr double kSunSeconds = 24.0 / 60.0;  // of the day: 24 times as fast as it is, 60 frames/s
 
 /// What moves from one frame to the next.
 struct Step {
   std::string_view name;
-  double turn_deg, ahead_blocks, world_s;
+  double turn_deg = 0.0, ahead_blocks = 0.0, world_s = 0.0, day_s = 0.0;
 };
-constexpr std::array kMotions{Step{"turn", kSlowTurnDeg, 0.0, 0.0},
-                              Step{"walk", 0.0, kWalkBlocks, 0.0},
-                              Step{"drift", 0.0, 0.0, kDriftSeconds}};
+constexpr std::array kMotions{Step{.name = "turn", .turn_deg = kSlowTurnDeg},
+                              Step{.name = "walk", .ahead_blocks = kWalkBlocks},
+                              Step{.name = "drift", .world_s = kDriftSeconds},
+                              Step{.name = "sun", .day_s = kSunSeconds}};
 
 game::SceneView::Moment moment_at(game::SceneView::Moment moment, const Step& step, int frame) {
   const double yaw = glm::radians(moment.camera.yaw_deg);
@@ -47,6 +49,7 @@ game::SceneView::Moment moment_at(game::SceneView::Moment moment, const Step& st
     moment.camera.position[axis] += static_cast<std::int64_t>(std::llround(ahead[axis]));
   moment.camera.yaw_deg += step.turn_deg * frame;
   moment.world_time_s += step.world_s * frame;
+  moment.time_of_day_s += step.day_s * frame;
   return moment;
 }
 
@@ -71,16 +74,18 @@ class Pair {
     return out;
   }
 
+  using Each = std::function<void(const measure::FlickerCounts&, const measure::StepCounts&)>;
   /// @param each called behind each pair of frames with what it counted.
-  Result<void> move(const Step& step, int frames,
-                    const std::function<void(const measure::FlickerCounts&)>& each) {
+  Result<void> move(const Step& step, int frames, const Each& each) {
     Bytes shown_before, ideal_before;
     for (int frame = 0; frame < frames; ++frame) {
       const game::SceneView::Moment moment = moment_at(start_, step, frame);
       Result<Bytes> shown = draw(*shown_, moment), ideal = draw(*ideal_, moment);
       if (!shown) return shown.error();
       if (!ideal) return ideal.error();
-      if (frame != 0) each(measure::count_flicker({shown_before, ideal_before}, {*shown, *ideal}));
+      if (frame != 0)
+        each(measure::count_flicker({shown_before, ideal_before}, {*shown, *ideal}),
+             measure::count_steps(shown_before, *shown));
       shown_before = *std::move(shown);
       ideal_before = *std::move(ideal);
     }
@@ -113,8 +118,11 @@ class Pair {
 struct Flicker {
   measure::FlickerCounts sum;
   double worst = 0.0;  ///< share of the pixels of one pair that flicker
+  measure::StepCounts steps;
 
-  void add(const measure::FlickerCounts& counts) {
+  void add(const measure::FlickerCounts& counts, const measure::StepCounts& stepped) {
+    steps.stepped += stepped.stepped;
+    steps.largest = std::max(steps.largest, stepped.largest);
     sum.pixels += counts.pixels;
     sum.changed += counts.changed;
     sum.truly_changed += counts.truly_changed;
@@ -138,17 +146,20 @@ nlohmann::ordered_json row_of(const game::SceneOptions& scene, const gpu::Device
           {"changed", flicker.of_all(flicker.sum.changed)},
           {"truly_changed", flicker.of_all(flicker.sum.truly_changed)},
           {"flicker", flicker.of_all(flicker.sum.flickered)},
-          {"flicker_worst", flicker.worst}};
+          {"flicker_worst", flicker.worst},
+          {"stepped", flicker.of_all(flicker.steps.stepped)},
+          {"largest_step", flicker.steps.largest}};
 }
 
 void print_flicker(const nlohmann::ordered_json& row) {
   const auto percent = [&](const char* key) { return 100.0 * row.at(key).get<double>(); };
   fmt::print(
       "{} | {}x{} | {:<5} | {} frames | {:.3f}% of the pixels change, {:.3f}% truly | flicker "
-      "{:.3f}%, at worst {:.3f}%\n",
+      "{:.3f}%, at worst {:.3f}% | by more than 2/255 {:.4f}%, at most {}/255\n",
       row.at("name").get<std::string>(), row.at("size")[0].get<int>(), row.at("size")[1].get<int>(),
       row.at("motion").get<std::string>(), row.at("frames").get<int>(), percent("changed"),
-      percent("truly_changed"), percent("flicker"), percent("flicker_worst"));
+      percent("truly_changed"), percent("flicker"), percent("flicker_worst"), percent("stepped"),
+      row.at("largest_step").get<int>());
 }
 
 }  // namespace
@@ -166,8 +177,8 @@ int bench_flicker(const BenchFlickerOptions& options) {
   ProgressBar bar;
   for (const Step& step : kMotions) {
     Flicker flicker;
-    const auto each = [&](const measure::FlickerCounts& counts) {
-      flicker.add(counts);
+    const auto each = [&](const measure::FlickerCounts& counts, const measure::StepCounts& steps) {
+      flicker.add(counts, steps);
       bar.show(static_cast<double>(++pairs) / static_cast<double>(kMotions.size() * (frames - 1)),
                step.name);
     };

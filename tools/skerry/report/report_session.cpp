@@ -122,6 +122,7 @@ std::vector<std::string> levels_with_default(const TopicPoint& point) {
     const Result<void> applied = apply_point(point.settings, settings);
     SKERRY_ASSERT(applied);
     if (point.sky_degree.value_or(render::kLightDegree) != render::kLightDegree) continue;
+    if (point.light.value_or(LightDetail{}) != LightDetail{}) continue;
     if (settings == game::settings_of(quality))
       levels.emplace_back(game::quality_level(quality).name);
   }

@@ -10,6 +10,7 @@
 #include "game/scene_file/parse.h"
 #include "tools/skerry/report/left_out_topic.h"
 #include "tools/skerry/report/sky_topic.h"
+#include "tools/skerry/report/stored_light_topic.h"
 #include "tools/skerry/report/write_topic.h"
 
 namespace skerry::tools {
@@ -82,10 +83,13 @@ PointRow point_from(const TopicPoint& point, const ordered_json& from, const ord
 
 Result<SceneRows> measured_scene(ReportSession& session, const ReportTask& task,
                                  const std::function<void(double, std::string_view)>& progress) {
-  if (task.topic->cost != CostOf::kSkyTables)
+  const CostOf cost = task.topic->cost;
+  if (cost != CostOf::kSkyTables && cost != CostOf::kStoredLight)
     return measure_scene(session, *task.topic, task.scene, progress);
   const Result<game::SceneOptions> scene = session.scene(task.scene);
   if (!scene) return scene.error();
+  if (cost == CostOf::kStoredLight)
+    return measure_stored_light(*task.topic, task.scene, *scene, progress);
   return measure_sky(*task.topic, task.scene, *scene, progress);
 }
 

@@ -41,6 +41,11 @@ constexpr ReportScene kScenes[] = {
          "settings": {"world.time": 39}})"},
     {"cave_mouth", "from a cave into the day",
      R"({"seed": 4, "time": "12:00", "camera": [181.29, 30.64, 14.98, 205, 3]})"},
+    {"pit", "a shaft in stone, its bottom in the shade",
+     R"({"seed": 1, "time": "12:30", "camera": [0.5, 118.5, 5.5, 180, -55],
+         "blocks": [{"block": "stone", "from": [-12, 100, -12], "to": [12, 115, 12]},
+                    {"block": "sand", "from": [-5, 101, -5], "to": [5, 101, 5]},
+                    {"block": "air", "from": [-4, 102, -4], "to": [4, 115, 4]}]})"},
     {"clouds", "a layer of clouds over islands",
      R"({"seed": 1, "time": "09:30", "camera": [0, 120, -60, 20, 14],
          "settings": {"clouds.coverage": 0.6, "clouds.resolution": "full"}})"},
@@ -142,6 +147,14 @@ constexpr TopicPoint kAoStrengths[] = {
     {"off", "ao.strength=0"}, {"0.25", "ao.strength=0.25"}, {"0.5", "ao.strength=0.5"}};
 constexpr TopicPoint kSkyDegrees[] = {{"0", "", 0}, {"1", "", 1}, {"2", "", 2},
                                       {"3", "", 3}, {"4", "", 4}, {"6", "", 6}};
+constexpr TopicPoint kReflections[] = {{"0", "", {}, LightDetail{.bounces = 0}},
+                                       {"1", "", {}, LightDetail{.bounces = 1}},
+                                       {"2", "", {}, LightDetail{.bounces = 2}},
+                                       {"3", "", {}, LightDetail{}}};
+constexpr TopicPoint kLightShapes[] = {{"means", "", {}, LightDetail{.lobes = false, .degree = 0}},
+                                       {"lobes, mean", "", {}, LightDetail{.degree = 0}},
+                                       {"lobes, degree 1", "", {}, LightDetail{.degree = 1}},
+                                       {"lobes, degree 2", "", {}, LightDetail{}}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},
@@ -201,6 +214,7 @@ constexpr std::string_view kShadowScenes[] = {"day", "low_sun", "water"};
 constexpr std::string_view kLitScenes[] = {"day", "low_sun", "water", "torches"};
 constexpr std::string_view kSkyScenes[] = {"day", "low_sun", "cave_mouth"};
 constexpr std::string_view kClearSkies[] = {"high_sun", "evening", "blue_hour"};
+constexpr std::string_view kShades[] = {"day", "cave_mouth", "pit"};
 constexpr std::string_view kEdgeScenes[] = {"day", "low_sun", "far"};
 constexpr std::string_view kDay[] = {"day"};
 constexpr std::string_view kFar[] = {"far"};
@@ -249,6 +263,10 @@ constexpr Topic kTopics[] = {
      Judge::kReference, CostOf::kFrame, false, "indirect=full"},
     {"sky_tables", "degree of the harmonics that light scattered by the air is kept in",
      kSkyDegrees, kClearSkies, Judge::kReference, CostOf::kSkyTables},
+    {"light_reflections", "times that light is followed from face to face", kReflections, kShades,
+     Judge::kReference, CostOf::kStoredLight},
+    {"light_directions", "by which directions faces keep the light of sky and reflections",
+     kLightShapes, kShades, Judge::kReference, CostOf::kStoredLight},
     {"ao_strength", "how much light a closed corner of blocks takes", kAoStrengths, kShadowScenes,
      Judge::kReference, CostOf::kShading},
     {"texture_taps", "samples along the long side of a slanted texture", kTextureTaps, kDay,

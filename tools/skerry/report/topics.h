@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "tools/skerry/shade/stored_light.h"
+
 namespace skerry::tools {
 
 /// A view that a topic is judged in.
@@ -20,6 +22,8 @@ struct TopicPoint {
   std::string_view settings;  ///< KEY=VALUE, several apart by spaces; over the scene's
   /// Of CostOf::kSkyTables: render::AtmosphereSettings::degree, which no setting changes.
   std::optional<int> sky_degree = {};
+  /// Of CostOf::kStoredLight: what is kept of the light on surfaces, which no setting changes.
+  std::optional<LightDetail> light = {};
 };
 
 /// What the errors of a topic are measured against.
@@ -32,10 +36,11 @@ enum class Judge : std::uint8_t {
 
 /// What a point costs.
 enum class CostOf : std::uint8_t {
-  kFrame,      ///< GPU time of a whole frame, every shadow map drawn afresh
-  kShading,    ///< GPU time of a frame that keeps the shadow maps of the one before
-  kUpload,     ///< time from the first write of 8 MiB of chunk meshes until the GPU has them
-  kSkyTables,  ///< CPU time of the tables of the atmosphere and of one eye's; no frame is drawn
+  kFrame,        ///< GPU time of a whole frame, every shadow map drawn afresh
+  kShading,      ///< GPU time of a frame that keeps the shadow maps of the one before
+  kUpload,       ///< time from the first write of 8 MiB of chunk meshes until the GPU has them
+  kSkyTables,    ///< CPU time of the tables of the atmosphere and of one eye's; no frame is drawn
+  kStoredLight,  ///< CPU time of the light that stays on surfaces; no frame is drawn
 };
 
 struct Topic {

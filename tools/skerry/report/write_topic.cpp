@@ -84,6 +84,8 @@ std::string_view cost_name(CostOf cost) {
       return "upload of 8 MiB of chunk meshes [ms]";
     case CostOf::kSkyTables:
       return "CPU time of the sky's tables [ms]";
+    case CostOf::kStoredLight:
+      return "CPU time of the light on surfaces [ms]";
   }
   return "";
 }

@@ -50,6 +50,9 @@ double luminance_of(glm::dvec3 c) {
 
 struct JudgedPlace {
   bool shown = false, stored = false;
+  std::uint64_t island = 0;  // and so on, of StoredLight::at()
+  glm::dvec3 lattice{0.0};
+  int direction = 0;
   glm::dvec3 reference{0.0}, variance{0.0}, difference{0.0};  // variance of `reference`
 };
 
@@ -86,8 +89,10 @@ class Judge {
     out.shown = true;
     const reference::Meeting& hit = *trace.hit;
     const bool plant = hit.face >= StoredLight::kPlant;
-    const std::optional<glm::dvec3> light =
-        stored_.at(named_.ids[hit.island], hit.lattice, plant ? StoredLight::kPlant : hit.face);
+    out.island = named_.ids[hit.island];
+    out.lattice = hit.lattice;
+    out.direction = plant ? StoredLight::kPlant : hit.face;
+    const std::optional<glm::dvec3> light = stored_.at(out.island, out.lattice, out.direction);
     if (!light) return out;
     out.stored = true;
     const glm::dvec3 normal = tracer_.normal(hit.island, hit.face);
@@ -95,13 +100,16 @@ class Judge {
     const reference::Shader::Receiver receiver{
         direction * hit.t + (plant ? glm::dvec3(0.0) : normal * kOffSurface), normal,
         plant ? &hit : nullptr};
-    estimate(receiver, y * view.width + x, out);
+    // At coarser levels lamps that are weak one by one stand for many, and are lights of the frame.
+    const double most_range =
+        stored_.level_of(out.island) == 0 ? double{game::kWeakLampRange} : 0.0;
+    estimate(receiver, y * view.width + x, most_range, out);
     out.difference = *light - out.reference;
     return out;
   }
 
  private:
-  void estimate(const reference::Shader::Receiver& at, std::uint32_t pixel,
+  void estimate(const reference::Shader::Receiver& at, std::uint32_t pixel, double most_range,
                 JudgedPlace& out) const {
     const std::uint32_t count = std::max(1u, samples_ / reference::kBatches);
     glm::dvec3 squares(0.0);
@@ -109,7 +117,7 @@ class Judge {
       glm::dvec3 sum(0.0);
       for (std::uint32_t i = 0; i < count; ++i) {
         reference::Sampler sampler(pixel, batch, i);
-        sum += shader_.soft_irradiance(at, static_cast<double>(game::kWeakLampRange), sampler);
+        sum += shader_.soft_irradiance(at, most_range, sampler);
       }
       sum /= static_cast<double>(count);
       out.reference += sum;
@@ -163,13 +171,15 @@ std::span<const ShadeScene> shade_scenes() {
   return kScenes;
 }
 
-Result<ShadeErrors> measure_shade(const game::SceneOptions& options) {
+namespace {
+
+/// Of each pixel of the scene's picture.
+Result<std::vector<JudgedPlace>> judged_places(const game::SceneOptions& options,
+                                               const StoredLight& stored) {
   const reference::ReferenceSettings settings = reference::settings_from(options);
   const Result<reference::NamedScene> named = reference::scene_from(options, settings);
   if (!named) return named.error();
-  const Result<StoredLight> stored = StoredLight::find(options);
-  if (!stored) return stored.error();
-  const Judge judge(*named, *stored, settings.samples);
+  const Judge judge(*named, stored, settings.samples);
   const reference::View& view = named->scene.view;
   std::vector<JudgedPlace> places(std::size_t{view.width} * view.height);
   Jobs jobs(settings.threads);
@@ -178,10 +188,60 @@ Result<ShadeErrors> measure_shade(const game::SceneOptions& options) {
     for (std::uint32_t x = 0; x < view.width; ++x)
       places[std::size_t{y} * view.width + x] = judge.at(x, y);
   });
-  ShadeErrors out = over(places);
+  return places;
+}
+
+}  // namespace
+
+Result<ShadeErrors> measure_shade(const game::SceneOptions& options) {
+  const Result<StoredLight> stored = StoredLight::find(options);
+  if (!stored) return stored.error();
+  const Result<std::vector<JudgedPlace>> places = judged_places(options, *stored);
+  if (!places) return places.error();
+  ShadeErrors out = over(*places);
   out.work_seconds = stored->work_seconds();
   out.bytes = stored->bytes();
   return out;
+}
+
+Result<ShadePictures> draw_shade(const game::SceneOptions& options,
+                                 std::span<const LightDetail> details) {
+  ShadePictures out;
+  std::vector<JudgedPlace> places;
+  for (const LightDetail& detail : details) {
+    const Result<StoredLight> stored = StoredLight::find(options, detail);
+    if (!stored) return stored.error();
+    if (places.empty()) {
+      Result<std::vector<JudgedPlace>> judged = judged_places(options, *stored);
+      if (!judged) return judged.error();
+      places = *std::move(judged);
+    }
+    measure::Picture& picture =
+        out.stored.emplace_back(options.size.width, options.size.height, std::vector<glm::vec3>{});
+    for (const JudgedPlace& place : places)
+      picture.pixels.emplace_back(
+          place.stored
+              ? stored->at(place.island, place.lattice, place.direction).value_or(glm::dvec3(0.0))
+              : glm::dvec3(0.0));
+  }
+  out.reference = {options.size.width, options.size.height, {}};
+  glm::dvec3 variance(0.0);
+  double light = 0.0;
+  for (const JudgedPlace& place : places) {
+    out.reference.pixels.emplace_back(place.reference);
+    light += luminance_of(place.reference);
+    variance += place.variance;
+  }
+  if (light > 0.0)
+    out.standard_error =
+        std::sqrt(luminance_of(variance) * static_cast<double>(places.size())) / light;
+  return out;
+}
+
+Result<double> shade_work_ms(const game::SceneOptions& options, const LightDetail& detail) {
+  const Result<StoredLight> stored = StoredLight::find(options, detail);
+  if (!stored) return stored.error();
+  return 1e3 * stored->work_seconds();
 }
 
 }  // namespace skerry::tools

@@ -2,9 +2,12 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "game/scene_file/options.h"
+#include "tools/measure/image.h"
+#include "tools/skerry/shade/stored_light.h"
 
 namespace skerry::tools {
 
@@ -32,5 +35,18 @@ struct ShadeErrors {
 
 /// Errors: those of reference::scene_from.
 Result<ShadeErrors> measure_shade(const game::SceneOptions& options);
+
+/// The same light as pictures of irradiance; black where there is no surface, or no face at the
+/// level of detail.
+struct ShadePictures {
+  measure::Picture reference;
+  std::vector<measure::Picture> stored;  ///< one a detail
+  double standard_error = 0.0;           ///< root mean square of the reference's, over its mean
+};
+/// @pre `details` is not empty. Errors: those of measure_shade().
+Result<ShadePictures> draw_shade(const game::SceneOptions& options,
+                                 std::span<const LightDetail> details);
+/// What finding that light takes, of all threads [ms]. Errors: those of StoredLight::find.
+Result<double> shade_work_ms(const game::SceneOptions& options, const LightDetail& detail);
 
 }  // namespace skerry::tools

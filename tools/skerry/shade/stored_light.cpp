@@ -54,8 +54,8 @@ LitIslands chunks_in_view(world::World& world, const game::SceneOptions& options
   while (!streamer.complete())
     for (const world::ReadySection& section : streamer.poll(SIZE_MAX).ready) {
       LitIsland& island = out[section.key.island];
-      if (section.key.far) continue;
       island.level = section.key.level;
+      if (section.key.far) continue;
       std::vector<game::LatticeLight> lights = field.lights_of(section.key, section.emitters);
       std::vector<world::WeakLamp> weak;
       if (full) weak = game::take_weak(lights, section.key.level);
@@ -65,7 +65,8 @@ LitIslands chunks_in_view(world::World& world, const game::SceneOptions& options
   return out;
 }
 
-world::SkyTransfer::Skies look(const LitIsland& island, bool full, Jobs& jobs,
+/// @param bounces 0: none are looked for.
+world::SkyTransfer::Skies look(const LitIsland& island, int bounces, Jobs& jobs,
                                std::atomic<double>& seconds) {
   const auto timed = [&seconds](const auto& part) {
     const double begin = thread_seconds();
@@ -75,12 +76,13 @@ world::SkyTransfer::Skies look(const LitIsland& island, bool full, Jobs& jobs,
   std::optional<world::SkyTransfer> transfer;
   timed([&] {
     transfer.emplace(island.chunks,
-                     full ? game::albedo_table() : std::span<const world::FaceAlbedo>{});
+                     bounces > 0 ? game::albedo_table() : std::span<const world::FaceAlbedo>{},
+                     bounces);
   });
   jobs.parallel_for(world::kOctants + 1, [&](int part) {
     timed([&] { part < world::kOctants ? transfer->look(part) : transfer->spread_lamps(); });
   });
-  for (int step = 0; transfer->has_bounces() && step < world::BounceLight::kSteps; ++step)
+  for (int step = 0; step < transfer->bounce_steps(); ++step)
     jobs.parallel_for(world::BounceLight::kParts,
                       [&](int part) { timed([&] { transfer->follow_bounces(step, part); }); });
   timed([&] { transfer->make_faces(); });
@@ -97,6 +99,7 @@ std::vector<render::IslandPlacement> placements(const world::World& world, doubl
                    pose.rotation,
                    spec.bounding_radius,
                    island.chunks.empty(),
+                   island.level,
                    game::land_of(spec)});
   }
   return out;
@@ -125,15 +128,38 @@ std::array<double, 4> lobe_of(std::span<const glm::uvec4> record, std::size_t lo
   return out;
 }
 
-glm::dvec3 sky_light(std::span<const glm::uvec4> record, std::span<const glm::uvec4> face,
-                     glm::dvec2 at) {
-  glm::dvec3 sum(0.0);
+/// Shares of the lobes of a face of an axis in the light of an even sky; they sum to 1.
+std::array<double, shared::kSkyLobes> even_shares(int axis) {
+  std::array<double, shared::kSkyLobes> out{};
+  double sum = 0.0;
+  for (int octant = 0; octant < world::kOctants; ++octant) {
+    if ((octant >> axis & 1) != 0) continue;
+    for (std::size_t k = 0; k < shared::kSkyPatternCount; ++k) {
+      const double weight = world::lobe_weights(axis)[k];
+      out[world::lobe_of(axis, octant, k)] += weight;
+      sum += weight;
+    }
+  }
+  for (double& share : out) share /= sum;
+  return out;
+}
+
+/// @param apart each lobe's share times its light; else the share of all times the light of all.
+glm::dvec3 sky_light(std::span<const glm::uvec4> record, std::span<const glm::uvec4> face, int axis,
+                     glm::dvec2 at, bool apart) {
+  const std::array<double, shared::kSkyLobes> shares = even_shares(axis);
+  glm::dvec3 sum(0.0), whole(0.0);
+  double seen_of_all = 0.0;
   for (std::size_t lobe = 0; lobe < shared::kSkyLobes; ++lobe) {
     const double seen = between_corners(lobe_of(record, lobe), at);
-    for (int c = 0; c < 3; ++c)
-      sum[c] += seen * half_of(face[static_cast<std::size_t>(c)], static_cast<int>(lobe));
+    seen_of_all += seen * shares[lobe];
+    for (int c = 0; c < 3; ++c) {
+      const double light = half_of(face[static_cast<std::size_t>(c)], static_cast<int>(lobe));
+      sum[c] += seen * light;
+      whole[c] += light;
+    }
   }
-  return sum;
+  return apart ? sum : seen_of_all * whole;
 }
 
 glm::dvec3 lamp_light(const glm::uvec4& lamps, glm::dvec2 at) {
@@ -144,8 +170,9 @@ glm::dvec3 lamp_light(const glm::uvec4& lamps, glm::dvec2 at) {
 }
 
 /// @param sent harmonics of what comes from infinity: kIndirectHarmonics and the texels after.
-glm::dvec3 bounced_light(const glm::uvec4& bounce, std::span<const glm::uvec4> sent,
-                         glm::dvec2 at) {
+/// @param degree of those that count.
+glm::dvec3 bounced_light(const glm::uvec4& bounce, std::span<const glm::uvec4> sent, glm::dvec2 at,
+                         int degree) {
   std::array<double, 4> share{};
   for (std::size_t i = 0; i < 4; ++i)
     share[i] = static_cast<double>(bounce.y >> 8 * i & 255u) / 255.0;
@@ -154,7 +181,7 @@ glm::dvec3 bounced_light(const glm::uvec4& bounce, std::span<const glm::uvec4> s
   for (int c = 0; c < 3; ++c) {
     const glm::uvec4& texel = sent[static_cast<std::size_t>(c)];
     sum[c] = static_cast<double>(std::bit_cast<float>(sent[3][c]));
-    for (int i = 0; i < 8; ++i)
+    for (int i = 0; i < (degree + 1) * (degree + 1) - 1; ++i)
       sum[c] += static_cast<double>(shared::kMostBounceShape * (i < 4 ? low[i] : high[i - 4])) *
                 half_of(texel, i);
   }
@@ -164,7 +191,8 @@ glm::dvec3 bounced_light(const glm::uvec4& bounce, std::span<const glm::uvec4> s
 
 }  // namespace
 
-Result<StoredLight> StoredLight::find(const game::SceneOptions& options) {
+Result<StoredLight> StoredLight::find(const game::SceneOptions& options,
+                                      const LightDetail& detail) {
   Result<std::unique_ptr<world::World>> opened = game::open_world(options);
   if (!opened) return opened.error();
   world::World& world = **opened;
@@ -175,10 +203,12 @@ Result<StoredLight> StoredLight::find(const game::SceneOptions& options) {
   const LitIslands lit = chunks_in_view(world, options, camera, jobs);
   const bool full = options.settings.render.indirect == render::Indirect::kFull;
   StoredLight out;
+  out.detail_ = detail;
   std::atomic<double> seconds = 0.0;
   for (const auto& [id, island] : lit) {
     out.islands_[id].level = island.level;
-    if (!island.chunks.empty()) out.islands_[id].skies = look(island, full, jobs, seconds);
+    if (!island.chunks.empty())
+      out.islands_[id].skies = look(island, full ? detail.bounces : 0, jobs, seconds);
   }
   out.work_seconds_ = seconds;
   const render::Celestial sky =
@@ -224,9 +254,14 @@ std::optional<glm::dvec3> StoredLight::at(std::uint64_t id, glm::dvec3 place, in
   return sky_light(record,
                    sky.subspan(static_cast<std::size_t>(face) * shared::kIndirectSkyTexels,
                                shared::kIndirectSkyTexels),
-                   corner) +
+                   face / 2, corner, detail_.lobes) +
          lamp_light(record[2], corner) +
-         bounced_light(record[3], sky.subspan(shared::kIndirectHarmonics), corner);
+         bounced_light(record[3], sky.subspan(shared::kIndirectHarmonics), corner, detail_.degree);
+}
+
+int StoredLight::level_of(std::uint64_t island) const {
+  const auto found = islands_.find(island);
+  return found == islands_.end() ? 0 : found->second.level;
 }
 
 std::size_t StoredLight::bytes() const {

@@ -52,6 +52,7 @@ std::span<const Case> rays_cases();
 std::span<const Case> media_cases();
 std::span<const Case> cloud_cases();
 std::span<const Case> sky_cases();
+std::span<const Case> panorama_cases();
 std::span<const Case> exposure_cases();
 std::span<const Case> physics_cases();
 std::span<const Case> time_cases();

@@ -8,6 +8,7 @@
 #include "engine/render/air/sky_scattering.h"
 #include "engine/render/sky/sky_model.h"
 #include "tools/skerry/stability/case.h"
+#include "tools/skerry/stability/directions.h"
 #include "tools/skerry/stability/stage.h"
 
 namespace skerry::tools::stability {
@@ -16,19 +17,7 @@ namespace {
 using render::Atmosphere;
 using render::Celestial;
 using render::SkyModel;
-
-constexpr double kPi = std::numbers::pi;
-
-/// Directions about evenly spread over the sphere: a spiral.
-std::vector<glm::dvec3> directions(int count) {
-  constexpr double kGoldenAngle = 2.399963229728653;
-  std::vector<glm::dvec3> out;
-  for (int i = 0; i < count; ++i) {
-    const double y = 1.0 - (2.0 * i + 1.0) / count, r = std::sqrt(1.0 - y * y);
-    out.emplace_back(r * std::sin(kGoldenAngle * i), y, r * std::cos(kGoldenAngle * i));
-  }
-  return out;
-}
+using std::numbers::pi;
 
 /// Without a moon.
 Celestial sun_at_sine(double sine) {
@@ -50,7 +39,7 @@ Result<Rows> sun_at_horizon() {
     const SkyModel below = render::sky_model(sun_at_sine(-1e-6), height_km),
                    level = render::sky_model(sun_at_sine(0.0), height_km),
                    above = render::sky_model(sun_at_sine(1e-6), height_km);
-    for (const glm::dvec3& d : directions(2000)) {
+    for (const glm::dvec3& d : even_directions(2000)) {
       const double middle = sum_of(render::sky_radiance(d, level));
       light += middle;
       for (const SkyModel* other : {&below, &above})
@@ -92,7 +81,7 @@ Result<Rows> far_eyes() {
       wrong += wrong_channels(sky.scattering[0]->table);
       // Air or mist is seen from anywhere.
       dark += most_of(sky.scattering[0]->table) > 0.0f ? 0 : 1;
-      for (const glm::dvec3& d : directions(200)) {
+      for (const glm::dvec3& d : even_directions(200)) {
         const glm::dvec3 c = render::sky_radiance(d, sky);
         wrong += std::isfinite(sum_of(c)) && sum_of(c) >= 0.0 ? 0 : 1;
         if (blocks == -1e4)  // there is nothing below the mist
@@ -115,14 +104,14 @@ double light_out(const Atmosphere& air, double sun_sine) {
   for (int i = 0; i < kParts; ++i)
     for (int j = 0; j < kParts; ++j) {
       const double sine = horizon - (1.0 + horizon) * (i + 0.5) / kParts;
-      const double turn = kPi * (j + 0.5) / kParts, flat = std::sqrt(1.0 - sine * sine);
+      const double turn = pi * (j + 0.5) / kParts, flat = std::sqrt(1.0 - sine * sine);
       const double cosine = sine * sun_sine + flat * std::cos(turn) * flat_sun;
       const shared::SkyScatter s =
           render::sky_scattering_at(air, kHeightKm, sun_sine, sine, std::cos(turn));
       const glm::dvec3 radiance = glm::dvec3(s.rayleigh) * render::rayleigh_phase(cosine) +
                                   glm::dvec3(s.mie) * render::mie_phase(cosine) +
                                   glm::dvec3(s.multiple);
-      out += radiance.y * -sine * 2.0 * kPi * (1.0 + horizon) / (kParts * kParts);
+      out += radiance.y * -sine * 2.0 * pi * (1.0 + horizon) / (kParts * kParts);
     }
   return out / sun_sine;
 }
@@ -136,7 +125,7 @@ Result<Rows> thin_and_thick_air() {
       for (const double height_km : {0.0, 1e-3, 0.25, 10.0, 1000.0})
         for (const double sun_deg : {-90.0, -18.0, -1e-4, 1e-4, 45.0, 90.0})
           wrong += wrong_channels(
-              render::sky_scattering(air, height_km, std::sin(sun_deg * kPi / 180.0)));
+              render::sky_scattering(air, height_km, std::sin(sun_deg * pi / 180.0)));
       if (albedo == 1.0)
         for (const double sine : {0.3, 1.0}) most = std::max(most, light_out(air, sine));
     }

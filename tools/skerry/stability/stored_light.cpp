@@ -84,13 +84,27 @@ bool is_dark(Record record) {
          glm::ivec4(record[2]) == glm::ivec4(0) && record[3].x == 0;
 }
 
-/// Over the mean of a face's corners: the share of the sky that is seen, 0..1.
-double sky_seen(Record record) {
+/// Shares of a face's lobes in the light of an even sky; they sum to 1.
+std::array<double, shared::kSkyLobes> lobe_shares(int face) {
+  std::array<double, shared::kSkyLobes> out{};
+  for (int octant = 0; octant < world::kOctants; ++octant)
+    for (std::size_t k = 0; k < shared::kSkyPatternCount; ++k)
+      if ((octant >> face / 2 & 1) == face % 2)
+        out[world::lobe_of(face / 2, octant, k)] +=
+            world::lobe_weights(face / 2)[k] / (4.0 * 65280.0);
+  return out;
+}
+
+/// Mean over a face's corners of the light of an even sky that is seen, over the open sky's.
+double sky_seen(Record record, int face) {
+  const std::array<double, shared::kSkyLobes> shares = lobe_shares(face);
   double sum = 0.0;
-  for (const glm::uvec4& texel : record.first(2))
-    for (int word = 0; word < 4; ++word)
-      for (int byte = 0; byte < 4; ++byte) sum += (texel[word] >> 8 * byte & 255u) / 255.0;
-  return sum / (4.0 * shared::kSkyLobes);
+  for (std::size_t corner = 0; corner < 4; ++corner)
+    for (std::size_t lobe = 0; lobe < shares.size(); ++lobe) {
+      const std::uint32_t word = record[corner / 2][static_cast<int>(2 * (corner % 2) + lobe / 4)];
+      sum += shares[lobe] * (word >> 8 * (lobe % 4) & 255u) / (4.0 * 255.0);
+    }
+  return sum;
 }
 
 /// Mean over a face of what others reflect under a sky of radiance 1, over pi.
@@ -128,9 +142,9 @@ Result<Rows> black_and_white() {
   const auto dark = looked_at(alone(chunk_of(shelter)), albedo_of(0.0f));
   for_each_record(*dark, [&](IVec3, int, Record r) { black += r[3].x != 0 ? 1.0 : 0.0; });
   const auto white = looked_at(alone(chunk_of(shelter)), albedo_of(1.0f));
-  for_each_record(*white, [&](IVec3, int, Record r) {
+  for_each_record(*white, [&](IVec3, int face, Record r) {
     white_faces += reflected(r) > 0.1 ? 1.0 : 0.0;
-    most = std::max(most, sky_seen(r) + reflected(r));
+    most = std::max(most, sky_seen(r, face) + reflected(r));
   });
   return Rows{
       {"faces that receive reflected light, albedo 0", 0.0, if_shown(white_faces > 0.0, black)},
@@ -295,6 +309,7 @@ std::vector<render::IslandPlacement> field_of(int edge, double angle) {
                      {1.0, 0.0, 0.0, 0.0},
                      60.0,
                      false,
+                     0,
                      {glm::vec3(0.0f, -10.0f, 0.0f), glm::vec3(40.0f, 25.0f, 30.0f)}});
   out.front().rotation = glm::angleAxis(angle, glm::dvec3(0.0, 1.0, 0.0));
   return out;

@@ -1,0 +1,146 @@
+// Light that reaches places under water and behind glass, against Snell's, Fresnel's and Beer's
+// laws.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/reference/made_scenes.h"
+#include "tools/reference/shade.h"
+
+namespace skerry::reference {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kIndex = 1.333;
+constexpr int kDeep = 4;
+constexpr glm::dvec3 kBed{0.5, -kDeep + 1e-6, 0.5};
+
+/// Level water, four blocks deep and wide enough that no light comes in at its sides.
+Island lake() {
+  return {world::Volume::from_voxels({-60, -6, -60}, {61, 0, 61}, [](world::IVec3 v) {
+    return world::BlockId{v.y < -kDeep ? world::block::kStone : world::block::kWater};
+  })};
+}
+
+glm::dvec3 extinction_of(world::BlockId block) {
+  const auto& a = world::block_types()[block].absorption;
+  return glm::dvec3(a[0], a[1], a[2]) + 0.3 * (a[0] + a[1] + a[2]) / 3.0;
+}
+
+/// Schlick's, from the air.
+double fresnel_at(double cosine) {
+  const double upright = std::pow((kIndex - 1.0) / (kIndex + 1.0), 2.0);
+  return upright + (1.0 - upright) * std::pow(1.0 - cosine, 5.0);
+}
+double bent_cosine(double cosine) {
+  return std::sqrt(1.0 - (1.0 - cosine * cosine) / (kIndex * kIndex));
+}
+
+glm::dvec3 irradiance_at(const Scene& scene, glm::dvec3 point, glm::dvec3 normal,
+                         std::uint32_t count) {
+  const Tracer tracer(scene.islands);
+  const Shader shader(scene, tracer);
+  glm::dvec3 sum(0.0);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Sampler sampler(7, 3, i);
+    sum += shader.irradiance({point, normal}, sampler);
+  }
+  return sum / double(count);
+}
+
+TEST(ReferenceUnderWater, ABedHasWhatFresnelAndBeerLeaveOfTheSun) {
+  Scene scene;
+  scene.islands = {lake()};
+  for (const double degrees : {0.0, 30.0, 60.0, 85.0}) {
+    SCOPED_TRACE(degrees);
+    const double angle = degrees * kPi / 180.0, cosine = std::cos(angle);
+    scene.bodies = {{{std::sin(angle), cosine, 0.0}, glm::dvec3(2.0), 0.0}};
+    const glm::dvec3 extinction = extinction_of(world::block::kWater);
+    const double way = kDeep / bent_cosine(cosine);
+    const glm::dvec3 level = irradiance_at(scene, kBed, {0.0, 1.0, 0.0}, 1);
+    // A wall that faces the sun: by the angle at which the bent light meets it.
+    const glm::dvec3 upright = irradiance_at(scene, kBed, {1.0, 0.0, 0.0}, 1);
+    for (int c = 0; c < 3; ++c) {
+      const double expected =
+          2.0 * (1.0 - fresnel_at(cosine)) * cosine * std::exp(-way * extinction[c]);
+      EXPECT_NEAR(level[c], expected, 1e-5);
+      const double tangent = std::sqrt(1.0 / std::pow(bent_cosine(cosine), 2.0) - 1.0);
+      EXPECT_NEAR(upright[c], expected * tangent, 1e-5);
+    }
+  }
+}
+
+TEST(ReferenceUnderWater, ABedHasWhatIsLeftOfAnEvenSky) {
+  Scene scene;
+  scene.islands = {lake()};
+  scene.environment = glm::dvec3(1.0);
+  const glm::dvec3 seen = irradiance_at(scene, kBed, {0.0, 1.0, 0.0}, 1u << 16);
+  for (int c = 0; c < 3; ++c) {
+    double expected = 0.0;
+    constexpr int kSteps = 2000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double cosine = (i + 0.5) / kSteps;
+      expected += 2.0 * kPi / kSteps * cosine * (1.0 - fresnel_at(cosine)) *
+                  std::exp(-kDeep / bent_cosine(cosine) * extinction_of(world::block::kWater)[c]);
+    }
+    EXPECT_NEAR(seen[c], expected, 0.01 * expected);
+  }
+}
+
+TEST(ReferenceUnderWater, NothingIsLostOfLightThatIsMirroredBack) {
+  // Clear water would be a furnace. This one absorbs, but a place just under its surface sees, up
+  // to a hundredth, all of a sky that is everywhere.
+  Scene scene;
+  scene.islands = {lake()};
+  scene.environment = glm::dvec3(1.0);
+  scene.bounces = 1;
+  const glm::dvec3 seen = irradiance_at(scene, {0.5, -1e-3, 0.5}, {0.0, 1.0, 0.0}, 1u << 14);
+  double expected = 0.0;
+  constexpr int kSteps = 2000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double cosine = (i + 0.5) / kSteps;
+    expected += 2.0 * kPi / kSteps * cosine * (1.0 - fresnel_at(cosine));
+  }
+  EXPECT_GE(seen.z, 0.99 * expected);
+  EXPECT_LE(seen.z, kPi);
+}
+
+TEST(ReferenceUnderWater, GlassColoursTheSun) {
+  // A pane three blocks thick over ground.
+  Scene scene;
+  scene.islands = {{world::Volume::from_voxels({-9, -1, -9}, {10, 8, 10}, [](world::IVec3 v) {
+    if (v.y < 0) return world::BlockId{world::block::kStone};
+    return world::BlockId{v.y >= 4 && v.y < 7 ? world::block::kGlass : world::block::kAirBlock};
+  })}};
+  for (const double degrees : {0.0, 40.0}) {
+    const double angle = degrees * kPi / 180.0, cosine = std::cos(angle);
+    scene.bodies = {{{std::sin(angle), cosine, 0.0}, glm::dvec3(1.0), 0.0}};
+    const glm::dvec3 seen = irradiance_at(scene, {0.5, 1e-6, 0.5}, {0.0, 1.0, 0.0}, 1);
+    for (int c = 0; c < 3; ++c) {
+      const double thick = 3.0 / cosine * extinction_of(world::block::kGlass)[c];
+      EXPECT_NEAR(seen[c], cosine * std::exp(-thick), 1e-6);
+    }
+  }
+}
+
+TEST(ReferenceUnderWater, AShadowFallsWhereTheBentLightIsMissing) {
+  // A roof ten blocks above the water ends at x = 0; the sun stands at 60 degrees to the zenith, at
+  // negative x. Under the roof's edge light goes through the surface at x = 10 tan 60.
+  Scene scene;
+  scene.islands = {{world::Volume::from_voxels({-60, -6, -20}, {61, 12, 21}, [](world::IVec3 v) {
+    if (v.y < -kDeep) return world::BlockId{world::block::kStone};
+    if (v.y < 0) return world::BlockId{world::block::kWater};
+    return world::BlockId{v.y == 10 && v.x < 0 ? world::block::kStone : world::block::kAirBlock};
+  })}};
+  const double angle = kPi / 3.0;
+  scene.bodies = {{{-std::sin(angle), std::cos(angle), 0.0}, glm::dvec3(1.0), 0.0}};
+  const double edge =
+      11.0 * std::tan(angle) + kDeep * std::tan(std::asin(std::sin(angle) / kIndex));
+  for (const double off : {-0.5, -0.05, 0.05, 0.5}) {
+    const glm::dvec3 seen = irradiance_at(scene, {edge + off, kBed.y, 0.5}, {0.0, 1.0, 0.0}, 1);
+    EXPECT_EQ(seen.z > 0.0, off > 0.0) << off;
+  }
+}
+
+}  // namespace
+}  // namespace skerry::reference
