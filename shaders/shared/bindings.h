@@ -94,7 +94,9 @@ SHARED_CONST uint kIndirectBinding = 69u;  // texels of shared/indirect.h
 // Light at fewer pixels than are drawn.
 SHARED_CONST uint kSamplesBinding = 70u;  // of light, at the points of a grid
 // TileDispatch[2], see choose_samples.comp, then pixels: x in bits 0-15, y in bits 16-31.
-SHARED_CONST uint kListedPixelsBinding = 72u;
+SHARED_CONST uint kListedPixelsBinding = 71u;
+
+SHARED_CONST uint kUnderWaterBinding = 72u;  // see write_layer.frag
 
 // Past walls: LightReach[].
 SHARED_CONST uint kLightReachBinding = 73u;
@@ -132,8 +134,6 @@ SHARED_CONST uint kIslandSkiesBinding = 90u;  // texels of each island's sky, se
 SHARED_CONST uint kTileShaftsBinding = 91u;  // TileShafts[], of 8x8 tiles
 
 SHARED_CONST uint kBentLightBinding = 92u;  // see bend_rays.comp
-
-SHARED_CONST uint kUnderWaterBinding = 93u;  // see write_layer.frag
 
 SHARED_END
 #endif

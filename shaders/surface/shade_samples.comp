@@ -34,6 +34,7 @@ layout(constant_id = kLitConstant) const bool kLit = false;  // listed pixels th
 #include "include/surface/surface.glsl"
 #include "include/sky/sky.glsl"
 #include "include/surface/lighting.glsl"
+#include "include/surface/depth_of_pixel.glsl"
 #include "include/surface/haze.glsl"
 #include "include/light/corners.glsl"
 #include "include/light/indirect.glsl"

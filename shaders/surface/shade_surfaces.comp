@@ -28,6 +28,7 @@ layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 #include "include/surface/surface.glsl"
 #include "include/sky/sky.glsl"
 #include "include/surface/lighting.glsl"
+#include "include/surface/depth_of_pixel.glsl"
 #include "include/surface/haze.glsl"
 #include "include/light/corners.glsl"
 #include "include/light/indirect.glsl"

@@ -13,22 +13,9 @@ constexpr int kPadded = kChunkEdge + 2;
 constexpr int kLayer = kPadded * kPadded;
 // Layers read above the chunk: they say how deep below the turf it starts.
 constexpr int kLookAbove = 6;
-constexpr int kLookBelow = 1;              // what the lowest layer's plants stand on
-constexpr int kLedgeTurf = 4;              // blocks under the top that may still bear turf
-constexpr std::int16_t kUnderground = 64;  // depth of rock below a cave: no turf there
-
-constexpr std::int16_t kDeepest = 2 * kUnderground;
-
-constexpr Ball kOpenHole = {0, 0, 0, 0, 0, true};
-constexpr Ball kClosedHole = {0, 0, 0, 0, 0, false};
+constexpr int kLookBelow = 1;  // what the lowest layer's plants stand on
 
 using Row = std::array<std::int16_t, kLayer>;
-
-/// `yes` where the condition holds, else `no`, as a mask: vectorisers keep it free of branches.
-inline std::int16_t select(bool condition, std::int16_t yes, std::int16_t no) {
-  const auto mask = static_cast<std::int16_t>(-static_cast<int>(condition));
-  return static_cast<std::int16_t>((yes & mask) | (no & ~mask));
-}
 
 /// A column whose rock is shifted sideways layer by layer.
 struct Ragged {

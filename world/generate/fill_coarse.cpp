@@ -17,21 +17,10 @@ constexpr int kLookAbove = 2;
 constexpr int kLookBelow = 1;
 constexpr int kLayers = kLookBelow + kPadded + kLookAbove;
 constexpr int kCoarsestShifted = 2;  // larger voxels do not show the sideways shift
-constexpr int kLedgeTurf = 4;        // blocks under the top that may still bear turf
 constexpr int kSheetOf100 = 70;      // of half a voxel: what a sheet has at least that is drawn
-constexpr std::int16_t kUnderground = 64;  // depth of rock below a cave: no turf there
-constexpr std::int16_t kDeepest = 2 * kUnderground;
-
-constexpr Ball kOpenHole = {0, 0, 0, 0, 0, true};
-constexpr Ball kClosedHole = {0, 0, 0, 0, 0, false};
 
 using Row = std::array<std::int16_t, kLayer>;
 using Masks = std::array<std::uint8_t, std::size_t{kLayers} * kLayer>;
-
-inline std::int16_t select(bool condition, std::int16_t yes, std::int16_t no) {
-  const auto mask = static_cast<std::int16_t>(-static_cast<int>(condition));
-  return static_cast<std::int16_t>((yes & mask) | (no & ~mask));
-}
 
 /// noise::smooth() of the heights within a cell.
 constexpr auto kSmooth = [] {
