@@ -29,30 +29,44 @@ IVec3 voxel_at(std::size_t brick, std::size_t word, int bit) {
   return {(b >> 3 & 7) * 8 + w % 2 * 4 + bit / 8, (b >> 6) * 8 + w / 2, (b & 7) * 8 + bit % 8};
 }
 
+/// Faces of a chunk by brick.
+class FacesByBrick {
+ public:
+  void add(const DrawnFace& face) {
+    std::uint32_t& slot = slots_[brick_index(face.voxel)];
+    if (slot == 0) {
+      bricks_.emplace_back();
+      slot = static_cast<std::uint32_t>(bricks_.size());
+    }
+    BrickFaces& brick = bricks_[slot - 1];
+    const std::size_t word = word_of(face.voxel);
+    brick.masks[static_cast<std::size_t>(face.direction)][word] |= 1u << bit_of(face.voxel);
+    if (face.plant) brick.plants[word] |= 1u << bit_of(face.voxel);
+  }
+  std::size_t count() const { return bricks_.size(); }
+  /// Null: it has none.
+  const BrickFaces* of(std::size_t brick) const {
+    return slots_[brick] == 0 ? nullptr : &bricks_[slots_[brick] - 1];
+  }
+
+ private:
+  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(shared::kBricksPerChunk, 0);
+  std::vector<BrickFaces> bricks_;
+};
+
 }  // namespace
 
 ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append) {
-  std::vector<std::uint32_t> slots(shared::kBricksPerChunk, 0);
-  std::vector<BrickFaces> bricks;
+  FacesByBrick faces;
   for (const shared::Quad& quad : quads)
-    for_each_face(quad, [&](const DrawnFace& face) {
-      std::uint32_t& slot = slots[brick_index(face.voxel)];
-      if (slot == 0) {
-        bricks.emplace_back();
-        slot = static_cast<std::uint32_t>(bricks.size());
-      }
-      BrickFaces& brick = bricks[slot - 1];
-      const std::size_t word = word_of(face.voxel);
-      brick.masks[static_cast<std::size_t>(face.direction)][word] |= 1u << bit_of(face.voxel);
-      if (face.plant) brick.plants[word] |= 1u << bit_of(face.voxel);
-    });
+    for_each_face(quad, [&](const DrawnFace& face) { faces.add(face); });
   ChunkSky out;
   out.table.assign(shared::kBricksPerChunk, 0);
-  out.texels.assign(bricks.size() * shared::kIndirectBrickTexels, glm::uvec4(0));
+  out.texels.assign(faces.count() * shared::kIndirectBrickTexels, glm::uvec4(0));
   std::size_t stored = 0;
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
-    if (slots[at] == 0) continue;
-    const BrickFaces& brick = bricks[slots[at] - 1];
+    if (faces.of(at) == nullptr) continue;
+    const BrickFaces& brick = *faces.of(at);
     const std::size_t first = stored++ * shared::kIndirectBrickTexels;
     out.table[at] = static_cast<std::uint32_t>(stored);
     for (std::size_t direction = 0; direction < 6; ++direction)
@@ -175,53 +189,47 @@ ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> qua
 }
 
 ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
-  std::vector<BrickFaces> bricks;
-  std::vector<std::uint32_t> slots(shared::kBricksPerChunk, 0);  // 1 + index in `bricks`
+  FacesByBrick fresh;
   for (const shared::Quad& quad : quads)
     for_each_face(quad, [&](const DrawnFace& face) {
-      if (find_record(before, face.voxel, face.direction)) return;
-      std::uint32_t& slot = slots[brick_index(face.voxel)];
-      if (slot == 0) {
-        bricks.emplace_back();
-        slot = static_cast<std::uint32_t>(bricks.size());
-      }
-      bricks[slot - 1].masks[static_cast<std::size_t>(face.direction)][word_of(face.voxel)] |=
-          1u << bit_of(face.voxel);
+      if (!find_record(before, face.voxel, face.direction)) fresh.add(face);
     });
-  if (bricks.empty()) return before;
+  if (fresh.count() == 0) return before;
   ChunkSky out;
   out.table.assign(shared::kBricksPerChunk, 0);
   std::uint32_t stored = 0;
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at)
-    if (before.table[at] != 0 || slots[at] != 0) out.table[at] = ++stored;
-  out.texels.reserve(before.texels.size() + bricks.size() * shared::kIndirectBrickTexels);
+    if (before.table[at] != 0 || fresh.of(at) != nullptr) out.table[at] = ++stored;
+  out.texels.reserve(before.texels.size() + fresh.count() * shared::kIndirectBrickTexels);
   out.texels.assign(stored * shared::kIndirectBrickTexels, glm::uvec4(0));
-  static const BrickFaces kNone;
+  const auto append = [&](std::optional<std::size_t> record) {
+    for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
+      out.texels.push_back(record ? before.texels[*record + i] : glm::uvec4(0));
+  };
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
     if (out.table[at] == 0) continue;
-    const BrickFaces& more = slots[at] == 0 ? kNone : bricks[slots[at] - 1];
     for (std::size_t direction = 0; direction < 6; ++direction)
       for (std::size_t word = 0; word < 16; ++word) {
         const std::size_t in_brick = direction * 8 + word / 2;
         const auto half = static_cast<int>(word % 2);
-        const glm::uvec4 old =
-            before.table[at] == 0
-                ? glm::uvec4(0)
-                : before.texels[(before.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
+        glm::uvec4 old(0);  // masks and first records, as pack_faces() has them
+        if (before.table[at] != 0)
+          old = before.texels[(before.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
+        std::uint32_t mask = old[half];
+        if (fresh.of(at) != nullptr) mask |= fresh.of(at)->masks[direction][word];
         glm::uvec4& now = out.texels[(out.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
-        now[half] = old[half] | more.masks[direction][word];
+        now[half] = mask;
         now[2 + half] = static_cast<std::uint32_t>(out.texels.size());
-        std::size_t from = old[2 + half];
-        for (std::uint32_t left = now[half]; left != 0; left &= left - 1) {
+        std::size_t next = old[2 + half];
+        for (std::uint32_t left = mask; left != 0; left &= left - 1) {
           const int bit = std::countr_zero(left);
-          const DrawnFace face{voxel_at(at, word, bit), static_cast<int>(direction), false};
-          std::optional<std::size_t> record = from;
-          if ((old[half] >> bit & 1u) != 0)
-            from += shared::kIndirectRecordTexels;
-          else
-            record = nearest_record(before, face);
-          for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
-            out.texels.push_back(record ? before.texels[*record + i] : glm::uvec4(0));
+          if ((old[half] >> bit & 1u) != 0) {
+            append(next);
+            next += shared::kIndirectRecordTexels;
+          } else {
+            append(nearest_record(before,
+                                  {voxel_at(at, word, bit), static_cast<int>(direction), false}));
+          }
         }
       }
   }
