@@ -100,10 +100,7 @@ class Judge {
     const reference::Shader::Receiver receiver{
         direction * hit.t + (plant ? glm::dvec3(0.0) : normal * kOffSurface), normal,
         plant ? &hit : nullptr};
-    // At coarser levels lamps that are weak one by one stand for many, and are lights of the frame.
-    const double most_range =
-        stored_.level_of(out.island) == 0 ? double{game::kWeakLampRange} : 0.0;
-    estimate(receiver, y * view.width + x, most_range, out);
+    estimate(receiver, y * view.width + x, double{game::kWeakLampRange}, out);
     out.difference = *light - out.reference;
     return out;
   }
