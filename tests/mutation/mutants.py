@@ -245,6 +245,8 @@ MUTANTS = (
            "const auto half = static_cast<std::int16_t>(edge_ * edge_ * edge_);", "coarse_levels day"),
     Mutant("coarse_leaves_open", "far crowns are outlines", "world/stream/stream_state.cpp",
            "if (task.level > 0) close_cutouts(chunk.mesh);", "", "marsh closeup"),
+    Mutant("far_plants_dark", "islands of glowing plants are dark from afar", "world/generate/fill_coarse.cpp",
+           "  draw_glowing_plants(plan_, canvas_);", "", "glow_from_afar"),
     Mutant("seams_open", "holes where levels of an island meet", "world/stream/section_tree.cpp",
            "if (is_other_level(beside(node.place, face)))",
            "if (is_other_level(beside(node.place, face)) && face > 5)", "level_seams"),
