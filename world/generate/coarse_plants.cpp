@@ -32,8 +32,11 @@ class GlowingPlants {
           return plant.of_256 != 0 && is_glowing_plant(plant.id);
         }))
       return;
-    for (int x = canvas_.x0 + 1; x <= canvas_.x0 + kChunkEdge; ++x)
-      for (int z = canvas_.z0 + 1; z <= canvas_.z0 + kChunkEdge; ++z) look_at_columns(x, z);
+    const int reach = ((plan_.columns.half - 1) >> canvas_.level) + 1;  // voxels
+    const auto first = [reach](int from) { return std::max(from + 1, -reach); };
+    const auto end = [reach](int from) { return std::min(from + 1 + kChunkEdge, reach); };
+    for (int x = first(canvas_.x0); x < end(canvas_.x0); ++x)
+      for (int z = first(canvas_.z0); z < end(canvas_.z0); ++z) look_at_columns(x, z);
   }
 
  private:
@@ -47,27 +50,32 @@ class GlowingPlants {
   void look_at_columns(int x, int z) {
     const Columns& columns = plan_.columns;
     const int edge = 1 << canvas_.level;
+    const int low = (canvas_.y0 + 1) * edge, end = low + kChunkEdge * edge;
+    const auto block = [&](int voxel) {
+      return std::clamp(voxel * edge, -columns.half, columns.half);
+    };
     int count = 0;
     IVec3 last{};
     BlockId id = kAir;
-    for (int bx = x * edge; bx < (x + 1) * edge; ++bx) {
-      for (int bz = z * edge; bz < (z + 1) * edge; ++bz) {
-        if (!columns.has(bx, bz)) continue;
+    for (int bx = block(x); bx < block(x + 1); ++bx) {
+      for (int bz = block(z); bz < block(z + 1); ++bz) {
         const std::size_t c = columns.index(bx, bz);
         const int top = columns.top[c];
-        if (top == Columns::kNoGround || columns.water[c] > top) continue;
-        const IVec3 at{x, top >> canvas_.level, z};
+        if (top < low || top >= end || columns.water[c] > top) continue;
         const auto skin = static_cast<std::size_t>(columns.skins[c]);
         const BlockId plant = plant_on(plan_, kSkins[skin].top, bx, bz);
-        if (!is_glowing_plant(plant) || !is_inside(at) || !plan_.solid_at(bx, top - 1, bz) ||
-            plan_.solid_at(bx, top, bz))
+        if (!is_glowing_plant(plant) || (columns.ragged[c] > 0 && !is_open_ground(bx, top, bz)))
           continue;
         ++count;
-        last = at;
+        last = {x, top >> canvas_.level, z};
         id = plant;
       }
     }
     if (count != 0) add(last, id, count);
+  }
+  /// Where rock is shifted sideways, ground may have moved away.
+  bool is_open_ground(int x, int y, int z) const {
+    return plan_.solid_at(x, y - 1, z) && !plan_.solid_at(x, y, z);
   }
 
   /// Shows one plant out of each `many_`, drawn by lot, so that there are no rows.
