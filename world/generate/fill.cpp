@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "world/generate/plants.h"
 #include "world/generate/sideways.h"
 
 namespace skerry::world {
@@ -300,18 +301,6 @@ bool apart(const IslandPlan& plan, IVec3 chunk, int level) {
 }
 
 }  // namespace
-
-BlockId plant_on(const IslandPlan& plan, BlockId ground, int x, int z) {
-  if (ground != block::kGrass && ground != block::kDryGrass && ground != block::kMycelium &&
-      ground != block::kRedSand)
-    return kAir;
-  int roll = static_cast<int>(hash2(plan.shape.seed + 801, x, z) >> 24);
-  for (const PlantChance& plant : plan.biome().plants) {
-    if (roll < plant.of_256) return plant.id;
-    roll -= plant.of_256;
-  }
-  return kAir;
-}
 
 void fill_fine(const IslandPlan& plan, IVec3 chunk, std::span<BlockId> out) {
   Filler(plan, chunk, out).fill();

@@ -12,10 +12,6 @@ void fill_fine(const IslandPlan& plan, IVec3 chunk, std::span<BlockId> out);
 /// @param level 1 or more.
 void fill_coarse(const IslandPlan& plan, IVec3 chunk, int level, std::span<BlockId> out);
 
-/// What grows in the air on a column's ground, unless something else is there; kAir: nothing.
-/// @param ground the block under it.
-BlockId plant_on(const IslandPlan& plan, BlockId ground, int x, int z);
-
 // What both know of ground.
 inline constexpr int kLedgeTurf = 4;              // blocks under the top that may still bear turf
 inline constexpr std::int16_t kUnderground = 64;  // depth of rock below a cave: no turf there

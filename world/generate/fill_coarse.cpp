@@ -4,8 +4,8 @@
 #include <cstring>
 #include <memory>
 
-#include "world/generate/coarse_plants.h"
 #include "world/generate/fill.h"
+#include "world/generate/plants.h"
 #include "world/generate/sideways.h"
 
 namespace skerry::world {

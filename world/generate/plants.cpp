@@ -1,9 +1,9 @@
-#include "world/generate/coarse_plants.h"
+#include "world/generate/plants.h"
 
 #include <algorithm>
 #include <set>
 
-#include "world/generate/fill.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {
@@ -119,6 +119,18 @@ class GlowingPlants {
 };
 
 }  // namespace
+
+BlockId plant_on(const IslandPlan& plan, BlockId ground, int x, int z) {
+  if (ground != block::kGrass && ground != block::kDryGrass && ground != block::kMycelium &&
+      ground != block::kRedSand)
+    return kAir;
+  int roll = static_cast<int>(hash2(plan.shape.seed + 801, x, z) >> 24);
+  for (const PlantChance& plant : plan.biome().plants) {
+    if (roll < plant.of_256) return plant.id;
+    roll -= plant.of_256;
+  }
+  return kAir;
+}
 
 void draw_glowing_plants(const IslandPlan& plan, const Canvas& canvas) {
   GlowingPlants plants(plan, canvas);
