@@ -60,11 +60,16 @@ void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
 
 void IslandLight::close(const world::SectionKey& key, std::vector<shared::Quad> seams) {
   Island& island = islands_[key.row()];
-  if (seams.empty())
+  if (seams.empty()) {  // what is known of faces that are not drawn does no harm
     island.seams.erase(key.chunk);
-  else
-    island.seams[key.chunk] = std::move(seams);
-  island.guess(key.chunk);
+    return;
+  }
+  island.seams[key.chunk] = std::move(seams);
+  const auto before = island.known.find(key.chunk);
+  if (before == island.known.end()) return;
+  before->second =
+      std::make_shared<const world::ChunkSky>(island.closed(key.chunk, *before->second));
+  island.guessed.insert(key.chunk);
 }
 
 void IslandLight::Island::guess(world::IVec3 at) {
@@ -78,13 +83,16 @@ void IslandLight::Island::guess(world::IVec3 at) {
 world::ChunkSky IslandLight::Island::inherited(world::IVec3 at,
                                                const world::ChunkSky& before) const {
   const auto chunk = chunks.find(at);
-  std::vector<shared::Quad> quads;
+  std::span<const shared::Quad> quads;
   if (chunk != chunks.end()) quads = chunk->second->quads;
-  if (const auto closing = seams.find(at); closing != seams.end()) {
-    const std::vector<shared::Quad> lit = world::lit_faces(before, closing->second);
-    quads.insert(quads.end(), lit.begin(), lit.end());
-  }
-  return world::inherit_faces(before, quads);
+  return closed(at, world::inherit_faces(before, quads));
+}
+
+// With guesses for the faces that close the chunk, where they are not dark.
+world::ChunkSky IslandLight::Island::closed(world::IVec3 at, const world::ChunkSky& before) const {
+  const auto closing = seams.find(at);
+  if (closing == seams.end()) return before;
+  return world::with_faces(before, world::lit_faces(before, closing->second));
 }
 
 void IslandLight::remove(const world::SectionKey& key) {
@@ -243,9 +251,10 @@ std::vector<IslandLight::Found> IslandLight::poll() {
     for (auto& [at, sky] : search->found) {
       // Edited since the look began: what is new is guessed once more.
       const auto now = island.chunks.find(at);
-      if (now != island.chunks.end() &&
-          (now->second != search->chunks[at] || island.seams.contains(at)))
+      if (now != island.chunks.end() && now->second != search->chunks[at])
         sky = std::make_shared<const world::ChunkSky>(island.inherited(at, *sky));
+      else if (island.seams.contains(at))
+        sky = std::make_shared<const world::ChunkSky>(island.closed(at, *sky));
       const auto before = island.known.find(at);
       const bool same = before != island.known.end() && !island.guessed.contains(at) &&
                         (before->second == sky || *before->second == *sky);

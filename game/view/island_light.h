@@ -93,6 +93,7 @@ class IslandLight {
     Skies known;                               // as poll() last said, or says next
     std::set<world::IVec3> guessed;            // of `known`, since poll() last said
     world::ChunkSky inherited(world::IVec3 at, const world::ChunkSky& before) const;
+    world::ChunkSky closed(world::IVec3 at, const world::ChunkSky& before) const;
     void guess(world::IVec3 at);  // what is known of a chunk, for the faces that it has now
   };
   static Found guesses(const world::IslandLevel& row, Island& island);

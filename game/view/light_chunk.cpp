@@ -8,7 +8,7 @@ std::vector<world::WeakLamp> take_weak(std::vector<LatticeLight>& lights, int le
   const float voxel = static_cast<float>(1 << level);  // blocks
   std::vector<world::WeakLamp> weak;
   std::erase_if(lights, [&](const LatticeLight& light) {
-    if (light.range > kWeakLampRange) return false;
+    if (light.range > kWeakLampRange * voxel) return false;
     weak.push_back({light.place / voxel, light.intensity / (voxel * voxel), light.range / voxel});
     return true;
   });

@@ -7,7 +7,8 @@
 
 namespace skerry::game {
 
-/// Lamps that reach no further are kept with the light of faces if `indirect=full` [blocks].
+/// Lamps that reach no further are kept with the light of faces if `indirect=full` [voxels]: a
+/// coarse voxel shines as so many blocks as have its area, so that what is weak near is weak afar.
 inline constexpr float kWeakLampRange = 10.0f;
 
 /// Takes the weak ones out of a section's lights.

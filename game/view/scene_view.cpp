@@ -96,6 +96,18 @@ shared::Section section_record(const world::SectionKey& key, const world::ChunkM
   return section;
 }
 
+world::LatticeBox box_of_faces(const world::SectionKey& key, const world::ChunkMesh& mesh) {
+  if (mesh.quads.empty()) return {};
+  const auto corner = [&](const std::array<std::uint8_t, 3>& voxel) {
+    const auto along = [&](std::int32_t chunk, std::uint8_t v) {
+      return (chunk * world::kChunkEdge + v) * (1 << key.level);
+    };
+    return world::IVec3{along(key.chunk.x, voxel[0]), along(key.chunk.y, voxel[1]),
+                        along(key.chunk.z, voxel[2])};
+  };
+  return {corner(mesh.bounds_min), corner(mesh.bounds_max)};
+}
+
 }  // namespace
 
 SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> world)
@@ -444,7 +456,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   if (const auto spec = world_->island(ready.key.island)) islands_[*slot].spec = *spec;
   ResidentSection& section = sections_[ready.key];
   section.seams = ready.seams;
-  cuts_.add(ready.key);
+  cuts_.add(ready.key, box_of_faces(ready.key, ready.mesh));
   if (occupancy_ && ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
     const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
                                      ready.occupancy.table, ready.occupancy.words};

@@ -7,8 +7,8 @@
 
 namespace skerry::game {
 
-void SectionCuts::add(const world::SectionKey& key) {
-  if (!key.far) islands_[key.island].tree.add({key.level, key.chunk});
+void SectionCuts::add(const world::SectionKey& key, const world::LatticeBox& faces) {
+  if (!key.far) islands_[key.island].tree.add({key.level, key.chunk}, faces);
 }
 
 void SectionCuts::remove(const world::SectionKey& key) {

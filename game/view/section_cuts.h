@@ -15,7 +15,8 @@ namespace skerry::game {
 class SectionCuts {
  public:
   /// A section that is resident, shown, without seams; far ones are left out.
-  void add(const world::SectionKey& key);
+  /// @param faces box about them in the lattice [blocks].
+  void add(const world::SectionKey& key, const world::LatticeBox& faces);
   void remove(const world::SectionKey& key);
   void clear() { islands_.clear(); }
 

@@ -39,6 +39,7 @@ TEST(CommandLine, HelpIsThereOnEveryLevel) {
                                                     {"bench", "cull", "--help"},
                                                     {"bench", "device", "--help"},
                                                     {"bench", "flicker", "--help"},
+                                                    {"bench", "pops", "--help"},
                                                     {"bench", "frame", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0) << joined(arguments) << outcome.err;
@@ -98,13 +99,14 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameWhatWasMeant) {
       {{"test", "x.json", "--approve", "--repeat", "2"}, {"--repeat"}},
       {{"test", "x.json", "--merge", "--validate"}, {"--merge"}},
       {{"bench"},
-       {"mesh, generate, world, upload, cull, device, lights, shade, frame, flicker, edit, fly or "
-        "start"}},
+       {"mesh, generate, world, upload, cull, device, lights, shade, frame, flicker, pops, edit, "
+        "fly or start"}},
       {{"bench", "mehs"}, {"'mesh'"}},
       {{"bench", "mesh", "--inptu", "x"}, {"'--input'"}},
       {{"bench", "cull", "--device", "-1"}, {"--device"}},
       {{"bench", "frame"}, {"--seed"}},
       {{"bench", "flicker"}, {"--seed"}},
+      {{"bench", "pops", "--seed", "1", "--speed", "0"}, {"--speed", "1"}},
       {{"bench", "fliker"}, {"'flicker'"}},
       {{"bench", "flicker", "--seed", "1", "--frames", "1"}, {"--frames", "2"}},
       {{"report", "shadow_sise", "--out", "x"}, {"'shadow_sise'", "'shadow_size'"}},

@@ -51,6 +51,7 @@ TEST(Flicker, AStepIsMoreThanTwoOf255InSomeChannel) {
   EXPECT_EQ(count_steps(before, now), (StepCounts{2, 1, 3}));
   now[0] = 0;
   EXPECT_EQ(count_steps(before, now), (StepCounts{2, 2, 10}));
+  EXPECT_EQ(count_steps(before, now, kUnseenChange), (StepCounts{2, 1, 10}));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What a scene lacks costs as little as what the renderer does not have.
-#include "tools/skerry/bench/left_out.h"
+#include "tools/skerry/scene/left_out.h"
 
 #include <gtest/gtest.h>
 

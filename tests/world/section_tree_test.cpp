@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <set>
 
@@ -18,6 +19,7 @@
 #include "world/light/face_records.h"
 #include "world/mesh/mesh.h"
 #include "world/mesh/seams.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {
@@ -30,16 +32,6 @@ struct Cube {
   int edge;
   std::array<int, 3> low;
 
-  double distance(const glm::dvec3& p) const {
-    double squares = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      const double below = low[static_cast<std::size_t>(i)] - p[i];
-      const double above = p[i] - (low[static_cast<std::size_t>(i)] + edge);
-      const double out = std::max({below, above, 0.0});
-      squares += out * out;
-    }
-    return std::sqrt(squares);
-  }
   bool overlaps(const Cube& other) const {
     for (std::size_t i = 0; i < 3; ++i)
       if (low[i] >= other.low[i] + other.edge || other.low[i] >= low[i] + edge) return false;
@@ -57,6 +49,43 @@ struct Cube {
     return true;
   }
 };
+
+/// Where the faces of a made-up section are: anywhere within it; some have none.
+std::optional<LatticeBox> faces_of(const TreeNode& section) {
+  const Cube cube(section);
+  Rng random(hash3(static_cast<std::uint32_t>(section.level) + 7, section.chunk.x, section.chunk.y,
+                   section.chunk.z));
+  if (random.chance(20)) return std::nullopt;
+  std::array<int, 3> low{}, high{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int a = random.in(0, cube.edge), b = random.in(0, cube.edge);
+    low[i] = cube.low[i] + std::min(a, b);
+    high[i] = cube.low[i] + std::max(a, b);
+  }
+  return LatticeBox{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
+
+/// From the box about all faces that a place has, at its own level and at finer ones.
+double distance_to(const std::vector<TreeNode>& sections, const TreeNode& place,
+                   const glm::dvec3& p) {
+  constexpr int kFar = 1 << 30;
+  std::array<int, 3> low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+  for (const TreeNode& section : sections) {
+    const std::optional<LatticeBox> box = faces_of(section);
+    if (!box || section.level > place.level || !Cube(place).overlaps(Cube(section))) continue;
+    low = {std::min(low[0], box->low.x), std::min(low[1], box->low.y),
+           std::min(low[2], box->low.z)};
+    high = {std::max(high[0], box->high.x), std::max(high[1], box->high.y),
+            std::max(high[2], box->high.z)};
+  }
+  double squares = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    const double out = std::max({low[axis] - p[i], p[i] - high[axis], 0.0});
+    squares += out * out;
+  }
+  return std::sqrt(squares);
+}
 
 /// A made-up island: random chunks of level 0, and at coarser levels most of what holds them.
 std::vector<TreeNode> random_sections(std::mt19937& random, std::initializer_list<int> levels) {
@@ -81,7 +110,7 @@ class ToldTree {
     for (const TreeNode& section : sections) add(section);
   }
   void add(const TreeNode& section) {
-    tree.add(section);
+    tree.add(section, faces_of(section).value_or(LatticeBox{}));
     told[section] = {};
   }
   void remove(const TreeNode& section) {
@@ -138,6 +167,11 @@ TEST(SectionTree, DrawsEachPlaceOnceAndAsCoarseAsItMay) {
         gap ? random_sections(random, {0, 2, 3}) : random_sections(random, {0, 1, 2, 3});
     const glm::dvec3 camera = random_camera(random);
     const SectionCut cut = cut_of(sections, camera, kNearest);
+    auto distance = [&, known = std::map<TreeNode, double>()](const TreeNode& of) mutable {
+      const auto [at, is_new] = known.try_emplace(of);
+      if (is_new) at->second = distance_to(sections, of, camera);
+      return at->second;
+    };
     std::set<int> levels;
     for (std::size_t i = 0; i < sections.size(); ++i) {
       const Cube cube(sections[i]);
@@ -152,9 +186,10 @@ TEST(SectionTree, DrawsEachPlaceOnceAndAsCoarseAsItMay) {
       const double nearest = kNearest[static_cast<std::size_t>(sections[i].level)];
       if (cut.drawn[i]) {
         levels.insert(sections[i].level);
-        ASSERT_TRUE(sections[i].level == 0 || cube.distance(camera) >= nearest) << "too near";
+        ASSERT_TRUE(sections[i].level == 0 || distance_to(sections, sections[i], camera) >= nearest)
+            << "too near";
       } else if (finer) {
-        ASSERT_LT(cube.distance(camera), nearest) << "it could have been this coarse";
+        ASSERT_LT(distance(sections[i]), nearest) << "it could have been this coarse";
       } else if (!coarser && sections[i].level == 0) {
         // Something that holds it stands for it, and is empty; it must be far enough for that.
         bool may = false;
@@ -163,7 +198,7 @@ TEST(SectionTree, DrawsEachPlaceOnceAndAsCoarseAsItMay) {
             return static_cast<std::int32_t>(std::floor(std::ldexp(v, -level)));
           };
           const IVec3 c = sections[i].chunk;
-          may |= Cube({level, {at(c.x), at(c.y), at(c.z)}}).distance(camera) >=
+          may |= distance({level, {at(c.x), at(c.y), at(c.z)}}) >=
                  kNearest[static_cast<std::size_t>(level)];
         }
         ASSERT_TRUE(may) << "lost";

@@ -542,8 +542,13 @@ TEST(Stream, AnEditOfAFarIslandShows) {
     });
   };
   ASSERT_TRUE(is_far());
-  // The middle of a voxel of the coarsest level, far above the ground.
-  ASSERT_TRUE(world.set_block(far.id, {8, 408, 8}, block::kLamp));
+  // Half of a voxel of the coarsest level, far above the ground.
+  std::vector<VoxelEdit> lamps;
+  for (int y = 400; y < 408; ++y)
+    for (int x = 0; x < 16; ++x)
+      for (int z = 0; z < 16; ++z)
+        lamps.push_back({static_cast<std::uint32_t>(voxel_index(x, y % 64, z)), block::kLamp});
+  ASSERT_TRUE(world.set_blocks(far.id, chunk_of({0, 400, 0}), lamps));
   streamer.update(scene.view, scene.settings);
   finish(streamer, consumer);
   EXPECT_FALSE(is_far());

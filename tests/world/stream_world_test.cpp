@@ -157,7 +157,7 @@ TEST(World, AChunkMadeBeforeAnEditIsKeptWithIt) {
   EXPECT_EQ(world.block_at(home.id, {-2, 2, 3}), block::kStone);
 }
 
-TEST(World, EditsShowInShellsAndAtTheCentreOfCoarseVoxels) {
+TEST(World, EditsShowInShells) {
   World world({.seed = 4});
   const IslandSpec home = home_of(world);
   const IVec3 high{64, 1025, 2};  // in air; the lowest x layer of chunk (1, 16, 0)
@@ -170,16 +170,77 @@ TEST(World, EditsShowInShellsAndAtTheCentreOfCoarseVoxels) {
   EXPECT_EQ(at(0, 1, 2), block::kLamp);
   EXPECT_TRUE(world.generate_padded(home.id, {0, 16, 0}, 0, padded));
   EXPECT_EQ(at(64, 1, 2), block::kLamp);
-  // At level 1 a voxel shows the block at odd places: 64 is even, so this edit does not show ...
-  EXPECT_FALSE(world.generate_padded(home.id, {0, 8, 0}, 1, padded));
-  // ... and (65, 1025, 3) does, in voxel (32, 512, 1).
-  ASSERT_TRUE(world.set_block(home.id, {65, 1025, 3}, block::kLamp));
-  EXPECT_TRUE(world.generate_padded(home.id, {0, 8, 0}, 1, padded));
-  EXPECT_EQ(at(32, 0, 1), block::kLamp);
-  EXPECT_EQ(std::count(padded.begin(), padded.end(), BlockId{block::kLamp}), 1);
   const std::vector<IVec3> fine = world.chunks(home.id, 0), coarse = world.chunks(home.id, 1);
   EXPECT_EQ(std::count(fine.begin(), fine.end(), IVec3{1, 16, 0}), 1);
   EXPECT_EQ(std::count(coarse.begin(), coarse.end(), IVec3{0, 8, 0}), 1);
+}
+
+// What is built fills the coarse voxels that it is half of, at any level.
+TEST(World, CoarseVoxelsAreWhatHalfOfTheirBlocksBecome) {
+  World world({.seed = 4});
+  const IslandSpec home = home_of(world);
+  std::vector<BlockId> padded(kPaddedVoxels);
+  const auto first = [&](int level) {  // the voxel whose lowest block is (0, 1024, 0)
+    world.generate_padded(home.id, {0, 1024 / (64 << level), 0}, level, padded);
+    return padded[1 + 66 * (1 + 66)];
+  };
+  for (int level = 1; level < kLevelCount; ++level) {
+    const int edge = 1 << level;
+    std::vector<IVec3> lower_half;
+    for (int i = 0; i < edge * edge * edge / 2; ++i)
+      lower_half.push_back({i / edge % edge, 1024 + i / (edge * edge), i % edge});
+    for (const IVec3& v : lower_half) {
+      if (v == lower_half.back()) {
+        EXPECT_EQ(first(level), kAir) << "less than half of it";
+      }
+      ASSERT_TRUE(world.set_block(home.id, v, block::kPlanks));
+    }
+    EXPECT_EQ(first(level), block::kPlanks) << "level " << level;
+    EXPECT_EQ(world.chunks(home.id, level).back(), (IVec3{0, 1024 / (64 << level), 0}));
+  }
+}
+
+TEST(World, AHoleShowsAtCoarseLevels) {
+  World world({.seed = 4});
+  const IslandSpec home = home_of(world);
+  const IVec3 inner = chunk_of(some_block(world, home));
+  std::vector<BlockId> before(kPaddedVoxels), after(kPaddedVoxels);
+  const IVec3 chunk{inner.x >> 1, inner.y >> 1, inner.z >> 1};
+  ASSERT_TRUE(world.generate_padded(home.id, chunk, 1, before));
+  std::vector<VoxelEdit> all;
+  for (std::uint32_t i = 0; i < kChunkVoxels; ++i) all.push_back({i, kAir});
+  ASSERT_TRUE(world.set_blocks(home.id, inner, all));
+  world.generate_padded(home.id, chunk, 1, after);
+  std::size_t gone = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (int z = 0; z < 64; ++z) {
+        const auto i = static_cast<std::size_t>(z + 1 + 66 * (x + 1 + 66 * (y + 1)));
+        const bool dug =
+            x / 32 == (inner.x & 1) && y / 32 == (inner.y & 1) && z / 32 == (inner.z & 1);
+        ASSERT_EQ(after[i], dug ? BlockId{kAir} : before[i]);
+        gone += dug && before[i] != kAir;
+      }
+  EXPECT_GT(gone, 100u);
+}
+
+// Lamps are lone blocks; of many some are shown, so that their faces have the same area.
+TEST(World, LampsOfTheFarShine) {
+  World world({.seed = 4});
+  const IslandSpec home = home_of(world);
+  std::vector<VoxelEdit> lamps;
+  for (int y = 0; y < 64; y += 4)
+    for (int x = 0; x < 64; x += 4)
+      for (int z = 0; z < 64; z += 4)
+        lamps.push_back({static_cast<std::uint32_t>(voxel_index(x, y, z)), block::kLamp});
+  ASSERT_TRUE(world.set_blocks(home.id, {0, 16, 0}, lamps));
+  std::vector<BlockId> padded(kPaddedVoxels);
+  for (int level = 1; level <= 2; ++level) {
+    world.generate_padded(home.id, {0, 1024 / (64 << level), 0}, level, padded);
+    const auto shown = std::count(padded.begin(), padded.end(), BlockId{block::kLamp});
+    const double faces = 5.0 * std::pow(4.0, level) * static_cast<double>(shown);
+    EXPECT_NEAR(faces / (4.0 * static_cast<double>(lamps.size())), 1.0, 0.15) << "level " << level;
+  }
 }
 
 TEST(World, NegativeVoxelsFallIntoNegativeChunks) {

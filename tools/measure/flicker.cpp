@@ -29,7 +29,8 @@ FlickerCounts count_flicker(const Moment& before, const Moment& now) {
   return out;
 }
 
-StepCounts count_steps(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now) {
+StepCounts count_steps(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now,
+                       int may) {
   SKERRY_ASSERT(before.size() == now.size());
   StepCounts out;
   out.pixels = now.size() / 4;
@@ -37,7 +38,7 @@ StepCounts count_steps(std::span<const std::uint8_t> before, std::span<const std
     int most = 0;
     for (std::size_t i = 4 * pixel; i < 4 * pixel + 3; ++i)
       most = std::max(most, std::abs(now[i] - before[i]));
-    out.stepped += most > kSmoothChange;
+    out.stepped += most > may;
     out.largest = std::max(out.largest, most);
   }
   return out;

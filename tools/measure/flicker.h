@@ -29,14 +29,19 @@ FlickerCounts count_flicker(const Moment& before, const Moment& now);
 /// How far a channel may change from one frame to the next where light moves smoothly [1/255].
 inline constexpr int kSmoothChange = 2;
 
+/// How far it may where a coarser level of detail takes the place of another [1/255].
+inline constexpr int kUnseenChange = 8;
+
 struct StepCounts {
   std::uint64_t pixels = 0;
-  std::uint64_t stepped = 0;  ///< some channel changes by more than kSmoothChange
+  std::uint64_t stepped = 0;  ///< some channel changes by more than it may
   int largest = 0;            ///< change of a channel [1/255]
   bool operator==(const StepCounts&) const = default;
 };
 
 /// Of two successive pictures: RGBA8, alpha is left out. @pre they have equal size (asserted).
-StepCounts count_steps(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now);
+/// @param may how far a channel may change [1/255].
+StepCounts count_steps(std::span<const std::uint8_t> before, std::span<const std::uint8_t> now,
+                       int may = kSmoothChange);
 
 }  // namespace skerry::measure

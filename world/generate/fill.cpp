@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "world/generate/plants.h"
 #include "world/generate/sideways.h"
 
 namespace skerry::world {
@@ -279,26 +280,14 @@ void Filler::ores() {
 
 /// Grass, flowers and reeds on open ground.
 void Filler::plants() {
-  const BiomeType& biome = plan_.biome();
   for (int i = 0; i < kLayer; ++i) {
     const int y = top_[i] - canvas_.y0;
     if (y < 0 || y >= kPadded) continue;
     BlockId& voxel = out_[static_cast<std::size_t>(y) * kLayer + i];
     const BlockId ground = y > 0 ? out_[static_cast<std::size_t>(y - 1) * kLayer + i]
                                  : ground_below_[static_cast<std::size_t>(i)];
-    if (voxel != kAir) continue;
-    if (ground != block::kGrass && ground != block::kDryGrass && ground != block::kMycelium &&
-        ground != block::kRedSand)
-      continue;
-    int roll = static_cast<int>(
-        hash2(plan_.shape.seed + 801, canvas_.x0 + i / kPadded, canvas_.z0 + i % kPadded) >> 24);
-    for (const PlantChance& plant : biome.plants) {
-      if (roll < plant.of_256) {
-        voxel = plant.id;
-        break;
-      }
-      roll -= plant.of_256;
-    }
+    if (voxel == kAir)
+      voxel = plant_on(plan_, ground, canvas_.x0 + i / kPadded, canvas_.z0 + i % kPadded);
   }
 }
 

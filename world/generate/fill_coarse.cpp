@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "world/generate/fill.h"
+#include "world/generate/plants.h"
 #include "world/generate/sideways.h"
 
 namespace skerry::world {
@@ -476,6 +477,7 @@ void CoarseFiller::fill() {
   }
   stamps();
   for (const Tree& tree : plan_.trees) draw_tree(tree, canvas_);
+  draw_glowing_plants(plan_, canvas_);
 }
 
 /// Upright rows of stamps in air, such as crystals, are drawn a voxel thick and so much shorter

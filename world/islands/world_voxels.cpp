@@ -1,28 +1,55 @@
 // World's voxels: loading, editing, generating with edits.
 #include <algorithm>
+#include <optional>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "engine/core/check.h"
 #include "world/generate/generate.h"
 #include "world/islands/world_island.h"
 #include "world/mesh/mesh.h"
+#include "world/voxel/hash.h"
 
 namespace skerry::world {
 namespace {
 
-std::int32_t floor_div32(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(floor_div(a, b));
+IVec3 coarse_voxel(IVec3 voxel, int level) {
+  return {voxel.x >> level, voxel.y >> level, voxel.z >> level};
 }
 
-// The coarse voxel that shows the block at `voxel`, if its centre is there (see generate_padded).
-std::optional<IVec3> shown_at(IVec3 voxel, int level) {
-  const std::int32_t edge = 1 << level;
-  const std::int32_t half = edge / 2;
-  const auto centred = [&](std::int32_t v) { return floor_mod(v, edge) == half; };
-  if (!centred(voxel.x) || !centred(voxel.y) || !centred(voxel.z)) return std::nullopt;
-  return IVec3{floor_div32(voxel.x, edge), floor_div32(voxel.y, edge), floor_div32(voxel.z, edge)};
-}
+// What edits do to a coarse voxel.
+struct CoarseEdit {
+  int removed = 0, put = 0;  // blocks
+  BlockId block = kAir;      // of those put, the one that more than half are, if there is one
+  int votes = 0;             // for it (R. Boyer, J. Moore, MJRTY, 1981)
+  BlockId glow = kAir;       // of a block that shines for this voxel
+
+  void add(IVec3 voxel, BlockId id, int level) {
+    if (!is_solid(id)) {
+      ++removed;
+      return;
+    }
+    ++put;
+    if (votes == 0) block = id;
+    votes += block == id ? 1 : -1;
+    // One of so many stands for all of them with as much area: four faces of a block are seen, of a
+    // voxel five.
+    constexpr std::uint64_t kFaces = 4, kVoxelFaces = 5;
+    const std::uint64_t chance = (kFaces << 32) / kVoxelFaces >> 2 * level;
+    const bool shines = id < block_types().size() && block_types()[id].emission > 0.0f;
+    if (shines && hash3(0x61ce, voxel.x, voxel.y, voxel.z) < chance) glow = id;
+  }
+
+  // A voxel is solid where half of its blocks are or more; of what it was that is all that is
+  // known.
+  BlockId applied_to(BlockId before, int level) const {
+    const int half = 1 << (3 * level - 1);
+    if (glow != kAir) return glow;
+    if (put >= half) return block;
+    return removed >= half ? kAir : before;
+  }
+};
 
 // Whether a chunk of level 0 reaches into the padded chunk `at` of a level.
 bool overlaps(IVec3 chunk, IVec3 at, int level) {
@@ -93,17 +120,30 @@ void World::Island::apply_edits(IVec3 chunk, int level, std::span<BlockId> padde
     for (const auto& entry : edits)
       if (overlaps(entry.first, chunk, level)) near.emplace_back(entry);
   }
+  const auto index_of = [&](IVec3 voxel) -> std::optional<std::size_t> {
+    const std::int64_t x = std::int64_t{voxel.x} - std::int64_t{chunk.x} * kChunkEdge + 1;
+    const std::int64_t y = std::int64_t{voxel.y} - std::int64_t{chunk.y} * kChunkEdge + 1;
+    const std::int64_t z = std::int64_t{voxel.z} - std::int64_t{chunk.z} * kChunkEdge + 1;
+    if (std::min({x, y, z}) < 0 || std::max({x, y, z}) >= kPaddedEdge) return std::nullopt;
+    return static_cast<std::size_t>(z + kPaddedEdge * (x + kPaddedEdge * y));
+  };
+  std::unordered_map<std::size_t, CoarseEdit> coarse;
   for (const auto& [edited_chunk, voxels] : near) {
     for (const VoxelEdit& edit : *voxels) {
-      const std::optional<IVec3> shown = shown_at(voxel_of(edited_chunk, edit.index), level);
-      if (!shown) continue;
-      const std::int64_t x = std::int64_t{shown->x} - std::int64_t{chunk.x} * kChunkEdge + 1;
-      const std::int64_t y = std::int64_t{shown->y} - std::int64_t{chunk.y} * kChunkEdge + 1;
-      const std::int64_t z = std::int64_t{shown->z} - std::int64_t{chunk.z} * kChunkEdge + 1;
-      if (std::min({x, y, z}) < 0 || std::max({x, y, z}) >= kPaddedEdge) continue;
-      padded[static_cast<std::size_t>(z + kPaddedEdge * (x + kPaddedEdge * y))] = edit.block;
+      const IVec3 voxel = voxel_of(edited_chunk, edit.index);
+      const std::optional<std::size_t> at = index_of(coarse_voxel(voxel, level));
+      if (!at) continue;
+      if (level > 0) {
+        coarse[*at].add(voxel, edit.block, level);
+        continue;
+      }
+      padded[*at] = edit.block;
       any = any || edit.block != kAir;
     }
+  }
+  for (const auto& [at, edit] : coarse) {
+    padded[at] = edit.applied_to(padded[at], level);
+    any = any || padded[at] != kAir;
   }
 }
 
@@ -222,9 +262,7 @@ std::vector<IVec3> World::chunks(std::uint64_t id, int level) {
   }
   for (const auto& [edited_chunk, voxels] : edited) {
     for (const VoxelEdit& edit : *voxels) {
-      const auto shown = shown_at(voxel_of(edited_chunk, edit.index), level);
-      if (!shown) continue;
-      const IVec3 at = chunk_of(*shown);
+      const IVec3 at = chunk_of(coarse_voxel(voxel_of(edited_chunk, edit.index), level));
       if (list.empty() || list.back() != at) list.push_back(at);
     }
   }

@@ -1,5 +1,6 @@
 #include "world/light/face_records.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -28,30 +29,44 @@ IVec3 voxel_at(std::size_t brick, std::size_t word, int bit) {
   return {(b >> 3 & 7) * 8 + w % 2 * 4 + bit / 8, (b >> 6) * 8 + w / 2, (b & 7) * 8 + bit % 8};
 }
 
+/// Faces of a chunk by brick.
+class FacesByBrick {
+ public:
+  void add(const DrawnFace& face) {
+    std::uint32_t& slot = slots_[brick_index(face.voxel)];
+    if (slot == 0) {
+      bricks_.emplace_back();
+      slot = static_cast<std::uint32_t>(bricks_.size());
+    }
+    BrickFaces& brick = bricks_[slot - 1];
+    const std::size_t word = word_of(face.voxel);
+    brick.masks[static_cast<std::size_t>(face.direction)][word] |= 1u << bit_of(face.voxel);
+    if (face.plant) brick.plants[word] |= 1u << bit_of(face.voxel);
+  }
+  std::size_t count() const { return bricks_.size(); }
+  /// Null: it has none.
+  const BrickFaces* of(std::size_t brick) const {
+    return slots_[brick] == 0 ? nullptr : &bricks_[slots_[brick] - 1];
+  }
+
+ private:
+  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(shared::kBricksPerChunk, 0);
+  std::vector<BrickFaces> bricks_;
+};
+
 }  // namespace
 
 ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append) {
-  std::vector<std::uint32_t> slots(shared::kBricksPerChunk, 0);
-  std::vector<BrickFaces> bricks;
+  FacesByBrick faces;
   for (const shared::Quad& quad : quads)
-    for_each_face(quad, [&](const DrawnFace& face) {
-      std::uint32_t& slot = slots[brick_index(face.voxel)];
-      if (slot == 0) {
-        bricks.emplace_back();
-        slot = static_cast<std::uint32_t>(bricks.size());
-      }
-      BrickFaces& brick = bricks[slot - 1];
-      const std::size_t word = word_of(face.voxel);
-      brick.masks[static_cast<std::size_t>(face.direction)][word] |= 1u << bit_of(face.voxel);
-      if (face.plant) brick.plants[word] |= 1u << bit_of(face.voxel);
-    });
+    for_each_face(quad, [&](const DrawnFace& face) { faces.add(face); });
   ChunkSky out;
   out.table.assign(shared::kBricksPerChunk, 0);
-  out.texels.assign(bricks.size() * shared::kIndirectBrickTexels, glm::uvec4(0));
+  out.texels.assign(faces.count() * shared::kIndirectBrickTexels, glm::uvec4(0));
   std::size_t stored = 0;
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
-    if (slots[at] == 0) continue;
-    const BrickFaces& brick = bricks[slots[at] - 1];
+    if (faces.of(at) == nullptr) continue;
+    const BrickFaces& brick = *faces.of(at);
     const std::size_t first = stored++ * shared::kIndirectBrickTexels;
     out.table[at] = static_cast<std::uint32_t>(stored);
     for (std::size_t direction = 0; direction < 6; ++direction)
@@ -88,39 +103,77 @@ std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int d
 
 namespace {
 
-std::optional<std::size_t> nearest_record(const ChunkSky& chunk, const DrawnFace& face) {
-  if (const auto own = find_record(chunk, face.voxel, face.direction)) return own;
-  std::optional<std::size_t> best;
-  int least = 1 << 20;
-  for (int y = -2; y <= 2; ++y)
-    for (int x = -2; x <= 2; ++x)
-      for (int z = -2; z <= 2; ++z)
-        for (int direction = 0; direction < 6; ++direction) {
-          const int away = x * x + y * y + z * z + (direction == face.direction ? 0 : 100);
-          if (away >= least) continue;
-          const auto found = find_record(chunk, face.voxel + IVec3{x, y, z}, direction);
-          if (found) best = found, least = away;
-        }
-  return best;
+constexpr int kGuessReach = 2;  // voxels
+
+/// Steps to the voxels about one, the nearest first.
+const std::vector<IVec3>& steps_around() {
+  static const std::vector<IVec3> all = [] {
+    std::vector<IVec3> steps;
+    for (int y = -kGuessReach; y <= kGuessReach; ++y)
+      for (int x = -kGuessReach; x <= kGuessReach; ++x)
+        for (int z = -kGuessReach; z <= kGuessReach; ++z) steps.push_back({x, y, z});
+    std::ranges::stable_sort(steps, {}, [](const IVec3& step) {
+      return step.x * step.x + step.y * step.y + step.z * step.z;
+    });
+    return steps;
+  }();
+  return all;
 }
+
+std::optional<std::size_t> nearest_record(const ChunkSky& chunk, const DrawnFace& face) {
+  for (const IVec3& step : steps_around())
+    if (const auto found = find_record(chunk, face.voxel + step, face.direction)) return found;
+  for (const IVec3& step : steps_around())
+    for (int direction = 0; direction < 6; ++direction)
+      if (const auto found = find_record(chunk, face.voxel + step, direction)) return found;
+  return std::nullopt;
+}
+
+/// The voxels of a chunk that have a face with a record: a word for each row along z.
+class VoxelsWithRecords {
+ public:
+  explicit VoxelsWithRecords(const ChunkSky& chunk) : rows_(std::size_t{kEdge} * kEdge, 0) {
+    for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
+      if (chunk.table[at] == 0) continue;
+      const std::size_t first = (chunk.table[at] - 1) * shared::kIndirectBrickTexels;
+      for (std::size_t word = 0; word < 16; ++word) {
+        std::uint32_t mask = 0;
+        for (std::size_t direction = 0; direction < 6; ++direction)
+          mask |= chunk.texels[first + direction * 8 + word / 2][static_cast<int>(word % 2)];
+        const IVec3 voxel = voxel_at(at, word, 0);
+        for (int x = 0; x < 4; ++x)
+          rows_[index(voxel.x + x, voxel.y)] |= std::uint64_t{mask >> 8 * x & 255u} << voxel.z;
+      }
+    }
+  }
+
+  /// Whether a voxel is one of them, or shares an edge with one.
+  bool near(IVec3 voxel) const {
+    std::uint64_t found = 0;
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const int row_x = voxel.x + x, row_y = voxel.y + y;
+        if (std::min(row_x, row_y) < 0 || std::max(row_x, row_y) >= kEdge) continue;
+        const std::uint64_t row = rows_[index(row_x, row_y)];
+        found |= x != 0 && y != 0 ? row : row | row << 1 | row >> 1;
+      }
+    return (found >> voxel.z & 1u) != 0;
+  }
+
+ private:
+  static constexpr int kEdge = shared::kChunkEdge;
+  static std::size_t index(int x, int y) { return static_cast<std::size_t>(x + kEdge * y); }
+  std::vector<std::uint64_t> rows_;
+};
 
 }  // namespace
 
 std::vector<shared::Quad> lit_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
-  const auto is_lit = [&](IVec3 voxel) {
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        for (int z = -1; z <= 1; ++z) {
-          if (x * x + y * y + z * z > 2) continue;
-          for (int direction = 0; direction < 6; ++direction)
-            if (find_record(before, voxel + IVec3{x, y, z}, direction)) return true;
-        }
-    return false;
-  };
+  const VoxelsWithRecords lit(before);
   std::vector<shared::Quad> out;
   for (const shared::Quad& quad : quads)
     for_each_face(quad, [&](const DrawnFace& face) {
-      if (!is_lit(face.voxel)) return;
+      if (!lit.near(face.voxel)) return;
       const IVec3 at = face.voxel;
       out.push_back({static_cast<std::uint32_t>(at.x | at.y << 6 | at.z << 12), quad.material});
     });
@@ -133,6 +186,54 @@ ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> qua
     for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
       texels.push_back(from ? before.texels[*from + i] : glm::uvec4(0));
   });
+}
+
+ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
+  FacesByBrick fresh;
+  for (const shared::Quad& quad : quads)
+    for_each_face(quad, [&](const DrawnFace& face) {
+      if (!find_record(before, face.voxel, face.direction)) fresh.add(face);
+    });
+  if (fresh.count() == 0) return before;
+  ChunkSky out;
+  out.table.assign(shared::kBricksPerChunk, 0);
+  std::uint32_t stored = 0;
+  for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at)
+    if (before.table[at] != 0 || fresh.of(at) != nullptr) out.table[at] = ++stored;
+  out.texels.reserve(before.texels.size() + fresh.count() * shared::kIndirectBrickTexels);
+  out.texels.assign(stored * shared::kIndirectBrickTexels, glm::uvec4(0));
+  const auto append = [&](std::optional<std::size_t> record) {
+    for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
+      out.texels.push_back(record ? before.texels[*record + i] : glm::uvec4(0));
+  };
+  for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
+    if (out.table[at] == 0) continue;
+    for (std::size_t direction = 0; direction < 6; ++direction)
+      for (std::size_t word = 0; word < 16; ++word) {
+        const std::size_t in_brick = direction * 8 + word / 2;
+        const auto half = static_cast<int>(word % 2);
+        glm::uvec4 old(0);  // masks and first records, as pack_faces() has them
+        if (before.table[at] != 0)
+          old = before.texels[(before.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
+        std::uint32_t mask = old[half];
+        if (fresh.of(at) != nullptr) mask |= fresh.of(at)->masks[direction][word];
+        glm::uvec4& now = out.texels[(out.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
+        now[half] = mask;
+        now[2 + half] = static_cast<std::uint32_t>(out.texels.size());
+        std::size_t next = old[2 + half];
+        for (std::uint32_t left = mask; left != 0; left &= left - 1) {
+          const int bit = std::countr_zero(left);
+          if ((old[half] >> bit & 1u) != 0) {
+            append(next);
+            next += shared::kIndirectRecordTexels;
+          } else {
+            append(nearest_record(before,
+                                  {voxel_at(at, word, bit), static_cast<int>(direction), false}));
+          }
+        }
+      }
+  }
+  return out;
 }
 
 }  // namespace skerry::world

@@ -82,6 +82,10 @@ std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int d
 /// they are dark.
 ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> quads);
 
+/// A chunk's records and, where it has none yet, guesses for more of its faces, as inherit_faces()
+/// makes them. @param quads of no plants.
+ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads);
+
 /// Of some faces those next to which `before` knows light: on the same voxel, or on one that
 /// shares an edge with it. As quads of one voxel.
 std::vector<shared::Quad> lit_faces(const ChunkSky& before, std::span<const shared::Quad> quads);

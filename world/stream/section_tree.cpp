@@ -34,13 +34,20 @@ TreeNode beside(const TreeNode& node, std::uint32_t face) {
   return out;
 }
 
-double distance_to(const TreeNode& node, const glm::dvec3& camera) {
-  const double edge = static_cast<double>(std::int64_t{kChunkEdge} << node.level);
-  const glm::dvec3 low = glm::dvec3(node.chunk.x, node.chunk.y, node.chunk.z) * edge;
-  return glm::length(camera - glm::clamp(camera, low, low + edge));
+}  // namespace
+
+void LatticeBox::add(const LatticeBox& other) {
+  low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
+  high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y),
+          std::max(high.z, other.high.z)};
 }
 
-}  // namespace
+double LatticeBox::distance(const glm::dvec3& from) const {
+  if (low.x > high.x) return std::numeric_limits<double>::infinity();
+  const glm::dvec3 nearest =
+      glm::clamp(from, glm::dvec3(low.x, low.y, low.z), glm::dvec3(high.x, high.y, high.z));
+  return glm::length(from - nearest);
+}
 
 std::size_t SectionTree::Hash::operator()(const TreeNode& node) const {
   return hash3(static_cast<std::uint32_t>(node.level), node.chunk.x, node.chunk.y, node.chunk.z);
@@ -51,7 +58,18 @@ SectionTree::Node* SectionTree::find(const TreeNode& node) {
   return found == nodes_.end() ? nullptr : &found->second;
 }
 
-void SectionTree::add(const TreeNode& section) {
+/// Brings the boxes of a node and of those that hold it up to date.
+void SectionTree::enclose(Node* node) {
+  for (; node; node = node->parent) {
+    LatticeBox faces = node->own;
+    for (const Node* child : node->children)
+      if (child) faces.add(child->faces);
+    if (faces == node->faces) return;
+    node->faces = faces;
+  }
+}
+
+void SectionTree::add(const TreeNode& section, const LatticeBox& faces) {
   SKERRY_ASSERT(section.level >= 0 && section.level < kLevelCount);
   Node* below = nullptr;
   for (TreeNode place = section;; place = parent_of(place)) {
@@ -73,6 +91,8 @@ void SectionTree::add(const TreeNode& section) {
   SKERRY_ASSERT(!node.section);
   node.section = node.drawn = true;
   node.seams = 0;
+  node.own = faces;
+  enclose(&node);
   ++sections_[static_cast<std::size_t>(section.level)];
   fresh_.push_back(section);
   stale_ = true;
@@ -82,6 +102,8 @@ void SectionTree::remove(const TreeNode& section) {
   Node* node = find(section);
   SKERRY_ASSERT(node && node->section);
   node->section = false;
+  node->own = {};
+  enclose(node);
   --sections_[static_cast<std::size_t>(section.level)];
   stale_ = true;
   const auto is_bare = [](const Node& of) {
@@ -128,7 +150,7 @@ bool SectionTree::is_split(const Node& node, const glm::dvec3& camera,
   if (!has(node.place.level)) return true;
   const double limit = nearest[static_cast<std::size_t>(node.place.level)];
   const double farther = limit * kSplitHysteresis, nearer = limit / kSplitHysteresis;
-  const double distance = distance_to(node.place, camera);
+  const double distance = node.faces.distance(camera);
   const bool was_split = node.split_in + 1 == round_;
   const bool is_split = distance < (!keep ? limit : was_split ? farther : nearer);
   slack_ = std::min(slack_, std::abs(distance - (is_split ? farther : nearer)));

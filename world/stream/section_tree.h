@@ -18,6 +18,14 @@ struct TreeNode {
   auto operator<=>(const TreeNode&) const = default;
 };
 
+/// A box in an island's lattice [blocks]. The default is empty: it is infinitely far.
+struct LatticeBox {
+  IVec3 low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
+  void add(const LatticeBox& other);
+  double distance(const glm::dvec3& from) const;
+  bool operator==(const LatticeBox&) const = default;
+};
+
 /// An island's sections, and which of them are drawn, so that each place is drawn at one level. It
 /// is kept from frame to frame: what comes, goes or is drawn at another level costs what it is
 /// itself, not what the island is.
@@ -28,7 +36,8 @@ class SectionTree {
   SectionTree& operator=(SectionTree&&) = default;
 
   /// A section is drawn, without seams, until a cut says otherwise. @pre none there is equal.
-  void add(const TreeNode& section);
+  /// @param faces box about them, within the section.
+  void add(const TreeNode& section, const LatticeBox& faces);
   /// @pre it is there.
   void remove(const TreeNode& section);
 
@@ -42,8 +51,9 @@ class SectionTree {
     bool drawn = false;
     std::uint8_t seams = 0;  ///< bit i: at face i another level is drawn
   };
-  /// Chooses anew: a node is drawn unless it is nearer than its level may come; then its children
-  /// are.
+  /// Chooses anew: a node is drawn unless the faces of its sections, or of those that it covers,
+  /// are nearer than its level may come; then its children are. An island whose bounding sphere is
+  /// not nearer has no such node, so that none changes when its finer level comes.
   /// @param camera in lattice axes [blocks].
   /// @param nearest by level: how near a section may come that is drawn at it [blocks]; ascending,
   ///   one for each of kLevelCount levels.
@@ -60,6 +70,7 @@ class SectionTree {
  private:
   struct Node {
     TreeNode place;
+    LatticeBox own, faces;  // of its section, and about those of its children, too
     Node* parent = nullptr;
     std::array<Node*, 8> children{};
     // Rounds in which a cut last drew it, drew it finer, and looked at what is drawn of it.
@@ -74,6 +85,7 @@ class SectionTree {
   };
   Node* find(const TreeNode& node);
   void forget(Node& node);
+  static void enclose(Node* node);
   void choose_levels();
   bool has(std::int32_t level) const { return (levels_ >> level & 1u) != 0; }
   bool is_split(const Node& node, const glm::dvec3& camera, std::span<const double> nearest,

@@ -64,7 +64,7 @@ struct StreamSettings {
   double view_distance_blocks = 1000.0;
   double detail_distance_blocks = 192.0;
   /// Islands that reach across levels have those that their far ends want, too, so that each of
-  /// their sections can be drawn at a level of its own (cut.h).
+  /// their sections can be drawn at a level of its own (section_tree.h).
   bool far_ends = false;
 };
 

@@ -19,7 +19,8 @@ class SectionCutsTest : public testing::Test {
     return {{island, {0, 0, 0}, 0}, {island, {1, 0, 0}, 0}, {island, {0, 0, 0}, 1}};
   }
   void add(const SectionKey& key) {
-    cuts_.add(key);
+    const std::int32_t edge = 64 << key.level, x = key.chunk.x * edge;
+    cuts_.add(key, {{x, 0, 0}, {x + edge, edge, edge}});
     shown_[key] = true;
   }
   void choose(double camera_x, bool keep = true) {

@@ -206,5 +206,47 @@ TEST(CoarseLevels, CrystalsKeepTheirGlow) {
   });
 }
 
+/// Emission of all glowing plants, by id, times the area of their blocks.
+std::map<BlockId, double> plants_that_glow(const IslandSpec& spec, int level) {
+  std::map<BlockId, double> glow;
+  Voxels(spec, level).for_each([&](int, int, int, BlockId id) {
+    if (block_kind(id) == BlockKind::kPlant && block_types()[id].emission > 0.0f)
+      glow[id] += static_cast<double>(block_types()[id].emission) * std::pow(4.0, level);
+  });
+  return glow;
+}
+
+// On the ground and in caves. A plant of level 4 stands for 256.
+TEST(CoarseLevels, PlantsKeepTheirGlow) {
+  std::array<std::map<BlockId, double>, kLevelCount> all;
+  for (const Biome biome : {Biome::kMycelium, Biome::kMarsh, Biome::kVolcanic})
+    for (int i = 0; i < 3; ++i) {
+      const IslandSpec spec = spec_for(static_cast<Archetype>(2 * i + 1), biome, 170,
+                                       mix64(static_cast<std::uint64_t>(i) + 40));
+      for (int level = 0; level < kLevelCount; ++level)
+        for (const auto& [id, glow] : plants_that_glow(spec, level))
+          all[static_cast<std::size_t>(level)][id] += glow;
+    }
+  ASSERT_EQ(all[0].size(), 2u);
+  constexpr std::array<double, kLevelCount> kBounds{0.0, 0.03, 0.03, 0.12, 0.25};
+  for (std::size_t level = 1; level < kLevelCount; ++level)
+    for (const auto& [id, glow] : all[0])
+      EXPECT_NEAR(all[level][id] / glow, 1.0, kBounds[level])
+          << "level " << level << ", " << block_types()[id].name;
+}
+
+// Each stands on ground.
+TEST(CoarseLevels, PlantsThatGlowStandOnGround) {
+  const IslandSpec spec = spec_for(Archetype::kTerraces, Biome::kMycelium, 120, 7);
+  for (int level = 1; level < kLevelCount; ++level) {
+    const Voxels coarse(spec, level);
+    coarse.for_each([&](int x, int y, int z, BlockId id) {
+      if (block_kind(id) == BlockKind::kPlant) {
+        EXPECT_EQ(block_kind(coarse.at(x, y - 1, z)), BlockKind::kOpaque) << "level " << level;
+      }
+    });
+  }
+}
+
 }  // namespace
 }  // namespace skerry::world

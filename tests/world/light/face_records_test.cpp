@@ -84,5 +84,46 @@ TEST(FaceRecords, NothingNearIsDark) {
   EXPECT_EQ(guess.texels[*record], glm::uvec4(0));
 }
 
+// More faces than there were: all that were keep their record, new ones have the guess of a chunk
+// that has both.
+TEST(FaceRecords, MoreFacesHaveTheGuessesOfAllTogether) {
+  std::mt19937 random(4);
+  Voxels stone = ground(random);
+  const LightChunks chunks = chunks_of(stone);
+  const ChunkSky before = sky_of(chunks);
+  const std::vector<shared::Quad>& own = chunks.at({0, 0, 0})->quads;
+  std::vector<shared::Quad> more, all = own;
+  for (int i = 0; i < 400; ++i) {
+    const auto x = random() % 64, y = random() % 12, z = random() % 64, face = random() % 6;
+    more.push_back({static_cast<std::uint32_t>(x | y << 6 | z << 12),
+                    static_cast<std::uint32_t>(face << shared::kFaceShift)});
+  }
+  all.insert(all.end(), more.begin(), more.end());
+  EXPECT_EQ(with_faces(before, more), inherit_faces(before, all));
+  EXPECT_EQ(with_faces(before, own), before);
+}
+
+// As asked of every voxel about each face.
+TEST(FaceRecords, LitFacesHaveARecordBesideThem) {
+  std::mt19937 random(5);
+  const ChunkSky before = sky_of(chunks_of(ground(random)));
+  std::size_t lit = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const IVec3 at{static_cast<int>(random() % 64), static_cast<int>(random() % 12),
+                   static_cast<int>(random() % 64)};
+    bool expected = false;
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          for (int face = 0; face < 6 && x * x + y * y + z * z <= 2; ++face)
+            expected |= find_record(before, at + IVec3{x, y, z}, face).has_value();
+    const shared::Quad quad{static_cast<std::uint32_t>(at.x | at.y << 6 | at.z << 12), 0};
+    ASSERT_EQ(lit_faces(before, {&quad, 1}).size(), expected ? 1u : 0u);
+    lit += expected;
+  }
+  EXPECT_GT(lit, 200u);
+  EXPECT_LT(lit, 1800u);
+}
+
 }  // namespace
 }  // namespace skerry::world

@@ -16,6 +16,7 @@
 #include "tools/skerry/bench/bench_generate.h"
 #include "tools/skerry/bench/bench_lights.h"
 #include "tools/skerry/bench/bench_mesh.h"
+#include "tools/skerry/bench/bench_pops.h"
 #include "tools/skerry/bench/bench_shade.h"
 #include "tools/skerry/bench/bench_upload.h"
 #include "tools/skerry/bench/bench_world.h"
@@ -64,6 +65,12 @@ BenchCommands::BenchCommands(CLI::App& app)
   add_scene_options(*flicker_, scene_);
   flicker_->add_option("--frames", frames_, "Frames of each motion (default 120)")
       ->check(CLI::Range(2, 10000));
+  pops_ = add("pops", "Measure how much of the picture changes of level move, in a flight");
+  add_scene_options(*pops_, scene_);
+  pops_->add_option("--frames", frames_, "Frames of the flight (default 600)")
+      ->check(CLI::Range(2, 100000));
+  pops_->add_option("--speed", speed_, "Blocks a second, of 60 frames (default 48)")
+      ->check(CLI::Range(1.0, 10000.0));
   edit_ = add("edit", "Time from an edit to the first picture that shows it");
   add_scene_options(*edit_, scene_);
   fly_ = add("fly", "Time every frame of a flight through islands not seen before");
@@ -98,6 +105,7 @@ int BenchCommands::run() {
   if (chosen == shade_) return run_shade();
   if (chosen == frame_) return run_frame();
   if (chosen == flicker_) return run_flicker();
+  if (chosen == pops_) return run_pops();
   if (chosen == edit_) return run_edit();
   if (chosen == fly_ || chosen == start_) return run_flight(*chosen);
   if (const auto refusal = check_output(json_)) return refuse(*refusal);
@@ -110,13 +118,13 @@ int BenchCommands::run() {
 int BenchCommands::refuse_unknown() const {
   constexpr std::string_view kNames[] = {"mesh",   "generate", "world", "upload", "cull",
                                          "device", "lights",   "shade", "frame",  "flicker",
-                                         "edit",   "fly",      "start"};
+                                         "pops",   "edit",     "fly",   "start"};
   const std::vector<std::string> leftovers = bench_->remaining();
   if (leftovers.empty()) {
     return fail(
         kUsage,
         {"bench does not say what: give mesh, generate, world, upload, cull, device, lights, "
-         "shade, frame, flicker, edit, fly or start"});
+         "shade, frame, flicker, pops, edit, fly or start"});
   }
   return fail(kUsage,
               {fmt::format("there is no bench {}: did you mean '{}'? See skerry bench --help",
@@ -176,6 +184,17 @@ int BenchCommands::run_flicker() {
   options.frames = frames_;
   options.json = path_of(json_);
   return bench_flicker(options);
+}
+
+int BenchCommands::run_pops() {
+  BenchPopsOptions options;
+  if (const auto refusal = resolve(scene_, true, options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_draws_frames(options.scene)) return refuse(*refusal);
+  if (const auto refusal = check_output(json_)) return refuse(*refusal);
+  options.frames = frames_;
+  options.speed = speed_;
+  options.json = path_of(json_);
+  return bench_pops(options);
 }
 
 int BenchCommands::run_edit() {

@@ -12,8 +12,7 @@ class App;
 namespace skerry::tools {
 
 /// `skerry bench mesh|generate|world|upload|cull|device|lights|shade|frame|flicker|
-/// edit|fly|start`: options, and
-/// which function each calls.
+/// pops|edit|fly|start`: options, and which function each calls.
 class BenchCommands {
  public:
   /// Adds `bench` and its sub-commands.
@@ -34,6 +33,7 @@ class BenchCommands {
   int run_shade();
   int run_frame();
   int run_flicker();
+  int run_pops();
   int run_edit();
   int run_flight(const CLI::App& chosen);
   int refuse_unknown() const;
@@ -49,6 +49,7 @@ class BenchCommands {
   CLI::App* shade_;
   CLI::App* frame_;
   CLI::App* flicker_;
+  CLI::App* pops_;
   CLI::App* edit_;
   CLI::App* fly_;
   CLI::App* start_;

@@ -6,8 +6,8 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device/device.h"
-#include "tools/skerry/bench/left_out.h"
 #include "tools/skerry/report/write_topic.h"
+#include "tools/skerry/scene/left_out.h"
 
 namespace skerry::tools {
 

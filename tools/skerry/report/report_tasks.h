@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "tools/skerry/bench/left_out.h"
 #include "tools/skerry/farm/record.h"
 #include "tools/skerry/report/measure_topic.h"
 #include "tools/skerry/report/report_session.h"
+#include "tools/skerry/scene/left_out.h"
 
 namespace skerry::tools {
 

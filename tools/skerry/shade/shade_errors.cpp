@@ -103,7 +103,7 @@ class Judge {
         const glm::dvec3 exact =
             shader_.soft_irradiance({place.point, place.normal,
                                      place.direction == StoredLight::kPlant ? &place.hit : nullptr},
-                                    place.most_range, sampler);
+                                    double{game::kWeakLampRange}, sampler);
         sum.count += 1.0;
         sum.reference += exact;
         sum.difference += *place.light - exact;
@@ -133,7 +133,6 @@ class Judge {
     reference::Meeting hit;
     int direction = 0;
     glm::dvec3 point{}, normal{};
-    double most_range = 0.0;  // of lamps whose light is stored
   };
   struct Sum {
     double count = 0.0;
@@ -162,8 +161,6 @@ class Judge {
     out.normal = tracer_.normal(out.hit.island, out.hit.face);
     constexpr double kOffSurface = 1e-7;  // blocks
     out.point = direction * out.hit.t + (plant ? glm::dvec3(0.0) : out.normal * kOffSurface);
-    // At coarser levels lamps that are weak one by one stand for many, and are lights of the frame.
-    if (stored_.level_of(out.island) == 0) out.most_range = double{game::kWeakLampRange};
     return out;
   }
 

@@ -259,11 +259,6 @@ std::optional<glm::dvec3> StoredLight::at(std::uint64_t id, glm::dvec3 place, in
          bounced_light(record[3], sky.subspan(shared::kIndirectHarmonics), corner, detail_.degree);
 }
 
-int StoredLight::level_of(std::uint64_t island) const {
-  const auto found = islands_.find(island);
-  return found == islands_.end() ? 0 : found->second.level;
-}
-
 std::size_t StoredLight::bytes() const {
   std::size_t sum = 0;
   for (const auto& [id, island] : islands_)

@@ -37,8 +37,6 @@ class StoredLight {
   /// @param direction of the face; kPlant: of a plant, which counts as level.
   std::optional<glm::dvec3> at(std::uint64_t island, glm::dvec3 place, int direction) const;
   static constexpr int kPlant = 6;
-  /// At which an island is shown; 0 if it has none.
-  int level_of(std::uint64_t island) const;
   /// What finding it took: seconds of all threads, bytes that the renderer stores of it.
   double work_seconds() const { return work_seconds_; }
   std::size_t bytes() const;

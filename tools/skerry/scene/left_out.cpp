@@ -1,4 +1,4 @@
-#include "tools/skerry/bench/left_out.h"
+#include "tools/skerry/scene/left_out.h"
 
 #include <algorithm>
 #include <chrono>
