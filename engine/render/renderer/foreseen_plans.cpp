@@ -96,7 +96,9 @@ void suppose(FramePlan& plan, const FrameNeeds& needs, const Supposed& what) {
   absent_unless(plan.clouds.has_value(), Feature::kClouds);
   plan.input.camera_medium =
       what.water == Water::kAroundEye && features.has(Feature::kWater) ? kSomeBlock : 0;
+  plan.glass.edge = 1;
   plan.glass.maps.assign(what.glass && !plan.shadows.cascades.empty() ? 1 : 0, {});
+  for (GlassMap& map : plan.glass.maps) map.area = {{0, 0}, {1, 1}};
   plan.contents = {features, {}, plan.tables.constants.layers_area, {}};
   plan.contents.cutouts_in_view.assign(1 + plan.shadows.cascades.size(),
                                        features.has(Feature::kCutouts));
