@@ -63,9 +63,9 @@ struct FrameConstants {
   uint glass_body;        // whose light is known to pass through glass: the brighter one's
   float glass_per_texel;  // texels of a map of glass along one of a shadow map; the middle of each
                           // is that of one
-  uint camera_medium;         // block id the camera is in: 0 air, else a translucent block
-  uint medium_surface;        // word of the face above the camera through which light enters that
-                              // medium, as the G-buffer has words; 0: none is known
+  uint camera_medium;     // block id the camera is in: 0 air, else a translucent block
+  uint medium_surface;    // word of the face above the camera through which light enters that
+                          // medium, as the G-buffer has words; 0: none is known
   vec3 medium_surface_place;  // its middle
   float medium_light;         // share of the light that enters there, which reaches the camera
   float shadow_blur;          // largest radius of the shadow filter [blocks]
