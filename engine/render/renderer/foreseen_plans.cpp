@@ -147,11 +147,7 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
   // Day before night: both, sun, moon, neither.
   for (const std::uint32_t bodies : {3u, 1u, 2u, 0u}) {
     for (const Water water : {Water::kNone, Water::kInView, Water::kAroundEye})
-      for (const std::uint32_t lights : kinds) {
-        visit_with({bodies, lights, water});
-        if (water == Water::kInView && bodies != 0)
-          visit_with({.bodies = bodies, .lights = lights, .water = water, .glass = true});
-      }
+      for (const std::uint32_t lights : kinds) visit_with({bodies, lights, water});
     // Stars and discs concern the sky alone, which goes to the picture, or for lights to an image
     // of radiance, or for water to both.
     for (const bool stars : {false, true}) {
@@ -163,6 +159,10 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
       }
     }
   }
+  // What players build comes last.
+  for (const std::uint32_t bodies : {1u, 2u, 3u})
+    for (const std::uint32_t lights : kinds)
+      visit_with({.bodies = bodies, .lights = lights, .water = Water::kInView, .glass = true});
 }
 
 }  // namespace skerry::render
