@@ -13,9 +13,8 @@ namespace skerry::render {
 namespace {
 
 constexpr VkExtent2D kSize{96, 96};
-constexpr double kSun = 3000.0;  // irradiance
-constexpr int kEdge = 64;        // of the floor, whose surface is at y = 1
-constexpr int kLow = 9, kHigh = 15;
+constexpr double kSun = 3000.0;      // irradiance
+constexpr int kLow = 9, kHigh = 15;  // y of panes; the floor's surface is at y = 1
 
 struct Pane {
   glm::ivec3 low, high;  // before `high`
