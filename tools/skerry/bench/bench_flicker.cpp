@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <glm/trigonometric.hpp>
 #include <memory>
@@ -13,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/transfer/readback.h"
 #include "game/view/scene_view.h"
 #include "tools/measure/flicker.h"
 #include "tools/skerry/bench/bench_report.h"
+#include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/scene/progress.h"
 #include "tools/skerry/scene/scene_device.h"
 
@@ -99,13 +98,7 @@ class Pair {
   Result<Bytes> draw(game::SceneView& view, const game::SceneView::Moment& moment) const {
     if (Result<void> loaded = view.load_completely(moment.camera, moment.world_time_s); !loaded)
       return loaded.error();
-    if (Result<std::uint64_t> drawn = view.draw(moment, size_); !drawn) return drawn.error();
-    view.renderer().finish();
-    Result<std::vector<std::byte>> texels = gpu::read_back(*device_, view.renderer().picture(), 4);
-    if (!texels) return texels.error();
-    Bytes out(texels->size());
-    std::memcpy(out.data(), texels->data(), out.size());
-    return out;
+    return drawn_picture(*device_, view, moment, size_);
   }
 
   gpu::Device* device_;

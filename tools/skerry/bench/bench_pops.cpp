@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/trigonometric.hpp>
 #include <memory>
 #include <vector>
 
-#include "engine/gpu/transfer/readback.h"
 #include "game/view/scene_view.h"
 #include "tools/measure/flicker.h"
 #include "tools/skerry/bench/bench_report.h"
+#include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/scene/progress.h"
 #include "tools/skerry/scene/scene_device.h"
 
@@ -90,14 +89,7 @@ class PopFlight {
   }
 
   Result<Bytes> draw(const game::SceneView::Moment& moment) {
-    if (Result<std::uint64_t> drawn = view_->draw(moment, size_); !drawn) return drawn.error();
-    view_->renderer().finish();
-    Result<std::vector<std::byte>> texels =
-        gpu::read_back(*device_, view_->renderer().picture(), 4);
-    if (!texels) return texels.error();
-    Bytes out(texels->size());
-    std::memcpy(out.data(), texels->data(), out.size());
-    return out;
+    return drawn_picture(*device_, *view_, moment, size_);
   }
 
   gpu::Device* device_;

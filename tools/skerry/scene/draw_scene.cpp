@@ -146,4 +146,17 @@ Result<std::vector<render::FrameReport>> SceneDrawer::time(int count, bool keep_
   return out;
 }
 
+Result<std::vector<std::uint8_t>> drawn_picture(gpu::Device& device, game::SceneView& view,
+                                                const game::SceneView::Moment& moment,
+                                                VkExtent2D size) {
+  if (Result<std::uint64_t> drawn = view.draw(moment, size); !drawn) return drawn.error();
+  view.renderer().finish();
+  const Result<std::vector<std::byte>> texels =
+      gpu::read_back(device, view.renderer().picture(), 4);
+  if (!texels) return texels.error();
+  std::vector<std::uint8_t> out(texels->size());
+  std::memcpy(out.data(), texels->data(), out.size());
+  return out;
+}
+
 }  // namespace skerry::tools

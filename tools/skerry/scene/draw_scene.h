@@ -50,4 +50,9 @@ class SceneDrawer {
   std::optional<double> exposure_ev_;  // of frames that are mixed; none: as metered
 };
 
+/// Draws what a view has loaded and waits. @return RGBA8, sRGB-encoded, rows from the top.
+Result<std::vector<std::uint8_t>> drawn_picture(gpu::Device& device, game::SceneView& view,
+                                                const game::SceneView::Moment& moment,
+                                                VkExtent2D size);
+
 }  // namespace skerry::tools
