@@ -56,10 +56,11 @@ wait_for_frames
 wait_until_quick
 case $(screenshot; echo "$command") in *'--quality low'*) ;; *) fail "low is not low: $command" ;; esac
 
-# Waits until the game takes less than a share of what playing takes; programs that no view has needed yet may still be compiled.
+# Waits until the game takes less than a share of what playing takes; programs that no view has needed yet may still be compiled, for a minute
+# or more.
 takes_less() {
   local took
-  for _ in $(seq 12); do
+  for _ in $(seq 45); do
     took=$(spent_in 4)
     awk -v a="$playing" -v b="$took" -v s="$1" 'BEGIN { exit !(b < s * a) }' && return
   done
