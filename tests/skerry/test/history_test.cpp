@@ -19,7 +19,7 @@ class HistoryTest : public testing::Test {
  protected:
   static PastRun run(const std::string& date, Verdict verdict = Verdict::kPass,
                      const std::string& picture = "a") {
-    return {date, "day", "mesa", verdict, 1, verdict == Verdict::kFail ? 1 : 0, 1, picture};
+    return {date, "day", "mesa", verdict, 1, verdict == Verdict::kFail ? 1 : 0, 1, picture, {}};
   }
   /// Adds runs as a command of its own does.
   void append(const std::vector<PastRun>& runs) {
@@ -43,7 +43,7 @@ class HistoryTest : public testing::Test {
 
 TEST_F(HistoryTest, KeepsTheRunsOfAllCommandsInTheirOrder) {
   const PastRun first = run("1"), second = run("2", Verdict::kFail, "b");
-  PastRun third{"3", "night \"\n\xc3\xa4", "mesa", Verdict::kApproved, 5, 2, 3, ""};
+  PastRun third{"3", "night \"\n\xc3\xa4", "mesa", Verdict::kApproved, 5, 2, 3, "", 1.5};
   append({first});
   const std::string before = text();
   append({second, third});
@@ -73,6 +73,7 @@ TEST_F(HistoryTest, DamagedLinesArePassedOverAndStay) {
         changed("\"failed_runs\":0", "\"failed_runs\":2"),
         changed("\"pictures\":1", "\"pictures\":2"),
         changed("\"date\":\"1\"", "\"date\":\"" + std::string(41, '1') + "\""),
+        changed("\"pictures\":1", "\"seconds\":-1,\"pictures\":1"),
         changed("\"scene\":\"day\"", "\"scene\":null")}) {
     write(line + bad + whole);
     EXPECT_EQ(stored(), (std::vector<PastRun>{run("1"), run("1"), run("2")})) << bad.substr(0, 80);
@@ -112,6 +113,23 @@ TEST_F(HistoryTest, AMergedRunIsTakenInOnce) {
   history->add_new(run("2"));
   ASSERT_TRUE(history->append());
   EXPECT_EQ(stored(), (std::vector<PastRun>{run("1"), run("2")}));
+}
+
+TEST_F(HistoryTest, KnowsWhatASceneTookAtLast) {
+  PastRun slow = run("2"), quick = run("3"), unknown = run("4");
+  slow.seconds = 9.0;
+  quick.seconds = 2.5;
+  quick.driver = "other";
+  append({quick, slow, unknown});
+  Result<History> history = History::open(file());
+  ASSERT_TRUE(history);
+  EXPECT_EQ(history->seconds_of("day"), 2.5);
+  EXPECT_EQ(history->seconds_of("night"), std::nullopt);
+  // Lines that an earlier version wrote are the same run as one that a merge brings with its time.
+  PastRun again = unknown;
+  again.seconds = 1.0;
+  history->add_new(again);
+  EXPECT_EQ(history->of("day", "mesa").size(), 2u);
 }
 
 TEST_F(HistoryTest, WhatIsNoRegularFileIsRefused) {

@@ -100,7 +100,7 @@ Ran run(const Serve& serve, const PoolOptions& options, std::size_t count) {
 }
 
 TEST(Pool, GivesEachDeviceOneTaskAtATime) {
-  const FakeDevices gpus(false);
+  const FakeDevices gpus(false, 4);  // or a late one would find nothing left
   PoolOptions options;
   options.devices = {0, 2, 3, 7};
   const Ran ran = run(gpus.serve(), options, 60);
@@ -109,6 +109,37 @@ TEST(Pool, GivesEachDeviceOneTaskAtATime) {
   for (const std::uint32_t device : options.devices)
     EXPECT_EQ(ran.processes.at(device).size(), 1u) << device;
   EXPECT_EQ(ran.result.validation_messages, 4) << "each says farewell";
+}
+
+TEST(Pool, DrawsWhatTakesLongestFirst) {
+  // Scene i takes as long as i says, once it has been drawn; before, as it is expected to.
+  const std::vector<double> took{2.0, 9.0, 4.0, 7.0};
+  const Serve serve = [&](int jobs, int results, const Seat&) {
+    std::FILE* out = ::fdopen(results, "w");
+    std::FILE* in = ::fdopen(jobs, "r");
+    const auto say = [&](const std::string& line) {
+      std::fputs(line.c_str(), out);
+      std::fflush(out);
+    };
+    say(line_of(Greeting{"", false}));
+    for (unsigned long scene = 0; std::fscanf(in, "%lu", &scene) == 1;) {
+      Outcome outcome;
+      outcome.row.seconds = took[scene];
+      say(line_of(outcome));
+    }
+    say(line_of(Farewell{0}));
+  };
+  const std::vector<TestScene> scenes(took.size());
+  PoolOptions options;
+  options.runs = 2;
+  std::vector<std::size_t> drawn;
+  const auto note = [&](std::size_t scene, const Outcome&) { drawn.push_back(scene); };
+  run_pool(scenes, options, note, serve);
+  EXPECT_EQ(drawn, (std::vector<std::size_t>{0, 1, 2, 3, 1, 3, 2, 0}));
+  drawn.clear();
+  options.expected_s = {1.0, {}, 3.0, 3.0};
+  run_pool(scenes, options, note, serve);
+  EXPECT_EQ(drawn, (std::vector<std::size_t>{1, 2, 3, 0, 1, 3, 2, 0}));
 }
 
 TEST(Pool, OpensItsDevicesAtOnce) {

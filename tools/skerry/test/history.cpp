@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -59,11 +60,11 @@ Result<std::string> read_from(int descriptor, off_t first, off_t end, const fs::
 }
 
 std::string line_of(const PastRun& run) {
-  const nlohmann::ordered_json line{
-      {"date", run.date},         {"scene", run.scene},
-      {"driver", run.driver},     {"verdict", verdict_name(run.verdict)},
-      {"runs", run.runs},         {"failed_runs", run.failed_runs},
-      {"pictures", run.pictures}, {"picture", run.picture}};
+  nlohmann::ordered_json line{{"date", run.date},         {"scene", run.scene},
+                              {"driver", run.driver},     {"verdict", verdict_name(run.verdict)},
+                              {"runs", run.runs},         {"failed_runs", run.failed_runs},
+                              {"pictures", run.pictures}, {"picture", run.picture}};
+  if (run.seconds) line["seconds"] = *run.seconds;
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -73,12 +74,19 @@ std::optional<PastRun> run_of(const std::string& line) {
   if (!from) return std::nullopt;
   try {
     const std::optional<Verdict> verdict = verdict_of_name(from->at("verdict").get<std::string>());
-    PastRun run{from->at("date").get<std::string>(),   from->at("scene").get<std::string>(),
-                from->at("driver").get<std::string>(), verdict.value_or(Verdict::kFail),
-                from->at("runs").get<int>(),           from->at("failed_runs").get<int>(),
-                from->at("pictures").get<int>(),       from->at("picture").get<std::string>()};
+    PastRun run{from->at("date").get<std::string>(),
+                from->at("scene").get<std::string>(),
+                from->at("driver").get<std::string>(),
+                verdict.value_or(Verdict::kFail),
+                from->at("runs").get<int>(),
+                from->at("failed_runs").get<int>(),
+                from->at("pictures").get<int>(),
+                from->at("picture").get<std::string>(),
+                {}};
+    if (from->contains("seconds")) run.seconds = from->at("seconds").get<double>();
     const bool counts = run.runs >= 1 && run.failed_runs >= 0 && run.failed_runs <= run.runs &&
-                        run.pictures >= 0 && run.pictures <= run.runs;
+                        run.pictures >= 0 && run.pictures <= run.runs &&
+                        run.seconds.value_or(0.0) >= 0.0;
     if (!verdict || !counts || run.date.size() > 40) return std::nullopt;
     return run;
   } catch (const json::exception&) {
@@ -116,8 +124,9 @@ Result<void> write_all(int descriptor, std::string_view text, const fs::path& fi
 }  // namespace
 
 PastRun past_run(const Row& row, const std::string& date) {
-  return {date,     row.scene,       row.driver,   row.verdict,
-          row.runs, row.failed_runs, row.pictures, row.picture};
+  return {date,         row.scene,   row.driver,
+          row.verdict,  row.runs,    row.failed_runs,
+          row.pictures, row.picture, row.seconds / row.runs};
 }
 
 std::string summary_of(std::span<const PastRun> runs) {
@@ -165,14 +174,26 @@ std::span<const PastRun> History::of(const std::string& scene, const std::string
   return found->second;
 }
 
+std::optional<double> History::seconds_of(const std::string& scene) const {
+  const PastRun* last = nullptr;
+  const auto of_scene = [&](const auto& runs) { return runs.first.first == scene; };
+  for (const auto& [name, runs] : runs_ | std::views::filter(of_scene))
+    for (const PastRun& run : runs)
+      if (run.seconds && (!last || run.date > last->date)) last = &run;
+  return last ? last->seconds : std::nullopt;
+}
+
 void History::add(PastRun run) {
   unwritten_ += line_of(run);
   runs_[{run.scene, run.driver}].push_back(std::move(run));
 }
 
 void History::add_new(PastRun run) {
-  const std::span<const PastRun> known = of(run.scene, run.driver);
-  if (std::ranges::find(known, run) == known.end()) add(std::move(run));
+  const auto same = [&](PastRun known) {
+    known.seconds = run.seconds;  // an earlier version did not note it
+    return known == run;
+  };
+  if (std::ranges::none_of(of(run.scene, run.driver), same)) add(std::move(run));
 }
 
 Result<void> History::append() {

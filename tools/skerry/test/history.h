@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@ struct PastRun {
   Verdict verdict = Verdict::kFail;
   int runs = 1, failed_runs = 0, pictures = 0;
   std::string picture;  ///< SHA-256 of its pixels; empty: none, or a picture of another program
+  std::optional<double> seconds;  ///< none: not noted by an earlier version
   bool operator==(const PastRun&) const = default;
 };
 
@@ -37,6 +39,8 @@ class History {
 
   /// The runs of a scene on a driver, oldest first.
   std::span<const PastRun> of(const std::string& scene, const std::string& driver) const;
+  /// What the scene took when it was drawn last, on any driver; none: not known.
+  std::optional<double> seconds_of(const std::string& scene) const;
   void add(PastRun run);
   /// The same, unless the run is there already: of rows that are merged once more.
   void add_new(PastRun run);

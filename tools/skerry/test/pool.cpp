@@ -10,7 +10,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <functional>
+#include <limits>
 #include <list>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +25,8 @@
 
 namespace skerry::tools {
 namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 /// A child process that draws, and the pipes to and from it.
 struct Worker {
@@ -49,7 +54,11 @@ class Pool {
         done_(done),
         serve_(serve),
         cores_(usable_cpus()),
-        left_(scenes.size() * static_cast<std::size_t>(options.runs)) {
+        left_(scenes.size() * static_cast<std::size_t>(options.runs)),
+        seconds_(options.expected_s),
+        order_(scenes.size()) {
+    seconds_.resize(scenes.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
     devices_.assign(options.devices.begin(), options.devices.end());
     if (devices_.empty()) devices_.push_back(std::nullopt);
     const auto devices = static_cast<int>(devices_.size());
@@ -78,6 +87,7 @@ class Pool {
   bool take_in(Worker& worker);
   void take_line(Worker& worker, const std::string& line);
   void greet(const Greeting& greeting);
+  std::size_t next_scene();
   void give_job(Worker& worker);
   void lose(Worker& worker);
   int end(Worker& worker);
@@ -91,7 +101,9 @@ class Pool {
   int planned_ = 1;   // processes, if devices are CPUs
   std::size_t left_;  // jobs not given out yet
   std::size_t next_ = 0;
-  bool met_ = false;  // a worker has said that there is a device
+  std::vector<std::optional<double>> seconds_;  // that each scene took when it was drawn last
+  std::vector<std::size_t> order_;              // of scenes, in this run of them all
+  bool met_ = false;                            // a worker has said that there is a device
   std::list<Worker> workers_;
   PoolResult result_;
 };
@@ -188,7 +200,9 @@ void Pool::take_line(Worker& worker, const std::string& line) {
     if (!result_.refusal) give_job(worker);
   } else if (worker.scene) {
     const std::size_t scene = *std::exchange(worker.scene, std::nullopt);
-    done_(scene, outcome_of(line));
+    const Outcome outcome = outcome_of(line);
+    seconds_[scene] = outcome.row.seconds;
+    done_(scene, outcome);
     give_job(worker);
   } else {
     result_.validation_messages += farewell_of(line).validation_messages;
@@ -205,13 +219,22 @@ void Pool::greet(const Greeting& greeting) {
   start_workers(processes(false), processes(greeting.on_cpu));
 }
 
+/// Scenes that take long come first in every run, so that no worker is left with one while the
+/// others have nothing to do; before them those that nothing is known of.
+std::size_t Pool::next_scene() {
+  const std::size_t at = next_++ % order_.size();
+  const auto seconds = [&](std::size_t scene) { return seconds_[scene].value_or(kUnknown); };
+  if (at == 0) std::ranges::stable_sort(order_, std::greater(), seconds);
+  return order_[at];
+}
+
 void Pool::give_job(Worker& worker) {
   if (left_ == 0) {
     ::close(std::exchange(worker.jobs, -1));
     return;
   }
   --left_;
-  worker.scene = next_++ % scenes_.size();
+  worker.scene = next_scene();
   const std::string line = fmt::format("{}\n", *worker.scene);
   // A worker that has died meanwhile is noticed when its results end.
   [[maybe_unused]] const ssize_t written = ::write(worker.jobs, line.data(), line.size());

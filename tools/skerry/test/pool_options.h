@@ -13,6 +13,9 @@ struct PoolOptions {
   bool validate = false;
   std::optional<int> processes;  ///< a device; none: one a core on CPU devices, else one
   int runs = 1;                  ///< every scene is drawn afresh so many times
+  /// Seconds that each scene may take, none where it is not known: those come first, then longer
+  /// ones. Empty: nothing is known.
+  std::vector<std::optional<double>> expected_s;
   JudgeOptions judge;
 };
 

@@ -281,6 +281,9 @@ int TestCommand::draw_and_judge() {
   if (const auto refusal = read_set(scenes, results.scenes_in_set)) return refuse(*refusal);
   if (const auto refusal = check_outputs()) return refuse(*refusal);
 
+  if (history_)
+    for (const TestScene& scene : scenes)
+      pool_.expected_s.push_back(history_->seconds_of(scene.name));
   const Stopwatch watch;
   std::vector<Outcome> outcomes(scenes.size());
   const PoolResult end = draw(scenes, [&](std::size_t scene, const Outcome& outcome) {
