@@ -8,10 +8,12 @@
 
 #include "engine/gpu/transfer/readback.h"
 #include "engine/render/renderer/renderer.h"
+#include "engine/render/scene/occupancy_store.h"
 #include "game/view/materials.h"
 #include "tests/gpu/test_device.h"
 #include "tests/render/random_scenes.h"
 #include "tests/render/voxel_chunks.h"
+#include "world/mesh/occupancy.h"
 
 namespace skerry::render {
 
@@ -53,6 +55,29 @@ class RendererOnGpu : public gpu::GpuTest {
            std::uint32_t voxel_size_log2 = 0) {
     add_chunks(renderer_->geometry(), renderer_->mesh_uploader(), block_at, low, high, island,
                voxel_size_log2);
+  }
+
+  /// Which voxels of the same chunks, at full detail, are opaque.
+  void add_occupancy(const BlockAt& block_at, world::IVec3 low, world::IVec3 high,
+                     std::uint32_t island = 0) {
+    Result<OccupancyStore*> store = renderer_->occupancy();
+    ASSERT_TRUE(store) << store.error().message;
+    const glm::ivec3 first(low.x, low.y, low.z), size = glm::ivec3(high.x, high.y, high.z) - first;
+    ASSERT_TRUE((*store)->begin_island(renderer_->mesh_uploader(), island, {first, size}));
+    for (int c = 0; c < size.x * size.y * size.z; ++c) {
+      const glm::ivec3 chunk =
+          first + glm::ivec3(c % size.x, c / size.x % size.y, c / (size.x * size.y));
+      std::vector<world::BlockId> voxels;
+      for (int y = -1; y < 65; ++y)
+        for (int x = -1; x < 65; ++x)
+          for (int z = -1; z < 65; ++z)
+            voxels.push_back(block_at(chunk.x * 64 + x, chunk.y * 64 + y, chunk.z * 64 + z));
+      const world::ChunkOccupancy made = world::occupancy_of(voxels);
+      if (made.fill == world::ChunkOccupancy::Fill::kEmpty) continue;
+      const bool full = made.fill == world::ChunkOccupancy::Fill::kFull;
+      ASSERT_TRUE(
+          (*store)->add(renderer_->mesh_uploader(), island, chunk, {full, made.table, made.words}));
+    }
   }
 
   /// Draws and waits. @return the frame's numbers.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tools/reference/brdf.h"
+#include "tools/reference/media.h"
 #include "tools/reference/open_sky.h"
 #include "tools/reference/textures.h"
 #include "world/voxel/emission.h"
@@ -53,10 +54,6 @@ bool Shader::body_seen(const Receiver& at, glm::dvec3 to_light) const {
 }
 
 namespace {
-
-bool is_wavy(const Meeting& layer) {
-  return world::block_types()[layer.block].liquid && axis_of_face(layer.face) == 1;
-}
 
 /// Whether a ray goes out of the block whose surface it meets.
 bool leaves(const Meeting& layer, glm::dvec3 lattice_direction) {
@@ -552,30 +549,6 @@ struct Shader::Passage {
   }
 };
 
-namespace {
-
-glm::dvec3 exp3(glm::dvec3 v) {
-  return {std::exp(v.x), std::exp(v.y), std::exp(v.z)};
-}
-
-}  // namespace
-
-Medium medium_of(world::BlockId block) {
-  const world::BlockType& type = world::block_types()[block];
-  return {{type.absorption[0], type.absorption[1], type.absorption[2]}, type.scattering};
-}
-
-glm::dvec3 scattered_in(const Medium& medium, glm::dvec3 irradiance, double length_blocks) {
-  const glm::dvec3 extinction = medium.extinction();
-  if (extinction.x <= 0.0 || extinction.y <= 0.0 || extinction.z <= 0.0) return glm::dvec3(0.0);
-  return medium.scattering / extinction * irradiance * (1.0 - exp3(extinction * -length_blocks)) /
-         (4.0 * kPi);
-}
-
-glm::dvec3 transmitted_by(const Medium& medium, double length_blocks) {
-  return exp3(medium.extinction() * -length_blocks);
-}
-
 Shader::Reach Shader::reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye,
                             double roughness, Sampler& sampler) const {
   Reach reach;
@@ -589,26 +562,10 @@ Shader::Reach Shader::reach(const Receiver& at, glm::dvec3 shading_normal, glm::
   return reach;
 }
 
-/// Small waves on level water: the gradient of four sines of the lattice, whose periods divide an
-/// hour. They fade with the distance, for far ones are smaller than a pixel.
+/// Of level water, with its ripples.
 glm::dvec3 Shader::rippled_normal(const Meeting& layer) const {
-  struct Wave {
-    double x, z, slope;
-  };
-  constexpr Wave kWaves[] = {
-      {0.83, 0.31, 0.022}, {-0.47, 1.13, 0.018}, {1.91, -1.27, 0.011}, {-2.3, -2.9, 0.007}};
-  const double fading = std::exp(-0.02 * layer.t);
-  double slope_x = 0.0, slope_z = 0.0;
-  for (const Wave& wave : kWaves) {
-    const double length = std::hypot(wave.x, wave.z);
-    const double turns_per_s = std::floor(30.0 * length) / 100.0;
-    const double phase = wave.x * layer.lattice.x + wave.z * layer.lattice.z +
-                         2.0 * kPi * std::fmod(scene_.time_s * turns_per_s, 1.0);
-    slope_x += wave.x / length * wave.slope * std::cos(phase) * fading;
-    slope_z += wave.z / length * wave.slope * std::cos(phase) * fading;
-  }
-  const glm::dvec3 lattice = glm::normalize(glm::dvec3(-slope_x, 1.0, -slope_z));
-  return scene_.islands[layer.island].rotation * lattice * (layer.face == 2 ? 1.0 : -1.0);
+  return scene_.islands[layer.island].rotation * ripples_of(layer, scene_.time_s) *
+         (layer.face == 2 ? 1.0 : -1.0);
 }
 
 /// Whether what is seen is seen through level water, from the air.
@@ -643,8 +600,8 @@ glm::dvec3 Shader::mirrored_inside(const Meeting& layer, glm::dvec3 from, glm::d
              surface(*trace.hit, from, direction, direction, sampler);
 }
 
-/// A surface of water or glass: Fresnel's share of what it mirrors, lights that glitter, what the
-/// texture covers as a diffuse surface; the rest goes through.
+/// A surface of water or glass: what foam covers as a diffuse surface; of the rest Fresnel's share
+/// of what it mirrors, lights that glitter, what the texture covers; what is left goes through.
 void Shader::pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine, Passage& passage,
                           Sampler& sampler) const {
   const glm::dvec3 direction = ray.direction;
@@ -665,6 +622,11 @@ void Shader::pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine,
   const glm::dvec3 mirrored = entering
                                   ? mirrored_outside(from, mirror, sampler)
                                   : mirrored_inside(layer, from, mirror, passage.light_in, sampler);
+  if (wavy) {
+    const double foam = foam_cover(tracer_, layer, scene_.time_s);
+    passage.radiance += passage.through * foam * kFoamAlbedo / kPi * reached.light;
+    passage.through *= 1.0 - foam;
+  }
   passage.radiance += passage.through * (reached.mirrored + reflected * mirrored);
   passage.through *= 1.0 - reflected;
   if (!wavy) {

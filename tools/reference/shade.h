@@ -112,18 +112,4 @@ class Shader {
   const LightGrid lights_;
 };
 
-/// What water and glass do to light [1/block].
-struct Medium {
-  glm::dvec3 absorption{0.0};
-  double scattering = 0.0;  ///< evenly to all sides, white
-
-  glm::dvec3 extinction() const { return absorption + scattering; }
-};
-/// Of a translucent block of the table.
-Medium medium_of(world::BlockId block);
-/// Radiance that a stretch of medium scatters towards the eye under an irradiance: once.
-glm::dvec3 scattered_in(const Medium& medium, glm::dvec3 irradiance, double length_blocks);
-/// What is left of light after a stretch of medium.
-glm::dvec3 transmitted_by(const Medium& medium, double length_blocks);
-
 }  // namespace skerry::reference

@@ -77,7 +77,8 @@ class LayerReads {
         opaque_depth_(in.geometry.depth()),
         maps_(in.shadows.maps()),
         mirrors_(in.settings.water_mirror == WaterMirror::kWorld && scene.occupancy_grids),
-        walls_(scene, in.settings, mirrors_),
+        foam_(bool{scene.occupancy_grids}),
+        walls_(scene, in.settings, foam_),
         clouds_(clouds_before_light(scene)),
         lights_(in.lights ? *in.lights : ClusteredLights::none(scene)),
         lit_(in.lights != nullptr) {}
@@ -88,6 +89,7 @@ class LayerReads {
     if (layers_.mirrored_clouds) own.push_back({shared::kMirroredCloudsConstant, 1});
     if (layers_.tail_depths) own.push_back({shared::kTailConstant, 1});
     if (mirrors_) own.push_back({shared::kMirrorWorldConstant, 1});
+    if (foam_) own.push_back({shared::kFoamConstant, 1});
     return lit_ ? walls_.with_walls(lights_.with_lights(std::move(own))) : own;
   }
   void declare(gpu::PassBuilder& b) const {
@@ -131,7 +133,7 @@ class LayerReads {
   SceneRefs scene_;
   TranslucentPass::Layers layers_;
   gpu::ImageRef opaque_depth_, maps_;
-  bool mirrors_;  // voxels
+  bool mirrors_, foam_;  // by voxels
   WallReads walls_;
   CloudRefs clouds_;
   ClusteredLights lights_;

@@ -2,6 +2,9 @@
 #ifndef SKERRY_RIPPLES_GLSL
 #define SKERRY_RIPPLES_GLSL
 
+// What is left of the small things of a surface at a distance [blocks]: far ones are smaller than a pixel.
+float fading(float distance) { return exp(-distance * 0.02); }
+
 // Small waves on a level water surface: slopes of four sine waves in the lattice; their periods divide an hour, after which time_s repeats.
 vec3 rippled_normal(vec3 lattice, float distance) {
   const vec4 waves[4] = vec4[](vec4(0.83, 0.31, 80.0, 0.022), vec4(-0.47, 1.13, 120.0, 0.018), vec4(1.91, -1.27, 150.0, 0.011),
@@ -11,7 +14,7 @@ vec3 rippled_normal(vec3 lattice, float distance) {
     float phase = dot(waves[i].xy, lattice.xz) + frame.time_s * 6.28318530718 * floor(30.0 * length(waves[i].xy)) / 100.0;
     slope += waves[i].xy / length(waves[i].xy) * (waves[i].w * cos(phase));
   }
-  slope *= exp(-distance * 0.02);  // far waves are smaller than a pixel
+  slope *= fading(distance);
   return normalize(vec3(-slope.x, 1.0, -slope.y));
 }
 

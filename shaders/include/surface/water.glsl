@@ -4,6 +4,7 @@
 #include "shared/constants.h"
 #include "include/surface/media.glsl"
 #include "include/surface/mirror.glsl"
+#include "include/surface/foam.glsl"
 
 // Light mirrored by a wavy surface: GGX lobe of the waves too small to draw. @param irradiance of a surface that faces the light.
 vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float roughness) {
@@ -155,6 +156,9 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     vec3 outside = mirrored_outside(point, mirror, around, reach.any, known, nearest, kMirroredClouds && k == 0u, pixel);
     vec3 mirrored_sky = entering ? outside : mirrored_inside(m, light_in, known && wavy, nearest);
     if (entering) sky_mirrored = mirrored_sky;
+    float foam = foam_cover(word, ray, t);
+    colour += through * (foam * kFoamAlbedo * kInvPi) * reach.light;
+    through *= 1.0 - foam;
     colour += through * (reach.mirrored + reflected * mirrored_sky);
     through *= 1.0 - reflected;
     // What the texture covers (the frame of a pane) is a diffuse surface.

@@ -22,24 +22,8 @@ class CloudsJudged : public RendererOnGpu {
 
   /// Chunks about the lattice's origin: what is drawn, what blocks light, and the reference's.
   void build(const BlockAt& block_at) {
-    const glm::ivec3 low(-1), size(2);
-    add(block_at, {low.x, low.y, low.z}, {1, 1, 1});
-    Result<OccupancyStore*> store = renderer().occupancy();
-    ASSERT_TRUE(store) << store.error().message;
-    ASSERT_TRUE((*store)->begin_island(renderer().mesh_uploader(), 0, {low, size}));
-    for (int c = 0; c < 8; ++c) {
-      const glm::ivec3 chunk = low + glm::ivec3(c % 2, c / 2 % 2, c / 4);
-      std::vector<world::BlockId> voxels;
-      for (int y = -1; y < 65; ++y)
-        for (int x = -1; x < 65; ++x)
-          for (int z = -1; z < 65; ++z)
-            voxels.push_back(block_at(chunk.x * 64 + x, chunk.y * 64 + y, chunk.z * 64 + z));
-      const world::ChunkOccupancy made = world::occupancy_of(voxels);
-      if (made.fill == world::ChunkOccupancy::Fill::kEmpty) continue;
-      const bool full = made.fill == world::ChunkOccupancy::Fill::kFull;
-      ASSERT_TRUE(
-          (*store)->add(renderer().mesh_uploader(), 0, chunk, {full, made.table, made.words}));
-    }
+    add(block_at, {-1, -1, -1}, {1, 1, 1});
+    add_occupancy(block_at, {-1, -1, -1}, {1, 1, 1});
     scene_.islands = {
         {world::Volume::from_voxels({-64, -64, -64}, {64, 64, 64}, [block_at](world::IVec3 v) {
           return block_at(v.x, v.y, v.z);
