@@ -14,11 +14,12 @@ layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
-layout(binding = kMediaLightBinding) uniform usampler2D media_light;
+layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths;  // of the first layer
 
 layout(constant_id = kUnderWaterConstant) const bool kUnderWater = false;  // as in under_water.glsl
 
 #include "include/scene/coverage.glsl"
+#include "include/scene/layers.glsl"
 #include "include/scene/list_tiles.glsl"
 #include "include/light/visibility.glsl"
 
@@ -86,7 +87,7 @@ void main() {
       bool here = is_covered(word, depth);
       covered = covered || here;
       open = open || !here;
-      if (kUnderWater) in_water = in_water || (in_area(uvec2(pixel), frame.layers_area) && texelFetch(media_light, pixel, 0).r != 0u);
+      if (kUnderWater) in_water = in_water || layer_depth_at(layer_depths, pixel, frame.layers_area) > 0.0;
       faces |= here ? 1u << surface_face(word) : 0u;
       least_island = min(least_island, here ? surface_island(word) : ~0u);
       most_island = max(most_island, here ? surface_island(word) : 0u);

@@ -22,9 +22,7 @@ layout(binding = kMediaLightBinding, rg32ui) writeonly uniform uimage2D media_li
 layout(constant_id = kUnderWaterConstant) const bool kUnderWater = false;  // there are layers
 layout(constant_id = kGlassConstant) const bool kGlass = false;            // there are maps of glass
 
-// Without glass, of the layers' area alone.
-layout(push_constant, scalar) uniform Push { uvec4 area; } push;
-
+#include "include/scene/tiles.glsl"
 #include "include/scene/layers.glsl"
 #include "include/surface/ripples.glsl"
 #include "include/surface/packed_share.glsl"
@@ -42,9 +40,16 @@ uint water_above(uvec2 pixel, float opaque) {
   return surface_block(word) | (packHalf2x16(vec2(above, 0.0)) << 16);
 }
 
+// Without glass, of the layers' area; else of tiles with surfaces that light of a body may reach.
+bool own_pixel(out uvec2 pixel) {
+  if (kGlass) return tile_pixel(pixel);
+  pixel = frame.layers_area.xy + gl_GlobalInvocationID.xy;
+  return in_area(pixel, frame.layers_area);
+}
+
 void main() {
-  uvec2 pixel = push.area.xy + gl_GlobalInvocationID.xy;
-  if (!in_area(pixel, push.area)) return;
+  uvec2 pixel;
+  if (!own_pixel(pixel)) return;
   float opaque = texelFetch(depths, ivec2(pixel), 0).r;
   uvec2 found = uvec2(0u, packed_share(vec3(1.0)));
   if (kUnderWater) found.x = water_above(pixel, opaque);

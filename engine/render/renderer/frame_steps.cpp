@@ -28,7 +28,7 @@ std::span<const FrameStep> frame_steps() {
       draw_revealed_step(),
       draw_shadows_step(),
       draw_translucent_step(),
-      find_media_light_step(),
+      draw_glass_step(),
       sort_lights_step(),
       show_channel_step(),
       light_clouds_step(),

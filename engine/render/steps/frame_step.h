@@ -13,7 +13,6 @@
 #include "engine/render/post/picture.h"
 #include "engine/render/scene/cull_pass.h"
 #include "engine/render/sky/clouds.h"
-#include "engine/render/surface/media_light.h"
 #include "engine/render/surface/translucent_pass.h"
 
 namespace skerry::render {
@@ -41,7 +40,7 @@ struct FrameAssembly {
   std::optional<Geometry> geometry{};
   std::optional<Shadows> shadows{};
   TranslucentPass::Layers layers{};
-  MediaLight media{};
+  gpu::ImageRef glass{};  ///< maps of it; empty: it takes no light
   std::optional<ClusteredLights> lights{};
   std::optional<Shaded> shaded{};
   Metered metered{};

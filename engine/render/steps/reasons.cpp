@@ -34,6 +34,15 @@ const char* needs_water(const FramePlan& plan) {
   return why ? why : plan.contents.features.why_not(Feature::kWater);
 }
 
+const char* needs_glass(const FramePlan& plan) {
+  if (const char* why = needs_lit_surfaces(plan)) return why;
+  return plan.glass.maps.empty() ? "no glass stands before what sun or moon light" : nullptr;
+}
+
+const char* needs_media_light(const FramePlan& plan) {
+  return needs_glass(plan) ? needs_water(plan) : nullptr;
+}
+
 const char* needs_clouds(const FramePlan& plan) {
   return needs(plan.clouds && !plan.shows_channel());
 }

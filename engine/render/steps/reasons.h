@@ -13,6 +13,10 @@ const char* needs_lit_scene(const FramePlan& plan);
 /// Both.
 const char* needs_lit_surfaces(const FramePlan& plan);
 const char* needs_water(const FramePlan& plan);
+/// Glass that takes light of sun or moon.
+const char* needs_glass(const FramePlan& plan);
+/// One or the other.
+const char* needs_media_light(const FramePlan& plan);
 const char* needs_clouds(const FramePlan& plan);
 /// An image of radiance: what works on it waits for the last part.
 const char* needs_radiance(const FramePlan& plan);

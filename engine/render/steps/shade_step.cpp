@@ -19,7 +19,7 @@ void shade(FrameAssembly& f) {
     in.sampled.emplace(SampledLight{f.lights_or_null(), f.plan.settings,
                                     static_cast<std::uint32_t>(f.plan.settings.shading_rate)});
   std::optional<ShadedFrom> from;
-  if (f.plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows, f.media});
+  if (f.plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows, f.layers, f.glass});
   f.shaded =
       ShadePass::add(f.graph, f.pipelines, f.scene, from ? &*from : nullptr, in,
                      {f.plan.by_radiance, f.owners.picture.fresh(),
@@ -30,6 +30,7 @@ void shade(FrameAssembly& f) {
 
 FrameStep shade_step() {
   return {{{needs_lit_surfaces, {"classify_tiles", "shade_surfaces"}},
+           {needs_media_light, {"find_media_light"}},
            {needs_lit_scene, {"shade_sky"}}},
           shade};
 }

@@ -15,33 +15,14 @@ FrameStep draw_translucent_step() {
           }};
 }
 
-namespace {
-
-const char* needs_glass(const FramePlan& plan) {
-  if (const char* why = needs_lit_surfaces(plan)) return why;
-  return plan.glass.maps.empty() ? "no glass stands before what sun or moon light" : nullptr;
-}
-const char* needs_media_light(const FramePlan& plan) {
-  return needs_glass(plan) ? needs_water(plan) : nullptr;
-}
-
-void find_media_light(FrameAssembly& f) {
-  gpu::ImageRef glass;
-  if (!needs_glass(f.plan) && f.shadows->maps()) {
-    const auto first_view =
-        static_cast<std::uint32_t>(f.plan.tables.views.size() - f.plan.glass.maps.size());
-    glass = GlassPass::add(f.graph, f.pipelines, f.scene, *f.draws, *f.shadows, f.plan.glass,
-                           first_view);
-  }
-  f.media = MediaLight::add(f.graph, f.pipelines, f.scene, *f.geometry, f.layers, f.shadows->maps(),
-                            glass);
-}
-
-}  // namespace
-
-FrameStep find_media_light_step() {
-  return {{{needs_glass, {"draw_glass"}}, {needs_media_light, {"find_media_light"}}},
-          find_media_light};
+FrameStep draw_glass_step() {
+  return {{{needs_glass, {"draw_glass"}}}, [](FrameAssembly& f) {
+            if (!f.shadows->maps()) return;
+            const auto first_view =
+                static_cast<std::uint32_t>(f.plan.tables.views.size() - f.plan.glass.maps.size());
+            f.glass = GlassPass::add(f.graph, f.pipelines, f.scene, *f.draws, *f.shadows,
+                                     f.plan.glass, first_view);
+          }};
 }
 
 FrameStep shade_translucent_step() {

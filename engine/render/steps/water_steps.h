@@ -4,8 +4,8 @@
 namespace skerry::render {
 
 FrameStep draw_translucent_step();
-/// What water and glass do to light on its way to surfaces.
-FrameStep find_media_light_step();
+/// What glass does to light on its way to surfaces.
+FrameStep draw_glass_step();
 FrameStep shade_translucent_step();
 
 }  // namespace skerry::render

@@ -7,33 +7,30 @@ namespace skerry::render {
 using gpu::Use;
 
 MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                           const SceneRefs& scene, const Geometry& geometry,
-                           const TranslucentPass::Layers& layers, gpu::ImageRef shadow_maps,
-                           gpu::ImageRef glass) {
+                           const SceneRefs& scene, const In& in, const Tiles& tiles) {
   MediaLight out;
-  out.water_ = layers.count != 0;
-  out.glass_ = static_cast<bool>(glass);
+  out.water_ = in.layers.count != 0;
+  out.glass_ = static_cast<bool>(in.glass);
   if (!out.water_ && !out.glass_) return out;
   out.image_ = graph.create(
       gpu::ImageDesc{.name = "media light", .format = VK_FORMAT_R32G32_UINT, .extent = scene.size});
-  const gpu::ImageRef depth = geometry.depth();
+  const gpu::ImageRef depth = in.geometry.depth();
   // In place of what is then never read.
-  const gpu::ImageRef words = out.water_ ? layers.surfaces : scene.no_layers;
-  const gpu::ImageRef first = out.water_ ? layers.depth[0] : depth;
-  const gpu::ImageRef maps = out.glass_ ? glass : scene.block_textures;
-  const gpu::ImageRef shadows = out.glass_ ? shadow_maps : scene.block_textures;
-  const glm::uvec4 area =
-      out.glass_ ? glm::uvec4(0, 0, scene.size.width, scene.size.height) : scene.layers_area;
+  const gpu::ImageRef words = out.water_ ? in.layers.surfaces : scene.no_layers;
+  const gpu::ImageRef first = out.water_ ? in.layers.depth[0] : depth;
+  const gpu::ImageRef maps = out.glass_ ? in.glass : scene.block_textures;
+  const gpu::ImageRef shadows = out.glass_ ? in.shadow_maps : scene.block_textures;
   graph.add_pass(
       "find_media_light",
       [&](gpu::PassBuilder& b) {
+        declare_tiles(b, tiles);
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
         for (const gpu::ImageRef ref : {depth, words, first, maps, shadows})
           b.read(ref, Use::kComputeSampled);
         out.image_ = b.write(out.image_, Use::kComputeWrite);
       },
-      [scene, depth, words, first, maps, shadows, area, image = out.image_,
+      [scene, depth, words, first, maps, shadows, tiles, by_tiles = out.glass_, image = out.image_,
        program = gpu::compute(pipelines, programs::kFindMediaLight, out.with_media({}))](
           gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
@@ -44,7 +41,10 @@ MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                   gpu::sampled<shared::kLayerDepthsBinding>(first, scene.point_sampler),
                   gpu::sampled<shared::kGlassMapsBinding>(maps, scene.point_sampler),
                   gpu::sampled<shared::kShadowMapsBinding>(shadows, scene.point_sampler),
-                  gpu::storage<shared::kMediaLightBinding>(image), gpu::constants(area));
+                  gpu::storage<shared::kMediaLightBinding>(image),
+                  tiles.bindings(TileKind::kCovered));
+        if (by_tiles) return dispatch_tiles(c, tiles, TileKind::kCovered);
+        const glm::uvec4& area = scene.layers_area;
         c.dispatch(gpu::Commands::groups(area.z - area.x, shared::kTileEdge),
                    gpu::Commands::groups(area.w - area.y, shared::kTileEdge), 1);
       });

@@ -6,6 +6,7 @@
 #include "engine/gpu/program/pipeline.h"
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/scene_refs.h"
+#include "engine/render/scene/tiles.h"
 #include "engine/render/surface/translucent_pass.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
@@ -18,12 +19,15 @@ class MediaLight {
  public:
   /// None does anything.
   MediaLight() = default;
-  /// @param layers that lie before the surfaces; without any, a frame without water and glass.
-  /// @param shadow_maps that the maps of glass belong to. @param glass maps of GlassPass; empty:
-  /// glass takes no light.
+  struct In {
+    const Geometry& geometry;
+    const TranslucentPass::Layers& layers;  ///< before the surfaces; without any, none of water
+    gpu::ImageRef glass;                    ///< maps of GlassPass; empty: glass takes no light
+    gpu::ImageRef shadow_maps;              ///< that those belong to
+  };
+  /// @param tiles of which kCovered may be asked for.
   static MediaLight add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                        const Geometry& geometry, const TranslucentPass::Layers& layers,
-                        gpu::ImageRef shadow_maps, gpu::ImageRef glass);
+                        const In& in, const Tiles& tiles);
 
   std::vector<gpu::SpecConstant> with_media(std::vector<gpu::SpecConstant> own) const {
     if (water_) own.push_back({shared::kUnderWaterConstant, 1});

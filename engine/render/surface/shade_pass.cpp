@@ -50,26 +50,30 @@ Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
   const std::uint32_t tiles = tile_count(scene.size);
   Tiles out = create_tiles(graph, "classify_tiles_clear", tiles, 3);
   const SurfaceReads surfaces(from.geometry);
+  const bool under_water = from.layers.count != 0;
+  // In place of what is then never read.
+  const gpu::ImageRef layers = under_water ? from.layers.depth[0] : from.geometry.depth();
   graph.add_pass(
       "classify_tiles",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref : {scene.frame, scene.islands})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
-        from.media.declare(b, scene);
+        b.read(layers, Use::kComputeSampled);
         b.read(from.shadows.maps(), Use::kComputeSampled);
         out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
-      [scene, surfaces, media = from.media, maps = from.shadows.maps(), out, tiles,
-       program = gpu::compute(pipelines, programs::kClassifyLitTiles,
-                              from.media.with_media(surfaces.with_depth(
-                                  with_light({}, scene, true))))](gpu::Commands& c) {
+      [scene, surfaces, layers, maps = from.shadows.maps(), out, tiles,
+       program = gpu::compute(
+           pipelines, programs::kClassifyLitTiles,
+           surfaces.with_depth(with_light({{shared::kUnderWaterConstant, under_water ? 1u : 0u}},
+                                          scene, true)))](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::texels<shared::kIslandsBinding>(scene.islands),
                   gpu::storage<shared::kSurfacesBinding>(surfaces.words),
                   gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
-                  media.binding(scene),
+                  gpu::sampled<shared::kLayerDepthsBinding>(layers, scene.point_sampler),
                   gpu::sampled<shared::kShadowMapsBinding>(maps, scene.point_sampler),
                   gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
                   gpu::storage<shared::kTilesBinding>(out.lists));
@@ -91,9 +95,13 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
     std::vector<gpu::SpecConstant> constants =
         with_light({{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
                    scene, bool{maps});
-    if (sunless) constants.push_back({shared::kSunlessConstant, 1});
-    constants = on.media.with_media(
-        clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), bool{occupancy})));
+    constants =
+        clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), bool{occupancy}));
+    // Nothing under water is in a sunless tile, and glass takes no light of the sky.
+    if (sunless)
+      constants.push_back({shared::kSunlessConstant, 1});
+    else
+      constants = on.media.with_media(std::move(constants));
     return gpu::compute(pipelines, programs::kShadeSurfaces,
                         into.with_output(std::move(constants), scene));
   };
@@ -174,14 +182,17 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
 void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
            const ShadedFrom& from, const ShadeIn& in, ShadeTarget& into) {
   const bool some_sunless = looks_for_sunless(scene, in, from);
-  const SampleIn on{from.geometry, from.shadows, from.media,
-                    some_sunless
-                        ? classify_lit_tiles(graph, pipelines, scene, from)
-                        : classify_tiles(graph, pipelines, scene, "classify_tiles",
-                                         {.words = from.geometry.surfaces(),
-                                          .depth = from.geometry.depth(),
-                                          .kept = from.geometry.store().depth,
-                                          .area = {0, 0, scene.size.width, scene.size.height}})};
+  const Tiles tiles = some_sunless
+                          ? classify_lit_tiles(graph, pipelines, scene, from)
+                          : classify_tiles(graph, pipelines, scene, "classify_tiles",
+                                           {.words = from.geometry.surfaces(),
+                                            .depth = from.geometry.depth(),
+                                            .kept = from.geometry.store().depth,
+                                            .area = {0, 0, scene.size.width, scene.size.height}});
+  const MediaLight media =
+      MediaLight::add(graph, pipelines, scene,
+                      {from.geometry, from.layers, from.glass, from.shadows.maps()}, tiles);
+  const SampleIn on{from.geometry, from.shadows, media, tiles};
   if (in.sampled)
     add_sample_passes(graph, pipelines, scene, on, *in.sampled, into);
   else

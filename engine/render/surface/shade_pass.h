@@ -24,7 +24,8 @@ struct ShadeIn {
 struct ShadedFrom {
   const Geometry& geometry;
   const Shadows& shadows;
-  const MediaLight& media;
+  const TranslucentPass::Layers& layers;
+  gpu::ImageRef glass;  ///< maps of GlassPass; empty: glass takes no light
 };
 
 /// Where shading puts pixels.

@@ -39,14 +39,15 @@ static_assert(kNotMadeFrom<Shaded, Geometry, Shadows, Developed>);
 static_assert(kNotMadeFrom<Developed, Geometry, Shadows, Shaded>);
 
 // Shading needs geometry and shadows; sampling a phase that was not written has no type to name.
+using Layers = TranslucentPass::Layers;
 template <class... Inputs>
 constexpr bool kShades = requires(Inputs... inputs) {
   ShadedFrom{inputs...};
 };
-static_assert(kShades<const Geometry&, const Shadows&, const MediaLight&>);
-static_assert(!kShades<const Shadows&, const Geometry&, const MediaLight&>);
+static_assert(kShades<const Geometry&, const Shadows&, const Layers&>);
+static_assert(!kShades<const Shadows&, const Geometry&, const Layers&>);
 static_assert(!kShades<const Geometry&>);
-static_assert(!kShades<const Shaded&, const Shadows&, const MediaLight&>);
+static_assert(!kShades<const Shaded&, const Shadows&, const Layers&>);
 
 // Translucent surfaces and development use a picture up: only a phase that is given away will do.
 template <class Input>
