@@ -230,8 +230,10 @@ std::vector<IslandLight::FoundReach> IslandLight::poll_reach() {
     island.search->reach_taken = true;
     island.reaches = island.search->reaches;
     if (island.search->version != island.version) continue;
-    for (const auto& [at, reach] : island.search->reaches->found)
-      out.push_back({{row.island, at, row.level}, reach});
+    for (const auto& [at, reaches] : island.search->reaches->found) {
+      FoundReach& found = out.emplace_back(FoundReach{{row.island, at, row.level}, {}});
+      for (const world::LampReach::Found& reach : reaches) found.reach.push_back(reach.lit);
+    }
   }
   return out;
 }

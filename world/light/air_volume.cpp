@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 #include "shaders/shared/occupancy.h"
-#include "world/light/face_records.h"
+#include "world/light/face_changes.h"
 #include "world/voxel/chunk.h"
 
 namespace skerry::world {
@@ -15,30 +15,59 @@ namespace {
 constexpr int kBrick = static_cast<int>(shared::kBrickEdge);
 constexpr int kMargin = 2;
 
+/// A brick's words, also of one that is not stored.
+const std::uint32_t* words_of(const ChunkOccupancy& chunk, int brick) {
+  using Words = std::array<std::uint32_t, shared::kBrickWords>;
+  static constexpr Words kNone{};
+  static constexpr Words kAll = [] {
+    Words all{};
+    all.fill(~0u);
+    return all;
+  }();
+  using Fill = ChunkOccupancy::Fill;
+  if (chunk.fill != Fill::kMixed) return chunk.fill == Fill::kEmpty ? kNone.data() : kAll.data();
+  const std::uint32_t entry = chunk.table[static_cast<std::size_t>(brick)];
+  if (entry == shared::kBrickFull) return kAll.data();
+  if (entry == shared::kBrickEmpty || entry == shared::kChunkEmpty) return kNone.data();
+  return &chunk.words[std::size_t{entry & shared::kMaxBricks} * shared::kBrickWords];
+}
+
+/// Calls fn(x, y, z) for each run of 8 voxels along z in a brick, chunk-local.
+template <class Fn>
+void for_each_run(int brick, const Fn& fn) {
+  const int z0 = (brick & 7) * kBrick, x0 = (brick >> 3 & 7) * kBrick, y0 = (brick >> 6) * kBrick;
+  for (int y = 0; y < kBrick; ++y)
+    for (int x = 0; x < kBrick; ++x) fn(x0 + x, y0 + y, z0);
+}
+
+/// Bits of a run. @param x, y chunk-local or in the brick.
+std::uint32_t run_bits(const std::uint32_t* words, int x, int y) {
+  const int word = 2 * (x / 4 % 2) + 4 * (y / 2 % 4), shift = 4 * (x % 4) + 16 * (y % 2);
+  return (words[word] >> shift & 15u) | (words[word + 1] >> shift & 15u) << 4;
+}
+
 /// Calls fn(x, y, z, bits) for each run of 8 voxels along z, chunk-local, that has a bit.
 template <class Fn>
 void for_each_byte(const ChunkOccupancy& chunk, const Fn& fn) {
-  using Fill = ChunkOccupancy::Fill;
-  if (chunk.fill == Fill::kEmpty) return;
+  if (chunk.fill == ChunkOccupancy::Fill::kEmpty) return;
   for (int b = 0; b < static_cast<int>(shared::kBricksPerChunk); ++b) {
-    const int z0 = (b & 7) * kBrick, x0 = (b >> 3 & 7) * kBrick, y0 = (b >> 6) * kBrick;
-    const std::uint32_t entry =
-        chunk.fill == Fill::kFull ? shared::kBrickFull : chunk.table[static_cast<std::size_t>(b)];
-    if (entry == shared::kBrickEmpty || entry == shared::kChunkEmpty) continue;
-    const std::uint32_t* words =
-        entry == shared::kBrickFull
-            ? nullptr
-            : &chunk.words[std::size_t{entry & shared::kMaxBricks} * shared::kBrickWords];
-    for (int y = 0; y < kBrick; ++y) {
-      for (int x = 0; x < kBrick; ++x) {
-        std::uint32_t bits = 0xffu;
-        if (words) {
-          const int word = 2 * (x / 4) + 4 * (y / 2), shift = 4 * (x % 4) + 16 * (y % 2);
-          bits = (words[word] >> shift & 15u) | (words[word + 1] >> shift & 15u) << 4;
-        }
-        if (bits != 0) fn(x0 + x, y0 + y, z0, bits);
-      }
-    }
+    const std::uint32_t* words = words_of(chunk, b);
+    for_each_run(b, [&](int x, int y, int z) {
+      if (const std::uint32_t bits = run_bits(words, x, y)) fn(x, y, z, bits);
+    });
+  }
+}
+
+/// Calls fn(x, y, z, bits) for each run whose bits differ, with those of `now`.
+template <class Fn>
+void for_each_change(const ChunkOccupancy& before, const ChunkOccupancy& now, const Fn& fn) {
+  for (int b = 0; b < static_cast<int>(shared::kBricksPerChunk); ++b) {
+    const std::uint32_t *old = words_of(before, b), *words = words_of(now, b);
+    if (std::equal(old, old + shared::kBrickWords, words)) continue;
+    for_each_run(b, [&](int x, int y, int z) {
+      const std::uint32_t bits = run_bits(words, x, y);
+      if (bits != run_bits(old, x, y)) fn(x, y, z, bits);
+    });
   }
 }
 
@@ -150,41 +179,42 @@ VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high) {
   return out;
 }
 
-std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& chunk) {
-  if (!air.has_leaves && has_leaves(chunk)) return std::nullopt;
-  const IVec3 corner = corner_of(at), size{kChunkEdge, kChunkEdge, kChunkEdge};
-  const std::array<VoxelBits*, 3> kinds{&air.opaque, &air.leaves, &air.plants};
-  struct Word {
+std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& before,
+                                             const LightChunk& now, const FaceChanges& faces) {
+  const auto has_plant = [](const BlockFace& face) { return face.drawn.plant; };
+  if (!air.has_leaves && (now.leaves.fill != ChunkOccupancy::Fill::kEmpty ||
+                          std::ranges::any_of(faces.came, has_plant)))
+    return std::nullopt;
+  struct Change {
     VoxelBits* of;
-    int x, y, word;  // from the volume's lowest voxel
-    std::uint64_t bits;
+    IVec3 voxel;
+    bool value;
   };
-  std::vector<Word> words;  // that change
-  std::vector<IVec3> out;
-  for (std::size_t kind = 0; kind < (air.has_leaves ? kinds.size() : 1); ++kind) {
-    VoxelBits bits(corner, size, false);
-    if (kind < 2)
-      fill(bits, corner, kind == 0 ? chunk.opaque : chunk.leaves);
-    else
-      fill_plants(bits, corner, chunk);
-    VoxelBits& before = *kinds[kind];
-    const IVec3 low = before.low();
-    for (int y = 0; y < size.y; ++y)
-      for (int x = 0; x < size.x; ++x) {
-        const int in_x = corner.x + x - low.x, in_y = corner.y + y - low.y,
-                  word = (corner.z - low.z) / 64;
-        const bool has_room =
-            before.has_row(in_x, in_y) && corner.z >= low.z && word < before.row_words();
-        const std::uint64_t old = has_room ? before.row(in_x, in_y)[word] : 0;
-        const std::uint64_t new_bits = *bits.row(x, y);
-        if (old == new_bits) continue;
-        if (!has_room) return std::nullopt;
-        words.push_back({&before, in_x, in_y, word, new_bits});
-        for (std::uint64_t left = old ^ new_bits; left != 0; left &= left - 1)
-          out.push_back({corner.x + x, corner.y + y, corner.z + std::countr_zero(left)});
+  std::vector<Change> changes;
+  const IVec3 corner = corner_of(at);
+  const auto compare = [&](VoxelBits& bits, const ChunkOccupancy& old, const ChunkOccupancy& its) {
+    for_each_change(old, its, [&](int x, int y, int z, std::uint32_t eight) {
+      for (int i = 0; i < 8; ++i) {
+        const IVec3 voxel = corner + IVec3{x, y, z + i};
+        const bool value = (eight >> i & 1u) != 0;
+        if (bits.at(voxel) != value) changes.push_back({&bits, voxel, value});
       }
+    });
+  };
+  compare(air.opaque, before.opaque, now.opaque);
+  if (air.has_leaves) {
+    compare(air.leaves, before.leaves, now.leaves);
+    for (const std::vector<BlockFace>* some : {&faces.went, &faces.came})
+      for (const BlockFace& face : *some)
+        if (has_plant(face))
+          changes.push_back({&air.plants, corner + face.drawn.voxel, some == &faces.came});
   }
-  for (const Word& word : words) word.of->row(word.x, word.y)[word.word] = word.bits;
+  std::vector<IVec3> out;
+  for (const Change& change : changes) {
+    if (!change.of->inside(change.voxel)) return std::nullopt;
+    out.push_back(change.voxel);
+  }
+  for (const Change& change : changes) change.of->set(change.voxel, change.value);
   return out;
 }
 

@@ -12,9 +12,15 @@
 
 namespace skerry::world {
 
+struct FaceChanges;
+
 /// Lowest voxel of a chunk.
 constexpr IVec3 corner_of(IVec3 chunk) {
   return {chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
+}
+
+inline glm::ivec3 vector_of(IVec3 v) {
+  return {v.x, v.y, v.z};
 }
 
 /// A lamp that is weak enough to be kept with the light of faces.
@@ -51,6 +57,10 @@ class VoxelBits {
   IVec3 low() const { return low_; }
   IVec3 size() const { return size_; }
   int row_words() const { return size_.z / 64; }
+  bool inside(IVec3 voxel) const {
+    return has_row(voxel.x - low_.x, voxel.y - low_.y) && voxel.z >= low_.z &&
+           voxel.z < low_.z + size_.z;
+  }
   bool at(IVec3 voxel) const;                ///< false outside
   void set(IVec3 voxel, bool value = true);  ///< @pre inside
   /// Words of a row, with one more of `outside` readable before and after. @param x, y from low.
@@ -94,8 +104,10 @@ AirVolume air_volume_of(const LightChunks& chunks);
 VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high);
 
 /// Takes the voxels of a chunk that has changed into a volume that was made with it.
+/// @param before the chunk as it is in there. @param faces what of its faces has changed.
 /// @return those whose bits have changed; none, and nothing is taken in: the volume has no room for
 /// them, or knew no leaves.
-std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& chunk);
+std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& before,
+                                             const LightChunk& now, const FaceChanges& faces);
 
 }  // namespace skerry::world
