@@ -15,8 +15,12 @@ namespace {
 constexpr int kBrick = static_cast<int>(shared::kBrickEdge);
 constexpr int kMargin = 2;
 
+bool is_empty(std::uint32_t entry) {
+  return entry == shared::kBrickEmpty || entry == shared::kChunkEmpty;
+}
+
 /// A brick's words, also of one that is not stored.
-const std::uint32_t* words_of(const ChunkOccupancy& chunk, int brick) {
+const std::uint32_t* words_of(const ChunkOccupancy& chunk, std::size_t brick) {
   using Words = std::array<std::uint32_t, shared::kBrickWords>;
   static constexpr Words kNone{};
   static constexpr Words kAll = [] {
@@ -26,15 +30,16 @@ const std::uint32_t* words_of(const ChunkOccupancy& chunk, int brick) {
   }();
   using Fill = ChunkOccupancy::Fill;
   if (chunk.fill != Fill::kMixed) return chunk.fill == Fill::kEmpty ? kNone.data() : kAll.data();
-  const std::uint32_t entry = chunk.table[static_cast<std::size_t>(brick)];
+  const std::uint32_t entry = chunk.table[brick];
   if (entry == shared::kBrickFull) return kAll.data();
-  if (entry == shared::kBrickEmpty || entry == shared::kChunkEmpty) return kNone.data();
+  if (is_empty(entry)) return kNone.data();
   return &chunk.words[std::size_t{entry & shared::kMaxBricks} * shared::kBrickWords];
 }
 
 /// Calls fn(x, y, z) for each run of 8 voxels along z in a brick, chunk-local.
 template <class Fn>
-void for_each_run(int brick, const Fn& fn) {
+void for_each_run(std::size_t brick_index, const Fn& fn) {
+  const auto brick = static_cast<int>(brick_index);
   const int z0 = (brick & 7) * kBrick, x0 = (brick >> 3 & 7) * kBrick, y0 = (brick >> 6) * kBrick;
   for (int y = 0; y < kBrick; ++y)
     for (int x = 0; x < kBrick; ++x) fn(x0 + x, y0 + y, z0);
@@ -47,10 +52,14 @@ std::uint32_t run_bits(const std::uint32_t* words, int x, int y) {
 }
 
 /// Calls fn(x, y, z, bits) for each run of 8 voxels along z, chunk-local, that has a bit.
-template <class Fn>
-void for_each_byte(const ChunkOccupancy& chunk, const Fn& fn) {
+/// @param wanted whether to look at bricks, by their lowest x and y.
+template <class Wanted, class Fn>
+void for_each_byte(const ChunkOccupancy& chunk, const Wanted& wanted, const Fn& fn) {
   if (chunk.fill == ChunkOccupancy::Fill::kEmpty) return;
-  for (int b = 0; b < static_cast<int>(shared::kBricksPerChunk); ++b) {
+  const bool mixed = chunk.fill == ChunkOccupancy::Fill::kMixed;
+  for (std::size_t b = 0; b < shared::kBricksPerChunk; ++b) {
+    if (mixed && is_empty(chunk.table[b])) continue;
+    if (!wanted(static_cast<int>(b >> 3 & 7) * kBrick, static_cast<int>(b >> 6) * kBrick)) continue;
     const std::uint32_t* words = words_of(chunk, b);
     for_each_run(b, [&](int x, int y, int z) {
       if (const std::uint32_t bits = run_bits(words, x, y)) fn(x, y, z, bits);
@@ -58,10 +67,16 @@ void for_each_byte(const ChunkOccupancy& chunk, const Fn& fn) {
   }
 }
 
+template <class Fn>
+void for_each_byte(const ChunkOccupancy& chunk, const Fn& fn) {
+  for_each_byte(
+      chunk, [](int, int) { return true; }, fn);
+}
+
 /// Calls fn(x, y, z, bits) for each run whose bits differ, with those of `now`.
 template <class Fn>
 void for_each_change(const ChunkOccupancy& before, const ChunkOccupancy& now, const Fn& fn) {
-  for (int b = 0; b < static_cast<int>(shared::kBricksPerChunk); ++b) {
+  for (std::size_t b = 0; b < shared::kBricksPerChunk; ++b) {
     const std::uint32_t *old = words_of(before, b), *words = words_of(now, b);
     if (std::equal(old, old + shared::kBrickWords, words)) continue;
     for_each_run(b, [&](int x, int y, int z) {
@@ -167,14 +182,21 @@ VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high) {
   low.z = aligned(low.z), high.z = aligned(high.z) + 63;
   const IVec3 size{high.x + 1 - low.x, high.y + 1 - low.y, high.z + 1 - low.z};
   VoxelBits out(low, size, false);
+  const auto apart = [](int from, int length, int its) { return from >= length || from <= -its; };
   for (const auto& [at, chunk] : chunks) {
     const IVec3 corner{corner_of(at).x - low.x, corner_of(at).y - low.y, corner_of(at).z - low.z};
-    const auto apart = [](int from, int length) { return from >= length || from <= -kChunkEdge; };
-    if (apart(corner.x, size.x) || apart(corner.y, size.y) || apart(corner.z, size.z)) continue;
-    for_each_byte(chunk->opaque, [&](int x, int y, int z, std::uint32_t eight) {
-      if (out.has_row(corner.x + x, corner.y + y))
-        out.row(corner.x + x, corner.y + y)[corner.z / 64] |= std::uint64_t{eight} << z;
-    });
+    if (apart(corner.x, size.x, kChunkEdge) || apart(corner.y, size.y, kChunkEdge) ||
+        apart(corner.z, size.z, kChunkEdge))
+      continue;
+    for_each_byte(
+        chunk->opaque,
+        [&](int x, int y) {
+          return !apart(corner.x + x, size.x, kBrick) && !apart(corner.y + y, size.y, kBrick);
+        },
+        [&](int x, int y, int z, std::uint32_t eight) {
+          if (out.has_row(corner.x + x, corner.y + y))
+            out.row(corner.x + x, corner.y + y)[corner.z / 64] |= std::uint64_t{eight} << z;
+        });
   }
   return out;
 }

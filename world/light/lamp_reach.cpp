@@ -48,14 +48,16 @@ Word spread_down(Word bits, Word open) {
 /// The rows of voxels within a lamp's range, and what its light may enter of them.
 class Flood {
  public:
-  /// @pre the lamp stands in the volume. @param place from its lowest voxel.
-  Flood(const VoxelBits& opaque, glm::vec3 place, float range)
+  /// @pre the lamp stands in the volume. @param place from its lowest voxel. @param low, high
+  /// voxels to look at alone, if they are in the volume.
+  Flood(const VoxelBits& opaque, glm::vec3 place, float range,
+        const glm::ivec3& low = glm::ivec3(0), const glm::ivec3& high = glm::ivec3(INT32_MAX))
       : opaque_(opaque), place_(place), range_(range) {
     const glm::ivec3 last = vector_of(opaque.size()) - 1;
     for (int a = 0; a < 3; ++a) {
       lamp_[a] = floor_to_int(place[a]);
-      first_[a] = std::max(floor_to_int(place[a] - range), 0);
-      last_[a] = std::min(floor_to_int(place[a] + range), last[a]);
+      first_[a] = std::max({floor_to_int(place[a] - range), 0, std::min(low[a], lamp_[a])});
+      last_[a] = std::min({floor_to_int(place[a] + range), last[a], std::max(high[a], lamp_[a])});
     }
     word0_ = first_.z / 64, words_ = last_.z / 64 - word0_ + 1;
     rows_.assign(static_cast<std::size_t>(words_) *
@@ -66,6 +68,12 @@ class Flood {
   void run() {
     for (int y = lamp_.y; y <= last_.y; ++y) run_layer(y, y - 1);
     for (int y = lamp_.y - 1; y >= first_.y; --y) run_layer(y, y + 1);
+  }
+
+  const glm::ivec3& lamp() const { return lamp_; }
+  bool entered(const glm::ivec3& v) const {
+    if (glm::any(glm::lessThan(v, first_)) || glm::any(glm::greaterThan(v, last_))) return false;
+    return (row(v.x, v.y)[v.z / 64 - word0_] >> v.z % 64 & 1u) != 0;
   }
 
   /// Calls fn(x, y, word, bits) for each word of a row of what was entered within the range, places
@@ -313,6 +321,27 @@ LampReach::Found LampReach::of(IVec3 chunk, const StrongLamp& lamp) const {
     lit.add(x, y, word, here);
   });
   return {lit.bricks(), air.bricks()};
+}
+
+bool LampReach::changes(const VoxelBits& opaque, IVec3 chunk, const StrongLamp& lamp,
+                        std::span<const ReachFace> faces) {
+  const glm::ivec3 origin = vector_of(opaque.low());
+  const glm::vec3 place = lamp.place + glm::vec3(vector_of(corner_of(chunk)) - origin);
+  glm::ivec3 low(INT32_MAX), high(INT32_MIN);
+  for (const ReachFace& face : faces)
+    for (const IVec3& side : {face.voxel, face.front}) {
+      low = glm::min(low, vector_of(side) - origin);
+      high = glm::max(high, vector_of(side) - origin);
+    }
+  Flood flood(opaque, place, lamp.range, low, high);
+  flood.run();
+  return std::ranges::any_of(faces, [&](const ReachFace& face) {
+    const glm::ivec3 voxel = vector_of(face.voxel) - origin, front = vector_of(face.front) - origin;
+    if (voxel == flood.lamp() || front == flood.lamp()) return true;
+    if (!face.one_sided) return flood.entered(voxel) || flood.entered(front);
+    return flood.entered(front) &&
+           (facing(face.direction, front.x, front.y, front.z, place) & 1u) != 0;
+  });
 }
 
 }  // namespace skerry::world

@@ -2,11 +2,19 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "shaders/shared/light.h"
 #include "world/light/air_volume.h"
 
 namespace skerry::world {
+
+/// A face that has come or gone, from the lattice's origin.
+struct ReachFace {
+  IVec3 voxel{}, front{};  ///< of a plant the same
+  int direction = 0;
+  bool one_sided = false;  ///< of an opaque block: light that comes from behind is none of its
+};
 
 /// Bounds what the lamps of an island light of it, so that no shadow ray is traced where
 /// nothing can arrive.
@@ -48,6 +56,12 @@ class LampReach {
   /// The lamp's own voxel hides nothing, leaves let light past. @pre a face is drawn of the lamp's
   /// voxel, or a plant.
   Found of(IVec3 chunk, const StrongLamp& lamp) const;
+
+  /// Whether what of() finds can be other because of faces that have come or gone: the light may
+  /// enter where one of them is seen. A block comes or goes together with such faces.
+  /// @param opaque as it is now; it holds a box about the lamp and the faces.
+  static bool changes(const VoxelBits& opaque, IVec3 chunk, const StrongLamp& lamp,
+                      std::span<const ReachFace> faces);
 
  private:
   void take_faces(const LightChunks& chunks);
