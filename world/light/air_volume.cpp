@@ -13,7 +13,6 @@ namespace skerry::world {
 namespace {
 
 constexpr int kBrick = static_cast<int>(shared::kBrickEdge);
-constexpr int kMargin = 2;
 
 bool is_empty(std::uint32_t entry) {
   return entry == shared::kBrickEmpty || entry == shared::kChunkEmpty;
@@ -141,7 +140,7 @@ void VoxelBits::set(IVec3 voxel, bool value) {
   word = value ? word | bit : word & ~bit;
 }
 
-AirVolume air_volume_of(const LightChunks& chunks) {
+AirVolume air_volume_of(const LightChunks& chunks, int margin) {
   Box box;
   AirVolume out;
   for (const auto& [at, chunk] : chunks) {
@@ -163,9 +162,9 @@ AirVolume air_volume_of(const LightChunks& chunks) {
   }
   if (box.low.x > box.high.x) return out;
   const auto aligned = [](int z) { return static_cast<int>(floor_div(z, 64)) * 64; };
-  const IVec3 low{box.low.x - kMargin, box.low.y - kMargin, aligned(box.low.z - kMargin)};
-  const IVec3 size{box.high.x + kMargin + 1 - low.x, box.high.y + kMargin + 1 - low.y,
-                   aligned(box.high.z + kMargin) + 64 - low.z};
+  const IVec3 low{box.low.x - margin, box.low.y - margin, aligned(box.low.z - margin)};
+  const IVec3 size{box.high.x + margin + 1 - low.x, box.high.y + margin + 1 - low.y,
+                   aligned(box.high.z + margin) + 64 - low.z};
   out.opaque = VoxelBits(low, size, false);
   if (out.has_leaves) out.leaves = out.plants = VoxelBits(low, size, false);
   for (const auto& [at, chunk] : chunks) {

@@ -92,12 +92,13 @@ class VoxelBits {
   std::vector<std::uint64_t> words_;
 };
 
-/// Opaque voxels of an island, its leaves and its plants, in a box two voxels larger than they are.
+/// Opaque voxels of an island, its leaves and its plants, in a box larger than they are.
 struct AirVolume {
   VoxelBits opaque, leaves, plants;
   bool has_leaves = false;  ///< or plants; else the bits of both are empty
 };
-AirVolume air_volume_of(const LightChunks& chunks);
+/// @param margin that the box is larger by, at each side [voxels]
+AirVolume air_volume_of(const LightChunks& chunks, int margin = 2);
 
 /// The opaque voxels alone, of a box. @param low, high its voxels, both included; along z it may be
 /// made larger.

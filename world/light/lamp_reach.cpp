@@ -127,7 +127,13 @@ class Flood {
         air |= Word{1} << lamp_.z % 64;
       return air;
     };
-    for (int w = 0; w < words_; ++w) into[w] &= open(w);
+    bool any = false, all = true;  // of what is open
+    for (int w = 0; w < words_; ++w) {
+      into[w] &= open(w);
+      any |= into[w] != 0;
+      all &= into[w] == open(w);
+    }
+    if (!any || all) return;
     // Away from the lamp to either side; what lies on the other side of it stays as it is.
     Word carry = 0;
     for (int w = 0; w < words_; ++w) {
@@ -181,17 +187,24 @@ class Places {
     }
     out.low = {low.x, low.y, low.z};
     out.size = {size.x, size.y, size.z};
+    // All rows of a row of bricks together.
+    const int first = low_.z >> 6, words = (high_.z >> 6) - first + 1;
+    std::vector<Word> rows(static_cast<std::size_t>(size.x * size.y * words), 0);
     for (const Part& part : words_) {
       const int x = ((part.x + origin.x) >> out.edge_log2) - low.x,
                 y = ((part.y + origin.y) >> out.edge_log2) - low.y;
-      for (Word left = part.bits; left != 0;) {
-        const int z = part.word * 64 + std::countr_zero(left) + origin.z;
-        const int brick = z >> out.edge_log2;
-        const int bit = brick - low.z + size.z * (x + size.x * y);
-        out.bits[static_cast<std::size_t>(bit / 32)] |= 1u << bit % 32;
-        left &= from_bit(((brick + 1) << out.edge_log2) - origin.z - part.word * 64);
-      }
+      rows[static_cast<std::size_t>((x + size.x * y) * words + part.word - first)] |= part.bits;
     }
+    for (int row = 0; row < size.x * size.y; ++row)
+      for (int w = 0; w < words; ++w) {
+        const int from = (first + w) * 64 + origin.z;
+        for (Word left = rows[static_cast<std::size_t>(row * words + w)]; left != 0;) {
+          const int brick = (from + std::countr_zero(left)) >> out.edge_log2;
+          const int bit = brick - low.z + size.z * row;
+          out.bits[static_cast<std::size_t>(bit / 32)] |= 1u << bit % 32;
+          left &= from_bit(((brick + 1) << out.edge_log2) - from);
+        }
+      }
     return out;
   }
 
@@ -255,13 +268,13 @@ LampReach::LampReach(const LightChunks& chunks, IVec3 low, IVec3 high)
 void LampReach::take_faces(const LightChunks& chunks) {
   if (opaque_.size().x == 0) return;
   all_round_ = VoxelBits(opaque_.low(), opaque_.size(), false);
-  plants_ = all_round_;
+  plants_ = any_ = all_round_;
   fronts_.fill(all_round_);
   const glm::ivec3 low = vector_of(opaque_.low()), last = low + vector_of(opaque_.size()) - 1;
   const auto set = [&](VoxelBits& bits, IVec3 voxel) {
     const glm::ivec3 v = vector_of(voxel);
     if (glm::all(glm::greaterThanEqual(v, low)) && glm::all(glm::lessThanEqual(v, last)))
-      bits.set(voxel);
+      bits.set(voxel), any_.set(voxel);
   };
   for (const auto& [at, chunk] : chunks) {
     const IVec3 corner = corner_of(at);
@@ -297,6 +310,7 @@ LampReach::Found LampReach::of(IVec3 chunk, const StrongLamp& lamp) const {
   Places lit(opaque_.low()), air(opaque_.low());
   flood.for_each_word([&](int x, int y, int word, Word entered) {
     air.add(x, y, word, entered);
+    if ((entered & any_.row(x, y)[word]) == 0) return;
     // A plant is lit as if it were level (docs/conventions.md).
     Word here = entered & (all_round_.row(x, y)[word] |
                            (plants_.row(x, y)[word] & facing(2, x, y, word * 64, place)));

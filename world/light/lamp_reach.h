@@ -69,6 +69,7 @@ class LampReach {
   std::array<VoxelBits, 6> fronts_;  // voxels in front of faces, by direction
   VoxelBits plants_;
   VoxelBits all_round_;  // both sides of faces that light passes
+  VoxelBits any_;        // all of those
 };
 
 }  // namespace skerry::world

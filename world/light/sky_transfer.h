@@ -28,9 +28,10 @@ namespace skerry::world {
 class SkyTransfer {
  public:
   /// @param albedo by block id; empty: no light is followed from face to face. It must outlive
-  /// this. @param bounces how often light is followed, see BounceLight.
+  /// this. @param bounces how often light is followed, see BounceLight. @param spare blocks about
+  /// the island in which edit() can follow what is built.
   explicit SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo = {},
-                       int bounces = BounceLight::kBounces);
+                       int bounces = BounceLight::kBounces, int spare = 0);
   SkyTransfer(const SkyTransfer&) = delete;  // its parts refer to each other
   SkyTransfer& operator=(const SkyTransfer&) = delete;
   /// Looks along an octant's vectors. Octants may be looked along at once, each by one thread.
@@ -51,7 +52,8 @@ class SkyTransfer {
 
   /// After make_faces(): brings all of it up to date with chunks of which some have been edited.
   /// What comes out is what a new one would find of them, bit for bit; what it costs depends on
-  /// what the edit changes. Chunks that are the same object have not changed.
+  /// what the edit changes. Chunks that are the same object have not changed. Others may have come
+  /// or gone.
   /// @return false: this would be no less work than to begin anew; nothing can be asked any more.
   bool edit(LightChunks chunks);
 

@@ -45,7 +45,9 @@ class SkyTransfer::Edit {
 
   bool run() {
     if (of_.bounces_ && of_.bounces_->is_worn()) return false;
-    if (!find_chunks() || !take_chunks() || !want_voxels()) return false;
+    if (of_.seen_.empty()) return false;
+    find_chunks();
+    if (!take_chunks() || !want_voxels()) return false;
     take_faces();
     look_again();
     spread_again();
@@ -76,22 +78,27 @@ class SkyTransfer::Edit {
     }
   };
 
-  /// Which chunks have changed. @return false: chunks have come or gone.
-  bool find_chunks() {
-    const LightChunks& now = of_.chunks_;
-    if (now.size() != before_.size() || of_.seen_.empty()) return false;
-    for (auto old = before_.begin(), at = now.begin(); at != now.end(); ++old, ++at) {
-      if (at->first != old->first) return false;
-      if (at->second != old->second) edited_.push_back(at->first);
+  static const LightChunk& chunk_of(const LightChunks& chunks, IVec3 at) {
+    static const LightChunk kEmpty{};
+    const auto found = chunks.find(at);
+    return found == chunks.end() ? kEmpty : *found->second;
+  }
+
+  /// Which chunks have changed, come or gone.
+  void find_chunks() {
+    for (const auto& [at, chunk] : of_.chunks_) {
+      const auto old = before_.find(at);
+      if (old == before_.end() || old->second != chunk) edited_.push_back(at);
     }
-    return true;
+    for (const auto& [at, chunk] : before_)
+      if (!of_.chunks_.contains(at)) edited_.push_back(at);
   }
 
   /// Takes in the voxels of edited chunks, and which of their faces have come and gone.
   bool take_chunks() {
     std::set<IVec3> changed;
     for (const IVec3& at : edited_) {
-      const LightChunk &before = *before_.at(at), &now = *of_.chunks_.at(at);
+      const LightChunk &before = chunk_of(before_, at), &now = chunk_of(of_.chunks_, at);
       const FaceChanges faces = face_changes(before.quads, now.quads);
       for (const auto& [from, to] :
            {std::pair{&faces.came, &came_}, {&faces.went, &went_}, {&faces.turned, &turned_}})
@@ -299,7 +306,8 @@ class SkyTransfer::Edit {
 
   /// Where lamps of a chunk that have come, gone or another place in the order of sums reach.
   void find_relit(IVec3 at, Kept& relit) const {
-    std::vector<Lamp> old = lamps_of(*before_.at(at), at), now = lamps_of(*of_.chunks_.at(at), at);
+    std::vector<Lamp> old = lamps_of(chunk_of(before_, at), at),
+                      now = lamps_of(chunk_of(of_.chunks_, at), at);
     const auto same = [](const Lamp& a, const Lamp& b) {
       return a.weak == b.weak && same_lamp(a.lamp, b.lamp);
     };
@@ -436,7 +444,7 @@ class SkyTransfer::Edit {
 
   /// Makes room for the faces of a chunk that has been edited; those that stay keep their records.
   void repack(IVec3 at) {
-    const std::vector<shared::Quad>& quads = of_.chunks_.at(at)->quads;
+    const std::vector<shared::Quad>& quads = chunk_of(of_.chunks_, at).quads;
     if (quads.empty()) {
       of_.skies_.erase(at);
       return;

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <random>
+#include <utility>
 
 #include "tests/world/light/voxel_rooms.h"
 #include "world/light/lamp_reaches.h"
@@ -31,8 +32,9 @@ std::span<const FaceAlbedo> colours() {
 }
 
 std::unique_ptr<SkyTransfer> looked_at(const LightChunks& chunks,
-                                       std::span<const FaceAlbedo> albedo = colours()) {
-  auto transfer = std::make_unique<SkyTransfer>(chunks, albedo);
+                                       std::span<const FaceAlbedo> albedo = colours(),
+                                       int spare = 0) {
+  auto transfer = std::make_unique<SkyTransfer>(chunks, albedo, BounceLight::kBounces, spare);
   for (int octant = 0; octant < kOctants; ++octant) transfer->look(octant);
   transfer->spread_lamps();
   for (int step = 0; step < BounceLight::kSteps; ++step)
@@ -213,10 +215,39 @@ TEST(SkyTransferEdit, ThatDoesTheSameAndUndoesItEndsWhereItBegan) {
   EXPECT_EQ(differences(kept->faces(), first), 0u);
 }
 
+// A bridge with lamps on it, through a chunk that did not exist, and taken down again.
+TEST(SkyTransferEdit, FollowsWhatIsBuiltBeyondTheIslandAndInNewChunks) {
+  Voxels stone;
+  for (int x = 50; x < 61; ++x)
+    for (int z = 20; z < 40; ++z)
+      for (int y = 0; y < 1 + (x + z) % 3; ++y) stone.insert({x, y, z});
+  const LightChunks island = chunks_of(stone);
+  const std::unique_ptr<SkyTransfer> kept = looked_at(island, colours(), 16);
+  EXPECT_EQ(differences(kept->faces(), looked_at(island)->faces()), 0u);
+  LampReaches reaches = reaches_of(island);
+  LightChunks chunks = island;
+  Lamps lamps{{}, 7.0f};
+  const auto follow = [&](const LightChunks& now) {
+    const LightChunks before = std::exchange(chunks, with_what_stays(chunks, now));
+    ASSERT_TRUE(kept->edit(chunks));
+    reaches = reaches_after(chunks, before, reaches);
+    EXPECT_TRUE(reaches == reaches_of(chunks));
+    EXPECT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u);
+  };
+  for (int x = 61; x < 76; ++x) {
+    stone.insert({x, 1, 30});
+    if (x % 5 == 0) lamps.voxels.insert({x, 3, 30});
+    follow(with_strong_lamps(chunks_of(stone, lamps)));
+  }
+  EXPECT_EQ(chunks.size(), 2u);
+  follow(island);
+  EXPECT_EQ(kept->faces().size(), 1u);
+}
+
 TEST(SkyTransferEdit, SaysWhenItWouldNotBeLessWork) {
   Voxels stone{{0, 0, 0}, {1, 0, 0}};
   const LightChunks chunks = chunks_of(stone);
-  // A chunk more, and voxels beyond the volume.
+  // Voxels beyond the volume, in a chunk more and in the same.
   stone.insert({70, 0, 0});
   EXPECT_FALSE(looked_at(chunks)->edit(chunks_of(stone)));
   EXPECT_FALSE(looked_at(chunks)->edit(chunks_of({{0, 0, 0}, {20, 0, 0}})));
