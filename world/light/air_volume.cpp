@@ -127,12 +127,6 @@ VoxelBits::VoxelBits(IVec3 low, IVec3 size, bool value) : low_(low), size_(size)
                 value ? ~std::uint64_t{0} : 0);
 }
 
-bool VoxelBits::at(IVec3 voxel) const {
-  const IVec3 p{voxel.x - low_.x, voxel.y - low_.y, voxel.z - low_.z};
-  if (!has_row(p.x, p.y) || p.z < 0 || p.z >= size_.z) return false;
-  return row(p.x, p.y)[p.z / 64] >> p.z % 64 & 1;
-}
-
 void VoxelBits::set(IVec3 voxel, bool value) {
   const IVec3 p{voxel.x - low_.x, voxel.y - low_.y, voxel.z - low_.z};
   const std::uint64_t bit = std::uint64_t{1} << p.z % 64;

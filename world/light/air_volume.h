@@ -58,10 +58,14 @@ class VoxelBits {
   IVec3 size() const { return size_; }
   int row_words() const { return size_.z / 64; }
   bool inside(IVec3 voxel) const {
-    return has_row(voxel.x - low_.x, voxel.y - low_.y) && voxel.z >= low_.z &&
-           voxel.z < low_.z + size_.z;
+    const auto within = [](int from_low, int size) {
+      return static_cast<unsigned>(from_low) < static_cast<unsigned>(size);
+    };
+    return within(voxel.x - low_.x, size_.x) && within(voxel.y - low_.y, size_.y) &&
+           within(voxel.z - low_.z, size_.z);
   }
-  bool at(IVec3 voxel) const;                ///< false outside
+  /// False outside.
+  bool at(IVec3 voxel) const { return inside(voxel) && bit(bit_at(voxel)); }
   void set(IVec3 voxel, bool value = true);  ///< @pre inside
   /// Words of a row, with one more of `outside` readable before and after. @param x, y from low.
   std::uint64_t* row(int x, int y) { return words_.data() + index(x, y); }
