@@ -46,6 +46,7 @@ struct IslandLight::Search {
 namespace {
 // Nearest islands of which enough is kept for edits. A giant takes some 100 MB.
 constexpr std::size_t kKept = 2;
+constexpr int kSpare = 16;        // blocks about an island that has outgrown what is kept of it
 constexpr int kCallsToWait = 64;  // start() with nothing new, before it asks who is near
 }  // namespace
 
@@ -120,8 +121,10 @@ void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
 // Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
 void IslandLight::look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search) {
   submit(threads, search->work, [&threads, search] {
-    if (search->transfer && search->transfer->edit(search->chunks)) return end_look(*search);
-    search->transfer = std::make_unique<world::SkyTransfer>(search->chunks, search->albedo);
+    const bool edited = search->transfer != nullptr;
+    if (edited && search->transfer->edit(search->chunks)) return end_look(*search);
+    search->transfer = std::make_unique<world::SkyTransfer>(
+        search->chunks, search->albedo, world::BounceLight::kBounces, edited ? kSpare : 0);
     for (int part = 0; part <= world::kOctants; ++part)
       submit(threads, search->work, [&threads, search, part] {
         if (part < world::kOctants)
@@ -230,8 +233,10 @@ std::vector<IslandLight::FoundReach> IslandLight::poll_reach() {
     island.search->reach_taken = true;
     island.reaches = island.search->reaches;
     if (island.search->version != island.version) continue;
-    for (const auto& [at, reach] : island.search->reaches->found)
-      out.push_back({{row.island, at, row.level}, reach});
+    for (const auto& [at, reaches] : island.search->reaches->found) {
+      FoundReach& found = out.emplace_back(FoundReach{{row.island, at, row.level}, {}});
+      for (const world::LampReach::Found& reach : reaches) found.reach.push_back(reach.lit);
+    }
   }
   return out;
 }

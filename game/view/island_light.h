@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/worker_threads.h"
-#include "world/light/lamp_reach.h"
+#include "world/light/lamp_reaches.h"
 #include "world/light/sky_transfer.h"
 #include "world/stream/stream.h"
 

@@ -6,39 +6,82 @@
 
 #include "engine/core/check.h"
 #include "shaders/shared/occupancy.h"
-#include "world/light/face_records.h"
+#include "world/light/face_changes.h"
 #include "world/voxel/chunk.h"
 
 namespace skerry::world {
 namespace {
 
 constexpr int kBrick = static_cast<int>(shared::kBrickEdge);
-constexpr int kMargin = 2;
+
+bool is_empty(std::uint32_t entry) {
+  return entry == shared::kBrickEmpty || entry == shared::kChunkEmpty;
+}
+
+/// A brick's words, also of one that is not stored.
+const std::uint32_t* words_of(const ChunkOccupancy& chunk, std::size_t brick) {
+  using Words = std::array<std::uint32_t, shared::kBrickWords>;
+  static constexpr Words kNone{};
+  static constexpr Words kAll = [] {
+    Words all{};
+    all.fill(~0u);
+    return all;
+  }();
+  using Fill = ChunkOccupancy::Fill;
+  if (chunk.fill != Fill::kMixed) return chunk.fill == Fill::kEmpty ? kNone.data() : kAll.data();
+  const std::uint32_t entry = chunk.table[brick];
+  if (entry == shared::kBrickFull) return kAll.data();
+  if (is_empty(entry)) return kNone.data();
+  return &chunk.words[std::size_t{entry & shared::kMaxBricks} * shared::kBrickWords];
+}
+
+/// Calls fn(x, y, z) for each run of 8 voxels along z in a brick, chunk-local.
+template <class Fn>
+void for_each_run(std::size_t brick_index, const Fn& fn) {
+  const auto brick = static_cast<int>(brick_index);
+  const int z0 = (brick & 7) * kBrick, x0 = (brick >> 3 & 7) * kBrick, y0 = (brick >> 6) * kBrick;
+  for (int y = 0; y < kBrick; ++y)
+    for (int x = 0; x < kBrick; ++x) fn(x0 + x, y0 + y, z0);
+}
+
+/// Bits of a run. @param x, y chunk-local or in the brick.
+std::uint32_t run_bits(const std::uint32_t* words, int x, int y) {
+  const int word = 2 * (x / 4 % 2) + 4 * (y / 2 % 4), shift = 4 * (x % 4) + 16 * (y % 2);
+  return (words[word] >> shift & 15u) | (words[word + 1] >> shift & 15u) << 4;
+}
 
 /// Calls fn(x, y, z, bits) for each run of 8 voxels along z, chunk-local, that has a bit.
+/// @param wanted whether to look at bricks, by their lowest x and y.
+template <class Wanted, class Fn>
+void for_each_byte(const ChunkOccupancy& chunk, const Wanted& wanted, const Fn& fn) {
+  if (chunk.fill == ChunkOccupancy::Fill::kEmpty) return;
+  const bool mixed = chunk.fill == ChunkOccupancy::Fill::kMixed;
+  for (std::size_t b = 0; b < shared::kBricksPerChunk; ++b) {
+    if (mixed && is_empty(chunk.table[b])) continue;
+    if (!wanted(static_cast<int>(b >> 3 & 7) * kBrick, static_cast<int>(b >> 6) * kBrick)) continue;
+    const std::uint32_t* words = words_of(chunk, b);
+    for_each_run(b, [&](int x, int y, int z) {
+      if (const std::uint32_t bits = run_bits(words, x, y)) fn(x, y, z, bits);
+    });
+  }
+}
+
 template <class Fn>
 void for_each_byte(const ChunkOccupancy& chunk, const Fn& fn) {
-  using Fill = ChunkOccupancy::Fill;
-  if (chunk.fill == Fill::kEmpty) return;
-  for (int b = 0; b < static_cast<int>(shared::kBricksPerChunk); ++b) {
-    const int z0 = (b & 7) * kBrick, x0 = (b >> 3 & 7) * kBrick, y0 = (b >> 6) * kBrick;
-    const std::uint32_t entry =
-        chunk.fill == Fill::kFull ? shared::kBrickFull : chunk.table[static_cast<std::size_t>(b)];
-    if (entry == shared::kBrickEmpty || entry == shared::kChunkEmpty) continue;
-    const std::uint32_t* words =
-        entry == shared::kBrickFull
-            ? nullptr
-            : &chunk.words[std::size_t{entry & shared::kMaxBricks} * shared::kBrickWords];
-    for (int y = 0; y < kBrick; ++y) {
-      for (int x = 0; x < kBrick; ++x) {
-        std::uint32_t bits = 0xffu;
-        if (words) {
-          const int word = 2 * (x / 4) + 4 * (y / 2), shift = 4 * (x % 4) + 16 * (y % 2);
-          bits = (words[word] >> shift & 15u) | (words[word + 1] >> shift & 15u) << 4;
-        }
-        if (bits != 0) fn(x0 + x, y0 + y, z0, bits);
-      }
-    }
+  for_each_byte(
+      chunk, [](int, int) { return true; }, fn);
+}
+
+/// Calls fn(x, y, z, bits) for each run whose bits differ, with those of `now`.
+template <class Fn>
+void for_each_change(const ChunkOccupancy& before, const ChunkOccupancy& now, const Fn& fn) {
+  for (std::size_t b = 0; b < shared::kBricksPerChunk; ++b) {
+    const std::uint32_t *old = words_of(before, b), *words = words_of(now, b);
+    if (std::equal(old, old + shared::kBrickWords, words)) continue;
+    for_each_run(b, [&](int x, int y, int z) {
+      const std::uint32_t bits = run_bits(words, x, y);
+      if (bits != run_bits(old, x, y)) fn(x, y, z, bits);
+    });
   }
 }
 
@@ -84,12 +127,6 @@ VoxelBits::VoxelBits(IVec3 low, IVec3 size, bool value) : low_(low), size_(size)
                 value ? ~std::uint64_t{0} : 0);
 }
 
-bool VoxelBits::at(IVec3 voxel) const {
-  const IVec3 p{voxel.x - low_.x, voxel.y - low_.y, voxel.z - low_.z};
-  if (!has_row(p.x, p.y) || p.z < 0 || p.z >= size_.z) return false;
-  return row(p.x, p.y)[p.z / 64] >> p.z % 64 & 1;
-}
-
 void VoxelBits::set(IVec3 voxel, bool value) {
   const IVec3 p{voxel.x - low_.x, voxel.y - low_.y, voxel.z - low_.z};
   const std::uint64_t bit = std::uint64_t{1} << p.z % 64;
@@ -97,7 +134,7 @@ void VoxelBits::set(IVec3 voxel, bool value) {
   word = value ? word | bit : word & ~bit;
 }
 
-AirVolume air_volume_of(const LightChunks& chunks) {
+AirVolume air_volume_of(const LightChunks& chunks, int margin) {
   Box box;
   AirVolume out;
   for (const auto& [at, chunk] : chunks) {
@@ -119,9 +156,9 @@ AirVolume air_volume_of(const LightChunks& chunks) {
   }
   if (box.low.x > box.high.x) return out;
   const auto aligned = [](int z) { return static_cast<int>(floor_div(z, 64)) * 64; };
-  const IVec3 low{box.low.x - kMargin, box.low.y - kMargin, aligned(box.low.z - kMargin)};
-  const IVec3 size{box.high.x + kMargin + 1 - low.x, box.high.y + kMargin + 1 - low.y,
-                   aligned(box.high.z + kMargin) + 64 - low.z};
+  const IVec3 low{box.low.x - margin, box.low.y - margin, aligned(box.low.z - margin)};
+  const IVec3 size{box.high.x + margin + 1 - low.x, box.high.y + margin + 1 - low.y,
+                   aligned(box.high.z + margin) + 64 - low.z};
   out.opaque = VoxelBits(low, size, false);
   if (out.has_leaves) out.leaves = out.plants = VoxelBits(low, size, false);
   for (const auto& [at, chunk] : chunks) {
@@ -138,53 +175,61 @@ VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high) {
   low.z = aligned(low.z), high.z = aligned(high.z) + 63;
   const IVec3 size{high.x + 1 - low.x, high.y + 1 - low.y, high.z + 1 - low.z};
   VoxelBits out(low, size, false);
+  const auto apart = [](int from, int length, int its) { return from >= length || from <= -its; };
   for (const auto& [at, chunk] : chunks) {
     const IVec3 corner{corner_of(at).x - low.x, corner_of(at).y - low.y, corner_of(at).z - low.z};
-    const auto apart = [](int from, int length) { return from >= length || from <= -kChunkEdge; };
-    if (apart(corner.x, size.x) || apart(corner.y, size.y) || apart(corner.z, size.z)) continue;
-    for_each_byte(chunk->opaque, [&](int x, int y, int z, std::uint32_t eight) {
-      if (out.has_row(corner.x + x, corner.y + y))
-        out.row(corner.x + x, corner.y + y)[corner.z / 64] |= std::uint64_t{eight} << z;
-    });
+    if (apart(corner.x, size.x, kChunkEdge) || apart(corner.y, size.y, kChunkEdge) ||
+        apart(corner.z, size.z, kChunkEdge))
+      continue;
+    for_each_byte(
+        chunk->opaque,
+        [&](int x, int y) {
+          return !apart(corner.x + x, size.x, kBrick) && !apart(corner.y + y, size.y, kBrick);
+        },
+        [&](int x, int y, int z, std::uint32_t eight) {
+          if (out.has_row(corner.x + x, corner.y + y))
+            out.row(corner.x + x, corner.y + y)[corner.z / 64] |= std::uint64_t{eight} << z;
+        });
   }
   return out;
 }
 
-std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& chunk) {
-  if (!air.has_leaves && has_leaves(chunk)) return std::nullopt;
-  const IVec3 corner = corner_of(at), size{kChunkEdge, kChunkEdge, kChunkEdge};
-  const std::array<VoxelBits*, 3> kinds{&air.opaque, &air.leaves, &air.plants};
-  struct Word {
+std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& before,
+                                             const LightChunk& now, const FaceChanges& faces) {
+  const auto has_plant = [](const BlockFace& face) { return face.drawn.plant; };
+  if (!air.has_leaves && (now.leaves.fill != ChunkOccupancy::Fill::kEmpty ||
+                          std::ranges::any_of(faces.came, has_plant)))
+    return std::nullopt;
+  struct Change {
     VoxelBits* of;
-    int x, y, word;  // from the volume's lowest voxel
-    std::uint64_t bits;
+    IVec3 voxel;
+    bool value;
   };
-  std::vector<Word> words;  // that change
-  std::vector<IVec3> out;
-  for (std::size_t kind = 0; kind < (air.has_leaves ? kinds.size() : 1); ++kind) {
-    VoxelBits bits(corner, size, false);
-    if (kind < 2)
-      fill(bits, corner, kind == 0 ? chunk.opaque : chunk.leaves);
-    else
-      fill_plants(bits, corner, chunk);
-    VoxelBits& before = *kinds[kind];
-    const IVec3 low = before.low();
-    for (int y = 0; y < size.y; ++y)
-      for (int x = 0; x < size.x; ++x) {
-        const int in_x = corner.x + x - low.x, in_y = corner.y + y - low.y,
-                  word = (corner.z - low.z) / 64;
-        const bool has_room =
-            before.has_row(in_x, in_y) && corner.z >= low.z && word < before.row_words();
-        const std::uint64_t old = has_room ? before.row(in_x, in_y)[word] : 0;
-        const std::uint64_t new_bits = *bits.row(x, y);
-        if (old == new_bits) continue;
-        if (!has_room) return std::nullopt;
-        words.push_back({&before, in_x, in_y, word, new_bits});
-        for (std::uint64_t left = old ^ new_bits; left != 0; left &= left - 1)
-          out.push_back({corner.x + x, corner.y + y, corner.z + std::countr_zero(left)});
+  std::vector<Change> changes;
+  const IVec3 corner = corner_of(at);
+  const auto compare = [&](VoxelBits& bits, const ChunkOccupancy& old, const ChunkOccupancy& its) {
+    for_each_change(old, its, [&](int x, int y, int z, std::uint32_t eight) {
+      for (int i = 0; i < 8; ++i) {
+        const IVec3 voxel = corner + IVec3{x, y, z + i};
+        const bool value = (eight >> i & 1u) != 0;
+        if (bits.at(voxel) != value) changes.push_back({&bits, voxel, value});
       }
+    });
+  };
+  compare(air.opaque, before.opaque, now.opaque);
+  if (air.has_leaves) {
+    compare(air.leaves, before.leaves, now.leaves);
+    for (const std::vector<BlockFace>* some : {&faces.went, &faces.came})
+      for (const BlockFace& face : *some)
+        if (has_plant(face))
+          changes.push_back({&air.plants, corner + face.drawn.voxel, some == &faces.came});
   }
-  for (const Word& word : words) word.of->row(word.x, word.y)[word.word] = word.bits;
+  std::vector<IVec3> out;
+  for (const Change& change : changes) {
+    if (!change.of->inside(change.voxel)) return std::nullopt;
+    out.push_back(change.voxel);
+  }
+  for (const Change& change : changes) change.of->set(change.voxel, change.value);
   return out;
 }
 

@@ -12,9 +12,15 @@
 
 namespace skerry::world {
 
+struct FaceChanges;
+
 /// Lowest voxel of a chunk.
 constexpr IVec3 corner_of(IVec3 chunk) {
   return {chunk.x * kChunkEdge, chunk.y * kChunkEdge, chunk.z * kChunkEdge};
+}
+
+inline glm::ivec3 vector_of(IVec3 v) {
+  return {v.x, v.y, v.z};
 }
 
 /// A lamp that is weak enough to be kept with the light of faces.
@@ -51,7 +57,15 @@ class VoxelBits {
   IVec3 low() const { return low_; }
   IVec3 size() const { return size_; }
   int row_words() const { return size_.z / 64; }
-  bool at(IVec3 voxel) const;                ///< false outside
+  bool inside(IVec3 voxel) const {
+    const auto within = [](int from_low, int size) {
+      return static_cast<unsigned>(from_low) < static_cast<unsigned>(size);
+    };
+    return within(voxel.x - low_.x, size_.x) && within(voxel.y - low_.y, size_.y) &&
+           within(voxel.z - low_.z, size_.z);
+  }
+  /// False outside.
+  bool at(IVec3 voxel) const { return inside(voxel) && bit(bit_at(voxel)); }
   void set(IVec3 voxel, bool value = true);  ///< @pre inside
   /// Words of a row, with one more of `outside` readable before and after. @param x, y from low.
   std::uint64_t* row(int x, int y) { return words_.data() + index(x, y); }
@@ -82,20 +96,23 @@ class VoxelBits {
   std::vector<std::uint64_t> words_;
 };
 
-/// Opaque voxels of an island, its leaves and its plants, in a box two voxels larger than they are.
+/// Opaque voxels of an island, its leaves and its plants, in a box larger than they are.
 struct AirVolume {
   VoxelBits opaque, leaves, plants;
   bool has_leaves = false;  ///< or plants; else the bits of both are empty
 };
-AirVolume air_volume_of(const LightChunks& chunks);
+/// @param margin that the box is larger by, at each side [voxels]
+AirVolume air_volume_of(const LightChunks& chunks, int margin = 2);
 
 /// The opaque voxels alone, of a box. @param low, high its voxels, both included; along z it may be
 /// made larger.
 VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high);
 
 /// Takes the voxels of a chunk that has changed into a volume that was made with it.
+/// @param before the chunk as it is in there. @param faces what of its faces has changed.
 /// @return those whose bits have changed; none, and nothing is taken in: the volume has no room for
 /// them, or knew no leaves.
-std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& chunk);
+std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& before,
+                                             const LightChunk& now, const FaceChanges& faces);
 
 }  // namespace skerry::world

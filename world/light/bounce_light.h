@@ -78,6 +78,13 @@ class BounceLight {
   /// before the face; of a plant, its own, and the face looks up. @param plant whether that is
   /// asked of a plant rather than the ground below it. None: there is no such face.
   std::optional<Light> received(IVec3 front, int face, bool plant) const;
+  /// Directions of the faces before which a voxel is, a bit each. @pre its number is `wanted`'s.
+  std::uint32_t faces_before(std::size_t number) const {
+    std::uint32_t out = 0;
+    for (std::size_t direction = 0; direction < 6; ++direction)
+      out |= numbers_[number * 6 + direction] != 0 ? 1u << direction : 0u;
+    return out;
+  }
 
   // --- After an edit: first voxels, then faces, then lines, then light ---
 

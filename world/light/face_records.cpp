@@ -56,34 +56,70 @@ class FacesByBrick {
 
 }  // namespace
 
-ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append) {
+namespace {
+
+/// @param before null, or where faces that have a record there find it: in place of append().
+ChunkSky pack(std::span<const shared::Quad> quads, const ChunkSky* before,
+              const AppendRecord& append) {
+  constexpr std::size_t kRecord = shared::kIndirectRecordTexels;
   FacesByBrick faces;
   for (const shared::Quad& quad : quads)
     for_each_face(quad, [&](const DrawnFace& face) { faces.add(face); });
   ChunkSky out;
   out.table.assign(shared::kBricksPerChunk, 0);
+  if (before) out.texels.reserve(before->texels.size() + before->texels.size() / 16);
   out.texels.assign(faces.count() * shared::kIndirectBrickTexels, glm::uvec4(0));
+  const auto copy = [&](std::size_t from, std::size_t texels) {
+    const auto start = before->texels.begin() + static_cast<std::ptrdiff_t>(from);
+    out.texels.insert(out.texels.end(), start, start + static_cast<std::ptrdiff_t>(texels));
+  };
   std::size_t stored = 0;
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
     if (faces.of(at) == nullptr) continue;
     const BrickFaces& brick = *faces.of(at);
     const std::size_t first = stored++ * shared::kIndirectBrickTexels;
+    const std::uint32_t old_brick = before ? before->table[at] : 0;
     out.table[at] = static_cast<std::uint32_t>(stored);
     for (std::size_t direction = 0; direction < 6; ++direction)
       for (std::size_t word = 0; word < 16; ++word) {
         const std::uint32_t mask = brick.masks[direction][word];
-        const std::size_t texel = first + direction * 8 + word / 2;
+        const std::size_t in_brick = direction * 8 + word / 2;
         const auto half = static_cast<int>(word % 2);
-        out.texels[texel][half] = mask;
-        out.texels[texel][2 + half] = static_cast<std::uint32_t>(out.texels.size());
+        out.texels[first + in_brick][half] = mask;
+        out.texels[first + in_brick][2 + half] = static_cast<std::uint32_t>(out.texels.size());
+        if (mask == 0) continue;
+        glm::uvec4 old(0);
+        if (old_brick != 0)
+          old = before->texels[(old_brick - 1) * shared::kIndirectBrickTexels + in_brick];
+        if (old[half] == mask) {
+          copy(old[2 + half], kRecord * static_cast<std::size_t>(std::popcount(mask)));
+          continue;
+        }
         for (std::uint32_t left = mask; left != 0; left &= left - 1) {
           const int bit = std::countr_zero(left);
-          const bool plant = direction == 2 && (brick.plants[word] >> bit & 1u) != 0;
+          const std::uint32_t one = 1u << bit;
+          if ((old[half] & one) != 0) {
+            const int earlier = std::popcount(old[half] & (one - 1));
+            copy(old[2 + half] + kRecord * static_cast<std::size_t>(earlier), kRecord);
+            continue;
+          }
+          const bool plant = direction == 2 && (brick.plants[word] & one) != 0;
           append({voxel_at(at, word, bit), static_cast<int>(direction), plant}, out.texels);
         }
       }
   }
   return out;
+}
+
+}  // namespace
+
+ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append) {
+  return pack(quads, nullptr, append);
+}
+
+ChunkSky repack_faces(const ChunkSky& before, std::span<const shared::Quad> quads,
+                      const AppendRecord& append) {
+  return pack(quads, &before, append);
 }
 
 std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int direction) {
@@ -181,7 +217,7 @@ std::vector<shared::Quad> lit_faces(const ChunkSky& before, std::span<const shar
 }
 
 ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
-  return pack_faces(quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
+  return repack_faces(before, quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
     const std::optional<std::size_t> from = nearest_record(before, face);
     for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
       texels.push_back(from ? before.texels[*from + i] : glm::uvec4(0));

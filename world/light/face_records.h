@@ -73,6 +73,9 @@ void for_each_face(const shared::Quad& quad, const Fn& fn) {
 /// @param append adds a face's record, kIndirectRecordTexels, to the list.
 using AppendRecord = std::function<void(const DrawnFace&, std::vector<glm::uvec4>&)>;
 ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append);
+/// Alike, but faces that have a record before keep it. @param append of the others.
+ChunkSky repack_faces(const ChunkSky& before, std::span<const shared::Quad> quads,
+                      const AppendRecord& append);
 
 /// Where a face's record begins in ChunkSky::texels. None: the chunk has no such face.
 std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int direction);

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
-#include <iterator>
-#include <utility>
 #include <vector>
 
 #include "engine/core/check.h"
@@ -17,10 +15,6 @@ namespace skerry::world {
 namespace {
 
 using Word = std::uint64_t;
-
-glm::ivec3 vector_of(IVec3 v) {
-  return {v.x, v.y, v.z};
-}
 
 int floor_to_int(float v) {
   return static_cast<int>(std::floor(v));
@@ -54,14 +48,16 @@ Word spread_down(Word bits, Word open) {
 /// The rows of voxels within a lamp's range, and what its light may enter of them.
 class Flood {
  public:
-  /// @pre the lamp stands in the volume. @param place from its lowest voxel.
-  Flood(const VoxelBits& opaque, glm::vec3 place, float range)
+  /// @pre the lamp stands in the volume. @param place from its lowest voxel. @param low, high
+  /// voxels to look at alone, if they are in the volume.
+  Flood(const VoxelBits& opaque, glm::vec3 place, float range,
+        const glm::ivec3& low = glm::ivec3(0), const glm::ivec3& high = glm::ivec3(INT32_MAX))
       : opaque_(opaque), place_(place), range_(range) {
     const glm::ivec3 last = vector_of(opaque.size()) - 1;
     for (int a = 0; a < 3; ++a) {
       lamp_[a] = floor_to_int(place[a]);
-      first_[a] = std::max(floor_to_int(place[a] - range), 0);
-      last_[a] = std::min(floor_to_int(place[a] + range), last[a]);
+      first_[a] = std::max({floor_to_int(place[a] - range), 0, std::min(low[a], lamp_[a])});
+      last_[a] = std::min({floor_to_int(place[a] + range), last[a], std::max(high[a], lamp_[a])});
     }
     word0_ = first_.z / 64, words_ = last_.z / 64 - word0_ + 1;
     rows_.assign(static_cast<std::size_t>(words_) *
@@ -72,6 +68,12 @@ class Flood {
   void run() {
     for (int y = lamp_.y; y <= last_.y; ++y) run_layer(y, y - 1);
     for (int y = lamp_.y - 1; y >= first_.y; --y) run_layer(y, y + 1);
+  }
+
+  const glm::ivec3& lamp() const { return lamp_; }
+  bool entered(const glm::ivec3& v) const {
+    if (glm::any(glm::lessThan(v, first_)) || glm::any(glm::greaterThan(v, last_))) return false;
+    return (row(v.x, v.y)[v.z / 64 - word0_] >> v.z % 64 & 1u) != 0;
   }
 
   /// Calls fn(x, y, word, bits) for each word of a row of what was entered within the range, places
@@ -125,7 +127,13 @@ class Flood {
         air |= Word{1} << lamp_.z % 64;
       return air;
     };
-    for (int w = 0; w < words_; ++w) into[w] &= open(w);
+    bool any = false, all = true;  // of what is open
+    for (int w = 0; w < words_; ++w) {
+      into[w] &= open(w);
+      any |= into[w] != 0;
+      all &= into[w] == open(w);
+    }
+    if (!any || all) return;
     // Away from the lamp to either side; what lies on the other side of it stays as it is.
     Word carry = 0;
     for (int w = 0; w < words_; ++w) {
@@ -152,10 +160,10 @@ class Flood {
   std::vector<Word> rows_;                // what was entered
 };
 
-/// Voxels that light arrives at, in words of rows, and their bounds.
-class Lit {
+/// Voxels in words of rows, and their bounds.
+class Places {
  public:
-  explicit Lit(IVec3 volume) : volume_(volume) {}
+  explicit Places(IVec3 volume) : volume_(volume) {}
 
   /// @param word of a row, may be one off its ends where no voxel is.
   void add(int x, int y, int word, Word bits) {
@@ -179,17 +187,24 @@ class Lit {
     }
     out.low = {low.x, low.y, low.z};
     out.size = {size.x, size.y, size.z};
+    // All rows of a row of bricks together.
+    const int first = low_.z >> 6, words = (high_.z >> 6) - first + 1;
+    std::vector<Word> rows(static_cast<std::size_t>(size.x * size.y * words), 0);
     for (const Part& part : words_) {
       const int x = ((part.x + origin.x) >> out.edge_log2) - low.x,
                 y = ((part.y + origin.y) >> out.edge_log2) - low.y;
-      for (Word left = part.bits; left != 0;) {
-        const int z = part.word * 64 + std::countr_zero(left) + origin.z;
-        const int brick = z >> out.edge_log2;
-        const int bit = brick - low.z + size.z * (x + size.x * y);
-        out.bits[static_cast<std::size_t>(bit / 32)] |= 1u << bit % 32;
-        left &= from_bit(((brick + 1) << out.edge_log2) - origin.z - part.word * 64);
-      }
+      rows[static_cast<std::size_t>((x + size.x * y) * words + part.word - first)] |= part.bits;
     }
+    for (int row = 0; row < size.x * size.y; ++row)
+      for (int w = 0; w < words; ++w) {
+        const int from = (first + w) * 64 + origin.z;
+        for (Word left = rows[static_cast<std::size_t>(row * words + w)]; left != 0;) {
+          const int brick = (from + std::countr_zero(left)) >> out.edge_log2;
+          const int bit = brick - low.z + size.z * row;
+          out.bits[static_cast<std::size_t>(bit / 32)] |= 1u << bit % 32;
+          left &= from_bit(((brick + 1) << out.edge_log2) - from);
+        }
+      }
     return out;
   }
 
@@ -226,8 +241,19 @@ bool LampReach::Bricks::at(IVec3 voxel) const {
   if (empty() || glm::any(glm::lessThan(v, glm::ivec3(0))) ||
       glm::any(glm::greaterThanEqual(v, vector_of(size))))
     return false;
-  const int bit = v.z + size.z * (v.x + size.x * v.y);
-  return bits[static_cast<std::size_t>(bit / 32)] >> bit % 32 & 1u;
+  return bit(v.z + size.z * (v.x + size.x * v.y));
+}
+
+bool LampReach::Bricks::any_within(IVec3 from, IVec3 to) const {
+  if (empty()) return false;
+  const glm::ivec3 origin = vector_of(low);
+  const glm::ivec3 first = glm::max((vector_of(from) >> edge_log2) - origin, glm::ivec3(0)),
+                   last = glm::min((vector_of(to) >> edge_log2) - origin, vector_of(size) - 1);
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x)
+      for (int z = first.z; z <= last.z; ++z)
+        if (bit(z + size.z * (x + size.x * y))) return true;
+  return false;
 }
 
 LampReach::LampReach(const LightChunks& chunks) : opaque_(air_volume_of(chunks).opaque) {
@@ -242,13 +268,13 @@ LampReach::LampReach(const LightChunks& chunks, IVec3 low, IVec3 high)
 void LampReach::take_faces(const LightChunks& chunks) {
   if (opaque_.size().x == 0) return;
   all_round_ = VoxelBits(opaque_.low(), opaque_.size(), false);
-  plants_ = all_round_;
+  plants_ = any_ = all_round_;
   fronts_.fill(all_round_);
   const glm::ivec3 low = vector_of(opaque_.low()), last = low + vector_of(opaque_.size()) - 1;
   const auto set = [&](VoxelBits& bits, IVec3 voxel) {
     const glm::ivec3 v = vector_of(voxel);
     if (glm::all(glm::greaterThanEqual(v, low)) && glm::all(glm::lessThanEqual(v, last)))
-      bits.set(voxel);
+      bits.set(voxel), any_.set(voxel);
   };
   for (const auto& [at, chunk] : chunks) {
     const IVec3 corner = corner_of(at);
@@ -273,7 +299,7 @@ void LampReach::take_faces(const LightChunks& chunks) {
   }
 }
 
-LampReach::Bricks LampReach::of(IVec3 chunk, const StrongLamp& lamp) const {
+LampReach::Found LampReach::of(IVec3 chunk, const StrongLamp& lamp) const {
   if (opaque_.size().x == 0) return {};
   const glm::ivec3 corner = vector_of(corner_of(chunk)) - vector_of(opaque_.low());
   const glm::vec3 place = lamp.place + glm::vec3(corner);
@@ -281,8 +307,10 @@ LampReach::Bricks LampReach::of(IVec3 chunk, const StrongLamp& lamp) const {
                 glm::all(glm::lessThan(place, glm::vec3(vector_of(opaque_.size())))));
   Flood flood(opaque_, place, lamp.range);
   flood.run();
-  Lit lit(opaque_.low());
+  Places lit(opaque_.low()), air(opaque_.low());
   flood.for_each_word([&](int x, int y, int word, Word entered) {
+    air.add(x, y, word, entered);
+    if ((entered & any_.row(x, y)[word]) == 0) return;
     // A plant is lit as if it were level (docs/conventions.md).
     Word here = entered & (all_round_.row(x, y)[word] |
                            (plants_.row(x, y)[word] & facing(2, x, y, word * 64, place)));
@@ -306,126 +334,28 @@ LampReach::Bricks LampReach::of(IVec3 chunk, const StrongLamp& lamp) const {
     }
     lit.add(x, y, word, here);
   });
-  return lit.bricks();
+  return {lit.bricks(), air.bricks()};
 }
 
-// --- All lamps ---
-
-namespace {
-
-/// Voxels, both ends included; empty: low is above high.
-struct EditBox {
-  glm::ivec3 low{INT32_MAX}, high{INT32_MIN};
-  void take(const glm::ivec3& from, const glm::ivec3& to) {
-    low = glm::min(low, from), high = glm::max(high, to);
-  }
-};
-
-/// Where what is drawn of a chunk has changed: an edit changes faces wherever light could tell.
-EditBox changed_in(const LightChunk& before, const LightChunk& now, IVec3 at) {
-  using Quad = std::pair<std::uint32_t, std::uint32_t>;
-  const auto sorted = [](const LightChunk& chunk) {
-    std::vector<Quad> out;
-    for (const shared::Quad& quad : chunk.quads) out.emplace_back(quad.geometry, quad.material);
-    std::ranges::sort(out);
-    return out;
-  };
-  std::vector<Quad> differ;
-  std::ranges::set_symmetric_difference(sorted(before), sorted(now), std::back_inserter(differ));
-  EditBox box;
-  const glm::ivec3 corner = vector_of(corner_of(at));
-  for (const Quad& quad : differ)
-    for_each_face({quad.first, quad.second}, [&](const DrawnFace& face) {
-      box.take(corner + vector_of(face.voxel), corner + vector_of(face.voxel + to_front(face)));
-      box.take(corner + vector_of(face.voxel + to_front(face)), corner + vector_of(face.voxel));
-    });
-  return box;
-}
-
-std::vector<EditBox> changed_boxes(const LightChunks& before, const LightChunks& now) {
-  std::vector<EditBox> out;
-  const auto whole = [](IVec3 at) {
-    const glm::ivec3 low = vector_of(corner_of(at));
-    return EditBox{low - 1, low + kChunkEdge};
-  };
-  for (const auto& [at, chunk] : now) {
-    const auto old = before.find(at);
-    if (old == before.end())
-      out.push_back(whole(at));
-    else if (old->second != chunk)
-      out.push_back(changed_in(*old->second, *chunk, at));
-  }
-  for (const auto& [at, chunk] : before)
-    if (!now.contains(at)) out.push_back(whole(at));
-  return out;
-}
-
-bool is_near(const EditBox& box, IVec3 chunk, const StrongLamp& lamp) {
-  const glm::vec3 place = glm::vec3(vector_of(corner_of(chunk))) + lamp.place;
-  const float reach = lamp.range + 1.0f;
-  return glm::all(glm::lessThanEqual(glm::vec3(box.low), place + reach)) &&
-         glm::all(glm::greaterThanEqual(glm::vec3(box.high), place - reach));
-}
-
-bool same_reach(const StrongLamp& a, const StrongLamp& b) {
-  return a.place == b.place && a.range == b.range;
-}
-
-}  // namespace
-
-LampReaches reaches_of(const LightChunks& chunks) {
-  return reaches_after(chunks, {}, {});
-}
-
-LampReaches reaches_after(const LightChunks& chunks, const LightChunks& before,
-                          const LampReaches& known) {
-  constexpr int kAround = 2;  // faces are asked for on both sides of them
-  const std::vector<EditBox> changed = changed_boxes(before, chunks);
-  struct Asked {
-    IVec3 at;
-    std::size_t lamp;
-  };
-  std::vector<Asked> asked;
-  LightChunks around;    // chunks that those can reach
-  EditBox reached, all;  // by those, and of those chunks
-  LampReaches out;
-  for (const auto& [at, chunk] : chunks) {
-    const auto found = known.find(at);
-    for (std::size_t i = 0; i < chunk->strong.size(); ++i) {
-      const StrongLamp& lamp = chunk->strong[i];
-      std::vector<LampReach::Bricks>& reaches = out[at];
-      reaches.emplace_back();
-      const bool near = std::ranges::any_of(
-          changed, [&, &at = at](const EditBox& box) { return is_near(box, at, lamp); });
-      if (!near && found != known.end()) {
-        const std::vector<StrongLamp>& old = before.at(at)->strong;
-        const auto same = std::ranges::find_if(
-            old, [&](const StrongLamp& other) { return same_reach(other, lamp); });
-        if (same != old.end()) {
-          reaches.back() = found->second[static_cast<std::size_t>(same - old.begin())];
-          continue;
-        }
-      }
-      asked.push_back({at, i});
-      const glm::vec3 place = glm::vec3(vector_of(corner_of(at))) + lamp.place;
-      reached.take(glm::ivec3(glm::floor(place - lamp.range)) - kAround,
-                   glm::ivec3(glm::floor(place + lamp.range)) + kAround);
-      for (const auto& [other, its] : chunks) {
-        const glm::ivec3 low = vector_of(corner_of(other));
-        if (is_near({low - 1, low + kChunkEdge}, at, lamp)) around.emplace(other, its);
-      }
+bool LampReach::changes(const VoxelBits& opaque, IVec3 chunk, const StrongLamp& lamp,
+                        std::span<const ReachFace> faces) {
+  const glm::ivec3 origin = vector_of(opaque.low());
+  const glm::vec3 place = lamp.place + glm::vec3(vector_of(corner_of(chunk)) - origin);
+  glm::ivec3 low(INT32_MAX), high(INT32_MIN);
+  for (const ReachFace& face : faces)
+    for (const IVec3& side : {face.voxel, face.front}) {
+      low = glm::min(low, vector_of(side) - origin);
+      high = glm::max(high, vector_of(side) - origin);
     }
-  }
-  if (asked.empty()) return out;
-  for (const auto& [at, chunk] : around) {
-    const glm::ivec3 corner = vector_of(corner_of(at));
-    all.take(corner - kAround, corner + kChunkEdge - 1 + kAround);
-  }
-  const auto voxel = [](const glm::ivec3& v) { return IVec3{v.x, v.y, v.z}; };
-  const LampReach reach(around, voxel(glm::max(reached.low, all.low)),
-                        voxel(glm::min(reached.high, all.high)));
-  for (const Asked& a : asked) out[a.at][a.lamp] = reach.of(a.at, chunks.at(a.at)->strong[a.lamp]);
-  return out;
+  Flood flood(opaque, place, lamp.range, low, high);
+  flood.run();
+  return std::ranges::any_of(faces, [&](const ReachFace& face) {
+    const glm::ivec3 voxel = vector_of(face.voxel) - origin, front = vector_of(face.front) - origin;
+    if (voxel == flood.lamp() || front == flood.lamp()) return true;
+    if (!face.one_sided) return flood.entered(voxel) || flood.entered(front);
+    return flood.entered(front) &&
+           (facing(face.direction, front.x, front.y, front.z, place) & 1u) != 0;
+  });
 }
 
 }  // namespace skerry::world

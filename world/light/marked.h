@@ -9,12 +9,15 @@ namespace skerry::world {
 /// A set of small numbers that lists what it holds, in the order of its coming.
 class Marked {
  public:
-  void add(std::uint32_t number) {
+  /// @return whether it is new.
+  bool add(std::uint32_t number) {
     if (number / 64 >= bits_.size()) bits_.resize(number / 64 + 1, 0);
     std::uint64_t& word = bits_[number / 64];
     const std::uint64_t bit = std::uint64_t{1} << number % 64;
-    if ((word & bit) == 0) list_.push_back(number);
+    if ((word & bit) != 0) return false;
+    list_.push_back(number);
     word |= bit;
+    return true;
   }
   bool has(std::uint32_t number) const {
     return number / 64 < bits_.size() && (bits_[number / 64] >> number % 64 & 1) != 0;

@@ -14,12 +14,18 @@ struct SkyTransfer::Around {
   std::array<bool, 9> air{};
 
   /// Those of them about a corner, b + 2 c, that hang together: first the one before the face.
-  std::vector<std::size_t> about(std::size_t corner) const {
+  struct Some {
+    std::array<std::size_t, 4> at{};
+    std::size_t count = 0;
+    auto begin() const { return at.begin(); }
+    auto end() const { return at.begin() + static_cast<std::ptrdiff_t>(count); }
+  };
+  Some about(std::size_t corner) const {
     const std::size_t across = corner & 1 ? 5 : 3, along = corner & 2 ? 7 : 1;
-    std::vector<std::size_t> out{4};
-    if (air[across]) out.push_back(across);
-    if (air[along]) out.push_back(along);
-    if (out.size() > 1 && air[across + along - 4]) out.push_back(across + along - 4);
+    Some out{{4}, 1};
+    if (air[across]) out.at[out.count++] = across;
+    if (air[along]) out.at[out.count++] = along;
+    if (out.count > 1 && air[across + along - 4]) out.at[out.count++] = across + along - 4;
     return out;
   }
 };
@@ -118,8 +124,8 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
   std::array<std::uint32_t, 8> words{};
   glm::uvec4 lamp_words(0);
   for (std::size_t corner = 0; corner < 4; ++corner) {
-    const std::vector<std::size_t> about = around.about(corner);
-    const auto count = static_cast<std::uint32_t>(about.size());
+    const Around::Some about = around.about(corner);
+    const auto count = static_cast<std::uint32_t>(about.count);
     glm::vec3 lamp_sum(0.0f);
     for (const std::size_t at : about) lamp_sum += lamps[at];
     for (std::size_t lobe = 0; lobe < shared::kSkyLobes; ++lobe) {

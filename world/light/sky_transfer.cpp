@@ -53,8 +53,9 @@ inline void and_row(std::uint64_t* into, const std::uint64_t* row, int by, int w
 
 }  // namespace
 
-SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo, int bounces)
-    : chunks_(std::move(chunks)), air_(air_volume_of(chunks_)), lines_(air_) {
+SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo, int bounces,
+                         int spare)
+    : chunks_(std::move(chunks)), air_(air_volume_of(chunks_, 2 + spare)), lines_(air_) {
   const IVec3 low = air_.opaque.low(), size = air_.opaque.size();
   if (size.x == 0) return;
   VoxelBits wanted(low, size, false);

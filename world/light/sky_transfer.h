@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
@@ -27,9 +28,10 @@ namespace skerry::world {
 class SkyTransfer {
  public:
   /// @param albedo by block id; empty: no light is followed from face to face. It must outlive
-  /// this. @param bounces how often light is followed, see BounceLight.
+  /// this. @param bounces how often light is followed, see BounceLight. @param spare blocks about
+  /// the island in which edit() can follow what is built.
   explicit SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo = {},
-                       int bounces = BounceLight::kBounces);
+                       int bounces = BounceLight::kBounces, int spare = 0);
   SkyTransfer(const SkyTransfer&) = delete;  // its parts refer to each other
   SkyTransfer& operator=(const SkyTransfer&) = delete;
   /// Looks along an octant's vectors. Octants may be looked along at once, each by one thread.
@@ -50,7 +52,8 @@ class SkyTransfer {
 
   /// After make_faces(): brings all of it up to date with chunks of which some have been edited.
   /// What comes out is what a new one would find of them, bit for bit; what it costs depends on
-  /// what the edit changes. Chunks that are the same object have not changed.
+  /// what the edit changes. Chunks that are the same object have not changed. Others may have come
+  /// or gone.
   /// @return false: this would be no less work than to begin anew; nothing can be asked any more.
   bool edit(LightChunks chunks);
 
@@ -84,12 +87,24 @@ class SkyTransfer {
   template <class Fn>
   void for_each_reached(const Lamp& lamp, const Fn& fn, glm::vec3 from = glm::vec3(-1e9f),
                         glm::vec3 to = glm::vec3(1e9f)) const {
-    const glm::ivec3 low(glm::floor(glm::max(lamp.lamp.place - lamp.within, from))),
-        high(glm::floor(glm::min(lamp.lamp.place + lamp.within, to)));
+    const VoxelBits& wanted = wanted_.chosen();
+    const glm::ivec3 origin = vector_of(wanted.low()), size = vector_of(wanted.size());
+    const glm::vec3 least = glm::max(lamp.lamp.place - lamp.within, from),
+                    most = glm::min(lamp.lamp.place + lamp.within, to);
+    const glm::ivec3 low = glm::max(glm::ivec3(glm::floor(least)) - origin, glm::ivec3(0)),
+                     high = glm::min(glm::ivec3(glm::floor(most)) - origin, size - 1);
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x)
-        for (int z = low.z; z <= high.z; ++z)
-          if (wanted_.has({x, y, z}) && lamp.reaches({x, y, z})) fn(IVec3{x, y, z});
+        for (int word = low.z / 64; word <= high.z / 64 && low.z <= high.z; ++word) {
+          std::uint64_t left = wanted.row(x, y)[word];
+          if (word == low.z / 64) left &= ~std::uint64_t{0} << low.z % 64;
+          if (word == high.z / 64) left &= ~std::uint64_t{0} >> (63 - high.z % 64);
+          for (; left != 0; left &= left - 1) {
+            const IVec3 voxel{origin.x + x, origin.y + y,
+                              origin.z + word * 64 + std::countr_zero(left)};
+            if (lamp.reaches(voxel)) fn(voxel);
+          }
+        }
   }
   void spread(const Lamp& lamp, LampLightMap& into) const;
   Corners bounced(const Around& around, int face, bool plant) const;

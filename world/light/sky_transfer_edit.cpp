@@ -1,14 +1,14 @@
 // SkyTransfer after edits: what they change is followed from the voxels to the records.
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <set>
-#include <unordered_set>
 #include <utility>
 
 #include "engine/core/check.h"
+#include "world/light/face_changes.h"
 #include "world/light/sky_transfer.h"
 #include "world/voxel/chunk.h"
 
@@ -17,28 +17,6 @@ namespace {
 
 // Beyond, an island is looked at as a whole.
 constexpr std::size_t kMostVoxels = 2048;
-
-/// A set of the faces of a chunk: six directions, then plants.
-class FaceBits {
- public:
-  FaceBits() : bits_(7 * kChunkVoxels / 64, 0) {}
-  /// @return whether it was there.
-  bool set(const DrawnFace& face, bool value) {
-    const std::size_t at =
-        (static_cast<std::size_t>(face.plant ? 6 : face.direction) * kChunkVoxels +
-         static_cast<std::size_t>(face.voxel.z +
-                                  kChunkEdge * (face.voxel.x + kChunkEdge * face.voxel.y)));
-    std::uint64_t& word = bits_[at / 64];
-    const std::uint64_t bit = std::uint64_t{1} << at % 64;
-    const bool was = (word & bit) != 0;
-    word = value ? word | bit : word & ~bit;
-    return was;
-  }
-
- private:
-  static constexpr std::size_t kChunkVoxels = std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge;
-  std::vector<std::uint64_t> bits_;
-};
 
 bool same_lamp(const WeakLamp& a, const WeakLamp& b) {
   return a.place == b.place && a.intensity == b.intensity && a.range == b.range;
@@ -67,7 +45,9 @@ class SkyTransfer::Edit {
 
   bool run() {
     if (of_.bounces_ && of_.bounces_->is_worn()) return false;
-    if (!find_chunks() || !take_voxels() || !want_voxels()) return false;
+    if (of_.seen_.empty()) return false;
+    find_chunks();
+    if (!take_chunks() || !want_voxels()) return false;
     take_faces();
     look_again();
     spread_again();
@@ -86,23 +66,50 @@ class SkyTransfer::Edit {
     std::uint16_t block = 0;
   };
 
-  /// Which chunks have changed. @return false: chunks have come or gone.
-  bool find_chunks() {
-    const LightChunks& now = of_.chunks_;
-    if (now.size() != before_.size() || of_.seen_.empty()) return false;
-    for (auto old = before_.begin(), at = now.begin(); at != now.end(); ++old, ++at) {
-      if (at->first != old->first) return false;
-      if (at->second != old->second) edited_.push_back(at->first);
+  /// Voxels whose view is kept, each once, in the order of their coming.
+  struct Kept {
+    Marked numbers;
+    std::vector<IVec3> voxels;
+    bool add(const VoxelIndex& index, IVec3 voxel) {
+      const bool is_new =
+          index.has(voxel) && numbers.add(static_cast<std::uint32_t>(index.of(voxel)));
+      if (is_new) voxels.push_back(voxel);
+      return is_new;
     }
-    return true;
+  };
+
+  static const LightChunk& chunk_of(const LightChunks& chunks, IVec3 at) {
+    static const LightChunk kEmpty{};
+    const auto found = chunks.find(at);
+    return found == chunks.end() ? kEmpty : *found->second;
   }
 
-  bool take_voxels() {
+  /// Which chunks have changed, come or gone.
+  void find_chunks() {
+    for (const auto& [at, chunk] : of_.chunks_) {
+      const auto old = before_.find(at);
+      if (old == before_.end() || old->second != chunk) edited_.push_back(at);
+    }
+    for (const auto& [at, chunk] : before_)
+      if (!of_.chunks_.contains(at)) edited_.push_back(at);
+  }
+
+  /// Takes in the voxels of edited chunks, and which of their faces have come and gone.
+  bool take_chunks() {
     std::set<IVec3> changed;
     for (const IVec3& at : edited_) {
-      const std::optional<std::vector<IVec3>> voxels =
-          take_chunk(of_.air_, at, *of_.chunks_.at(at));
+      const LightChunk &before = chunk_of(before_, at), &now = chunk_of(of_.chunks_, at);
+      const FaceChanges faces = face_changes(before.quads, now.quads);
+      for (const auto& [from, to] :
+           {std::pair{&faces.came, &came_}, {&faces.went, &went_}, {&faces.turned, &turned_}})
+        for (const auto& [drawn, block] : *from) {
+          DrawnFace face = drawn;
+          face.voxel = corner_of(at) + face.voxel;
+          to->push_back({face.voxel + to_front(face), face, block});
+        }
+      const std::optional<std::vector<IVec3>> voxels = take_chunk(of_.air_, at, before, now, faces);
       if (!voxels) return false;
+      if (!faces.came.empty() || !faces.went.empty()) reshaped_.push_back(at);
       changed.insert(voxels->begin(), voxels->end());
       if (changed.size() > kMostVoxels) return false;
     }
@@ -111,9 +118,8 @@ class SkyTransfer::Edit {
     return true;
   }
 
-  /// Finds the faces that have come and gone, and numbers the voxels about those that have come.
+  /// Numbers the voxels that are air now and those about faces that have come.
   bool want_voxels() {
-    for (const IVec3& at : edited_) compare_faces(at);
     for (const IVec3& voxel : voxels_) {
       const bool opaque = of_.air_.opaque.at(voxel);
       if (opaque && of_.wanted_.has(voxel)) let_go(voxel);
@@ -126,28 +132,6 @@ class SkyTransfer::Edit {
           if (!want(face.front + axis_vector(axes.b, b) + axis_vector(axes.c, c))) return false;
     }
     return true;
-  }
-
-  void compare_faces(IVec3 at) {
-    const IVec3 corner = corner_of(at);
-    const auto face_of = [&](DrawnFace drawn, std::uint32_t material) {
-      drawn.voxel = corner + drawn.voxel;
-      return Face{drawn.voxel + to_front(drawn), drawn,
-                  static_cast<std::uint16_t>(shared::surface_block(material))};
-    };
-    FaceBits bits;
-    for (const shared::Quad& quad : before_.at(at)->quads)
-      for_each_face(quad, [&](const DrawnFace& drawn) { bits.set(drawn, true); });
-    FaceBits now;
-    for (const shared::Quad& quad : of_.chunks_.at(at)->quads)
-      for_each_face(quad, [&](const DrawnFace& drawn) {
-        if (now.set(drawn, true)) return;
-        (bits.set(drawn, false) ? stayed_ : came_).push_back(face_of(drawn, quad.material));
-      });
-    for (const shared::Quad& quad : before_.at(at)->quads)
-      for_each_face(quad, [&](const DrawnFace& drawn) {
-        if (bits.set(drawn, false)) went_.push_back(face_of(drawn, quad.material));
-      });
   }
 
   void move(std::span<const VoxelIndex::Moved> moved) {
@@ -186,19 +170,17 @@ class SkyTransfer::Edit {
   }
 
   void take_faces() {
-    for (const Face& face : went_) {
-      redo_about(face.front, face.drawn.direction);
-      if (of_.bounces_)
+    if (of_.bounces_)
+      for (const Face& face : went_)
         of_.bounces_->remove_face(face.front, face.drawn.direction, face.drawn.plant);
-    }
-    for (const std::vector<Face>* faces : {&came_, &stayed_})
-      for (const Face& face : *faces) {
-        if (faces == &came_) redo_about(face.front, face.drawn.direction);
-        if (!of_.bounces_ ||
-            !of_.bounces_->set_face(face.front, face.drawn.direction, face.block, face.drawn.plant))
-          continue;
-        fronts_.insert(face.front);
-      }
+    if (of_.bounces_)
+      for (const std::vector<Face>* faces : {&came_, &turned_})
+        for (const Face& face : *faces)
+          if (of_.bounces_->set_face(face.front, face.drawn.direction, face.block,
+                                     face.drawn.plant))
+            fronts_.add(of_.wanted_, face.front);
+    for (const std::vector<Face>* faces : {&came_, &went_})
+      for (const Face& face : *faces) redo_about(face.front, face.drawn.direction);
     // Lines end at faces: where one comes or goes and no voxel does, all those to its voxel.
     if (!of_.bounces_) return;
     const std::set<IVec3> changed(voxels_.begin(), voxels_.end());
@@ -228,9 +210,9 @@ class SkyTransfer::Edit {
     }
     for (const IVec3& voxel : through_) look_through(voxel);
     if (!of_.bounces_) return;
-    fronts_.insert(wanted_.begin(), wanted_.end());
-    for (const IVec3& front : fronts_)
-      if (of_.wanted_.has(front)) of_.bounces_->look_from(front, of_.seen_[of_.wanted_.of(front)]);
+    for (const IVec3& voxel : wanted_) fronts_.add(of_.wanted_, voxel);
+    for (const IVec3& front : fronts_.voxels)
+      of_.bounces_->look_from(front, of_.seen_[of_.wanted_.of(front)]);
   }
 
   /// All lines that touch a voxel, from there backwards: what lies beyond it has not changed by it,
@@ -275,7 +257,7 @@ class SkyTransfer::Edit {
 
   /// A voxel's direct light, or what it sees of the sky, has changed.
   void changed_at(IVec3 voxel) {
-    if (!lit_.insert(voxel).second) return;
+    if (!lit_.add(of_.wanted_, voxel)) return;
     redo_around(voxel);
     if (of_.bounces_) of_.bounces_->relight(voxel);
   }
@@ -286,14 +268,21 @@ class SkyTransfer::Edit {
     for (const auto& [at, chunk] : of_.chunks_)
       for (const Lamp& lamp : lamps_of(*chunk, at))
         if (lamp.weak || of_.bounces_) all.push_back(lamp);
-    std::set<IVec3> relit(wanted_.begin(), wanted_.end());
+    Kept relit;
+    for (const IVec3& voxel : wanted_) relit.add(of_.wanted_, voxel);
     for (const IVec3& at : edited_) find_relit(at, relit);
     for (const Lamp& lamp : all) find_relit(lamp, relit);
+    if (relit.voxels.empty()) return;
+    glm::vec3 low(1e9f), high(-1e9f);  // of their middles
+    for (const IVec3& voxel : relit.voxels) {
+      const glm::vec3 middle = glm::vec3(vector_of(voxel)) + 0.5f;
+      low = glm::min(low, middle), high = glm::max(high, middle);
+    }
     std::erase_if(all, [&](const Lamp& lamp) {
-      return std::ranges::none_of(relit, [&](IVec3 voxel) { return lamp.reaches(voxel); });
+      const glm::vec3 off = glm::clamp(lamp.lamp.place, low, high) - lamp.lamp.place;
+      return glm::dot(off, off) >= lamp.within * lamp.within;
     });
-    for (const IVec3& voxel : relit) {
-      if (!of_.wanted_.has(voxel)) continue;
+    for (const IVec3& voxel : relit.voxels) {
       LampLight weak{}, strong{};
       for (const Lamp& lamp : all) {
         if (!lamp.reaches(voxel)) continue;
@@ -316,8 +305,9 @@ class SkyTransfer::Edit {
   }
 
   /// Where lamps of a chunk that have come, gone or another place in the order of sums reach.
-  void find_relit(IVec3 at, std::set<IVec3>& relit) const {
-    std::vector<Lamp> old = lamps_of(*before_.at(at), at), now = lamps_of(*of_.chunks_.at(at), at);
+  void find_relit(IVec3 at, Kept& relit) const {
+    std::vector<Lamp> old = lamps_of(chunk_of(before_, at), at),
+                      now = lamps_of(chunk_of(of_.chunks_, at), at);
     const auto same = [](const Lamp& a, const Lamp& b) {
       return a.weak == b.weak && same_lamp(a.lamp, b.lamp);
     };
@@ -329,11 +319,11 @@ class SkyTransfer::Edit {
     for (const std::vector<Lamp>* lamps : {&old, &now})
       for (const Lamp& lamp : *lamps)
         if (lamp.weak || of_.bounces_)
-          of_.for_each_reached(lamp, [&](IVec3 voxel) { relit.insert(voxel); });
+          of_.for_each_reached(lamp, [&](IVec3 voxel) { relit.add(of_.wanted_, voxel); });
   }
 
   /// Where a lamp's light passes a voxel that has changed.
-  void find_relit(const Lamp& lamp, std::set<IVec3>& relit) const {
+  void find_relit(const Lamp& lamp, Kept& relit) const {
     std::vector<IVec3> near;
     glm::vec3 low(1e9f), high(-1e9f);  // of all that lies behind them
     for (const IVec3& voxel : voxels_) {
@@ -349,7 +339,7 @@ class SkyTransfer::Edit {
         [&](IVec3 voxel) {
           if (std::ranges::any_of(
                   near, [&](IVec3 other) { return may_touch(voxel, lamp.lamp.place, other); }))
-            relit.insert(voxel);
+            relit.add(of_.wanted_, voxel);
         },
         low, high);
   }
@@ -377,52 +367,63 @@ class SkyTransfer::Edit {
 
   // --- Records ---
 
+  /// The record of a face before a voxel whose view is kept.
+  void redo(std::size_t number, IVec3 front, int direction) {
+    if (redo_marks_.add(static_cast<std::uint32_t>(number * 6) +
+                        static_cast<std::uint32_t>(direction)))
+      redo_.push_back({front, direction});
+  }
+  std::uint32_t faces_before(std::size_t number) const {
+    return of_.bounces_ ? of_.bounces_->faces_before(number) : 63u;
+  }
   /// The records of faces whose corners a face of that direction is at.
   void redo_about(IVec3 front, int direction) {
     const FaceAxes axes(direction);
     for (int b = -1; b <= 1; ++b)
-      for (int c = -1; c <= 1; ++c)
-        redo_.insert(key_of(front + axis_vector(axes.b, b) + axis_vector(axes.c, c), direction));
+      for (int c = -1; c <= 1; ++c) {
+        const IVec3 at = front + axis_vector(axes.b, b) + axis_vector(axes.c, c);
+        if (!of_.wanted_.has(at)) continue;
+        const std::size_t number = of_.wanted_.of(at);
+        if ((faces_before(number) >> direction & 1u) != 0) redo(number, at, direction);
+      }
   }
+  /// Of all directions.
   void redo_around(IVec3 voxel) {
-    for (int direction = 0; direction < 6; ++direction) redo_about(voxel, direction);
-  }
-  std::uint64_t key_of(IVec3 front, int direction) const {
-    const IVec3 low = of_.air_.opaque.low();
-    const auto part = [](int v) { return static_cast<std::uint64_t>(v + 1); };
-    return ((part(front.x - low.x) << 20 | part(front.y - low.y)) << 20 | part(front.z - low.z)) *
-               6 +
-           static_cast<std::uint64_t>(direction);
-  }
-  std::pair<IVec3, int> place_of(std::uint64_t key) const {
-    const IVec3 low = of_.air_.opaque.low();
-    const std::uint64_t at = key / 6;
-    const auto part = [&](int shift) { return static_cast<int>(at >> shift & 0xfffffu) - 1; };
-    return {IVec3{part(40) + low.x, part(20) + low.y, part(0) + low.z}, static_cast<int>(key % 6)};
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        for (int z = -1; z <= 1; ++z) {
+          const IVec3 at = voxel + IVec3{x, y, z};
+          // A face's plane holds those that are not off along its axis.
+          const std::uint32_t planes =
+              (x == 0 ? 3u : 0u) | (y == 0 ? 12u : 0u) | (z == 0 ? 48u : 0u);
+          if (planes == 0 || !of_.wanted_.has(at)) continue;
+          const std::size_t number = of_.wanted_.of(at);
+          const std::uint32_t faces = faces_before(number) & planes;
+          for (std::uint32_t left = faces; left != 0; left &= left - 1)
+            redo(number, at, std::countr_zero(left));
+        }
   }
 
   void redo_records() {
+    for (const IVec3& at : reshaped_) repack(at);
     std::map<IVec3, std::vector<std::pair<IVec3, int>>> by_chunk;  // voxel and direction
     const auto add = [&](IVec3 voxel, int direction) {
       const auto chunk = [](int v) { return static_cast<int>(floor_div(v, kChunkEdge)); };
       by_chunk[{chunk(voxel.x), chunk(voxel.y), chunk(voxel.z)}].emplace_back(voxel, direction);
     };
-    for (const std::uint64_t key : redo_) {
-      const auto [front, direction] = place_of(key);
+    for (const auto& [front, direction] : redo_) {
       const FaceAxes axes(direction);
       add(front + axis_vector(axes.own, -axes.sign), direction);
       if (direction == 2) add(front, direction);  // a plant
     }
-    const std::set<IVec3> edited(edited_.begin(), edited_.end());
     for (const auto& [at, faces] : by_chunk) {
       const auto known = of_.skies_.find(at);
-      if (edited.contains(at) || known == of_.skies_.end()) continue;
-      std::shared_ptr<ChunkSky> sky;  // made when the first record differs
+      if (known == of_.skies_.end()) continue;
+      std::shared_ptr<ChunkSky> sky = fresh_[at];  // else made when the first record differs
       for (const auto& [voxel, direction] : faces)
         redo_record(at, voxel, direction, *known->second, sky);
       if (sky) known->second = std::move(sky);
     }
-    for (const IVec3& at : edited_) redo_chunk(at);
   }
 
   void redo_record(IVec3 at, IVec3 voxel, int direction, const ChunkSky& known,
@@ -431,60 +432,47 @@ class SkyTransfer::Edit {
     const IVec3 local{voxel.x - corner.x, voxel.y - corner.y, voxel.z - corner.z};
     const std::optional<std::size_t> record = find_record(known, local, direction);
     if (!record) return;
-    const bool plant = direction == 2 && is_plant(at, local);
-    std::vector<glm::uvec4> texels;
-    of_.append_record(voxel + to_front({local, direction, plant}), direction, plant, texels);
-    if (std::equal(texels.begin(), texels.end(),
+    const bool plant = direction == 2 && of_.air_.has_leaves && of_.air_.plants.at(voxel);
+    texels_.clear();
+    of_.append_record(voxel + to_front({local, direction, plant}), direction, plant, texels_);
+    if (std::equal(texels_.begin(), texels_.end(),
                    known.texels.begin() + static_cast<std::ptrdiff_t>(*record)))
       return;
     if (!sky) sky = std::make_shared<ChunkSky>(known);
-    std::ranges::copy(texels, sky->texels.begin() + static_cast<std::ptrdiff_t>(*record));
+    std::ranges::copy(texels_, sky->texels.begin() + static_cast<std::ptrdiff_t>(*record));
   }
 
-  bool is_plant(IVec3 at, IVec3 local) {
-    const auto [entry, is_new] = plants_.try_emplace(at);
-    auto& plants = entry->second;
-    if (is_new)
-      for (const shared::Quad& quad : of_.chunks_.at(at)->quads)
-        if (is_of_plant(quad))
-          for_each_face(quad, [&](const DrawnFace& face) { plants.insert(face.voxel); });
-    return plants.contains(local);
-  }
-
-  /// Of a chunk that has been edited: records that stay are copied.
-  void redo_chunk(IVec3 at) {
-    const std::vector<shared::Quad>& quads = of_.chunks_.at(at)->quads;
+  /// Makes room for the faces of a chunk that has been edited; those that stay keep their records.
+  void repack(IVec3 at) {
+    const std::vector<shared::Quad>& quads = chunk_of(of_.chunks_, at).quads;
     if (quads.empty()) {
       of_.skies_.erase(at);
       return;
     }
+    const auto append = [&, corner = corner_of(at)](const DrawnFace& face,
+                                                    std::vector<glm::uvec4>& texels) {
+      of_.append_record(corner + face.voxel + to_front(face), face.direction, face.plant, texels);
+    };
     const auto known = of_.skies_.find(at);
-    const std::shared_ptr<const ChunkSky> old = known == of_.skies_.end() ? nullptr : known->second;
-    const IVec3 corner = corner_of(at);
-    of_.skies_[at] = std::make_shared<const ChunkSky>(
-        pack_faces(quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
-          const IVec3 front = corner + face.voxel + to_front(face);
-          if (old && !redo_.contains(key_of(front, face.direction)))
-            if (const auto record = find_record(*old, face.voxel, face.direction)) {
-              const auto from = old->texels.begin() + static_cast<std::ptrdiff_t>(*record);
-              texels.insert(texels.end(), from, from + shared::kIndirectRecordTexels);
-              return;
-            }
-          of_.append_record(front, face.direction, face.plant, texels);
-        }));
+    of_.skies_[at] = fresh_[at] = std::make_shared<ChunkSky>(
+        known == of_.skies_.end() ? pack_faces(quads, append)
+                                  : repack_faces(*known->second, quads, append));
   }
 
   SkyTransfer& of_;
   const LightChunks before_;
-  std::vector<IVec3> edited_;                // chunks
-  std::vector<IVec3> voxels_;                // whose bits have changed
-  std::vector<Face> came_, went_, stayed_;   // faces of edited chunks
-  std::vector<IVec3> wanted_;                // voxels whose view is kept from now on
-  std::vector<IVec3> through_;               // more voxels to which lines may have changed
-  std::set<IVec3> fronts_;                   // before new faces
-  std::set<IVec3> lit_;                      // see changed_at()
-  std::unordered_set<std::uint64_t> redo_;   // records: key_of() front and direction
-  std::map<IVec3, std::set<IVec3>> plants_;  // of chunks
+  std::vector<IVec3> edited_;                         // chunks
+  std::vector<IVec3> reshaped_;                       // those in which a face has come or gone
+  std::vector<IVec3> voxels_;                         // whose bits have changed
+  std::vector<Face> came_, went_, turned_;            // faces of edited chunks, see FaceChanges
+  std::vector<IVec3> wanted_;                         // voxels whose view is kept from now on
+  std::vector<IVec3> through_;                        // more voxels to which lines may have changed
+  Kept fronts_;                                       // before new faces
+  Kept lit_;                                          // see changed_at()
+  Marked redo_marks_;                                 // of redo_, by 6 * number + direction
+  std::vector<std::pair<IVec3, int>> redo_;           // records: front and direction
+  std::map<IVec3, std::shared_ptr<ChunkSky>> fresh_;  // of chunks in reshaped_
+  std::vector<glm::uvec4> texels_;                    // of a record
 };
 
 bool SkyTransfer::edit(LightChunks chunks) {

@@ -15,18 +15,6 @@ VoxelIndex::VoxelIndex(VoxelBits chosen) : chosen_(std::move(chosen)) {
       }
 }
 
-VoxelIndex::Place VoxelIndex::place_of(IVec3 voxel) const {
-  const IVec3 low = chosen_.low();
-  const IVec3 p{voxel.x - low.x, voxel.y - low.y, voxel.z - low.z};
-  return {chosen_.row(p.x, p.y)[p.z / 64], word_at(p.x, p.y, p.z / 64), p.z % 64};
-}
-
-std::size_t VoxelIndex::of(IVec3 voxel) const {
-  const Place place = place_of(voxel);
-  const std::uint64_t earlier = place.bits & ((std::uint64_t{1} << place.bit) - 1);
-  return first_[place.word] + static_cast<std::size_t>(std::popcount(earlier));
-}
-
 /// Numbers that nobody has.
 std::uint32_t VoxelIndex::run_of(int length) {
   std::vector<std::uint32_t>& free = free_runs_[static_cast<std::size_t>(length)];

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,7 +26,11 @@ class VoxelIndex {
   const VoxelBits& chosen() const { return chosen_; }
   bool has(IVec3 voxel) const { return chosen_.at(voxel); }
   /// @pre has(voxel)
-  std::size_t of(IVec3 voxel) const;
+  std::size_t of(IVec3 voxel) const {
+    const Place place = place_of(voxel);
+    const std::uint64_t earlier = place.bits & ((std::uint64_t{1} << place.bit) - 1);
+    return first_[place.word] + static_cast<std::size_t>(std::popcount(earlier));
+  }
   /// Number of the first chosen voxel of each word of a row. @param x, y from the box's lowest
   /// corner.
   const std::uint32_t* row(int x, int y) const { return first_.data() + word_at(x, y, 0); }
@@ -48,7 +53,11 @@ class VoxelIndex {
     std::size_t word;    // in first_
     int bit;
   };
-  Place place_of(IVec3 voxel) const;
+  Place place_of(IVec3 voxel) const {
+    const IVec3 low = chosen_.low();
+    const IVec3 p{voxel.x - low.x, voxel.y - low.y, voxel.z - low.z};
+    return {chosen_.row(p.x, p.y)[p.z / 64], word_at(p.x, p.y, p.z / 64), p.z % 64};
+  }
   std::uint32_t run_of(int length);
 
   VoxelBits chosen_;

@@ -1,9 +1,10 @@
-#include "world/light/lamp_reach.h"
+#include "world/light/lamp_reaches.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -35,7 +36,7 @@ Lamp lamp_at(IVec3 voxel, int face) {
 LampReach::Bricks reach_of(const Voxels& stone, const Lamp& lamp, float range = kRange) {
   const IVec3 chunk = chunk_holding(lamp.voxel);
   const glm::vec3 corner(glm::ivec3(chunk.x, chunk.y, chunk.z) * kChunkEdge);
-  return LampReach(chunks_of(stone)).of(chunk, {lamp.place - corner, range});
+  return LampReach(chunks_of(stone)).of(chunk, {lamp.place - corner, range}).lit;
 }
 
 /// Whether a line passes through the inside of a stone voxel other than the lamp's: each against
@@ -161,6 +162,72 @@ TEST(LampReach, ALongRangeHasCoarserBricks) {
                           coarse = reach_of(stone, lamp_at({70, 40, 70}, 3), 200.0f);
   EXPECT_LT(fine.edge_log2, coarse.edge_log2);
   for (const IVec3& v : stone) EXPECT_TRUE(coarse.at(v) || !fine.at(v));
+}
+
+TEST(LampReach, EntersWhatAStepAwayFromTheLampLeadsTo) {
+  std::mt19937 random(5);
+  const IVec3 voxel{3, 2, -4};
+  for (int round = 0; round < 6; ++round) {
+    Voxels stone{voxel};
+    for (int i = 0; i < 60 << round; ++i)
+      stone.insert({static_cast<int>(random() % 12) - 3, static_cast<int>(random() % 12) - 4,
+                    static_cast<int>(random() % 12) - 10});
+    const Lamp lamp = lamp_at(voxel, 2);
+    const glm::vec3 corner(vector_of(corner_of(chunk_holding(voxel))));
+    constexpr float kShort = 6.0f;  // bricks of one voxel
+    const LampReach::Found found =
+        LampReach(chunks_of(stone), voxel + IVec3{-9, -9, -9}, voxel + IVec3{9, 9, 9})
+            .of(chunk_holding(voxel), {lamp.place - corner, kShort});
+    ASSERT_EQ(found.entered.edge_log2, 0);
+    // Voxel by voxel, the nearest along the axes first.
+    Voxels entered{voxel};
+    for (int steps = 1; steps <= 21; ++steps)
+      for (int x = -7; x <= 7; ++x)
+        for (int y = -7; y <= 7; ++y)
+          for (int z = -7; z <= 7; ++z) {
+            const IVec3 at = voxel + IVec3{x, y, z};
+            if (std::abs(x) + std::abs(y) + std::abs(z) != steps || stone.contains(at)) continue;
+            const auto back = [](int by) { return by > 0 ? -1 : by < 0 ? 1 : 0; };
+            if ((x != 0 && entered.contains(at + IVec3{back(x), 0, 0})) ||
+                (y != 0 && entered.contains(at + IVec3{0, back(y), 0})) ||
+                (z != 0 && entered.contains(at + IVec3{0, 0, back(z)})))
+              entered.insert(at);
+          }
+    for (int x = -7; x <= 7; ++x)
+      for (int y = -7; y <= 7; ++y)
+        for (int z = -7; z <= 7; ++z) {
+          const IVec3 at = voxel + IVec3{x, y, z};
+          const glm::vec3 low(vector_of(at));
+          const glm::vec3 off = lamp.place - glm::clamp(lamp.place, low, low + 1.0f);
+          if (std::abs(glm::dot(off, off) - kShort * kShort) < 1e-3f) continue;  // rounding
+          EXPECT_EQ(found.entered.at(at),
+                    entered.contains(at) && glm::dot(off, off) < kShort * kShort)
+              << round << ": " << x << ' ' << y << ' ' << z;
+          EXPECT_EQ(found.entered.any_within(at, at), found.entered.at(at));
+        }
+  }
+}
+
+TEST(LampReach, AnyWithinLooksAtAllOfABox) {
+  Voxels stone{{3, 3, 3}};
+  for (int x = 0; x < 40; ++x)
+    for (int z = 0; z < 40; ++z) stone.insert({x, 0, z});
+  const LampReach::Bricks lit = reach_of(stone, lamp_at({3, 3, 3}, 3), 30.0f);
+  std::mt19937 random(2);
+  int some = 0, none = 0;
+  for (int i = 0; i < 300; ++i) {
+    const IVec3 low{static_cast<int>(random() % 50) - 8, static_cast<int>(random() % 12) - 6,
+                    static_cast<int>(random() % 50) - 8};
+    const IVec3 high = low + IVec3{static_cast<int>(random() % 9), static_cast<int>(random() % 9),
+                                   static_cast<int>(random() % 9)};
+    bool any = false;
+    for (int x = low.x; x <= high.x; ++x)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int z = low.z; z <= high.z; ++z) any |= lit.at({x, y, z});
+    EXPECT_EQ(lit.any_within(low, high), any);
+    ++(any ? some : none);
+  }
+  EXPECT_GT(std::min(some, none), 50);
 }
 
 TEST(LampReach, AfterEditsIsThatOfTheChunksAsTheyAre) {
