@@ -70,6 +70,7 @@ SHARED_CONST uint kSunlessConstant = 65u;      // bool: neither sun nor moon lig
 SHARED_CONST uint kBentConstant = 66u;         // bool: what is behind water is seen by bent rays
 SHARED_CONST uint kUnderWaterConstant = 67u;   // bool: surfaces may lie under water
 SHARED_CONST uint kGlassConstant = 68u;        // bool: light may come through glass
+SHARED_CONST uint kBlendedConstant = 69u;      // bool: some sections are drawn in some pixels alone
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

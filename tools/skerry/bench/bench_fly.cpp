@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/core/clock.h"
@@ -76,6 +77,7 @@ class Flight {
 
   Result<void> fly(const gpu::Device& device, double seconds) {
     const Stopwatch flight;
+    double last_s = 0.0;
     for (double at_s = 0.0; at_s < seconds;) {
       go_to(at_s);
       Frame frame;
@@ -84,8 +86,9 @@ class Flight {
       const int programs = view_.renderer().programs_made();
       const std::uint64_t allocations = device.allocations();
       Stopwatch watch;
-      if (Result<void> done = view_.stream(moment_.camera, moment_.world_time_s); !done)
-        return done;
+      const Result<void> done =
+          view_.stream(moment_.camera, moment_.world_time_s, at_s - std::exchange(last_s, at_s));
+      if (!done) return done;
       frame.stream_ms = watch.milliseconds();
       watch.restart();
       const Result<std::uint64_t> value = view_.draw(moment_, size_);

@@ -56,7 +56,7 @@ class PopFlight {
     const game::SceneView::Moment moment = moment_at(pop.at_blocks);
     const Result<Bytes> before = draw(moment);
     if (!before) return before.error();
-    if (Result<void> loaded = load(moment); !loaded) return loaded.error();
+    if (Result<void> loaded = load(moment, 1.0 / kFramesASecond); !loaded) return loaded.error();
     const Result<Bytes> now = draw(moment);
     if (!now) return now.error();
     const measure::StepCounts counts = measure::count_steps(*before, *now, measure::kUnseenChange);
@@ -84,8 +84,8 @@ class PopFlight {
     return moment;
   }
 
-  Result<void> load(const game::SceneView::Moment& moment) {
-    return view_->load_completely(moment.camera, moment.world_time_s);
+  Result<void> load(const game::SceneView::Moment& moment, std::optional<double> blend_s = {}) {
+    return view_->load_completely(moment.camera, moment.world_time_s, blend_s);
   }
 
   Result<Bytes> draw(const game::SceneView::Moment& moment) {
