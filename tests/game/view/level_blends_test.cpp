@@ -152,7 +152,7 @@ TEST(LevelBlends, EachPixelShowsOneLevelOfEachPlace) {
         if (std::ranges::find(next, key) == next.end()) went.push_back(key);
       row.choose(came, went);
       chosen = next;
-      for (std::uint32_t frames = random() % 12; frames != 0; --frames) {
+      for (auto frames = random() % 12; frames != 0; --frames) {
         expect_one_each(row, 16);
         if (testing::Test::HasFatalFailure()) return;
         row.advance(1.0 / 30.0);
