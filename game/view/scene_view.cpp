@@ -587,6 +587,18 @@ double SceneView::reach(const render::FixedPos& camera) const {
   return std::ceil(reach / kReachStep) * kReachStep;
 }
 
+/// The same, but in play it stays as long as it suffices and is not much too far: near shadows
+/// would change whenever an island comes into view or leaves it.
+double SceneView::kept_reach(const render::FixedPos& camera) {
+  constexpr double kSpare = 3.0 * kReachStep, kTooFar = 2.0 * kSpare;
+  const double needed = reach(camera);
+  if (!blends_levels_)
+    reach_ = needed;
+  else if (needed > reach_ || needed + kTooFar < reach_)
+    reach_ = needed + kSpare;
+  return reach_;
+}
+
 std::optional<double> SceneView::adapted_ev(std::optional<double> ev, double seconds) const {
   const std::optional<render::FrameReport>& seen = renderer_->report();
   if (!seen || !seen->metered_ev) return ev;
@@ -613,7 +625,7 @@ Result<std::uint64_t> SceneView::draw(
   input.camera = moment.camera;
   input.anchor = fixed(world_->origin());
   input.islands = placements_;
-  input.reach_blocks = reach(moment.camera.position);
+  input.reach_blocks = kept_reach(moment.camera.position);
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
   const Medium medium = medium_at(moment.camera);
   input.camera_medium = medium.block;

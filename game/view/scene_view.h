@@ -170,6 +170,7 @@ class SceneView {
   Medium medium_at(const render::Camera& camera) const;
   std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
   double reach(const render::FixedPos& camera) const;
+  double kept_reach(const render::FixedPos& camera);
 
   Settings settings_;
   std::unique_ptr<Jobs> jobs_;
@@ -214,6 +215,7 @@ class SceneView {
   LightField light_field_;
   FrameLights lights_;  // of the last frame
   double gather_ms_ = 0.0;
+  double reach_ = 0.0;  // of the last frame
 };
 
 }  // namespace skerry::game

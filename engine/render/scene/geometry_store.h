@@ -75,6 +75,8 @@ class GeometryStore {
     return section_slots() - static_cast<std::uint32_t>(free_slots_.size());
   }
   std::uint64_t quads_resident() const { return arena_.used(); }
+  /// Where the quads are. Nothing in it is ever moved.
+  const gpu::OffsetArena& arena() const { return arena_; }
   /// Of quads that are resident or that the GPU may still read.
   std::uint64_t bytes_in_use() const {
     return (std::uint64_t{arena_.used()} + arena_.waiting()) * sizeof(shared::Quad);

@@ -98,7 +98,8 @@ class CracksTest : public gpu::GpuTest {
   }
 
   /// Over the island that is nearest to the origin, and beside and below it.
-  /// @param blend_s see SceneView::load_completely(); each pass begins with one level of each place.
+  /// @param blend_s see SceneView::load_completely(); each pass begins with one level of each
+  /// place.
   void fly(int seed, int frames, std::optional<double> blend_s = {}) {
     const auto full = view_of(seed, 1024), coarse = view_of(seed, 32);
     const auto islands = coarse->world().islands_near(coarse->world().origin(), 400.0, 0.0);
@@ -120,7 +121,8 @@ class CracksTest : public gpu::GpuTest {
       at += step;
       const world::WorldPos place = world::moved(island.origin, at);
       moment.camera.position = {place.x, place.y, place.z};
-      const Words of_full = seen(*full, moment), of_coarse = seen(*coarse, moment, i % 10 == 0 ? std::nullopt : blend_s);
+      const Words of_full = seen(*full, moment),
+                  of_coarse = seen(*coarse, moment, i % 10 == 0 ? std::nullopt : blend_s);
       const int found = cracks(of_coarse, of_full);
       const glm::dvec3 camera = world::difference_blocks(place, coarse->world().origin());
       EXPECT_EQ(found, 0) << "--seed " << seed << " --camera=" << camera.x << "," << camera.y << ","

@@ -43,7 +43,9 @@ class PopFlight {
     out.start_ = {out.view_->start_camera(), static_cast<double>(options.scene.time_of_day_s),
                   options.scene.settings.world_time_s};
     out.step_blocks_ = options.speed.value_or(kPopSpeed) / kFramesASecond;
-    if (Result<void> loaded = out.load(out.start_); !loaded) return loaded.error();
+    // As after some time of play: shadows keep what reach they have had.
+    for (const std::optional<double> blend_s : {std::optional<double>(), {1.0}})
+      if (Result<void> loaded = out.load(out.start_, blend_s); !loaded) return loaded.error();
     if (Result<Bytes> first = out.draw(out.start_); !first) return first.error();
     out.start_.exposure_ev = out.view_->renderer().report().value().exposure_ev;
     return out;
