@@ -23,6 +23,7 @@ constexpr double kFlySpeedNotch = 1.25;  // factor a notch of the wheel
 
 void PlayLoop::act(const platform::InputFrame& input, double seconds) {
   const ActionFrame actions(input, *bindings_, seconds);
+  frame_s_ = seconds;
   rests_ = false;
   act_on_picture(input, actions, seconds);
   if (actions.pressed(Action::kFly)) {
@@ -39,6 +40,7 @@ void PlayLoop::act(const platform::InputFrame& input, double seconds) {
 
 void PlayLoop::rest(double seconds) {
   scene_.camera = player_.eye(around_);
+  frame_s_ = seconds;
   if (!std::exchange(rests_, true)) {
     // Who pauses may be about to leave the machine alone.
     tell_session();

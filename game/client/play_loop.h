@@ -171,6 +171,7 @@ class PlayLoop {
   PlaySounds sounds_;
   std::vector<float> frame_ms_;
   double since_title_s_ = 0.0;
+  double frame_s_ = 0.0;  // that the last frame took
 };
 
 }  // namespace skerry::game

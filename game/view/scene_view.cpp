@@ -21,6 +21,7 @@
 #include "game/view/light_chunk.h"
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
+#include "game/view/section_record.h"
 #include "game/worlds/open_world.h"
 #include "world/islands/medium.h"
 #include "world/voxel/blocks.h"
@@ -50,10 +51,6 @@ gpu::UploadPath upload_path(UploadMode mode) {
   return gpu::UploadPath::kUpdateBuffer;
 }
 
-std::uint32_t packed_box(const std::array<std::uint8_t, 3>& corner) {
-  return std::uint32_t{corner[0]} | std::uint32_t{corner[1]} << 7 | std::uint32_t{corner[2]} << 14;
-}
-
 render::FixedPos fixed(const world::WorldPos& p) {
   return {p.x, p.y, p.z};
 }
@@ -80,20 +77,6 @@ render::IslandChunks expected_chunks(const world::IslandSpec& spec, std::int32_t
   const glm::ivec3 last{chunk(spec.box_max.x - 1), chunk(spec.box_max.y - 1),
                         chunk(spec.box_max.z - 1)};
   return {low, last - low + 1, static_cast<std::uint32_t>(level)};
-}
-
-shared::Section section_record(const world::SectionKey& key, const world::ChunkMesh& mesh,
-                               std::uint32_t island) {
-  shared::Section section{};
-  const std::int32_t edge = world::kChunkEdge << key.level;
-  section.origin = {key.chunk.x * edge, key.chunk.y * edge, key.chunk.z * edge};
-  if (key.far) section.origin = glm::ivec3(-edge / 2);
-  section.island = island;
-  section.voxel_size_log2 = static_cast<std::uint32_t>(key.level);
-  section.bounds_min = packed_box(mesh.bounds_min);
-  section.bounds_max = packed_box(mesh.bounds_max);
-  std::copy(mesh.range_end.begin(), mesh.range_end.end(), section.range_end);
-  return section;
 }
 
 world::LatticeBox box_of_faces(const world::SectionKey& key, const world::ChunkMesh& mesh) {
@@ -190,7 +173,9 @@ void SceneView::update_streamer(const render::Camera& camera, double world_time_
   log_warning(notices_.back());
 }
 
-Result<void> SceneView::load_completely(const render::Camera& camera, double world_time_s) {
+Result<void> SceneView::load_completely(const render::Camera& camera, double world_time_s,
+                                        std::optional<double> blend_s) {
+  blends_levels_ = blend_s.has_value();
   if (Result<void> ok = follow_settings(); !ok) return ok;
   do {
     update_streamer(camera, world_time_s);
@@ -202,7 +187,7 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
     add_waiting(UINT64_MAX);
   } while (!waiting_.empty() && show_less(camera));
   renderer_->set_upload_budget(UINT64_MAX);
-  choose_cuts(camera, world_time_s, false);
+  choose_levels(camera, world_time_s, {.keep = false, .blend_s = blend_s});
   find_light(camera, world_time_s);
   if (!island_light_) return {};
   island_light_->wait();
@@ -216,7 +201,9 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
   return {};
 }
 
-Result<void> SceneView::stream(const render::Camera& camera, double world_time_s) {
+Result<void> SceneView::stream(const render::Camera& camera, double world_time_s,
+                               std::optional<double> blend_s) {
+  blends_levels_ = blend_s.has_value();
   if (Result<void> ok = follow_settings(); !ok) return ok;
   renderer_->set_upload_budget(settings_.upload_budget_bytes);
   update_streamer(camera, world_time_s);
@@ -233,7 +220,7 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
   } else if (!waiting_.empty() && !more_next_frame_ && frames_since_lowered_ > kFramesToLetGo) {
     show_less(camera);
   }
-  choose_cuts(camera, world_time_s, true);
+  choose_levels(camera, world_time_s, {.keep = true, .blend_s = blend_s});
   find_light(camera, world_time_s);
   hand_over_light(camera, world_time_s, settings_.upload_budget_bytes);
   return {};
@@ -263,6 +250,7 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
   island_slots_.clear();
   near_slots_.clear();
   cuts_.clear();
+  forget_blends();
   waiting_.clear();
   light_field_.remove_sections();
   island_light_.reset();
@@ -295,6 +283,7 @@ Result<void> SceneView::follow_settings() {
   const bool light = island_light_ ? sky && island_light_->finds() != finds
                                    : sky || settings_.render.lights_shadows != 0;
   if (!store && !light && full == weak_lamps_kept_) return {};
+  forget_blends();
   while (!sections_.empty()) remove_section(sections_.begin()->first);
   waiting_.clear();
   if (store) {
@@ -320,13 +309,24 @@ void SceneView::take_in(world::StreamUpdate update) {
   for (const world::IslandLevel& row : held) ++islands_[island_slots_.at(row)].sections;
   // Thousands at once when a large island changes its level.
   const std::set<world::SectionKey> removed(update.removed.begin(), update.removed.end());
+  std::set<world::SectionKey> kept_on;  // built anew, and shown before
+  for (const world::ReadySection& ready : update.ready)
+    if (const auto old = sections_.find(ready.key); old != sections_.end()) {
+      if (old->second.chosen && removed.contains(ready.key)) kept_on.insert(ready.key);
+      if (!old->second.chosen && old->second.shown) blends_.finish(ready.key.island);
+      remove_section(ready.key);
+    }
   for (const world::SectionKey& key : removed)
-    if (sections_.contains(key)) remove_section(key);
+    if (sections_.contains(key)) leave_section(key);
   std::erase_if(waiting_,
                 [&](const world::ReadySection& ready) { return removed.contains(ready.key); });
   // A section that stands in both lists is built anew, and goes before what is new.
   for (world::ReadySection& ready : update.ready) {
-    if (removed.contains(ready.key) && add_section(ready)) continue;
+    const world::SectionKey key = ready.key;
+    if (removed.contains(key) && add_section(ready)) {
+      if (kept_on.contains(key)) fresh_.erase(key);
+      continue;
+    }
     waiting_.push_back(std::move(ready));
   }
   for (const world::IslandLevel& row : held) release_island(row);
@@ -428,8 +428,9 @@ void SceneView::remove_section(const world::SectionKey& key) {
     renderer_->geometry().remove(uploader, section);
   if (found->second.closing) renderer_->geometry().remove(uploader, *found->second.closing);
   if (occupancy_ && !key.far) occupancy_->remove(uploader, slot->second, chunk_place(key));
+  if (!found->second.leaves) cuts_.remove(key);
   sections_.erase(found);
-  cuts_.remove(key);
+  fresh_.erase(key);
   release_island(key.row());
 }
 
@@ -456,6 +457,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   if (const auto spec = world_->island(ready.key.island)) islands_[*slot].spec = *spec;
   ResidentSection& section = sections_[ready.key];
   section.seams = ready.seams;
+  fresh_.insert(ready.key);
   cuts_.add(ready.key, box_of_faces(ready.key, ready.mesh));
   if (occupancy_ && ready.occupancy.fill != world::ChunkOccupancy::Fill::kEmpty) {
     const render::OccupancyBits bits{ready.occupancy.fill == world::ChunkOccupancy::Fill::kFull,
@@ -485,75 +487,6 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   light_field_.invalidate_reach(ready.key.island);
   light_field_.add_lights(ready.key, std::move(lights));
   return {};
-}
-
-/// How near a section of each level may come before its voxels show [blocks]: what is made at full
-/// detail is drawn so, and beyond that a level's surface may be off by view.error pixels.
-std::vector<double> SceneView::nearest_of_levels(const render::Camera& camera) const {
-  // A surface is off by a quarter of a voxel's edge in the mean.
-  constexpr double kShareOfVoxel = 0.25;
-  const double pixels_a_block_away = 0.5 * static_cast<double>(picture_rows_) *
-                                     static_cast<double>(settings_.render.render_scale) /
-                                     std::tan(0.5 * glm::radians(double{camera.fov_deg}));
-  std::vector<double> nearest{0.0};
-  for (int level = 1; level < world::kLevelCount; ++level) {
-    const double voxel = std::ldexp(1.0, level);
-    nearest.push_back(std::max(static_cast<double>(settings_.view_detail) * 0.5 * voxel,
-                               kShareOfVoxel * voxel * pixels_a_block_away / settings_.view_error));
-  }
-  return nearest;
-}
-
-/// Decides at which level each section of the islands is drawn that are there at several.
-void SceneView::choose_cuts(const render::Camera& camera, double world_time_s, bool keep) {
-  const world::IslandPoses poses = world_->poses(world_time_s);
-  SectionCuts::View view{.nearest = nearest_of_levels(camera), .keep = keep};
-  view.camera_in = [&](std::uint64_t id) {
-    const auto row = near_slots_.lower_bound({id, INT32_MIN});
-    const world::Pose pose = poses.of(islands_[row->second].spec);
-    return glm::conjugate(pose.rotation) *
-           world::difference_blocks(place(camera.position), pose.origin);
-  };
-  std::optional<world::IslandLevel> last;
-  for (const world::ReadySection& ready : waiting_)
-    if (last != ready.key.row()) view.coming.insert(*(last = ready.key.row()));
-  cuts_.choose(view, [this](const world::SectionKey& key, bool shown, std::uint8_t seams) {
-    show_section(key, shown, seams);
-  });
-}
-
-/// @param seams at which faces another level is drawn, a bit each.
-void SceneView::show_section(const world::SectionKey& key, bool shown, std::uint8_t seams) {
-  gpu::Uploader& uploader = renderer_->mesh_uploader();
-  ResidentSection& section = sections_.at(key);
-  if (section.shown != shown) {
-    for (const render::SectionId part : section.parts)
-      renderer_->geometry().show(uploader, part, shown);
-    light_field_.show(key, shown);
-    section.shown = shown;
-  }
-  for (std::uint32_t face = 0; face < shared::kFaceCount; ++face)
-    if (section.seams[face].empty()) seams = static_cast<std::uint8_t>(seams & ~(1u << face));
-  if (section.closed == seams) return;
-  section.closed = seams;
-  if (section.closing) renderer_->geometry().remove(uploader, *section.closing);
-  section.closing.reset();
-  world::ChunkMesh mesh;
-  for (std::uint32_t range = 0; range < shared::kRangeCount; ++range) {
-    if (range < shared::kFaceCount && (seams >> range & 1u) != 0)
-      mesh.quads.insert(mesh.quads.end(), section.seams[range].begin(), section.seams[range].end());
-    mesh.range_end[range] = static_cast<std::uint32_t>(mesh.quads.size());
-  }
-  if (!mesh.quads.empty()) {
-    shared::Section record = section_record(key, mesh, island_slots_.at(key.row()));
-    const render::VoxelBox box = render::box_of(mesh.quads);
-    record.bounds_min = box.low;
-    record.bounds_max = box.high;
-    // Without memory for it, a crack is better than no picture.
-    Result<render::SectionId> added = renderer_->geometry().add(uploader, record, mesh.quads);
-    if (added) section.closing = *added;
-  }
-  if (island_light_) island_light_->close(key, std::move(mesh.quads));
 }
 
 // The slot of a section's island; a new one if this is the first of its sections.
@@ -654,6 +587,18 @@ double SceneView::reach(const render::FixedPos& camera) const {
   return std::ceil(reach / kReachStep) * kReachStep;
 }
 
+/// The same, but in play it stays as long as it suffices and is not much too far: near shadows
+/// would change whenever an island comes into view or leaves it.
+double SceneView::kept_reach(const render::FixedPos& camera) {
+  constexpr double kSpare = 3.0 * kReachStep, kTooFar = 2.0 * kSpare;
+  const double needed = reach(camera);
+  if (!blends_levels_)
+    reach_ = needed;
+  else if (needed > reach_ || needed + kTooFar < reach_)
+    reach_ = needed + kSpare;
+  return reach_;
+}
+
 std::optional<double> SceneView::adapted_ev(std::optional<double> ev, double seconds) const {
   const std::optional<render::FrameReport>& seen = renderer_->report();
   if (!seen || !seen->metered_ev) return ev;
@@ -680,7 +625,7 @@ Result<std::uint64_t> SceneView::draw(
   input.camera = moment.camera;
   input.anchor = fixed(world_->origin());
   input.islands = placements_;
-  input.reach_blocks = reach(moment.camera.position);
+  input.reach_blocks = kept_reach(moment.camera.position);
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
   const Medium medium = medium_at(moment.camera);
   input.camera_medium = medium.block;

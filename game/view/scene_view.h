@@ -18,6 +18,7 @@
 #include "engine/render/renderer/renderer.h"
 #include "game/scene_file/options.h"
 #include "game/view/island_light.h"
+#include "game/view/level_blends.h"
 #include "game/view/light_field.h"
 #include "game/view/section_cuts.h"
 #include "game/view/sky_light_feed.h"
@@ -50,12 +51,17 @@ class SceneView {
   /// Waits until all that belongs to this camera is generated and meshed, then queues it in an
   /// order that does not depend on threads. The next draw() uploads everything at once.
   /// What memory does not hold is left out, the farthest detail first (notices() says so).
-  /// Errors: out of memory for a frame's own tables.
-  Result<void> load_completely(const render::Camera& camera, double world_time_s);
+  /// @param blend_s see stream(). Errors: out of memory for a frame's own tables.
+  Result<void> load_completely(const render::Camera& camera, double world_time_s,
+                               std::optional<double> blend_s = {});
   /// Takes in what the workers have ready, within the frame's budget; never waits.
   /// What memory does not hold is left out, the farthest detail first (notices() says so).
-  /// Errors: out of memory for a frame's own tables.
-  Result<void> stream(const render::Camera& camera, double world_time_s);
+  /// @param blend_s seconds since the last call, over which levels of detail change pixel by pixel
+  /// (LevelBlends); none: at once. Errors: out of memory for a frame's own tables.
+  Result<void> stream(const render::Camera& camera, double world_time_s,
+                      std::optional<double> blend_s = {});
+  /// Whether levels of detail are changing.
+  bool blending() const { return !blends_.idle(); }
   /// Whether everything within view distance has been handed to the renderer.
   bool complete() const { return streamer_->complete() && waiting_.empty(); }
   /// Whether the light that stays on faces is that of the world as it is, and the renderer has it.
@@ -110,9 +116,13 @@ class SceneView {
   struct ResidentSection {
     std::vector<render::SectionId> parts;
     world::SeamFaces seams;
-    std::uint8_t closed = 0;  // at which faces `seams` are drawn, a bit each
+    std::uint8_t closed = 0;    // at which faces `seams` are drawn, a bit each
+    std::uint8_t to_close = 0;  // likewise, once its island's levels have changed
     std::optional<render::SectionId> closing;
+    std::uint32_t blend = 0;  // shared::Section::blend
     bool shown = true;
+    bool chosen = true;   // to be shown; else it may be on its way out
+    bool leaves = false;  // the streamer has removed it; it is there until its island has blended
   };
   bool occupancy_wanted() const;
   Result<void> follow_settings();
@@ -133,8 +143,20 @@ class SceneView {
   void open_to_sky(std::uint32_t slot);
   void refuse_light(const std::string& why);
   void remove_section(const world::SectionKey& key);
+  void leave_section(const world::SectionKey& key);
+  struct Choosing {
+    bool keep = true;
+    std::optional<double> blend_s = {};
+  };
+  void choose_levels(const render::Camera& camera, double world_time_s, const Choosing& how);
   void choose_cuts(const render::Camera& camera, double world_time_s, bool keep);
-  void show_section(const world::SectionKey& key, bool shown, std::uint8_t seams);
+  void choose_section(const world::SectionKey& key, bool chosen);
+  void tell_left(const std::set<world::IslandLevel>& coming);
+  void apply_blends();
+  void show_section(const world::SectionKey& key, ResidentSection& section, bool shown);
+  void blend_section(ResidentSection& section, std::uint32_t blend);
+  void close_section(const world::SectionKey& key, ResidentSection& section, std::uint8_t seams);
+  void forget_blends();
   std::vector<double> nearest_of_levels(const render::Camera& camera) const;
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
   void place_islands(double world_time_s);
@@ -148,6 +170,7 @@ class SceneView {
   Medium medium_at(const render::Camera& camera) const;
   std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
   double reach(const render::FixedPos& camera) const;
+  double kept_reach(const render::FixedPos& camera);
 
   Settings settings_;
   std::unique_ptr<Jobs> jobs_;
@@ -160,6 +183,16 @@ class SceneView {
   std::map<world::IslandLevel, std::uint32_t> island_slots_;  // slots
   std::map<world::IslandLevel, std::uint32_t> near_slots_;    // of them, those that are not far
   SectionCuts cuts_;
+  LevelBlends blends_;
+  bool blends_levels_ = false;           // in this call of stream() or load_completely()
+  std::set<world::SectionKey> fresh_;    // have come since levels were last chosen
+  std::vector<world::SectionKey> left_;  // shown ones that leave since
+  struct Chosen {
+    std::vector<world::SectionKey> came, went;
+  };
+  std::map<std::uint64_t, Chosen> chosen_;  // by island, since blends_ was last told
+  /// By island: sections whose seams are due when its levels have changed.
+  std::map<std::uint64_t, std::set<world::SectionKey>> to_close_;
   std::uint32_t picture_rows_;                       // of the last frame, or as asked for
   std::vector<render::IslandPlacement> placements_;  // of the last frame, by slot
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
@@ -182,6 +215,7 @@ class SceneView {
   LightField light_field_;
   FrameLights lights_;  // of the last frame
   double gather_ms_ = 0.0;
+  double reach_ = 0.0;  // of the last frame
 };
 
 }  // namespace skerry::game

@@ -10,4 +10,4 @@ const bool kFinestCoverage = true;  // the map's filter averages what several of
 
 #include "include/scene/cutout.glsl"
 
-void main() { discard_uncovered(in_surface); }
+void main() { discard_uncovered(in_surface, false); }

@@ -55,6 +55,8 @@ void section_box(Section s, out vec3 low, out vec3 high) {
 
 uint visible_ranges(Section s, CullView view) {
   if (s.range_end[kRangeCount - 1u] == 0u) return 0u;
+  bool goes = (s.blend & kBlendGoes) != 0u;
+  if (goes && view.orthographic != 0u) return 0u;
   IslandTransform island = islands[s.island];
   vec3 low, high;
   section_box(s, low, high);
@@ -80,7 +82,8 @@ uint visible_ranges(Section s, CullView view) {
                (uint(from_plus.z) << 4) | (uint(from_minus.z) << 5);
   uint mask = (faces << kRangeOpaque) | (faces << kRangeCutout) | (1u << kRangePlant);
   // Drawn from both sides; casts no shadow.
-  if (view.orthographic == 0u) mask |= kTranslucentRanges;
+  if (view.orthographic == 0u && !goes) mask |= kTranslucentRanges;
+  if (view.orthographic == 0u && s.blend != 0u) mask |= kBlendedMask;
   return view.glass != 0u ? kTranslucentRanges : mask;
 }
 
@@ -94,7 +97,8 @@ SectionTransform section_transform(Section s, IslandTransform t) {
   float voxel = float(1u << s.voxel_size_log2);
   return SectionTransform(vec4(vec3(t.axis_x.x, t.axis_y.x, t.axis_z.x) * voxel, origin.x),
                           vec4(vec3(t.axis_x.y, t.axis_y.y, t.axis_z.y) * voxel, origin.y),
-                          vec4(vec3(t.axis_x.z, t.axis_y.z, t.axis_z.z) * voxel, origin.z));
+                          vec4(vec3(t.axis_x.z, t.axis_y.z, t.axis_z.z) * voxel, origin.z), s.blend,
+                          s.first_quad + s.range_end[kRangeCutout - 1u]);
 }
 
 // What the first phase draws of a mask; all of it where there is one phase alone.
@@ -271,7 +275,7 @@ void emit() {
     if (own != 0u) {
       uint slot = totals[(view * kListCount + list) * push.group_count + gl_WorkGroupID.x] + sums[lane] - own;
       uint begin = 0u, end = 0u;
-      for (uint r = list_first_range(list); r < list_end_range(list); ++r) {
+      for (uint r = list_first_range(mask, list); r < list_end_range(mask, list); ++r) {
         uint b = range_begin(s, r), e = s.range_end[r];
         if ((mask & (1u << r)) == 0u || b == e) continue;
         if (b != end || begin == end) {

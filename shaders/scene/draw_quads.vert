@@ -15,9 +15,11 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 layout(constant_id = kTexturedConstant) const bool kTextured = false;  // cut-outs need texture coordinates
+layout(constant_id = kBlendedConstant) const bool kBlended = false;
 
 layout(location = 0) flat out uint out_surface;
 layout(location = 1) out vec2 out_uv;  // without texture coordinates x is the other translucent block that the face touches, see Quad
+layout(location = 2) flat out uvec2 out_blend;  // Section.blend, and 1 if the quad is opaque
 
 invariant gl_Position;
 
@@ -50,6 +52,8 @@ void main() {
   gl_Position = push.clip_from_source * p;
   out_surface = (quad.y & ((1u << kTouchedShift) - 1u)) | kSurfaceHere;
   out_uv = vec2(float(touched_by(quad.x, quad.y)), 0.0);
+  out_blend = uvec2(0u);
+  if (kBlended) out_blend = uvec2(t.blend, uint(uint(gl_VertexIndex) >> 2 < t.first_cutout));
   // In voxels: cut-outs of coarse levels show one texture a voxel. v runs downwards, so its sign is turned.
   if (kTextured) out_uv = axis == 0u ? vec2(u, -v) : axis == 1u ? vec2(u, v) : vec2(u, -v);
 }

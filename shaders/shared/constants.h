@@ -71,6 +71,7 @@ SHARED_CONST uint kBentConstant = 66u;         // bool: what is behind water is 
 SHARED_CONST uint kUnderWaterConstant = 67u;   // bool: surfaces may lie under water
 SHARED_CONST uint kGlassConstant = 68u;        // bool: light may come through glass
 SHARED_CONST uint kFoamConstant = 69u;         // bool: water has foam along opaque voxels
+SHARED_CONST uint kBlendedConstant = 70u;      // bool: some sections are drawn in some pixels alone
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

@@ -94,6 +94,8 @@ struct SectionTransform {
   vec4 x;
   vec4 y;
   vec4 z;
+  uint blend;         // Section.blend
+  uint first_cutout;  // the section's first quad in the arena that is not opaque
 };
 
 // Counts of one view, read back for --stats and the overlay.

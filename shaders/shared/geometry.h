@@ -58,8 +58,21 @@ struct Section {
   uint first_quad;       // index into the quad arena
   uint bounds_min;       // tight box of the faces, voxels: bits 0-6 x, 7-13 y, 14-20 z (0..64)
   uint bounds_max;       // same packing, exclusive upper corner
+  uint blend;            // see below
   uint range_end[kRangeCount];  // running ends of the ranges, relative to first_quad
 };
+
+// In which pixels a section is drawn while its level of detail changes (Section.blend). 0: in all.
+// Else bits 0-7: the first, and 8-15: past the last of the steps of a pattern of pixels
+// (include/scene/blend.glsl).
+SHARED_CONST uint kBlendSteps = 64u;
+SHARED_CONST uint kBlendGoes = 65536u;  // bit: the light falls on what comes, and so does water
+SHARED_FUNCTION uint blend_first(uint blend) {
+  return blend & 255u;
+}
+SHARED_FUNCTION uint blend_end(uint blend) {
+  return (blend >> 8) & 255u;
+}
 
 // Camera-relative world from island lattice: p = x * axis_x + y * axis_y + z * axis_z + translation
 // [blocks]. kIslandTexels texels of 128 bits.

@@ -257,6 +257,8 @@ MUTANTS = (
            "if (task.level > 0) close_cutouts(chunk.mesh);", "", "marsh closeup"),
     Mutant("far_plants_dark", "islands of glowing plants are dark from afar", "world/generate/fill_coarse.cpp",
            "  draw_glowing_plants(plan_, canvas_);", "", "glow_from_afar"),
+    Mutant("levels_unsettled", "pictures that are waited for show levels half-way", "game/view/scene_levels.cpp",
+           "blends_.finish_all();", "blends_.advance(0.1);", "day coarse_levels"),
     Mutant("cubes_split", "sections are drawn fine where their cubes are near, not their faces",
            "game/view/scene_view.cpp", "return {corner(mesh.bounds_min), corner(mesh.bounds_max)};",
            "return {corner({0, 0, 0}), corner({64, 64, 64})};", "low_sun quality_low"),

@@ -65,6 +65,8 @@ FrameContents contents_of(const FrameInput& input, const RenderSettings& setting
     features.set_absent(Feature::kClouds, "clouds.coverage=0 and there is no cloud of a file");
   out.layers_area = find_water(features, input, tables, facts);
   out.cutouts_in_view = find_cutouts(features, tables, facts);
+  out.blended = facts.sections_blended != 0 &&
+                blended_in_view(facts.sections, tables.islands, tables.views[0]);
   out.lights = find_lights(features, input, tables, facts);
   return out;
 }

@@ -14,6 +14,7 @@ struct FrameContents {
   std::vector<bool> cutouts_in_view;  ///< one a view of FrameTables
   glm::uvec4 layers_area;             ///< see shared::FrameConstants
   std::vector<shared::Light> lights;  ///< those whose range the view touches; empty: no feature
+  bool blended = false;               ///< the camera may see sections that are drawn in part
 };
 
 /// Asked of the tables as they are before culling is frozen: a frozen camera changes what is drawn,

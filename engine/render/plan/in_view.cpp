@@ -119,6 +119,15 @@ bool cutouts_in_view(std::span<const shared::Section> sections,
   });
 }
 
+bool blended_in_view(std::span<const shared::Section> sections,
+                     std::span<const shared::IslandTransform> islands,
+                     const shared::CullView& view) {
+  return std::any_of(sections.begin(), sections.end(), [&](const shared::Section& s) {
+    return s.blend != 0 &&
+           touches(view, islands[s.island], LatticeBox(s, {s.bounds_min, s.bounds_max}));
+  });
+}
+
 std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const IslandPlacement> islands,
                                   const FrameTables& tables) {
   constexpr float kCoarser = 64.0f;  // blocks that voxels of coarse levels may stand out by

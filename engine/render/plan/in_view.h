@@ -16,6 +16,12 @@ bool cutouts_in_view(std::span<const shared::Section> sections,
                      std::span<const shared::IslandTransform> islands,
                      const shared::CullView& view);
 
+/// Whether any section that is drawn in some pixels alone touches a view's frustum. @param islands
+/// relative to the camera.
+bool blended_in_view(std::span<const shared::Section> sections,
+                     std::span<const shared::IslandTransform> islands,
+                     const shared::CullView& view);
+
 /// Which islands the camera's picture may show: those with sections whose bounding sphere touches
 /// the frustum.
 std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const IslandPlacement> islands,

@@ -21,6 +21,7 @@ struct Supposed {
   bool stars = false, discs = false;
   bool clouds = true;      // that there are, are in view
   bool cloud_sky = false;  // lights them by itself
+  bool blended = false;    // sections that change their level are in view
 };
 
 constexpr std::uint32_t kTorches = 1u << shared::kLightPoint;  // what grows and is built
@@ -100,6 +101,7 @@ void suppose(FramePlan& plan, const FrameNeeds& needs, const Supposed& what) {
   plan.glass.maps.assign(what.glass && !plan.shadows.cascades.empty() ? 1 : 0, {});
   for (GlassMap& map : plan.glass.maps) map.area = {{0, 0}, {1, 1}};
   plan.contents = {features, {}, plan.tables.constants.layers_area, {}};
+  plan.contents.blended = what.blended;
   plan.contents.cutouts_in_view.assign(1 + plan.shadows.cascades.size(),
                                        features.has(Feature::kCutouts));
   if (features.has(Feature::kLights)) plan.contents.lights = lights_of(what.lights);
@@ -131,6 +133,10 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
     visit(plan);
   }
   plan.why_one_phase = kSupposed;
+  // No other program depends on it.
+  suppose(plan, needs,
+          {.bodies = 3u, .lights = kTorches, .water = Water::kInView, .blended = true});
+  visit(plan);
   std::vector<std::uint32_t> kinds{0, kTorches};
   if (needs.light_kinds != kTorches) kinds.push_back(needs.light_kinds);
   const auto visit_with = [&](Supposed what) {

@@ -99,6 +99,8 @@ void explain_contents(FramePlan& plan) {
   if (!plan.ao)
     plan.left_out.push_back(
         {"ao", plan.settings.shading == Shading::kFlat ? "shading=flat" : "ao.strength=0"});
+  if (plan.geometry && !plan.contents.blended)
+    plan.left_out.push_back({"blend", "no section in view changes its level of detail"});
   if (plan.clouds && !plan.clouds->in_view)
     for (const char* pass : {"march_clouds", "blend_clouds"})
       plan.left_out.push_back({pass, "no cloud is in view"});

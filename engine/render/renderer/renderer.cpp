@@ -141,6 +141,7 @@ SceneFacts Renderer::State::facts() const {
           .translucent_boxes = geometry->translucent_boxes(),
           .glass_boxes = &geometry->glass_boxes(),
           .sections_resident = geometry->sections_resident(),
+          .sections_blended = geometry->sections_blended(),
           .quads_resident = geometry->quads_resident(),
           .translucent_quads = geometry->translucent_quads(),
           .cutout_quads = geometry->cutout_quads(),

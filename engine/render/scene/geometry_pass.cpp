@@ -20,14 +20,16 @@ gpu::ImageRef target(gpu::FrameGraph& graph, const char* name, VkFormat format, 
 }
 
 /// Of the programs for opaque quads, and for cut-outs.
-std::array<gpu::GraphicsDesc, 2> program_descs(const GBufferStore& store, bool finest_coverage) {
+std::array<gpu::GraphicsDesc, 2> program_descs(const GeometryPass::In& in) {
+  const GBufferStore& store = in.store;
   gpu::GraphicsDesc opaque{.constants = {},
                            .color_formats = {VK_FORMAT_R32_UINT},
                            .depth_format = depth_format(store.depth)};
   gpu::GraphicsDesc cutout = opaque;
-  cutout.constants = {{shared::kTexturedConstant, 1}};
-  if (finest_coverage) cutout.constants.push_back({shared::kFinestCoverageConstant, 1});
-  cutout.cull = VK_CULL_MODE_NONE;
+  if (in.cutouts) cutout.constants = {{shared::kTexturedConstant, 1}};
+  if (in.blended) cutout.constants.push_back({shared::kBlendedConstant, 1});
+  if (in.finest_coverage) cutout.constants.push_back({shared::kFinestCoverageConstant, 1});
+  if (in.cutouts) cutout.cull = VK_CULL_MODE_NONE;
   for (gpu::GraphicsDesc* desc : {&opaque, &cutout}) {
     if (store.normal != NormalStore::kExact || store.position != PositionStore::kDepth)
       desc->constants.push_back({shared::kNormalCodeConstant, normal_code(store.normal)});
@@ -93,7 +95,7 @@ void GeometryPass::add_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const CulledDraws& draws, const In& in,
                             bool revealed, Geometry& out) {
   const GBufferStore& store = in.store;
-  const Drawing drawing{program_descs(store, in.finest_coverage), scene, draws, in.cutouts};
+  const Drawing drawing{program_descs(in), scene, draws, in.cutouts || in.blended};
   const auto record = [&](auto surface, const auto& stored) {
     return recording(pipelines, drawing, surface, stored);
   };

@@ -15,6 +15,7 @@ struct GeometryPass {
   struct In {
     const GBufferStore& store;  ///< what is written besides the word, see gbuffer_formats.h
     bool cutouts = true;        ///< false leaves the pass's alpha-tested half out
+    bool blended = false;       ///< some sections are drawn in some pixels alone, by that half
     /// Tests alpha on the finest texels, as suits several samples a pixel; mips of thin plants keep
     /// nothing of them where a block is smaller than a sample.
     bool finest_coverage = false;

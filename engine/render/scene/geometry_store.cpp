@@ -23,12 +23,19 @@ std::uint32_t range_quads(const shared::Section& section, std::uint32_t first, s
 constexpr std::array<std::uint32_t, shared::kListCount + 1> kListRanges{
     shared::kRangeOpaque, shared::kRangeCutout, shared::kRangeTranslucent, shared::kRangeCount};
 
+constexpr std::uint32_t kCutoutList = 1;
+
 /// Neighbouring ranges are drawn at once, so that most draws come of every second one.
 std::uint32_t most_runs(const shared::Section& section, std::uint32_t first, std::uint32_t end) {
   std::uint32_t filled = 0;
   for (std::uint32_t range = first; range < end; ++range)
     filled += range_quads(section, range, range + 1) != 0 ? 1 : 0;
   return (filled + 1) / 2;
+}
+
+/// What goes while a level of detail changes casts no shadow.
+bool casts(const shared::Section& section) {
+  return (section.blend & shared::kBlendGoes) == 0;
 }
 
 }  // namespace
@@ -97,9 +104,9 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   for (shared::Quad& quad : scratch_) quad.material |= section.island << shared::kIslandShift;
   uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad),
                  std::span<const shared::Quad>(scratch_));
-  uploader.write(sections_, std::uint64_t{slot} * sizeof(shared::Section),
-                 std::span<const shared::Section>(&section, 1));
+  write_record(uploader, slot);
   count(section, 1);
+  changes_.note(section);
   return SectionId{slot};
 }
 
@@ -111,13 +118,27 @@ void GeometryStore::show(gpu::Uploader& uploader, SectionId id, bool shown) {
     record = hidden->second;
     hidden_.erase(hidden);
     count(record, 1);
+    changes_.note(record);
   } else {
     count(record, -1);
+    if (casts(record)) changes_.note(record);
+    record.blend = 0;
     hidden_.emplace(id.slot, record);
     record = {};
   }
-  uploader.write(sections_, std::uint64_t{id.slot} * sizeof(shared::Section),
-                 std::span<const shared::Section>(&record, 1));
+  write_record(uploader, id.slot);
+}
+
+void GeometryStore::blend(gpu::Uploader& uploader, SectionId id, std::uint32_t blend) {
+  shared::Section& record = records_[id.slot];
+  SKERRY_ASSERT(!hidden_.contains(id.slot));
+  if (record.blend == blend) return;
+  const bool cast = casts(record);
+  count(record, -1);
+  record.blend = blend;
+  count(record, 1);
+  if (casts(record) != cast) changes_.note(record);
+  write_record(uploader, id.slot);
 }
 
 void GeometryStore::remove(gpu::Uploader& uploader, SectionId id) {
@@ -126,9 +147,9 @@ void GeometryStore::remove(gpu::Uploader& uploader, SectionId id) {
                 records_[id.slot].range_end[shared::kRangeCount - 1] != 0);
   const shared::Section old = records_[id.slot];
   count(old, -1);
+  changes_.note(old);
   records_[id.slot] = {};
-  uploader.write(sections_, std::uint64_t{id.slot} * sizeof(shared::Section),
-                 std::span<const shared::Section>(&records_[id.slot], 1));
+  write_record(uploader, id.slot);
   arena_.free({old.first_quad, old.range_end[shared::kRangeCount - 1]}, device_->next_value());
   glass_boxes_.erase(id.slot);
   free_slots_.push_back(id.slot);
@@ -148,20 +169,27 @@ Result<void> GeometryStore::grow_sections() {
   return {};
 }
 
+void GeometryStore::write_record(gpu::Uploader& uploader, std::uint32_t slot) {
+  uploader.write(sections_, std::uint64_t{slot} * sizeof(shared::Section),
+                 std::span<const shared::Section>(&records_[slot], 1));
+}
+
 void GeometryStore::count(const shared::Section& section, std::int64_t sign) {
   cutout_quads_ += static_cast<std::uint64_t>(
       sign * range_quads(section, shared::kRangeCutout, shared::kRangeTranslucent));
   translucent_quads_ += static_cast<std::uint64_t>(
       sign * range_quads(section, shared::kRangeTranslucent, shared::kRangeCount));
   for (std::uint32_t list = 0; list < shared::kListCount; ++list) {
-    const std::uint32_t first = kListRanges[list], end = kListRanges[list + 1];
+    const std::uint32_t end = kListRanges[list + 1];
+    const bool opaque_too = list == kCutoutList && section.blend != 0;
+    const std::uint32_t first = kListRanges[opaque_too ? list - 1 : list];
     runs_[list] += static_cast<std::uint64_t>(sign * most_runs(section, first, end));
     quads_of_list_[list] += static_cast<std::uint64_t>(sign * range_quads(section, first, end));
     // A run is split at kMaxQuadsPerDraw.
     const std::uint64_t most = runs_[list] + quads_of_list_[list] / shared::kMaxQuadsPerDraw;
     most_draws_[list] = std::max(most_draws_[list], static_cast<std::uint32_t>(most));
   }
-  changes_.note(section);
+  if (section.blend != 0) sections_blended_ += static_cast<std::uint32_t>(sign);
 }
 
 }  // namespace skerry::render

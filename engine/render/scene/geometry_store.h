@@ -59,6 +59,9 @@ class GeometryStore {
                         std::span<const shared::Quad> quads);
   /// Whether it is drawn and casts shadows; at first it does. Its quads stay where they are.
   void show(gpu::Uploader& uploader, SectionId id, bool shown);
+  /// In which pixels it is drawn while it is shown: shared::Section::blend. What comes into view is
+  /// drawn in all of them.
+  void blend(gpu::Uploader& uploader, SectionId id, std::uint32_t blend);
   /// Its quads may be overwritten once the GPU has finished everything submitted so far.
   void remove(gpu::Uploader& uploader, SectionId id);
   /// Once a frame, before recording: reclaims what the GPU has finished with.
@@ -72,6 +75,8 @@ class GeometryStore {
     return section_slots() - static_cast<std::uint32_t>(free_slots_.size());
   }
   std::uint64_t quads_resident() const { return arena_.used(); }
+  /// Where the quads are. Nothing in it is ever moved.
+  const gpu::OffsetArena& arena() const { return arena_; }
   /// Of quads that are resident or that the GPU may still read.
   std::uint64_t bytes_in_use() const {
     return (std::uint64_t{arena_.used()} + arena_.waiting()) * sizeof(shared::Quad);
@@ -81,6 +86,8 @@ class GeometryStore {
   const DrawLimits& most_draws() const { return most_draws_; }
   std::uint64_t translucent_quads() const { return translucent_quads_; }
   std::uint64_t cutout_quads() const { return cutout_quads_; }
+  /// Drawn in some pixels alone.
+  std::uint32_t sections_blended() const { return sections_blended_; }
   std::span<const shared::Section> records() const { return records_; }
   /// Of each slot's translucent quads; of any value where it has none.
   std::span<const VoxelBox> translucent_boxes() const { return translucent_boxes_; }
@@ -94,6 +101,7 @@ class GeometryStore {
   GeometryStore(gpu::Device& device, MemoryBudget& budget, std::uint32_t arena_quads)
       : device_(&device), budget_(&budget), arena_(arena_quads) {}
   Result<void> grow_sections();
+  void write_record(gpu::Uploader& uploader, std::uint32_t slot);
   void count(const shared::Section& section, std::int64_t sign);
 
   gpu::Device* device_;
@@ -107,7 +115,7 @@ class GeometryStore {
   std::map<std::uint32_t, shared::Section> hidden_;  // by slot, whose records have no ranges
   std::vector<std::uint32_t> free_slots_;
   std::vector<shared::Quad> scratch_;
-  std::uint32_t section_capacity_ = 0;
+  std::uint32_t section_capacity_ = 0, sections_blended_ = 0;
   std::uint64_t translucent_quads_ = 0, cutout_quads_ = 0;
   std::array<std::uint64_t, shared::kListCount> runs_{}, quads_of_list_{};
   DrawLimits most_draws_{};

@@ -19,8 +19,13 @@ GeometryPass::In geometry_in(FrameAssembly& f) {
     KeptFrames::Frame& now = f.owners.kept.of(f.plan.temporal->frame);
     kept = {f.graph.import(now.surfaces), f.graph.import(now.depth)};
   }
-  return {f.plan.settings.gbuffer, f.plan.contents.cutouts_in_view[0],
-          samples_per_edge(f.plan.settings) > 1 || f.plan.temporal, f.plan.input.capture, kept};
+  const FrameContents& contents = f.plan.contents;
+  // One program of those that leave pixels out, whether or not there are leaves among them.
+  const bool cutouts = contents.cutouts_in_view[0] ||
+                       (contents.blended && !f.plan.settings.leave_out.has(Feature::kCutouts));
+  return {f.plan.settings.gbuffer, cutouts,
+          contents.blended,        samples_per_edge(f.plan.settings) > 1 || f.plan.temporal,
+          f.plan.input.capture,    kept};
 }
 
 const char* needs_revealed(const FramePlan& plan) {

@@ -14,7 +14,8 @@ float texture_level(vec2 uv) {
   return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-12));
 }
 
-void discard_uncovered(uint surface) {
+// @param whole the quad is opaque: its texture says nothing.
+void discard_uncovered(uint surface, bool whole) {
   Material material = materials[surface_block(surface)];
   uint face = surface_face(surface);
   uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
@@ -22,6 +23,6 @@ void discard_uncovered(uint surface) {
   float alpha = textureLod(block_textures, vec3(uv, float(layer)), kFinestCoverage ? 0.0 : texture_level(uv)).a;
   // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.
   bool behind = face < kFaceCount && !gl_FrontFacing;
-  if (behind || alpha < 0.5) discard;
+  if (behind || (!whole && alpha < 0.5)) discard;
 }
 #endif

@@ -85,8 +85,9 @@ class CracksTest : public gpu::GpuTest {
     return *std::move(made);
   }
 
-  static Words seen(SceneView& view, const SceneView::Moment& moment) {
-    EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s));
+  static Words seen(SceneView& view, const SceneView::Moment& moment,
+                    std::optional<double> blend_s = {}) {
+    EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s, blend_s));
     EXPECT_TRUE(view.draw(moment, kSize));
     view.renderer().finish();
     const std::vector<std::byte>& texels =
@@ -97,7 +98,9 @@ class CracksTest : public gpu::GpuTest {
   }
 
   /// Over the island that is nearest to the origin, and beside and below it.
-  void fly(int seed, int frames) {
+  /// @param blend_s see SceneView::load_completely(); each pass begins with one level of each
+  /// place.
+  void fly(int seed, int frames, std::optional<double> blend_s = {}) {
     const auto full = view_of(seed, 1024), coarse = view_of(seed, 32);
     const auto islands = coarse->world().islands_near(coarse->world().origin(), 400.0, 0.0);
     ASSERT_FALSE(islands.empty());
@@ -118,23 +121,34 @@ class CracksTest : public gpu::GpuTest {
       at += step;
       const world::WorldPos place = world::moved(island.origin, at);
       moment.camera.position = {place.x, place.y, place.z};
-      const Words of_full = seen(*full, moment), of_coarse = seen(*coarse, moment);
+      const Words of_full = seen(*full, moment),
+                  of_coarse = seen(*coarse, moment, i % 10 == 0 ? std::nullopt : blend_s);
       const int found = cracks(of_coarse, of_full);
       const glm::dvec3 camera = world::difference_blocks(place, coarse->world().origin());
       EXPECT_EQ(found, 0) << "--seed " << seed << " --camera=" << camera.x << "," << camera.y << ","
                           << camera.z << "," << moment.camera.yaw_deg << ","
                           << moment.camera.pitch_deg;
+      blending_ += coarse->blending();
       mixed_ += rows_of(of_coarse) > rows_of(of_full);
     }
   }
 
-  int mixed_ = 0;  // frames that show an island at several levels
+  int mixed_ = 0;     // frames that show an island at several levels
+  int blending_ = 0;  // frames in which levels are changing
 };
 
 TEST_F(CracksTest, ThereAreNoneInAFlight) {
   const int seeds = asked("SKERRY_CRACK_SEEDS", 3), frames = asked("SKERRY_CRACK_FRAMES", 20);
   for (int seed = 1; seed <= seeds; ++seed) fly(seed, frames);
   EXPECT_GT(mixed_, seeds * frames / 4);
+  EXPECT_EQ(blending_, 0);
+}
+
+// Each pixel shows one of two levels, so that there are holes unless they complete each other.
+TEST_F(CracksTest, ThereAreNoneWhileLevelsChange) {
+  const int seeds = asked("SKERRY_CRACK_SEEDS", 3), frames = asked("SKERRY_CRACK_FRAMES", 20);
+  for (int seed = 1; seed <= seeds; ++seed) fly(seed, frames, 0.06);
+  EXPECT_GT(blending_, seeds * frames / 4);
 }
 
 }  // namespace

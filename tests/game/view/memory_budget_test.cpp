@@ -48,7 +48,8 @@ class SceneMemory : public gpu::GpuTest {
   }
   /// One frame of a flight; false: it failed.
   static testing::AssertionResult frame(SceneView& view, const SceneView::Moment& moment) {
-    if (const Result<void> done = view.stream(moment.camera, moment.world_time_s); !done)
+    if (const Result<void> done = view.stream(moment.camera, moment.world_time_s, 1.0 / 60.0);
+        !done)
       return testing::AssertionFailure() << done.error().message;
     if (const auto drawn = view.draw(moment, kSize); !drawn)
       return testing::AssertionFailure() << drawn.error().message;

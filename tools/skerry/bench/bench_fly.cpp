@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/core/clock.h"
@@ -31,12 +32,19 @@ constexpr std::size_t kWorst = 8;        // frames that are listed one by one
 struct Frame {
   double at_s = 0.0, ms = 0.0, stream_ms = 0.0, draw_ms = 0.0, gpu_ms = 0.0;
   double cpu_ms = 0.0;  // that this thread worked, rather than waited
-  std::uint64_t pending_bytes = 0;
-  int programs = 0;  // that it waited for
+  std::uint64_t pending_bytes = 0, world_bytes = 0;
+  double holes = 0.0;  // see holes()
+  int programs = 0;    // that it waited for
   std::uint64_t allocations = 0;
   std::string allocated;  // what the last of them was for
   std::vector<gpu::PassTime> passes;
 };
+
+/// Share of an arena that is free, but not in its largest free run.
+double holes(const gpu::OffsetArena& arena) {
+  const std::uint32_t taken = arena.used() + arena.waiting() + arena.largest_free();
+  return static_cast<double>(arena.capacity() - taken) / static_cast<double>(arena.capacity());
+}
 
 world::WorldPos place_of(const render::FixedPos& p) {
   return {p[0], p[1], p[2]};
@@ -76,6 +84,7 @@ class Flight {
 
   Result<void> fly(const gpu::Device& device, double seconds) {
     const Stopwatch flight;
+    double last_s = 0.0;
     for (double at_s = 0.0; at_s < seconds;) {
       go_to(at_s);
       Frame frame;
@@ -84,8 +93,9 @@ class Flight {
       const int programs = view_.renderer().programs_made();
       const std::uint64_t allocations = device.allocations();
       Stopwatch watch;
-      if (Result<void> done = view_.stream(moment_.camera, moment_.world_time_s); !done)
-        return done;
+      const Result<void> done =
+          view_.stream(moment_.camera, moment_.world_time_s, at_s - std::exchange(last_s, at_s));
+      if (!done) return done;
       frame.stream_ms = watch.milliseconds();
       watch.restart();
       const Result<std::uint64_t> value = view_.draw(moment_, size_);
@@ -93,6 +103,8 @@ class Flight {
       frame.draw_ms = watch.milliseconds();
       moment_.exposure_ev = view_.adapted_ev(moment_.exposure_ev, frame.draw_ms * 1e-3);
       frame.cpu_ms = (thread_seconds() - cpu_s) * 1e3;
+      frame.world_bytes = view_.renderer().world_memory().used;
+      frame.holes = holes(view_.renderer().geometry().arena());
       frame.pending_bytes = view_.renderer().mesh_uploader().pending_bytes();
       frame.programs = view_.renderer().programs_made() - programs;
       frame.allocations = device.allocations() - allocations;
@@ -202,11 +214,15 @@ nlohmann::ordered_json allocations_of(const std::vector<Frame>& frames) {
 
 void add_numbers(nlohmann::ordered_json& row, const std::vector<Frame>& frames) {
   std::vector<double> ms, cpu_ms;
+  std::uint64_t world_bytes = 0;
+  double most_holes = 0.0;
   int programs = 0;
   std::uint64_t allocations = 0, late_allocations = 0;
   for (const Frame& frame : frames) {
     ms.push_back(frame.ms);
     cpu_ms.push_back(frame.cpu_ms);
+    world_bytes = std::max(world_bytes, frame.world_bytes);
+    most_holes = std::max(most_holes, frame.holes);
     programs += frame.programs;
     allocations += frame.allocations;
     if (frame.at_s > 0.5 * frames.back().at_s) late_allocations += frame.allocations;
@@ -221,6 +237,8 @@ void add_numbers(nlohmann::ordered_json& row, const std::vector<Frame>& frames) 
   row["programs_made"] = programs;
   row["allocations"] = allocations;
   row["allocations_second_half"] = late_allocations;
+  row["world_bytes"] = world_bytes;
+  row["arena_holes"] = most_holes;
 }
 
 void print(const nlohmann::ordered_json& row, std::uint64_t chunks_made) {
@@ -230,12 +248,13 @@ void print(const nlohmann::ordered_json& row, std::uint64_t chunks_made) {
       "{} | {}x{} | {:.0f} blocks/s for {:.0f} s | {} frames | median {:.2f} ms, p99 {:.2f}, "
       "max {:.1f} | {} over twice the median | CPU {:.2f} ms | {} programs made | {} allocations, "
       "{} of them in "
-      "the second half | {} | {} chunks made\n",
+      "the second half | world {:.0f} MiB at most, {:.1f}% of its quads' room in holes | {} | {} "
+      "chunks made\n",
       row.at("name").get<std::string>(), row.at("size")[0].get<int>(), row.at("size")[1].get<int>(),
       number("speed"), number("seconds"), count("frames"), number("ms_median"), number("ms_p99"),
       number("ms_max"), count("frames_over_2x"), number("cpu_ms_median"), count("programs_made"),
-      count("allocations"), count("allocations_second_half"), row.at("device").get<std::string>(),
-      chunks_made);
+      count("allocations"), count("allocations_second_half"), number("world_bytes") / (1 << 20),
+      100.0 * number("arena_holes"), row.at("device").get<std::string>(), chunks_made);
 }
 
 std::string name_of(const game::SceneOptions& scene) {

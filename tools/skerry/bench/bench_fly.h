@@ -18,8 +18,10 @@ struct BenchFlyOptions {
 /// frames' times, and how many took more than twice the median, with what the slowest of them
 /// waited for. As JSON: name, size, speed, seconds, frames, ms_median, ms_p99, ms_max,
 /// frames_over_2x, programs_made (that frames waited for), allocations (of device memory), those in
-/// the flight's second half, `allocated`, each frame that made some with what the last was for, and
-/// `hitches`, each frame over twice the median with its parts.
+/// the flight's second half, world_bytes (most that the tables of the world had in use),
+/// arena_holes (largest share of the room for quads that was free but not in its largest run),
+/// `allocated`, each frame that made some with what the last was for, and `hitches`, each frame
+/// over twice the median with its parts.
 /// @return exit status.
 int bench_fly(const BenchFlyOptions& options);
 

@@ -43,7 +43,9 @@ class PopFlight {
     out.start_ = {out.view_->start_camera(), static_cast<double>(options.scene.time_of_day_s),
                   options.scene.settings.world_time_s};
     out.step_blocks_ = options.speed.value_or(kPopSpeed) / kFramesASecond;
-    if (Result<void> loaded = out.load(out.start_); !loaded) return loaded.error();
+    // As after some time of play: shadows keep what reach they have had.
+    for (const std::optional<double> blend_s : {std::optional<double>(), {1.0}})
+      if (Result<void> loaded = out.load(out.start_, blend_s); !loaded) return loaded.error();
     if (Result<Bytes> first = out.draw(out.start_); !first) return first.error();
     out.start_.exposure_ev = out.view_->renderer().report().value().exposure_ev;
     return out;
@@ -56,7 +58,7 @@ class PopFlight {
     const game::SceneView::Moment moment = moment_at(pop.at_blocks);
     const Result<Bytes> before = draw(moment);
     if (!before) return before.error();
-    if (Result<void> loaded = load(moment); !loaded) return loaded.error();
+    if (Result<void> loaded = load(moment, 1.0 / kFramesASecond); !loaded) return loaded.error();
     const Result<Bytes> now = draw(moment);
     if (!now) return now.error();
     const measure::StepCounts counts = measure::count_steps(*before, *now, measure::kUnseenChange);
@@ -84,8 +86,8 @@ class PopFlight {
     return moment;
   }
 
-  Result<void> load(const game::SceneView::Moment& moment) {
-    return view_->load_completely(moment.camera, moment.world_time_s);
+  Result<void> load(const game::SceneView::Moment& moment, std::optional<double> blend_s = {}) {
+    return view_->load_completely(moment.camera, moment.world_time_s, blend_s);
   }
 
   Result<Bytes> draw(const game::SceneView::Moment& moment) {

@@ -14,8 +14,9 @@ struct BenchPopsOptions {
 };
 
 /// Flies straight ahead from the start and draws each frame twice: with what streaming and levels
-/// of detail had chosen for the frame before, and with what they choose now. All that differs is
-/// what a change of level shows. Prints the worst frames and writes as JSON: name, device, size,
+/// of detail had chosen for the frame before, and with what they choose now, a frame further on in
+/// the changes that are under way, as in play. All that differs is what a change of level shows in
+/// one frame. Prints the worst frames and writes as JSON: name, device, size,
 /// frames, speed, changed (frames in which a pixel differs), over (those in which more than 0.5% of
 /// the pixels differ by more than 8/255), worst and mean (share of the pixels that do, in one frame
 /// and in all), and `pops`, each frame that is over: at_blocks, share, largest [1/255], camera.
