@@ -19,7 +19,7 @@ layout(constant_id = kBlendedConstant) const bool kBlended = false;
 
 layout(location = 0) flat out uint out_surface;
 layout(location = 1) out vec2 out_uv;  // without texture coordinates x is the other translucent block that the face touches, see Quad
-layout(location = 2) flat out uvec2 out_blend;  // Section.blend, and 1 if the quad is opaque
+layout(location = 0, component = 1) flat out uvec2 out_blend;  // Section.blend, and 1 if the quad is opaque
 
 invariant gl_Position;
 

@@ -8,7 +8,7 @@
 
 layout(location = 0) flat in uint in_surface;
 layout(location = 1) in vec2 in_uv;
-layout(location = 2) flat in uvec2 in_blend;
+layout(location = 0, component = 1) flat in uvec2 in_blend;
 layout(location = 0) out uint out_surface;
 
 layout(constant_id = kTexturedConstant) const bool kTextured = false;              // leaves and plants; else opaque blocks
