@@ -36,7 +36,7 @@ uint water_above(uvec2 pixel, float opaque) {
   bool level = frame.camera_medium == 0u && opaque > 0.0 && surface_face(word) == 2u && has_ripples(word);
   vec3 up = world_from_lattice_vector(island_at(surface_island(word)), vec3(0.0, 1.0, 0.0));
   float behind = view_distance(max(opaque, 1e-12), frame.near_plane) - view_distance(z, frame.near_plane);
-  float above = level ? behind * -dot(up, pixel_ray(pixel)) : 0.0;
+  float above = level ? max(behind, 0.0) * -dot(up, pixel_ray(pixel)) : 0.0;
   return surface_block(word) | (packHalf2x16(vec2(above, 0.0)) << 16);
 }
 

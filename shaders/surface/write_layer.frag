@@ -16,12 +16,16 @@ layout(binding = kPreviousDepthsBinding) uniform sampler2D previous_depth;  // o
 
 layout(constant_id = kFirstLayerConstant) const bool kFirstLayer = true;
 
+// Walls along a shore grow by a part of a pixel (draw_quads.vert) and would stand out of the water: as a share of the distance, far less than voxels
+// of any level are long.
+const float kBehind = 1.0 - 2e-4;
+
 void main() {
   if (!gl_FrontFacing && touches_another(in_touched.x)) discard;
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float z = gl_FragCoord.z;  // reverse-Z: nearer is greater
   float opaque = texelFetch(opaque_depth, pixel, 0).r;
-  if (z <= opaque) discard;
+  if (z <= opaque * kBehind) discard;
   if (!kFirstLayer && z >= texelFetch(previous_depth, pixel, 0).r) discard;
   // Which side faces the camera distinguishes a block's back from its front.
   out_surface = gl_FrontFacing ? in_surface : in_surface ^ kOppositeFace;

@@ -210,7 +210,7 @@ MUTANTS = (
     Mutant("no_waves", "water is flat", "shaders/include/surface/ripples.glsl", "slope *= fading(distance);", "slope *= 0.0;",
            "underwater_up water"),
     Mutant("water_before_everything", "water shows through what is before it", "shaders/surface/write_layer.frag",
-           "if (z <= opaque) discard;", "if (z <= opaque - 1.0) discard;", "highland autumn marsh"),
+           "if (z <= opaque * kBehind) discard;", "if (z <= opaque - 1.0) discard;", "highland autumn marsh"),
     Mutant("water_faces_turned", "a water surface's back is taken for its front", "shaders/surface/write_layer.frag",
            "gl_FrontFacing ? in_surface : in_surface ^ kOppositeFace", "in_surface", "underwater_up underwater"),
     Mutant("tail_unseen", "what lies behind the layers of water and glass is not seen", "shaders/include/surface/water.glsl",

@@ -87,7 +87,7 @@ class PassesOnGpu : public gpu::GpuTest {
   ShadowHistory& shadow_history() { return shadow_history_; }
 
   struct Drawn {
-    std::vector<std::uint32_t> words;  ///< G-buffer words, rows from the top
+    std::vector<std::uint32_t> words;  ///< G-buffer words, rows from the top; 0: no surface
     std::vector<float> depth;
     shared::CullStats stats{};
   };
@@ -123,6 +123,8 @@ class PassesOnGpu : public gpu::GpuTest {
     out.words = contents<std::uint32_t>(words);
     out.depth = contents<float>(depth);
     out.stats = contents<shared::CullStats>(stats)[0];
+    for (std::size_t i = 0; i < out.words.size(); ++i)
+      if (out.depth[i] == 0.0f) out.words[i] = 0;  // it has any value there
     return out;
   }
 

@@ -15,6 +15,14 @@ namespace skerry::render {
 
 using gpu::Use;
 
+namespace {
+
+/// Of the growth of quads, by which walls stand out of water that they end in: seen at a slant,
+/// level water grows less over the picture. Where layers overlap they count once.
+constexpr float kAcrossShores = 4.0f;
+
+}  // namespace
+
 TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                               const SceneRefs& scene, const CulledDraws& draws,
                                               const Geometry& geometry, int layers) {
@@ -56,10 +64,12 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           depth = b.depth(depth, gpu::Load::cleared({}));
         },
         [scene, draws, opaque_depth, previous, program](gpu::Commands& c) {
+          DrawPush push = draw_push(scene, draws, 0);
+          push.edge_growth *= kAcrossShores;
           gpu::bind(c, program,
                     gpu::sampled<shared::kDepthsBinding>(opaque_depth, scene.point_sampler),
                     gpu::sampled<shared::kPreviousDepthsBinding>(previous, scene.point_sampler),
-                    draw_bindings(scene, draws, 0));
+                    drawn_from(scene, draws), gpu::constants(push));
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
