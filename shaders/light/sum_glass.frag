@@ -17,7 +17,7 @@ layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materia
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
 
 layout(push_constant, scalar) uniform Push {
-  layout(offset = 72) uint cascade;  // of frame.cascades; what draw_quads.vert declares comes before
+  layout(offset = 76) uint cascade;  // of frame.cascades; what draw_quads.vert declares comes before
 } push;
 
 #include "include/surface/media.glsl"

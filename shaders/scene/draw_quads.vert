@@ -12,6 +12,7 @@ layout(push_constant, scalar) uniform Push {
   mat4 clip_from_source;  // of this view
   uint first_transform;   // of this view
   float growth;           // see below, blocks a block of distance (of an orthographic view: blocks)
+  float level_growth;     // the same of quads that lie level
 } push;
 
 layout(constant_id = kTexturedConstant) const bool kTextured = false;  // cut-outs need texture coordinates
@@ -45,7 +46,7 @@ void main() {
   // own plane by 1/128 pixel; in voxels, where its plane stays exact.
   vec4 p = vec4(dot(t.x, vec4(voxel, 1.0)), dot(t.y, vec4(voxel, 1.0)), dot(t.z, vec4(voxel, 1.0)), 1.0);
   float distance = dot(vec4(push.clip_from_source[0].w, push.clip_from_source[1].w, push.clip_from_source[2].w, push.clip_from_source[3].w), p);
-  float by = max(distance, 0.05) * push.growth * inversesqrt(dot(vec3(t.x.x, t.y.x, t.z.x), vec3(t.x.x, t.y.x, t.z.x)));
+  float by = max(distance, 0.05) * (axis == 1u ? push.level_growth : push.growth) * inversesqrt(dot(vec3(t.x.x, t.y.x, t.z.x), vec3(t.x.x, t.y.x, t.z.x)));
   float by_u = u > 0.0 ? by : -by, by_v = v > 0.0 ? by : -by;
   voxel += axis == 0u ? vec3(0.0, by_v, by_u) : axis == 1u ? vec3(by_u, 0.0, by_v) : axis == 2u ? vec3(by_u, by_v, 0.0) : vec3(0.0);
   p = vec4(dot(t.x, vec4(voxel, 1.0)), dot(t.y, vec4(voxel, 1.0)), dot(t.z, vec4(voxel, 1.0)), 1.0);

@@ -58,9 +58,11 @@ struct DrawPush {
   glm::mat4 clip_from_source;
   std::uint32_t first_transform;
   float edge_growth;
+  float level_growth;  ///< the same of quads that lie level in their lattice
 };
 inline DrawPush draw_push(const SceneRefs& scene, const CulledDraws& draws, std::uint32_t view) {
-  return {scene.clip_from_source[view], view * draws.section_slots, scene.edge_growth[view]};
+  const float growth = scene.edge_growth[view];
+  return {scene.clip_from_source[view], view * draws.section_slots, growth, growth};
 }
 
 /// What draw_quads.vert declares besides.

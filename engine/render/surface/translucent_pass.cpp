@@ -18,7 +18,7 @@ using gpu::Use;
 namespace {
 
 /// Of the growth of quads, by which walls stand out of water that they end in: seen at a slant,
-/// level water grows less over the picture. Where layers overlap they count once.
+/// level water grows less over the picture. Panes that overlapped more would hide one another.
 constexpr float kAcrossShores = 4.0f;
 
 }  // namespace
@@ -65,7 +65,7 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
         },
         [scene, draws, opaque_depth, previous, program](gpu::Commands& c) {
           DrawPush push = draw_push(scene, draws, 0);
-          push.edge_growth *= kAcrossShores;
+          push.level_growth *= kAcrossShores;
           gpu::bind(c, program,
                     gpu::sampled<shared::kDepthsBinding>(opaque_depth, scene.point_sampler),
                     gpu::sampled<shared::kPreviousDepthsBinding>(previous, scene.point_sampler),
