@@ -231,7 +231,7 @@ MUTANTS = (
     Mutant("second_diagonal_missing", "plants are one quad instead of two", "shaders/scene/draw_quads.vert",
            "plus ? u : 1.0 - u", "u", "day quality_low"),
     Mutant("growth_removed", "light shines through between merged quads", "shaders/scene/draw_quads.vert",
-           "max(distance, 0.05) * push.growth", "max(distance, 0.05) * 0.0", "underneath cave sealed_dark cave_mouth"),
+           "max(distance, 0.05) * (axis == 1u ? push.level_growth : push.growth)", "max(distance, 0.05) * 0.0", "underneath cave sealed_dark cave_mouth"),
     Mutant("island_transposed", "islands turn the other way", "shaders/include/frame/common.glsl",
            "return t.axis_x * v.x + t.axis_y * v.y + t.axis_z * v.z;",
            "return vec3(dot(t.axis_x, v), dot(t.axis_y, v), dot(t.axis_z, v));", "turned_islands"),
