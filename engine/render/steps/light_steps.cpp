@@ -27,8 +27,9 @@ FrameStep shade_lights_step() {
             return needs(plan.lights() && !plan.shows_channel() && !plan.sampled());
           }}},
           [](FrameAssembly& f) {
-            // Without islands that block lights no walls are looked for.
-            const bool shafts = f.plan.settings.lights_shadows == kEveryLight &&
+            // Without islands that block lights no walls are looked for. A GPU would wait for each
+            // tile's one invocation.
+            const bool shafts = f.scene.on_cpu && f.plan.settings.lights_shadows == kEveryLight &&
                                 f.scene.light_islands && !f.plan.settings.lights_oracle;
             const ClusteredLights lights =
                 shafts ? ShaftPass::add(f.graph, f.pipelines, f.scene,
