@@ -292,7 +292,7 @@ def main(program, folder, kills="6"):
           "stability at once and in parts differ")
 
     (folder / "report").mkdir()
-    arguments = ["water_layers", "lights_oracle", "--size", "24x16", "--set",
+    arguments = ["bloom_levels", "lights_oracle", "--size", "24x16", "--set",
                  "reference.samples=1"]
     work = Work(run, folder / "report", "report", arguments, {"--out": "page"})
     work.check_splits()
