@@ -7,7 +7,8 @@
 namespace skerry::render {
 
 FrameStep draw_translucent_step() {
-  return {{{needs_water, {"draw_translucent", "classify_translucent_tiles", "sum_tail"}}}, [](FrameAssembly& f) {
+  return {{{needs_water, {"draw_translucent", "classify_translucent_tiles", "sum_tail"}}},
+          [](FrameAssembly& f) {
             const CulledDraws& draws = f.revealed ? *f.revealed : *f.draws;
             f.layers = TranslucentPass::draw(f.graph, f.pipelines, f.scene, draws, *f.geometry,
                                              f.plan.settings.water_layers,

@@ -54,7 +54,7 @@ class MediaLight {
   }
 
   gpu::ImageRef first_layer_;  // depths
-  gpu::ImageRef image_;  // RG32_UINT, see shaders/surface/find_media_light.comp
+  gpu::ImageRef image_;        // RG32_UINT, see shaders/surface/find_media_light.comp
   bool water_ = false, glass_ = false;
 };
 

@@ -74,11 +74,9 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
-  out.tiles = classify_tiles(graph, pipelines, scene, "classify_translucent_tiles",
-                             {.words = out.surfaces,
-                              .depth = out.depth[0],
-                              .area = shown,
-                              .area_alone = !inside_medium});
+  out.tiles = classify_tiles(
+      graph, pipelines, scene, "classify_translucent_tiles",
+      {.words = out.surfaces, .depth = out.depth[0], .area = shown, .area_alone = !inside_medium});
   return out;
 }
 

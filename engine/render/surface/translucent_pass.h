@@ -19,7 +19,7 @@ struct TranslucentPass {
     std::array<gpu::ImageRef, 4> depth;  ///< read through shaders/include/scene/layers.glsl:
                                          ///< reverse-Z, 0 where there is no surface
     std::uint32_t count = 0;
-    Tiles tiles;  ///< kCovered: those with a surface of the nearest one
+    Tiles tiles;                            ///< kCovered: those with a surface of the nearest one
     gpu::ImageRef tail_depths, tail_light;  ///< of TailPass; empty: what is behind is not drawn
     gpu::ImageRef mirrored_clouds;          ///< CloudPass::add_mirrored(); empty: none are mirrored
 
