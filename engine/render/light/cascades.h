@@ -36,9 +36,8 @@ struct CascadeInput {
 /// What a shadow map shows. Two equal keys of one light give the same map, so a map may be kept
 /// while its key and the scene stay.
 struct CascadeKey {
-  std::array<std::int64_t, 3>
-      cell{};  ///< snapped light-space centre, in snap steps from the pivot
-  FixedPos pivot{};                          ///< CascadeInput::pivot
+  std::array<std::int64_t, 3> cell{};  ///< snapped light-space centre, in snap steps from the pivot
+  FixedPos pivot{};                    ///< CascadeInput::pivot
   std::array<std::int64_t, 9> light_axes{};  ///< right, up, towards the light; units of 2^-52
   std::int64_t texel_units = 0;              ///< edge of a texel, 1/65536 block
   std::int64_t depth_units = 0;              ///< length of the depth range, 1/65536 block
