@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What water and glass do to the light that comes to what pixels show, for depth_of_pixel.glsl. docs/decisions/0066, 0069.
+// What water and glass do to the light that comes to what pixels show, for depth_of_pixel.glsl: with glass, in tiles with surfaces that light of a
+// body may reach; else in those with layers. docs/decisions/0066, 0069.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -40,16 +41,9 @@ uint water_above(uvec2 pixel, float opaque) {
   return surface_block(word) | (packHalf2x16(vec2(above, 0.0)) << 16);
 }
 
-// Without glass, of the layers' area; else of tiles with surfaces that light of a body may reach.
-bool own_pixel(out uvec2 pixel) {
-  if (kGlass) return tile_pixel(pixel);
-  pixel = frame.layers_area.xy + gl_GlobalInvocationID.xy;
-  return in_area(pixel, frame.layers_area);
-}
-
 void main() {
   uvec2 pixel;
-  if (!own_pixel(pixel)) return;
+  if (!tile_pixel(pixel)) return;
   float opaque = texelFetch(depths, ivec2(pixel), 0).r;
   uvec2 found = uvec2(0u, packed_share(vec3(1.0)));
   if (kUnderWater) found.x = water_above(pixel, opaque);

@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 // Light of sun, moon and lamps at listed pixels (choose_samples.comp): to the samples of a grid's points or, in the second pass, to the radiance.
 // docs/decisions/0030-light-at-fewer-pixels.md.
-#define SKERRY_STORED
 #include "include/frame/common.glsl"
 #include "shared/sky.h"
 #include "shared/bindings.h"
@@ -22,6 +21,7 @@ layout(binding = kSamplesBinding, rgba32ui) writeonly uniform uimage2D samples; 
 layout(scalar, binding = kListedPixelsBinding) readonly buffer Pixels { TileDispatch listed[2]; uint pixels[]; };  // see choose_samples.comp
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
 layout(binding = kMediaLightBinding) uniform usampler2D media_light;
+layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths;  // of the first layer
 
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 

@@ -20,6 +20,7 @@ layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSkyTableBinding) uniform sampler2D sky_lut;
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
 layout(binding = kMediaLightBinding) uniform usampler2D media_light;
+layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths;  // of the first layer
 
 layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 

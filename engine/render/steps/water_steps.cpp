@@ -7,10 +7,11 @@
 namespace skerry::render {
 
 FrameStep draw_translucent_step() {
-  return {{{needs_water, {"draw_translucent", "sum_tail"}}}, [](FrameAssembly& f) {
+  return {{{needs_water, {"draw_translucent", "classify_translucent_tiles", "sum_tail"}}}, [](FrameAssembly& f) {
             const CulledDraws& draws = f.revealed ? *f.revealed : *f.draws;
             f.layers = TranslucentPass::draw(f.graph, f.pipelines, f.scene, draws, *f.geometry,
-                                             f.plan.settings.water_layers);
+                                             f.plan.settings.water_layers,
+                                             f.plan.input.camera_medium != 0);
             f.layers = TailPass::add(f.graph, f.pipelines, f.scene, draws, *f.geometry, f.layers);
           }};
 }
@@ -26,7 +27,7 @@ FrameStep draw_glass_step() {
 }
 
 FrameStep shade_translucent_step() {
-  return {{{needs_water, {"classify_translucent_tiles", "bend_rays", "shade_translucent"}}},
+  return {{{needs_water, {"bend_rays", "shade_translucent"}}},
           [](FrameAssembly& f) {
             f.shaded = TranslucentPass::add(f.graph, f.pipelines, f.scene,
                                             {*f.geometry, *f.shadows, f.layers, f.lights_or_null(),

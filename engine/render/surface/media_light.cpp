@@ -18,19 +18,22 @@ MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   // In place of what is then never read.
   const gpu::ImageRef words = out.water_ ? in.layers.surfaces : scene.no_layers;
   const gpu::ImageRef first = out.water_ ? in.layers.depth[0] : depth;
+  out.first_layer_ = first;
+  // Glass may stand anywhere before the sun, water only where it is in view.
+  const Tiles& asked = out.glass_ ? tiles : in.layers.tiles;
   const gpu::ImageRef maps = out.glass_ ? in.glass : scene.block_textures;
   const gpu::ImageRef shadows = out.glass_ ? in.shadow_maps : scene.block_textures;
   graph.add_pass(
       "find_media_light",
       [&](gpu::PassBuilder& b) {
-        declare_tiles(b, tiles);
+        declare_tiles(b, asked);
         for (const gpu::BufferRef ref : {scene.frame, scene.islands, scene.materials})
           b.read(ref, Use::kComputeRead);
         for (const gpu::ImageRef ref : {depth, words, first, maps, shadows})
           b.read(ref, Use::kComputeSampled);
         out.image_ = b.write(out.image_, Use::kComputeWrite);
       },
-      [scene, depth, words, first, maps, shadows, tiles, by_tiles = out.glass_, image = out.image_,
+      [scene, depth, words, first, maps, shadows, asked, image = out.image_,
        program = gpu::compute(pipelines, programs::kFindMediaLight, out.with_media({}))](
           gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
@@ -42,11 +45,8 @@ MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                   gpu::sampled<shared::kGlassMapsBinding>(maps, scene.point_sampler),
                   gpu::sampled<shared::kShadowMapsBinding>(shadows, scene.point_sampler),
                   gpu::storage<shared::kMediaLightBinding>(image),
-                  tiles.bindings(TileKind::kCovered));
-        if (by_tiles) return dispatch_tiles(c, tiles, TileKind::kCovered);
-        const glm::uvec4& area = scene.layers_area;
-        c.dispatch(gpu::Commands::groups(area.z - area.x, shared::kTileEdge),
-                   gpu::Commands::groups(area.w - area.y, shared::kTileEdge), 1);
+                  asked.bindings(TileKind::kCovered));
+        dispatch_tiles(c, asked, TileKind::kCovered);
       });
   return out;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <tuple>
 #include <vector>
 
 #include "engine/gpu/graph/bindings.h"
@@ -36,15 +37,23 @@ class MediaLight {
   }
   void declare(gpu::PassBuilder& builder, const SceneRefs& scene) const {
     builder.read(image(scene), gpu::Use::kComputeSampled);
+    builder.read(first_layer(scene), gpu::Use::kComputeSampled);
   }
-  auto binding(const SceneRefs& scene) const {
-    return gpu::sampled<shared::kMediaLightBinding>(image(scene), scene.point_sampler);
+  auto bindings(const SceneRefs& scene) const {
+    return std::tuple{
+        gpu::sampled<shared::kMediaLightBinding>(image(scene), scene.point_sampler),
+        gpu::sampled<shared::kLayerDepthsBinding>(first_layer(scene), scene.point_sampler)};
   }
 
  private:
   /// Something else in place of what is then never read.
   gpu::ImageRef image(const SceneRefs& scene) const { return image_ ? image_ : scene.no_depths; }
 
+  gpu::ImageRef first_layer(const SceneRefs& scene) const {
+    return first_layer_ ? first_layer_ : scene.sky_lut;
+  }
+
+  gpu::ImageRef first_layer_;  // depths
   gpu::ImageRef image_;  // RG32_UINT, see shaders/surface/find_media_light.comp
   bool water_ = false, glass_ = false;
 };

@@ -131,7 +131,7 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
       scene, maps);
   if (pass.every_pixel) constants.push_back({shared::kEveryPixelConstant, 1});
   constants = on.media.with_media(clouds_before_light(scene).with_clouds(
-      with_ao(SurfaceReads(on.geometry).with_store(std::move(constants)), scene.ao)));
+      with_ao(SurfaceReads(on.geometry).with_depth(std::move(constants)), scene.ao)));
   if (lights) {
     constants = WallReads(scene, light.settings, scene.ao)
                     .with_walls(lights->with_lights(std::move(constants)));
@@ -177,9 +177,10 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::texels<shared::kIslandsBinding>(scene.islands),
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
-            surfaces.bindings(scene.point_sampler),
+            gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+            gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
             walls.bindings(),
-            media.binding(scene),
+            media.bindings(scene),
             gpu::texels<shared::kIndirectBinding>(scene.indirect),
             gpu::texels<shared::kIslandSkiesBinding>(scene.island_skies),
             clouds.light_bindings(),

@@ -25,7 +25,8 @@ constexpr float kAcrossShores = 4.0f;
 
 TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                               const SceneRefs& scene, const CulledDraws& draws,
-                                              const Geometry& geometry, int layers) {
+                                              const Geometry& geometry, int layers,
+                                              bool inside_medium) {
   static constexpr std::array<const char*, 4> kNames{"draw_translucent_0", "draw_translucent_1",
                                                      "draw_translucent_2", "draw_translucent_3"};
   Layers out;
@@ -73,6 +74,11 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
+  out.tiles = classify_tiles(graph, pipelines, scene, "classify_translucent_tiles",
+                             {.words = out.surfaces,
+                              .depth = out.depth[0],
+                              .area = shown,
+                              .area_alone = !inside_medium});
   return out;
 }
 
@@ -244,11 +250,7 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
                             const In& in, Shaded shaded) {
   // Inside a medium every pixel is looked at through it; else only those with a translucent
   // surface.
-  const Tiles tiles = classify_tiles(graph, pipelines, scene, "classify_translucent_tiles",
-                                     {.words = in.layers.surfaces,
-                                      .depth = in.layers.depth[0],
-                                      .area = scene.layers_area,
-                                      .area_alone = !in.inside_medium});
+  const Tiles& tiles = in.layers.tiles;
   if (!in.inside_medium)
     shaded.radiance_ = bend_rays(graph, pipelines, scene, in, tiles, shaded.radiance());
   const LayerReads reads(scene, in);

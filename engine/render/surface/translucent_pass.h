@@ -5,6 +5,7 @@
 #include "engine/render/frame/settings.h"
 #include "engine/render/light/light_clusters.h"
 #include "engine/render/scene/cull_pass.h"
+#include "engine/render/scene/tiles.h"
 
 namespace skerry::render {
 
@@ -18,6 +19,7 @@ struct TranslucentPass {
     std::array<gpu::ImageRef, 4> depth;  ///< read through shaders/include/scene/layers.glsl:
                                          ///< reverse-Z, 0 where there is no surface
     std::uint32_t count = 0;
+    Tiles tiles;  ///< kCovered: those with a surface of the nearest one
     gpu::ImageRef tail_depths, tail_light;  ///< of TailPass; empty: what is behind is not drawn
     gpu::ImageRef mirrored_clouds;          ///< CloudPass::add_mirrored(); empty: none are mirrored
 
@@ -34,9 +36,11 @@ struct TranslucentPass {
           })};
     }
   };
-  /// @param layers surfaces kept a pixel, 1..4.
+  /// @param layers surfaces kept a pixel, 1..4. @param inside_medium as below; then tiles of the
+  /// whole picture are sorted.
   static Layers draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                     const CulledDraws& draws, const Geometry& geometry, int layers);
+                     const CulledDraws& draws, const Geometry& geometry, int layers,
+                     bool inside_medium);
   struct In {
     const Geometry& geometry;
     const Shadows& shadows;
