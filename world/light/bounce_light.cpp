@@ -334,8 +334,7 @@ BounceLight::Light BounceLight::direct_of(const Face& face, std::span<const Seen
   Light out;
   out.mean = glm::vec3(sum[0]);
   std::copy(sum.begin() + 1, sum.end(), out.shape.begin());
-  if (const auto lit = lamps.find(voxel); lit != lamps.end())
-    out.lamps = lit->second[face.direction];
+  if (const LampLight* lit = lamps.find(voxel)) out.lamps = (*lit)[face.direction];
   return out;
 }
 

@@ -26,8 +26,6 @@ inline float luminance(const glm::vec3& c) {
 
 /// Ways to the sky that a voxel sees: for each octant a bit a pattern.
 using SeenSky = std::array<std::uint16_t, kOctants>;
-/// Weak and strong lamps' direct light, by number of the voxel; a voxel without has no entry.
-using LampLightMap = std::unordered_map<std::size_t, LampLight>;
 
 /// Light that faces of an island send to each other: of the sky, sun and moon as a function of what
 /// they send, and of lamps.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "engine/core/check.h"
+
 namespace skerry::world {
 namespace {
 
@@ -113,6 +115,49 @@ LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel)
     out[face] = lamp.intensity * (clear * window * share);
   }
   return out;
+}
+
+void LampLightMap::add(std::size_t number, const LampLight& light) {
+  LampLight sum = light;
+  if (const LampLight* before = find(number))
+    for (std::size_t face = 0; face < sum.size(); ++face) sum[face] = (*before)[face] + light[face];
+  set(number, sum);
+}
+
+bool LampLightMap::set(std::size_t number, const LampLight& light) {
+  const LampLight* before = find(number);
+  if (before != nullptr ? *before == light : is_dark(light)) return false;
+  std::uint32_t& place = place_of(number);
+  if (is_dark(light)) {
+    free_.push_back(std::exchange(place, 0));
+    return true;
+  }
+  if (place == 0 && !free_.empty()) {
+    place = free_.back();
+    free_.pop_back();
+  } else if (place == 0) {
+    lights_.emplace_back();
+    place = static_cast<std::uint32_t>(lights_.size());
+  }
+  lights_[place - 1] = light;
+  return true;
+}
+
+void LampLightMap::move(std::size_t from, std::size_t to) {
+  if (find(from) == nullptr) return;
+  const std::uint32_t place = std::exchange(place_of(from), 0);
+  SKERRY_ASSERT(find(to) == nullptr);
+  place_of(to) = place;
+}
+
+std::size_t LampLightMap::bytes() const {
+  return (places_.size() + free_.size()) * sizeof(std::uint32_t) +
+         lights_.size() * sizeof(LampLight);
+}
+
+std::uint32_t& LampLightMap::place_of(std::size_t number) {
+  if (number >= places_.size()) places_.resize(number + 1, 0);
+  return places_[number];
 }
 
 }  // namespace skerry::world

@@ -1,8 +1,10 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "world/light/air_volume.h"
 
@@ -21,5 +23,35 @@ LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel)
 inline bool is_dark(const LampLight& light) {
   return light == LampLight{};
 }
+
+/// Lamps' light in some of many voxels that have numbers. Most have none, and that is found out by
+/// one load.
+class LampLightMap {
+ public:
+  /// None: nothing but darkness was put there.
+  const LampLight* find(std::size_t number) const {
+    const std::uint32_t place = number < places_.size() ? places_[number] : 0;
+    return place != 0 ? &lights_[place - 1] : nullptr;
+  }
+  void add(std::size_t number, const LampLight& light);
+  /// @return whether it was other.
+  bool set(std::size_t number, const LampLight& light);
+  /// A voxel's number becomes another that no voxel has. @pre there is no light at that.
+  void move(std::size_t from, std::size_t to);
+  /// Calls fn(number, light) for each that is lit.
+  template <class Fn>
+  void for_each(const Fn& fn) const {
+    for (std::size_t number = 0; number < places_.size(); ++number)
+      if (const LampLight* light = find(number)) fn(number, *light);
+  }
+  std::size_t bytes() const;
+
+ private:
+  std::uint32_t& place_of(std::size_t number);
+
+  std::vector<std::uint32_t> places_;  // by number: 1 + place in lights_; 0: none
+  std::vector<LampLight> lights_;
+  std::vector<std::uint32_t> free_;  // places
+};
 
 }  // namespace skerry::world

@@ -114,8 +114,8 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
     around.air[at] = wanted_.has(voxel);
     if (!around.air[at]) continue;
     const std::size_t index = wanted_.of(voxel);
-    if (const auto lit = lamp_light_.find(index); lit != lamp_light_.end())
-      lamps[at] = lit->second[static_cast<std::size_t>(face)];
+    if (const LampLight* lit = lamp_light_.find(index))
+      lamps[at] = (*lit)[static_cast<std::size_t>(face)];
     views[at] = lobes_from(seen_[index], axes);
     if (!plant && face == 2 && air_.has_leaves && air_.plants.at(voxel))
       for (std::uint32_t& lobe : views[at]) lobe -= lobe / kPartUnderPlant;

@@ -145,23 +145,20 @@ void SkyTransfer::spread_lamps() {
     for (const Lamp& lamp : lamps_of(*chunk, at))
       if (lamp.weak || bounces_) spread(lamp, lamp.weak ? lamp_light_ : all_lamps_);
   if (!bounces_) return;
-  for (const auto& [voxel, light] : lamp_light_) {
-    LampLight& sum = all_lamps_[voxel];
-    for (std::size_t face = 0; face < 6; ++face) sum[face] += light[face];
-  }
+  lamp_light_.for_each(
+      [&](std::size_t number, const LampLight& light) { all_lamps_.add(number, light); });
 }
 
 void SkyTransfer::spread(const Lamp& lamp, LampLightMap& into) const {
   for_each_reached(lamp, [&](IVec3 at) {
     const LampLight light = light_of_lamp(air_, lamp.lamp, at);
-    if (is_dark(light)) return;
-    LampLight& sum = into[wanted_.of(at)];
-    for (std::size_t face = 0; face < 6; ++face) sum[face] += light[face];
+    if (!is_dark(light)) into.add(wanted_.of(at), light);
   });
 }
 
 std::size_t SkyTransfer::bytes() const {
-  return seen_.size() * sizeof(SeenSky) + (bounces_ ? bounces_->bytes() : 0);
+  return seen_.size() * sizeof(SeenSky) + lamp_light_.bytes() + all_lamps_.bytes() +
+         (bounces_ ? bounces_->bytes() : 0);
 }
 
 void SkyTransfer::follow_bounces(int step, int part) {

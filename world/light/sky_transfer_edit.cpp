@@ -138,12 +138,8 @@ class SkyTransfer::Edit {
     of_.seen_.resize(of_.wanted_.size());
     for (const VoxelIndex::Moved& m : moved) {
       of_.seen_[m.to] = of_.seen_[m.from];
-      for (LampLightMap* lamps : {&of_.lamp_light_, &of_.all_lamps_}) {
-        auto node = lamps->extract(m.from);
-        if (!node) continue;
-        node.key() = m.to;
-        lamps->insert(std::move(node));
-      }
+      of_.lamp_light_.move(m.from, m.to);
+      of_.all_lamps_.move(m.from, m.to);
     }
     if (of_.bounces_) of_.bounces_->move_voxels(moved);
   }
@@ -161,8 +157,8 @@ class SkyTransfer::Edit {
 
   void let_go(IVec3 voxel) {
     const std::size_t number = of_.wanted_.of(voxel);
-    of_.lamp_light_.erase(number);
-    of_.all_lamps_.erase(number);
+    of_.lamp_light_.set(number, {});
+    of_.all_lamps_.set(number, {});
     if (of_.bounces_)
       for (int direction = 0; direction < 6; ++direction)
         for (const bool plant : {false, true}) of_.bounces_->remove_face(voxel, direction, plant);
@@ -291,17 +287,10 @@ class SkyTransfer::Edit {
           (lamp.weak ? weak : strong)[face] += light[face];
       }
       for (std::size_t face = 0; face < 6; ++face) strong[face] += weak[face];
-      const bool is_new = set_light(of_.lamp_light_, voxel, weak);
-      if ((of_.bounces_ && set_light(of_.all_lamps_, voxel, strong)) || is_new) changed_at(voxel);
+      const std::size_t number = of_.wanted_.of(voxel);
+      const bool is_new = of_.lamp_light_.set(number, weak);
+      if ((of_.bounces_ && of_.all_lamps_.set(number, strong)) || is_new) changed_at(voxel);
     }
-  }
-
-  /// @return whether it was other.
-  bool set_light(LampLightMap& lights, IVec3 voxel, const LampLight& light) {
-    const std::size_t number = of_.wanted_.of(voxel);
-    if (is_dark(light)) return lights.erase(number) != 0;
-    const auto [at, is_new] = lights.try_emplace(number, light);
-    return std::exchange(at->second, light) != light || is_new;
   }
 
   /// Where lamps of a chunk that have come, gone or another place in the order of sums reach.

@@ -95,9 +95,9 @@ std::array<glm::vec4, 6> window_planes(const std::array<glm::dvec3, 3>& axes, gl
           plane(1, -1.0, half), plane(2, 1.0, back),  plane(2, -1.0, reach)};
 }
 
-FixedPos from_anchor(const CascadeInput& in) {
+FixedPos from_pivot(const CascadeInput& in, const FixedPos& pivot) {
   FixedPos out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = in.camera[i] - in.anchor[i];
+  for (std::size_t i = 0; i < 3; ++i) out[i] = in.camera[i] - in.anchor[i] - pivot[i];
   return out;
 }
 
@@ -112,11 +112,12 @@ CascadeKey key_of(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes,
   key.depth_units = w.back + w.reach;
   key.back_units = w.back;
   key.map_size = in.map_size;
+  key.pivot = in.pivot;
   for (std::size_t i = 0; i < 3; ++i) {
     const IntAxis axis = rounded_axis(axes[i]);
     std::copy(axis.begin(), axis.end(),
               key.light_axes.begin() + static_cast<std::ptrdiff_t>(3 * i));
-    key.cell[i] = nearest_multiple(dot(axis, from_anchor(in)), snap_step(w));
+    key.cell[i] = nearest_multiple(dot(axis, from_pivot(in, key.pivot)), snap_step(w));
   }
   return key;
 }
@@ -128,22 +129,22 @@ Cascade cascade_in(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes
   c.key = key;
   glm::dvec3
       camera_offset;  // the camera's light-space place relative to the snapped centre [blocks]
-  std::array<Int128, 3> snapped;  // the centre's light-space place from the anchor [units * 2^-52]
-  glm::dvec3 centre_from_anchor{0.0};  // [units]
+  std::array<Int128, 3> snapped;  // the centre's light-space place from the pivot [units * 2^-52]
+  glm::dvec3 centre_from_pivot{0.0};  // [units]
   for (std::size_t i = 0; i < 3; ++i) {
-    const Int128 place = dot(rounded_axis(axes[i]), from_anchor(in));
+    const Int128 place = dot(rounded_axis(axes[i]), from_pivot(in, key.pivot));
     snapped[i] = snap_step(w) * key.cell[i];
     camera_offset[static_cast<int>(i)] =
         std::ldexp(static_cast<double>(place - snapped[i]), -kAxisBits) / kUnitsPerBlock;
-    centre_from_anchor += std::ldexp(static_cast<double>(snapped[i]), -kAxisBits) * axes[i];
+    centre_from_pivot += std::ldexp(static_cast<double>(snapped[i]), -kAxisBits) * axes[i];
   }
   // The centre must be a whole place in the world; what rounding moved it by goes into its matrix,
   // exactly.
   glm::dvec3 centre_offset;
   FixedPos rounded;
   for (std::size_t i = 0; i < 3; ++i) {
-    rounded[i] = std::llround(centre_from_anchor[static_cast<int>(i)]);
-    c.centre[i] = in.anchor[i] + rounded[i];
+    rounded[i] = std::llround(centre_from_pivot[static_cast<int>(i)]);
+    c.centre[i] = in.anchor[i] + key.pivot[i] + rounded[i];
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const Int128 place = dot(rounded_axis(axes[i]), rounded);

@@ -19,6 +19,7 @@ struct CascadeInput {
   FixedPos camera{};
   FixedPos
       anchor{};  ///< moves with the world (its offset): cascades depend on camera - anchor alone
+  FixedPos pivot{};  ///< from the anchor: the place about which the grids of texels turn
   double near_blocks =
       1.0;  ///< where the practical split begins; cascade 0 covers from 0 nevertheless
   double far_blocks = 1000.0;           ///< radius of the last cascade: the view distance
@@ -35,8 +36,8 @@ struct CascadeInput {
 /// What a shadow map shows. Two equal keys of one light give the same map, so a map may be kept
 /// while its key and the scene stay.
 struct CascadeKey {
-  std::array<std::int64_t, 3>
-      cell{};  ///< snapped light-space centre, in snap steps from the anchor
+  std::array<std::int64_t, 3> cell{};  ///< snapped light-space centre, in snap steps from the pivot
+  FixedPos pivot{};                    ///< CascadeInput::pivot
   std::array<std::int64_t, 9> light_axes{};  ///< right, up, towards the light; units of 2^-52
   std::int64_t texel_units = 0;              ///< edge of a texel, 1/65536 block
   std::int64_t depth_units = 0;              ///< length of the depth range, 1/65536 block
@@ -77,8 +78,9 @@ std::vector<double> cascade_radii(double near_blocks, double far_blocks, int cou
 std::array<glm::dvec3, 3> light_axes(glm::dvec3 to_light);
 
 /// Cascades as spheres about the camera. Each map's centre is snapped to a grid of 1/16 of its
-/// width (whole texels) that is fixed in the world and turned to the light: moving the camera moves
-/// the window by whole texels or not at all. Snapping is exact in 128-bit integers at any distance.
+/// width (whole texels) that is fixed in the world and turned to the light about the pivot: moving
+/// the camera moves the window by whole texels or not at all, and turning the light moves texels
+/// across what is near the pivot by little. Snapping is exact in 128-bit integers at any distance.
 /// Asserts finite input, 0 < near < far, map_size and count in range.
 std::vector<Cascade> make_cascades(const CascadeInput& input);
 

@@ -18,6 +18,7 @@ constexpr double kMovedTexels = 0.25;  // of what a kept map shows, at most
 constexpr double kSoonTexels = 0.125, kLateTexels = 0.45;
 constexpr double kOtherIsland = 16.0;  // texels, see MovedBy::at_most
 constexpr double kLateTurn = 2.0;      // times what the light may have turned
+constexpr double kTurnAbout = 4.0;     // likewise, for texels to turn about the map's middle
 constexpr float kLeastCovered = 0.8f;  // of the radius
 constexpr float kCoarser = 1.2f;       // texels, than need be
 constexpr double kQuadsAtOnce = 8192.0;
@@ -119,9 +120,10 @@ class Planner {
 
   void add_body(int body) {
     CascadeInput in = cascade_input(input_, settings_, body);
-    int index = 0;
-    for (const Cascade& cascade : make_cascades(in)) {
+    for (int index = 0; index < in.count; ++index) {
       ShadowHistory::Kept& kept = next_.kept[slot_];
+      in.pivot = pivot_of(kept.map, in);
+      const Cascade cascade = make_cascades(in)[static_cast<std::size_t>(index)];
       ActiveCascade active;
       active.body = body, active.index = index, active.slot = slot_;
       if (!may_lag(input_, settings_, index) || !follow(kept, in, cascade, active)) {
@@ -131,11 +133,25 @@ class Planner {
       active.layer = kept.layer;
       active.to_light = kept.map->to_light;
       plan_.cascades.push_back(std::move(active));
-      ++index, ++slot_;
+      ++slot_;
     }
   }
 
  private:
+  /// About which a map's texels turn with the light: the middle of the map before, so that they
+  /// move across what is near by no more than the turn makes them. Where the light has jumped, and
+  /// for stills, the map is as without a history.
+  FixedPos pivot_of(const std::optional<DrawnMap>& before, CascadeInput in) const {
+    if (!before || input_.parts != 1) return {};
+    const glm::dvec3 to_light = in.to_light;
+    if (before->to_light == to_light) return before->key.pivot;
+    in.to_light = before->to_light;
+    const Cascade shown = cascade_of(before->key, in);
+    if (!good_enough(in.to_light, to_light, shown, kTurnAbout)) return {};
+    FixedPos middle = shown.centre;
+    for (std::size_t i = 0; i < 3; ++i) middle[i] -= in.anchor[i];
+    return middle;
+  }
   VkRect2D whole() const { return {{0, 0}, {plan_.layout.edge, plan_.layout.edge}}; }
   DrawnMap drawn_now(const Cascade& cascade, const glm::dvec3& to_light) const {
     return {cascade.key,
@@ -154,6 +170,7 @@ class Planner {
     if (!box && kept.map && input_.parts == 1 &&
         good_enough(kept.map->to_light, to_light, cascade)) {
       in.to_light = kept.map->to_light;
+      in.pivot = kept.map->key.pivot;
       const Cascade before = make_cascades(in)[static_cast<std::size_t>(active.index)];
       box = outdated(kept.map, before, input_, geometry_);
       if (box) active.cascade = before;

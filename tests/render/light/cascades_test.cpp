@@ -201,6 +201,32 @@ TEST(Cascades, MovingTheCameraMovesTheTexelGridByWholeTexels) {
   EXPECT_GT(moved, 100);
 }
 
+// A place at a distance from the pivot moves across a grid that turns about it by the angle times
+// the distance at most. About the anchor, 2^40 blocks away, it would be anywhere in a texel.
+TEST(Cascades, ATurnOfTheLightMovesTexelsByTheDistanceToThePivot) {
+  Random random;
+  for (int round = 0; round < 500; ++round) {
+    CascadeInput in = random_input(random, 56);
+    const double angle = random.uniform(1e-6, 1e-4);
+    const glm::dvec3 before = glm::normalize(in.to_light);
+    const glm::dvec3 after =
+        glm::normalize(before + angle * glm::normalize(glm::cross(before, random.direction())));
+    for (std::size_t i = 0; i < 3; ++i) in.pivot[i] = in.camera[i] - in.anchor[i];
+    const auto shown = make_cascades(in);
+    const double roll =
+        glm::length(light_axes(after)[0] - light_axes(before)[0]) + 2.0 * angle;  // of the axes
+    in.to_light = after;
+    const auto turned = make_cascades(in);
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+      const double distance = 0.2 * static_cast<double>(shown[k].radius);
+      const glm::dvec3 p = random.direction() * distance;
+      const glm::dvec2 shift = texel_of(turned[k], p) - texel_of(shown[k], p);
+      const double texels = roll * distance / static_cast<double>(shown[k].texel_blocks);
+      EXPECT_LE(glm::length(shift - glm::round(shift)), 1.5 * texels + 2e-3);
+    }
+  }
+}
+
 TEST(Cascades, AreKeptForASixteenthOfTheMapsWidth) {
   CascadeInput in;
   in.to_light = celestial_at(9 * 3600.0, 0.0).to_sun;

@@ -215,6 +215,52 @@ TEST_F(KeptShadowMaps, ShowTheShadowsOfASunThatMovesWithinAQuarterTexelOrTenSeco
   for (const ActiveCascade& c : update()) EXPECT_TRUE(c.redraw);
 }
 
+// Else each redrawn map would have its texels elsewhere, and the edges of all shadows flicker.
+TEST_F(KeptShadowMaps, KeepTheirTexelsInPlaceNearTheCameraAsTheSunMoves) {
+  islands_ = {{{}, {1.0, 0.0, 0.0, 0.0}, 100.0}};
+  input_.camera.position = fixed_at({3000.3, 80.0, -2000.7});  // from the anchor
+  input_.sky = celestial_at(33000.0, 0.0);
+  const auto texel_at_camera = [](const ActiveCascade& c) {
+    const glm::dvec4 at = c.cascade.clip_from_world * glm::vec4(0, 0, 0, 1);
+    return 0.5 * c.cascade.key.map_size * (glm::dvec2(at) + 1.0);
+  };
+  std::vector<ActiveCascade> before = update();
+  int redrawn = 0;
+  for (int i = 1; i <= 400; ++i) {
+    input_.sky = celestial_at(33000.0 + 1.0 * i, 0.0);
+    const std::vector<ActiveCascade> now = update();
+    for (std::size_t c = 0; c < now.size(); ++c) {
+      redrawn += now[c].redraw ? 1 : 0;
+      // The light turns by no more than kShadowStepBlocks / kShadowBlocks or a quarter texel there,
+      // about a pivot that is half a snap step away at most.
+      const Cascade& map = now[c].cascade;
+      const double texel = map.texel_blocks;
+      const double turn = std::max(kShadowStepBlocks, 0.25 * texel) / kShadowBlocks;
+      const double most = 1.1 * turn * std::sqrt(0.75) * map.key.map_size / 16;
+      const glm::dvec2 moved = texel_at_camera(now[c]) - texel_at_camera(before[c]);
+      EXPECT_LE(glm::length(moved - glm::round(moved)), most + 2e-3) << "map " << c;
+    }
+    before = now;
+  }
+  EXPECT_GT(redrawn, 60);
+}
+
+// A shot's bytes are those of a program that has drawn nothing before.
+TEST_F(KeptShadowMaps, ShowNothingOfWhereTheSunStoodBeforeItsClockWasSet) {
+  islands_ = {{{}, {1.0, 0.0, 0.0, 0.0}, 100.0}};
+  input_.camera.position = fixed_at({3000.3, 80.0, -2000.7});
+  input_.sky = afternoon();
+  const std::vector<ActiveCascade> fresh = update();
+  for (const double jump_s : {600.0, -3600.0}) {
+    input_.sky = celestial_at(15.0 * 3600.0 + jump_s, 0.0);
+    update();
+    input_.sky = afternoon();
+    const std::vector<ActiveCascade> again = update();
+    for (std::size_t c = 0; c < again.size(); ++c)
+      EXPECT_TRUE(again[c].cascade.key == fresh[c].cascade.key) << "map " << c;
+  }
+}
+
 TEST_F(KeptShadowMaps, ACameraThatMovesLessThanATexelChangesNoTexel) {
   add_chunk(store(), uploader(), hills, {0, 0, 0}, 0);
   islands_ = {{fixed_at({-31.7, -20.2, -30.4}), glm::angleAxis(0.4, glm::dvec3(0, 1, 0)), 120.0}};
