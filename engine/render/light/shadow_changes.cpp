@@ -153,7 +153,8 @@ TexelBox moved_islands(DrawnMap& map, const Cascade& cascade, const FrameInput& 
     now.origin = rebased(now.origin, input.anchor, map.anchor);
     if (!known) {
       // What has come of a new island stands among the changes.
-      const bool is_new = i >= map.island_count || is_other(last, i, now, map.anchor, by.at_most * texel);
+      const bool is_new =
+          i >= map.island_count || is_other(last, i, now, map.anchor, by.at_most * texel);
       if (!is_new) box.add(box_of(ball_of(island, camera), cascade));
       entered.push_back(now);
       continue;

@@ -34,7 +34,7 @@ struct DrawnMap {
   CascadeKey key;
   glm::dvec3 to_light{};
   std::uint64_t geometry_version = 0;
-  std::uint32_t island_count = 0;  ///< there were; all that are not listed lie outside of the map
+  std::uint32_t island_count = 0;    ///< there were; all that are not listed lie outside of the map
   std::vector<DrawnIsland> islands;  ///< ascending
   FixedPos anchor{};
 };
@@ -55,8 +55,8 @@ struct ShadowHistory {
     std::optional<ShadowJob> job;  ///< none: nothing is being drawn
   };
   ShadowLayout layout;
-  std::uint64_t generation = 0;          ///< of the array, ShadowMaps::generation()
-  std::array<Kept, 8> kept;              ///< one a cascade, sun first
+  std::uint64_t generation = 0;  ///< of the array, ShadowMaps::generation()
+  std::array<Kept, 8> kept;      ///< one a cascade, sun first
   std::shared_ptr<const std::vector<IslandPlacement>> islands;  ///< of the last frame; none yet
   FixedPos anchor{};                                            ///< likewise
 
