@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
+#include <utility>
 
 namespace skerry::render {
 namespace {
@@ -47,10 +48,11 @@ TexelBox texels_of(const Cascade& cascade, const glm::dvec3& middle, const glm::
 }
 
 /// Whether what lies in a ball may show in a cascade's map. Errs on the side of yes.
-bool may_touch(const Ball& ball, const Cascade& cascade) {
-  // What rounding and a quarter texel of the island's motion can add.
-  const double radius =
-      ball.radius + static_cast<double>(cascade.texel_blocks) + 1e-5 * glm::length(ball.middle);
+/// @param spare texels: a quarter of one for the island's motion, and more.
+bool may_touch(const Ball& ball, const Cascade& cascade, double spare = 1.0) {
+  // What rounding can add, too.
+  const double radius = ball.radius + spare * static_cast<double>(cascade.texel_blocks) +
+                        1e-5 * glm::length(ball.middle);
   return std::ranges::all_of(cascade.planes, [&](const glm::vec4& plane) {
     return glm::dot(glm::dvec3(plane), ball.middle) + static_cast<double>(plane.w) >= -radius;
   });
@@ -60,25 +62,39 @@ Ball ball_of(const IslandPlacement& island, const FixedPos& camera) {
   return {from_camera(island.origin, camera), island.bounding_radius};
 }
 
-TexelBox box_of(const IslandPlacement& island, const FixedPos& camera, const Cascade& cascade) {
-  const Ball ball = ball_of(island, camera);
+TexelBox box_of(const Ball& ball, const Cascade& cascade) {
   if (!may_touch(ball, cascade)) return {};
   return texels_of(cascade, ball.middle, glm::dmat3(1.0), glm::dvec3(ball.radius));
 }
 
+DrawnIsland drawn(std::size_t index, const IslandPlacement& island) {
+  return {static_cast<std::uint32_t>(index), island.origin, island.rotation,
+          island.bounding_radius};
+}
+
+/// Whether an island is to be listed in a map (DrawnMap::islands).
+bool is_listed(const IslandPlacement& island, const FixedPos& camera, const Cascade& cascade) {
+  constexpr double kSpareTexels = 2.0;
+  return may_touch(ball_of(island, camera), cascade, kSpareTexels);
+}
+
+/// Whether another island has come in the place of the last frame's.
+bool is_other(const ShadowHistory& last, std::size_t index, const DrawnIsland& now,
+              const FixedPos& anchor, double at_most) {
+  if (!last.islands || index >= last.islands->size()) return true;
+  IslandPlacement before = (*last.islands)[index];
+  before.origin = rebased(before.origin, last.anchor, anchor);
+  return movement(before, now) > at_most;
+}
+
 }  // namespace
 
-double movement(const IslandPlacement& a, const IslandPlacement& b) {
-  glm::dvec3 shift;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    shift[i] = static_cast<double>(b.origin[k] - a.origin[k]) / 65536.0;
-  }
-  // A rotation by angle t moves a point at distance r by 2 r sin(t / 2); |q - q'| = 2 sin(t / 4)
-  // for the nearer of q' and -q'.
-  const glm::dquat same = glm::dot(a.rotation, b.rotation) < 0.0 ? -b.rotation : b.rotation;
-  const double quarter = 0.5 * glm::length(a.rotation - same);
-  return glm::length(shift) + 4.0 * quarter * std::max(a.bounding_radius, b.bounding_radius);
+std::vector<DrawnIsland> islands_in(const Cascade& cascade, const FrameInput& input) {
+  std::vector<DrawnIsland> out;
+  for (std::size_t i = 0; i < input.islands.size(); ++i)
+    if (is_listed(input.islands[i], input.camera.position, cascade))
+      out.push_back(drawn(i, input.islands[i]));
+  return out;
 }
 
 bool may_touch(const IslandPlacement& island, const FixedPos& camera, const Cascade& cascade) {
@@ -117,29 +133,46 @@ TexelBox box_of(const shared::Section& section, const IslandPlacement& island,
   return texels_of(cascade, middle, glm::mat3_cast(island.rotation), half);
 }
 
-IslandPlacement rebased(IslandPlacement island, const FixedPos& from, const FixedPos& to) {
-  for (std::size_t i = 0; i < 3; ++i) island.origin[i] += to[i] - from[i];
-  return island;
+FixedPos rebased(FixedPos origin, const FixedPos& from, const FixedPos& to) {
+  for (std::size_t i = 0; i < 3; ++i) origin[i] += to[i] - from[i];
+  return origin;
 }
 
 TexelBox moved_islands(DrawnMap& map, const Cascade& cascade, const FrameInput& input,
-                       const MovedBy& by) {
+                       const ShadowHistory& last, const MovedBy& by) {
   const auto texel = static_cast<double>(cascade.texel_blocks);
+  const FixedPos& camera = input.camera.position;
   TexelBox box;
+  std::vector<DrawnIsland> entered;
+  auto listed = map.islands.begin();
   for (std::size_t i = 0; i < input.islands.size(); ++i) {
-    const IslandPlacement now = rebased(input.islands[i], input.anchor, map.anchor);
-    // What has come of a new island stands among the changes.
-    if (i == map.islands.size()) {
-      map.islands.push_back(now);
+    const IslandPlacement& island = input.islands[i];
+    const bool known = listed != map.islands.end() && listed->index == i;
+    if (!known && !is_listed(island, camera, cascade)) continue;
+    DrawnIsland now = drawn(i, island);
+    now.origin = rebased(now.origin, input.anchor, map.anchor);
+    if (!known) {
+      // What has come of a new island stands among the changes.
+      const bool is_new =
+          i >= map.island_count || is_other(last, i, now, map.anchor, by.at_most * texel);
+      if (!is_new) box.add(box_of(ball_of(island, camera), cascade));
+      entered.push_back(now);
       continue;
     }
-    const double moved = movement(map.islands[i], now);
+    DrawnIsland& then = *listed++;
+    const double moved = movement(then, now);
     if (moved <= by.more_than * texel || moved > by.at_most * texel) continue;
-    box.add(
-        box_of(rebased(map.islands[i], map.anchor, input.anchor), input.camera.position, cascade));
-    box.add(box_of(input.islands[i], input.camera.position, cascade));
-    map.islands[i] = now;
+    const FixedPos from = rebased(then.origin, map.anchor, input.anchor);
+    box.add(box_of({from_camera(from, camera), then.bounding_radius}, cascade));
+    box.add(box_of(ball_of(island, camera), cascade));
+    then = now;
   }
+  map.island_count = static_cast<std::uint32_t>(input.islands.size());
+  if (entered.empty()) return box;
+  std::vector<DrawnIsland> all(map.islands.size() + entered.size());
+  std::ranges::merge(map.islands, entered, all.begin(), {}, &DrawnIsland::index,
+                     &DrawnIsland::index);
+  map.islands = std::move(all);
   return box;
 }
 

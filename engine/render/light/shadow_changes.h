@@ -1,10 +1,15 @@
 // What a kept shadow map lacks, as texels.
 #pragma once
 #include <volk.h>
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/render/light/shadow_history.h"
 #include "engine/render/scene/geometry_changes.h"
@@ -34,12 +39,28 @@ TexelBox whole_map(const Cascade& cascade);
 TexelBox box_of(const shared::Section& section, const IslandPlacement& island,
                 const FixedPos& camera, const Cascade& cascade);
 
-/// Placements from one anchor as they are from another.
-IslandPlacement rebased(IslandPlacement island, const FixedPos& from, const FixedPos& to);
+/// Places from one anchor as they are from another.
+FixedPos rebased(FixedPos origin, const FixedPos& from, const FixedPos& to);
 
-/// How far a point of the island can have moved between two placements from one anchor [blocks], at
-/// most.
-double movement(const IslandPlacement& a, const IslandPlacement& b);
+/// The islands that may show in a cascade's map, ascending. Errs on the side of more, so that an
+/// island that has moved by less than a texel since cannot show and be missing.
+std::vector<DrawnIsland> islands_in(const Cascade& cascade, const FrameInput& input);
+
+/// How far a point of an island can have moved between two placements from one anchor [blocks], at
+/// most. @tparam A, B IslandPlacement or DrawnIsland.
+template <class A, class B>
+double movement(const A& a, const B& b) {
+  glm::dvec3 shift;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    shift[i] = static_cast<double>(b.origin[k] - a.origin[k]) / 65536.0;
+  }
+  // A rotation by angle t moves a point at distance r by 2 r sin(t / 2); |q - q'| = 2 sin(t / 4)
+  // for the nearer of q' and -q'.
+  const glm::dquat same = glm::dot(a.rotation, b.rotation) < 0.0 ? -b.rotation : b.rotation;
+  const double quarter = 0.5 * glm::length(a.rotation - same);
+  return glm::length(shift) + 4.0 * quarter * std::max(a.bounding_radius, b.bounding_radius);
+}
 /// Whether an island may show in a cascade's map. Errs on the side of yes.
 bool may_touch(const IslandPlacement& island, const FixedPos& camera, const Cascade& cascade);
 
@@ -51,9 +72,10 @@ struct MovedBy {
 };
 
 /// The texels in which islands that have moved since may show, before or now. Notes in `map` where
-/// these are now. @pre the input has as many islands as the map, or more.
+/// these are now. @param last the placements of the last frame. @pre the input has as many islands
+/// as the map, or more.
 TexelBox moved_islands(DrawnMap& map, const Cascade& cascade, const FrameInput& input,
-                       const MovedBy& by);
+                       const ShadowHistory& last, const MovedBy& by);
 /// The texels in which sections that came or went since may show; none: that is not known. Notes
 /// in `map` that it shows them.
 std::optional<TexelBox> changed_sections(DrawnMap& map, const Cascade& cascade,

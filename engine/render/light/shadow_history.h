@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,12 +21,21 @@ struct ShadowLayout {
   bool operator==(const ShadowLayout&) const = default;
 };
 
+/// Where an island is that a shadow map may show.
+struct DrawnIsland {
+  std::uint32_t index = 0;  ///< of FrameInput::islands
+  FixedPos origin{};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+  double bounding_radius = 0.0;
+};
+
 /// What a shadow map shows: all there was when it was drawn.
 struct DrawnMap {
   CascadeKey key;
   glm::dvec3 to_light{};
   std::uint64_t geometry_version = 0;
-  std::vector<IslandPlacement> islands;
+  std::uint32_t island_count = 0;    ///< there were; all that are not listed lie outside of the map
+  std::vector<DrawnIsland> islands;  ///< ascending
   FixedPos anchor{};
 };
 
@@ -44,10 +55,10 @@ struct ShadowHistory {
     std::optional<ShadowJob> job;  ///< none: nothing is being drawn
   };
   ShadowLayout layout;
-  std::uint64_t generation = 0;          ///< of the array, ShadowMaps::generation()
-  std::array<Kept, 8> kept;              ///< one a cascade, sun first
-  std::vector<IslandPlacement> islands;  ///< of the last frame
-  FixedPos anchor{};                     ///< likewise
+  std::uint64_t generation = 0;  ///< of the array, ShadowMaps::generation()
+  std::array<Kept, 8> kept;      ///< one a cascade, sun first
+  std::shared_ptr<const std::vector<IslandPlacement>> islands;  ///< of the last frame; none yet
+  FixedPos anchor{};                                            ///< likewise
 
   /// Of what the maps were drawn with, meshes that came after a version were not there yet.
   void only_shows(std::uint64_t geometry_version);

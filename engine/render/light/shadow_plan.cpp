@@ -40,10 +40,11 @@ double caster_reach(const FrameInput& input) {
 /// The texels in which a kept map does not show what `cascade` asks for; none if it is of no use.
 /// Notes in the map what it shows once these have been drawn.
 std::optional<TexelBox> outdated(std::optional<DrawnMap>& map, const Cascade& cascade,
-                                 const FrameInput& input, const GeometryChanges& geometry) {
-  if (!map || map->key != cascade.key || map->islands.size() > input.islands.size())
+                                 const FrameInput& input, const ShadowHistory& last,
+                                 const GeometryChanges& geometry) {
+  if (!map || map->key != cascade.key || map->island_count > input.islands.size())
     return std::nullopt;
-  TexelBox box = moved_islands(*map, cascade, input, {.more_than = kMovedTexels});
+  TexelBox box = moved_islands(*map, cascade, input, last, {.more_than = kMovedTexels});
   const std::optional<TexelBox> changed = changed_sections(*map, cascade, input, geometry);
   if (!changed) return std::nullopt;
   box.add(*changed);
@@ -157,7 +158,8 @@ class Planner {
     return {cascade.key,
             to_light,
             geometry_.version(),
-            {input_.islands.begin(), input_.islands.end()},
+            static_cast<std::uint32_t>(input_.islands.size()),
+            islands_in(cascade, input_),
             input_.anchor};
   }
 
@@ -166,13 +168,13 @@ class Planner {
                         ActiveCascade& active) {
     const glm::dvec3 to_light = in.to_light;
     active.cascade = cascade;
-    std::optional<TexelBox> box = outdated(kept.map, cascade, input_, geometry_);
+    std::optional<TexelBox> box = outdated(kept.map, cascade, input_, before_, geometry_);
     if (!box && kept.map && input_.parts == 1 &&
         good_enough(kept.map->to_light, to_light, cascade)) {
       in.to_light = kept.map->to_light;
       in.pivot = kept.map->key.pivot;
       const Cascade before = make_cascades(in)[static_cast<std::size_t>(active.index)];
-      box = outdated(kept.map, before, input_, geometry_);
+      box = outdated(kept.map, before, input_, before_, geometry_);
       if (box) active.cascade = before;
     }
     if (!box) kept.map = drawn_now(cascade, to_light);
@@ -184,14 +186,14 @@ class Planner {
   bool follow(ShadowHistory::Kept& kept, CascadeInput in, const Cascade& wanted,
               ActiveCascade& active) {
     const glm::dvec3 to_light = in.to_light;
-    if (!kept.map || kept.map->islands.size() > input_.islands.size()) return false;
+    if (!kept.map || kept.map->island_count > input_.islands.size()) return false;
     if (kept.job) draw_ahead(kept, in);
     in.to_light = kept.map->to_light;
     active.cascade = cascade_of(kept.map->key, in);
     if (active.cascade.radius < kLeastCovered * wanted.radius ||
         !good_enough(in.to_light, to_light, wanted, kLateTurn))
       return false;
-    TexelBox box = moved_islands(*kept.map, active.cascade, input_,
+    TexelBox box = moved_islands(*kept.map, active.cascade, input_, before_,
                                  {.more_than = kLateTexels, .at_most = kOtherIsland});
     if (!kept.job) {
       const std::optional<TexelBox> more = begin(kept, active.cascade, in, wanted, to_light);
@@ -208,7 +210,7 @@ class Planner {
   std::optional<TexelBox> begin(ShadowHistory::Kept& kept, const Cascade& shown, CascadeInput in,
                                 const Cascade& wanted, const glm::dvec3& to_light) {
     DrawnMap after = *kept.map;
-    TexelBox box = moved_islands(after, shown, input_, {.more_than = kSoonTexels});
+    TexelBox box = moved_islands(after, shown, input_, before_, {.more_than = kSoonTexels});
     const std::optional<TexelBox> changed = changed_sections(after, shown, input_, geometry_);
     if (!changed) return std::nullopt;
     box.add(*changed);
@@ -229,11 +231,13 @@ class Planner {
   /// In how many frames a map must be drawn so that nothing in it is late when it is drawn again.
   double frames_for(const Cascade& cascade) const {
     double frames = kMostFrames;
-    for (std::size_t i = 0; i < std::min(before_.islands.size(), input_.islands.size()); ++i) {
+    if (!before_.islands) return frames;
+    for (std::size_t i = 0; i < std::min(before_.islands->size(), input_.islands.size()); ++i) {
       const IslandPlacement& now = input_.islands[i];
+      IslandPlacement before = (*before_.islands)[i];
+      before.origin = rebased(before.origin, before_.anchor, input_.anchor);
       const double moved =  // texels a frame
-          movement(rebased(before_.islands[i], before_.anchor, input_.anchor), now) /
-          static_cast<double>(cascade.texel_blocks);
+          movement(before, now) / static_cast<double>(cascade.texel_blocks);
       const double enough = 0.5 * kLateTexels / std::max(moved, 1e-9);
       // What is faster will be late in any case.
       if (enough < frames && enough >= kLeastFrames &&
@@ -254,8 +258,11 @@ class Planner {
                    .cascade = cascade_of(job.after.key, in),
                    .islands = {input_.islands.begin(), input_.islands.end()}};
     part.sections = next_part(job, part.cascade, input_, sections_);
-    for (std::size_t i = 0; i < std::min(part.islands.size(), job.after.islands.size()); ++i)
-      part.islands[i] = rebased(job.after.islands[i], job.after.anchor, input_.anchor);
+    for (const DrawnIsland& then : job.after.islands) {
+      if (then.index >= part.islands.size()) break;
+      part.islands[then.index].origin = rebased(then.origin, job.after.anchor, input_.anchor);
+      part.islands[then.index].rotation = then.rotation;
+    }
     plan_.ahead.push_back(std::move(part));
     if (job.next_section < sections_.size()) return;
     std::swap(kept.layer, kept.spare);
@@ -307,7 +314,8 @@ ShadowPlan plan_shadows(const FrameInput& input, const RenderSettings& settings,
   Planner planner(input, settings, sections, geometry, history, plan);
   for (int body = 0; body < 2; ++body)
     if (plan.layout.casting[static_cast<std::size_t>(body)]) planner.add_body(body);
-  plan.next.islands.assign(input.islands.begin(), input.islands.end());
+  plan.next.islands = std::make_shared<const std::vector<IslandPlacement>>(input.islands.begin(),
+                                                                           input.islands.end());
   plan.next.anchor = input.anchor;
   return plan;
 }

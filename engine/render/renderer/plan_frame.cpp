@@ -194,7 +194,10 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.tables.constants.layers_area = plan.contents.layers_area;
   plan.ao = facts.occupancy && settings.ao_strength > 0.0f && settings.shading != Shading::kFlat;
   plan.marked_slices = marked_slices(plan.input, plan.contents);
-  plan.next.shadows = plan.geometry ? std::move(plan.shadows.next) : history.shadows;
+  if (plan.geometry)
+    plan.next.shadows = std::move(plan.shadows.next);
+  else
+    plan.next.shadows = history.shadows;
   plan.next.clouds = history.clouds;
   if (plan.contents.features.has(Feature::kClouds)) {
     plan.clouds = plan_clouds(plan.input, settings.clouds, plan.sky,

@@ -160,12 +160,25 @@ const std::vector<LobeSample>& samples() {
   return kSamples;
 }
 
+/// Of the directions of SkyRows, row by row.
+std::vector<Basis> make_bases() {
+  std::vector<Basis> out;
+  for (int row = 0; row < SkyRows::kRows; ++row)
+    for (int k = 0; k < SkyRows::kAzimuths; ++k) {
+      const glm::vec3 d(SkyRows::direction(row, k));
+      out.push_back(harmonics_of(d.x, d.y, d.z));
+    }
+  return out;
+}
+
 OpenSky::OpenSky(const SkyRows& rows, const Celestial& bodies) : rows_(rows), bodies_(bodies) {
+  static const std::vector<Basis> kBases = make_bases();
   constexpr float kSolidAngle =
       4.0f * std::numbers::pi_v<float> / float{SkyRows::kRows * SkyRows::kAzimuths};
+  const Basis* basis = kBases.data();
   for (int row = 0; row < SkyRows::kRows; ++row)
     for (int k = 0; k < SkyRows::kAzimuths; ++k)
-      add(harmonics_, glm::vec3(SkyRows::direction(row, k)), rows.at(row, k) * kSolidAngle);
+      add(harmonics_, *basis++, rows.at(row, k) * kSolidAngle);
 }
 
 const Lobes& OpenSky::of_heading(int heading) {
@@ -330,9 +343,11 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
                                        std::span<const IslandPlacement> islands,
                                        const std::vector<bool>& shown, const FixedPos& eye) {
   // Discs are not in it: smooth enough to be interpolated.
-  const SkyRows rows([&](glm::dvec3 d) {
-    return sky.panorama ? glm::dvec3(sky.panorama->smooth().at(glm::vec3(d)))
-                        : sky_radiance(d, sky);
+  double height = 2.0, table_row = 0.0;  // of the row of directions
+  const SkyRows rows([&](const glm::dvec3& d) {
+    if (sky.panorama) return glm::dvec3(sky.panorama->smooth().at(glm::vec3(d)));
+    if (d.y != height) table_row = sky_table_row(height = d.y, sky);
+    return sky_radiance(d, table_row, sky);
   });
   OpenSky open(rows, bodies);
   static_assert(kFaces * shared::kIndirectSkyTexels == shared::kIndirectHarmonics);

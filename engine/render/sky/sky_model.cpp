@@ -183,11 +183,18 @@ double eye_height_km(const FrameInput& input) {
   return eye_height_km(static_cast<double>(input.camera.position[1] - input.anchor[1]) / 65536.0);
 }
 
+double sky_table_row(double sine, const SkyModel& sky) {
+  return sky_row_place(std::asin(std::clamp(sine, -1.0, 1.0)),
+                       static_cast<double>(sky.constants.horizon));
+}
+
 glm::dvec3 sky_radiance(glm::dvec3 dir, const SkyModel& sky) {
   if (sky.panorama) return sky.panorama->radiance(dir);
+  return sky_radiance(dir, sky_table_row(dir.y, sky), sky);
+}
+
+glm::dvec3 sky_radiance(glm::dvec3 dir, double row, const SkyModel& sky) {
   const shared::SkyConstants& c = sky.constants;
-  const double row =
-      sky_row_place(std::asin(std::clamp(dir.y, -1.0, 1.0)), static_cast<double>(c.horizon));
   glm::dvec3 radiance(0.0);
   if (sky.scattering[0]) radiance += body_radiance(dir, c.sun, sky.scattering[0]->table, row);
   if (sky.scattering[1]) radiance += body_radiance(dir, c.moon, sky.scattering[1]->table, row);

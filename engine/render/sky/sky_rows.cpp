@@ -10,19 +10,35 @@ namespace {
 
 constexpr double kTau = 2.0 * std::numbers::pi;
 
-}  // namespace
+using Directions = std::array<glm::dvec3, std::size_t{SkyRows::kRows} * SkyRows::kAzimuths>;
 
-SkyRows::SkyRows(const std::function<glm::dvec3(glm::dvec3)>& radiance) {
-  for (int row = 0; row < kRows; ++row)
-    for (int k = 0; k < kAzimuths; ++k)
-      texels_[static_cast<std::size_t>(row * kAzimuths + k)] =
-          glm::vec3(radiance(direction(row, k)));
+std::size_t index_of(int row, int azimuth) {
+  return static_cast<std::size_t>(row * SkyRows::kAzimuths + azimuth);
 }
 
-glm::dvec3 SkyRows::direction(int row, int azimuth) {
-  const double y = (2.0 * row + 1.0) / kRows - 1.0, flat = std::sqrt(1.0 - y * y),
-               turn = kTau * azimuth / kAzimuths;
-  return {flat * std::cos(turn), y, flat * std::sin(turn)};
+Directions make_directions() {
+  Directions out;
+  for (int row = 0; row < SkyRows::kRows; ++row) {
+    const double y = (2.0 * row + 1.0) / SkyRows::kRows - 1.0, flat = std::sqrt(1.0 - y * y);
+    for (int azimuth = 0; azimuth < SkyRows::kAzimuths; ++azimuth) {
+      const double turn = kTau * azimuth / SkyRows::kAzimuths;
+      out[index_of(row, azimuth)] = {flat * std::cos(turn), y, flat * std::sin(turn)};
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+SkyRows::SkyRows(const std::function<glm::dvec3(const glm::dvec3&)>& radiance) {
+  for (int row = 0; row < kRows; ++row)
+    for (int k = 0; k < kAzimuths; ++k)
+      texels_[index_of(row, k)] = glm::vec3(radiance(direction(row, k)));
+}
+
+const glm::dvec3& SkyRows::direction(int row, int azimuth) {
+  static const Directions kDirections = make_directions();
+  return kDirections[index_of(row, azimuth)];
 }
 
 glm::vec3 SkyRows::towards(const glm::vec3& d) const {

@@ -15,9 +15,9 @@ class SkyRows {
   static constexpr int kAzimuths = 64;  ///< azimuth k is at turn k / kAzimuths from +x towards +z
 
   /// @param radiance by direction (unit).
-  explicit SkyRows(const std::function<glm::dvec3(glm::dvec3)>& radiance);
+  explicit SkyRows(const std::function<glm::dvec3(const glm::dvec3&)>& radiance);
   /// Unit direction of an entry.
-  static glm::dvec3 direction(int row, int azimuth);
+  static const glm::dvec3& direction(int row, int azimuth);
   const glm::vec3& at(int row, int azimuth) const {
     return texels_[static_cast<std::size_t>(row * kAzimuths + azimuth)];
   }
