@@ -167,8 +167,10 @@ void choose_pixels() {
   first += uvec2(gl_LocalInvocationIndex % (kTileEdge / kRun) * kRun, gl_LocalInvocationIndex / (kTileEdge / kRun));
   Four four = four_around(min(first, frame.size - 1u));
   uint without = 0u;  // a bit a pixel
+  MeterRun run = meter_run(first);
   for (uint i = 0u; i < kRun; ++i) {
     uvec2 pixel = first + uvec2(i, 0u);
+    if (!in_one_cell(kRun)) run = meter_run(pixel);
     bool here = tile && all(lessThan(pixel, frame.size));
     pixel = min(pixel, frame.size - 1u);
     uint word;
@@ -183,9 +185,11 @@ void choose_pixels() {
     if (kStep != kRun) four = four_around(pixel);
     vec3 colour;
     bool shared_light = light_between(four, pixel, by, colour) && surface && !emits_in_part(word);
-    put_pixel(pixel, colour, shared_light);
+    put_shown(pixel, shown(colour, shared_light), shared_light, run);
+    if (!in_one_cell(kRun)) end_run(run);
     if (surface && !shared_light) without |= 1u << i;
   }
+  if (in_one_cell(kRun)) end_run(run);
   uint lit = 0u;
   for (uint left = kLit ? without : 0u; left != 0u; left &= left - 1u) {
     uvec2 pixel = first + uvec2(uint(findLSB(left)), 0u);

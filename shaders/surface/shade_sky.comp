@@ -44,8 +44,10 @@ void main() {
   first += uvec2(gl_LocalInvocationIndex % across * kRun, gl_LocalInvocationIndex / across);
   Shown here_shown = sky_at(first, tile), next = here_shown;
   if (kRun > 1u) next = sky_at(first + uvec2(kRun, 0u), tile);
+  MeterRun run = meter_run(first);
   for (uint i = 0u; i < kRun; ++i) {
     uvec2 pixel = first + uvec2(i, 0u);
+    if (!in_one_cell(kRun)) run = meter_run(pixel);
     bool here = tile && all(lessThan(pixel, frame.size));
     pixel = min(pixel, frame.size - 1u);
     here = here && shows_sky(pixel);
@@ -54,6 +56,8 @@ void main() {
       float along = float(i) / float(kRun);
       what = Shown(as_halves(mix(here_shown.radiance, next.radiance, along)), mix(here_shown.encoded, next.encoded, along));
     }
-    put_shown(pixel, what, here);
+    put_shown(pixel, what, here, run);
+    if (!in_one_cell(kRun)) end_run(run);
   }
+  if (in_one_cell(kRun)) end_run(run);
 }

@@ -31,20 +31,41 @@ Shown shown(vec3 colour, bool here) {
   return Shown(colour, kToPicture ? developed(colour, vec3(0.0)) : vec3(0.0));
 }
 
+// What an invocation keeps for the meter of pixels of a row that lie in one of its cells: lavapipe stores lane by lane, and takes as long where no lane
+// stores as where all do.
+struct MeterRun {
+  uvec2 cell;
+  uvec2 pixel;  // of the cell, that is metered
+  float luminance;
+  bool here;
+};
+MeterRun meter_run(uvec2 first) {
+  uvec2 cell = first / max(kMeterStride, 1u);
+  return MeterRun(cell, metered_pixel(cell, max(kMeterStride, 1u), frame.picture_size), 0.0, false);
+}
+void end_run(MeterRun run) {
+  if (kMeterStride != 0u && run.here) imageStore(metered, ivec2(run.cell), vec4(run.luminance));
+}
+// Whether as many pixels from a tile's edge on, or from that many further on, lie in one cell.
+bool in_one_cell(const uint pixels) { return kMeterStride % pixels == 0u; }
+
 // Every invocation calls this once a pixel; `here` says which have one.
-void put_shown(uvec2 pixel, Shown what, bool here) {
+void put_shown(uvec2 pixel, Shown what, bool here, inout MeterRun run) {
   bool kept = keeps_radiance(pixel);
   if (here && kept) imageStore(radiance, ivec2(pixel), vec4(what.radiance, 1.0));
   if (!kToPicture) return;
   count_black(here && what.radiance == vec3(0.0), false);
   if (here) put_developed(pixel, what.encoded);
-  if (kMeterStride != 0u) {
-    uvec2 cell = pixel / kMeterStride;
-    if (here && !kept && metered_pixel(cell, kMeterStride, frame.picture_size) == pixel)
-      imageStore(metered, ivec2(cell), vec4(exact_luminance(what.radiance)));
+  if (kMeterStride != 0u && here && !kept && run.pixel == pixel) {
+    run.luminance = exact_luminance(what.radiance);
+    run.here = true;
   }
 }
 
 // Every invocation calls this once a pixel; `here` says which have one. What is stored is finite.
-void put_pixel(uvec2 pixel, vec3 colour, bool here) { put_shown(pixel, shown(colour, here), here); }
+void put_pixel(uvec2 pixel, vec3 colour, bool here) {
+  MeterRun run = meter_run(pixel);
+  put_shown(pixel, shown(colour, here), here, run);
+  end_run(run);
+}
 #endif
