@@ -17,8 +17,9 @@ static_assert(shared::kIndirectFirst ==
               shared::kIndirectOpenRecord + shared::kIndirectRecordTexels);
 
 constexpr std::uint64_t kTexelBytes = sizeof(glm::uvec4);
-// 96 MiB: twice what islands take at medium quality, since what replaces a grid is made beside it.
-constexpr std::uint32_t kUsualTexels = (96u << 20) / kTexelBytes;
+// 56 MiB: of six seeds five take less than 32, at 1,000 blocks and at 16 km, and one at 16 km more;
+// what replaces a grid is made beside it.
+constexpr std::uint32_t kUsualTexels = (56u << 20) / kTexelBytes;
 constexpr std::uint32_t kLeastTexels = shared::kIndirectFirst + (1u << 14);
 constexpr std::uint64_t kShareOfBudget = 2;  // most of it that light takes
 
