@@ -176,9 +176,8 @@ TEST(CommandLine, StatsThatCannotBeWrittenLeaveNoPictureBehind) {
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     const auto before = snapshot(folder.path());
     const Outcome outcome =
-        stats_are_the_pipe
-            ? run(small_shot(folder / "a.png", {"--stats", pipe.string()}))
-            : run(small_shot(pipe, {"--stats", (folder / "new.json").string()}));
+        stats_are_the_pipe ? run(small_shot(folder / "a.png", {"--stats", pipe.string()}))
+                           : run(small_shot(pipe, {"--stats", (folder / "new.json").string()}));
     expect_refusal(outcome, 1, {pipe.string(), "nobody reads the pipe"},
                    stats_are_the_pipe ? "stats" : "out");
     EXPECT_EQ(snapshot(folder.path()), before);
