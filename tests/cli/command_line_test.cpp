@@ -282,8 +282,9 @@ TEST(CommandLine, PlayWithoutADisplaySaysSoAndNamesShot) {
 TEST(CommandLine, AReportIsWholeOrNotThere) {
   const Folder folder;
   const fs::path dir = folder / "report";
-  const Outcome outcome = run({"report", "water_layers", "--size", "24x16", "--out", dir.string(),
-                               "--set", "reference.samples=1"});
+  const Outcome outcome =
+      run({"report", "water_layers", "--size", "24x16", "--out", dir.string(), "--set",
+           "reference.samples=1", "--set", "view.distance=128", "--set", "indirect=off"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("index.html"), std::string::npos);
   for (const char* name :
