@@ -150,8 +150,7 @@ class OpenSky {
                   float shape) const;
   const SkyRows& rows_;
   const Celestial& bodies_;
-  Harmonics harmonics_{};   // about the world's axes, without bodies
-  Harmonics irradiance_{};  // of it and bodies: of surfaces by their normals, over pi
+  Harmonics harmonics_{};  // about the world's axes, without bodies
   std::array<std::optional<Lobes>, kHeadings> of_heading_;
 };
 
