@@ -57,11 +57,12 @@ void WorkerThreads::work(Priority priority) {
   for (;;) {
     wanted_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
     if (jobs_.empty()) return;
-    const std::function<void()> job = std::move(jobs_.front());
+    std::function<void()> job = std::move(jobs_.front());
     jobs_.pop_front();
     ++running_;
     lock.unlock();
     job();
+    job = nullptr;  // what it holds may take long to free
     lock.lock();
     --running_;
     if (jobs_.empty() && running_ == 0) idle_.notify_all();

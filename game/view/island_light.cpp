@@ -38,12 +38,27 @@ struct IslandLight::Search {
   bool reach_taken = false;
   std::unique_ptr<world::SkyTransfer> transfer;  // of an earlier look, to be brought up to date
   bool keep = false;                             // for the next one
+  Seams seams;                                   // of the island as the look begins
+  Skies known;                                   // alike
+  std::map<world::IVec3, Closed> closings;       // alike; then of what is found
   std::atomic<int> parts_left = world::kOctants + 1;  // octants, and lamps; then of a step
-  Skies found;
+  Skies found;  // with `seams` closed; what is as `known` has it is the same object
   std::atomic<bool> done = false;
 };
 
 namespace {
+
+/// With guesses for the faces that close the chunk, where they are not dark.
+world::ChunkSky closed(const world::ChunkSky& before, std::span<const shared::Quad> seams) {
+  return world::with_faces(before, world::lit_faces(before, seams));
+}
+
+template <class Map>
+typename Map::mapped_type at_or_none(const Map& map, world::IVec3 at) {
+  const auto found = map.find(at);
+  return found == map.end() ? nullptr : found->second;
+}
+
 // Nearest islands of which enough is kept for edits. A giant takes some 100 MB.
 constexpr std::size_t kKept = 2;
 constexpr int kSpare = 16;        // blocks about an island that has outgrown what is kept of it
@@ -65,11 +80,11 @@ void IslandLight::close(const world::SectionKey& key, std::vector<shared::Quad> 
     island.seams.erase(key.chunk);
     return;
   }
-  island.seams[key.chunk] = std::move(seams);
+  const auto& closing = island.seams[key.chunk] =
+      std::make_shared<const std::vector<shared::Quad>>(std::move(seams));
   const auto before = island.known.find(key.chunk);
   if (before == island.known.end()) return;
-  before->second =
-      std::make_shared<const world::ChunkSky>(island.closed(key.chunk, *before->second));
+  before->second = std::make_shared<const world::ChunkSky>(closed(*before->second, *closing));
   island.guessed.insert(key.chunk);
 }
 
@@ -86,14 +101,9 @@ world::ChunkSky IslandLight::Island::inherited(world::IVec3 at,
   const auto chunk = chunks.find(at);
   std::span<const shared::Quad> quads;
   if (chunk != chunks.end()) quads = chunk->second->quads;
-  return closed(at, world::inherit_faces(before, quads));
-}
-
-// With guesses for the faces that close the chunk, where they are not dark.
-world::ChunkSky IslandLight::Island::closed(world::IVec3 at, const world::ChunkSky& before) const {
-  const auto closing = seams.find(at);
-  if (closing == seams.end()) return before;
-  return world::with_faces(before, world::lit_faces(before, closing->second));
+  world::ChunkSky guess = world::inherit_faces(before, quads);
+  const auto closing = at_or_none(seams, at);
+  return closing ? closed(guess, *closing) : guess;
 }
 
 void IslandLight::remove(const world::SectionKey& key) {
@@ -102,6 +112,15 @@ void IslandLight::remove(const world::SectionKey& key) {
   found->second.seams.erase(key.chunk);
   if (found->second.chunks.erase(key.chunk) == 0) return;
   ++found->second.version;
+}
+
+template <class T>
+void IslandLight::discard(T&& unused) {
+  threads_.submit([held = std::make_shared<T>(std::move(unused))] {});
+}
+
+void IslandLight::end_island(const world::IslandLevel& row) {
+  if (auto island = islands_.extract(row)) discard(std::move(island.mapped()));
 }
 
 void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
@@ -152,6 +171,21 @@ void IslandLight::follow_bounces(WorkerThreads& threads, std::shared_ptr<Search>
 
 void IslandLight::end_look(Search& search) {
   search.found = search.transfer->faces();
+  const std::map<world::IVec3, Closed> closed_before = std::exchange(search.closings, {});
+  for (auto& [at, sky] : search.found) {
+    if (const auto seams = at_or_none(search.seams, at)) {
+      const auto before = closed_before.find(at);
+      const bool same = before != closed_before.end() && before->second.found == sky &&
+                        before->second.seams == seams;
+      Closed& now = search.closings[at];
+      now = same
+                ? before->second
+                : Closed{sky, std::make_shared<const world::ChunkSky>(closed(*sky, *seams)), seams};
+      sky = now.sky;
+    }
+    const auto before = at_or_none(search.known, at);
+    if (before && (before == sky || *before == *sky)) sky = before;
+  }
   if (!search.keep) search.transfer.reset();
   search.done = true;
 }
@@ -184,6 +218,9 @@ void IslandLight::begin(const world::IslandLevel& row, Island& island, bool keep
   island.search->keep = keep && island.search->sky && row.level == 0;
   island.search->transfer = std::move(island.kept);
   island.search->reaches_before = island.reaches;
+  island.search->seams = island.seams;
+  island.search->known = island.known;
+  island.search->closings = island.closings;
   if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
   run(threads_, island.search);
 }
@@ -199,7 +236,7 @@ void IslandLight::start(const world::Streamer& streamer,
   bool busy = false;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     Island& island = *ranks[i].island;
-    if (i > kKept) island.kept.reset();
+    if (i > kKept && island.kept) discard(std::move(island.kept));
     busy |= island.search || island.asked != island.version;
     if (island.search || island.asked == island.version || !streamer.settled(ranks[i].row.island))
       continue;
@@ -254,20 +291,20 @@ std::vector<IslandLight::Found> IslandLight::poll() {
     Found found{row, {}};
     Skies skies;
     for (auto& [at, sky] : search->found) {
-      // Edited since the look began: what is new is guessed once more.
+      // Edited since the look began, or closed otherwise: what is new is guessed once more.
       const auto now = island.chunks.find(at);
+      const auto closing = at_or_none(island.seams, at);
       if (now != island.chunks.end() && now->second != search->chunks[at])
         sky = std::make_shared<const world::ChunkSky>(island.inherited(at, *sky));
-      else if (island.seams.contains(at))
-        sky = std::make_shared<const world::ChunkSky>(island.closed(at, *sky));
-      const auto before = island.known.find(at);
-      const bool same = before != island.known.end() && !island.guessed.contains(at) &&
-                        (before->second == sky || *before->second == *sky);
-      skies[at] = same ? before->second : std::move(sky);
-      found.chunks.push_back({at, skies[at], !same});
+      else if (closing && closing != at_or_none(search->seams, at))
+        sky = std::make_shared<const world::ChunkSky>(closed(*sky, *closing));
+      const bool same = !island.guessed.contains(at) && at_or_none(island.known, at) == sky;
+      skies[at] = sky;
+      found.chunks.push_back({at, std::move(sky), !same});
     }
     island.guessed.clear();
     island.known = std::move(skies);
+    island.closings = std::move(search->closings);
     out.push_back(std::move(found));
   }
   return out;

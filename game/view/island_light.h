@@ -39,7 +39,7 @@ class IslandLight {
   /// get the light of faces next to them.
   void close(const world::SectionKey& key, std::vector<shared::Quad> seams);
   /// Removes a level of an island and its light.
-  void end_island(const world::IslandLevel& row) { islands_.erase(row); }
+  void end_island(const world::IslandLevel& row);
   /// Looks at islands that have changed and whose chunks have all come: what is not there yet would
   /// let light into rooms that it closes. The nearest one first.
   /// @param distances called when they are needed: of islands from the camera.
@@ -76,7 +76,13 @@ class IslandLight {
 
  private:
   using Skies = world::SkyTransfer::Skies;
+  using Seams = std::map<world::IVec3, std::shared_ptr<const std::vector<shared::Quad>>>;
   struct Search;
+  /// Light of a chunk whose seams are closed, and what it was made of.
+  struct Closed {
+    std::shared_ptr<const world::ChunkSky> found, sky;
+    std::shared_ptr<const std::vector<shared::Quad>> seams;
+  };
   /// Where the lamps of chunks can arrive.
   struct Reaches {
     world::LightChunks of;
@@ -84,16 +90,16 @@ class IslandLight {
   };
   struct Island {
     world::LightChunks chunks;
-    std::map<world::IVec3, std::vector<shared::Quad>> seams;
+    Seams seams;
     std::uint64_t version = 0;  // grows with every change
     std::uint64_t asked = 0;    // version that was looked at last
     std::shared_ptr<Search> search;
     std::unique_ptr<world::SkyTransfer> kept;  // of the version that was asked last
     std::shared_ptr<const Reaches> reaches;    // alike
     Skies known;                               // as poll() last said, or says next
+    std::map<world::IVec3, Closed> closings;   // as the last look made them
     std::set<world::IVec3> guessed;            // of `known`, since poll() last said
     world::ChunkSky inherited(world::IVec3 at, const world::ChunkSky& before) const;
-    world::ChunkSky closed(world::IVec3 at, const world::ChunkSky& before) const;
     void guess(world::IVec3 at);  // what is known of a chunk, for the faces that it has now
   };
   static Found guesses(const world::IslandLevel& row, Island& island);
@@ -104,6 +110,9 @@ class IslandLight {
   struct Rank;
   std::vector<Rank> by_distance(const Distances& distances);
   void begin(const world::IslandLevel& row, Island& island, bool keep);
+  /// Has a thread free what takes milliseconds to free.
+  template <class T>
+  void discard(T&& unused);
 
   WorkerThreads& threads_;
   const Finds finds_;

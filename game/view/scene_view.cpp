@@ -469,8 +469,8 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
     }
   }
   if (!ready.mesh.quads.empty())
-    for (const render::SectionPart& part :
-         render::parts_of(section_record(ready.key, ready.mesh, *slot), ready.mesh.quads)) {
+    for (const render::SectionPart& part : render::parts_of(
+             section_record(ready.key, ready.mesh, *slot), ready.mesh.quads, quads_by_part_)) {
       Result<render::SectionId> added =
           renderer_->geometry().add(uploader, part.section, part.quads);
       if (!added) {

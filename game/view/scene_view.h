@@ -195,6 +195,7 @@ class SceneView {
   std::map<std::uint64_t, std::set<world::SectionKey>> to_close_;
   std::uint32_t picture_rows_;                       // of the last frame, or as asked for
   std::vector<render::IslandPlacement> placements_;  // of the last frame, by slot
+  std::vector<shared::Quad> quads_by_part_;          // working memory of add_section()
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
   std::map<world::SectionKey, ResidentSection> sections_;
   std::deque<world::ReadySection> waiting_;  // for memory or the next frame; nearest islands first

@@ -224,6 +224,28 @@ ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> qua
   });
 }
 
+namespace {
+
+/// Copies a stored brick with its records, which follow each other, to the end of a list.
+/// @param from, to which of the stored bricks it is there and here, counted from 1.
+void copy_brick(const ChunkSky& before, std::uint32_t from, std::uint32_t to,
+                std::vector<glm::uvec4>& texels) {
+  constexpr std::size_t kMasks = shared::kIndirectBrickTexels;
+  const auto masks = before.texels.begin() + static_cast<std::ptrdiff_t>((from - 1) * kMasks);
+  const glm::uvec4 last = masks[kMasks - 1];
+  const std::uint32_t begin = masks[0].z;
+  const std::uint32_t end =
+      last.w + shared::kIndirectRecordTexels * static_cast<std::uint32_t>(std::popcount(last.y));
+  const std::uint32_t moved = static_cast<std::uint32_t>(texels.size()) - begin;  // may wrap
+  for (std::size_t i = 0; i < kMasks; ++i)
+    texels[(to - 1) * kMasks + i] =
+        masks[static_cast<std::ptrdiff_t>(i)] + glm::uvec4(0, 0, moved, moved);
+  const auto records = before.texels.begin();
+  texels.insert(texels.end(), records + begin, records + end);
+}
+
+}  // namespace
+
 ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
   FacesByBrick fresh;
   for (const shared::Quad& quad : quads)
@@ -244,6 +266,10 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
   };
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
     if (out.table[at] == 0) continue;
+    if (fresh.of(at) == nullptr) {
+      copy_brick(before, before.table[at], out.table[at], out.texels);
+      continue;
+    }
     for (std::size_t direction = 0; direction < 6; ++direction)
       for (std::size_t word = 0; word < 16; ++word) {
         const std::size_t in_brick = direction * 8 + word / 2;
@@ -251,8 +277,7 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
         glm::uvec4 old(0);  // masks and first records, as pack_faces() has them
         if (before.table[at] != 0)
           old = before.texels[(before.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
-        std::uint32_t mask = old[half];
-        if (fresh.of(at) != nullptr) mask |= fresh.of(at)->masks[direction][word];
+        const std::uint32_t mask = old[half] | fresh.of(at)->masks[direction][word];
         glm::uvec4& now = out.texels[(out.table[at] - 1) * shared::kIndirectBrickTexels + in_brick];
         now[half] = mask;
         now[2 + half] = static_cast<std::uint32_t>(out.texels.size());

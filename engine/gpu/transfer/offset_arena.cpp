@@ -1,6 +1,5 @@
 #include "engine/gpu/transfer/offset_arena.h"
 
-#include <algorithm>
 #include <iterator>
 #include <string>
 
@@ -9,25 +8,22 @@
 namespace skerry::gpu {
 
 OffsetArena::OffsetArena(std::uint32_t capacity) : capacity_(capacity) {
-  if (capacity > 0) free_.emplace(0, capacity);
+  if (capacity > 0) add_run(0, capacity);
 }
 
 Result<ArenaRange> OffsetArena::allocate(std::uint32_t count) {
   if (count == 0) return ArenaRange{};
-  auto best = free_.end();
-  for (auto run = free_.begin(); run != free_.end(); ++run) {
-    if (run->second >= count && (best == free_.end() || run->second < best->second)) best = run;
-  }
-  if (best == free_.end()) {
+  const auto best = by_count_.lower_bound({count, 0});
+  if (best == by_count_.end()) {
     return Error{"the quad arena has no run of " + std::to_string(count) + ": " +
                  std::to_string(capacity_ - used_ - waiting_) + " of " + std::to_string(capacity_) +
                  " are free, the largest run is " + std::to_string(largest_free()) +
                  "; lower view.distance"};
   }
-  const ArenaRange range{best->first, count};
-  const std::uint32_t rest = best->second - count;
-  const auto next = free_.erase(best);
-  if (rest > 0) free_.emplace_hint(next, range.first + count, rest);
+  const auto [had, first] = *best;
+  const ArenaRange range{first, count};
+  take_run(free_.find(first));
+  if (had > count) add_run(first + count, had - count);
   used_ += count;
   return range;
 }
@@ -56,23 +52,31 @@ void OffsetArena::give_back(ArenaRange range) {
                 range.first + range.count <= next->first);  // else freed twice
   if (next != free_.end() && range.first + range.count == next->first) {
     range.count += next->second;
-    next = free_.erase(next);
+    take_run(next++);
   }
   if (next != free_.begin()) {
     const auto before = std::prev(next);
     SKERRY_ASSERT(before->first + before->second <= range.first);
     if (before->first + before->second == range.first) {
-      before->second += range.count;
-      return;
+      range = {before->first, before->second + range.count};
+      take_run(before);
     }
   }
-  free_.emplace_hint(next, range.first, range.count);
+  add_run(range.first, range.count);
+}
+
+void OffsetArena::add_run(std::uint32_t first, std::uint32_t count) {
+  free_.emplace(first, count);
+  by_count_.emplace(count, first);
+}
+
+void OffsetArena::take_run(std::map<std::uint32_t, std::uint32_t>::iterator run) {
+  by_count_.erase({run->second, run->first});
+  free_.erase(run);
 }
 
 std::uint32_t OffsetArena::largest_free() const {
-  std::uint32_t largest = 0;
-  for (const auto& [first, count] : free_) largest = std::max(largest, count);
-  return largest;
+  return by_count_.empty() ? 0 : by_count_.rbegin()->first;
 }
 
 void OffsetArena::grow(std::uint32_t capacity) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -33,8 +35,11 @@ class OffsetArena {
 
  private:
   void give_back(ArenaRange range);
+  void add_run(std::uint32_t first, std::uint32_t count);
+  void take_run(std::map<std::uint32_t, std::uint32_t>::iterator run);
   std::uint32_t capacity_, used_ = 0, waiting_ = 0;
-  std::map<std::uint32_t, std::uint32_t> free_;  // first -> count
+  std::map<std::uint32_t, std::uint32_t> free_;                 // first -> count
+  std::set<std::pair<std::uint32_t, std::uint32_t>> by_count_;  // of free_: count, first
   struct Waiting {
     ArenaRange range;
     std::uint64_t value;

@@ -66,10 +66,12 @@ struct Uploader::State {
   struct Write {
     Buffer* to;
     std::uint64_t offset;
-    std::vector<std::byte> bytes;
-    std::uint64_t filled_bytes = 0;  ///< with `word`; then there are no `bytes`
+    std::unique_ptr<std::byte[]> storage;
+    std::uint64_t size = 0;          ///< of `storage`
+    std::uint64_t filled_bytes = 0;  ///< with `word`; then there is no `storage`
     std::uint32_t word = 0;
-    std::uint64_t end() const { return offset + bytes.size() + filled_bytes; }
+    std::span<std::byte> bytes() const { return {storage.get(), size}; }
+    std::uint64_t end() const { return offset + size + filled_bytes; }
   };
   /// A piece of the staging ring: reused once the submit that read it last has completed.
   struct Block {
@@ -102,18 +104,25 @@ Uploader::Uploader(Device& device, UploadPath path)
 Uploader::~Uploader() = default;
 
 void Uploader::write(Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes) {
-  SKERRY_ASSERT(offset_bytes % 4 == 0 && bytes.size() % 4 == 0);
-  SKERRY_ASSERT(offset_bytes <= to.size_bytes() && bytes.size() <= to.size_bytes() - offset_bytes);
-  if (bytes.empty()) return;
-  state_->queue.push_back({&to, offset_bytes, {bytes.begin(), bytes.end()}});
-  state_->pending += bytes.size();
+  std::ranges::copy(bytes, place(to, offset_bytes, bytes.size()).begin());
+}
+
+std::span<std::byte> Uploader::place(Buffer& to, std::uint64_t offset_bytes,
+                                     std::uint64_t size_bytes) {
+  SKERRY_ASSERT(offset_bytes % 4 == 0 && size_bytes % 4 == 0);
+  SKERRY_ASSERT(offset_bytes <= to.size_bytes() && size_bytes <= to.size_bytes() - offset_bytes);
+  if (size_bytes == 0) return {};
+  state_->queue.push_back(
+      {&to, offset_bytes, std::make_unique_for_overwrite<std::byte[]>(size_bytes), size_bytes});
+  state_->pending += size_bytes;
+  return state_->queue.back().bytes();
 }
 
 void Uploader::fill(Buffer& to, std::uint64_t offset_bytes, std::uint64_t size_bytes,
                     std::uint32_t word) {
   SKERRY_ASSERT(offset_bytes % 4 == 0 && size_bytes % 4 == 0);
   SKERRY_ASSERT(offset_bytes <= to.size_bytes() && size_bytes <= to.size_bytes() - offset_bytes);
-  if (size_bytes != 0) state_->queue.push_back({&to, offset_bytes, {}, size_bytes, word});
+  if (size_bytes != 0) state_->queue.push_back({&to, offset_bytes, nullptr, 0, size_bytes, word});
 }
 
 void Uploader::discard() {
@@ -133,8 +142,8 @@ std::uint64_t Uploader::record(VkCommandBuffer commands, std::uint64_t budget_by
   std::vector<State::Write> batch;
   std::uint64_t bytes = 0;
   while (!state_->queue.empty() &&
-         (bytes == 0 || bytes + state_->queue.front().bytes.size() <= budget_bytes)) {
-    bytes += state_->queue.front().bytes.size();
+         (bytes == 0 || bytes + state_->queue.front().size <= budget_bytes)) {
+    bytes += state_->queue.front().size;
     batch.push_back(std::move(state_->queue.front()));
     state_->queue.pop_front();
   }
@@ -194,10 +203,10 @@ void Uploader::State::record_writes(VkCommandBuffer commands, std::span<const Wr
 
 void Uploader::State::write_mapped(const Write& write) {
   std::byte* to = write.to->mapped() + write.offset;
-  if (!write.bytes.empty()) std::memcpy(to, write.bytes.data(), write.bytes.size());
+  std::ranges::copy(write.bytes(), to);
   for (std::uint64_t at = 0; at < write.filled_bytes; at += sizeof write.word)
     std::memcpy(to + at, &write.word, sizeof write.word);
-  sent.by_mapping += write.bytes.size();
+  sent.by_mapping += write.size;
 }
 
 void Uploader::State::record_transfer(VkCommandBuffer commands, const Write& write) {
@@ -205,24 +214,24 @@ void Uploader::State::record_transfer(VkCommandBuffer commands, const Write& wri
     vkCmdFillBuffer(commands, write.to->handle(), write.offset, write.filled_bytes, write.word);
     return;
   }
-  Block* block = path == UploadPath::kStaging ? staging_block(write.bytes.size()) : nullptr;
+  Block* block = path == UploadPath::kStaging ? staging_block(write.size) : nullptr;
   if (!block) {
     update(commands, write);
-    sent.by_update += write.bytes.size();
+    sent.by_update += write.size;
     return;
   }
-  std::memcpy(block->buffer.mapped() + block->used, write.bytes.data(), write.bytes.size());
-  const VkBufferCopy region{block->used, write.offset, write.bytes.size()};
+  std::memcpy(block->buffer.mapped() + block->used, write.storage.get(), write.size);
+  const VkBufferCopy region{block->used, write.offset, write.size};
   vkCmdCopyBuffer(commands, block->buffer.handle(), write.to->handle(), 1, &region);
-  block->used += write.bytes.size();
-  sent.by_staging += write.bytes.size();
+  block->used += write.size;
+  sent.by_staging += write.size;
 }
 
 void Uploader::State::update(VkCommandBuffer commands, const Write& write) {
-  for (std::uint64_t at = 0; at < write.bytes.size(); at += kMaxUpdateBytes) {
-    const std::uint64_t size = std::min<std::uint64_t>(kMaxUpdateBytes, write.bytes.size() - at);
+  for (std::uint64_t at = 0; at < write.size; at += kMaxUpdateBytes) {
+    const std::uint64_t size = std::min<std::uint64_t>(kMaxUpdateBytes, write.size - at);
     vkCmdUpdateBuffer(commands, write.to->handle(), write.offset + at, size,
-                      write.bytes.data() + at);
+                      write.storage.get() + at);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
+#include <type_traits>
 
 #include "engine/core/result.h"
 #include "engine/gpu/device/resources.h"
@@ -38,6 +38,13 @@ class Uploader {
   /// which must stay where it is until recorded and have the usage TRANSFER_DST. Keeps order: a
   /// later write to the same place wins.
   void write(Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes);
+  /// The same for values that the caller writes: `count` of them, of any value, at once.
+  template <class T>
+  std::span<T> place(Buffer& to, std::uint64_t offset_bytes, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::span<std::byte> bytes = place(to, offset_bytes, count * sizeof(T));
+    return {reinterpret_cast<T*>(bytes.data()), count};
+  }
   /// Writes one word over and over, in order with the other writes. The GPU does it: it counts for
   /// no bytes. @param offset_bytes, size_bytes multiples of 4.
   void fill(Buffer& to, std::uint64_t offset_bytes, std::uint64_t size_bytes, std::uint32_t word);
@@ -57,6 +64,7 @@ class Uploader {
   Result<void> fill_image(Image& image, std::span<const std::byte> bytes);
 
  private:
+  std::span<std::byte> place(Buffer& to, std::uint64_t offset_bytes, std::uint64_t size_bytes);
   struct State;
   std::unique_ptr<State> state_;
 };

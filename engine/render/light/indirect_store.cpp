@@ -159,8 +159,12 @@ Result<void> IndirectStore::put(gpu::Uploader& uploader, std::uint32_t island,
   if (!range) return range.error();
   if (old != grid.chunks.end()) free(old->second.range);
   grid.chunks[key] = {*range};
-  std::vector<glm::uvec4> texels(chunk.texels.begin(), chunk.texels.end());
-  std::vector<glm::uvec4> table(shared::kIndirectTableTexels);
+  const std::span texels =
+      uploader.place<glm::uvec4>(texels_, range->first * kTexelBytes, chunk.texels.size());
+  std::ranges::copy(chunk.texels, texels.begin());
+  const std::span table = uploader.place<glm::uvec4>(
+      texels_, table_texel(grid.box, grid.tables.first, chunk.chunk) * kTexelBytes,
+      shared::kIndirectTableTexels);
   std::uint32_t bricks = 0;
   for (std::size_t i = 0; i < chunk.table.size(); ++i) {
     const std::uint32_t brick = chunk.table[i];
@@ -171,8 +175,6 @@ Result<void> IndirectStore::put(gpu::Uploader& uploader, std::uint32_t island,
   SKERRY_ASSERT(std::size_t{bricks} * shared::kIndirectBrickTexels <= texels.size());
   for (std::size_t i = 0; i < bricks * shared::kIndirectBrickTexels; ++i)
     texels[i].z += range->first, texels[i].w += range->first;
-  write(uploader, range->first, texels);
-  write(uploader, table_texel(grid.box, grid.tables.first, chunk.chunk), table);
   return {};
 }
 

@@ -100,10 +100,11 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
     return glass_[shared::surface_block(quad.material)];
   });
   if (!scratch_.empty()) glass_boxes_[slot] = box_of(scratch_);
-  scratch_.assign(quads.begin(), quads.end());
-  for (shared::Quad& quad : scratch_) quad.material |= section.island << shared::kIslandShift;
-  uploader.write(quads_, std::uint64_t{range->first} * sizeof(shared::Quad),
-                 std::span<const shared::Quad>(scratch_));
+  const std::span placed = uploader.place<shared::Quad>(
+      quads_, std::uint64_t{range->first} * sizeof(shared::Quad), quads.size());
+  std::ranges::transform(quads, placed.begin(), [&](const shared::Quad& quad) {
+    return shared::Quad{quad.geometry, quad.material | section.island << shared::kIslandShift};
+  });
   write_record(uploader, slot);
   count(section, 1);
   changes_.note(section);

@@ -21,27 +21,32 @@ std::size_t part_of(const shared::Quad& quad) {
 }  // namespace
 
 std::vector<SectionPart> parts_of(const shared::Section& section,
-                                  std::span<const shared::Quad> quads) {
+                                  std::span<const shared::Quad> quads,
+                                  std::vector<shared::Quad>& sorted) {
+  if (quads.size() <= kQuadsOfWhole) return {{section, quads}};
+  // Where the quads of a part and range go: first how many there are.
+  std::array<std::array<std::uint32_t, shared::kRangeCount>, kParts> places{};
+  const auto each = [&](const auto& visit) {
+    std::size_t next = 0;
+    for (std::uint32_t range = 0; range < shared::kRangeCount; ++range)
+      for (; next < section.range_end[range]; ++next)
+        visit(quads[next], places[part_of(quads[next])][range]);
+  };
+  each([](const shared::Quad&, std::uint32_t& count) { ++count; });
   std::vector<SectionPart> parts;
-  if (quads.size() <= kQuadsOfWhole) {
-    parts.push_back({section, {quads.begin(), quads.end()}});
-    return parts;
+  std::uint32_t place = 0;
+  sorted.resize(quads.size());
+  for (auto& counts : places) {
+    const std::uint32_t first = place;
+    SectionPart part{section, {}};
+    for (std::uint32_t range = 0; range < shared::kRangeCount; ++range) {
+      place += std::exchange(counts[range], place);
+      part.section.range_end[range] = place - first;
+    }
+    part.quads = std::span(sorted).subspan(first, place - first);
+    if (!part.quads.empty()) parts.push_back(part);
   }
-  std::array<std::size_t, kParts> sizes{};
-  for (const shared::Quad& quad : quads) ++sizes[part_of(quad)];
-  parts.resize(kParts);
-  for (std::size_t i = 0; i < kParts; ++i) {
-    parts[i].section = section;
-    parts[i].quads.reserve(sizes[i]);
-  }
-  std::size_t next = 0;
-  for (std::uint32_t range = 0; range < shared::kRangeCount; ++range) {
-    for (; next < section.range_end[range]; ++next)
-      parts[part_of(quads[next])].quads.push_back(quads[next]);
-    for (SectionPart& part : parts)
-      part.section.range_end[range] = static_cast<std::uint32_t>(part.quads.size());
-  }
-  std::erase_if(parts, [](const SectionPart& part) { return part.quads.empty(); });
+  each([&](const shared::Quad& quad, std::uint32_t& next) { sorted[next++] = quad; });
   for (SectionPart& part : parts) {
     const VoxelBox box = box_of(part.quads);
     part.section.bounds_min = box.low;

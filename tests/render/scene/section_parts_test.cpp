@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <span>
 #include <tuple>
 
 #include "engine/render/scene/voxel_box.h"
@@ -38,7 +39,7 @@ std::vector<shared::Quad> random_quads(std::size_t count, shared::Section& secti
 using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // range, geometry, material
 
 std::multimap<Key, int> keys_of(const shared::Section& section,
-                                const std::vector<shared::Quad>& quads) {
+                                std::span<const shared::Quad> quads) {
   std::multimap<Key, int> out;
   std::uint32_t range = 0;
   for (std::uint32_t i = 0; i < quads.size(); ++i) {
@@ -48,6 +49,19 @@ std::multimap<Key, int> keys_of(const shared::Section& section,
   return out;
 }
 
+/// Whether some quads are in a list in the order in which they come.
+bool is_in_order(std::span<const shared::Quad> some, std::span<const shared::Quad> all) {
+  auto at = all.begin();
+  return std::ranges::all_of(some, [&](const shared::Quad& quad) {
+    at = std::find_if(at, all.end(), [&](const shared::Quad& other) {
+      return other.geometry == quad.geometry && other.material == quad.material;
+    });
+    if (at == all.end()) return false;
+    ++at;
+    return true;
+  });
+}
+
 TEST(SectionParts, TogetherHaveEveryQuadInItsRange) {
   shared::Section section{};
   section.origin = {64, -128, 192};
@@ -55,12 +69,14 @@ TEST(SectionParts, TogetherHaveEveryQuadInItsRange) {
   const std::vector<shared::Quad> quads = random_quads(300, section);
   std::multimap<Key, int> together;
   std::size_t parts = 0;
-  for (const SectionPart& part : parts_of(section, quads)) {
+  std::vector<shared::Quad> sorted;
+  for (const SectionPart& part : parts_of(section, quads, sorted)) {
     ++parts;
     EXPECT_EQ(part.section.origin, section.origin);
     EXPECT_EQ(part.section.island, 5u);
     ASSERT_EQ(part.section.range_end[shared::kRangeCount - 1], part.quads.size());
     together.merge(keys_of(part.section, part.quads));
+    EXPECT_TRUE(is_in_order(part.quads, quads));
     const VoxelBox box = box_of(part.quads);
     EXPECT_EQ(part.section.bounds_min, box.low);
     EXPECT_EQ(part.section.bounds_max, box.high);
@@ -78,7 +94,8 @@ TEST(SectionParts, ASmallMeshStaysWhole) {
   shared::Section section{};
   section.bounds_max = 64;
   const std::vector<shared::Quad> quads = random_quads(3, section);
-  const std::vector<SectionPart> parts = parts_of(section, quads);
+  std::vector<shared::Quad> sorted;
+  const std::vector<SectionPart> parts = parts_of(section, quads, sorted);
   ASSERT_EQ(parts.size(), 1u);
   EXPECT_EQ(parts[0].section.bounds_max, 64u);
   EXPECT_EQ(keys_of(parts[0].section, parts[0].quads), keys_of(section, quads));
