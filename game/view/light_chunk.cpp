@@ -22,7 +22,8 @@ world::LightChunk light_chunk_of(const world::ReadySection& ready,
   std::vector<world::StrongLamp> places;
   for (const LatticeLight& light : strong)
     places.push_back({light.place / voxel, light.range / voxel, light.intensity / (voxel * voxel)});
-  return {ready.occupancy, ready.leaves, ready.mesh.quads, std::move(weak), std::move(places)};
+  return {ready.occupancy, ready.leaves, ready.mesh.quads, std::move(weak), std::move(places),
+          ready.stained,   voxel};
 }
 
 }  // namespace skerry::game

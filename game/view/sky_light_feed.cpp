@@ -17,7 +17,7 @@ glm::ivec3 place(const IslandLight::FoundChunk& chunk) {
 }
 
 render::ChunkSkyLight light_of(const IslandLight::FoundChunk& chunk) {
-  return {place(chunk), chunk.sky->table, chunk.sky->texels, chunk.changed};
+  return {place(chunk), chunk.sky->table, chunk.sky->texels, chunk.changed, chunk.sky->tinted()};
 }
 
 /// Around all chunks. @pre there are some.

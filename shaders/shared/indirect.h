@@ -11,7 +11,8 @@
 // all of its sky is at kIndirectOpenRecord. From kIndirectFirst on:
 // - a table a chunk of the grid (z fastest, x, y slowest): kIndirectTableTexels, a word a brick of
 // 8^3
-//   voxels (index z + 8 x + 64 y), the first texel of the brick's masks, or 0: it has no face;
+//   voxels (index z + 8 x + 64 y), the first texel of the brick's masks, or 0: it has no face; with
+//   kIndirectTinted if records of the chunk have a tint;
 // - a brick's masks: for each face direction and y of the brick a texel: xy which voxels have the
 // face
 //   (x: those with x < 4; bit z + 8 (x % 4)), zw the record of the first of each;
@@ -23,7 +24,8 @@
 //   (engine/core/harmonics.h): x colour c, shared exponent; y a byte a corner, its share s; zw a
 //   signed byte each of 8 numbers h in -1..1: irradiance c s max(0, e[0] + kMostBounceShape * sum
 //   of h[i] e[i + 1]). Corner b + 2 c, where b and c are 1 at the far end of the axes after the
-//   face's own (y, z for x faces; z, x for y faces; x, y for z faces).
+//   face's own (y, z for x faces; z, x for y faces; x, y for z faces). Then, if it has one, its
+//   tint: a word a corner: colour of the light that lobes say is seen, 0..1, shared exponent.
 #ifndef SKERRY_SHARED_INDIRECT_H
 #define SKERRY_SHARED_INDIRECT_H
 #include "types.h"
@@ -65,6 +67,7 @@ SHARED_CONST uint kIndirectFirst = 65540u;       // + kIndirectRecordTexels
 SHARED_CONST uint kIndirectTableTexels = 128u;
 SHARED_CONST uint kIndirectBrickTexels = 48u;
 SHARED_CONST uint kIndirectRecordTexels = 4u;
+SHARED_CONST uint kIndirectTinted = 0x80000000u;
 // The most that a harmonic of degree 1 or 2 can be of that of degree 0, rounded up.
 SHARED_CONST float kMostBounceShape = 2.25f;
 

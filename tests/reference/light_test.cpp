@@ -41,6 +41,38 @@ TEST(ReferenceLight, ALitPlaneHasLambertsRadianceAtAnyDistanceAndAngle) {
   }
 }
 
+// Beer's law along the way, which is longer the more it slants; clear glass and water take nothing.
+TEST(ReferenceLight, OfALampTakesTheColourOfStainedGlass) {
+  const auto pane = [](world::BlockId id) {
+    return Island{
+        world::Volume::from_voxels({-8, 2, -8}, {8, 4, 8}, [id](world::IVec3) { return id; })};
+  };
+  for (const double aside : {0.0, 2.0, 4.0}) {
+    const auto light_under = [&](world::BlockId id) {
+      Scene scene = seen_from({0.0, 0.0, 0.0}, {0.0, -1.0, 0.01}, {pane(id)});
+      Light lamp;
+      lamp.position = {aside, 6.0, 0.0};
+      lamp.intensity = {9.0, 8.0, 7.0};
+      scene.lights = {lamp};
+      const Tracer tracer(scene.islands);
+      const Shader shader(scene, tracer);
+      Sampler sampler(7, 3, 0);
+      return shader.irradiance({{0.013, 0.0, 0.017}, {0.0, 1.0, 0.0}}, sampler);
+    };
+    const glm::dvec3 open = light_under(world::kAir), red = light_under(world::block::kRedGlass);
+    const double way = std::hypot(aside - 0.013, 6.0, 0.017) / 6.0 * 2.0;
+    const world::BlockType& type = world::block_types()[world::block::kRedGlass];
+    for (int c = 0; c < 3; ++c) {
+      const double sigma = static_cast<double>(type.absorption[static_cast<std::size_t>(c)]) +
+                           static_cast<double>(type.scattering);
+      EXPECT_GT(open[c], 0.0);
+      EXPECT_NEAR(red[c], open[c] * std::exp(-sigma * way), 1e-9);
+      EXPECT_EQ(light_under(world::block::kGlass)[c], open[c]);
+      EXPECT_EQ(light_under(world::block::kWater)[c], open[c]);
+    }
+  }
+}
+
 TEST(ReferenceLight, FlatShadingLeavesTheAngleOut) {
   Scene scene = seen_from({0.5, 5.0, 0.5}, {0.0, -1.0, 0.01}, {stone_floor()});
   scene.bodies = {{{std::sin(1.2), std::cos(1.2), 0.0}, glm::dvec3(kPi), 0.0}};

@@ -144,10 +144,10 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     const std::optional<LightRay> ray = sample_light(light, at.point, sampler);
     if (!ray || glm::dot(at.normal, ray->to_light) <= 0.0) return;
     const bool placed = light.kind != shared::kLightDirectional;
-    if (tracer_.hidden(at.point, ray->to_light, ray->distance, at.plant,
-                       placed ? &light.position : nullptr))
-      return;
-    take(Arrival{ray->to_light, ray->irradiance, &light});
+    const glm::dvec3 left = tracer_.left_of_lamp(at.point, ray->to_light, ray->distance, at.plant,
+                                                 placed ? &light.position : nullptr);
+    if (left == glm::dvec3(0.0)) return;
+    take(Arrival{ray->to_light, ray->irradiance * left, &light});
   });
 }
 

@@ -97,6 +97,7 @@ struct Shadowing {
   std::optional<IVec3> own_plant, lamp;
   bool in_lamp = false;
   bool hidden = false;
+  glm::dvec3 glass{0.0};  // optical depth of stained glass
 
   bool crossed(const world::Crossing& c) {
     const BlockKind from = world::block_kind(c.from), to = world::block_kind(c.to);
@@ -106,8 +107,15 @@ struct Shadowing {
                                            origin + direction * c.t));
     return hidden;
   }
-  bool inside(IVec3 voxel, BlockId id, double, double) {
+  bool inside(IVec3 voxel, BlockId id, double enters, double leaves) {
     const BlockKind kind = world::block_kind(id);
+    if (world::is_stained_glass(id)) {
+      const world::BlockType& type = world::block_types()[id];
+      const double length = std::min(leaves, t_max) - enters;
+      for (int c = 0; c < 3; ++c)
+        glass[c] += length * (static_cast<double>(type.absorption[static_cast<std::size_t>(c)]) +
+                              static_cast<double>(type.scattering));
+    }
     hidden = kind == BlockKind::kPlant && own_plant != voxel && lamp != voxel &&
              meet_plant(origin, direction, voxel, id, t_max).has_value();
     // Between two blocks of one id nothing is crossed.
@@ -161,6 +169,20 @@ void Tracer::trace(glm::dvec3 origin, glm::dvec3 direction, Trace& out) const {
 
 bool Tracer::hidden(glm::dvec3 origin, glm::dvec3 direction, double distance,
                     const Meeting* from_plant, const glm::dvec3* lamp) const {
+  glm::dvec3 glass(0.0);
+  return walk_to_light(origin, direction, distance, from_plant, lamp, glass);
+}
+
+glm::dvec3 Tracer::left_of_lamp(glm::dvec3 origin, glm::dvec3 direction, double distance,
+                                const Meeting* from_plant, const glm::dvec3* lamp) const {
+  glm::dvec3 glass(0.0);
+  if (walk_to_light(origin, direction, distance, from_plant, lamp, glass)) return glm::dvec3(0.0);
+  return {std::exp(-glass.x), std::exp(-glass.y), std::exp(-glass.z)};
+}
+
+bool Tracer::walk_to_light(glm::dvec3 origin, glm::dvec3 direction, double distance,
+                           const Meeting* from_plant, const glm::dvec3* lamp,
+                           glm::dvec3& glass) const {
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     if (!may_meet(islands_[i], origin, direction, distance)) continue;
     Shadowing shadowing{lattice_point(i, origin), lattice_vector(i, direction), distance, {}, {}};
@@ -169,6 +191,7 @@ bool Tracer::hidden(glm::dvec3 origin, glm::dvec3 direction, double distance,
     world::march(*islands_[i].voxels, shadowing.origin, shadowing.direction, 0.0, distance,
                  shadowing);
     if (shadowing.hidden) return true;
+    glass += shadowing.glass;
   }
   return false;
 }

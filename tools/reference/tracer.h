@@ -43,6 +43,10 @@ class Tracer {
   /// @param lamp the place of the light: the voxels that it is in hide nothing.
   bool hidden(glm::dvec3 origin, glm::dvec3 direction, double distance = kFar,
               const Meeting* from_plant = nullptr, const glm::dvec3* lamp = nullptr) const;
+  /// What is left of a lamp's light between two points: 0 where hidden() says so, else what stained
+  /// glass on the way leaves. Parameters as hidden() has them.
+  glm::dvec3 left_of_lamp(glm::dvec3 origin, glm::dvec3 direction, double distance,
+                          const Meeting* from_plant, const glm::dvec3* lamp) const;
 
   /// Unit normal of a face in the world; a plant's surfaces count as level.
   glm::dvec3 normal(std::size_t island, int face) const;
@@ -66,6 +70,9 @@ class Tracer {
   };
   static bool may_meet(const Placed& island, glm::dvec3 origin, glm::dvec3 direction,
                        double distance);
+  /// Adds the optical depth of stained glass up to what hides. @return whether anything does.
+  bool walk_to_light(glm::dvec3 origin, glm::dvec3 direction, double distance,
+                     const Meeting* from_plant, const glm::dvec3* lamp, glm::dvec3& glass) const;
   std::vector<Placed> islands_;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "shaders/shared/occupancy.h"
@@ -118,7 +120,35 @@ void fill_plants(VoxelBits& bits, IVec3 corner, const LightChunk& chunk) {
       for_each_face(quad, [&](const DrawnFace& face) { bits.set(corner + face.voxel); });
 }
 
+IVec3 place_of(const StainedVoxel& voxel) {
+  const auto bits = [&](int shift) { return static_cast<int>(voxel.place >> shift & 63u); };
+  return {bits(6), bits(12), bits(0)};
+}
+
+/// Calls fn(voxel, block) for each voxel whose glass differs, chunk-local, with the glass of `now`.
+template <class Fn>
+void for_each_change(std::span<const StainedVoxel> before, std::span<const StainedVoxel> now,
+                     const Fn& fn) {
+  auto old = before.begin();
+  for (const StainedVoxel& voxel : now) {
+    for (; old != before.end() && old->place < voxel.place; ++old) fn(place_of(*old), kAir);
+    const bool same_place = old != before.end() && old->place == voxel.place;
+    if (!same_place || old->block != voxel.block) fn(place_of(voxel), voxel.block);
+    if (same_place) ++old;
+  }
+  for (; old != before.end(); ++old) fn(place_of(*old), kAir);
+}
+
 }  // namespace
+
+void StainedGlass::set(IVec3 voxel, BlockId block) {
+  const std::ptrdiff_t bit = voxels_.bit_at(voxel);
+  voxels_.set(voxel, block != kAir);
+  if (block == kAir)
+    blocks_.erase(bit);
+  else
+    blocks_[bit] = block;
+}
 
 VoxelBits::VoxelBits(IVec3 low, IVec3 size, bool value) : low_(low), size_(size) {
   SKERRY_ASSERT(floor_mod(low.z, 64) == 0 && size.z % 64 == 0);
@@ -162,6 +192,12 @@ AirVolume air_volume_of(const LightChunks& chunks, int margin) {
   out.opaque = VoxelBits(low, size, false);
   if (out.has_leaves) out.leaves = out.plants = VoxelBits(low, size, false);
   for (const auto& [at, chunk] : chunks) {
+    if (!chunk->stained.empty() && out.stained.empty())
+      out.stained = StainedGlass(low, size, chunk->voxel_blocks);
+    for (const StainedVoxel& voxel : chunk->stained)
+      out.stained.set(corner_of(at) + place_of(voxel), voxel.block);
+  }
+  for (const auto& [at, chunk] : chunks) {
     fill(out.opaque, corner_of(at), chunk->opaque);
     if (!out.has_leaves) continue;
     fill(out.leaves, corner_of(at), chunk->leaves);
@@ -200,6 +236,7 @@ std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const Lig
   if (!air.has_leaves && (now.leaves.fill != ChunkOccupancy::Fill::kEmpty ||
                           std::ranges::any_of(faces.came, has_plant)))
     return std::nullopt;
+  if (air.stained.empty() && !now.stained.empty()) return std::nullopt;
   struct Change {
     VoxelBits* of;
     IVec3 voxel;
@@ -224,12 +261,20 @@ std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const Lig
         if (has_plant(face))
           changes.push_back({&air.plants, corner + face.drawn.voxel, some == &faces.came});
   }
+  std::vector<std::pair<IVec3, BlockId>> glass;
+  for_each_change(before.stained, now.stained,
+                  [&](IVec3 voxel, BlockId block) { glass.emplace_back(corner + voxel, block); });
   std::vector<IVec3> out;
   for (const Change& change : changes) {
     if (!change.of->inside(change.voxel)) return std::nullopt;
     out.push_back(change.voxel);
   }
+  for (const auto& [voxel, block] : glass) {
+    if (!air.stained.voxels().inside(voxel)) return std::nullopt;
+    out.push_back(voxel);
+  }
   for (const Change& change : changes) change.of->set(change.voxel, change.value);
+  for (const auto& [voxel, block] : glass) air.stained.set(voxel, block);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "shaders/shared/geometry.h"
@@ -43,7 +44,9 @@ struct LightChunk {
   ChunkOccupancy leaves;            ///< cut-out blocks
   std::vector<shared::Quad> quads;  ///< all that is drawn of the chunk
   std::vector<WeakLamp> lamps{};
-  std::vector<StrongLamp> strong{};  ///< all other lamps
+  std::vector<StrongLamp> strong{};     ///< all other lamps
+  std::vector<StainedVoxel> stained{};  ///< stained glass
+  float voxel_blocks = 1.0f;            ///< edge of a voxel at the chunk's level
 };
 using LightChunks = std::map<IVec3, std::shared_ptr<const LightChunk>>;  ///< by chunk at its level
 
@@ -96,10 +99,34 @@ class VoxelBits {
   std::vector<std::uint64_t> words_;
 };
 
+/// Stained glass in a box of voxels. Lines pass it; light that passes it takes its colour.
+class StainedGlass {
+ public:
+  StainedGlass() = default;
+  /// @param low, size as VoxelBits has them. @param voxel_blocks edge of a voxel.
+  StainedGlass(IVec3 low, IVec3 size, float voxel_blocks)
+      : voxels_(low, size, false), voxel_blocks_(voxel_blocks) {}
+  bool empty() const { return blocks_.empty(); }
+  const VoxelBits& voxels() const { return voxels_; }
+  float voxel_blocks() const { return voxel_blocks_; }
+  /// kAir: none is there.
+  BlockId at(IVec3 voxel) const { return voxels_.at(voxel) ? block(voxels_.bit_at(voxel)) : kAir; }
+  /// @param bit number of a bit of voxels() that is set.
+  BlockId block(std::ptrdiff_t bit) const { return blocks_.at(bit); }
+  /// @param block kAir: no glass. @pre the voxel is inside.
+  void set(IVec3 voxel, BlockId block);
+
+ private:
+  VoxelBits voxels_;
+  std::unordered_map<std::ptrdiff_t, BlockId> blocks_;  // by bit
+  float voxel_blocks_ = 1.0f;
+};
+
 /// Opaque voxels of an island, its leaves and its plants, in a box larger than they are.
 struct AirVolume {
   VoxelBits opaque, leaves, plants;
   bool has_leaves = false;  ///< or plants; else the bits of both are empty
+  StainedGlass stained;     ///< without a box if the island has none
 };
 /// @param margin that the box is larger by, at each side [voxels]
 AirVolume air_volume_of(const LightChunks& chunks, int margin = 2);
@@ -110,8 +137,8 @@ VoxelBits opaque_within(const LightChunks& chunks, IVec3 low, IVec3 high);
 
 /// Takes the voxels of a chunk that has changed into a volume that was made with it.
 /// @param before the chunk as it is in there. @param faces what of its faces has changed.
-/// @return those whose bits have changed; none, and nothing is taken in: the volume has no room for
-/// them, or knew no leaves.
+/// @return those that have changed; none, and nothing is taken in: the volume has no room for them,
+/// or knew no leaves or no stained glass.
 std::optional<std::vector<IVec3>> take_chunk(AirVolume& air, IVec3 at, const LightChunk& before,
                                              const LightChunk& now, const FaceChanges& faces);
 

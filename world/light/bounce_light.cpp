@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 #include <utility>
 
@@ -43,6 +44,12 @@ const Hemisphere& hemisphere(int face) {
   return kAll[static_cast<std::size_t>(face)];
 }
 
+/// Null: the line passes no glass.
+const GlassTints::Tint* tint_of(const GlassTints::Tints& tints, std::size_t pattern) {
+  const auto found = std::ranges::find(tints, pattern, &GlassTints::Tint::pattern);
+  return found == tints.end() ? nullptr : &*found;
+}
+
 /// Harmonics of the lattice vectors, by octant and pattern.
 const std::array<std::array<float, kHarmonics>, kOctants * shared::kSkyPatternCount>&
 vector_harmonics() {
@@ -76,6 +83,15 @@ BounceLight::Light& BounceLight::Light::operator*=(float factor) {
   return *this;
 }
 
+BounceLight::Light& BounceLight::Light::tint(const glm::vec3& left) {
+  const float before = luminance(mean);
+  mean *= left;
+  lamps *= left;
+  const float kept = before > 0.0f ? luminance(mean) / before : luminance(left);
+  for (float& value : shape) value *= kept;
+  return *this;
+}
+
 BounceLight::PackedLight BounceLight::packed(const Light& light) {
   PackedLight out{pack_shared_exponent(light.mean), pack_shared_exponent(light.lamps), {}};
   const float most = luminance(light.mean) * shared::kMostBounceShape;
@@ -97,8 +113,9 @@ BounceLight::Light BounceLight::unpacked(const PackedLight& light) {
 // --- Faces ---
 
 BounceLight::BounceLight(const LightChunks& chunks, const LatticeLines& lines,
-                         const VoxelIndex& wanted, std::span<const FaceAlbedo> albedo, int bounces)
-    : steps_(bounces + 1), lines_(lines), wanted_(wanted), albedo_(albedo) {
+                         const VoxelIndex& wanted, const GlassTints& tints,
+                         std::span<const FaceAlbedo> albedo, int bounces)
+    : steps_(bounces + 1), lines_(lines), wanted_(wanted), tints_(tints), albedo_(albedo) {
   numbers_.assign(wanted_.size() * 6, 0);
   for (const auto& [at, chunk] : chunks) {
     const IVec3 corner = corner_of(at);
@@ -184,12 +201,7 @@ void BounceLight::forget_voxel(std::size_t number) {
 BounceLight::Light BounceLight::reflected(const Face& face, Light light) const {
   const glm::vec3 share =
       face.block < albedo_.size() ? albedo_[face.block][face.direction] / kPi : glm::vec3(0.0f);
-  const float before = luminance(light.mean);
-  light.mean *= share;
-  light.lamps *= share;
-  const float kept = before > 0.0f ? luminance(light.mean) / before : luminance(share);
-  for (float& shape : light.shape) shape *= kept;
-  return light;
+  return light.tint(share);
 }
 
 // --- Lines ---
@@ -314,7 +326,35 @@ void BounceLight::relight(IVec3 voxel) {
     if (const Number number = numbers_[base + direction]) relit_.add(number - 1);
 }
 
+void BounceLight::retint(IVec3 voxel) {
+  relight(voxel);
+  const std::size_t base = wanted_.of(voxel) * 6;
+  for (std::size_t direction = 0; direction < 6; ++direction)
+    if (const Number number = numbers_[base + direction]) relooked_.add(number - 1);
+}
+
 // --- Light ---
+
+/// Of the sky, what a face loses to glass: to be taken from its direct light.
+BounceLight::Light BounceLight::lost_to_glass(std::size_t voxel, const Face& face,
+                                              std::span<const SeenSky> seen) const {
+  const Hemisphere& way = hemisphere(face.direction);
+  Light lost;
+  for (const int octant : way.octants) {
+    const GlassTints::Tints* tints = tints_.find(voxel, octant);
+    if (tints == nullptr) continue;
+    const std::uint32_t bits = seen[voxel][static_cast<std::size_t>(octant)];
+    for (const GlassTints::Tint& tint : *tints) {
+      if ((bits >> tint.pattern & 1u) == 0) continue;
+      const auto& basis = vector_harmonics()[LatticeLines::way_number(octant, tint.pattern)];
+      const glm::vec3 share = (1.0f - tint.left) * way.weight[tint.pattern];
+      lost.mean += share * basis[0];
+      for (std::size_t i = 0; i < lost.shape.size(); ++i)
+        lost.shape[i] += luminance(share) * basis[i + 1];
+    }
+  }
+  return lost;
+}
 
 BounceLight::Light BounceLight::direct_of(const Face& face, std::span<const SeenSky> seen,
                                           const LampLightMap& lamps) const {
@@ -334,6 +374,10 @@ BounceLight::Light BounceLight::direct_of(const Face& face, std::span<const Seen
   Light out;
   out.mean = glm::vec3(sum[0]);
   std::copy(sum.begin() + 1, sum.end(), out.shape.begin());
+  if (tints_.has(voxel)) {
+    out.add(lost_to_glass(voxel, face, seen), -1.0f);
+    out.mean = glm::max(out.mean, glm::vec3(0.0f));  // but for rounding
+  }
   if (const LampLight* lit = lamps.find(voxel)) out.lamps = (*lit)[face.direction];
   return out;
 }
@@ -348,21 +392,31 @@ BounceLight::Light BounceLight::gathered(Number number, int step) const {
   float looked = 0.0f;
   for (std::size_t k = first; k < kPatterns; k += every) looked += way.weight[k];
   const float whole = kIrradianceOfOctant / looked;
+  const std::size_t voxel = tints_.any() ? wanted_.of(face.front) : 0;
   const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
   Light sum;
-  for (std::size_t quarter = 0; quarter < 4; ++quarter)
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const GlassTints::Tints* tints =
+        tints_.any() ? tints_.find(voxel, way.octants[quarter]) : nullptr;
     for (std::size_t k = first; k < kPatterns; k += every, ++source) {
       if (*source == kNothing) continue;
       const float weight = way.weight[k] * whole;
+      const GlassTints::Tint* tint = tints ? tint_of(*tints, k) : nullptr;
+      const auto add = [&](Number from, float share) {
+        Light light = unpacked(leaving[from - 1]);
+        if (tint) light.tint(tint->left);
+        sum.add(light, share);
+      };
       if ((*source & kSeveral) == 0) {
-        sum.add(unpacked(leaving[*source - 1]), weight);
+        add(*source, weight);
         continue;
       }
       const Source place = *source & ~kSeveral;
       const Several& several = several_[place % kParts][place / kParts];
       for (const Number from : several.faces)
-        if (from != 0) sum.add(unpacked(leaving[from - 1]), weight * several.share);
+        if (from != 0) add(from, weight * several.share);
     }
+  }
   return sum;
 }
 

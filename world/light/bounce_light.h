@@ -9,6 +9,7 @@
 
 #include "engine/core/harmonics.h"
 #include "world/light/air_volume.h"
+#include "world/light/glass_tints.h"
 #include "world/light/lamp_light.h"
 #include "world/light/lattice_lines.h"
 #include "world/light/marked.h"
@@ -52,6 +53,8 @@ class BounceLight {
     Light& operator+=(const Light& other) { return add(other, 1.0f); }
     Light& operator*=(float factor);
     Light& add(const Light& other, float weight);
+    /// What is left of it after something that takes a share of each colour.
+    Light& tint(const glm::vec3& left);
   };
   using Number = std::uint32_t;  ///< of a face
 
@@ -62,7 +65,7 @@ class BounceLight {
   /// @param wanted holds the voxel before each face and that of each plant. All but the chunks must
   /// outlive this. @param albedo by block id. @param bounces 1 to kBounces, fewer for comparison.
   BounceLight(const LightChunks& chunks, const LatticeLines& lines, const VoxelIndex& wanted,
-              std::span<const FaceAlbedo> albedo, int bounces = kBounces);
+              const GlassTints& tints, std::span<const FaceAlbedo> albedo, int bounces = kBounces);
 
   /// One more than bounces.
   int steps() const { return steps_; }
@@ -105,6 +108,8 @@ class BounceLight {
   void look_from(IVec3 voxel, const SeenSky& seen);
   /// The direct light of the faces before which a voxel is has changed.
   void relight(IVec3 voxel);
+  /// Glass leaves another share of what comes along lines of the faces before which a voxel is.
+  void retint(IVec3 voxel);
 
   struct Changed {
     IVec3 front{};
@@ -157,6 +162,7 @@ class BounceLight {
   Number entered(IVec3 voxel, const LatticeLines::Touched& touched) const;
   Source look(IVec3 from, int octant, std::size_t pattern, std::size_t part);
   void look_along(Number number, const SeenSky& seen, std::size_t part);
+  Light lost_to_glass(std::size_t voxel, const Face& face, std::span<const SeenSky> seen) const;
   Light direct_of(const Face& face, std::span<const SeenSky> seen, const LampLightMap& lamps) const;
   Light gathered(Number number, int step) const;
   PackedLight light_of(Number number, int step, std::span<const SeenSky> seen,
@@ -173,6 +179,7 @@ class BounceLight {
   int steps_;
   const LatticeLines& lines_;
   const VoxelIndex& wanted_;
+  const GlassTints& tints_;
   std::span<const FaceAlbedo> albedo_;
   std::vector<Face> faces_;
   std::vector<Number> free_faces_;

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "shaders/shared/occupancy.h"
+#include "world/light/shared_exponent.h"
 
 namespace skerry::world {
 namespace {
@@ -60,12 +61,13 @@ namespace {
 
 /// @param before null, or where faces that have a record there find it: in place of append().
 ChunkSky pack(std::span<const shared::Quad> quads, const ChunkSky* before,
-              const AppendRecord& append) {
-  constexpr std::size_t kRecord = shared::kIndirectRecordTexels;
+              const AppendRecord& append, std::uint32_t record_texels) {
+  const std::size_t record = record_texels;
   FacesByBrick faces;
   for (const shared::Quad& quad : quads)
     for_each_face(quad, [&](const DrawnFace& face) { faces.add(face); });
   ChunkSky out;
+  out.record_texels = record_texels;
   out.table.assign(shared::kBricksPerChunk, 0);
   if (before) out.texels.reserve(before->texels.size() + before->texels.size() / 16);
   out.texels.assign(faces.count() * shared::kIndirectBrickTexels, glm::uvec4(0));
@@ -92,7 +94,7 @@ ChunkSky pack(std::span<const shared::Quad> quads, const ChunkSky* before,
         if (old_brick != 0)
           old = before->texels[(old_brick - 1) * shared::kIndirectBrickTexels + in_brick];
         if (old[half] == mask) {
-          copy(old[2 + half], kRecord * static_cast<std::size_t>(std::popcount(mask)));
+          copy(old[2 + half], record * static_cast<std::size_t>(std::popcount(mask)));
           continue;
         }
         for (std::uint32_t left = mask; left != 0; left &= left - 1) {
@@ -100,7 +102,7 @@ ChunkSky pack(std::span<const shared::Quad> quads, const ChunkSky* before,
           const std::uint32_t one = 1u << bit;
           if ((old[half] & one) != 0) {
             const int earlier = std::popcount(old[half] & (one - 1));
-            copy(old[2 + half] + kRecord * static_cast<std::size_t>(earlier), kRecord);
+            copy(old[2 + half] + record * static_cast<std::size_t>(earlier), record);
             continue;
           }
           const bool plant = direction == 2 && (brick.plants[word] & one) != 0;
@@ -113,13 +115,43 @@ ChunkSky pack(std::span<const shared::Quad> quads, const ChunkSky* before,
 
 }  // namespace
 
-ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append) {
-  return pack(quads, nullptr, append);
+glm::uvec4 white_tint() {
+  return glm::uvec4(pack_shared_exponent(glm::vec3(1.0f)));
+}
+
+ChunkSky with_tints(const ChunkSky& before, bool all) {
+  const auto masks_end = static_cast<std::size_t>(std::ranges::max(before.table)) *
+                         std::size_t{shared::kIndirectBrickTexels};
+  constexpr std::size_t kPlain = shared::kIndirectRecordTexels;
+  const std::size_t old = before.record_texels;
+  bool any = all;
+  for (std::size_t at = masks_end; at < before.texels.size() && old > kPlain && !any; at += old)
+    any = before.texels[at + kPlain] != white_tint();
+  const std::size_t now = any ? kPlain + 1 : kPlain;
+  if (now == old) return before;
+  ChunkSky out{before.table, {}, static_cast<std::uint32_t>(now)};
+  out.texels.reserve(masks_end + (before.texels.size() - masks_end) / old * now);
+  out.texels.assign(before.texels.begin(),
+                    before.texels.begin() + static_cast<std::ptrdiff_t>(masks_end));
+  for (glm::uvec4& masks : out.texels)
+    for (const int half : {2, 3})
+      masks[half] = static_cast<std::uint32_t>(masks_end + (masks[half] - masks_end) / old * now);
+  for (std::size_t at = masks_end; at < before.texels.size(); at += old) {
+    const auto record = before.texels.begin() + static_cast<std::ptrdiff_t>(at);
+    out.texels.insert(out.texels.end(), record, record + static_cast<std::ptrdiff_t>(kPlain));
+    if (any) out.texels.push_back(white_tint());
+  }
+  return out;
+}
+
+ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append,
+                    std::uint32_t record_texels) {
+  return pack(quads, nullptr, append, record_texels);
 }
 
 ChunkSky repack_faces(const ChunkSky& before, std::span<const shared::Quad> quads,
                       const AppendRecord& append) {
-  return pack(quads, &before, append);
+  return pack(quads, &before, append, before.record_texels);
 }
 
 std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int direction) {
@@ -133,7 +165,7 @@ std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int d
   const auto half = static_cast<int>(word % 2);
   const std::uint32_t bit = 1u << bit_of(voxel);
   if ((masks[half] & bit) == 0) return std::nullopt;
-  return masks[2 + half] + shared::kIndirectRecordTexels *
+  return masks[2 + half] + std::size_t{chunk.record_texels} *
                                static_cast<std::size_t>(std::popcount(masks[half] & (bit - 1)));
 }
 
@@ -219,7 +251,7 @@ std::vector<shared::Quad> lit_faces(const ChunkSky& before, std::span<const shar
 ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
   return repack_faces(before, quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
     const std::optional<std::size_t> from = nearest_record(before, face);
-    for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
+    for (std::size_t i = 0; i < before.record_texels; ++i)
       texels.push_back(from ? before.texels[*from + i] : glm::uvec4(0));
   });
 }
@@ -235,7 +267,7 @@ void copy_brick(const ChunkSky& before, std::uint32_t from, std::uint32_t to,
   const glm::uvec4 last = masks[kMasks - 1];
   const std::uint32_t begin = masks[0].z;
   const std::uint32_t end =
-      last.w + shared::kIndirectRecordTexels * static_cast<std::uint32_t>(std::popcount(last.y));
+      last.w + before.record_texels * static_cast<std::uint32_t>(std::popcount(last.y));
   const std::uint32_t moved = static_cast<std::uint32_t>(texels.size()) - begin;  // may wrap
   for (std::size_t i = 0; i < kMasks; ++i)
     texels[(to - 1) * kMasks + i] =
@@ -254,6 +286,7 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
     });
   if (fresh.count() == 0) return before;
   ChunkSky out;
+  out.record_texels = before.record_texels;
   out.table.assign(shared::kBricksPerChunk, 0);
   std::uint32_t stored = 0;
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at)
@@ -261,7 +294,7 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
   out.texels.reserve(before.texels.size() + fresh.count() * shared::kIndirectBrickTexels);
   out.texels.assign(stored * shared::kIndirectBrickTexels, glm::uvec4(0));
   const auto append = [&](std::optional<std::size_t> record) {
-    for (std::size_t i = 0; i < shared::kIndirectRecordTexels; ++i)
+    for (std::size_t i = 0; i < before.record_texels; ++i)
       out.texels.push_back(record ? before.texels[*record + i] : glm::uvec4(0));
   };
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
@@ -286,7 +319,7 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
           const int bit = std::countr_zero(left);
           if ((old[half] >> bit & 1u) != 0) {
             append(next);
-            next += shared::kIndirectRecordTexels;
+            next += before.record_texels;
           } else {
             append(nearest_record(before,
                                   {voxel_at(at, word, bit), static_cast<int>(direction), false}));

@@ -18,6 +18,9 @@ struct ChunkSky {
   std::vector<std::uint32_t> table;  ///< a word a brick: 0, or 1 + which of the stored bricks it is
   /// The stored bricks' masks, then records. Records are counted from 0 in texels of this list.
   std::vector<glm::uvec4> texels;
+  /// Of a record: one more if the sky of any face is tinted by glass.
+  std::uint32_t record_texels = shared::kIndirectRecordTexels;
+  bool tinted() const { return record_texels != shared::kIndirectRecordTexels; }
   bool operator==(const ChunkSky&) const = default;
 };
 
@@ -69,11 +72,19 @@ void for_each_face(const shared::Quad& quad, const Fn& fn) {
       fn(DrawnFace{low + axis_vector(along_u, i) + axis_vector(along_v, j), face, false});
 }
 
+/// A record's last texel if its face sees no sky through glass: white at all corners.
+glm::uvec4 white_tint();
+/// With a tint for each record if there is one that is not white, else with none.
+/// @param all with a tint for each, white or not.
+ChunkSky with_tints(const ChunkSky& before, bool all = false);
+
 /// Makes the records of a chunk's faces, in an order that does not depend on that of its quads.
-/// @param append adds a face's record, kIndirectRecordTexels, to the list.
+/// @param append adds a face's record to the list. @param record_texels that it adds.
 using AppendRecord = std::function<void(const DrawnFace&, std::vector<glm::uvec4>&)>;
-ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append);
-/// Alike, but faces that have a record before keep it. @param append of the others.
+ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append,
+                    std::uint32_t record_texels = shared::kIndirectRecordTexels);
+/// Alike, but faces that have a record before keep it. @param append of the others, as many texels
+/// as those have.
 ChunkSky repack_faces(const ChunkSky& before, std::span<const shared::Quad> quads,
                       const AppendRecord& append);
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "engine/core/check.h"
+#include "world/light/glass_tints.h"
 
 namespace skerry::world {
 namespace {
@@ -27,12 +29,13 @@ float solid_angle_of_face(float b, float c, float height) {
          corner(b - 0.5f, c - 0.5f);
 }
 
-/// What is left of the light between two points, 0..1. Steps through the voxels that the line
-/// touches.
+/// What is left of the light between two points, 0..1 of each colour. Steps through the voxels that
+/// the line touches.
 class Line {
  public:
   Line(const AirVolume& air, glm::dvec3 from, glm::dvec3 to) : air_(air) {
     const glm::dvec3 way = to - from;
+    length_ = glm::length(way);
     for (int a = 0; a < 3; ++a) {
       at_[a] = floor_to_int(from[a]);
       end_[a] = floor_to_int(to[a]);
@@ -43,18 +46,29 @@ class Line {
     }
   }
 
-  float clear() {
+  glm::vec3 clear() {
     while (left_ > 0.0f && at_ != end_) {
-      const double t = std::min({next_[0], next_[1], next_[2]});
+      const double t = std::min({next_[0], next_[1], next_[2], 1.0});
+      pass_glass(t);
       if (t >= 1.0) break;
       std::array<bool, 3> crosses{};
       for (std::size_t a = 0; a < 3; ++a) crosses[a] = next_[static_cast<int>(a)] <= t + kTogether;
       pass(crosses);
     }
-    return left_;
+    return left_ * tint_;
   }
 
  private:
+  // A face before which there is glass lies at the far side of it, not in its middle.
+  void pass_glass(double to) {
+    const double from = std::exchange(passed_, to);
+    if (air_.stained.empty()) return;
+    const BlockId block = air_.stained.at({at_.x, at_.y, at_.z});
+    if (block == kAir) return;
+    const double voxels = (to - from) * length_ * (from == 0.0 ? 2.0 : 1.0);
+    tint_ *= left_by_glass(block, static_cast<float>(voxels) * air_.stained.voxel_blocks());
+  }
+
   // Where the line crosses several borders at once, all voxels about that point but the one it came
   // from are touched.
   void pass(const std::array<bool, 3>& crosses) {
@@ -86,7 +100,9 @@ class Line {
   const AirVolume& air_;
   glm::ivec3 at_{}, end_{}, step_{};
   glm::dvec3 next_{}, every_{};
+  double length_ = 0.0, passed_ = 0.0;  // of the whole way; share of it
   float left_ = 1.0f;
+  glm::vec3 tint_{1.0f};
 };
 
 }  // namespace
@@ -97,8 +113,8 @@ LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel)
                          static_cast<float>(voxel.z) + 0.5f);
   const glm::vec3 from_middle = lamp.place - middle;
   if (glm::dot(from_middle, from_middle) >= lamp.range * lamp.range) return out;
-  const float clear = Line(air, glm::dvec3(middle), glm::dvec3(lamp.place)).clear();
-  if (clear == 0.0f) return out;
+  const glm::vec3 clear = Line(air, glm::dvec3(middle), glm::dvec3(lamp.place)).clear();
+  if (clear == glm::vec3(0.0f)) return out;
   for (std::size_t face = 0; face < 6; ++face) {
     // What lies behind the voxel is half a voxel farther from the lamp than its middle.
     const auto axis = static_cast<int>(face / 2);

@@ -16,7 +16,8 @@ using LampLight = std::array<glm::vec3, 6>;
 
 /// What a lamp gives a voxel: nothing unless the line to its middle is clear. A line that passes
 /// where voxels meet at an edge or a corner needs all of them clear; leaves take half, plants a
-/// quarter; the lamp's own voxel hides nothing. @param lamp place from the lattice's origin.
+/// quarter, stained glass what its colour does; the lamp's own voxel hides nothing. @param lamp
+/// place from the lattice's origin.
 /// @return zeros: none.
 LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel);
 

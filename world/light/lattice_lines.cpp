@@ -52,11 +52,15 @@ LatticeLines::Way LatticeLines::way_along(IVec3 vector) const {
     places.push_back(place);
   }
   std::ranges::stable_sort(places, {}, &Place::order);
-  Way way{vector, {}};
+  Way way{vector, {}, 4 / std::max({n[0], n[1], n[2]})};
   int group = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (i != 0 && places[i].order() != places[i - 1].order()) ++group;
-    Touched touched{places[i].offset, solid_.bit_step(places[i].offset), group, {-1, -1, -1}};
+    Touched touched{places[i].offset,
+                    solid_.bit_step(places[i].offset),
+                    group,
+                    places[i].leave - places[i].enter,
+                    {-1, -1, -1}};
     // It can be entered from what the line touches before it, or from where the line begins.
     std::size_t entries = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -106,6 +110,13 @@ bool LatticeLines::stopped(IVec3 from, std::size_t number) const {
   for (const Touched& t : way.touched) any |= solid_.bit(at + t.step);
   if (!any || !air_.has_leaves) return any;
   return std::any_of(way.touched.begin(), way.touched.end(), closed);
+}
+
+int LatticeLines::stopping_group(IVec3 from, std::size_t number) const {
+  const std::vector<Touched>& touched = ways_[number].touched;
+  return std::ranges::find_if(touched,
+                              [&](const Touched& t) { return !open(from + t.offset, number); })
+      ->group;
 }
 
 std::optional<IVec3> LatticeLines::end_of(IVec3 from, std::size_t way) const {

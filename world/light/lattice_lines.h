@@ -19,12 +19,14 @@ class LatticeLines {
     IVec3 offset{};
     std::ptrdiff_t step = 0;  ///< between the numbers of their bits
     int group = 0;            ///< those of a group are touched at once
+    int eighths = 0;          ///< of the vector that lie in the voxel; 0: an edge or a corner of it
     /// Faces that the line can come in by, from what it has touched before; -1: no more.
     std::array<std::int8_t, 3> entered{-1, -1, -1};
   };
   struct Way {
     IVec3 vector{};
     std::vector<Touched> touched;  ///< in the order of the line
+    int own_eighths = 0;           ///< of the vector that lie in the voxel that it begins in
   };
   static constexpr std::size_t kWays = kOctants * shared::kSkyPatternCount;
   static constexpr std::size_t way_number(int octant, std::size_t pattern) {
@@ -42,6 +44,8 @@ class LatticeLines {
   bool open(IVec3 voxel, std::size_t way) const;
   /// Whether a line touches what is not open on its way once along the vector.
   bool stopped(IVec3 from, std::size_t way) const;
+  /// Group of the voxels that stop it there. @pre stopped(from, way)
+  int stopping_group(IVec3 from, std::size_t way) const;
   /// The last voxel of a line from which it gets no further; none: it ends at the sky.
   std::optional<IVec3> end_of(IVec3 from, std::size_t way) const;
 

@@ -1,6 +1,7 @@
 // SkyTransfer's records: what has been found, as means at the corners of faces in the GPU's words.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "world/light/shared_exponent.h"
@@ -32,10 +33,10 @@ struct SkyTransfer::Around {
 
 namespace {
 
+using LobeShares = std::array<std::uint32_t, shared::kSkyLobes>;  // of 65280
+
 // Of the ground's sky, that a plant on it takes: 1/4, as BounceLight::kUnderPlant has it.
 constexpr std::uint32_t kPartUnderPlant = 4;
-
-using LobeShares = std::array<std::uint32_t, shared::kSkyLobes>;  // of 65280
 
 /// What a face's lobes see of the sky from a voxel.
 LobeShares lobes_from(const SeenSky& seen, const FaceAxes& axes) {
@@ -44,6 +45,46 @@ LobeShares lobes_from(const SeenSky& seen, const FaceAxes& axes) {
     const int octant = (axes.sign < 0 ? 1 << axes.own : 0) | (quarter & 1 ? 1 << axes.b : 0) |
                        (quarter & 2 ? 1 << axes.c : 0);
     add_lobes_seen(axes.own, octant, seen[static_cast<std::size_t>(octant)], out);
+  }
+  return out;
+}
+
+/// Light of an even sky on a face from a voxel, as its lobes say and by colour.
+struct Tinted {
+  glm::vec3 light{0.0f};
+  float lobes = 0.0f;
+  Tinted& operator+=(const Tinted& other) {
+    light += other.light;
+    lobes += other.lobes;
+    return *this;
+  }
+};
+
+/// Takes from the lobes what glass takes of the colour that it takes least of.
+Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxel,
+                  const FaceAxes& axes, LobeShares& lobes) {
+  const LobeWeights& weights = lobe_weights(axes.own);
+  Tinted out;
+  for (int octant = 0; octant < kOctants; ++octant) {
+    if ((octant >> axes.own & 1) != (axes.sign < 0 ? 1 : 0)) continue;
+    const std::uint32_t bits = seen[static_cast<std::size_t>(octant)];
+    for (std::uint32_t left = bits; left != 0; left &= left - 1) {
+      const auto weight = static_cast<float>(weights[std::countr_zero(left)]);
+      out += {glm::vec3(weight), weight};
+    }
+    const GlassTints::Tints* its = tints.find(voxel, octant);
+    if (its == nullptr) continue;
+    for (const GlassTints::Tint& tint : *its) {
+      if ((bits >> tint.pattern & 1u) == 0) continue;
+      const float best = std::max({tint.left.x, tint.left.y, tint.left.z});
+      const auto weight = static_cast<float>(weights[tint.pattern]);
+      out += {weight * (tint.left - 1.0f), weight * (best - 1.0f)};
+      LobeShares lost{};
+      add_lobes_seen(axes.own, octant, 1u << tint.pattern, lost);
+      for (std::size_t lobe = 0; lobe < lobes.size(); ++lobe)
+        lobes[lobe] -= std::min(lobes[lobe], static_cast<std::uint32_t>(std::lround(
+                                                 static_cast<float>(lost[lobe]) * (1.0f - best))));
+    }
   }
   return out;
 }
@@ -99,6 +140,27 @@ SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face, bool p
   return out;
 }
 
+/// Takes from views what glass takes of the light from there. @return a colour a corner: that of an
+/// even sky's light, as seen; where a corner sees no sky, that of the others.
+glm::uvec4 SkyTransfer::tint_corners(const Around& around, const FaceAxes& axes,
+                                     std::span<LobeShares> views) const {
+  std::array<Tinted, 9> tinted{};
+  Tinted all;
+  for (std::size_t at = 0; at < tinted.size(); ++at) {
+    if (!around.air[at]) continue;
+    const std::size_t index = wanted_.of(around.voxels[at]);
+    all += tinted[at] = tint_lobes(seen_[index], tints_, index, axes, views[at]);
+  }
+  glm::uvec4 out = white_tint();
+  for (std::size_t corner = 0; corner < 4 && all.lobes > 0.0f; ++corner) {
+    Tinted sum;
+    for (const std::size_t at : around.about(corner)) sum += tinted[at];
+    if (sum.lobes <= 0.0f) sum = all;
+    out[static_cast<int>(corner)] = pack_shared_exponent(sum.light / sum.lobes);
+  }
+  return out;
+}
+
 /// @param front the voxel before the face. @param plant whether it is that of a plant, which does
 /// not shade itself as it does the ground below it.
 void SkyTransfer::append_record(IVec3 front, int face, bool plant,
@@ -107,6 +169,7 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
   Around around;
   std::array<LobeShares, 9> views{};
   std::array<glm::vec3, 9> lamps{};
+  bool tinted = false;
   for (std::size_t at = 0; at < 9; ++at) {
     const int i = static_cast<int>(at);
     const IVec3 voxel = front + axis_vector(axes.b, i % 3 - 1) + axis_vector(axes.c, i / 3 - 1);
@@ -117,9 +180,12 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
     if (const LampLight* lit = lamp_light_.find(index))
       lamps[at] = (*lit)[static_cast<std::size_t>(face)];
     views[at] = lobes_from(seen_[index], axes);
+    tinted |= tints_.has(index);
     if (!plant && face == 2 && air_.has_leaves && air_.plants.at(voxel))
       for (std::uint32_t& lobe : views[at]) lobe -= lobe / kPartUnderPlant;
   }
+  glm::uvec4 tint = white_tint();
+  if (tinted) tint = tint_corners(around, axes, views);
   const Corners bounces = bounced(around, face, plant);
   std::array<std::uint32_t, 8> words{};
   glm::uvec4 lamp_words(0);
@@ -140,13 +206,16 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
   texels.emplace_back(words[4], words[5], words[6], words[7]);
   texels.push_back(lamp_words);
   texels.push_back(packed(bounces));
+  if (tints_.any()) texels.push_back(tint);
 }
 
 ChunkSky SkyTransfer::faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const {
   const IVec3 corner = corner_of(chunk);
-  return pack_faces(quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
+  const auto append = [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
     append_record(corner + face.voxel + to_front(face), face.direction, face.plant, texels);
-  });
+  };
+  const ChunkSky packed = pack_faces(quads, append, record_texels());
+  return packed.tinted() ? with_tints(packed) : packed;
 }
 
 const SkyTransfer::Skies& SkyTransfer::make_faces() {

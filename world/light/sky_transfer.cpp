@@ -55,7 +55,10 @@ inline void and_row(std::uint64_t* into, const std::uint64_t* row, int by, int w
 
 SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo, int bounces,
                          int spare)
-    : chunks_(std::move(chunks)), air_(air_volume_of(chunks_, 2 + spare)), lines_(air_) {
+    : chunks_(std::move(chunks)),
+      air_(air_volume_of(chunks_, 2 + spare)),
+      lines_(air_),
+      tints_(air_, lines_, wanted_) {
   const IVec3 low = air_.opaque.low(), size = air_.opaque.size();
   if (size.x == 0) return;
   VoxelBits wanted(low, size, false);
@@ -76,7 +79,7 @@ SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo,
   wanted_ = VoxelIndex(std::move(wanted));
   most_numbers_ = wanted_.size() + wanted_.size() / 4 + kSpareNumbers;
   seen_.assign(wanted_.size(), SeenSky{});
-  if (!albedo.empty()) bounces_.emplace(chunks_, lines_, wanted_, albedo, bounces);
+  if (!albedo.empty()) bounces_.emplace(chunks_, lines_, wanted_, tints_, albedo, bounces);
 }
 
 void SkyTransfer::look(int octant) {
@@ -88,6 +91,7 @@ void SkyTransfer::look(int octant) {
     for (int pattern = set; pattern < static_cast<int>(shared::kSkyPatternCount); pattern += sets)
       look_along(octant, pattern, open, passed);
   }
+  tints_.look(octant);
 }
 
 // From the far end of the box on: what a voxel sees is what the voxel one vector further lets past,
@@ -158,7 +162,7 @@ void SkyTransfer::spread(const Lamp& lamp, LampLightMap& into) const {
 
 std::size_t SkyTransfer::bytes() const {
   return seen_.size() * sizeof(SeenSky) + lamp_light_.bytes() + all_lamps_.bytes() +
-         (bounces_ ? bounces_->bytes() : 0);
+         tints_.bytes() + (bounces_ ? bounces_->bytes() : 0);
 }
 
 void SkyTransfer::follow_bounces(int step, int part) {

@@ -13,6 +13,7 @@
 #include "world/light/air_volume.h"
 #include "world/light/bounce_light.h"
 #include "world/light/face_records.h"
+#include "world/light/glass_tints.h"
 
 namespace skerry::world {
 
@@ -23,8 +24,9 @@ namespace skerry::world {
 /// A voxel sees the sky along one of 128 lattice vectors when the line to the next voxel along it,
 /// to the next but one and so on, touches air only. Such a line's voxels hang together by their
 /// faces: what is sealed off by blocks that meet at faces, edges or corners sees no sky at all.
-/// Leaves stop a ray in half of their voxels. A face's corner has the mean of the voxels about it
-/// that are in front of the face and connected to each other by their faces.
+/// Leaves stop a ray in half of their voxels. Stained glass stops none, and takes of the light
+/// along each what Beer's law says. A face's corner has the mean of the voxels about it that are in
+/// front of the face and connected to each other by their faces.
 class SkyTransfer {
  public:
   /// @param albedo by block id; empty: no light is followed from face to face. It must outlive
@@ -108,7 +110,13 @@ class SkyTransfer {
   }
   void spread(const Lamp& lamp, LampLightMap& into) const;
   Corners bounced(const Around& around, int face, bool plant) const;
+  glm::uvec4 tint_corners(const Around& around, const FaceAxes& axes,
+                          std::span<std::array<std::uint32_t, shared::kSkyLobes>> views) const;
+  std::uint32_t record_texels() const {
+    return shared::kIndirectRecordTexels + (tints_.any() ? 1 : 0);
+  }
   ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const;
+  /// Its texels: one more than kIndirectRecordTexels if there is any glass.
   void append_record(IVec3 front, int face, bool plant, std::vector<glm::uvec4>& texels) const;
 
   LightChunks chunks_;
@@ -116,8 +124,9 @@ class SkyTransfer {
   LatticeLines lines_;
   VoxelIndex wanted_;          // voxels whose view is kept
   std::vector<SeenSky> seen_;  // by their numbers
-  LampLightMap lamp_light_;    // of weak lamps
-  LampLightMap all_lamps_;     // whose light is followed further
+  GlassTints tints_;
+  LampLightMap lamp_light_;  // of weak lamps
+  LampLightMap all_lamps_;   // whose light is followed further
   std::optional<BounceLight> bounces_;
   Skies skies_;
   std::size_t most_numbers_ = 0;  // of voxels, that edits may make

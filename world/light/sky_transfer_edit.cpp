@@ -47,7 +47,9 @@ class SkyTransfer::Edit {
     if (of_.bounces_ && of_.bounces_->is_worn()) return false;
     if (of_.seen_.empty()) return false;
     find_chunks();
+    const bool had_glass = of_.tints_.any();
     if (!take_chunks() || !want_voxels()) return false;
+    if (had_glass && !of_.tints_.any()) return false;  // records are of other sizes
     take_faces();
     look_again();
     spread_again();
@@ -140,6 +142,7 @@ class SkyTransfer::Edit {
       of_.seen_[m.to] = of_.seen_[m.from];
       of_.lamp_light_.move(m.from, m.to);
       of_.all_lamps_.move(m.from, m.to);
+      of_.tints_.move(m.from, m.to);
     }
     if (of_.bounces_) of_.bounces_->move_voxels(moved);
   }
@@ -150,6 +153,7 @@ class SkyTransfer::Edit {
     move(of_.wanted_.add(voxel));
     const std::size_t number = of_.wanted_.of(voxel);
     of_.seen_[number] = {};
+    of_.tints_.forget(number);
     if (of_.bounces_) of_.bounces_->forget_voxel(number);
     wanted_.push_back(voxel);
     return of_.wanted_.size() <= of_.most_numbers_;
@@ -159,6 +163,7 @@ class SkyTransfer::Edit {
     const std::size_t number = of_.wanted_.of(voxel);
     of_.lamp_light_.set(number, {});
     of_.all_lamps_.set(number, {});
+    of_.tints_.forget(number);
     if (of_.bounces_)
       for (int direction = 0; direction < 6; ++direction)
         for (const bool plant : {false, true}) of_.bounces_->remove_face(voxel, direction, plant);
@@ -198,11 +203,13 @@ class SkyTransfer::Edit {
         if (!of_.lines_.end_of(voxel, way))
           seen[way / shared::kSkyPatternCount] |=
               static_cast<std::uint16_t>(1u << way % shared::kSkyPatternCount);
+      tint_from(voxel);
       changed_at(voxel);
     }
     for (const IVec3& voxel : voxels_) {
       redo_around(voxel);  // whether it is air
       look_through(voxel);
+      if (of_.wanted_.has(voxel)) tint_from(voxel);  // whether it is glass
     }
     for (const IVec3& voxel : through_) look_through(voxel);
     if (!of_.bounces_) return;
@@ -222,10 +229,18 @@ class SkyTransfer::Edit {
                    voxel.z - touched.offset.z};
         if (!of_.lines_.inside(from)) continue;
         std::optional<Ending> ending;
+        std::optional<GlassTints::Depth> glass;
         do {
+          if (glass) {
+            const GlassTints::Depth step = of_.tints_.depth_of_step(from, number);
+            for (std::size_t channel = 0; channel < 3; ++channel)
+              (*glass)[channel] += step[channel];
+          }
           if (of_.wanted_.has(from)) {
             if (!ending) ending = ending_of(from, number);
             set_line(from, number, *ending);
+            if (of_.tints_.any() && !glass) glass = of_.tints_.depth_from(from, number);
+            if (glass) set_tint(from, number, *glass);
           }
           from = from + back;
         } while (of_.lines_.inside(from) && !of_.lines_.stopped(from, number));
@@ -249,6 +264,18 @@ class SkyTransfer::Edit {
     const std::uint16_t now = static_cast<std::uint16_t>(ending.sky ? seen | bit : seen & ~bit);
     if (std::exchange(seen, now) != now) changed_at(voxel);
     if (of_.bounces_) of_.bounces_->set_line(voxel, way, ending.source);
+  }
+
+  void set_tint(IVec3 voxel, std::size_t way, const GlassTints::Depth& depth) {
+    if (!of_.tints_.set(voxel, way, depth)) return;
+    changed_at(voxel);
+    if (of_.bounces_) of_.bounces_->retint(voxel);
+  }
+  /// Along all lines of a voxel.
+  void tint_from(IVec3 voxel) {
+    if (!of_.tints_.any()) return;
+    for (std::size_t way = 0; way < LatticeLines::kWays; ++way)
+      set_tint(voxel, way, of_.tints_.depth_from(voxel, way));
   }
 
   /// A voxel's direct light, or what it sees of the sky, has changed.
@@ -413,20 +440,34 @@ class SkyTransfer::Edit {
         redo_record(at, voxel, direction, *known->second, sky);
       if (sky) known->second = std::move(sky);
     }
+    if (!of_.tints_.any()) return;
+    for (const IVec3& at : reshaped_) by_chunk[at];
+    for (const auto& [at, faces] : by_chunk) {
+      const auto known = of_.skies_.find(at);
+      if (known == of_.skies_.end() || !known->second->tinted()) continue;
+      ChunkSky narrow = with_tints(*known->second);
+      if (!narrow.tinted()) known->second = std::make_shared<const ChunkSky>(std::move(narrow));
+    }
   }
 
+  static std::span<const glm::uvec4> record_of(const ChunkSky& sky, std::size_t at,
+                                               std::size_t texels) {
+    return std::span(sky.texels).subspan(at, texels);
+  }
   void redo_record(IVec3 at, IVec3 voxel, int direction, const ChunkSky& known,
                    std::shared_ptr<ChunkSky>& sky) {
     const IVec3 corner = corner_of(at);
     const IVec3 local{voxel.x - corner.x, voxel.y - corner.y, voxel.z - corner.z};
-    const std::optional<std::size_t> record = find_record(known, local, direction);
+    std::optional<std::size_t> record = find_record(known, local, direction);
     if (!record) return;
     const bool plant = direction == 2 && of_.air_.has_leaves && of_.air_.plants.at(voxel);
     texels_.clear();
     of_.append_record(voxel + to_front({local, direction, plant}), direction, plant, texels_);
-    if (std::equal(texels_.begin(), texels_.end(),
-                   known.texels.begin() + static_cast<std::ptrdiff_t>(*record)))
-      return;
+    const ChunkSky& now = sky ? *sky : known;
+    if (texels_.size() > now.record_texels && texels_.back() == white_tint()) texels_.pop_back();
+    if (texels_.size() > now.record_texels) sky = std::make_shared<ChunkSky>(with_tints(now, true));
+    if (sky) record = find_record(*sky, local, direction);
+    if (std::ranges::equal(texels_, record_of(sky ? *sky : known, *record, texels_.size()))) return;
     if (!sky) sky = std::make_shared<ChunkSky>(known);
     std::ranges::copy(texels_, sky->texels.begin() + static_cast<std::ptrdiff_t>(*record));
   }
@@ -443,9 +484,12 @@ class SkyTransfer::Edit {
       of_.append_record(corner + face.voxel + to_front(face), face.direction, face.plant, texels);
     };
     const auto known = of_.skies_.find(at);
-    of_.skies_[at] = fresh_[at] = std::make_shared<ChunkSky>(
-        known == of_.skies_.end() ? pack_faces(quads, append)
-                                  : repack_faces(*known->second, quads, append));
+    const auto make = [&] {
+      if (known == of_.skies_.end()) return pack_faces(quads, append, of_.record_texels());
+      if (!of_.tints_.any()) return repack_faces(*known->second, quads, append);
+      return repack_faces(with_tints(*known->second, true), quads, append);
+    };
+    of_.skies_[at] = fresh_[at] = std::make_shared<ChunkSky>(make());
   }
 
   SkyTransfer& of_;

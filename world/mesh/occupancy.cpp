@@ -94,4 +94,18 @@ ChunkOccupancy occupancy_of(std::span<const BlockId> voxels, BlockKind kind) {
   return out;
 }
 
+std::vector<StainedVoxel> stained_voxels_of(std::span<const BlockId> voxels) {
+  SKERRY_ASSERT(voxels.size() == kPaddedVoxels);
+  std::vector<StainedVoxel> out;
+  for (int y = 0; y < kChunkEdge; ++y)
+    for (int x = 0; x < kChunkEdge; ++x) {
+      const BlockId* row =
+          &voxels[static_cast<std::size_t>(1 + kPaddedEdge * (x + 1 + kPaddedEdge * (y + 1)))];
+      for (int z = 0; z < kChunkEdge; ++z)
+        if (is_stained_glass(row[z]))
+          out.push_back({static_cast<std::uint32_t>(z | x << 6 | y << 12), row[z]});
+    }
+  return out;
+}
+
 }  // namespace skerry::world

@@ -19,4 +19,13 @@ struct ChunkOccupancy {
 /// @param voxels kPaddedVoxels block ids, as mesh_chunk takes them; the shell is not looked at.
 ChunkOccupancy occupancy_of(std::span<const BlockId> voxels, BlockKind kind = BlockKind::kOpaque);
 
+/// A voxel of stained glass.
+struct StainedVoxel {
+  std::uint32_t place = 0;  ///< in its chunk: bits 0-5 z, 6-11 x, 12-17 y
+  BlockId block = kAir;
+  bool operator==(const StainedVoxel&) const = default;
+};
+/// Those of a chunk, ascending by place. @param voxels as occupancy_of() takes them.
+std::vector<StainedVoxel> stained_voxels_of(std::span<const BlockId> voxels);
+
 }  // namespace skerry::world

@@ -373,7 +373,7 @@ std::size_t hand_out(const SectionKey& key, StreamSlot& slot, StreamUpdate& upda
   if (slot.resident)
     update.ready.push_back({key, std::exchange(slot.mesh, {}), std::exchange(slot.leaves, {}),
                             std::exchange(slot.occupancy, {}), std::exchange(slot.emitters, {}),
-                            std::exchange(slot.seams, {})});
+                            std::exchange(slot.seams, {}), std::exchange(slot.stained, {})});
   return quads;
 }
 

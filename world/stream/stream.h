@@ -46,6 +46,7 @@ struct ReadySection {
                                   ///< one at least is not empty
   std::vector<Emitter> emitters;  ///< of the mesh
   SeamFaces seams;                ///< none of far sections
+  std::vector<StainedVoxel> stained{};  ///< stained glass; none unless asked for occupancy
 };
 
 /// What to change: first remove, then add. A key that is replaced stands in both lists.

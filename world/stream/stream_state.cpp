@@ -36,6 +36,15 @@ bool has_cutouts(const ChunkMesh& mesh) {
   return mesh.range_end[shared::kRangePlant - 1] != mesh.range_end[shared::kRangeCutout - 1];
 }
 
+/// Whether it shows a face of stained glass.
+bool has_stained_glass(const ChunkMesh& mesh) {
+  return std::any_of(
+      mesh.quads.begin() + mesh.range_end[shared::kRangeTranslucent - 1], mesh.quads.end(),
+      [](const shared::Quad& quad) {
+        return is_stained_glass(static_cast<BlockId>(shared::surface_block(quad.material)));
+      });
+}
+
 }  // namespace
 
 StreamLevel Streamer::State::start_level(const IslandSpec& spec, int level, bool beyond) {
@@ -234,6 +243,7 @@ void Streamer::State::run(const StreamTask& task, std::unique_lock<std::mutex>& 
     if (any && makes == StreamOf::kMeshesAndOccupancy) {
       chunk.occupancy = occupancy_of(padded, BlockKind::kOpaque);
       if (has_cutouts(chunk.mesh)) chunk.leaves = occupancy_of(padded, BlockKind::kCutout);
+      if (has_stained_glass(chunk.mesh)) chunk.stained = stained_voxels_of(padded);
     }
     if (task.level > 0) close_cutouts(chunk.mesh);
     if (any && makes == StreamOf::kMeshesAndOccupancy) chunk.seams = seam_faces(padded);
@@ -285,6 +295,7 @@ void Streamer::State::note_made(const StreamTask& task, MadeChunk&& chunk) {
   slot.emitters = std::move(chunk.emitters);
   slot.leaves = std::move(chunk.leaves);
   slot.seams = std::move(chunk.seams);
+  slot.stained = std::move(chunk.stained);
   slot.occupancy = std::move(chunk.occupancy);
   const bool nothing_to_say = !slot.has_something() && !slot.resident;
   slot.phase = nothing_to_say ? Phase::kDone : Phase::kMade;

@@ -30,6 +30,7 @@ struct StreamSlot {
   std::vector<Emitter> emitters;
   ChunkOccupancy leaves, occupancy;
   SeamFaces seams;
+  std::vector<StainedVoxel> stained;
   bool has_something() const {
     return !mesh.quads.empty() || occupancy.fill != ChunkOccupancy::Fill::kEmpty;
   }
@@ -98,6 +99,7 @@ struct MadeChunk {
   std::vector<Emitter> emitters;
   ChunkOccupancy leaves, occupancy;
   SeamFaces seams;
+  std::vector<StainedVoxel> stained;
   std::optional<Chunk> voxels;  // of level 0
 };
 

@@ -176,4 +176,11 @@ bool is_glass(BlockId id) {
   return block_kind(id) == kTranslucent && !kTable[id].liquid;
 }
 
+bool is_stained_glass(BlockId id) {
+  constexpr float kLeastSeen = 0.1f;  // absorption a block
+  if (!is_glass(id)) return false;
+  const std::array<float, 3>& absorption = kTable[id].absorption;
+  return std::max({absorption[0], absorption[1], absorption[2]}) >= kLeastSeen;
+}
+
 }  // namespace skerry::world

@@ -218,5 +218,8 @@ BlockId translucent_block(unsigned number);
 bool is_solid(BlockId id);
 /// Whether it is a translucent block that is no liquid.
 bool is_glass(BlockId id);
+/// Whether it is glass that takes a tenth or more of some colour on a block's way: stained glass.
+/// Stored light takes its colour; that of clear glass is not seen.
+bool is_stained_glass(BlockId id);
 
 }  // namespace skerry::world

@@ -29,6 +29,7 @@ struct ChunkSkyLight {
   /// kIndirectBrickTexels of masks for each stored brick, then records, counted from 0.
   std::span<const glm::uvec4> texels;
   bool changed = true;  ///< since it was last put
+  bool tinted = false;  ///< records have a tint
 };
 
 /// How much surfaces see of the sky, on the GPU: one buffer of texels. Writes go through the

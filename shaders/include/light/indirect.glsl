@@ -9,7 +9,7 @@ layout(binding = kIslandSkiesBinding) uniform usamplerBuffer island_skies;
 
 uvec4 indirect_texel(bool known, uint index) { return texelFetch(indirect_texels, int(known ? index : 0u)); }
 
-// Where a surface's record is; 0: it has none.
+// Where a surface's record is, with kIndirectTinted if it has a tint; 0: it has none.
 uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
   ivec3 low = (ivec3(grid.x) << ivec3(22, 12, 2)) >> 22;
   ivec3 size = ivec3(grid.y & 255u, (grid.y >> 8) & 255u, (grid.y >> 16) & 255u);
@@ -20,13 +20,15 @@ uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
   uvec4 bricks = indirect_texel(known, table + uint(brick.y * 16 + brick.x * 2 + (brick.z >> 2)));
   uint first = (brick.z & 2) != 0 ? ((brick.z & 1) != 0 ? bricks.w : bricks.z) : ((brick.z & 1) != 0 ? bricks.y : bricks.x);
   known = known && first != 0u;
-  uvec4 masks = indirect_texel(known, first + face * 8u + uint(voxel.y & 7));
+  uint tinted = first & kIndirectTinted;
+  uvec4 masks = indirect_texel(known, (first ^ tinted) + face * 8u + uint(voxel.y & 7));
   bool far = (voxel.x & 4) != 0;
   uint mask = far ? masks.y : masks.x, record = far ? masks.w : masks.z;
   uint bit = uint((voxel.z & 7) + 8 * (voxel.x & 3));
   known = known && ((mask >> bit) & 1u) != 0u;
   uint unlisted = grid.w == kIndirectOpen ? kIndirectOpenRecord : 0u;
-  return known ? record + kIndirectRecordTexels * bitCount(mask & ((1u << bit) - 1u)) : unlisted;
+  uint texels = kIndirectRecordTexels + (tinted >> 31);
+  return known ? (record + texels * bitCount(mask & ((1u << bit) - 1u))) | tinted : unlisted;
 }
 
 // Three numbers with a shared exponent.
@@ -81,6 +83,7 @@ struct FaceSky {
   vec3 bounced;     // of it, what other faces reflect of sky, sun and moon
   vec4 seen_a;      // share of each lobe of the sky that is seen, 0..1
   vec4 seen_b;
+  vec3 tint;        // what glass makes of the sky's colour
   bool known;       // else all is 0
 };
 
@@ -94,7 +97,8 @@ FaceSky sky_of_face(vec3 position, uint word) {
   vec3 place = lattice * exp2(-float(grid.y >> 24));
   // Of a face, the voxel behind it; of a plant, its own.
   ivec3 voxel = ivec3(floor(plant ? place + vec3(0.0, 0.001, 0.0) : place - 0.5 * face_normal(face)));
-  uint record = record_at(grid, face, place, voxel);
+  uint record = record_at(grid, face, place, voxel), tinted = record >> 31;
+  record &= ~kIndirectTinted;
   uvec4 near = indirect_texel(record != 0u, record), far = indirect_texel(record != 0u, record + 1u);
   vec3 in_voxel = clamp(place - vec3(voxel), 0.0, 1.0);
   vec2 at = face < 2u ? in_voxel.yz : face < 4u ? in_voxel.zx : in_voxel.xy;
@@ -108,6 +112,13 @@ FaceSky sky_of_face(vec3 position, uint word) {
     sky.irradiance[channel] = dot(sky.seen_a, vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))) +
                               dot(sky.seen_b, vec4(unpackHalf2x16(lobes.z), unpackHalf2x16(lobes.w)));
   }
+  // A loop that ends at once where nothing is tinted: lavapipe runs all that an `if` holds.
+  sky.tint = vec3(1.0);
+  for (; tinted != 0u; --tinted) {
+    uvec4 tint = indirect_texel(true, record + kIndirectRecordTexels);
+    sky.tint = mix(mix(shared_exponent(tint.x), shared_exponent(tint.y), at.x), mix(shared_exponent(tint.z), shared_exponent(tint.w), at.x), at.y);
+  }
+  sky.irradiance *= sky.tint;
   sky.bounced = sky.lamps = vec3(0.0);
   if (kIndirect == kIndirectFull) {
     uvec4 lamps = indirect_texel(record != 0u, record + 2u);

@@ -69,6 +69,6 @@ vec3 mirrored_about(FaceSky around, uint word, vec3 dir, vec3 sky, float lit) {
   if (kIndirect == kIndirectOff) return sky * lit;
   vec3 lattice = lattice_from_world_vector(island_at(surface_island(word)), dir);
   float seen = seen_towards(around, surface_face(word), lattice);
-  return sky * seen + around.bounced * ((1.0 - seen) * kInvPi / max(1.0 - open_share(around, surface_face(word)), 0.1));
+  return sky * (seen * around.tint) + around.bounced * ((1.0 - seen) * kInvPi / max(1.0 - open_share(around, surface_face(word)), 0.1));
 }
 #endif

@@ -79,7 +79,7 @@ Reach light_at(uvec2 pixel, float z, LitPoint at) {
 }
 
 FaceSky sky_about(vec3 p, uint word) {
-  if (kIndirect == kIndirectOff) return FaceSky(vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), false);
+  if (kIndirect == kIndirectOff) return FaceSky(vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), vec3(1.0), false);
   return sky_of_face(p, word);
 }
 

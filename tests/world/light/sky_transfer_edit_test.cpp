@@ -15,6 +15,7 @@ namespace skerry::world {
 namespace {
 
 using test::chunks_of;
+using test::Glass;
 using test::Lamps;
 using test::Voxels;
 
@@ -60,7 +61,7 @@ LightChunks with_what_stays(const LightChunks& before, LightChunks after) {
     const LightChunk &a = *old->second, &b = *chunk;
     if (a.opaque.fill == b.opaque.fill && a.opaque.table == b.opaque.table &&
         a.opaque.words == b.opaque.words && std::ranges::equal(a.quads, b.quads, same_quad) &&
-        std::ranges::equal(a.lamps, b.lamps, same_lamp) &&
+        std::ranges::equal(a.lamps, b.lamps, same_lamp) && a.stained == b.stained &&
         std::ranges::equal(a.strong, b.strong, same_strong))
       chunk = old->second;
   }
@@ -73,6 +74,7 @@ std::size_t differences(const SkyTransfer::Skies& a, const SkyTransfer::Skies& b
   for (const auto& [at, sky] : b) {
     const auto other = a.find(at);
     if (other == a.end() || other->second->table != sky->table ||
+        other->second->record_texels != sky->record_texels ||
         other->second->texels.size() != sky->texels.size()) {
       ++count;
       continue;
@@ -178,6 +180,79 @@ TEST(SkyTransferEdit, FollowsRandomLampsAndBlocksInACave) {
       ASSERT_TRUE(reaches == reaches_of(chunks)) << seed << ' ' << round;
       if (round % 10 != 9) continue;
       EXPECT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u) << seed << ' ' << round;
+    }
+  }
+}
+
+// A hall with windows and panes in it; panes, walls and lamps come, go and change their colours.
+TEST(SkyTransferEdit, FollowsStainedGlassThatComesAndGoes) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    std::mt19937 random(seed);
+    const auto part = [&](int low, int high) {
+      return low + static_cast<int>(random() % static_cast<unsigned>(high - low));
+    };
+    // Over the corner of chunks.
+    Voxels stone;
+    Glass glass;
+    for (int x = -9; x < 9; ++x)
+      for (int y = -2; y < 8; ++y)
+        for (int z = -9; z < 9; ++z) {
+          const bool wall = x == -9 || x == 8 || y == -2 || y == 7 || z == -9 || z == 8;
+          if (wall) stone.insert({x, y, z});
+        }
+    for (int x = -13; x < 13; ++x)
+      for (int z = -13; z < 13; ++z) stone.insert({x, -3, z});
+    const auto put = [&](IVec3 at) {
+      stone.erase(at);
+      glass[at] = static_cast<BlockId>(block::kWhiteGlass + part(0, 16));
+    };
+    for (int z = -5; z < 5; ++z)
+      for (int y = 1; y < 5; ++y) put({-9, y, z});
+    Lamps lamps{{{3, 2, 3}, {-4, 5, 0}}, 7.0f};
+    const auto now = [&] { return with_strong_lamps(chunks_of(stone, lamps, {}, glass)); };
+    LightChunks chunks = now();
+    std::unique_ptr<SkyTransfer> kept = looked_at(chunks);
+    EXPECT_TRUE(
+        std::ranges::any_of(kept->faces(), [](const auto& at) { return at.second->tinted(); }));
+    int followed = 0;
+    for (int round = 0; round < 30; ++round) {
+      const IVec3 at{part(-10, 10), part(-2, 8), part(-10, 10)};
+      switch (random() % 4) {
+        case 0:
+          if (!glass.empty() && random() % 2 == 0) {
+            const auto one = std::next(glass.begin(), part(0, static_cast<int>(glass.size())));
+            if (random() % 2 == 0)
+              one->second = block::kBlueGlass;
+            else
+              glass.erase(one);
+            break;
+          }
+          [[fallthrough]];
+        case 1:
+          if (!lamps.voxels.contains(at)) put(at);
+          break;
+        case 2:
+          if (stone.erase(at) == 0 && !glass.contains(at) && !lamps.voxels.contains(at))
+            stone.insert(at);
+          break;
+        default:
+          if (round % 5 == 0) lamps.voxels.insert({at.x, at.y, at.z});
+          stone.erase(at), glass.erase(at);
+      }
+      chunks = with_what_stays(chunks, now());
+      if (kept->edit(chunks))
+        ++followed;
+      else
+        kept = looked_at(chunks);
+      ASSERT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u) << seed << ' ' << round;
+    }
+    EXPECT_GT(followed, 25);
+    // The last pane goes, and the first one comes again.
+    for (const Glass& next : {Glass{}, Glass{{{-9, 2, 0}, block::kRedGlass}}}) {
+      glass = next;
+      chunks = with_what_stays(chunks, now());
+      if (!kept->edit(chunks)) kept = looked_at(chunks);
+      ASSERT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u) << seed;
     }
   }
 }
@@ -293,7 +368,7 @@ class RealIsland {
       StreamUpdate update = streamer_.poll(~std::size_t{0});
       for (const SectionKey& key : update.removed) chunks_.erase(key.chunk);
       for (ReadySection& ready : update.ready) {
-        LightChunk chunk{ready.occupancy, ready.leaves, ready.mesh.quads, {}, {}};
+        LightChunk chunk{ready.occupancy, ready.leaves, ready.mesh.quads, {}, {}, ready.stained};
         for (const Emitter& emitter : ready.emitters) {
           if (emitter.block == block::kTorch)
             chunk.strong.push_back({emitter.place, 15.0f, glm::vec3(3.0f, 2.0f, 1.0f)});
@@ -318,8 +393,8 @@ TEST(SkyTransferEdit, FindsOnARealIslandWhatALookFromNothingFinds) {
   std::mt19937 random(1);
   std::unique_ptr<SkyTransfer> kept = looked_at(island.chunks());
   LampReaches reaches = reaches_of(island.chunks());
-  constexpr std::array<BlockId, 8> kBlocks{
-      kAir,          block::kStone,     block::kTorch, block::kOakLeaves,
+  constexpr std::array<BlockId, 9> kBlocks{
+      kAir,          block::kStone,     block::kTorch, block::kOakLeaves, block::kRedGlass,
       block::kWater, block::kGlowstone, block::kGlass, block::kFlowerRed};
   for (int round = 0; round < 3; ++round) {
     for (std::size_t i = 0; i < 12; ++i) {

@@ -28,6 +28,8 @@ inline IVec3 chunk_holding(IVec3 v) {
           static_cast<std::int32_t>(floor_div(v.z, kChunkEdge))};
 }
 
+using Glass = std::map<IVec3, BlockId>;
+
 /// A white lamp in the middle of each of some voxels.
 struct Lamps {
   Voxels voxels;
@@ -35,9 +37,10 @@ struct Lamps {
 };
 
 /// Chunks of stone voxels with a quad for each face that is not covered by stone.
-/// @param plants voxels in which tall grass stands.
+/// @param plants voxels in which tall grass stands. @param glass blocks of stained glass, none of
+/// them in stone.
 inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {},
-                             const Voxels& plants = {}) {
+                             const Voxels& plants = {}, const Glass& glass = {}) {
   struct Building {
     std::vector<BlockId> padded = std::vector<BlockId>(kPaddedVoxels, kAir);
     LightChunk chunk;
@@ -59,6 +62,20 @@ inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {},
     building[chunk_holding(v)].chunk.quads.push_back(
         {static_cast<std::uint32_t>((v.x & 63) | (v.y & 63) << 6 | (v.z & 63) << 12),
          static_cast<std::uint32_t>(block::kTallGrass) | 6u << shared::kFaceShift});
+  for (const auto& [v, block] : glass) {
+    Building& b = building[chunk_holding(v)];
+    const auto local = [](int x, int y, int z) {
+      return static_cast<std::uint32_t>((x & 63) | (y & 63) << 6 | (z & 63) << 12);
+    };
+    b.chunk.stained.push_back({local(v.z, v.x, v.y), block});
+    for (int face = 0; face < 6; ++face) {
+      const auto next = glass.find(beside(v, face));
+      if (stone.contains(beside(v, face)) || (next != glass.end() && next->second == block))
+        continue;
+      b.chunk.quads.push_back(
+          {local(v.x, v.y, v.z), static_cast<std::uint32_t>(block | face << shared::kFaceShift)});
+    }
+  }
   for (const IVec3& v : lamps.voxels) {
     const IVec3 at = chunk_holding(v);
     const auto place = [](int voxel, int chunk) {
@@ -70,13 +87,14 @@ inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {},
   LightChunks out;
   for (auto& [at, b] : building) {
     b.chunk.opaque = occupancy_of(b.padded);
+    std::ranges::sort(b.chunk.stained, {}, &StainedVoxel::place);
     out[at] = std::make_shared<const LightChunk>(std::move(b.chunk));
   }
   return out;
 }
 
-/// What the GPU would read for a face: 8 words of the sky, 4 of lamps, 4 of bounces; empty: no such
-/// face.
+/// What the GPU would read for a face: 8 words of the sky, 4 of lamps, 4 of bounces, and 4 of a
+/// tint that is not white; empty: no such face.
 inline std::vector<std::uint32_t> record_of(const SkyTransfer::Skies& sky, IVec3 voxel, int face) {
   const IVec3 at = chunk_holding(voxel);
   const auto found = sky.find(at);
@@ -90,10 +108,14 @@ inline std::vector<std::uint32_t> record_of(const SkyTransfer::Skies& sky, IVec3
   const int half = x / 4 % 2, bit = z % 8 + 8 * (x % 4);
   if ((masks[half] >> bit & 1u) == 0) return {};
   std::size_t record = masks[2 + half];
-  for (int i = 0; i < bit; ++i) record += shared::kIndirectRecordTexels * (masks[half] >> i & 1u);
+  for (int i = 0; i < bit; ++i) record += chunk.record_texels * (masks[half] >> i & 1u);
   const glm::uvec4 a = chunk.texels[record], b = chunk.texels[record + 1],
                    c = chunk.texels[record + 2], d = chunk.texels[record + 3];
-  return {a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w};
+  std::vector<std::uint32_t> words{a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w,
+                                   c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w};
+  const glm::uvec4 tint = chunk.tinted() ? chunk.texels[record + 4] : white_tint();
+  for (int i = 0; i < 4 && tint != white_tint(); ++i) words.push_back(tint[i]);
+  return words;
 }
 
 }  // namespace skerry::world::test

@@ -162,10 +162,11 @@ glm::dvec3 sky_light(std::span<const glm::uvec4> record, std::span<const glm::uv
   return apart ? sum : seen_of_all * whole;
 }
 
-glm::dvec3 lamp_light(const glm::uvec4& lamps, glm::dvec2 at) {
+/// @param words a colour a corner.
+glm::dvec3 colour_between(const glm::uvec4& words, glm::dvec2 at) {
   std::array<glm::dvec3, 4> corners;
   for (std::size_t i = 0; i < 4; ++i)
-    corners[i] = world::unpack_shared_exponent(lamps[static_cast<int>(i)]);
+    corners[i] = world::unpack_shared_exponent(words[static_cast<int>(i)]);
   return between_corners(corners, at);
 }
 
@@ -247,15 +248,19 @@ std::optional<glm::dvec3> StoredLight::at(std::uint64_t id, glm::dvec3 place, in
       world::find_record(*in->second, {voxel.x & 63, voxel.y & 63, voxel.z & 63}, face);
   if (!at) return std::nullopt;
   const std::span<const glm::uvec4> record(
-      in->second->texels.begin() + static_cast<std::ptrdiff_t>(*at), shared::kIndirectRecordTexels);
+      in->second->texels.begin() + static_cast<std::ptrdiff_t>(*at), in->second->record_texels);
   const world::FaceAxes axes(face);
   const glm::dvec3 in_voxel = glm::clamp(place - glm::dvec3(voxel), 0.0, 1.0);
   const glm::dvec2 corner{in_voxel[axes.b], in_voxel[axes.c]};
-  return sky_light(record,
-                   sky.subspan(static_cast<std::size_t>(face) * shared::kIndirectSkyTexels,
-                               shared::kIndirectSkyTexels),
-                   face / 2, corner, detail_.lobes) +
-         lamp_light(record[2], corner) +
+  const glm::dvec3 open_sky =
+      sky_light(record,
+                sky.subspan(static_cast<std::size_t>(face) * shared::kIndirectSkyTexels,
+                            shared::kIndirectSkyTexels),
+                face / 2, corner, detail_.lobes);
+  const glm::dvec3 tint = in->second->tinted()
+                              ? colour_between(record[shared::kIndirectRecordTexels], corner)
+                              : glm::dvec3(1.0);
+  return open_sky * tint + colour_between(record[2], corner) +
          bounced_light(record[3], sky.subspan(shared::kIndirectHarmonics), corner, detail_.degree);
 }
 

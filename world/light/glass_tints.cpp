@@ -1,0 +1,198 @@
+#include "world/light/glass_tints.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "world/light/face_records.h"
+#include "world/voxel/blocks.h"
+
+namespace skerry::world {
+namespace {
+
+constexpr double kDepthSteps = 1 << 20;
+
+/// Calls fn(voxel) for each that is chosen.
+template <class Fn>
+void for_each_voxel(const VoxelBits& bits, const Fn& fn) {
+  const IVec3 low = bits.low(), size = bits.size();
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x)
+      for (int w = 0; w < bits.row_words(); ++w)
+        for (std::uint64_t left = bits.row(x, y)[w]; left != 0; left &= left - 1)
+          fn(IVec3{low.x + x, low.y + y, low.z + 64 * w + std::countr_zero(left)});
+}
+
+float extinction(BlockId block, std::size_t channel) {
+  const BlockType& type = block_types()[block];
+  return type.absorption[channel] + type.scattering;
+}
+
+bool is_clear(const GlassTints::Depth& depth) {
+  return depth == GlassTints::Depth{};
+}
+
+}  // namespace
+
+glm::vec3 left_by_glass(BlockId block, float blocks) {
+  return {std::exp(-extinction(block, 0) * blocks), std::exp(-extinction(block, 1) * blocks),
+          std::exp(-extinction(block, 2) * blocks)};
+}
+
+GlassTints::GlassTints(const AirVolume& air, const LatticeLines& lines, const VoxelIndex& wanted)
+    : air_(air), lines_(lines), wanted_(wanted) {
+  if (!any()) return;
+  for (BlockId block = 0; block < block_types().size(); ++block)
+    for (std::size_t pattern = 0; pattern < shared::kSkyPatternCount; ++pattern) {
+      const glm::ivec3 v = shared::kSkyPatterns[pattern];
+      const double blocks = std::sqrt(static_cast<double>(v.x * v.x + v.y * v.y + v.z * v.z)) /
+                            8.0 * static_cast<double>(air.stained.voxel_blocks());
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        per_eighth_.push_back(
+            std::llround(static_cast<double>(extinction(block, channel)) * blocks * kDepthSteps));
+    }
+}
+
+void GlassTints::add(Depth& depth, IVec3 voxel, int eighths, std::size_t way) const {
+  const BlockId block = air_.stained.at(voxel);
+  if (block == kAir) return;
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    depth[channel] += eighths * per_eighth(block, way, channel);
+}
+
+GlassTints::Depth GlassTints::depth_of_step(IVec3 from, std::size_t number) const {
+  const LatticeLines::Way& way = lines_.way(number);
+  const bool stopped = lines_.stopped(from, number);
+  const int end = stopped ? lines_.stopping_group(from, number) : way.touched.back().group + 1;
+  Depth depth{};
+  add(depth, from, way.own_eighths, number);
+  for (const LatticeLines::Touched& touched : way.touched) {
+    if (touched.group >= end) break;
+    if (touched.eighths != 0) add(depth, from + touched.offset, touched.eighths, number);
+  }
+  return depth;
+}
+
+GlassTints::Depth GlassTints::depth_from(IVec3 from, std::size_t way) const {
+  Depth sum{};
+  for (; lines_.inside(from); from = from + lines_.way(way).vector) {
+    const Depth step = depth_of_step(from, way);
+    for (std::size_t channel = 0; channel < 3; ++channel) sum[channel] += step[channel];
+    if (lines_.stopped(from, way)) break;
+  }
+  return sum;
+}
+
+bool GlassTints::set(IVec3 voxel, std::size_t way, Depth depth) {
+  // A face before which there is glass lies at the far side of it, not in its middle.
+  add(depth, voxel, lines_.way(way).own_eighths, way);
+  const std::size_t number = wanted_.of(voxel);
+  Octant& octant = octants_[way / shared::kSkyPatternCount];
+  const auto pattern = static_cast<std::uint8_t>(way % shared::kSkyPatternCount);
+  if (number / 64 >= octant.has.size()) octant.has.resize(wanted_.size() / 64 + 1, 0);
+  std::uint64_t& word = octant.has[number / 64];
+  const std::uint64_t bit = std::uint64_t{1} << number % 64;
+  if (is_clear(depth)) {
+    if ((word & bit) == 0) return false;
+    const auto found = octant.lines.find(number);
+    const bool was = std::erase_if(found->second,
+                                   [&](const Tint& tint) { return tint.pattern == pattern; }) != 0;
+    if (!found->second.empty()) return was;
+    octant.lines.erase(found);
+    word &= ~bit;
+    return was;
+  }
+  Tint tint{pattern, {}};
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    tint.left[static_cast<int>(channel)] =
+        static_cast<float>(std::exp(-static_cast<double>(depth[channel]) / kDepthSteps));
+  word |= bit;
+  Tints& tints = octant.lines[number];
+  const auto place = std::ranges::lower_bound(tints, pattern, {}, &Tint::pattern);
+  if (place == tints.end() || place->pattern != pattern) {
+    tints.insert(place, tint);
+    return true;
+  }
+  const bool other = place->left != tint.left;
+  *place = tint;
+  return other;
+}
+
+const GlassTints::Tints* GlassTints::find(std::size_t number, int octant) const {
+  const Octant& its = octants_[static_cast<std::size_t>(octant)];
+  if (number / 64 >= its.has.size() || (its.has[number / 64] >> number % 64 & 1u) == 0)
+    return nullptr;
+  return &its.lines.at(number);
+}
+
+bool GlassTints::has(std::size_t number) const {
+  return any() && std::ranges::any_of(octants_, [&](const Octant& octant) {
+           return number / 64 < octant.has.size() &&
+                  (octant.has[number / 64] >> number % 64 & 1u) != 0;
+         });
+}
+
+void GlassTints::look(int octant) {
+  if (!any()) return;
+  VoxelBits visited(air_.stained.voxels().low(), air_.stained.voxels().size(), false);
+  for (std::size_t pattern = 0; pattern < shared::kSkyPatternCount; ++pattern)
+    look_along(LatticeLines::way_number(octant, pattern), visited);
+}
+
+/// From each voxel of glass backwards: who is on a line that passes it.
+/// @param visited working memory, empty before and after.
+void GlassTints::look_along(std::size_t number, VoxelBits& visited) {
+  const LatticeLines::Way& way = lines_.way(number);
+  const IVec3 back{-way.vector.x, -way.vector.y, -way.vector.z};
+  std::vector<IVec3> all;
+  const auto walk = [&](IVec3 from) {
+    if (!lines_.inside(from) || visited.at(from)) return;
+    Depth depth = depth_from(from, number);
+    for (;;) {
+      visited.set(from);
+      all.push_back(from);
+      if (wanted_.has(from)) set(from, number, depth);
+      from = from + back;
+      if (!lines_.inside(from) || visited.at(from) || lines_.stopped(from, number)) return;
+      const Depth step = depth_of_step(from, number);
+      for (std::size_t channel = 0; channel < 3; ++channel) depth[channel] += step[channel];
+    }
+  };
+  for_each_voxel(air_.stained.voxels(), [&](IVec3 glass) {
+    walk(glass);
+    for (const LatticeLines::Touched& touched : way.touched)
+      if (touched.eighths != 0)
+        walk({glass.x - touched.offset.x, glass.y - touched.offset.y, glass.z - touched.offset.z});
+  });
+  for (const IVec3& voxel : all) visited.set(voxel, false);
+}
+
+std::size_t GlassTints::bytes() const {
+  std::size_t bytes = 0;
+  for (const Octant& octant : octants_) {
+    bytes += octant.has.size() * sizeof(std::uint64_t);
+    for (const auto& [number, tints] : octant.lines)
+      bytes += sizeof(number) + sizeof(tints) + tints.capacity() * sizeof(Tint);
+  }
+  return bytes;
+}
+
+void GlassTints::move(std::size_t from, std::size_t to) {
+  for (Octant& octant : octants_) {
+    if (from / 64 >= octant.has.size() || (octant.has[from / 64] >> from % 64 & 1u) == 0) continue;
+    auto node = octant.lines.extract(from);
+    octant.has[from / 64] &= ~(std::uint64_t{1} << from % 64);
+    if (to / 64 >= octant.has.size()) octant.has.resize(to / 64 + 1, 0);
+    octant.has[to / 64] |= std::uint64_t{1} << to % 64;
+    node.key() = to;
+    octant.lines.insert(std::move(node));
+  }
+}
+
+void GlassTints::forget(std::size_t number) {
+  for (Octant& octant : octants_)
+    if (octant.lines.erase(number) != 0)
+      octant.has[number / 64] &= ~(std::uint64_t{1} << number % 64);
+}
+
+}  // namespace skerry::world
