@@ -115,7 +115,7 @@ void IslandLight::remove(const world::SectionKey& key) {
 }
 
 template <class T>
-void IslandLight::discard(T&& unused) {
+void IslandLight::discard(T unused) {
   threads_.submit([held = std::make_shared<T>(std::move(unused))] {});
 }
 

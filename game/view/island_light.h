@@ -112,7 +112,7 @@ class IslandLight {
   void begin(const world::IslandLevel& row, Island& island, bool keep);
   /// Has a thread free what takes milliseconds to free.
   template <class T>
-  void discard(T&& unused);
+  void discard(T unused);
 
   WorkerThreads& threads_;
   const Finds finds_;

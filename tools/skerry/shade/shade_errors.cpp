@@ -259,8 +259,8 @@ Result<ShadePictures> draw_shade(game::SceneOptions options, std::span<const Lig
       if (!judged) return judged.error();
       places = *std::move(judged);
     }
-    measure::Picture& picture =
-        out.stored.emplace_back(options.size.width, options.size.height, std::vector<glm::vec3>{});
+    out.stored.push_back({options.size.width, options.size.height, {}});
+    measure::Picture& picture = out.stored.back();
     for (const JudgedPlace& place : places)
       picture.pixels.emplace_back(
           place.stored > 0.0
