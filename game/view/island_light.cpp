@@ -186,7 +186,10 @@ void IslandLight::end_look(Search& search) {
     const auto before = at_or_none(search.known, at);
     if (before && (before == sky || *before == *sky)) sky = before;
   }
-  if (!search.keep) search.transfer.reset();
+  if (!search.keep) {
+    search.transfer.reset();
+    search.closings.clear();  // the next look finds other objects
+  }
   search.done = true;
 }
 
@@ -220,7 +223,7 @@ void IslandLight::begin(const world::IslandLevel& row, Island& island, bool keep
   island.search->reaches_before = island.reaches;
   island.search->seams = island.seams;
   island.search->known = island.known;
-  island.search->closings = island.closings;
+  island.search->closings = std::move(island.closings);
   if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
   run(threads_, island.search);
 }

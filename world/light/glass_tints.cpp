@@ -120,16 +120,12 @@ bool GlassTints::set(IVec3 voxel, std::size_t way, Depth depth) {
 
 const GlassTints::Tints* GlassTints::find(std::size_t number, int octant) const {
   const Octant& its = octants_[static_cast<std::size_t>(octant)];
-  if (number / 64 >= its.has.size() || (its.has[number / 64] >> number % 64 & 1u) == 0)
-    return nullptr;
-  return &its.lines.at(number);
+  return its.holds(number) ? &its.lines.at(number) : nullptr;
 }
 
 bool GlassTints::has(std::size_t number) const {
-  return any() && std::ranges::any_of(octants_, [&](const Octant& octant) {
-           return number / 64 < octant.has.size() &&
-                  (octant.has[number / 64] >> number % 64 & 1u) != 0;
-         });
+  return any() &&
+         std::ranges::any_of(octants_, [&](const Octant& octant) { return octant.holds(number); });
 }
 
 void GlassTints::look(int octant) {
@@ -179,7 +175,7 @@ std::size_t GlassTints::bytes() const {
 
 void GlassTints::move(std::size_t from, std::size_t to) {
   for (Octant& octant : octants_) {
-    if (from / 64 >= octant.has.size() || (octant.has[from / 64] >> from % 64 & 1u) == 0) continue;
+    if (!octant.holds(from)) continue;
     auto node = octant.lines.extract(from);
     octant.has[from / 64] &= ~(std::uint64_t{1} << from % 64);
     if (to / 64 >= octant.has.size()) octant.has.resize(to / 64 + 1, 0);

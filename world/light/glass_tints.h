@@ -58,6 +58,9 @@ class GlassTints {
   struct Octant {
     std::vector<std::uint64_t> has;  // a bit a number: it has lines here
     std::unordered_map<std::size_t, Tints> lines;
+    bool holds(std::size_t number) const {
+      return number / 64 < has.size() && (has[number / 64] >> number % 64 & 1u) != 0;
+    }
   };
   void look_along(std::size_t way, VoxelBits& visited);
   std::int64_t per_eighth(BlockId block, std::size_t way, std::size_t channel) const {
