@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/platform/files.h"
 #include "tests/cli/run_program.h"
 
 namespace skerry {
@@ -198,12 +199,15 @@ TEST(CommandLine, APipeThatNobodyWritesIsNoScene) {
   expect_refusal(test.get(), 2, {pipe, "within 10 s"}, "test");
 }
 
+// Mesa's own cache stays, so that the driver need not compile all anew.
 TEST(CommandLine, ACacheFolderThatIsAFileIsToldInOneWarning) {
   const Folder folder;
   std::ofstream(folder / "skerry") << "in the way";
-  const Outcome outcome = run({"shot", "--seed", "1", "--set", "view.distance=64", "--size", "8x4",
-                               "--out", (folder / "a.png").string()},
-                              {"XDG_CACHE_HOME=" + folder.path().string()});
+  const Outcome outcome =
+      run({"shot", "--seed", "1", "--set", "view.distance=64", "--size", "8x4", "--out",
+           (folder / "a.png").string()},
+          {"XDG_CACHE_HOME=" + folder.path().string(),
+           "MESA_SHADER_CACHE_DIR=" + platform::cache_dir().parent_path().string()});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("skerry: warning: compiled shaders are not kept"), std::string::npos)
       << outcome.err;

@@ -11,15 +11,22 @@
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/device/resources.h"
 #include "engine/gpu/transfer/readback.h"
+#include "tests/long_tests.h"
 
 namespace skerry::gpu {
+
+/// What the validation layer checks: all, or in short runs of tests synchronisation alone. Core
+/// checks take half of the time of whole frames, which image.scenes draws with all of them.
+enum class Checks { kAll, kAllInLongRuns };
 
 /// A device under the validation layer; a test fails if the layer says anything.
 class GpuTest : public testing::Test {
  protected:
+  explicit GpuTest(Checks checks = Checks::kAll) : checks_(checks) {}
   void SetUp() override {
     DeviceOptions options;
     options.validate = true;
+    options.core_checks = checks_ == Checks::kAll || long_tests();
     Result<std::unique_ptr<Device>> made = Device::create(options);
     ASSERT_TRUE(made) << made.error().message;
     device_ = *std::move(made);
@@ -62,6 +69,7 @@ class GpuTest : public testing::Test {
     return {};
   }
 
+  const Checks checks_;
   std::unique_ptr<Device> device_;
 };
 

@@ -29,6 +29,7 @@ inline Celestial sun_at(double altitude_deg, double azimuth_deg) {
 /// The whole renderer under validation, with scenes made of few blocks.
 class RendererOnGpu : public gpu::GpuTest {
  protected:
+  RendererOnGpu() : GpuTest(gpu::Checks::kAllInLongRuns) {}
   void SetUp() override {
     GpuTest::SetUp();
     if (!HasFatalFailure()) restart();

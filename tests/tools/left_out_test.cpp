@@ -8,7 +8,10 @@
 namespace skerry::tools {
 namespace {
 
-class LeftOutOnGpu : public gpu::GpuTest {};
+class LeftOutOnGpu : public gpu::GpuTest {
+ protected:
+  LeftOutOnGpu() : GpuTest(gpu::Checks::kAllInLongRuns) {}
+};
 
 TEST_F(LeftOutOnGpu, AFeatureThatASceneLacksIsAskedNothingFor) {
   const Result<std::vector<LackingScene>> scenes = lacking_scenes();

@@ -51,10 +51,11 @@ start_manager() {
 }
 manages_windows() { xdotool get_desktop >/dev/null 2>&1; }
 
-# play OPTION...: under the validation layer; waits for the window and gives it the focus.
+# play OPTION...: in long runs and where a test says so under the validation layer, with which programs take twice as long; waits for the window and gives it the focus.
 quality=(--quality low)
+validation=(${SKERRY_LONG_TESTS:+--validate})
 play() {
-  "$skerry" play --size 320x180 "${quality[@]}" --validate "$@" >"$work/out" 2>"$work/err" &
+  "$skerry" play --size 320x180 "${quality[@]}" "${validation[@]}" "$@" >"$work/out" 2>"$work/err" &
   game=$!
   until_true "a window appears" find_window
   # Without a window manager nobody else hands out the focus.

@@ -4,6 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 skerry=$1
 key_pause=0.5
+validation=(--validate)
 start_display convert identify
 
 play --seed 1 --set view.distance=200

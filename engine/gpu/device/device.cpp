@@ -74,7 +74,7 @@ std::vector<DeviceInfo> describe_all(const std::vector<VkPhysicalDevice>& device
 }  // namespace
 
 Result<std::vector<DeviceInfo>> Device::list() {
-  Result<Instance> instance = Instance::create(false, {});
+  Result<Instance> instance = Instance::create(Validation::kOff, {});
   if (!instance) return instance.error();
   Result<std::vector<VkPhysicalDevice>> devices = instance->devices();
   if (!devices) return devices.error();
@@ -82,7 +82,10 @@ Result<std::vector<DeviceInfo>> Device::list() {
 }
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
-  Result<Instance> instance = Instance::create(options.validate, options.surface_extensions);
+  const Validation validation = !options.validate     ? Validation::kOff
+                                : options.core_checks ? Validation::kFull
+                                                      : Validation::kSynchronization;
+  Result<Instance> instance = Instance::create(validation, options.surface_extensions);
   if (!instance) return instance.error();
   Result<std::vector<VkPhysicalDevice>> devices = instance->devices();
   if (!devices) return devices.error();

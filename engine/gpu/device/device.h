@@ -20,6 +20,8 @@ struct DeviceOptions {
       index;  ///< --device N; else the best usable: discrete, integrated, virtual, CPU
   bool validate =
       false;  ///< Khronos layer, core + synchronisation; messages go to stderr and are counted
+  bool core_checks =
+      true;  ///< of the layer; with them, programs take twice as long to be made on a CPU
   std::vector<const char*>
       surface_extensions;  ///< instance extensions a window needs; empty: headless
   std::string

@@ -111,7 +111,9 @@ VkDebugUtilsMessengerCreateInfoEXT Instance::messenger_info() const {
   return info;
 }
 
-Result<Instance> Instance::create(bool validate, std::span<const char* const> surface_extensions) {
+Result<Instance> Instance::create(Validation validation,
+                                  std::span<const char* const> surface_extensions) {
+  const bool validate = validation != Validation::kOff;
   if (Result<void> loader = check_loader(); !loader) return loader.error();
   std::vector<const char*> extensions(surface_extensions.begin(), surface_extensions.end());
   const std::vector<VkExtensionProperties> available = instance_extensions(nullptr);
@@ -141,6 +143,11 @@ Result<Instance> Instance::create(bool validate, std::span<const char* const> su
   auto features = vk_struct<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
   features.enabledValidationFeatureCount = 1;
   features.pEnabledValidationFeatures = &enabled;
+  const VkValidationFeatureDisableEXT disabled = VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT;
+  if (validation == Validation::kSynchronization) {
+    features.disabledValidationFeatureCount = 1;
+    features.pDisabledValidationFeatures = &disabled;
+  }
   features.pNext = &messenger;
   auto application = vk_struct<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
   application.pApplicationName = "Skerry";

@@ -9,6 +9,9 @@
 
 namespace skerry::gpu {
 
+/// What the Khronos validation layer checks: nothing, synchronisation, or core and synchronisation.
+enum class Validation { kOff, kSynchronization, kFull };
+
 /// A Vulkan instance, with the validation layer and its message counter when asked for.
 /// Functions are loaded through the instance (loader trampolines), so several devices can live in
 /// one process.
@@ -16,7 +19,8 @@ class Instance {
  public:
   /// Errors: no Vulkan loader or driver, version below 1.3, a missing surface extension or
   /// validation layer.
-  static Result<Instance> create(bool validate, std::span<const char* const> surface_extensions);
+  static Result<Instance> create(Validation validation,
+                                 std::span<const char* const> surface_extensions);
   Instance(Instance&& other) noexcept;
   Instance& operator=(Instance&&) = delete;
   ~Instance();

@@ -64,6 +64,7 @@ std::size_t rows_of(const Words& words) {
 
 class CracksTest : public gpu::GpuTest {
  protected:
+  CracksTest() : GpuTest(gpu::Checks::kAllInLongRuns) {}
   std::unique_ptr<SceneView> view_of(int seed, std::uint32_t detail) {
     SceneOptions options;
     options.seed_text = std::to_string(seed);

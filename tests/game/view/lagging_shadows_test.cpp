@@ -20,6 +20,7 @@ using Bytes = std::vector<std::byte>;
 
 class LaggingShadows : public gpu::GpuTest {
  protected:
+  LaggingShadows() : GpuTest(gpu::Checks::kAllInLongRuns) {}
   std::unique_ptr<SceneView> view() {
     SceneOptions options;
     options.seed_text = "1";

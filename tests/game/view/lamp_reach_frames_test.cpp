@@ -16,6 +16,7 @@ constexpr VkExtent2D kSize{160, 90};
 
 class LampReachFrames : public gpu::GpuTest {
  protected:
+  LampReachFrames() : GpuTest(gpu::Checks::kAllInLongRuns) {}
   struct Drawn {
     std::vector<std::byte> picture;
     std::size_t lights = 0;

@@ -35,6 +35,7 @@ int lone_pixels(const std::vector<std::byte>& picture) {
 
 class LonePixels : public gpu::GpuTest {
  protected:
+  LonePixels() : GpuTest(gpu::Checks::kAllInLongRuns) {}
   /// Of views over a rocky lake in the shade.
   int count(std::uint32_t layers) {
     SceneOptions options;

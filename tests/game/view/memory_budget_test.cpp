@@ -19,6 +19,7 @@ constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
 class SceneMemory : public gpu::GpuTest {
  protected:
+  SceneMemory() : GpuTest(gpu::Checks::kAllInLongRuns) {}
   std::unique_ptr<SceneView> view(std::optional<std::uint32_t> budget_mib,
                                   render::Indirect indirect = render::Indirect::kOff) {
     SceneOptions options;
@@ -122,6 +123,7 @@ std::map<std::uint32_t, std::uint32_t> levels_of(const render::GeometryStore& ge
 
 // Quads, occupancy and the light of the sky share 32 MiB in a flight over more than they hold.
 TEST_F(SceneMemory, AFlightWith32MiBKeepsWhatIsNearInFullDetail) {
+  if (!long_tests()) GTEST_SKIP() << "two minutes: tools/test --long";
   constexpr std::uint32_t kBudget = 32;
   const auto tight = view(kBudget, render::Indirect::kFull);
   SceneView::Moment moment;

@@ -21,6 +21,7 @@ using Bytes = std::vector<std::byte>;
 
 class RunningClock : public gpu::GpuTest {
  protected:
+  RunningClock() : GpuTest(gpu::Checks::kAllInLongRuns) {}
   /// Towards the place on the horizon where the sun sets, without shadows, whose edges move.
   void look_west() {
     SceneOptions options;

@@ -39,6 +39,7 @@ std::shared_ptr<const world::ChunkSky> random_chunk(std::mt19937& random) {
 
 class LightOfManyIslands : public gpu::GpuTest {
  protected:
+  LightOfManyIslands() : GpuTest(gpu::Checks::kAllInLongRuns) {}
   void SetUp() override {
     GpuTest::SetUp();
     if (HasFatalFailure()) return;

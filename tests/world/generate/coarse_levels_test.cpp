@@ -165,44 +165,32 @@ void for_levels(const std::array<double, kLevelCount - 1>& bounds, F&& f) {
   }
 }
 
-// Others are thin sheets, which the filter loses, and ragged rock, which is looked at in half of
-// its blocks at level 1, in places at level 2, and is not shifted beyond.
-TEST(CoarseLevels, RockIsWhereHalfOfTheBlocksAre) {
-  for_levels({0.08, 0.16, 0.14, 0.20},
-             [](const Sums& sums, double bound) { EXPECT_LT(sums.wrong / sums.surface, bound); });
-}
-
-TEST(CoarseLevels, VolumesOfRockAndOfCrownsStay) {
+// One test: the sums take half a minute, and each test is a process of its own.
+TEST(CoarseLevels, KeepWhatIsSeenOfFullDetail) {
+  // Others are thin sheets, which the filter loses, and ragged rock, which is looked at in half of
+  // its blocks at level 1, in places at level 2, and is not shifted beyond.
+  for_levels({0.08, 0.16, 0.14, 0.20}, [](const Sums& sums, double bound) {
+    EXPECT_LT(sums.wrong / sums.surface, bound) << "rock is where half of the blocks are";
+  });
   for_levels({0.05, 0.06, 0.05, 0.06}, [](const Sums& sums, double bound) {
     EXPECT_NEAR(sums.rock / sums.rock_f, 1.0, bound);
     EXPECT_NEAR(sums.crown / sums.crown_f, 1.0, bound);
   });
-}
-
-// Islands of 70 blocks are nine voxels wide at level 4, and their rims are thinner than a voxel.
-TEST(CoarseLevels, SilhouettesAreNearlyTheBestOfSuchVoxels) {
-  for_levels({1.17, 1.26, 1.33, 1.38},
-             [](const Sums& sums, double bound) { EXPECT_LT(sums.off / sums.least_off, bound); });
+  // Islands of 70 blocks are nine voxels wide at level 4, and their rims are thinner than a voxel.
+  for_levels({1.17, 1.26, 1.33, 1.38}, [](const Sums& sums, double bound) {
+    EXPECT_LT(sums.off / sums.least_off, bound) << "silhouettes are nearly the best";
+  });
   for_levels({0.02, 0.02, 0.08, 0.17}, [](const Sums& sums, double bound) {
     EXPECT_NEAR(sums.area / sums.area_f, 1.0, bound);
   });
-}
-
-TEST(CoarseLevels, ColorsSeenStay) {
   for_levels({0.05, 0.09, 0.18, 0.32},
              [](const Sums& sums, double bound) { EXPECT_LT(sums.recolored(), bound); });
-}
-
-TEST(CoarseLevels, LakesStay) {
   for_levels({0.12, 0.1, 0.1, 0.2}, [](const Sums& sums, double bound) {
     EXPECT_NEAR(sums.lakes / sums.lakes_f, 1.0, bound);
   });
-}
-
-// A voxel of level 4 has the area of twenty crystals.
-TEST(CoarseLevels, CrystalsKeepTheirGlow) {
+  // A voxel of level 4 has the area of twenty crystals.
   for_levels({0.3, 0.3, 0.4, 1.0}, [](const Sums& sums, double bound) {
-    EXPECT_NEAR(sums.glow / sums.glow_f, 1.0, bound);
+    EXPECT_NEAR(sums.glow / sums.glow_f, 1.0, bound) << "crystals";
   });
 }
 

@@ -51,16 +51,17 @@ Result<bool> sun_lights_ground(gpu::Device& device) {
 /// A picture of the seed's spawn in a world that is moved by `offset`, by day and by moonlight.
 Result<std::vector<std::vector<std::uint8_t>>> pictures_at(gpu::Device& device,
                                                            const Offset& offset) {
+  const game::SceneOptions scene = scene_at(offset);
+  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
+  if (!drawer) return drawer.error();
+  game::SceneView& view = (*drawer)->view();
   std::vector<std::vector<std::uint8_t>> out;
-  for (const int time_of_day_s : {12 * 3600, 18 * 3600, 0}) {
-    game::SceneOptions scene = scene_at(offset);
-    scene.time_of_day_s = time_of_day_s;
-    Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
-    if (!drawer) return drawer.error();
-    Result<Drawn> drawn = (*drawer)->draw();
-    if (!drawn) return drawn.error();
-    if (drawn->report.camera.quads == 0) return Error{"the spawn view shows no block"};
-    out.push_back(std::move(drawn->rgba));
+  for (const double time_of_day_s : {12 * 3600.0, 18 * 3600.0, 0.0}) {
+    Result<std::vector<std::uint8_t>> picture = drawn_picture(
+        device, view, {view.start_camera(), time_of_day_s}, {scene.size.width, scene.size.height});
+    if (!picture) return picture.error();
+    if (view.renderer().report()->camera.quads == 0) return Error{"the spawn view shows no block"};
+    out.push_back(*std::move(picture));
   }
   return out;
 }
