@@ -14,6 +14,11 @@ if(test_sources)
   target_link_libraries(skerry_tests PRIVATE skerry_commands GTest::gtest_main)
   # What takes their time is in what they test. Two thirds of the time to compile.
   target_compile_options(skerry_tests PRIVATE $<$<CONFIG:Release>:-O1>)
+  # What most tests include: a third of the time to compile.
+  target_precompile_headers(skerry_tests PRIVATE <gtest/gtest.h> <algorithm> <cmath> <filesystem> <fstream> <map> <numeric> <random>
+    ${CMAKE_SOURCE_DIR}/tests/render/renderer_on_gpu.h ${CMAKE_SOURCE_DIR}/game/view/scene_view.h)
+  # GCC 12 finds faults in std::string's own code once that is precompiled; ccache needs the other to keep what is compiled with it.
+  target_compile_options(skerry_tests PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -fpch-preprocess>)
   gtest_discover_tests(skerry_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1200)
 endif()
 
