@@ -164,11 +164,23 @@ Cascade cascade_in(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes
   return c;
 }
 
-Cascade make_cascade(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes, double radius) {
+Cascade cascade_about(const CascadeInput& in, const std::array<glm::dvec3, 3>& axes,
+                      double radius) {
   const Window w = window_of(in, radius);
   Cascade c = cascade_in(in, axes, w, key_of(in, axes, w));
   c.radius = static_cast<float>(radius);
   return c;
+}
+
+void check_cascade_input(const CascadeInput& input) {
+  SKERRY_ASSERT(std::isfinite(glm::dot(input.to_light, input.to_light)) &&
+                glm::dot(input.to_light, input.to_light) > 0.0);
+  SKERRY_ASSERT(input.near_blocks > 0.0 && input.near_blocks < input.far_blocks &&
+                input.far_blocks <= 1e6);
+  SKERRY_ASSERT(input.caster_reach_blocks >= 0.0 && input.caster_reach_blocks <= 1e7);
+  SKERRY_ASSERT(input.filter_blocks >= 0.0 && input.filter_blocks <= 1e6);
+  SKERRY_ASSERT(input.map_size >= 64 && input.map_size <= 16384);
+  SKERRY_ASSERT(input.count >= 1 && input.count <= kCascadeCount);
 }
 
 }  // namespace
@@ -223,20 +235,21 @@ Cascade cascade_of(const CascadeKey& key, const CascadeInput& input) {
   return cascade_in(input, light_axes(input.to_light), w, key);
 }
 
+Cascade make_cascade(const CascadeInput& input, int index) {
+  check_cascade_input(input);
+  SKERRY_ASSERT(index >= 0 && index < input.count);
+  const std::vector<double> radii =
+      cascade_radii(input.near_blocks, input.far_blocks, input.count, input.split);
+  return cascade_about(input, light_axes(input.to_light), radii[static_cast<std::size_t>(index)]);
+}
+
 std::vector<Cascade> make_cascades(const CascadeInput& input) {
-  SKERRY_ASSERT(std::isfinite(glm::dot(input.to_light, input.to_light)) &&
-                glm::dot(input.to_light, input.to_light) > 0.0);
-  SKERRY_ASSERT(input.near_blocks > 0.0 && input.near_blocks < input.far_blocks &&
-                input.far_blocks <= 1e6);
-  SKERRY_ASSERT(input.caster_reach_blocks >= 0.0 && input.caster_reach_blocks <= 1e7);
-  SKERRY_ASSERT(input.filter_blocks >= 0.0 && input.filter_blocks <= 1e6);
-  SKERRY_ASSERT(input.map_size >= 64 && input.map_size <= 16384);
-  SKERRY_ASSERT(input.count >= 1 && input.count <= kCascadeCount);
+  check_cascade_input(input);
   const std::array<glm::dvec3, 3> axes = light_axes(input.to_light);
   std::vector<Cascade> cascades;
   for (const double radius :
        cascade_radii(input.near_blocks, input.far_blocks, input.count, input.split))
-    cascades.push_back(make_cascade(input, axes, radius));
+    cascades.push_back(cascade_about(input, axes, radius));
   return cascades;
 }
 

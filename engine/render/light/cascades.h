@@ -84,6 +84,9 @@ std::array<glm::dvec3, 3> light_axes(glm::dvec3 to_light);
 /// Asserts finite input, 0 < near < far, map_size and count in range.
 std::vector<Cascade> make_cascades(const CascadeInput& input);
 
+/// One of those. Asserts 0 <= index < input.count too.
+Cascade make_cascade(const CascadeInput& input, int index);
+
 /// The cascade whose map was made by a key of the same light, as seen from where the camera is now.
 /// Its radius is what the map still covers about the camera, below 0 if the camera has left it.
 Cascade cascade_of(const CascadeKey& key, const CascadeInput& input);

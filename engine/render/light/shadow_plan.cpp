@@ -124,7 +124,7 @@ class Planner {
     for (int index = 0; index < in.count; ++index) {
       ShadowHistory::Kept& kept = next_.kept[slot_];
       in.pivot = pivot_of(kept.map, in);
-      const Cascade cascade = make_cascades(in)[static_cast<std::size_t>(index)];
+      const Cascade cascade = make_cascade(in, index);
       ActiveCascade active;
       active.body = body, active.index = index, active.slot = slot_;
       if (!may_lag(input_, settings_, index) || !follow(kept, in, cascade, active)) {
@@ -173,7 +173,7 @@ class Planner {
         good_enough(kept.map->to_light, to_light, cascade)) {
       in.to_light = kept.map->to_light;
       in.pivot = kept.map->key.pivot;
-      const Cascade before = make_cascades(in)[static_cast<std::size_t>(active.index)];
+      const Cascade before = make_cascade(in, active.index);
       box = outdated(kept.map, before, input_, before_, geometry_);
       if (box) active.cascade = before;
     }

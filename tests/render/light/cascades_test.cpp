@@ -150,6 +150,20 @@ TEST(Cascades, CoverEveryPointWithinTheirRadiusWithRoomForTheFilter) {
   }
 }
 
+TEST(Cascades, OneAloneIsTheOneAmongAll) {
+  Random random;
+  for (int round = 0; round < 50; ++round) {
+    const CascadeInput in = random_input(random, 56);
+    const std::vector<Cascade> all = make_cascades(in);
+    for (int i = 0; i < in.count; ++i) {
+      const Cascade alone = make_cascade(in, i);
+      EXPECT_EQ(alone.key, all[static_cast<std::size_t>(i)].key);
+      EXPECT_EQ(alone.clip_from_world, all[static_cast<std::size_t>(i)].clip_from_world);
+      EXPECT_EQ(alone.radius, all[static_cast<std::size_t>(i)].radius);
+    }
+  }
+}
+
 TEST(Cascades, DepthGrowsTowardsTheLightAndClipIsRightDown) {
   Random random;
   for (int round = 0; round < 100; ++round) {
