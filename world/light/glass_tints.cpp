@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/exponential.hpp>
 
 #include "world/light/face_records.h"
 #include "world/voxel/blocks.h"
@@ -23,20 +24,20 @@ void for_each_voxel(const VoxelBits& bits, const Fn& fn) {
           fn(IVec3{low.x + x, low.y + y, low.z + 64 * w + std::countr_zero(left)});
 }
 
-float extinction(BlockId block, std::size_t channel) {
+/// RGB, a block.
+glm::vec3 extinction(BlockId block) {
   const BlockType& type = block_types()[block];
-  return type.absorption[channel] + type.scattering;
+  return glm::vec3(type.absorption[0], type.absorption[1], type.absorption[2]) + type.scattering;
 }
 
 bool is_clear(const GlassTints::Depth& depth) {
-  return depth == GlassTints::Depth{};
+  return depth == GlassTints::Depth(0);
 }
 
 }  // namespace
 
 glm::vec3 left_by_glass(BlockId block, float blocks) {
-  return {std::exp(-extinction(block, 0) * blocks), std::exp(-extinction(block, 1) * blocks),
-          std::exp(-extinction(block, 2) * blocks)};
+  return glm::exp(-extinction(block) * blocks);
 }
 
 GlassTints::GlassTints(const AirVolume& air, const LatticeLines& lines, const VoxelIndex& wanted)
@@ -47,24 +48,22 @@ GlassTints::GlassTints(const AirVolume& air, const LatticeLines& lines, const Vo
       const glm::ivec3 v = shared::kSkyPatterns[pattern];
       const double blocks = std::sqrt(static_cast<double>(v.x * v.x + v.y * v.y + v.z * v.z)) /
                             8.0 * static_cast<double>(air.stained.voxel_blocks());
-      for (std::size_t channel = 0; channel < 3; ++channel)
-        per_eighth_.push_back(
-            std::llround(static_cast<double>(extinction(block, channel)) * blocks * kDepthSteps));
+      const glm::dvec3 depth = glm::dvec3(extinction(block)) * blocks * kDepthSteps;
+      per_eighth_.emplace_back(std::llround(depth.x), std::llround(depth.y), std::llround(depth.z));
     }
 }
 
 void GlassTints::add(Depth& depth, IVec3 voxel, int eighths, std::size_t way) const {
   const BlockId block = air_.stained.at(voxel);
   if (block == kAir) return;
-  for (std::size_t channel = 0; channel < 3; ++channel)
-    depth[channel] += eighths * per_eighth(block, way, channel);
+  depth += std::int64_t{eighths} * per_eighth(block, way);
 }
 
 GlassTints::Depth GlassTints::depth_of_step(IVec3 from, std::size_t number) const {
   const LatticeLines::Way& way = lines_.way(number);
   const bool stopped = lines_.stopped(from, number);
   const int end = stopped ? lines_.stopping_group(from, number) : way.touched.back().group + 1;
-  Depth depth{};
+  Depth depth(0);
   add(depth, from, way.own_eighths, number);
   for (const LatticeLines::Touched& touched : way.touched) {
     if (touched.group >= end) break;
@@ -74,10 +73,9 @@ GlassTints::Depth GlassTints::depth_of_step(IVec3 from, std::size_t number) cons
 }
 
 GlassTints::Depth GlassTints::depth_from(IVec3 from, std::size_t way) const {
-  Depth sum{};
+  Depth sum(0);
   for (; lines_.inside(from); from = from + lines_.way(way).vector) {
-    const Depth step = depth_of_step(from, way);
-    for (std::size_t channel = 0; channel < 3; ++channel) sum[channel] += step[channel];
+    sum += depth_of_step(from, way);
     if (lines_.stopped(from, way)) break;
   }
   return sum;
@@ -102,10 +100,7 @@ bool GlassTints::set(IVec3 voxel, std::size_t way, Depth depth) {
     word &= ~bit;
     return was;
   }
-  Tint tint{pattern, {}};
-  for (std::size_t channel = 0; channel < 3; ++channel)
-    tint.left[static_cast<int>(channel)] =
-        static_cast<float>(std::exp(-static_cast<double>(depth[channel]) / kDepthSteps));
+  const Tint tint{pattern, glm::vec3(glm::exp(glm::dvec3(-depth) / kDepthSteps))};
   word |= bit;
   Tints& tints = octant.lines[number];
   const auto place = std::ranges::lower_bound(tints, pattern, {}, &Tint::pattern);
@@ -150,8 +145,7 @@ void GlassTints::look_along(std::size_t number, VoxelBits& visited) {
       if (wanted_.has(from)) set(from, number, depth);
       from = from + back;
       if (!lines_.inside(from) || visited.at(from) || lines_.stopped(from, number)) return;
-      const Depth step = depth_of_step(from, number);
-      for (std::size_t channel = 0; channel < 3; ++channel) depth[channel] += step[channel];
+      depth += depth_of_step(from, number);
     }
   };
   for_each_voxel(air_.stained.voxels(), [&](IVec3 glass) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/ext/vector_int3_sized.hpp>
 #include <glm/vec3.hpp>
 #include <unordered_map>
 #include <vector>
@@ -26,7 +27,7 @@ class GlassTints {
   };
   using Tints = std::vector<Tint>;  ///< of an octant, ascending by pattern
   /// Optical depth, RGB, in 2^-20.
-  using Depth = std::array<std::int64_t, 3>;
+  using Depth = glm::i64vec3;
 
   /// All must outlive this.
   GlassTints(const AirVolume& air, const LatticeLines& lines, const VoxelIndex& wanted);
@@ -63,16 +64,15 @@ class GlassTints {
     }
   };
   void look_along(std::size_t way, VoxelBits& visited);
-  std::int64_t per_eighth(BlockId block, std::size_t way, std::size_t channel) const {
-    return per_eighth_[(block * shared::kSkyPatternCount + way % shared::kSkyPatternCount) * 3 +
-                       channel];
+  const Depth& per_eighth(BlockId block, std::size_t way) const {
+    return per_eighth_[block * shared::kSkyPatternCount + way % shared::kSkyPatternCount];
   }
   void add(Depth& depth, IVec3 voxel, int eighths, std::size_t way) const;
 
   const AirVolume& air_;
   const LatticeLines& lines_;
   const VoxelIndex& wanted_;
-  std::vector<std::int64_t> per_eighth_;  // by block, pattern and channel; empty without glass
+  std::vector<Depth> per_eighth_;  // by block and pattern; empty without glass
   std::array<Octant, kOctants> octants_;
 };
 

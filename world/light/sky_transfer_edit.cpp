@@ -231,11 +231,7 @@ class SkyTransfer::Edit {
         std::optional<Ending> ending;
         std::optional<GlassTints::Depth> glass;
         do {
-          if (glass) {
-            const GlassTints::Depth step = of_.tints_.depth_of_step(from, number);
-            for (std::size_t channel = 0; channel < 3; ++channel)
-              (*glass)[channel] += step[channel];
-          }
+          if (glass) *glass += of_.tints_.depth_of_step(from, number);
           if (of_.wanted_.has(from)) {
             if (!ending) ending = ending_of(from, number);
             set_line(from, number, *ending);
