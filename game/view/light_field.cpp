@@ -11,10 +11,20 @@
 namespace skerry::game {
 namespace {
 
-/// Writes lights together with the lists of islands about them. Neighbours share a list.
-class Writer {
+/// Squared, from a place to a box that may hold it.
+float distance2_to(const shared::LightPane& box, const glm::vec3& place) {
+  const glm::vec3 away = place - glm::clamp(place, box.low, box.high);
+  return glm::dot(away, away);
+}
+
+}  // namespace
+
+/// Writes lights together with the lists of islands about them and the panes in their range.
+/// Neighbours share a list of islands.
+class LightField::Writer {
  public:
-  Writer(std::span<const PlacedIsland> islands, FrameLights& out) : islands_(islands), out_(out) {}
+  Writer(const LightField& field, std::span<const PlacedIsland> islands, FrameLights& out)
+      : field_(field), islands_(islands), out_(out) {}
 
   /// Of the lights that follow, none reaches beyond this sphere. @param own the level of an island
   /// that they are on: it stands for the island; null: none.
@@ -48,6 +58,34 @@ class Writer {
     out.position = position;
     out.first_island = static_cast<std::uint32_t>(out_.islands.size()) - count_;
     out.island_count = count_;
+    out.first_pane = static_cast<std::uint32_t>(out_.panes.size());
+    const bool everywhere = (light.kind & shared::kLightKindMask) == shared::kLightDirectional;
+    if (!field_.glass_.empty() && !everywhere) write_panes(position, light.range);
+    out.pane_count = static_cast<std::uint32_t>(out_.panes.size()) - out.first_pane;
+  }
+  void write_panes(glm::dvec3 position, float range) {
+    out_.near_panes.clear();
+    for (const PlacedIsland* island : out_.near) {
+      if (!touches(*island, position, range)) continue;
+      const glm::vec3 place(glm::transpose(island->rotation) * (position - island->origin));
+      const auto within = [&](const shared::LightPane& box) {
+        return distance2_to(box, place) < range * range;
+      };
+      for (auto glass =
+               field_.glass_.lower_bound({island->id, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
+           glass != field_.glass_.end() && glass->first.island == island->id; ++glass) {
+        if (!within(glass->second.about) || field_.hidden_.contains(glass->first)) continue;
+        for (shared::LightPane pane : glass->second.panes) {
+          if (!within(pane)) continue;
+          pane.island = island->index;
+          out_.near_panes.push_back({distance2_to(pane, place), pane});
+        }
+      }
+    }
+    const std::size_t count = std::min(out_.near_panes.size(), kMostPanes);
+    if (count < out_.near_panes.size())
+      std::ranges::stable_sort(out_.near_panes, {}, &FrameLights::NearPane::distance2);
+    for (std::size_t i = 0; i < count; ++i) out_.panes.push_back(out_.near_panes[i].pane);
   }
   void list_islands(const shared::Light& light, glm::dvec3 position) {
     const bool everywhere = light.kind == shared::kLightDirectional;
@@ -67,10 +105,13 @@ class Writer {
     return glm::dot(away, away) <= reach * reach;
   }
 
+  const LightField& field_;
   std::span<const PlacedIsland> islands_;
   FrameLights& out_;
   std::uint32_t count_ = 0;  // of the list written last
 };
+
+namespace {
 
 bool in_view(const render::CameraView& view, glm::dvec3 centre, double radius) {
   return std::all_of(view.planes.begin(), view.planes.end(), [&](const glm::vec4& plane) {
@@ -135,6 +176,24 @@ void LightField::add_lights(const world::SectionKey& key, std::vector<LatticeLig
   if (!lights.empty()) emitted_.emplace(key, group_of(key, std::move(lights)));
 }
 
+void LightField::add_glass(const world::SectionKey& key, std::span<const world::StainedBox> boxes) {
+  if (boxes.empty()) return;
+  const float voxel = static_cast<float>(1 << key.level);  // blocks
+  const glm::ivec3 corner =
+      glm::ivec3(key.chunk.x, key.chunk.y, key.chunk.z) * static_cast<int>(world::kChunkEdge);
+  Glass glass;
+  for (const world::StainedBox& box : boxes) {
+    const glm::vec3 low = glm::vec3(corner + box.low) * voxel;
+    glass.panes.push_back({low, box.block, low + glm::vec3(box.size) * voxel, 0});
+  }
+  glass.about = glass.panes.front();
+  for (const shared::LightPane& pane : glass.panes) {
+    glass.about.low = glm::min(glass.about.low, pane.low);
+    glass.about.high = glm::max(glass.about.high, pane.high);
+  }
+  glass_.emplace(key, std::move(glass));
+}
+
 void LightField::set_reach(const world::SectionKey& key,
                            std::vector<world::LampReach::Bricks> reach) {
   // An island that changes its level of detail invalidates once for each of thousands of sections:
@@ -157,7 +216,7 @@ void LightField::scatter(std::map<world::SectionKey, std::vector<LatticeLight>> 
 void LightField::gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
                                std::span<const PlacedIsland> islands, bool in_the_open,
                                FrameLights& out) const {
-  Writer writer(islands, out);
+  Writer writer(*this, islands, out);
   auto first = islands.begin();
   for (const auto& [key, group] : groups) {
     // Both are in order of islands' ids.
@@ -190,7 +249,7 @@ void LightField::gather_groups(const Groups& groups, const std::optional<render:
 
 void LightField::gather_world(const world::WorldPos& camera, std::span<const PlacedIsland> islands,
                               FrameLights& out) const {
-  Writer writer(islands, out);
+  Writer writer(*this, islands, out);
   for (const WorldLight& one : world_) {
     const bool placed = one.light.kind != shared::kLightDirectional;
     const glm::dvec3 position =
@@ -210,6 +269,7 @@ void LightField::gather(const world::WorldPos& camera,
   out.lights.clear();
   out.islands.clear();
   out.reaches.clear();
+  out.panes.clear();
   std::size_t most = world_.size() + 1;
   for (const Groups* groups : {&emitted_, &scattered_})
     for (const auto& [key, group] : *groups) most += group.lights.size();
@@ -218,7 +278,7 @@ void LightField::gather(const world::WorldPos& camera,
   gather_groups(scattered_, view, islands, in_the_open, out);
   gather_world(camera, islands, out);
   if (!held) return;
-  Writer writer(islands, out);
+  Writer writer(*this, islands, out);
   writer.within(held->position, held->range);
   writer.write(*held, held->position);
 }

@@ -11,6 +11,7 @@
 #include "game/scene_file/emission.h"
 #include "game/scene_file/scene_contents.h"
 #include "world/light/lamp_reach.h"
+#include "world/mesh/stained_boxes.h"
 #include "world/stream/stream.h"
 
 namespace skerry::game {
@@ -38,10 +39,19 @@ struct FrameLights {
   std::vector<shared::Light> lights;
   std::vector<std::uint32_t> islands;
   std::vector<shared::LightReach> reaches;
+  std::vector<shared::LightPane> panes;
+  struct NearPane {
+    float distance2 = 0.0f;  // from the light to the box
+    shared::LightPane pane;
+  };
   /// Working memory of LightField::gather, kept between frames.
   std::vector<const PlacedIsland*> near;
   std::vector<std::uint32_t> found;
+  std::vector<NearPane> near_panes;
 };
+
+/// Of the panes in a light's range so many colour it, the nearest.
+inline constexpr std::size_t kMostPanes = 32;
 
 /// All lights of a world but sun and moon, and those of them that a frame needs. Their order is
 /// that of section keys, then voxels, then places of the world: it does not depend on when a
@@ -61,23 +71,28 @@ class LightField {
   /// Says where on their own island a section's lights can arrive, in their order. Holds until
   /// invalidate_reach() of the island, or until the section is removed.
   void set_reach(const world::SectionKey& key, std::vector<world::LampReach::Bricks> reach);
+  /// Takes in a section's stained glass. @pre it has none yet.
+  void add_glass(const world::SectionKey& key, std::span<const world::StainedBox> boxes);
   /// To be called whenever a voxel of the island changes.
   void invalidate_reach(std::uint64_t island) { stale_.insert(island); }
-  /// Whether a section's lights shine; at first they do. One without lights is no concern.
+  /// Whether a section's lights shine and its glass is there; at first they are. One without is no
+  /// concern.
   void show(const world::SectionKey& key, bool shown) {
     if (shown)
       hidden_.erase(key);
     else
       hidden_.insert(key);
   }
-  /// Forgets them. A section without lights is no concern.
+  /// Forgets them and its glass. A section without is no concern.
   void remove(const world::SectionKey& key) {
     emitted_.erase(key);
+    glass_.erase(key);
     hidden_.erase(key);
   }
   /// Forgets all that add() took in.
   void remove_sections() {
     emitted_.clear();
+    glass_.clear();
     hidden_.clear();
     stale_.clear();
   }
@@ -106,6 +121,12 @@ class LightField {
     std::vector<world::LampReach::Bricks> bricks;  // that each can arrive at; empty: not known
   };
   using Groups = std::map<world::SectionKey, Group>;
+  /// The stained glass of one section, in the lattice [blocks].
+  struct Glass {
+    shared::LightPane about{};  // all of it
+    std::vector<shared::LightPane> panes;
+  };
+  class Writer;
   static Group group_of(const world::SectionKey& key, std::vector<LatticeLight> lights);
   void gather_groups(const Groups& groups, const std::optional<render::CameraView>& view,
                      std::span<const PlacedIsland> islands, bool in_the_open,
@@ -115,7 +136,8 @@ class LightField {
 
   std::vector<BlockEmission> emission_;  // by block id
   Groups emitted_, scattered_;
-  std::set<world::SectionKey> hidden_;  // of emitted_
+  std::map<world::SectionKey, Glass> glass_;
+  std::set<world::SectionKey> hidden_;  // of emitted_ and glass_
   std::set<std::uint64_t> stale_;       // islands whose groups' bricks no longer hold
   std::vector<WorldLight> world_;
 };

@@ -486,6 +486,7 @@ Result<void> SceneView::add_section(const world::ReadySection& ready) {
   if (island_light_) island_light_->add(ready.key, light_chunk_of(ready, std::move(weak), lights));
   light_field_.invalidate_reach(ready.key.island);
   light_field_.add_lights(ready.key, std::move(lights));
+  light_field_.add_glass(ready.key, world::stained_boxes_of(ready.stained));
   return {};
 }
 
@@ -634,6 +635,7 @@ Result<std::uint64_t> SceneView::draw(
   input.lights = lights_.lights;
   input.light_islands = lights_.islands;
   input.light_reaches = lights_.reaches;
+  input.light_panes = lights_.panes;
   const std::optional<double> ev =
       settings_.exposure_ev ? settings_.exposure_ev : moment.exposure_ev;
   input.exposure_ev.reset();

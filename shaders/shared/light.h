@@ -17,7 +17,11 @@ SHARED_CONST uint kLightKindCount = 5u;
 SHARED_CONST uint kLightKindMask = 7u;  // of Light.kind
 SHARED_CONST uint kLightDualBit = 8u;   // a spot that shines along -axis as well
 
+// Among bits of kinds that a frame has: some light has panes.
+SHARED_CONST uint kLightPanesBit = 1u << kLightKindCount;
+
 SHARED_CONST uint kLightTexels = 5u;  // of 128 bits
+SHARED_CONST uint kPaneTexels = 2u;   // of a LightPane; they come after all lights
 
 struct Light {
   vec3 position;      // world; a directional light's is not used
@@ -32,7 +36,17 @@ struct Light {
   uint island_count;  // bounding spheres the light's range touches
   uint reach;  // 1 + which of the frame's LightReach bounds what it can arrive at; 0: its range
                // alone
-  uint unused[3];
+  uint first_pane;  // of the frame's LightPane
+  uint pane_count;  // that stand in its range; of a directional light none
+  uint unused;
+};
+
+// A box of stained glass that light passes.
+struct LightPane {
+  vec3 low;  // lattice [blocks]
+  uint block;
+  vec3 high;
+  uint island;  // of the frame's islands
 };
 
 SHARED_CONST uint kReachWords = 128u;

@@ -85,6 +85,7 @@ struct FrameInput {
   std::span<const shared::Light> lights;  ///< finite, in an order that does not depend on threads
   std::span<const std::uint32_t> light_islands;       ///< indices of `islands`, see shared::Light
   std::span<const shared::LightReach> light_reaches;  ///< see shared::Light
+  std::span<const shared::LightPane> light_panes;     ///< see shared::Light
   /// Which of how many frames that average into one picture, drawn one after another; in each, sun
   /// and moon light from another place of their discs. The last one develops the picture.
   std::uint32_t part = 0, parts = 1;

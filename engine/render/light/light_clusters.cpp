@@ -17,9 +17,10 @@ namespace skerry::render {
 namespace {
 
 using gpu::Use;
-using shared::kLightTexels;
+using shared::kLightTexels, shared::kPaneTexels;
 
 static_assert(sizeof(shared::Light) == kLightTexels * sizeof(glm::uvec4));
+static_assert(sizeof(shared::LightPane) == kPaneTexels * sizeof(glm::uvec4));
 
 constexpr VkBufferUsageFlags kTable =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -52,7 +53,10 @@ std::uint64_t most_entries(const gpu::DeviceLimits& limits) {
 
 std::uint32_t light_kinds(std::span<const shared::Light> lights) {
   std::uint32_t kinds = 0;
-  for (const shared::Light& light : lights) kinds |= 1u << (light.kind & shared::kLightKindMask);
+  for (const shared::Light& light : lights) {
+    kinds |= 1u << (light.kind & shared::kLightKindMask);
+    if (light.pane_count != 0) kinds |= shared::kLightPanesBit;
+  }
   return kinds;
 }
 
@@ -176,8 +180,8 @@ std::uint64_t LightClusters::roomy(std::uint64_t size_bytes) const {
   return std::max<std::uint64_t>(std::min(bytes, device_.limits().max_storage_range), size_bytes);
 }
 
-Result<void> LightClusters::reserve_lights(std::uint64_t count) {
-  const std::uint64_t wanted = count * sizeof(shared::Light);
+Result<void> LightClusters::reserve_lights(std::uint64_t count, std::uint64_t panes) {
+  const std::uint64_t wanted = count * sizeof(shared::Light) + panes * sizeof(shared::LightPane);
   const std::uint64_t most = device_.limits().max_texels * (sizeof(shared::Light) / kLightTexels);
   return reserve(lights_, "lights", std::min(roomy(wanted), std::max(most, wanted)), true);
 }
@@ -189,13 +193,14 @@ void LightClusters::suppose(std::uint32_t kinds, const ClusterPicture& picture) 
 
 void LightClusters::reserve() {
   (void)reserve(entries_, "light lists", kUsualEntries * sizeof(std::uint32_t));
-  (void)reserve_lights(kUsualLights);
+  (void)reserve_lights(kUsualLights, 0);
   (void)reserve(reaches_, "reach of lights", roomy(kUsualLights * sizeof(shared::LightReach)));
   (void)reserve(grid_buffer_, "cluster grid", sizeof(grid_));
 }
 
 Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
                                    std::span<const shared::LightReach> reaches,
+                                   std::span<const shared::LightPane> panes,
                                    const CameraView& camera, const ClusterPicture& picture) {
   SKERRY_ASSERT(!lights.empty());
   const std::uint32_t most = most_lights(device_.limits(), picture);
@@ -209,12 +214,20 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
     lights = lights.first(most);
   }
   kinds_ = light_kinds(lights);
+  // Panes that find no room colour nothing.
+  std::vector<shared::Light> without;
+  if (lights.size() * kLightTexels + panes.size() * kPaneTexels > device_.limits().max_texels) {
+    without.assign(lights.begin(), lights.end());
+    for (shared::Light& light : without) light.pane_count = 0;
+    lights = without;
+    panes = {};
+  }
   const std::uint64_t room = std::clamp(
       std::max(wanted_entries_, std::min(lights.size() * kEntriesPerLight, kFirstEntries)),
       kLeastEntries, most_entries(device_.limits()));
   if (Result<void> ok = reserve(entries_, "light lists", room * sizeof(std::uint32_t)); !ok)
     return ok;
-  if (Result<void> ok = reserve_lights(lights.size()); !ok) return ok;
+  if (Result<void> ok = reserve_lights(lights.size(), panes.size()); !ok) return ok;
   if (!reaches.empty()) {
     if (Result<void> ok = reserve(reaches_, "reach of lights", roomy(reaches.size_bytes())); !ok)
       return ok;
@@ -224,6 +237,7 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
   grid_ = cluster_grid(camera, picture, static_cast<std::uint32_t>(lights.size()),
                        entries_.size_bytes() / sizeof(std::uint32_t));
   uploader.write(lights_, 0, lights);
+  if (!panes.empty()) uploader.write(lights_, lights.size_bytes(), panes);
   uploader.write(grid_buffer_, 0, std::span<const shared::ClusterGrid>(&grid_, 1));
   return {};
 }

@@ -17,7 +17,7 @@ namespace skerry::render {
 
 struct CameraView;
 
-/// A bit for each kind among them, see ClusteredLights.
+/// A bit for each kind among them, and shared::kLightPanesBit if one of them has panes.
 std::uint32_t light_kinds(std::span<const shared::Light> lights);
 
 /// The lights whose range touches a view, in their order; directional ones always. Those without
@@ -49,9 +49,9 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
 /// A frame's lights, sorted: what a pass needs that includes shaders/include/light/clustered.glsl.
 struct ClusteredLights {
   gpu::BufferRef grid, reaches, clusters, entries;
-  gpu::BufferRef lights;    ///< texels of shared::Light[]
+  gpu::BufferRef lights;    ///< texels of shared::Light[], then of shared::LightPane[]
   Tiles tiles;              ///< those that some light reaches, kCovered alone
-  std::uint32_t kinds = 0;  ///< bit a kind that the frame has; 0: there are none
+  std::uint32_t kinds = 0;  ///< see light_kinds(); 0: there are none
   bool oracle = false;      ///< nothing is sorted: every pixel asks every light
   gpu::BufferRef shafts;  ///< shared::TileShafts[8x8 tile], see ShaftPass; empty: nothing is known
 
@@ -97,7 +97,8 @@ class LightClusters {
   /// Takes a frame's lights to the GPU. More than most_lights() are cut off, and said so once.
   /// @param lights not empty, in view. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Light> lights,
-                      std::span<const shared::LightReach> reaches, const CameraView& camera,
+                      std::span<const shared::LightReach> reaches,
+                      std::span<const shared::LightPane> panes, const CameraView& camera,
                       const ClusterPicture& picture);
   /// Takes as many lights of these kinds as most views have for uploaded, so that add() asks for
   /// the programs and the memory they need. @param kinds see ClusteredLights.
@@ -117,7 +118,7 @@ class LightClusters {
  private:
   Result<void> reserve(gpu::Buffer& buffer, const char* name, std::uint64_t size_bytes,
                        bool texels = false);
-  Result<void> reserve_lights(std::uint64_t count);
+  Result<void> reserve_lights(std::uint64_t count, std::uint64_t panes);
   std::uint64_t roomy(std::uint64_t size_bytes) const;
 
   gpu::Device& device_;

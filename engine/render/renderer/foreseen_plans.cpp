@@ -35,6 +35,7 @@ std::vector<shared::Light> lights_of(std::uint32_t kinds) {
     if ((kinds & 1u << kind) == 0) continue;
     out.emplace_back();
     out.back().kind = kind;
+    if ((kinds & shared::kLightPanesBit) != 0) out.back().pane_count = 1;
   }
   return out;
 }

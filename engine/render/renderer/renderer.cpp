@@ -185,11 +185,11 @@ Result<void> Renderer::State::upload(const FramePlan& plan) {
       !ok)
     return ok;
   if (!plan.contents.lights.empty())
-    if (Result<void> ok =
-            light_clusters.upload(frame_uploader, plan.contents.lights, input.light_reaches,
-                                  view_of(input.camera, plan.drawn.width, plan.drawn.height),
-                                  {plan.drawn, plan.tables.constants.layers_area,
-                                   plan.marked_slices, plan.settings.lights_tile});
+    if (Result<void> ok = light_clusters.upload(
+            frame_uploader, plan.contents.lights, input.light_reaches, input.light_panes,
+            view_of(input.camera, plan.drawn.width, plan.drawn.height),
+            {plan.drawn, plan.tables.constants.layers_area, plan.marked_slices,
+             plan.settings.lights_tile});
         !ok)
       return ok;
   if (plan.temporal)

@@ -2,6 +2,7 @@
 // traced.glsl, kOracle; `list.count` lights are asked.
 #ifndef SKERRY_BLOCKED_LIGHTS_GLSL
 #define SKERRY_BLOCKED_LIGHTS_GLSL
+#include "include/light/light_panes.glsl"
 
 // What is summed: radiance of a surface; or, of a surface of any albedo, that of a black one and of a white one (light_samples.glsl).
 #ifdef SKERRY_ANY_ALBEDO
@@ -12,8 +13,9 @@ struct BrdfPair {
 #define Reflectance BrdfPair
 #define Reflected mat2x3
 Reflected sent_to_eye(Light light, BrdfPair b, WayStart start, vec3 to_eye) {
-  return mat2x3(light_reflected(light, b.black, start.position, start.normal, to_eye),
-                light_reflected(light, b.white, start.position, start.normal, to_eye));
+  vec3 left = left_by_panes(light, start.position);
+  return mat2x3(light_reflected(light, b.black, start.position, start.normal, to_eye) * left,
+                light_reflected(light, b.white, start.position, start.normal, to_eye) * left);
 }
 // Of a surface of average albedo.
 float strength_of(Reflected sent) { return luminance(mix(sent[0], sent[1], 0.3)); }
@@ -22,7 +24,7 @@ Reflected not_negative(Reflected sent) { return mat2x3(max(sent[0], vec3(0.0)), 
 #define Reflectance Brdf
 #define Reflected vec3
 Reflected sent_to_eye(Light light, Brdf b, WayStart start, vec3 to_eye) {
-  return light_reflected(light, b, start.position, start.normal, to_eye);
+  return light_reflected(light, b, start.position, start.normal, to_eye) * left_by_panes(light, start.position);
 }
 float strength_of(Reflected sent) { return luminance(sent); }
 Reflected not_negative(Reflected sent) { return max(sent, vec3(0.0)); }

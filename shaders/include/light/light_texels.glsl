@@ -1,4 +1,4 @@
-// The frame's lights, as texels of 128 bits: lavapipe fetches one in the time of a word and a fifth of a storage buffer, and what is not used of a
+// The frame's lights and panes, as texels of 128 bits: lavapipe fetches one in the time of a word and a fifth of a storage buffer, and what is not used of a
 // light is not fetched.
 #ifndef SKERRY_LIGHT_TEXELS_GLSL
 #define SKERRY_LIGHT_TEXELS_GLSL
@@ -24,7 +24,14 @@ Light frame_light(uint index) {
   light.first_island = d.z;
   light.island_count = d.w;
   light.reach = e.x;
-  light.unused = uint[](e.y, e.z, e.w);
+  light.first_pane = e.y;
+  light.pane_count = e.z;
+  light.unused = e.w;
   return light;
+}
+LightPane light_pane(uint light_count, uint index) {
+  int first = int(light_count * kLightTexels + index * kPaneTexels);
+  uvec4 a = texelFetch(light_texels, first), b = texelFetch(light_texels, first + 1);
+  return LightPane(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w);
 }
 #endif

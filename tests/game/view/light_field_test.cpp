@@ -140,6 +140,57 @@ TEST(LightField, UsesWhereLightsArriveOnlyWhileItHolds) {
   EXPECT_EQ(reaches(), 3u);
 }
 
+TEST(LightField, ListsTheNearestPanesInALightsRange) {
+  const world::SectionKey here{1, {0, 0, 0}, 0}, coarse{1, {0, 0, 0}, 1}, beside{1, {1, 0, 0}, 0},
+      other{2, {0, 0, 0}, 0};
+  LightField field = field_of({{here, {{glm::vec3(32.0f), world::block::kTorch, 1, false}}}});
+  std::mt19937 random(8);
+  const auto in = [&](int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low));
+  };
+  std::vector<world::StainedBox> boxes;
+  for (int i = 0; i < 60; ++i)
+    boxes.push_back(
+        {{in(0, 60), in(0, 60), in(0, 60)}, {in(1, 5), 1, in(1, 5)}, world::block::kRedGlass});
+  field.add_glass(here, boxes);
+  field.add_glass(beside, std::vector<world::StainedBox>{{{0, 32, 32}, {1, 1, 1}, 1}});
+  field.add_glass(coarse, std::vector<world::StainedBox>{{{15, 15, 15}, {2, 2, 2}, 2}});
+  field.add_glass(other, boxes);
+  // Turned, and moved so that the lamp is where the camera is not.
+  const glm::dmat3 turn =
+      glm::mat3_cast(glm::angleAxis(1.1, glm::normalize(glm::dvec3(1.0, 2.0, 0.5))));
+  const std::vector<PlacedIsland> islands{{1, 3, turn, {50.0, -20.0, 10.0}, 200.0},
+                                          {2, 1, glm::dmat3(1.0), {1e4, 0.0, 0.0}, 100.0}};
+  field.show(coarse, false);
+  FrameLights frame;
+  field.gather({}, std::nullopt, islands, std::nullopt, false, frame);
+  ASSERT_EQ(frame.lights.size(), 1u);
+  const shared::Light& torch = frame.lights.front();
+  const glm::vec3 place(glm::transpose(turn) * (glm::dvec3(torch.position) - islands[0].origin));
+  std::vector<float> distances;
+  const auto distance_to = [&](glm::vec3 low, glm::vec3 high) {
+    return glm::length(place - glm::clamp(place, low, high));
+  };
+  for (const world::StainedBox& box : boxes)
+    distances.push_back(distance_to(box.low, box.low + box.size));
+  distances.push_back(distance_to({64.0f, 32.0f, 32.0f}, {65.0f, 33.0f, 33.0f}));
+  std::ranges::sort(distances);
+  const auto in_range = static_cast<std::size_t>(std::ranges::lower_bound(distances, torch.range) -
+                                                 distances.begin());
+  ASSERT_EQ(torch.pane_count, std::min(in_range, kMostPanes));
+  for (std::uint32_t i = 0; i < torch.pane_count; ++i) {
+    const shared::LightPane& pane = frame.panes.at(torch.first_pane + i);
+    EXPECT_EQ(pane.island, 3u);
+    EXPECT_LE(distance_to(pane.low, pane.high), distances[torch.pane_count - 1] + 1e-4f);
+  }
+  field.remove(here);
+  field.show(coarse, true);
+  field.gather({}, std::nullopt, islands, torch, false, frame);
+  ASSERT_EQ(frame.lights.size(), 1u) << "the one in the hand";
+  EXPECT_EQ(frame.panes.at(frame.lights.front().first_pane).high, glm::vec3(34.0f))
+      << "of two blocks a voxel";
+}
+
 TEST(LightField, LeavesOutOnlyWhatCannotReachTheView) {
   const MadeWorld world(9);
   const LightField field = field_of(world.emitters);

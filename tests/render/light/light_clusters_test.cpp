@@ -155,7 +155,7 @@ class LightClustersOnGpu : public gpu::GpuTest {
     scene.size = view.size;
     scene.point_sampler = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
     EXPECT_TRUE(clusters_->upload(
-        *uploader_, lights, {}, view.camera,
+        *uploader_, lights, {}, {}, view.camera,
         {view.size, {0, 0, view.size.width, view.size.height}, view.inside_medium, view.tile}));
     std::vector<gpu::Image> images;
     images.reserve(2 + view.layers.size());
