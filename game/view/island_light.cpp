@@ -43,6 +43,8 @@ struct IslandLight::Search {
   std::map<world::IVec3, Closed> closings;       // alike; then of what is found
   std::atomic<int> parts_left = world::kOctants + 1;  // octants, and lamps; then of a step
   Skies found;  // with `seams` closed; what is as `known` has it is the same object
+  world::LightCache* cache = nullptr;
+  Skies to_cache;  // what the transfer has found; none if it came from the cache
   std::atomic<bool> done = false;
 };
 
@@ -51,6 +53,11 @@ namespace {
 /// With guesses for the faces that close the chunk, where they are not dark.
 world::ChunkSky closed(const world::ChunkSky& before, std::span<const shared::Quad> seams) {
   return world::with_faces(before, world::lit_faces(before, seams));
+}
+
+/// Of a look at the sky.
+world::LightCache::Kind kind_of(std::span<const world::FaceAlbedo> albedo) {
+  return albedo.empty() ? world::LightCache::Kind::kSky : world::LightCache::Kind::kBounces;
 }
 
 template <class Map>
@@ -65,7 +72,8 @@ constexpr int kSpare = 16;        // blocks about an island that has outgrown wh
 constexpr int kCallsToWait = 64;  // start() with nothing new, before it asks who is near
 }  // namespace
 
-IslandLight::IslandLight(WorkerThreads& threads, Finds finds) : threads_(threads), finds_(finds) {}
+IslandLight::IslandLight(WorkerThreads& threads, Finds finds, world::LightCache* cache)
+    : threads_(threads), finds_(finds), cache_(cache) {}
 
 void IslandLight::add(const world::SectionKey& key, world::LightChunk chunk) {
   Island& island = islands_[key.row()];
@@ -137,11 +145,22 @@ void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
     search->done = true;
 }
 
+void IslandLight::run_or_take(WorkerThreads& threads, std::shared_ptr<Search> search) {
+  submit(threads, search->work, [&threads, search] {
+    const auto light = search->cache->find(search->chunks, kind_of(search->albedo));
+    if (!light) return run(threads, search);
+    search->reaches = std::make_shared<const Reaches>(Reaches{search->chunks, light->reaches});
+    search->reach_done = true;
+    end_look(*search, light->skies);
+  });
+}
+
 // Octants are looked along in jobs of their own, so that one large island keeps all workers busy.
 void IslandLight::look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search) {
   submit(threads, search->work, [&threads, search] {
     const bool edited = search->transfer != nullptr;
-    if (edited && search->transfer->edit(search->chunks)) return end_look(*search);
+    if (edited && search->transfer->edit(search->chunks))
+      return end_look(*search, search->transfer->faces());
     search->transfer = std::make_unique<world::SkyTransfer>(
         search->chunks, search->albedo, world::BounceLight::kBounces, edited ? kSpare : 0);
     for (int part = 0; part <= world::kOctants; ++part)
@@ -158,8 +177,9 @@ void IslandLight::look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> se
 // A step needs all of the step before it.
 void IslandLight::follow_bounces(WorkerThreads& threads, std::shared_ptr<Search> search, int step) {
   if (!search->transfer->has_bounces() || step == world::BounceLight::kSteps) {
-    search->transfer->make_faces();
-    return end_look(*search);
+    const Skies& skies = search->transfer->make_faces();
+    if (search->cache) search->to_cache = skies;
+    return end_look(*search, skies);
   }
   search->parts_left = world::BounceLight::kParts;
   for (int part = 0; part < world::BounceLight::kParts; ++part)
@@ -169,8 +189,8 @@ void IslandLight::follow_bounces(WorkerThreads& threads, std::shared_ptr<Search>
     });
 }
 
-void IslandLight::end_look(Search& search) {
-  search.found = search.transfer->faces();
+void IslandLight::end_look(Search& search, Skies skies) {
+  search.found = std::move(skies);
   const std::map<world::IVec3, Closed> closed_before = std::exchange(search.closings, {});
   for (auto& [at, sky] : search.found) {
     if (const auto seams = at_or_none(search.seams, at)) {
@@ -218,14 +238,18 @@ void IslandLight::begin(const world::IslandLevel& row, Island& island, bool keep
   island.search->work = work_;
   island.search->version = island.asked = island.version;
   island.search->sky = finds_ != Finds::kReach;
-  island.search->keep = keep && island.search->sky && row.level == 0;
+  island.search->keep = keep && !cache_ && island.search->sky && row.level == 0;
   island.search->transfer = std::move(island.kept);
   island.search->reaches_before = island.reaches;
   island.search->seams = island.seams;
   island.search->known = island.known;
   island.search->closings = std::move(island.closings);
   if (finds_ == Finds::kBounces) island.search->albedo = albedo_table();
-  run(threads_, island.search);
+  if (island.search->sky) island.search->cache = cache_;
+  if (island.search->cache)
+    run_or_take(threads_, island.search);
+  else
+    run(threads_, island.search);
 }
 
 void IslandLight::start(const world::Streamer& streamer,
@@ -246,7 +270,7 @@ void IslandLight::start(const world::Streamer& streamer,
     begin(ranks[i].row, island, i < kKept);
   }
   // When there is nothing else to do, the nearest one is looked at once more for edits to come.
-  if (busy || ranks.empty() || finds_ == Finds::kReach) return;
+  if (busy || ranks.empty() || cache_ || finds_ == Finds::kReach) return;
   Island& nearest = *ranks.front().island;
   const world::IslandLevel& row = ranks.front().row;
   if (!nearest.kept && row.level == 0 && streamer.settled(row.island)) begin(row, nearest, true);
@@ -290,6 +314,9 @@ std::vector<IslandLight::Found> IslandLight::poll() {
     }
     const std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
     if (search->keep) island.kept = std::move(search->transfer);
+    if (!search->to_cache.empty())
+      cache_->keep(search->chunks, kind_of(search->albedo),
+                   {search->reaches->found, std::move(search->to_cache)});
     if (finds_ == Finds::kReach) continue;
     Found found{row, {}};
     Skies skies;

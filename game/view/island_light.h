@@ -9,6 +9,7 @@
 
 #include "engine/core/worker_threads.h"
 #include "world/light/lamp_reaches.h"
+#include "world/light/light_cache.h"
 #include "world/light/sky_transfer.h"
 #include "world/stream/stream.h"
 
@@ -26,7 +27,9 @@ class IslandLight {
     kSky,      ///< and the sky's light and that of weak lamps
     kBounces,  ///< and what faces reflect to each other
   };
-  IslandLight(WorkerThreads& threads, Finds finds);
+  /// @param cache light that others have found, and that this finds; null: none. It outlives the
+  /// threads' jobs. With one, each look is at a whole island, and nothing is kept for edits.
+  IslandLight(WorkerThreads& threads, Finds finds, world::LightCache* cache = nullptr);
   Finds finds() const { return finds_; }
 
   /// Takes in a chunk. Each level of an island is looked at as if it were an island of its own. A
@@ -104,9 +107,10 @@ class IslandLight {
   };
   static Found guesses(const world::IslandLevel& row, Island& island);
   static void run(WorkerThreads& threads, std::shared_ptr<Search> search);
+  static void run_or_take(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void follow_bounces(WorkerThreads& threads, std::shared_ptr<Search> search, int step);
-  static void end_look(Search& search);
+  static void end_look(Search& search, Skies skies);
   struct Rank;
   std::vector<Rank> by_distance(const Distances& distances);
   void begin(const world::IslandLevel& row, Island& island, bool keep);
@@ -116,6 +120,7 @@ class IslandLight {
 
   WorkerThreads& threads_;
   const Finds finds_;
+  world::LightCache* const cache_;
   std::shared_ptr<std::atomic<double>> work_ = std::make_shared<std::atomic<double>>(0.0);
   int calls_with_nothing_new_ = 0;
   std::map<world::IslandLevel, Island> islands_;

@@ -93,8 +93,12 @@ world::LatticeBox box_of_faces(const world::SectionKey& key, const world::ChunkM
 
 }  // namespace
 
-SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> world)
-    : settings_(options.settings), world_(std::move(world)), picture_rows_(options.size.height) {
+SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> world,
+                     SceneCache* cache)
+    : settings_(options.settings),
+      cache_(cache),
+      world_(std::move(world)),
+      picture_rows_(options.size.height) {
   jobs_ = std::make_unique<Jobs>(static_cast<int>(settings_.jobs_threads));
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
   if (options.camera) {
@@ -114,16 +118,18 @@ SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> 
 SceneView::~SceneView() = default;
 
 Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
-                                                     const SceneOptions& options) {
+                                                     const SceneOptions& options,
+                                                     SceneCache* cache) {
   Result<std::unique_ptr<world::World>> world = open_world(options);
   if (!world) return world.error();
-  return create(device, options, *std::move(world));
+  return create(device, options, *std::move(world), cache);
 }
 
 Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
                                                      const SceneOptions& options,
-                                                     std::shared_ptr<world::World> world) {
-  std::unique_ptr<SceneView> view(new SceneView(options, std::move(world)));
+                                                     std::shared_ptr<world::World> world,
+                                                     SceneCache* cache) {
+  std::unique_ptr<SceneView> view(new SceneView(options, std::move(world), cache));
   const std::vector<shared::Material> materials = material_table();
   render::RendererDesc desc;
   desc.materials = materials;
@@ -131,6 +137,7 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
   desc.upload_budget_bytes = options.settings.upload_budget_bytes;
   desc.arena_quads = kFirstArenaQuads;
   desc.world_budget_bytes = options.settings.memory_budget_mib.value_or(0) * kBytesPerMiB;
+  if (cache) desc.pipelines = &cache->pipelines;
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(device, desc);
   if (!renderer) return renderer.error();
   view->renderer_ = *std::move(renderer);
@@ -294,7 +301,9 @@ Result<void> SceneView::follow_settings() {
   if (light && !light_threads_)
     light_threads_ =
         std::make_unique<WorkerThreads>(jobs_->threads(), WorkerThreads::Priority::kLowered);
-  if (light) island_light_ = std::make_unique<IslandLight>(*light_threads_, finds);
+  if (light)
+    island_light_ =
+        std::make_unique<IslandLight>(*light_threads_, finds, cache_ ? &cache_->light : nullptr);
   weak_lamps_kept_ = full;
   streamer_ =
       std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);

@@ -20,6 +20,7 @@
 #include "game/view/island_light.h"
 #include "game/view/level_blends.h"
 #include "game/view/light_field.h"
+#include "game/view/scene_cache.h"
 #include "game/view/section_cuts.h"
 #include "game/view/sky_light_feed.h"
 #include "game/view/view_fit.h"
@@ -33,12 +34,14 @@ namespace skerry::game {
 /// here; generation and meshing run on jobs.
 class SceneView {
  public:
+  /// @param cache shared with other views, see there; null: none.
   /// Errors: no memory on the device; those of open_world.
-  static Result<std::unique_ptr<SceneView>> create(gpu::Device& device,
-                                                   const SceneOptions& options);
+  static Result<std::unique_ptr<SceneView>> create(gpu::Device& device, const SceneOptions& options,
+                                                   SceneCache* cache = nullptr);
   /// Shows a world that is open already.
   static Result<std::unique_ptr<SceneView>> create(gpu::Device& device, const SceneOptions& options,
-                                                   std::shared_ptr<world::World> world);
+                                                   std::shared_ptr<world::World> world,
+                                                   SceneCache* cache = nullptr);
   ~SceneView();
 
   /// The camera the options ask for: given, or the seed's spawn view at eye height.
@@ -106,7 +109,7 @@ class SceneView {
   std::optional<double> adapted_ev(std::optional<double> ev, double seconds) const;
 
  private:
-  SceneView(const SceneOptions& options, std::shared_ptr<world::World> world);
+  SceneView(const SceneOptions& options, std::shared_ptr<world::World> world, SceneCache* cache);
   struct IslandEntry {
     world::IslandSpec spec;
     std::uint32_t sections = 0;  // resident ones that name this slot; a slot without may be reused
@@ -173,6 +176,7 @@ class SceneView {
   double kept_reach(const render::FixedPos& camera);
 
   Settings settings_;
+  SceneCache* cache_;  // null: none
   std::unique_ptr<Jobs> jobs_;
   std::shared_ptr<world::World> world_;
   std::unique_ptr<world::Streamer> streamer_;

@@ -14,6 +14,7 @@ struct ChunkOccupancy {
   Fill fill = Fill::kEmpty;
   std::vector<std::uint32_t> table;  ///< shared::kBricksPerChunk entries if mixed, else none
   std::vector<std::uint32_t> words;  ///< shared::kBrickWords for each brick that is stored
+  bool operator==(const ChunkOccupancy&) const = default;
 };
 
 /// @param voxels kPaddedVoxels block ids, as mesh_chunk takes them; the shell is not looked at.

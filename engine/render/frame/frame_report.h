@@ -26,7 +26,7 @@ struct FrameReport {
   std::uint32_t lights = 0;        ///< whose range the view touches
   shared::ClusterWork clusters{};  ///< that those were sorted into; none under the oracle
   gpu::FrameCounts counts{};       ///< of the frame's graph
-  int pipelines_created = 0;       ///< that frames have used since the renderer was made
+  int pipelines_created = 0;       ///< see Renderer::pipelines_created
   bool lagged = false;             ///< drawn by earlier settings: see FrameInput::may_lag
   int programs_made = 0;           ///< pipelines this frame had to wait for
   std::uint64_t allocations = 0;   ///< of device memory, in this frame

@@ -63,7 +63,8 @@ void add_readback(FrameAssembly& frame, FrameReadback& to) {
 struct Renderer::State {
   State(gpu::Device& d, const RendererDesc& desc)
       : device(d),
-        pipelines(d),
+        own_pipelines(desc.pipelines ? nullptr : std::make_unique<gpu::Pipelines>(d)),
+        pipelines(desc.pipelines ? *desc.pipelines : *own_pipelines),
         graph(&d),
         frame_uploader(d, desc.upload_path),
         mesh_uploader(d, desc.upload_path),
@@ -94,7 +95,8 @@ struct Renderer::State {
   void take_report(std::uint32_t slot_index);
 
   gpu::Device& device;
-  gpu::Pipelines pipelines;
+  std::unique_ptr<gpu::Pipelines> own_pipelines;  // null: they are others'
+  gpu::Pipelines& pipelines;
   gpu::FrameGraph graph;
   bool foresees = false;
   std::optional<FrameNeeds> foreseen;      // that programs are being made for

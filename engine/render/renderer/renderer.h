@@ -11,6 +11,7 @@
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/device/resources.h"
 #include "engine/gpu/graph/frame_graph.h"
+#include "engine/gpu/program/pipeline.h"
 #include "engine/gpu/transfer/uploader.h"
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/frame/frame_report.h"
@@ -32,6 +33,9 @@ struct RendererDesc {
   /// Most bytes of the world's tables on the device; 0: five eighths of its memory, so that a
   /// frame's images and tables have the rest.
   std::uint64_t world_budget_bytes = 0;
+  /// Of the same device, shared with other renderers; outlives them. Null: the renderer has its
+  /// own.
+  gpu::Pipelines* pipelines = nullptr;
 };
 
 /// Draws frames: owns what lives longer than one (geometry, textures, shadow maps, the picture) and
@@ -77,7 +81,8 @@ class Renderer {
   /// frame that may lag is drawn by earlier settings as long as programs for its own are missing.
   void foresee_programs();
   bool lagged() const;  ///< whether the last frame was drawn so
-  /// Pipelines that frames have used, and those of them that a frame had to wait for.
+  /// Pipelines that frames have used, and those of them that a frame had to wait for; with shared
+  /// ones, frames of all renderers.
   int pipelines_created() const;
   int programs_made() const;
   /// Pipelines that worker threads have still to make for the frames so far and those foreseen.

@@ -14,6 +14,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "engine/core/processors.h"
 #include "tests/folder.h"
@@ -148,6 +149,61 @@ TEST(Pool, OpensItsDevicesAtOnce) {
   EXPECT_EQ(run(FakeDevices(false, 3).serve(), options, 9).failures, 0);
   options.processes = 2;
   EXPECT_EQ(run(FakeDevices(true, 6).serve(), options, 9).failures, 0);
+}
+
+// A process that has drawn scenes of a world is given the others of it.
+TEST(Pool, KeepsWorldsApart) {
+  const Folder folder;
+  // Both draw their n-th scenes at the same time.
+  const Serve in_step = [&](int jobs, int results, const Seat& seat) {
+    std::FILE* out = ::fdopen(results, "w");
+    std::FILE* in = ::fdopen(jobs, "r");
+    const auto say = [&](const std::string& line) {
+      std::fputs(line.c_str(), out);
+      std::fflush(out);
+    };
+    const auto mark = [&](int drawn, std::uint32_t device) {
+      return folder / (std::to_string(drawn) + "." + std::to_string(device));
+    };
+    say(line_of(Greeting{"", false}));
+    int drawn = 0;
+    for (unsigned long scene = 0; std::fscanf(in, "%lu", &scene) == 1; ++drawn) {
+      ::close(::open(mark(drawn, *seat.device).c_str(), O_RDWR | O_CREAT, 0600));
+      for (int tries = 0; tries < 10000; ++tries, ::usleep(1000))
+        if (std::filesystem::exists(mark(drawn, 1 - *seat.device))) break;
+      Outcome outcome;
+      outcome.row.device = seat.device;
+      say(line_of(outcome));
+    }
+    say(line_of(Farewell{0}));
+  };
+  std::vector<TestScene> scenes(24);
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    scenes[i].scene.seed_text = i / 2 % 2 == 0 ? "one" : "other";
+  PoolOptions options;
+  options.devices = {0, 1};
+  std::map<std::string, std::multiset<std::uint32_t>> devices;
+  run_pool(
+      scenes, options,
+      [&](std::size_t scene, const Outcome& outcome) {
+        devices[scenes[scene].scene.seed_text].insert(*outcome.row.device);
+      },
+      in_step);
+  for (const auto& [world, drew] : devices) {
+    EXPECT_EQ(drew.size(), 12u);
+    EXPECT_EQ(std::set<std::uint32_t>(drew.begin(), drew.end()).size(), 1u) << world;
+  }
+
+  // One alone draws all of both.
+  for (TestScene& scene : scenes) scene.scene.seed_text = "one";
+  scenes.front().scene.seed_text = "other";
+  options.devices = {5};
+  std::set<std::size_t> drawn;
+  const FakeDevices alone(false);
+  run_pool(
+      scenes, options, [&](std::size_t scene, const Outcome&) { drawn.insert(scene); },
+      alone.serve());
+  EXPECT_EQ(drawn.size(), scenes.size());
 }
 
 TEST(Pool, OpensNoMoreDevicesThanThereAreScenes) {

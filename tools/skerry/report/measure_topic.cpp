@@ -28,7 +28,7 @@ using Progress = std::function<void(double, std::string_view)>;
 /// The points of a topic in one scene, each ready to be drawn again.
 class Sweep {
  public:
-  static Result<Sweep> create(gpu::Device& device, const Topic& topic,
+  static Result<Sweep> create(ReportSession& session, const Topic& topic,
                               const game::SceneOptions& scene) {
     Sweep sweep;
     for (const TopicPoint& point : topic.points) {
@@ -36,7 +36,8 @@ class Sweep {
       if (Result<void> done = apply_point(point.settings, options.settings); !done)
         return done.error();
       if (topic.loads || sweep.drawers_.empty()) {
-        Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, options);
+        Result<std::unique_ptr<SceneDrawer>> drawer =
+            SceneDrawer::create(session.device(), options, &session.cache());
         if (!drawer) return drawer.error();
         sweep.drawers_.push_back(*std::move(drawer));
       }
@@ -236,7 +237,7 @@ Result<SceneRows> measure_scene(ReportSession& session, const Topic& topic, cons
     out.reference_standard_error = reference->mean_standard_error;
   }
 
-  Result<Sweep> sweep = Sweep::create(session.device(), topic, *scene);
+  Result<Sweep> sweep = Sweep::create(session, topic, *scene);
   if (!sweep) return sweep.error();
   Result<std::vector<Shot>> shots = take_shots(*sweep, topic, reference, [&](double share) {
     progress(0.3 + 0.2 * share, what + ": pictures");

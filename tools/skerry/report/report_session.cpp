@@ -24,7 +24,7 @@ KeptReference kept_of(reference::ReferencePicture made) {
 }  // namespace
 
 ReportSession::ReportSession(gpu::Device& device, const ReportRequest& request)
-    : device_(device), request_(request) {}
+    : device_(device), cache_(device), request_(request) {}
 
 std::vector<std::string> scenes_of(const ReportRequest& request, const Topic& topic) {
   if (request.own_scene) return {kOwnScene};

@@ -11,6 +11,7 @@
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/device/resources.h"
 #include "game/scene_file/options.h"
+#include "game/view/scene_cache.h"
 #include "tools/measure/image.h"
 #include "tools/measure/picture.h"
 #include "tools/skerry/report/reference_store.h"
@@ -54,6 +55,7 @@ class ReportSession {
   ReportSession(gpu::Device& device, const ReportRequest& request);
 
   gpu::Device& device() { return device_; }
+  game::SceneCache& cache() { return cache_; }
   const ReportRequest& request() const { return request_; }
   /// A scene by such a name, with the size and the settings of this run on this device.
   Result<game::SceneOptions> scene(const std::string& name) const;
@@ -66,6 +68,7 @@ class ReportSession {
                                     const std::function<void(double)>& progress) const;
 
   gpu::Device& device_;
+  game::SceneCache cache_;
   const ReportRequest& request_;
   std::map<std::string, std::unique_ptr<Judged>> references_;  // by the command that draws it
 };

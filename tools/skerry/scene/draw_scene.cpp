@@ -82,10 +82,11 @@ SceneDrawer::SceneDrawer(gpu::Device& device, const game::SceneOptions& scene)
     : device_(device), scene_(scene) {}
 
 Result<std::unique_ptr<SceneDrawer>> SceneDrawer::create(gpu::Device& device,
-                                                         const game::SceneOptions& scene) {
+                                                         const game::SceneOptions& scene,
+                                                         game::SceneCache* cache) {
   if (Result<void> fits = check_size(device, scene.size); !fits) return fits.error();
   std::unique_ptr<SceneDrawer> drawer(new SceneDrawer(device, scene));
-  Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(device, scene);
+  Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(device, scene, cache);
   if (!view) return view.error();
   drawer->view_ = *std::move(view);
   if (Result<void> loaded = drawer->view_->load_completely(drawer->view_->start_camera(),

@@ -26,9 +26,11 @@ std::string sha256_hex(std::span<const std::uint8_t> bytes);
 /// A scene with its world loaded completely, to be drawn as often as wanted.
 class SceneDrawer {
  public:
-  /// Loads the world. Errors: no memory on the device; the picture is too large for it.
+  /// Loads the world. @param cache see SceneView::create. Errors: no memory on the device; the
+  /// picture is too large for it.
   static Result<std::unique_ptr<SceneDrawer>> create(gpu::Device& device,
-                                                     const game::SceneOptions& scene);
+                                                     const game::SceneOptions& scene,
+                                                     game::SceneCache* cache = nullptr);
 
   /// Draws and waits. With aa=temporal it is the last of 33 frames that are mixed from the first
   /// on, the picture that play comes to at rest. @param with_radiance also copies out the scene's

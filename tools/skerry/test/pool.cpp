@@ -14,6 +14,7 @@
 #include <limits>
 #include <list>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,7 +38,13 @@ struct Worker {
   bool greeted = false;
   std::optional<std::uint32_t> device;  ///< none: the best
   std::optional<std::size_t> scene;     ///< it draws now
+  std::set<std::string> worlds;         ///< of which it has drawn scenes, see world_shown()
 };
+
+/// What scenes of the same islands have in common.
+std::string world_shown(const game::SceneOptions& scene) {
+  return scene.world ? "file " + *scene.world : "seed " + scene.seed_text;
+}
 
 /// "signal 11", "status 3".
 std::string end_of(int status) {
@@ -59,6 +66,7 @@ class Pool {
         order_(scenes.size()) {
     seconds_.resize(scenes.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
+    for (const TestScene& scene : scenes) worlds_.push_back(world_shown(scene.scene));
     devices_.assign(options.devices.begin(), options.devices.end());
     if (devices_.empty()) devices_.push_back(std::nullopt);
     const auto devices = static_cast<int>(devices_.size());
@@ -87,7 +95,7 @@ class Pool {
   bool take_in(Worker& worker);
   void take_line(Worker& worker, const std::string& line);
   void greet(const Greeting& greeting);
-  std::size_t next_scene();
+  std::size_t next_scene(Worker& worker);
   void give_job(Worker& worker);
   void lose(Worker& worker);
   int end(Worker& worker);
@@ -98,11 +106,12 @@ class Pool {
   const Serve& serve_;
   std::vector<std::optional<std::uint32_t>> devices_;
   int cores_;
-  int planned_ = 1;   // processes, if devices are CPUs
-  std::size_t left_;  // jobs not given out yet
-  std::size_t next_ = 0;
+  int planned_ = 1;                             // processes, if devices are CPUs
+  std::size_t left_;                            // jobs not given out yet
   std::vector<std::optional<double>> seconds_;  // that each scene took when it was drawn last
-  std::vector<std::size_t> order_;              // of scenes, in this run of them all
+  std::vector<std::string> worlds_;             // by scene
+  std::vector<std::size_t> order_;              // of all scenes, in this run of them
+  std::vector<std::size_t> waiting_;            // of them, those that no worker has been given
   bool met_ = false;                            // a worker has said that there is a device
   std::list<Worker> workers_;
   PoolResult result_;
@@ -220,12 +229,27 @@ void Pool::greet(const Greeting& greeting) {
 }
 
 /// Scenes that take long come first in every run, so that no worker is left with one while the
-/// others have nothing to do; before them those that nothing is known of.
-std::size_t Pool::next_scene() {
-  const std::size_t at = next_++ % order_.size();
-  const auto seconds = [&](std::size_t scene) { return seconds_[scene].value_or(kUnknown); };
-  if (at == 0) std::ranges::stable_sort(order_, std::greater(), seconds);
-  return order_[at];
+/// others have nothing to do; before them those that nothing is known of. But as long as there are
+/// others, a worker gets none of a world that only another has drawn scenes of: what it has made of
+/// its worlds serves it again (game::SceneCache).
+std::size_t Pool::next_scene(Worker& worker) {
+  if (waiting_.empty()) {
+    const auto seconds = [&](std::size_t scene) { return seconds_[scene].value_or(kUnknown); };
+    std::ranges::stable_sort(order_, std::greater(), seconds);
+    waiting_ = order_;
+  }
+  const auto suits = [&](std::size_t scene) {
+    const std::string& world = worlds_[scene];
+    return worker.worlds.contains(world) ||
+           std::ranges::none_of(workers_,
+                                [&](const Worker& other) { return other.worlds.contains(world); });
+  };
+  auto chosen = std::ranges::find_if(waiting_, suits);
+  if (chosen == waiting_.end()) chosen = waiting_.begin();
+  const std::size_t scene = *chosen;
+  waiting_.erase(chosen);
+  worker.worlds.insert(worlds_[scene]);
+  return scene;
 }
 
 void Pool::give_job(Worker& worker) {
@@ -234,7 +258,7 @@ void Pool::give_job(Worker& worker) {
     return;
   }
   --left_;
-  worker.scene = next_scene();
+  worker.scene = next_scene(worker);
   const std::string line = fmt::format("{}\n", *worker.scene);
   // A worker that has died meanwhile is noticed when its results end.
   [[maybe_unused]] const ssize_t written = ::write(worker.jobs, line.data(), line.size());

@@ -10,6 +10,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/clock.h"
+#include "game/view/scene_cache.h"
 #include "tools/skerry/scene/draw_scene.h"
 #include "tools/skerry/scene/scene_device.h"
 #include "tools/skerry/test/cause.h"
@@ -28,8 +29,14 @@ std::string dumped(const ordered_json& value) {
 /// One device for many scenes.
 class Artist {
  public:
-  Artist(gpu::Device& device, const JudgeOptions& options, int threads)
-      : device_(device), options_(options), threads_(threads), driver_(driver_key(device.info())) {}
+  Artist(gpu::Device& device, const PoolOptions& options, int threads)
+      : device_(device),
+        options_(options.judge),
+        threads_(threads),
+        driver_(driver_key(device.info())) {
+    // A scene that is drawn again is to show what differs when all of it is made again.
+    if (options.runs == 1) cache_.emplace(device);
+  }
 
   Outcome draw_and_judge(const TestScene& scene) {
     const Stopwatch watch;
@@ -48,7 +55,8 @@ class Artist {
     game::SceneOptions options = scene.scene;
     if (options.settings.jobs_threads == 0)
       options.settings.jobs_threads = static_cast<std::uint32_t>(threads_);
-    Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device_, options);
+    Result<std::unique_ptr<SceneDrawer>> drawer =
+        SceneDrawer::create(device_, options, cache_ ? &*cache_ : nullptr);
     if (!drawer) return {failed_row(scene, drawer.error().message), {}, false};
     Result<Drawn> drawn = (*drawer)->draw();
     if (!drawn) return {failed_row(scene, drawn.error().message), {}, false};
@@ -91,6 +99,7 @@ class Artist {
   const JudgeOptions& options_;
   int threads_;
   std::string driver_;
+  std::optional<game::SceneCache> cache_;  // none: each scene is made from nothing
 };
 
 class Lines {
@@ -125,7 +134,7 @@ void serve(int jobs, int results, std::span<const TestScene> scenes, const PoolO
   }
   const bool on_cpu = (*device)->info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
   out.write(line_of(Greeting{{}, on_cpu}));
-  Artist artist(**device, options.judge, on_cpu ? seat.threads : seat.host_threads);
+  Artist artist(**device, options, on_cpu ? seat.threads : seat.host_threads);
   std::FILE* in = ::fdopen(jobs, "r");
   SKERRY_ASSERT(in);
   for (unsigned long index = 0; std::fscanf(in, "%lu", &index) == 1;) {
