@@ -147,6 +147,9 @@ add_test(NAME mutation.list COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/run --che
 add_test(NAME mutation.programs COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/programs_test.py)
 add_test(NAME mutation.stability COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/stability --check)
 
+# What takes long in one process begins early, beside many short ones.
+set_tests_properties(stability.all tools.farm image.same_bytes PROPERTIES COST 500)
+
 # Tests whose caches are folders of their own still share what Mesa has compiled with all other tests: without it, half of their time goes to
 # the same programs, compiled again by each. window.loading is about empty caches.
 set(driver_cache "$ENV{XDG_CACHE_HOME}")

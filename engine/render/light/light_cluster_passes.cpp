@@ -277,7 +277,8 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
     return graph.create(gpu::BufferDesc{name, size_bytes, 0, gpu::Memory::kDevice});
   };
   ClusteredLights out;
-  out.kinds = kinds_;
+  out.kinds = kinds_ & ~shared::kLightPanesBit;
+  out.panes = (kinds_ & shared::kLightPanesBit) != 0;
   out.oracle = oracle;
   out.grid = graph.import(grid_buffer_);
   out.lights = graph.import(lights_);
@@ -300,7 +301,7 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
     out.clusters = create("clusters", clusters * sizeof(shared::Cluster));
     out.entries = graph.import(entries_);
     add_list_clusters(graph, pipelines, grid_, b);
-    add_bin(graph, pipelines, grid_, kinds_, b);
+    add_bin(graph, pipelines, grid_, out.kinds, b);
     add_assign(graph, pipelines, false, b, out);
     add_reserve(graph, pipelines, b, out);
     add_assign(graph, pipelines, true, b, out);

@@ -130,11 +130,16 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
   return g;
 }
 
-std::vector<gpu::SpecConstant> ClusteredLights::with_lights(
+std::vector<gpu::SpecConstant> ClusteredLights::with_panes(
     std::vector<gpu::SpecConstant> own) const {
+  return with_kinds(std::move(own), kinds | (panes ? shared::kLightPanesBit : 0u));
+}
+
+std::vector<gpu::SpecConstant> ClusteredLights::with_kinds(std::vector<gpu::SpecConstant> own,
+                                                           std::uint32_t bits) const {
   if (kinds == 0) return own;
   own.push_back({shared::kLitConstant, 1});
-  own.push_back({shared::kLightKindsConstant, kinds});
+  own.push_back({shared::kLightKindsConstant, bits});
   if (oracle) own.push_back({shared::kOracleConstant, 1});
   if (shafts) own.push_back({shared::kShaftsConstant, 1});
   return own;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/gpu/device/device.h"
@@ -51,13 +52,18 @@ struct ClusteredLights {
   gpu::BufferRef grid, reaches, clusters, entries;
   gpu::BufferRef lights;    ///< texels of shared::Light[], then of shared::LightPane[]
   Tiles tiles;              ///< those that some light reaches, kCovered alone
-  std::uint32_t kinds = 0;  ///< see light_kinds(); 0: there are none
+  std::uint32_t kinds = 0;  ///< bit a kind that the frame has; 0: there are none
+  bool panes = false;       ///< some light has any
   bool oracle = false;      ///< nothing is sorted: every pixel asks every light
   gpu::BufferRef shafts;  ///< shared::TileShafts[8x8 tile], see ShaftPass; empty: nothing is known
 
   /// For a frame without lights: buffers that are never read.
   static ClusteredLights none(const SceneRefs& scene);
-  std::vector<gpu::SpecConstant> with_lights(std::vector<gpu::SpecConstant> own) const;
+  std::vector<gpu::SpecConstant> with_lights(std::vector<gpu::SpecConstant> own) const {
+    return with_kinds(std::move(own), kinds);
+  }
+  /// Of a pass that includes shaders/include/light/light_panes.glsl.
+  std::vector<gpu::SpecConstant> with_panes(std::vector<gpu::SpecConstant> own) const;
   /// Of a pass that asks only how many lights a cluster has.
   void declare_counts(gpu::PassBuilder& builder) const;
   auto count_bindings() const {
@@ -77,6 +83,10 @@ struct ClusteredLights {
   auto shaft_binding() const {
     return gpu::storage<shared::kTileShaftsBinding>(shafts ? shafts : reaches);
   }
+
+ private:
+  std::vector<gpu::SpecConstant> with_kinds(std::vector<gpu::SpecConstant> own,
+                                            std::uint32_t bits) const;
 };
 
 /// Depths of what a frame shows.
@@ -101,7 +111,7 @@ class LightClusters {
                       std::span<const shared::LightPane> panes, const CameraView& camera,
                       const ClusterPicture& picture);
   /// Takes as many lights of these kinds as most views have for uploaded, so that add() asks for
-  /// the programs and the memory they need. @param kinds see ClusteredLights.
+  /// the programs and the memory they need. @param kinds see light_kinds().
   void suppose(std::uint32_t kinds, const ClusterPicture& picture);
   /// Makes room for the lights of most views, if there is memory.
   void reserve();
@@ -124,7 +134,7 @@ class LightClusters {
   gpu::Device& device_;
   gpu::Buffer grid_buffer_, lights_, reaches_, entries_;
   shared::ClusterGrid grid_{};
-  std::uint32_t kinds_ = 0;
+  std::uint32_t kinds_ = 0;  // see light_kinds()
   std::uint64_t wanted_entries_ = 0;
   bool said_too_many_ = false, said_no_room_ = false;
   gpu::BufferRef work_;

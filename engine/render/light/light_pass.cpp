@@ -19,10 +19,9 @@ Shaded LightPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRe
   const SurfaceReads surfaces(in.geometry);
   const WallReads walls(scene, in.settings, scene.ao);
   gpu::ImageRef radiance = shaded.radiance();
-  const std::vector<gpu::SpecConstant> constants =
-      lights.with_lights(surfaces.with_store(with_light(
-          {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.settings.texture_taps)}},
-          scene, false)));
+  const std::vector<gpu::SpecConstant> constants = lights.with_panes(surfaces.with_store(with_light(
+      {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.settings.texture_taps)}}, scene,
+      false)));
   const auto program = gpu::compute(pipelines, programs::kShadeLights,
                                     walls.with_walls(with_ao(constants, scene.ao)));
   graph.add_pass(

@@ -134,7 +134,7 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
       with_ao(SurfaceReads(on.geometry).with_depth(std::move(constants)), scene.ao)));
   if (lights) {
     constants = WallReads(scene, light.settings, scene.ao)
-                    .with_walls(lights->with_lights(std::move(constants)));
+                    .with_walls(lights->with_panes(std::move(constants)));
   }
   return gpu::compute(pipelines, programs::kShadeSamples,
                       pass.into.with_output(std::move(constants), scene));
