@@ -59,8 +59,7 @@ class LightField::Writer {
     out.first_island = static_cast<std::uint32_t>(out_.islands.size()) - count_;
     out.island_count = count_;
     out.first_pane = static_cast<std::uint32_t>(out_.panes.size());
-    const bool everywhere = (light.kind & shared::kLightKindMask) == shared::kLightDirectional;
-    if (!field_.glass_.empty() && !everywhere) write_panes(position, light.range);
+    if (!field_.glass_.empty() && !everywhere(light)) write_panes(position, light.range);
     out.pane_count = static_cast<std::uint32_t>(out_.panes.size()) - out.first_pane;
   }
   void write_panes(glm::dvec3 position, float range) {
@@ -88,16 +87,18 @@ class LightField::Writer {
     for (std::size_t i = 0; i < count; ++i) out_.panes.push_back(out_.near_panes[i].pane);
   }
   void list_islands(const shared::Light& light, glm::dvec3 position) {
-    const bool everywhere = light.kind == shared::kLightDirectional;
     out_.found.clear();
     for (const PlacedIsland* island : out_.near)
-      if (everywhere || touches(*island, position, light.range))
+      if (everywhere(light) || touches(*island, position, light.range))
         out_.found.push_back(island->index);
     const auto last = out_.islands.end() - count_;
     if (out_.found.size() == count_ && std::equal(out_.found.begin(), out_.found.end(), last))
       return;
     out_.islands.insert(out_.islands.end(), out_.found.begin(), out_.found.end());
     count_ = static_cast<std::uint32_t>(out_.found.size());
+  }
+  static bool everywhere(const shared::Light& light) {
+    return light.kind == shared::kLightDirectional;
   }
   static bool touches(const PlacedIsland& island, glm::dvec3 centre, double radius) {
     const glm::dvec3 away = island.origin - centre;

@@ -218,7 +218,6 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
     said_too_many_ = true;
     lights = lights.first(most);
   }
-  kinds_ = light_kinds(lights);
   // Panes that find no room colour nothing.
   std::vector<shared::Light> without;
   if (lights.size() * kLightTexels + panes.size() * kPaneTexels > device_.limits().max_texels) {
@@ -227,6 +226,7 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
     lights = without;
     panes = {};
   }
+  kinds_ = light_kinds(lights);
   const std::uint64_t room = std::clamp(
       std::max(wanted_entries_, std::min(lights.size() * kEntriesPerLight, kFirstEntries)),
       kLeastEntries, most_entries(device_.limits()));

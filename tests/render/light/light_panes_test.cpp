@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/render/light/lights.h"
+#include "tests/render/extinction.h"
 #include "tests/render/random_scenes.h"
 #include "tests/render/renderer_on_gpu.h"
 #include "world/voxel/blocks.h"
@@ -28,10 +29,7 @@ glm::dvec3 left_on_way(std::span<const shared::LightPane> panes, glm::dvec3 from
     for (const shared::LightPane& pane : panes) {
       if (!glm::all(glm::greaterThan(at, pane.low)) || !glm::all(glm::lessThan(at, pane.high)))
         continue;
-      const world::BlockType& type = world::block_types()[pane.block];
-      for (int c = 0; c < 3; ++c)
-        depth[c] += step * static_cast<double>(type.absorption[static_cast<std::size_t>(c)] +
-                                               type.scattering);
+      depth += step * extinction_of(static_cast<world::BlockId>(pane.block));
     }
   }
   return glm::exp(-depth);

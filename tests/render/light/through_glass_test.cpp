@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "tests/render/extinction.h"
 #include "tests/render/random_scenes.h"
 #include "tests/render/renderer_on_gpu.h"
 #include "world/voxel/blocks.h"
@@ -39,11 +40,7 @@ glm::dvec3 left_on_ray(const Panes& panes, glm::dvec3 from, glm::dvec3 direction
   for (double t = (kLow - 1.0 - from.y) / direction.y; t < end; t += kStep) {
     const world::BlockId block =
         block_at(panes, glm::ivec3(glm::floor(from + direction * (t + 0.5 * kStep))));
-    if (!world::is_glass(block)) continue;
-    const world::BlockType& type = world::block_types()[block];
-    for (int c = 0; c < 3; ++c)
-      depth[c] += kStep * static_cast<double>(type.absorption[static_cast<std::size_t>(c)] +
-                                              type.scattering);
+    if (world::is_glass(block)) depth += kStep * extinction_of(block);
   }
   return glm::exp(-depth);
 }
