@@ -28,6 +28,7 @@ layout(constant_id = kTextureTapsConstant) const uint kTextureTaps = 2u;
 #include "include/light/traced.glsl"
 #define SKERRY_SHAFTS
 #include "include/light/shafts.glsl"
+#include "include/light/light_panes.glsl"
 #include "include/light/blocked_lights.glsl"
 
 void main() {

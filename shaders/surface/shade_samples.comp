@@ -41,6 +41,7 @@ layout(constant_id = kLitConstant) const bool kLit = false;  // listed pixels th
 #include "include/light/clustered.glsl"
 #include "include/light/traced.glsl"
 #include "include/light/shafts.glsl"
+#include "include/light/light_panes.glsl"
 #include "include/light/blocked_lights.glsl"
 #include "include/surface/light_samples.glsl"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/common.hpp>
 #include <map>
 #include <random>
 

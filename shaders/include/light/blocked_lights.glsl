@@ -1,8 +1,7 @@
 // Light of a pixel's lights, past the walls that stand before them. Needs before the include: frame_light(index), light_index(list, i), lights.glsl,
-// traced.glsl, kOracle; `list.count` lights are asked.
+// traced.glsl, left_by_panes(light, position), kOracle; `list.count` lights are asked.
 #ifndef SKERRY_BLOCKED_LIGHTS_GLSL
 #define SKERRY_BLOCKED_LIGHTS_GLSL
-#include "include/light/light_panes.glsl"
 
 // What is summed: radiance of a surface; or, of a surface of any albedo, that of a black one and of a white one (light_samples.glsl).
 #ifdef SKERRY_ANY_ALBEDO

@@ -323,6 +323,7 @@ constexpr const char* kPixel =
     "struct Cluster { uint first; uint count; };\n"
     "uint light_index(Cluster list, uint i) { return list.first + i; }\n"
     "const bool kOracle = false;\n"
+    "vec3 left_by_panes(Light light, vec3 position) { return vec3(1.0); }\n"
     "#include \"include/light/lights.glsl\"\n"
     "#include \"include/light/traced.glsl\"\n"
     "#include \"include/light/shafts.glsl\"\n"
