@@ -107,13 +107,18 @@ std::vector<SkyLightFeed::Entry*> SkyLightFeed::lit_beyond(double distance) {
   return out;
 }
 
+/// What the store has left and what may give way to an entry.
+std::uint64_t SkyLightFeed::room_for(const render::IndirectStore& store, const Entry& entry) {
+  std::uint64_t room = store.bytes_left();
+  for (const Entry* other : lit_beyond(entry.distance)) room += other->bytes;
+  return room;
+}
+
 /// @return false: all that is farther would not be enough, and stays.
 bool SkyLightFeed::make_room(render::IndirectStore& store, gpu::Uploader& uploader,
                              const Entry& entry) {
   const std::vector<Entry*> farther = lit_beyond(entry.distance);
-  std::uint64_t room = store.bytes_left();
-  for (const Entry* other : farther) room += other->bytes;
-  if (farther.empty() || room < entry.bytes) return false;
+  if (farther.empty() || room_for(store, entry) < entry.bytes) return false;
   std::uint64_t freed = store.bytes_left();
   for (Entry* other : farther) {
     go_dark(store, uploader, *other);
@@ -140,10 +145,7 @@ void SkyLightFeed::take_back(render::IndirectStore& store, gpu::Uploader& upload
 bool SkyLightFeed::try_dark_again(render::IndirectStore& store,
                                   const std::map<world::IslandLevel, NearIsland>& islands) {
   for (Entry* entry : nearest(State::kDark, islands)) {
-    std::uint64_t room = store.bytes_left();
-    if (room < entry->dark_until) continue;
-    for (const Entry* other : lit_beyond(entry->distance)) room += other->bytes;
-    if (room < entry->bytes) continue;
+    if (room_for(store, *entry) < std::max(entry->bytes, entry->dark_until)) continue;
     entry->state = State::kWaiting;
     entry->begun = false;
     entry->next = 0;
@@ -167,10 +169,11 @@ bool SkyLightFeed::hand_over(render::IndirectStore& store, gpu::Uploader& upload
     // What has been freed can be taken once the GPU has finished with it.
     if (result == Put::kPaused || store.bytes_waiting() != 0) return true;
     if (make_room(store, uploader, *entry)) return true;
-    const std::uint64_t left = store.bytes_left();
     go_dark(store, uploader, *entry);
-    // What is left is in pieces that are too small: more of it first.
-    if (left >= entry->bytes) entry->dark_until = left + entry->bytes / 4;
+    // With the part that was put, which is room once the GPU is done with it. What there is lies in
+    // pieces that are too small: more of it first, or it would be tried for ever.
+    const std::uint64_t room = store.bytes_waiting() + room_for(store, *entry);
+    if (room >= entry->bytes) entry->dark_until = room + entry->bytes / 4;
     refusal_ = why_;
   }
   if (idle()) return false;

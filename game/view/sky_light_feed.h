@@ -54,7 +54,7 @@ class SkyLightFeed {
     bool begun = false;
     std::size_t next = 0;            // chunk to put
     std::set<world::IVec3> unshown;  // chunks that changed since finish()
-    std::uint64_t dark_until = 0;    // bytes left in the store at which to try again
+    std::uint64_t dark_until = 0;    // room for it at which to try again [bytes]
     double distance = 0.0;           // as last told
     std::uint32_t slot = 0;
   };
@@ -63,6 +63,7 @@ class SkyLightFeed {
           std::uint64_t most_bytes);
   std::vector<Entry*> nearest(State state, const std::map<world::IslandLevel, NearIsland>& islands);
   std::vector<Entry*> lit_beyond(double distance);
+  std::uint64_t room_for(const render::IndirectStore& store, const Entry& entry);
   bool make_room(render::IndirectStore& store, gpu::Uploader& uploader, const Entry& entry);
   void go_dark(render::IndirectStore& store, gpu::Uploader& uploader, Entry& entry);
   bool try_dark_again(render::IndirectStore& store,

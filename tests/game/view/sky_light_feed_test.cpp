@@ -22,17 +22,18 @@ constexpr std::uint64_t kStoreTexels = shared::kIndirectFirst + 23'552;
 constexpr std::uint64_t kBudget = 2 * kStoreTexels * kTexelBytes;
 
 /// Two bricks with masks and records of random bits; each mask names a record of the chunk.
-std::shared_ptr<const world::ChunkSky> random_chunk(std::mt19937& random) {
+std::shared_ptr<const world::ChunkSky> random_chunk(std::mt19937& random,
+                                                   std::uint32_t texels = kChunkTexels) {
   auto sky = std::make_shared<world::ChunkSky>();
   sky->table.resize(512);
   sky->table[random() % 256] = 1;
   sky->table[256 + random() % 256] = 2;
-  for (std::uint32_t i = 0; i < kChunkTexels; ++i)
+  for (std::uint32_t i = 0; i < texels; ++i)
     sky->texels.emplace_back(random(), random(), random(), random());
   const std::uint32_t masks = 2 * shared::kIndirectBrickTexels;
   for (std::uint32_t i = 0; i < masks; ++i) {
-    sky->texels[i].z = masks + static_cast<std::uint32_t>(random() % (kChunkTexels - masks));
-    sky->texels[i].w = masks + static_cast<std::uint32_t>(random() % (kChunkTexels - masks));
+    sky->texels[i].z = masks + static_cast<std::uint32_t>(random() % (texels - masks));
+    sky->texels[i].w = masks + static_cast<std::uint32_t>(random() % (texels - masks));
   }
   return sky;
 }
@@ -243,6 +244,27 @@ TEST_F(LightOfManyIslands, WithoutRoomTheFarthestAreDark) {
   other.erase(11);
   other.insert(static_cast<std::uint32_t>(11 - fit));
   EXPECT_EQ(lit_slots(), other);
+}
+
+TEST_F(LightOfManyIslands, ComesToAnEndHoweverTheRoomIsCut) {
+  std::uniform_int_distribution<std::uint32_t> any_size(kChunkTexels - 800, kChunkTexels + 3000);
+  for (int round = 0; round < 60; ++round) {
+    Islands islands;
+    for (std::uint64_t id = 0; id < 8; ++id) {
+      // Chunks that differ, so that what they leave behind fits few others.
+      IslandLight::Found found{{id}, {}};
+      for (int z = 0, chunks = 1 + static_cast<int>(random_() % 6); z < chunks; ++z)
+        found.chunks.push_back({{0, 0, z}, random_chunk(random_, any_size(random_)), true});
+      feed_.add(std::move(found));
+      islands[{id}] = {static_cast<std::uint32_t>(id), static_cast<double>(random_() % 200)};
+      if (id % 3 == 2) settle(islands);
+    }
+    ASSERT_LT(settle(islands), 1000) << round;
+    for (std::uint64_t id = 0; id < 8; id += 1 + random_() % 2) {
+      store_->end_island(*uploader_, static_cast<std::uint32_t>(id));
+      feed_.remove({id});
+    }
+  }
 }
 
 TEST_F(LightOfManyIslands, ACameraThatGoesToAndFroMakesNoneBlink) {
