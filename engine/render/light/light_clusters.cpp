@@ -27,9 +27,10 @@ constexpr VkBufferUsageFlags kTable =
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 /// Room for lists to begin with. What a frame wants beyond is made for later ones.
 constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 17, kFirstEntries = 1u << 22;
-/// 256 lights are looked through at a stretch: more would leave a GPU idle, and lavapipe ends an
-/// invocation after 65,535 rounds of its loops, without a word.
-constexpr std::uint32_t kLeastChunkWords = 8, kMostChunks = 16;
+/// Of words of 32 lights. A GPU waits for each light in turn, so that few at a stretch are best; on
+/// a CPU each invocation more costs, and lavapipe ends one after 65,535 rounds of its loops, without
+/// a word.
+constexpr std::uint32_t kLeastChunkWords = 1, kLeastChunkWordsOnCpu = 8, kMostChunks = 16;
 /// Lights of most views: so many are sorted without lists that grow.
 constexpr std::uint32_t kUsualLights = 2048;
 constexpr std::uint64_t kUsualEntries = 1u << 20;
@@ -101,7 +102,8 @@ std::uint32_t slices_lit(std::span<const shared::Light> lights) {
 }
 
 shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
-                                 std::uint32_t light_count, std::uint64_t entries) {
+                                 std::uint32_t light_count, std::uint64_t entries,
+                                 std::uint32_t least_chunk_words) {
   shared::ClusterGrid g{};
   g.right = camera.right;
   g.up = camera.up;
@@ -117,7 +119,7 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
   g.bins_y = groups(g.tiles_y, shared::kBinClusters);
   g.light_count = light_count;
   g.light_words = groups(light_count, 32);
-  g.chunk_words = std::max(kLeastChunkWords, groups(g.light_words, kMostChunks));
+  g.chunk_words = std::max(least_chunk_words, groups(g.light_words, kMostChunks));
   g.chunks = groups(g.light_words, g.chunk_words);
   g.layers_area = picture.layers_area;
   g.marked_slices = picture.marked_slices;
@@ -191,9 +193,14 @@ Result<void> LightClusters::reserve_lights(std::uint64_t count, std::uint64_t pa
   return reserve(lights_, "lights", std::min(roomy(wanted), std::max(most, wanted)), true);
 }
 
+std::uint32_t LightClusters::least_chunk_words() const {
+  const bool cpu = device_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  return cpu ? kLeastChunkWordsOnCpu : kLeastChunkWords;
+}
+
 void LightClusters::suppose(std::uint32_t kinds, const ClusterPicture& picture) {
   kinds_ = kinds;
-  grid_ = cluster_grid({}, picture, kUsualLights, kUsualEntries);
+  grid_ = cluster_grid({}, picture, kUsualLights, kUsualEntries, least_chunk_words());
 }
 
 void LightClusters::reserve() {
@@ -240,7 +247,7 @@ Result<void> LightClusters::upload(gpu::Uploader& uploader, std::span<const shar
   }
   if (Result<void> ok = reserve(grid_buffer_, "cluster grid", sizeof(grid_)); !ok) return ok;
   grid_ = cluster_grid(camera, picture, static_cast<std::uint32_t>(lights.size()),
-                       entries_.size_bytes() / sizeof(std::uint32_t));
+                       entries_.size_bytes() / sizeof(std::uint32_t), least_chunk_words());
   uploader.write(lights_, 0, lights);
   if (!panes.empty()) uploader.write(lights_, lights.size_bytes(), panes);
   uploader.write(grid_buffer_, 0, std::span<const shared::ClusterGrid>(&grid_, 1));

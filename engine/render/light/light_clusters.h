@@ -43,9 +43,11 @@ std::uint32_t slices_lit(std::span<const shared::Light> lights);
 /// The most lights of a picture that a device can sort.
 std::uint32_t most_lights(const gpu::DeviceLimits& limits, const ClusterPicture& picture);
 
-/// The grid for a picture. @param entries that there is room for.
+/// The grid for a picture. @param entries that there is room for. @param least_chunk_words that one
+/// invocation looks through, a bit a light.
 shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture& picture,
-                                 std::uint32_t light_count, std::uint64_t entries);
+                                 std::uint32_t light_count, std::uint64_t entries,
+                                 std::uint32_t least_chunk_words);
 
 /// A frame's lights, sorted: what a pass needs that includes shaders/include/light/clustered.glsl.
 struct ClusteredLights {
@@ -130,6 +132,7 @@ class LightClusters {
                        bool texels = false);
   Result<void> reserve_lights(std::uint64_t count, std::uint64_t panes);
   std::uint64_t roomy(std::uint64_t size_bytes) const;
+  std::uint32_t least_chunk_words() const;
 
   gpu::Device& device_;
   gpu::Buffer grid_buffer_, lights_, reaches_, entries_;

@@ -411,7 +411,7 @@ TEST_F(LightClustersOnGpu, DirectionalLightsReachEverything) {
 TEST(ClusterGrid, TheRoomCounterCannotWrapHoweverManyLightsReachAllClusters) {
   const CameraView camera = view_of({}, 7680, 4320);
   for (const std::uint32_t lights : {1u, 1000u, 65536u, 2097120u}) {
-    const shared::ClusterGrid g = cluster_grid(camera, {{7680, 4320}}, lights, 1u << 20);
+    const shared::ClusterGrid g = cluster_grid(camera, {{7680, 4320}}, lights, 1u << 20, 8);
     const std::uint64_t units = std::uint64_t{(lights - 1) >> g.unit_log2} + 1;
     EXPECT_LT(std::uint64_t{g.tiles_x} * g.tiles_y * shared::kClusterSlices * units, 1ull << 32);
     EXPECT_LE(std::uint64_t{g.capacity} << g.unit_log2, 1u << 20);
