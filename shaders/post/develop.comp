@@ -17,17 +17,25 @@ layout(push_constant) uniform Push { BloomStep step; } push;
 uvec2 coarse_size() { return push.step.coarse_size; }
 const int kTileTexels = 128;
 #include "include/post/bloom.glsl"
+layout(constant_id = kColumnsConstant) const bool kColumns = false;  // by columns of pixels, without shared memory
 
 #include "include/frame/pixel_stats.glsl"
 #include "include/post/picture.glsl"
 
-void main() {
-  uvec2 pixel = gl_GlobalInvocationID.xy;
+// @param glow as its coarser level is.
+void put_spread(uvec2 pixel, vec3 glow) {
   bool here = all(lessThan(pixel, frame.size));
   vec3 colour = imageLoad(radiance, ivec2(min(pixel, frame.size - 1u))).rgb;
-  vec3 glow = kBloom ? push.step.intensity * spread_from_coarser() : vec3(0.0);
   count_non_finite(here && !finite3(colour));
   colour = sanitised(colour);
   count_black(here && colour == vec3(0.0), false);
-  if (here) put_developed(pixel, developed(colour, glow));
+  if (here) put_developed(pixel, developed(colour, push.step.intensity * glow));
+}
+#include "include/post/bloom_columns.glsl"
+
+void main() {
+  if (kColumns)
+    spread_columns();
+  else
+    put_spread(gl_GlobalInvocationID.xy, kBloom ? spread_from_coarser() : vec3(0.0));
 }

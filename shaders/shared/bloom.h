@@ -13,6 +13,9 @@ SHARED_CONST float kBloomShare = 0.7f;
 // Most of a channel that one pixel gives: the sun's disc would fill the picture.
 SHARED_CONST float kMostTaken = 32.0f;
 
+// Of a coarser level, that an invocation takes downwards where levels are made by columns.
+SHARED_CONST uint kSpreadRows = 16u;
+
 // One step between two levels. Level 0 is the radiance image; level n has half the edges of level
 // n - 1, rounded up.
 struct BloomStep {

@@ -72,6 +72,8 @@ SHARED_CONST uint kUnderWaterConstant = 67u;   // bool: surfaces may lie under w
 SHARED_CONST uint kGlassConstant = 68u;        // bool: light may come through glass
 SHARED_CONST uint kFoamConstant = 69u;         // bool: water has foam along opaque voxels
 SHARED_CONST uint kBlendedConstant = 70u;      // bool: some sections are drawn in some pixels alone
+SHARED_CONST uint kColumnsConstant = 71u;      // bool: columns of texels, without shared memory
+SHARED_CONST uint kListedConstant = 72u;       // bool: tiles are listed
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;

@@ -111,7 +111,7 @@ MUTANTS = (
            "vec4 behind = 0.5 * (imageLoad(radiance, ivec2(pixel)) + imageLoad(radiance, ivec2(pixel.x ^ 1u, pixel.y)));",
            "finite.radiance"),
     Mutant("bloom_never_drawn", "nothing glows", "shaders/post/develop.comp",
-           "push.step.intensity * spread_from_coarser()", "0.0 * push.step.intensity * spread_from_coarser()", "finite.bloom"),
+           "push.step.intensity * glow", "0.0 * push.step.intensity * glow", "finite.bloom"),
     Mutant("sky_table_a_texel_beside", "the sky is looked up a texel beside", "shaders/include/sky/sky.glsl",
            "(sky_lut_from_dir(dir, horizon) * (size - 1.0) + 0.5) / size",
            "(sky_lut_from_dir(dir, horizon) * (size - 1.0) + 1.5) / size",

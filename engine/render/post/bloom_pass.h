@@ -21,6 +21,9 @@ struct BloomPass {
                    gpu::ImageRef radiance, const BloomSettings& settings);
 };
 
+/// Runs the bound program, one that calls spread_columns(), over a level.
+void dispatch_spread_columns(gpu::Commands& commands, glm::uvec2 fine_size);
+
 /// Levels of a picture's pyramid: as many as asked for, but none after that of a single texel.
 std::uint32_t bloom_levels(VkExtent2D size, int asked);
 

@@ -21,7 +21,9 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
   const gpu::ImageRef radiance = shaded.radiance(), glow = bloom ? bloom->glow : gpu::ImageRef{};
   const shared::BloomStep step = bloom ? bloom->step : shared::BloomStep{};
   std::vector<gpu::SpecConstant> constants = with_picture({}, scene);
+  const bool columns = glow && scene.on_cpu;
   if (glow) constants.push_back({shared::kBloomConstant, 1});
+  if (columns) constants.push_back({shared::kColumnsConstant, 1});
   graph.add_pass(
       "develop",
       [&](gpu::PassBuilder& b) {
@@ -32,7 +34,7 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         out = b.write(out, Use::kComputeWrite);
       },
-      [scene, radiance, glow, step, out,
+      [scene, radiance, glow, step, out, columns,
        program =
            gpu::compute(pipelines, programs::kDevelop, std::move(constants))](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
@@ -41,8 +43,11 @@ Developed DevelopPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sc
                   gpu::storage<shared::kCoarseBloomBinding>(glow ? glow : radiance),
                   gpu::storage<shared::kTargetBinding>(out),
                   gpu::storage<shared::kExposureBinding>(scene.exposure), gpu::constants(step));
-        c.dispatch(gpu::Commands::groups(scene.size.width, 8),
-                   gpu::Commands::groups(scene.size.height, 8), 1);
+        if (columns)
+          dispatch_spread_columns(c, {scene.size.width, scene.size.height});
+        else
+          c.dispatch(gpu::Commands::groups(scene.size.width, 8),
+                     gpu::Commands::groups(scene.size.height, 8), 1);
       });
   return Developed(out);
 }

@@ -20,6 +20,7 @@ struct RadianceFilter {
   gpu::ImageRef fine, coarse, made;  ///< RGBA16F
   gpu::ImageRef total;               ///< RGBA32F
   gpu::BufferRef exposure;
+  gpu::BufferRef dispatches = exposure, tiles = exposure;  ///< kListedConstant: of what is made
   struct Push {
     shared::BloomStep step;
     float share = 0.0f;  ///< of a part in the total
@@ -41,6 +42,8 @@ struct RadianceFilter {
                       gpu::storage<shared::kMadeBloomBinding>(made),
                       gpu::storage<shared::kTotalBinding>(total),
                       gpu::storage<shared::kExposureBinding>(exposure),
+                      gpu::storage<shared::kTileDispatchesBinding>(dispatches),
+                      gpu::storage<shared::kTilesBinding>(tiles),
                       gpu::constants(push)};
   }
 };
