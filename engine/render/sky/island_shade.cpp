@@ -39,16 +39,22 @@ float longest(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
+/// Of IslandShade::Near.
+std::uint32_t bit_of(std::size_t hiding) {
+  return 1u << std::min(hiding, std::size_t{31});
+}
+
 bool has_land(const IslandPlacement& island) {
   return !island.far && island.land.half != glm::vec3(0.0f);
 }
 
 }  // namespace
 
-std::vector<std::size_t> islands_that_hide(std::span<const IslandPlacement> islands) {
-  std::vector<std::size_t> out;
+std::vector<HidingIsland> islands_that_hide(std::span<const IslandPlacement> islands) {
+  std::vector<HidingIsland> out;
   for (std::size_t i = 0; i < islands.size(); ++i)
-    if (has_land(islands[i])) out.push_back(i);
+    if (const IslandLand& land = islands[i].land; has_land(islands[i]))
+      out.push_back({i, longest(land.half) / kUnseenSize + glm::length(land.centre)});
   return out;
 }
 
@@ -60,19 +66,18 @@ float share_of_shade(const IslandPlacement& island, const FixedPos& eye) {
 }
 
 IslandShade::IslandShade(std::span<const IslandPlacement> islands,
-                         std::span<const std::size_t> hiding, std::size_t island, float share) {
+                         std::span<const HidingIsland> hiding, std::size_t island, float share) {
   const IslandPlacement& here = islands[island];
   if (!has_land(here) || share == 0.0f) return;
   const glm::mat3 rotation(glm::mat3_cast(here.rotation));
   const float own_radius = longest(here.land.half), own_offset = glm::length(here.land.centre);
   const glm::vec3 own_middle = rotation * here.land.centre;
-  for (const std::size_t i : hiding) {
+  for (const auto& [i, reach] : hiding) {
     if (i == island) continue;
     const IslandPlacement& other = islands[i];
     const glm::vec3 between(difference_blocks(other.origin, here.origin));
     // Most are too far off, however they are turned.
-    const float most =
-        longest(other.land.half) / kUnseenSize + glm::length(other.land.centre) + own_offset;
+    const float most = reach + own_offset;
     if (glm::dot(between, between) > most * most) continue;
     const glm::mat3 other_rotation(glm::mat3_cast(other.rotation));
     const glm::vec3 way = between + other_rotation * other.land.centre - own_middle;
@@ -98,14 +103,29 @@ IslandShade::IslandShade(std::span<const IslandPlacement> islands,
   }
 }
 
+IslandShade::Near IslandShade::near(const Directions& d) const {
+  Near out{};
+  for (std::size_t k = 0; k < hiding_.size(); ++k) {
+    const Hiding& h = hiding_[k];
+    const std::uint32_t bit = bit_of(k);
+    for (std::size_t i = 0; i < kDirections; ++i) {
+      const float cosine = d.x[i] * h.to_middle.x + d.y[i] * h.to_middle.y + d.z[i] * h.to_middle.z;
+      out[i] |= cosine < h.cosine ? 0u : bit;
+    }
+  }
+  return out;
+}
+
 // Places side by side, without branches, for vectors of them.
-std::optional<IslandShade::Open> IslandShade::towards(const glm::vec3& direction) const {
+std::optional<IslandShade::Open> IslandShade::towards(const glm::vec3& direction,
+                                                      std::uint32_t near) const {
   std::array<float, kPlaces> open;
   open.fill(1.0f);
-  bool near = false;
-  for (const Hiding& h : hiding_) {
-    if (glm::dot(direction, h.to_middle) < h.cosine) continue;
-    near = true;
+  bool some = false;
+  for (std::size_t k = 0; k < hiding_.size(); ++k) {
+    const Hiding& h = hiding_[k];
+    if ((near & bit_of(k)) == 0 || glm::dot(direction, h.to_middle) < h.cosine) continue;
+    some = true;
     const glm::vec3 ray = h.ball_from_world * direction;
     const float per_length2 = 1.0f / glm::dot(ray, ray);
     for (std::size_t p = 0; p < kPlaces; ++p) {
@@ -116,7 +136,7 @@ std::optional<IslandShade::Open> IslandShade::towards(const glm::vec3& direction
       open[p] *= 1.0f - h.weight[p] * hidden;
     }
   }
-  if (!near) return std::nullopt;
+  if (!some) return std::nullopt;
   Open out;
   out.face.fill(0.0f);
   out.all = 0.0f;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -11,8 +12,14 @@
 
 namespace skerry::render {
 
-/// Which islands may hide the sky from others: those that are near and have land.
-std::vector<std::size_t> islands_that_hide(std::span<const IslandPlacement> islands);
+/// An island that may hide the sky from others.
+struct HidingIsland {
+  std::size_t island = 0;  ///< index
+  float reach = 0.0f;      ///< that it counts for, to the middle of another's land [blocks]
+};
+
+/// All of them: those that are near and have land.
+std::vector<HidingIsland> islands_that_hide(std::span<const IslandPlacement> islands);
 
 /// How much of its shade an island has: less of it and then none as it gets small in the picture.
 float share_of_shade(const IslandPlacement& island, const FixedPos& eye);
@@ -25,7 +32,7 @@ class IslandShade {
  public:
   /// @param hiding of islands_that_hide(). @param island index of the one that is shaded; far ones
   /// neither shade nor are shaded. @param share of what they hide, see share_of_shade().
-  IslandShade(std::span<const IslandPlacement> islands, std::span<const std::size_t> hiding,
+  IslandShade(std::span<const IslandPlacement> islands, std::span<const HidingIsland> hiding,
               std::size_t island, float share);
 
   /// Whether no other island is near enough to matter.
@@ -36,8 +43,19 @@ class IslandShade {
                               1.0f, 1.0f, 1.0f};  ///< on the side that it looks to
     float all = 1.0f;                             ///< on all of the island
   };
-  /// @param direction unit, in the world. None: all of it arrives.
-  std::optional<Open> towards(const glm::vec3& direction) const;
+  /// @param direction unit, in the world. @param near of near(). None: all of it arrives.
+  std::optional<Open> towards(const glm::vec3& direction, std::uint32_t near = ~0u) const;
+
+  static constexpr std::size_t kDirections = 256;
+  /// Side by side, for vectors of them.
+  struct Directions {
+    std::array<float, kDirections> x, y, z;
+    void set(std::size_t i, const glm::vec3& d) { x[i] = d.x, y[i] = d.y, z[i] = d.z; }
+    glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  };
+  using Near = std::array<std::uint32_t, kDirections>;
+  /// Which islands may hide each direction, a bit each; the last bit stands for all from there on.
+  Near near(const Directions& directions) const;
 
  private:
   static constexpr std::size_t kPlaces = 8;

@@ -4,14 +4,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/packing.hpp>
 #include <numbers>
 #include <optional>
 #include <utility>
 
+#include "engine/core/halves.h"
 #include "engine/core/harmonics.h"
 #include "engine/render/sky/island_shade.h"
 #include "engine/render/sky/sky_rows.h"
@@ -20,7 +21,6 @@
 namespace skerry::render {
 namespace {
 
-constexpr float kMostHalf = 65504.0f;
 constexpr std::size_t kFaces = 6;
 /// Of the sky about an island: every other azimuth of SkyRows, which one depends on the heading.
 constexpr int kAround = SkyRows::kAzimuths / 2;
@@ -29,7 +29,7 @@ constexpr int kHeadings = SkyRows::kAzimuths;
 /// A direction of the lattice, and for each axis the face and lobe it lights, and its share.
 struct LobeSample {
   glm::vec3 direction{};
-  std::array<std::uint8_t, 3> slot{};  ///< face * kSkyLobes + lobe
+  std::array<std::uint8_t, 3> slot{};  ///< of Lobes, red
   glm::vec3 weight{};  ///< cosine times solid angle, so that a whole sky of 1 sums to pi a face
   std::array<float, kHarmonics> basis{};  ///< harmonics of the direction
 };
@@ -59,8 +59,8 @@ std::vector<LobeSample> make_samples() {
       for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::uint32_t>(axis);
         const std::uint32_t face = 2 * a + (octant >> a & 1u);
-        sample.slot[a] =
-            static_cast<std::uint8_t>(face * shared::kSkyLobes + shared::sky_lobe(a, octant, sine));
+        sample.slot[a] = static_cast<std::uint8_t>(face * 3 * shared::kSkyLobes +
+                                                   shared::sky_lobe(a, octant, sine));
       }
       sum += size;
       out.push_back(sample);
@@ -82,17 +82,21 @@ double heading_of(const glm::dquat& rotation) {
   return 2.0 * std::atan2(rotation.y, rotation.w) / kHeadingStep;
 }
 
-using Lobes = std::array<glm::vec3, kFaces * shared::kSkyLobes>;
+/// By face, channel and lobe, as the texels of a sky are.
+using Lobes = std::array<float, kFaces * 3 * shared::kSkyLobes>;
 using Harmonics = std::array<glm::vec3, kHarmonics>;
+
+/// The nearest of kHeadings, any number of turns.
+int nearest_heading(const glm::dquat& rotation) {
+  const float half_turn =
+      std::atan2(static_cast<float>(rotation.y), static_cast<float>(rotation.w));
+  return static_cast<int>(std::lround(half_turn * static_cast<float>(2.0 / kHeadingStep)));
+}
 
 using Basis = std::array<float, kHarmonics>;
 
 void add(Harmonics& sum, const Basis& basis, const glm::vec3& light) {
   for (std::size_t i = 0; i < kHarmonics; ++i) sum[i] += light * basis[i];
-}
-
-void add(Harmonics& sum, const glm::vec3& direction, const glm::vec3& light) {
-  add(sum, harmonics_of(direction.x, direction.y, direction.z), light);
 }
 
 /// Of degrees 1 and 2 of sun and moon, for what faces reflect. A point that is cut off at degree 2
@@ -113,19 +117,32 @@ glm::vec3 sum_of(const Harmonics& harmonics, const Basis& basis) {
   return sum;
 }
 
-void add(Lobes& sum, const LobeSample& sample, const glm::vec3& radiance) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    sum[sample.slot[axis]] += radiance * sample.weight[static_cast<int>(axis)];
+void add(Lobes& sum, std::size_t slot, const glm::vec3& irradiance) {
+  for (int channel = 0; channel < 3; ++channel)
+    sum[slot + static_cast<std::size_t>(channel) * shared::kSkyLobes] += irradiance[channel];
 }
 
-/// The corners of an icosahedron: the mean over them is that over the sphere for polynomials up to
-/// degree 5 (R. Hardin, N. Sloane, McLaren's Improved Snub Cube, 1996).
-std::array<glm::vec3, 12> icosahedron() {
-  const glm::vec2 at = glm::normalize(glm::vec2(1.0f, std::numbers::phi_v<float>));
-  std::array<glm::vec3, 12> out;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const float a = (i & 1u) != 0 ? -at.x : at.x, b = (i & 2u) != 0 ? -at.y : at.y;
-    out[i] = i < 4 ? glm::vec3(0.0f, a, b) : i < 8 ? glm::vec3(a, b, 0.0f) : glm::vec3(b, 0.0f, a);
+void keep_positive(Lobes& lobes) {
+  for (float& lobe : lobes) lobe = std::max(lobe, 0.0f);
+}
+
+/// Of a function about the world's axes, those about other axes: degree 1 is a vector, degree 2 a
+/// symmetric matrix without trace. @param from_world rotation.
+Harmonics turned(const Harmonics& harmonics, const glm::mat3& from_world) {
+  const glm::mat3 world_from = glm::transpose(from_world);
+  Harmonics out;
+  out[0] = harmonics[0];
+  for (int c = 0; c < 3; ++c) {
+    const auto of = [&](std::size_t i) { return harmonics[i][c]; };
+    const glm::vec3 vector = from_world * glm::vec3(of(3), of(1), of(2));
+    out[1][c] = vector.y, out[2][c] = vector.z, out[3][c] = vector.x;
+    // That of the function over half the factor of xy, yz and xz in harmonics_of().
+    constexpr float kRoot = std::numbers::inv_sqrt3_v<float>;
+    const float xx = of(8) - kRoot * of(6), yy = -of(8) - kRoot * of(6);
+    const glm::mat3 square(xx, of(4), of(7), of(4), yy, of(5), of(7), of(5), -xx - yy);
+    const glm::mat3 to = from_world * square * world_from;
+    out[4][c] = to[0][1], out[5][c] = to[1][2], out[7][c] = to[0][2];
+    out[6][c] = to[2][2] * (0.5f / kRoot), out[8][c] = 0.5f * (to[0][0] - to[1][1]);
   }
   return out;
 }
@@ -135,8 +152,10 @@ class OpenSky {
  public:
   OpenSky(const SkyRows& rows, const Celestial& bodies);
   /// To an island of any heading, by those of the four nearest of kHeadings.
-  Lobes upright(double heading);
-  Lobes at_heading(int heading) { return of_heading(heading); }
+  Lobes upright(double heading) const;
+  const Lobes& at_heading(int heading) const {
+    return of_heading_[static_cast<std::size_t>(heading & (kHeadings - 1))];
+  }
   Lobes tilted(const glm::dquat& rotation) const;
   Harmonics harmonics(const glm::dquat& rotation) const;
   /// Takes away what other islands hide from one, and puts in its place what they send.
@@ -144,14 +163,14 @@ class OpenSky {
             Harmonics& harmonics) const;
 
  private:
-  const Lobes& of_heading(int heading);
+  void sum_headings();
   /// Sun and moon. @param mean share of degree 0. @param shape of degrees 1 and 2.
   void add_bodies(Harmonics& sum, const glm::dquat& lattice_from_world, float mean,
                   float shape) const;
   const SkyRows& rows_;
   const Celestial& bodies_;
   Harmonics harmonics_{};  // about the world's axes, without bodies
-  std::array<std::optional<Lobes>, kHeadings> of_heading_;
+  std::array<Lobes, kHeadings> of_heading_;
 };
 
 const std::vector<LobeSample>& samples() {
@@ -178,20 +197,36 @@ OpenSky::OpenSky(const SkyRows& rows, const Celestial& bodies) : rows_(rows), bo
   for (int row = 0; row < SkyRows::kRows; ++row)
     for (int k = 0; k < SkyRows::kAzimuths; ++k)
       add(harmonics_, *basis++, rows.at(row, k) * kSolidAngle);
+  sum_headings();
 }
 
-const Lobes& OpenSky::of_heading(int heading) {
-  std::optional<Lobes>& kept = of_heading_[static_cast<std::size_t>(heading & (kHeadings - 1))];
-  if (kept) return *kept;
-  kept.emplace();
+// A direction counts for all headings at once, side by side, for vectors of them.
+void OpenSky::sum_headings() {
+  std::array<std::array<float, kHeadings>, std::tuple_size_v<Lobes>> sums{};
   const LobeSample* sample = samples().data();
-  for (int row = 0; row < SkyRows::kRows; ++row)
-    for (int k = 0; k < kAround; ++k)
-      add(*kept, *sample++, rows_.at(row, (2 * k + 1 - heading) & (SkyRows::kAzimuths - 1)));
-  return *kept;
+  for (int row = 0; row < SkyRows::kRows; ++row) {
+    // By how far an azimuth is before that of heading 0, twice around.
+    std::array<std::array<float, 2 * kHeadings>, 3> sky;
+    for (int back = 0; back < 2 * kHeadings; ++back) {
+      const glm::vec3& radiance = rows_.at(row, -back & (kHeadings - 1));
+      for (int channel = 0; channel < 3; ++channel)
+        sky[static_cast<std::size_t>(channel)][static_cast<std::size_t>(back)] = radiance[channel];
+    }
+    for (int k = 0; k < kAround; ++k, ++sample)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          const float* seen = sky[channel].data() + (-(2 * k + 1) & (kHeadings - 1));
+          float* sum = sums[sample->slot[axis] + channel * shared::kSkyLobes].data();
+          const float weight = sample->weight[static_cast<int>(axis)];
+          for (int heading = 0; heading < kHeadings; ++heading)
+            sum[heading] += seen[heading] * weight;
+        }
+  }
+  for (std::size_t heading = 0; heading < kHeadings; ++heading)
+    for (std::size_t i = 0; i < sums.size(); ++i) of_heading_[heading][i] = sums[i][heading];
 }
 
-Lobes OpenSky::upright(double heading) {
+Lobes OpenSky::upright(double heading) const {
   const double below = std::floor(heading);
   const auto first = static_cast<int>(below);
   const auto t = static_cast<float>(heading - below);
@@ -201,19 +236,22 @@ Lobes OpenSky::upright(double heading) {
                                     t * (0.5f + t * (2.0f - 1.5f * t)), t * t * (-0.5f + 0.5f * t)};
   Lobes out{};
   for (int i = 0; i < 4; ++i) {
-    const Lobes& one = of_heading(first - 1 + i);
+    const Lobes& one = at_heading(first - 1 + i);
     for (std::size_t k = 0; k < out.size(); ++k)
       out[k] += one[k] * shares[static_cast<std::size_t>(i)];
   }
-  for (glm::vec3& lobe : out) lobe = glm::max(lobe, 0.0f);
+  keep_positive(out);
   return out;
 }
 
 Lobes OpenSky::tilted(const glm::dquat& rotation) const {
   const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
   Lobes out{};
-  for (const LobeSample& sample : samples())
-    add(out, sample, rows_.towards(world_from_lattice * sample.direction));
+  for (const LobeSample& sample : samples()) {
+    const glm::vec3 radiance = rows_.towards(world_from_lattice * sample.direction);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      add(out, sample.slot[axis], radiance * sample.weight[static_cast<int>(axis)]);
+  }
   return out;
 }
 
@@ -226,16 +264,8 @@ void OpenSky::add_bodies(Harmonics& sum, const glm::dquat& lattice_from_world, f
 }
 
 Harmonics OpenSky::harmonics(const glm::dquat& rotation) const {
-  static const std::array<glm::vec3, 12> kCorners = icosahedron();
-  const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
   const glm::dquat lattice_from_world = glm::conjugate(rotation);
-  Harmonics out{};
-  for (const glm::vec3& corner : kCorners) {
-    const glm::vec3 d = world_from_lattice * corner;
-    add(out, corner,
-        sum_of(harmonics_, harmonics_of(d.x, d.y, d.z)) *
-            (4.0f * std::numbers::pi_v<float> / 12.0f));
-  }
+  Harmonics out = turned(harmonics_, glm::mat3(glm::mat3_cast(lattice_from_world)));
   add_bodies(out, lattice_from_world, 1.0f, kShapeOfBodies);
   return out;
 }
@@ -252,13 +282,32 @@ Harmonics sent_by_islands(Harmonics light) {
   return light;
 }
 
+/// A direction in which islands may hide the sky.
+struct Look {
+  int row, k;  ///< of make_samples()
+  const LobeSample* sample;
+};
+
+/// Every other direction stands for two: what is hidden has soft edges.
+std::vector<Look> make_looks() {
+  std::vector<Look> out;
+  for (int row = 0; row < SkyRows::kRows; ++row)
+    for (int k = row & 1; k < kAround; k += 2)
+      out.push_back({row, k, &samples()[static_cast<std::size_t>(row * kAround + k)]});
+  return out;
+}
+
 void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& lobes,
                    Harmonics& harmonics) const {
   if (shade.empty()) return;
-  constexpr float kSolidAngle =
-      4.0f * std::numbers::pi_v<float> / float{SkyRows::kRows * kAround / 2};
+  static const std::vector<Look> kLooks = make_looks();
+  const float solid_angle = 4.0f * std::numbers::pi_v<float> / static_cast<float>(kLooks.size());
   const glm::mat3 world_from_lattice(glm::mat3_cast(rotation));
   const glm::dquat lattice_from_world = glm::conjugate(rotation);
+  IslandShade::Directions directions;
+  for (std::size_t i = 0; i < kLooks.size(); ++i)
+    directions.set(i, world_from_lattice * kLooks[i].sample->direction);
+  const IslandShade::Near near = shade.near(directions);
   Harmonics arriving = harmonics;
   add_bodies(arriving, lattice_from_world, 0.0f, 1.0f - kShapeOfBodies);
   const Harmonics sent = sent_by_islands(arriving);
@@ -270,22 +319,21 @@ void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& 
     constexpr int kAll = SkyRows::kAzimuths - 1;
     return glm::mix(rows_.at(row, azimuth & kAll), rows_.at(row, (azimuth - 1) & kAll), part);
   };
-  // Every other direction stands for two: what is hidden has soft edges.
-  for (int row = 0; row < SkyRows::kRows; ++row)
-    for (int k = row & 1; k < kAround; k += 2) {
-      const LobeSample& sample = samples()[static_cast<std::size_t>(row * kAround + k)];
-      const glm::vec3 direction = world_from_lattice * sample.direction;
-      const std::optional<IslandShade::Open> open = shade.towards(direction);
-      if (!open) continue;
-      const glm::vec3 sky = upright ? sky_at(row, k) : rows_.towards(direction);
-      const glm::vec3 change = glm::max(sum_of(sent, sample.basis), 0.0f) - sky;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        lobes[sample.slot[axis]] +=
-            change * ((1.0f - open->face[sample.slot[axis] / shared::kSkyLobes]) * 2.0f *
-                      sample.weight[static_cast<int>(axis)]);
-      add(harmonics, sample.basis, change * ((1.0f - open->all) * kSolidAngle));
-    }
-  for (glm::vec3& lobe : lobes) lobe = glm::max(lobe, 0.0f);
+  for (std::size_t i = 0; i < kLooks.size(); ++i) {
+    if (near[i] == 0) continue;
+    const auto& [row, k, sample] = kLooks[i];
+    const glm::vec3 direction = directions.at(i);
+    const std::optional<IslandShade::Open> open = shade.towards(direction, near[i]);
+    if (!open) continue;
+    const glm::vec3 sky = upright ? sky_at(row, k) : rows_.towards(direction);
+    const glm::vec3 change = glm::max(sum_of(sent, sample->basis), 0.0f) - sky;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      add(lobes, sample->slot[axis],
+          change * ((1.0f - open->face[sample->slot[axis] / (3 * shared::kSkyLobes)]) * 2.0f *
+                    sample->weight[static_cast<int>(axis)]));
+    add(harmonics, sample->basis, change * ((1.0f - open->all) * solid_angle));
+  }
+  keep_positive(lobes);
   const auto hide_body = [&](const glm::dvec3& to_body, const glm::vec3& irradiance) {
     if (const std::optional<IslandShade::Open> open = shade.towards(glm::vec3(to_body)))
       add_body(harmonics, glm::vec3(lattice_from_world * to_body), irradiance * (open->all - 1.0f),
@@ -293,28 +341,6 @@ void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& 
   };
   hide_body(bodies_.to_sun, bodies_.sun_irradiance);
   hide_body(bodies_.to_moon, bodies_.moon_irradiance);
-}
-
-std::uint32_t packed(float a, float b) {
-  return glm::packHalf2x16(
-      {std::clamp(a, -kMostHalf, kMostHalf), std::clamp(b, -kMostHalf, kMostHalf)});
-}
-
-glm::uvec4 packed(const Lobes& lobes, std::size_t face, int channel) {
-  glm::uvec4 out;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t at = face * shared::kSkyLobes + 2 * i;
-    out[static_cast<int>(i)] = packed(lobes[at][channel], lobes[at + 1][channel]);
-  }
-  return out;
-}
-
-/// Degrees 1 and 2.
-glm::uvec4 packed(const Harmonics& harmonics, int channel) {
-  glm::uvec4 out;
-  for (std::size_t i = 0; i < 4; ++i)
-    out[static_cast<int>(i)] = packed(harmonics[2 * i + 1][channel], harmonics[2 * i + 2][channel]);
-  return out;
 }
 
 /// Takes away what steps and overhangs hide that voxels of a coarse level have not got: shares of
@@ -325,14 +351,22 @@ void coarsen(int level, Lobes& lobes, Harmonics& harmonics) {
   if (level == 0) return;
   const auto at = static_cast<std::size_t>(std::min(level, 3));
   for (std::size_t i = 0; i < lobes.size(); ++i)
-    lobes[i] *= i / shared::kSkyLobes / 2 == 1 ? kLevel[at] : kSide[at];
+    lobes[i] *= i / (3 * shared::kSkyLobes) / 2 == 1 ? kLevel[at] : kSide[at];
   for (glm::vec3& harmonic : harmonics) harmonic *= kSide[at];
 }
 
 void append(std::vector<glm::uvec4>& out, const Lobes& lobes, const Harmonics& harmonics) {
-  for (std::size_t face = 0; face < kFaces; ++face)
-    for (int channel = 0; channel < 3; ++channel) out.push_back(packed(lobes, face, channel));
-  for (int channel = 0; channel < 3; ++channel) out.push_back(packed(harmonics, channel));
+  constexpr std::size_t kOfHalves = shared::kIndirectIslandTexels - 1, kShape = kHarmonics - 1;
+  std::array<float, std::tuple_size_v<Lobes> + 3 * kShape> numbers;
+  std::copy(lobes.begin(), lobes.end(), numbers.begin());
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    for (std::size_t i = 0; i < kShape; ++i)
+      numbers[lobes.size() + channel * kShape + i] = harmonics[i + 1][static_cast<int>(channel)];
+  std::array<std::uint16_t, numbers.size()> halves;
+  halves_of(numbers, halves);
+  static_assert(sizeof(halves) == kOfHalves * sizeof(glm::uvec4));
+  out.resize(out.size() + kOfHalves);
+  std::memcpy(&out[out.size() - kOfHalves], halves.data(), sizeof(halves));
   out.emplace_back(std::bit_cast<glm::uvec3>(harmonics[0]), 0);
 }
 
@@ -342,11 +376,14 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
                                        std::span<const IslandPlacement> islands,
                                        const std::vector<bool>& shown, const FixedPos& eye) {
   // Discs are not in it: smooth enough to be interpolated.
-  double height = 2.0, table_row = 0.0;  // of the row of directions
-  const SkyRows rows([&](const glm::dvec3& d) {
-    if (sky.panorama) return glm::dvec3(sky.panorama->smooth().at(glm::vec3(d)));
-    if (d.y != height) table_row = sky_table_row(height = d.y, sky);
-    return sky_radiance(d, table_row, sky);
+  const SkyRows rows([&](const SkyRows::Row& directions) {
+    SkyRows::Row out;
+    if (!sky.panorama) sky_radiance(directions, sky, out);
+    if (sky.panorama)
+      std::ranges::transform(directions, out.begin(), [&](const glm::dvec3& d) {
+        return glm::dvec3(sky.panorama->smooth().at(glm::vec3(d)));
+      });
+    return out;
   });
   OpenSky open(rows, bodies);
   static_assert(kFaces * shared::kIndirectSkyTexels == shared::kIndirectHarmonics);
@@ -354,7 +391,7 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
   const auto dark = static_cast<std::uint32_t>(out.size());
   out.resize(out.size() + shared::kIndirectIslandTexels, glm::uvec4(0));
   std::array<std::uint32_t, kHeadings> of_far{};  // 0: none yet
-  const std::vector<std::size_t> hiding = islands_that_hide(islands);
+  const std::vector<HidingIsland> hiding = islands_that_hide(islands);
   for (std::size_t i = 0; i < islands.size(); ++i) {
     std::uint32_t& place = out[i / 4][static_cast<int>(i % 4)];
     place = dark;
@@ -362,7 +399,7 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
     const glm::dquat& rotation = islands[i].rotation;
     const auto end = static_cast<std::uint32_t>(out.size());
     if (islands[i].far && is_upright(rotation)) {
-      const auto heading = static_cast<int>(std::lround(heading_of(rotation)));
+      const int heading = nearest_heading(rotation);
       std::uint32_t& far = of_far[static_cast<std::size_t>(heading & (kHeadings - 1))];
       place = far != 0 ? far : end;
       if (std::exchange(far, place) != 0) continue;

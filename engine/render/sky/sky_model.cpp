@@ -80,26 +80,60 @@ void set_scattering(SkyModel& model, std::size_t body, double eye_km, double bod
       between_nodes(nodes[0]->table, nodes[1]->table, static_cast<float>(place - below))});
 }
 
-glm::dvec3 body_radiance(glm::dvec3 dir, const shared::SkyBody& body, const SkyScattering& table,
-                         double row_place) {
-  const glm::dvec3 to_body(body.to_body);
-  const double flats = std::hypot(dir.x, dir.z) * std::hypot(to_body.x, to_body.z);
-  const double cos_across = (dir.x * to_body.x + dir.z * to_body.z) / std::max(flats, 1e-9);
-  const double column = std::acos(std::clamp(cos_across, -1.0, 1.0)) / kPi *
-                        (shared::kSkyAzimuths - 1.0),
-               row = row_place * (shared::kSkyLutHeight - 1.0);
-  const auto i = std::min(static_cast<std::size_t>(column), std::size_t{shared::kSkyAzimuths - 2}),
-             j = std::min(static_cast<std::size_t>(row), std::size_t{shared::kSkyLutHeight - 2});
-  const double cosine = std::clamp(glm::dot(dir, to_body), -1.0, 1.0);
-  const double rayleigh = rayleigh_phase(cosine), mie = mie_phase(cosine);
-  const auto at = [&](std::size_t y, std::size_t x) {
-    const shared::SkyScatter& s = table[y * shared::kSkyAzimuths + x];
-    return glm::dvec3(s.rayleigh) * rayleigh + glm::dvec3(s.mie) * mie + glm::dvec3(s.multiple);
-  };
-  const double u = column - static_cast<double>(i), v = row - static_cast<double>(j);
-  return glm::dvec3(body.light) * glm::mix(glm::mix(at(j, i), at(j, i + 1), u),
-                                           glm::mix(at(j + 1, i), at(j + 1, i + 1), u), v);
-}
+/// SkyScatter between two rows.
+struct ScatterColumn {
+  glm::dvec3 rayleigh, mie, multiple;
+};
+
+/// A body's table where directions of one height look it up.
+class ScatterRow {
+ public:
+  /// @param place 0..1, see sky_row_place().
+  ScatterRow(const SkyScattering& table, double place) : table_(table) {
+    const double row = place * (shared::kSkyLutHeight - 1.0);
+    first_ = std::min(static_cast<std::size_t>(row), std::size_t{shared::kSkyLutHeight - 2});
+    share_ = row - static_cast<double>(first_);
+  }
+  ScatterColumn column(std::size_t x) const {
+    const shared::SkyScatter &a = table_[first_ * shared::kSkyAzimuths + x],
+                             &b = table_[(first_ + 1) * shared::kSkyAzimuths + x];
+    const auto mix = [&](const glm::vec3& c, const glm::vec3& d) {
+      return glm::mix(glm::dvec3(c), glm::dvec3(d), share_);
+    };
+    return {mix(a.rayleigh, b.rayleigh), mix(a.mie, b.mie), mix(a.multiple, b.multiple)};
+  }
+
+ private:
+  const SkyScattering& table_;
+  std::size_t first_ = 0;
+  double share_ = 0.0;
+};
+
+/// What directions ask of a body.
+class BodyInSky {
+ public:
+  explicit BodyInSky(const shared::SkyBody& body)
+      : to_body_(body.to_body), light_(body.light), flat_(std::hypot(to_body_.x, to_body_.z)) {}
+  /// @param column ScatterRow::column() of the direction's height.
+  template <class Columns>
+  glm::dvec3 radiance(const glm::dvec3& dir, const Columns& column) const {
+    const double flats = std::sqrt(dir.x * dir.x + dir.z * dir.z) * flat_;
+    const double cos_across = (dir.x * to_body_.x + dir.z * to_body_.z) / std::max(flats, 1e-9);
+    const double place =
+        std::acos(std::clamp(cos_across, -1.0, 1.0)) / kPi * (shared::kSkyAzimuths - 1.0);
+    const auto i = std::min(static_cast<std::size_t>(place), std::size_t{shared::kSkyAzimuths - 2});
+    const double cosine = std::clamp(glm::dot(dir, to_body_), -1.0, 1.0);
+    const double rayleigh = rayleigh_phase(cosine), mie = mie_phase(cosine);
+    const auto at = [&](const ScatterColumn& s) {
+      return s.rayleigh * rayleigh + s.mie * mie + s.multiple;
+    };
+    return light_ * glm::mix(at(column(i)), at(column(i + 1)), place - static_cast<double>(i));
+  }
+
+ private:
+  glm::dvec3 to_body_, light_;
+  double flat_;
+};
 
 glm::dvec3 space_to(double height_km, double sine) {
   return sunlight_in_space() / kPi * world_atmosphere().transmittance(height_km, sine);
@@ -183,22 +217,47 @@ double eye_height_km(const FrameInput& input) {
   return eye_height_km(static_cast<double>(input.camera.position[1] - input.anchor[1]) / 65536.0);
 }
 
-double sky_table_row(double sine, const SkyModel& sky) {
+namespace {
+
+double table_row(double sine, const SkyModel& sky) {
   return sky_row_place(std::asin(std::clamp(sine, -1.0, 1.0)),
                        static_cast<double>(sky.constants.horizon));
 }
 
+}  // namespace
+
 glm::dvec3 sky_radiance(glm::dvec3 dir, const SkyModel& sky) {
   if (sky.panorama) return sky.panorama->radiance(dir);
-  return sky_radiance(dir, sky_table_row(dir.y, sky), sky);
+  glm::dvec3 radiance(0.0);
+  const double place = table_row(dir.y, sky);
+  const std::array<const shared::SkyBody*, 2> bodies{&sky.constants.sun, &sky.constants.moon};
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!sky.scattering[i]) continue;
+    const ScatterRow row(sky.scattering[i]->table, place);
+    radiance += BodyInSky(*bodies[i]).radiance(dir, [&](std::size_t x) { return row.column(x); });
+  }
+  return radiance;
 }
 
-glm::dvec3 sky_radiance(glm::dvec3 dir, double row, const SkyModel& sky) {
-  const shared::SkyConstants& c = sky.constants;
-  glm::dvec3 radiance(0.0);
-  if (sky.scattering[0]) radiance += body_radiance(dir, c.sun, sky.scattering[0]->table, row);
-  if (sky.scattering[1]) radiance += body_radiance(dir, c.moon, sky.scattering[1]->table, row);
-  return radiance;
+void sky_radiance(std::span<const glm::dvec3> dirs, const SkyModel& sky,
+                  std::span<glm::dvec3> radiance) {
+  std::ranges::fill(radiance, glm::dvec3(0.0));
+  if (sky.panorama || dirs.empty()) {
+    for (std::size_t i = 0; i < dirs.size(); ++i) radiance[i] = sky_radiance(dirs[i], sky);
+    return;
+  }
+  const double place = table_row(dirs.front().y, sky);
+  const std::array<const shared::SkyBody*, 2> bodies{&sky.constants.sun, &sky.constants.moon};
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!sky.scattering[i]) continue;
+    const ScatterRow row(sky.scattering[i]->table, place);
+    std::array<ScatterColumn, shared::kSkyAzimuths> columns;
+    for (std::size_t x = 0; x < columns.size(); ++x) columns[x] = row.column(x);
+    const BodyInSky body(*bodies[i]);
+    for (std::size_t k = 0; k < dirs.size(); ++k)
+      radiance[k] +=
+          body.radiance(dirs[k], [&](std::size_t x) -> const ScatterColumn& { return columns[x]; });
+  }
 }
 
 float air_light(const Celestial& sky) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 
 #include "engine/render/air/sky_scattering.h"
 #include "engine/render/frame/celestial.h"
@@ -51,12 +52,9 @@ double eye_height_km(const FrameInput& input);
 /// Radiance of the sky without discs and stars, linear RGB, >= 0 and finite. The double-precision
 /// twin of shaders/sky/bake_sky.comp, or of sample_sky() with a panorama. @param dir unit, any.
 glm::dvec3 sky_radiance(glm::dvec3 dir, const SkyModel& sky);
-/// The same of a sky without a panorama, for many directions of one height. @param row
-/// sky_table_row() of dir.y.
-glm::dvec3 sky_radiance(glm::dvec3 dir, double row, const SkyModel& sky);
-/// Where directions of a height stand in the tables of what the air scatters, 0..1.
-/// @param sine of their elevation.
-double sky_table_row(double sine, const SkyModel& sky);
+/// The same towards many directions of one height (dir.y). @param radiance as many, set to it.
+void sky_radiance(std::span<const glm::dvec3> dirs, const SkyModel& sky,
+                  std::span<glm::dvec3> radiance);
 
 /// Extinction of clear air [1/block].
 inline constexpr float kClearAir = 0.0005f;

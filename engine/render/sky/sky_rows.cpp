@@ -10,11 +10,7 @@ namespace {
 
 constexpr double kTau = 2.0 * std::numbers::pi;
 
-using Directions = std::array<glm::dvec3, std::size_t{SkyRows::kRows} * SkyRows::kAzimuths>;
-
-std::size_t index_of(int row, int azimuth) {
-  return static_cast<std::size_t>(row * SkyRows::kAzimuths + azimuth);
-}
+using Directions = std::array<SkyRows::Row, SkyRows::kRows>;
 
 Directions make_directions() {
   Directions out;
@@ -22,7 +18,8 @@ Directions make_directions() {
     const double y = (2.0 * row + 1.0) / SkyRows::kRows - 1.0, flat = std::sqrt(1.0 - y * y);
     for (int azimuth = 0; azimuth < SkyRows::kAzimuths; ++azimuth) {
       const double turn = kTau * azimuth / SkyRows::kAzimuths;
-      out[index_of(row, azimuth)] = {flat * std::cos(turn), y, flat * std::sin(turn)};
+      out[static_cast<std::size_t>(row)][static_cast<std::size_t>(azimuth)] = {
+          flat * std::cos(turn), y, flat * std::sin(turn)};
     }
   }
   return out;
@@ -30,15 +27,15 @@ Directions make_directions() {
 
 }  // namespace
 
-SkyRows::SkyRows(const std::function<glm::dvec3(const glm::dvec3&)>& radiance) {
+SkyRows::SkyRows(const std::function<Row(const Row&)>& radiance) {
+  glm::vec3* texel = texels_.data();
   for (int row = 0; row < kRows; ++row)
-    for (int k = 0; k < kAzimuths; ++k)
-      texels_[index_of(row, k)] = glm::vec3(radiance(direction(row, k)));
+    for (const glm::dvec3& one : radiance(directions(row))) *texel++ = glm::vec3(one);
 }
 
-const glm::dvec3& SkyRows::direction(int row, int azimuth) {
+const SkyRows::Row& SkyRows::directions(int row) {
   static const Directions kDirections = make_directions();
-  return kDirections[index_of(row, azimuth)];
+  return kDirections[static_cast<std::size_t>(row)];
 }
 
 glm::vec3 SkyRows::towards(const glm::vec3& d) const {

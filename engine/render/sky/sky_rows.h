@@ -14,10 +14,14 @@ class SkyRows {
   static constexpr int kRows = 16;      ///< row i is at height (2 i + 1) / kRows - 1
   static constexpr int kAzimuths = 64;  ///< azimuth k is at turn k / kAzimuths from +x towards +z
 
-  /// @param radiance by direction (unit).
-  explicit SkyRows(const std::function<glm::dvec3(const glm::dvec3&)>& radiance);
+  /// Directions of a row (unit), by azimuth, or what is seen towards them.
+  using Row = std::array<glm::dvec3, kAzimuths>;
+  /// @param radiance by the directions of a row.
+  explicit SkyRows(const std::function<Row(const Row&)>& radiance);
   /// Unit direction of an entry.
-  static const glm::dvec3& direction(int row, int azimuth);
+  static const glm::dvec3& direction(int row, int azimuth) {
+    return directions(row)[static_cast<std::size_t>(azimuth)];
+  }
   const glm::vec3& at(int row, int azimuth) const {
     return texels_[static_cast<std::size_t>(row * kAzimuths + azimuth)];
   }
@@ -25,6 +29,7 @@ class SkyRows {
   glm::vec3 towards(const glm::vec3& d) const;
 
  private:
+  static const Row& directions(int row);
   std::array<glm::vec3, std::size_t{kRows} * kAzimuths> texels_;
 };
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
@@ -149,6 +151,38 @@ TEST(IslandShade, ChangesBySmallStepsWhileIslandsPassAndTurn) {
   }
   EXPECT_LT(least, 0.9);  // it passed
   EXPECT_LT(most, 1.0 / 255.0);
+}
+
+// More islands than a word has bits.
+TEST(IslandShade, SaysWhichOfACrowdMayHideADirection) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> at(-900.0, 900.0);
+  std::vector<render::IslandPlacement> islands = two_at({300.0, 40.0, 0.0});
+  while (islands.size() < 60) {
+    islands.push_back(islands.front());
+    islands.back().origin = fixed_at({at(random), at(random), at(random)});
+  }
+  const render::IslandShade shade = shade_of_first(islands);
+  render::IslandShade::Directions directions;
+  const std::vector<glm::vec3> all = all_around();
+  constexpr std::size_t kCount = render::IslandShade::kDirections;
+  for (std::size_t i = 0; i < kCount; ++i) directions.set(i, all[i * all.size() / kCount]);
+  const render::IslandShade::Near near = shade.near(directions);
+  int hidden = 0, passed = 0;
+  std::uint32_t any = 0;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const auto by_all = shade.towards(directions.at(i)),
+               by_near = shade.towards(directions.at(i), near[i]);
+    ASSERT_EQ(by_all.has_value(), by_near.has_value());
+    hidden += by_all ? 1 : 0, passed += std::popcount(~near[i]);
+    any |= near[i];
+    if (!by_all) continue;
+    EXPECT_EQ(by_all->face, by_near->face);
+    EXPECT_EQ(by_all->all, by_near->all);
+  }
+  EXPECT_GT(hidden, 30);
+  EXPECT_GT(passed, 256 * 8);
+  EXPECT_EQ(any >> 31, 1u);
 }
 
 TEST(IslandShade, TurnsWithTheWorld) {

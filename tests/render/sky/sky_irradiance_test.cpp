@@ -166,6 +166,38 @@ TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
   }
 }
 
+TEST(SkyIrradiance, HarmonicsOfATurnedIslandAreTheSameFunctionAboutOtherAxes) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+  };
+  Celestial bodies = celestial_at(8.0 * 3600.0, 0.5);
+  const SkyModel sky = sky_model(bodies);
+  bodies.sun_irradiance = bodies.moon_irradiance = glm::vec3(0.0f);
+  std::vector<IslandPlacement> islands(20);
+  for (std::size_t i = 1; i < islands.size(); ++i)
+    islands[i].rotation = glm::angleAxis(3.0 * normal(random), direction());
+  const std::vector<glm::uvec4> skies =
+      sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true), {});
+  const auto in_world = harmonics_in(skies, 0);
+  const auto towards = [](const std::array<double, kHarmonics>& of, const glm::dvec3& d) {
+    double sum = 0.0;
+    const auto basis = basis_of(d);
+    for (std::size_t i = 0; i < kHarmonics; ++i) sum += of[i] * basis[i];
+    return sum;
+  };
+  for (std::size_t i = 1; i < islands.size(); ++i) {
+    const auto own = harmonics_in(skies, i);
+    for (int k = 0; k < 30; ++k) {
+      const glm::dvec3 d = direction();
+      for (std::size_t c = 0; c < 3; ++c)  // of halves
+        EXPECT_NEAR(towards(own[c], d), towards(in_world[c], islands[i].rotation * d),
+                    1e-3 * in_world[c][0]);
+    }
+  }
+}
+
 // By directions drawn evenly: light of the sky past the other island, and a quarter of what a
 // surface receives there that faces this one.
 TEST(SkyIrradiance, IsWhatOtherIslandsLetPastAndReflect) {

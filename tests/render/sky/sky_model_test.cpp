@@ -60,6 +60,21 @@ glm::dvec3 without_table(glm::dvec3 d, const Celestial& now, double height_km) {
                                 glm::dvec3(s.mie) * mie_phase(cosine) + glm::dvec3(s.multiple));
 }
 
+TEST(SkyModel, TowardsDirectionsOfOneHeightIsThatOfEach) {
+  for (const double hour : {12.0, 6.1, 0.0}) {
+    const SkyModel sky = sky_model(celestial_at(hour * kHour, 0.5), 0.3);
+    for (const double y : {-0.9, -0.02, 0.0, 0.4, 1.0}) {
+      std::vector<glm::dvec3> directions, found(50, glm::dvec3(-1.0));
+      for (std::size_t i = 0; i < found.size(); ++i)
+        directions.push_back(direction(2.0 * M_PI * static_cast<double>(i) / 50.0, std::asin(y)));
+      for (glm::dvec3& d : directions) d.y = y;
+      sky_radiance(directions, sky, found);
+      for (std::size_t i = 0; i < found.size(); ++i)
+        EXPECT_EQ(found[i], sky_radiance(directions[i], sky)) << hour << "h height " << y;
+    }
+  }
+}
+
 TEST(SkyModel, IsTheAtmosphereInEveryDirection) {
   for (const double blocks : {-200.0, 0.0, 1000.0, 10000.0, 100000.0}) {
     const double height = eye_height_km(blocks);
