@@ -28,8 +28,8 @@ constexpr VkBufferUsageFlags kTable =
 /// Room for lists to begin with. What a frame wants beyond is made for later ones.
 constexpr std::uint64_t kEntriesPerLight = 64, kLeastEntries = 1u << 17, kFirstEntries = 1u << 22;
 /// Of words of 32 lights. A GPU waits for each light in turn, so that few at a stretch are best; on
-/// a CPU each invocation more costs, and lavapipe ends one after 65,535 rounds of its loops, without
-/// a word.
+/// a CPU each invocation more costs, and lavapipe ends one after 65,535 rounds of its loops,
+/// without a word.
 constexpr std::uint32_t kLeastChunkWords = 1, kLeastChunkWordsOnCpu = 8, kMostChunks = 16;
 /// Lights of most views: so many are sorted without lists that grow.
 constexpr std::uint32_t kUsualLights = 2048;

@@ -11,9 +11,9 @@ namespace skerry::render {
 
 /// What each lobe of an open sky sends to each face of each island: irradiance, linear RGB, without
 /// the discs of sun and moon. And the harmonics, about the island's own axes, of all that sky and
-/// bodies send. The skies of all 64 headings are summed up in any case; an island that is tilted, or
-/// where others hide a part of the sky (IslandShade), costs most. Far ones of about the same heading
-/// have one sky in common.
+/// bodies send. The skies of all 64 headings are summed up in any case; an island that is tilted,
+/// or where others hide a part of the sky (IslandShade), costs most. Far ones of about the same
+/// heading have one sky in common.
 /// @param shown one an island: others have a sky of 0 in common.
 /// @return in the layout of shaders/shared/indirect.h: which sky each island has, and the skies.
 /// What a half holds is at most what it can.

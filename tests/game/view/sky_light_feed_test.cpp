@@ -23,7 +23,7 @@ constexpr std::uint64_t kBudget = 2 * kStoreTexels * kTexelBytes;
 
 /// Two bricks with masks and records of random bits; each mask names a record of the chunk.
 std::shared_ptr<const world::ChunkSky> random_chunk(std::mt19937& random,
-                                                   std::uint32_t texels = kChunkTexels) {
+                                                    std::uint32_t texels = kChunkTexels) {
   auto sky = std::make_shared<world::ChunkSky>();
   sky->table.resize(512);
   sky->table[random() % 256] = 1;
