@@ -290,6 +290,7 @@ struct Look {
 
 /// Every other direction stands for two: what is hidden has soft edges.
 std::vector<Look> make_looks() {
+  static_assert(SkyRows::kRows * kAround / 2 == IslandShade::kDirections);
   std::vector<Look> out;
   for (int row = 0; row < SkyRows::kRows; ++row)
     for (int k = row & 1; k < kAround; k += 2)
