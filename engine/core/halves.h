@@ -20,7 +20,7 @@ inline void halves_of(std::span<const float> numbers, std::span<std::uint16_t> o
     const std::int32_t normal = (size - kExponents + kTie) >> 13;
     // Below that they are even: multiples of 2^-24.
     const float few = std::bit_cast<float>(std::min(size, kLeastNormal));
-    const auto even = static_cast<std::int32_t>(few * 0x1p24f + 0.5f);
+    const std::int32_t even = (static_cast<std::int32_t>(few * 0x1p25f) + 1) >> 1;
     out[i] =
         static_cast<std::uint16_t>((size < kLeastNormal ? even : normal) | (bits >> 16 & 0x8000));
   }
