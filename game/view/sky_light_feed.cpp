@@ -28,6 +28,11 @@ render::IslandChunks box_of(const IslandLight::Found& found) {
   return {low, high - low + 1, static_cast<std::uint32_t>(found.row.level)};
 }
 
+/// Whether an entry has light in the store that may be taken for one at `distance`.
+constexpr auto kGivesWay = [](const auto& entry, double distance) {
+  return entry.in_store && entry.distance > distance * kFarther + kFartherBlocks;
+};
+
 bool same_box(const render::IslandChunks& a, const render::IslandChunks& b) {
   return a.low == b.low && a.size == b.size && a.voxel_size_log2 == b.voxel_size_log2;
 }
@@ -101,8 +106,7 @@ std::vector<SkyLightFeed::Entry*> SkyLightFeed::nearest(
 std::vector<SkyLightFeed::Entry*> SkyLightFeed::lit_beyond(double distance) {
   std::vector<Entry*> out;
   for (auto& [id, entry] : entries_)
-    if (entry.in_store && entry.distance > distance * kFarther + kFartherBlocks)
-      out.push_back(&entry);
+    if (kGivesWay(entry, distance)) out.push_back(&entry);
   std::ranges::stable_sort(out, std::greater{}, &Entry::distance);
   return out;
 }
@@ -110,7 +114,8 @@ std::vector<SkyLightFeed::Entry*> SkyLightFeed::lit_beyond(double distance) {
 /// What the store has left and what may give way to an entry.
 std::uint64_t SkyLightFeed::room_for(const render::IndirectStore& store, const Entry& entry) {
   std::uint64_t room = store.bytes_left();
-  for (const Entry* other : lit_beyond(entry.distance)) room += other->bytes;
+  for (const auto& [id, other] : entries_)
+    if (kGivesWay(other, entry.distance)) room += other.bytes;
   return room;
 }
 
