@@ -78,20 +78,14 @@ bool is_upright(const glm::dquat& rotation) {
 }
 
 /// In steps of kHeadingStep, any number of turns.
-double heading_of(const glm::dquat& rotation) {
-  return 2.0 * std::atan2(rotation.y, rotation.w) / kHeadingStep;
+template <class T>
+T heading_of(const glm::qua<T>& rotation) {
+  return T(2) * std::atan2(rotation.y, rotation.w) / static_cast<T>(kHeadingStep);
 }
 
 /// By face, channel and lobe, as the texels of a sky are.
 using Lobes = std::array<float, kFaces * 3 * shared::kSkyLobes>;
 using Harmonics = std::array<glm::vec3, kHarmonics>;
-
-/// The nearest of kHeadings, any number of turns.
-int nearest_heading(const glm::dquat& rotation) {
-  const float half_turn =
-      std::atan2(static_cast<float>(rotation.y), static_cast<float>(rotation.w));
-  return static_cast<int>(std::lround(half_turn * static_cast<float>(2.0 / kHeadingStep)));
-}
 
 using Basis = std::array<float, kHarmonics>;
 
@@ -379,11 +373,13 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
   // Discs are not in it: smooth enough to be interpolated.
   const SkyRows rows([&](const SkyRows::Row& directions) {
     SkyRows::Row out;
-    if (!sky.panorama) sky_radiance(directions, sky, out);
-    if (sky.panorama)
-      std::ranges::transform(directions, out.begin(), [&](const glm::dvec3& d) {
-        return glm::dvec3(sky.panorama->smooth().at(glm::vec3(d)));
-      });
+    if (!sky.panorama) {
+      sky_radiance(directions, sky, out);
+      return out;
+    }
+    std::ranges::transform(directions, out.begin(), [&](const glm::dvec3& d) {
+      return glm::dvec3(sky.panorama->smooth().at(glm::vec3(d)));
+    });
     return out;
   });
   OpenSky open(rows, bodies);
@@ -400,7 +396,8 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
     const glm::dquat& rotation = islands[i].rotation;
     const auto end = static_cast<std::uint32_t>(out.size());
     if (islands[i].far && is_upright(rotation)) {
-      const int heading = nearest_heading(rotation);
+      // Of floats, which are faster: there are thousands of islands.
+      const auto heading = static_cast<int>(std::lround(heading_of(glm::quat(rotation))));
       std::uint32_t& far = of_far[static_cast<std::size_t>(heading & (kHeadings - 1))];
       place = far != 0 ? far : end;
       if (std::exchange(far, place) != 0) continue;

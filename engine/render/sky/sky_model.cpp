@@ -219,9 +219,15 @@ double eye_height_km(const FrameInput& input) {
 
 namespace {
 
-double table_row(double sine, const SkyModel& sky) {
-  return sky_row_place(std::asin(std::clamp(sine, -1.0, 1.0)),
-                       static_cast<double>(sky.constants.horizon));
+/// Calls fn(BodyInSky, ScatterRow) for sun and moon as far as they are in the sky.
+/// @param sine of the elevation of the directions that are asked about.
+template <class Fn>
+void for_each_body(const SkyModel& sky, double sine, const Fn& fn) {
+  const double place = sky_row_place(std::asin(std::clamp(sine, -1.0, 1.0)),
+                                     static_cast<double>(sky.constants.horizon));
+  const std::array<const shared::SkyBody*, 2> bodies{&sky.constants.sun, &sky.constants.moon};
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (sky.scattering[i]) fn(BodyInSky(*bodies[i]), ScatterRow(sky.scattering[i]->table, place));
 }
 
 }  // namespace
@@ -229,13 +235,9 @@ double table_row(double sine, const SkyModel& sky) {
 glm::dvec3 sky_radiance(glm::dvec3 dir, const SkyModel& sky) {
   if (sky.panorama) return sky.panorama->radiance(dir);
   glm::dvec3 radiance(0.0);
-  const double place = table_row(dir.y, sky);
-  const std::array<const shared::SkyBody*, 2> bodies{&sky.constants.sun, &sky.constants.moon};
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!sky.scattering[i]) continue;
-    const ScatterRow row(sky.scattering[i]->table, place);
-    radiance += BodyInSky(*bodies[i]).radiance(dir, [&](std::size_t x) { return row.column(x); });
-  }
+  for_each_body(sky, dir.y, [&](const BodyInSky& body, const ScatterRow& row) {
+    radiance += body.radiance(dir, [&](std::size_t x) { return row.column(x); });
+  });
   return radiance;
 }
 
@@ -246,18 +248,13 @@ void sky_radiance(std::span<const glm::dvec3> dirs, const SkyModel& sky,
     for (std::size_t i = 0; i < dirs.size(); ++i) radiance[i] = sky_radiance(dirs[i], sky);
     return;
   }
-  const double place = table_row(dirs.front().y, sky);
-  const std::array<const shared::SkyBody*, 2> bodies{&sky.constants.sun, &sky.constants.moon};
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!sky.scattering[i]) continue;
-    const ScatterRow row(sky.scattering[i]->table, place);
+  for_each_body(sky, dirs.front().y, [&](const BodyInSky& body, const ScatterRow& row) {
     std::array<ScatterColumn, shared::kSkyAzimuths> columns;
     for (std::size_t x = 0; x < columns.size(); ++x) columns[x] = row.column(x);
-    const BodyInSky body(*bodies[i]);
     for (std::size_t k = 0; k < dirs.size(); ++k)
       radiance[k] +=
           body.radiance(dirs[k], [&](std::size_t x) -> const ScatterColumn& { return columns[x]; });
-  }
+  });
 }
 
 float air_light(const Celestial& sky) {
