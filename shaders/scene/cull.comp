@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Culling in three steps. Sections: which ranges of each section a view needs (frustum, then the directions its faces look in), and how many draws
-// each work group of sections makes; one thread a section, one row of groups a view. Scan: where each group's draws begin; one work group a list,
-// exclusive scan of the group totals in place, the sum becomes the list's draw count. Emit: writes the indirect commands of every view and list,
+// each work group of sections makes; one thread a section, one row of groups a view. Scan: where each group's draws end; one work group a list,
+// inclusive scan of the group totals in place, the last becomes the list's draw count. Emit: writes the indirect commands of every view and list,
 // in section order. docs/conventions.md.
 // Where much is hidden the camera's view is drawn in two phases (kTwoPhases; docs/decisions/0050): first the sections that the last frame showed. A
 // fourth step, Hidden, then holds all sections of the view against the depths of what has been drawn: it notes which are seen, and leaves the masks
 // of those that the first phase has not drawn, and of the translucent quads of all that are seen.
-#include "include/scene/cull.glsl"
+#include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
 
@@ -17,7 +17,7 @@ layout(scalar, binding = kSectionsBinding) readonly buffer Sections { Section se
 layout(scalar, binding = kIslandsBinding) readonly buffer Islands { IslandTransform islands[]; };
 layout(scalar, binding = kCullViewsBinding) readonly buffer Views { CullView views[]; };
 layout(scalar, binding = kCullMasksBinding) buffer Masks { uint masks[]; };                      // [view][section]
-layout(scalar, binding = kCullTotalsBinding) buffer Totals { uint totals[]; };                   // [view][list][group]; scanned: where draws begin
+layout(scalar, binding = kCullTotalsBinding) buffer Totals { uint totals[]; };                   // [view][list][group]; scanned: where draws end
 layout(scalar, binding = kCullStatsBinding) buffer Stats { CullStats stats[]; };                 // [view]
 layout(scalar, binding = kSectionTransformsBinding) writeonly buffer Transforms { SectionTransform transforms[]; };  // [view][section]
 layout(scalar, binding = kDrawCommandsBinding) writeonly buffer Draws { DrawCommand draws[]; };  // [view][list][most]
@@ -36,30 +36,32 @@ layout(scalar, binding = kFarDepthsBinding) readonly buffer FarDepths { float fa
 layout(constant_id = kCullStepConstant) const uint kCullStep = kCullSections;
 layout(constant_id = kTwoPhasesConstant) const bool kTwoPhases = false;
 
+// Of a mask of ranges: the program for cut-outs draws the opaque ones, too, because it leaves pixels out.
+const uint kBlendedMask = 1u << 30;
 const uint kUnseen = 1u << 31;  // of a mask: the first phase does not draw the section
 const uint kTranslucentRanges = 63u << kRangeTranslucent;
 
 shared uint draws_of_list[3];
 shared CullStats group_stats;
-shared uint sums[256];
-shared uint lists_with_draws;  // bits
+shared uvec3 sums[256];  // of lists
 
 uvec3 unpack_box(uint packed) { return uvec3(packed & 127u, (packed >> 7) & 127u, (packed >> 14) & 127u); }
 
 // Of a section's faces, in blocks of its island's lattice.
-void section_box(Section s, out vec3 low, out vec3 high) {
-  float voxel = float(1u << s.voxel_size_log2);
-  low = vec3(s.origin) + vec3(unpack_box(s.bounds_min)) * voxel;
-  high = vec3(s.origin) + vec3(unpack_box(s.bounds_max)) * voxel;
+void section_box(uint section, out vec3 low, out vec3 high) {
+  float voxel = float(1u << sections[section].voxel_size_log2);
+  vec3 origin = vec3(sections[section].origin);
+  low = origin + vec3(unpack_box(sections[section].bounds_min)) * voxel;
+  high = origin + vec3(unpack_box(sections[section].bounds_max)) * voxel;
 }
 
-uint visible_ranges(Section s, CullView view) {
-  if (s.range_end[kRangeCount - 1u] == 0u) return 0u;
-  bool goes = (s.blend & kBlendGoes) != 0u;
+uint visible_ranges(uint section, CullView view) {
+  uint blend = sections[section].blend;
+  bool goes = (blend & kBlendGoes) != 0u;
   if (goes && view.orthographic != 0u) return 0u;
-  IslandTransform island = islands[s.island];
+  IslandTransform island = islands[sections[section].island];
   vec3 low, high;
-  section_box(s, low, high);
+  section_box(section, low, high);
   vec3 half_size = 0.5 * (high - low);
   vec3 centre = world_from_lattice(island, 0.5 * (low + high));
   for (int i = 0; i < 6; ++i) {
@@ -83,7 +85,7 @@ uint visible_ranges(Section s, CullView view) {
   uint mask = (faces << kRangeOpaque) | (faces << kRangeCutout) | (1u << kRangePlant);
   // Drawn from both sides; casts no shadow.
   if (view.orthographic == 0u && !goes) mask |= kTranslucentRanges;
-  if (view.orthographic == 0u && s.blend != 0u) mask |= kBlendedMask;
+  if (view.orthographic == 0u && blend != 0u) mask |= kBlendedMask;
   return view.glass != 0u ? kTranslucentRanges : mask;
 }
 
@@ -92,13 +94,13 @@ bool draws_section(CullView view, uint section) {
 }
 
 // Composed once a section, so that a vertex needs three dot products and one matrix.
-SectionTransform section_transform(Section s, IslandTransform t) {
-  vec3 origin = world_from_lattice(t, vec3(s.origin));
-  float voxel = float(1u << s.voxel_size_log2);
+SectionTransform section_transform(uint section, IslandTransform t) {
+  vec3 origin = world_from_lattice(t, vec3(sections[section].origin));
+  float voxel = float(1u << sections[section].voxel_size_log2);
   return SectionTransform(vec4(vec3(t.axis_x.x, t.axis_y.x, t.axis_z.x) * voxel, origin.x),
                           vec4(vec3(t.axis_x.y, t.axis_y.y, t.axis_z.y) * voxel, origin.y),
-                          vec4(vec3(t.axis_x.z, t.axis_y.z, t.axis_z.z) * voxel, origin.z), s.blend,
-                          s.first_quad + s.range_end[kRangeCutout - 1u]);
+                          vec4(vec3(t.axis_x.z, t.axis_y.z, t.axis_z.z) * voxel, origin.z), sections[section].blend,
+                          sections[section].first_quad + sections[section].range_end[kRangeCutout - 1u]);
 }
 
 // What the first phase draws of a mask; all of it where there is one phase alone.
@@ -108,10 +110,10 @@ uint first_phase(uint mask) {
 }
 
 // Whether what has been drawn hides all of a section's box. Errs on the side of no.
-bool is_hidden(Section s) {
-  IslandTransform island = islands[s.island];
+bool is_hidden(uint section) {
+  IslandTransform island = islands[sections[section].island];
   vec3 low, high;
-  section_box(s, low, high);
+  section_box(section, low, high);
   float nearest = 3.402823e38;  // along the view axis
   vec2 first = vec2(3.402823e38), last = vec2(-3.402823e38);
   for (uint i = 0u; i < 8u; ++i) {
@@ -143,22 +145,68 @@ bool is_hidden(Section s) {
   return true;
 }
 
-// Adds a section's draws to those of its group. @return how many.
-uint add_draws(Section s, uint mask) {
-  uint draws = 0u;
-  for (uint list = 0u; list < kListCount; ++list) {
-    uint count = draw_count(s, mask, list);
-    if (count != 0u) atomicAdd(draws_of_list[list], count);
-    draws += count;
-  }
-  return draws;
+// What a section's mask has.
+struct Drawn {
+  uvec3 draws;  // by list
+  uint quads;
+};
+
+uvec3 of_list(uint list, uint count) { return mix(uvec3(0u), uvec3(count), equal(uvec3(0u, 1u, 2u), uvec3(list))); }
+
+uint list_of(uint mask, uint range) {
+  return range >= kRangeTranslucent ? 2u : range >= kRangeCutout || (mask & kBlendedMask) != 0u ? 1u : 0u;
 }
 
-uint quads_of(Section s, uint mask) {
-  uint quads = 0u;
-  for (uint r = 0u; r < kRangeCount; ++r)
-    if ((mask & (1u << r)) != 0u) quads += s.range_end[r] - range_begin(s, r);
-  return quads;
+// Neighbouring ranges of a list that are drawn at once.
+struct Run {
+  uint begin, end;  // quads, relative to the section's first; equal: there is none
+  uint list;
+};
+
+// The first run of a section's ranges from `range` on, which becomes the one behind it. `from`: where that range's quads begin.
+Run next_run(uint section, uint mask, inout uint range, inout uint from) {
+  Run run = Run(from, from, 0u);
+  for (; range < kRangeCount; ++range) {
+    uint to = sections[section].range_end[range];
+    bool has = (mask & (1u << range)) != 0u && to != from;
+    uint list = list_of(mask, range);
+    bool is_first = run.begin == run.end;
+    if (has && !is_first && (from != run.end || list != run.list)) break;
+    if (has) run = Run(is_first ? from : run.begin, to, list);
+    from = to;
+  }
+  return run;
+}
+
+// Writes the draws of a run, from a slot of its list on; a run is split at kMaxQuadsPerDraw.
+void emit_run(uint section, Run run, uint slot) {
+  uint first_quad = sections[section].first_quad;
+  uint before = run.list == 0u ? 0u : run.list == 1u ? push.most.x : push.most.x + push.most.y;
+  uint most = run.list == 0u ? push.most.x : run.list == 1u ? push.most.y : push.most.z;
+  uint list_base = gl_WorkGroupID.y * (push.most.x + push.most.y + push.most.z) + before;
+  for (uint begin = run.begin; begin < run.end && slot < most; begin += kMaxQuadsPerDraw, ++slot)
+    draws[list_base + slot] = DrawCommand(6u * min(run.end - begin, kMaxQuadsPerDraw), 1u, 0u, 4u * (first_quad + begin), section);
+}
+
+// Where a section's draws are counted or, with `emits`, written from these slots of their lists on. Stores are between runs, not within the loop over
+// ranges: on lavapipe each round of a loop takes the time of all that is in it, and so does a copy of a section whose ranges are looked up.
+Drawn walk_runs(uint section, uint mask, const bool emits, uvec3 slots) {
+  Drawn drawn = Drawn(uvec3(0u), 0u);
+  uint from = 0u;
+  for (uint range = mask == 0u ? kRangeCount : 0u; range < kRangeCount;) {
+    Run run = next_run(section, mask, range, from);
+    uvec3 next = slots + drawn.draws;
+    if (emits) emit_run(section, run, run.list == 0u ? next.x : run.list == 1u ? next.y : next.z);
+    drawn.draws += of_list(run.list, (run.end - run.begin + kMaxQuadsPerDraw - 1u) / kMaxQuadsPerDraw);
+    drawn.quads += run.end - run.begin;
+  }
+  return drawn;
+}
+
+void add_to_group(uvec3 draws) {
+  if (draws.x != 0u) atomicAdd(draws_of_list[0], draws.x);
+  if (draws.y != 0u) atomicAdd(draws_of_list[1], draws.y);
+  if (draws.z != 0u) atomicAdd(draws_of_list[2], draws.z);
 }
 
 void store_totals(uint view) {
@@ -183,12 +231,13 @@ void find_hidden() {
   if (section < push.section_count) {
     uint mask = masks[section];
     if (mask != 0u) {
-      Section s = sections[section];
-      bool is_seen = !is_hidden(s);
+      bool is_seen = !is_hidden(section);
       seen[section] = is_seen ? 1u : 0u;
       mask = !is_seen ? 0u : (mask & kUnseen) != 0u ? mask & ~kUnseen : mask & kTranslucentRanges;
-      atomicAdd(group_stats.draws, add_draws(s, mask));
-      atomicAdd(group_stats.quads, quads_of(s, mask));
+      Drawn drawn = walk_runs(section, mask, false, uvec3(0u));
+      add_to_group(drawn.draws);
+      atomicAdd(group_stats.draws, drawn.draws.x + drawn.draws.y + drawn.draws.z);
+      atomicAdd(group_stats.quads, drawn.quads);
       masks[section] = mask;
     }
   }
@@ -201,22 +250,27 @@ void find_hidden() {
 
 void cull_sections() {
   uint section = gl_GlobalInvocationID.x;
-  uint view = gl_GlobalInvocationID.y;
+  uint view = gl_WorkGroupID.y;
   clear_group();
   if (section < push.section_count && views[view].enabled != 0u) {
-    Section s = sections[section];
-    uint mask = draws_section(views[view], section) ? visible_ranges(s, views[view]) : 0u;
-    if (kTwoPhases && view == 0u && seen[section] == 0u && mask != 0u) mask |= kUnseen;
-    uint drawn = first_phase(mask);
-    uint draws = add_draws(s, drawn), quads = quads_of(s, mask);
+    bool filled = sections[section].range_end[kRangeCount - 1u] != 0u;
+    uint mask = filled && draws_section(views[view], section) ? visible_ranges(section, views[view]) : 0u;
+    Drawn drawn = walk_runs(section, mask, false, uvec3(0u));
+    uint quads = drawn.quads;
     if (quads == 0u) mask = 0u;
+    if (kTwoPhases) {
+      if (view == 0u && seen[section] == 0u && mask != 0u) mask |= kUnseen;
+      drawn = walk_runs(section, first_phase(mask), false, uvec3(0u));
+    }
+    add_to_group(drawn.draws);
     masks[view * push.section_count + section] = mask;
-    if (s.range_end[kRangeCount - 1u] != 0u) atomicAdd(group_stats.sections_in, 1u);
+    if (filled) atomicAdd(group_stats.sections_in, 1u);
     if (quads != 0u) {
-      transforms[view * push.section_count + section] = section_transform(s, islands[view * push.islands_per_view + s.island]);
+      transforms[view * push.section_count + section] =
+          section_transform(section, islands[view * push.islands_per_view + sections[section].island]);
       atomicAdd(group_stats.sections_passed, 1u);
-      atomicAdd(group_stats.draws, draws);
-      atomicAdd(group_stats.quads, quads_of(s, drawn));
+      atomicAdd(group_stats.draws, drawn.draws.x + drawn.draws.y + drawn.draws.z);
+      atomicAdd(group_stats.quads, drawn.quads);
       atomicAdd(group_stats.quads_in_view, quads);
     }
   }
@@ -230,87 +284,54 @@ void cull_sections() {
   }
 }
 
-uint emit_run(uint section, uint first_quad, uint begin, uint end, uint list, uint slot) {
-  uvec3 most = push.most;
-  uint before = list == 0u ? 0u : list == 1u ? most.x : most.x + most.y;
-  uint list_base = gl_GlobalInvocationID.y * (most.x + most.y + most.z) + before;
-  for (; begin < end; begin += kMaxQuadsPerDraw, ++slot) {
-    if (slot >= most[list]) return slot;
-    uint quads = min(end - begin, kMaxQuadsPerDraw);
-    draws[list_base + slot] = DrawCommand(6u * quads, 1u, 0u, 4u * (first_quad + begin), section);
-  }
-  return slot;
+// Draws of a view's lists in the groups up to this one, this one's included.
+uvec3 draws_up_to(uint view, uint group) {
+  uint first = view * kListCount * push.group_count + group;
+  return uvec3(totals[first], totals[first + push.group_count], totals[first + 2u * push.group_count]);
 }
 
 void emit() {
   uint section = gl_GlobalInvocationID.x;
-  uint view = gl_GlobalInvocationID.y;
+  uint view = gl_WorkGroupID.y;
   uint lane = gl_LocalInvocationIndex;
   if (views[view].enabled == 0u) return;
-  uint mask = 0u;
-  Section s;
-  if (section < push.section_count) {
-    mask = first_phase(masks[view * push.section_count + section]);
-    s = sections[section];
-  }
-  if (lane == 0u) lists_with_draws = 0u;
+  uvec3 before = gl_WorkGroupID.x == 0u ? uvec3(0u) : draws_up_to(view, gl_WorkGroupID.x - 1u);
+  if (before == draws_up_to(view, gl_WorkGroupID.x)) return;
+  uint mask = section < push.section_count ? first_phase(masks[view * push.section_count + section]) : 0u;
+  uvec3 own = walk_runs(section, mask, false, uvec3(0u)).draws;
+  sums[lane] = own;
   barrier();
-  uint own_lists = 0u;
-  for (uint list = 0u; list < kListCount; ++list)
-    if (mask != 0u && draw_count(s, mask, list) != 0u) own_lists |= 1u << list;
-  if (own_lists != 0u) atomicOr(lists_with_draws, own_lists);
-  barrier();
-  for (uint list = 0u; list < kListCount; ++list) {
-    uint own = mask == 0u ? 0u : draw_count(s, mask, list);
-    sums[lane] = own;
+  for (uint step = 1u; step < 256u; step <<= 1) {
+    uvec3 other = lane >= step ? sums[lane - step] : uvec3(0u);
     barrier();
-    // Most groups have no draw of most lists. Loops end early on every device, branches do not.
-    uint end_step = (lists_with_draws & (1u << list)) != 0u ? 256u : 0u;
-    for (uint step = 1u; step < end_step; step <<= 1) {
-      uint other = lane >= step ? sums[lane - step] : 0u;
-      barrier();
-      sums[lane] += other;
-      barrier();
-    }
-    if (own != 0u) {
-      uint slot = totals[(view * kListCount + list) * push.group_count + gl_WorkGroupID.x] + sums[lane] - own;
-      uint begin = 0u, end = 0u;
-      for (uint r = list_first_range(mask, list); r < list_end_range(mask, list); ++r) {
-        uint b = range_begin(s, r), e = s.range_end[r];
-        if ((mask & (1u << r)) == 0u || b == e) continue;
-        if (b != end || begin == end) {
-          slot = emit_run(section, s.first_quad, begin, end, list, slot);
-          begin = b;
-        }
-        end = e;
-      }
-      emit_run(section, s.first_quad, begin, end, list, slot);
-    }
+    sums[lane] += other;
     barrier();
   }
+  walk_runs(section, own == uvec3(0u) ? 0u : mask, true, before + sums[lane] - own);
 }
 
+// Each invocation adds up a stretch of groups, so that the barriers are the same few for any number of them.
 void scan() {
-  uint list = gl_WorkGroupID.x;
+  uint base = gl_WorkGroupID.x * push.group_count;
   uint lane = gl_LocalInvocationIndex;
-  uint base = list * push.group_count;
-  uint carried = 0u;
-  for (uint start = 0u; start < push.group_count; start += 256u) {
-    uint i = start + lane;
-    uint own = i < push.group_count ? totals[base + i] : 0u;
-    sums[lane] = own;
+  uint stretch = (push.group_count + 255u) / 256u;
+  uint from = min(lane * stretch, push.group_count), to = min(from + stretch, push.group_count);
+  uint own = 0u;
+  for (uint i = from; i < to; ++i) own += totals[base + i];
+  sums[lane].x = own;
+  barrier();
+  for (uint step = 1u; step < 256u; step <<= 1) {
+    uint other = lane >= step ? sums[lane - step].x : 0u;
     barrier();
-    for (uint step = 1u; step < 256u; step <<= 1) {
-      uint other = lane >= step ? sums[lane - step] : 0u;
-      barrier();
-      sums[lane] += other;
-      barrier();
-    }
-    if (i < push.group_count) totals[base + i] = carried + sums[lane] - own;
-    carried += sums[255];
+    sums[lane].x += other;
     barrier();
   }
-  if (lane == 0u) draw_counts[list] = min(carried, push.most[list % kListCount]);
+  uint sum = sums[lane].x - own;
+  for (uint i = from; i < to; ++i) {
+    sum += totals[base + i];
+    totals[base + i] = sum;
+  }
+  if (lane == 255u) draw_counts[gl_WorkGroupID.x] = min(sums[255].x, push.most[gl_WorkGroupID.x % kListCount]);
 }
 
 void main() {

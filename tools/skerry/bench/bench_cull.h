@@ -12,7 +12,7 @@ struct BenchCullOptions {
   std::optional<std::filesystem::path> json;
 };
 
-/// Times the culling passes over 1,000 to 400,000 sections spread around the camera. Rows:
+/// Times the culling passes over 1,000 to 1,000,000 sections spread around the camera. Rows:
 /// sections, passed, ms_median, ms_p10, ms_p90, sections_per_ms. @return exit status.
 int bench_cull(const BenchCullOptions& options);
 
