@@ -36,9 +36,17 @@ WorkerThreads::~WorkerThreads() {
 }
 
 void WorkerThreads::submit(std::function<void()> job) {
+  submit(std::move(job), working_for == this);
+}
+
+void WorkerThreads::submit_first(std::function<void()> job) {
+  submit(std::move(job), true);
+}
+
+void WorkerThreads::submit(std::function<void()> job, bool first) {
   SKERRY_ASSERT(job != nullptr);
   const std::lock_guard lock(mutex_);
-  if (working_for == this)
+  if (first)
     jobs_.push_front(std::move(job));
   else
     jobs_.push_back(std::move(job));

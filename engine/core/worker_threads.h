@@ -29,11 +29,14 @@ class WorkerThreads {
   /// Runs on some thread later, in the order of submission; what a job submits comes before all
   /// that waits, so that one piece of work ends before the next begins. Must not throw.
   void submit(std::function<void()> job);
+  /// Alike, before all that waits.
+  void submit_first(std::function<void()> job);
   /// Returns when every job submitted so far, and those they submitted, has ended.
   void wait();
 
  private:
   void work(Priority priority);
+  void submit(std::function<void()> job, bool first);
   std::mutex mutex_;  // guards all below but the threads
   std::condition_variable wanted_, idle_;
   std::deque<std::function<void()>> jobs_;

@@ -70,6 +70,10 @@ typename Map::mapped_type at_or_none(const Map& map, world::IVec3 at) {
 constexpr std::size_t kKept = 2;
 constexpr int kSpare = 16;        // blocks about an island that has outgrown what is kept of it
 constexpr int kCallsToWait = 64;  // start() with nothing new, before it asks who is near
+// Calls of poll() in which a thread may begin a guess: where frames keep all processors busy, none
+// may for long.
+constexpr int kCallsForGuess = 8;
+constexpr int kGuessesACall = 1;  // that poll() makes itself: up to half a millisecond
 }  // namespace
 
 IslandLight::IslandLight(WorkerThreads& threads, Finds finds, world::LightCache* cache)
@@ -90,28 +94,46 @@ void IslandLight::close(const world::SectionKey& key, std::vector<shared::Quad> 
   }
   const auto& closing = island.seams[key.chunk] =
       std::make_shared<const std::vector<shared::Quad>>(std::move(seams));
-  const auto before = island.known.find(key.chunk);
-  if (before == island.known.end()) return;
-  before->second = std::make_shared<const world::ChunkSky>(closed(*before->second, *closing));
-  island.guessed.insert(key.chunk);
+  auto guess = std::make_shared<Guess>();
+  if (const auto pending = at_or_none(island.guesses, key.chunk)) {
+    guess->chunk = pending->chunk;
+    guess->base = pending->base;
+  } else {
+    guess->base = at_or_none(island.known, key.chunk);
+  }
+  guess->seams = closing;
+  if (guess->base) ask_guess(island, key.chunk, std::move(guess));
 }
 
+world::ChunkSky IslandLight::Guess::made() const {
+  if (!chunk) return closed(*base, *seams);
+  world::ChunkSky out = world::inherit_faces(*base, chunk->quads);
+  return seams ? closed(out, *seams) : out;
+}
+
+/// In place of one that is on its way.
+void IslandLight::ask_guess(Island& island, world::IVec3 at, std::shared_ptr<Guess> guess) {
+  island.guesses[at] = guess;
+  threads_.submit_first([guess = std::move(guess), work = work_] {
+    if (!guess->take()) return;
+    const double begin = thread_seconds();
+    guess->sky = std::make_shared<const world::ChunkSky>(guess->made());
+    work->fetch_add(thread_seconds() - begin);
+    guess->done = true;
+  });
+}
+
+/// An edit's, which is seen in the same frame.
 void IslandLight::Island::guess(world::IVec3 at) {
-  const auto before = known.find(at);
-  if (before == known.end()) return;
-  before->second = std::make_shared<const world::ChunkSky>(inherited(at, *before->second));
+  Guess now;
+  const auto pending = at_or_none(guesses, at);
+  now.base = pending ? pending->base : at_or_none(known, at);
+  if (!now.base) return;
+  now.chunk = chunks.at(at);
+  now.seams = at_or_none(seams, at);
+  guesses.erase(at);
+  known[at] = std::make_shared<const world::ChunkSky>(now.made());
   guessed.insert(at);
-}
-
-// A guess for the faces that the chunk has now, those that close it included.
-world::ChunkSky IslandLight::Island::inherited(world::IVec3 at,
-                                               const world::ChunkSky& before) const {
-  const auto chunk = chunks.find(at);
-  std::span<const shared::Quad> quads;
-  if (chunk != chunks.end()) quads = chunk->second->quads;
-  world::ChunkSky guess = world::inherit_faces(before, quads);
-  const auto closing = at_or_none(seams, at);
-  return closing ? closed(guess, *closing) : guess;
 }
 
 void IslandLight::remove(const world::SectionKey& key) {
@@ -278,11 +300,35 @@ void IslandLight::start(const world::Streamer& streamer,
 
 bool IslandLight::settled() const {
   return std::ranges::all_of(islands_, [](const auto& one) {
-    return !one.second.search && one.second.asked == one.second.version;
+    return !one.second.search && one.second.asked == one.second.version &&
+           one.second.guesses.empty();
   });
 }
 
-IslandLight::Found IslandLight::guesses(const world::IslandLevel& row, Island& island) {
+bool IslandLight::guesses() const {
+  return std::ranges::any_of(islands_, [](const auto& one) { return !one.second.guesses.empty(); });
+}
+
+/// @param most that may be made here; then what is left of them.
+void IslandLight::take_guesses(Island& island, int& most) {
+  for (auto entry = island.guesses.begin(); entry != island.guesses.end();) {
+    Guess& guess = *entry->second;
+    if (++guess.calls > kCallsForGuess && most > 0 && guess.take()) {
+      guess.sky = std::make_shared<const world::ChunkSky>(guess.made());
+      guess.done = true;
+      --most;
+    }
+    if (!guess.done) {
+      ++entry;
+      continue;
+    }
+    island.known[entry->first] = guess.sky;
+    island.guessed.insert(entry->first);
+    entry = island.guesses.erase(entry);
+  }
+}
+
+IslandLight::Found IslandLight::guessed_of(const world::IslandLevel& row, Island& island) {
   Found found{row, {}};
   for (const auto& [at, sky] : island.known)
     found.chunks.push_back({at, sky, island.guessed.contains(at)});
@@ -305,37 +351,52 @@ std::vector<IslandLight::FoundReach> IslandLight::poll_reach() {
   return out;
 }
 
+/// What a look has found, but of chunks that have changed since or are closed otherwise: these keep
+/// what was known of them until there is a guess.
+IslandLight::Found IslandLight::found_of(const world::IslandLevel& row, Island& island,
+                                         Search& search) {
+  Found found{row, {}};
+  Skies skies;
+  island.guesses.clear();
+  for (auto& [at, sky] : search.found) {
+    const auto now = at_or_none(island.chunks, at);
+    const auto closing = at_or_none(island.seams, at);
+    const auto known = at_or_none(island.known, at);
+    const bool edited = now && now != search.chunks[at];
+    if (edited || (closing && closing != at_or_none(search.seams, at))) {
+      auto guess = std::make_shared<Guess>();
+      if (edited) guess->chunk = now;
+      guess->base = sky;
+      guess->seams = closing;
+      ask_guess(island, at, std::move(guess));
+      if (known) sky = known;
+    }
+    const bool same = !island.guessed.contains(at) && known == sky;
+    skies[at] = sky;
+    found.chunks.push_back({at, std::move(sky), !same});
+  }
+  island.guessed.clear();
+  discard(std::exchange(island.known, std::move(skies)));
+  island.closings = std::move(search.closings);
+  return found;
+}
+
 std::vector<IslandLight::Found> IslandLight::poll() {
   std::vector<Found> out;
+  int most_guesses = kGuessesACall;
   for (auto& [row, island] : islands_) {
+    take_guesses(island, most_guesses);
     if (!island.search || !island.search->done || !island.search->reach_taken) {
-      if (!island.guessed.empty()) out.push_back(guesses(row, island));
+      if (!island.guessed.empty()) out.push_back(guessed_of(row, island));
       continue;
     }
-    const std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
+    std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
     if (search->keep) island.kept = std::move(search->transfer);
     if (!search->to_cache.empty())
       cache_->keep(search->chunks, kind_of(search->albedo),
                    {search->reaches->found, std::move(search->to_cache)});
-    if (finds_ == Finds::kReach) continue;
-    Found found{row, {}};
-    Skies skies;
-    for (auto& [at, sky] : search->found) {
-      // Edited since the look began, or closed otherwise: what is new is guessed once more.
-      const auto now = island.chunks.find(at);
-      const auto closing = at_or_none(island.seams, at);
-      if (now != island.chunks.end() && now->second != search->chunks[at])
-        sky = std::make_shared<const world::ChunkSky>(island.inherited(at, *sky));
-      else if (closing && closing != at_or_none(search->seams, at))
-        sky = std::make_shared<const world::ChunkSky>(closed(*sky, *closing));
-      const bool same = !island.guessed.contains(at) && at_or_none(island.known, at) == sky;
-      skies[at] = sky;
-      found.chunks.push_back({at, std::move(sky), !same});
-    }
-    island.guessed.clear();
-    island.known = std::move(skies);
-    island.closings = std::move(search->closings);
-    out.push_back(std::move(found));
+    if (finds_ != Finds::kReach) out.push_back(found_of(row, island, *search));
+    discard(std::move(search));
   }
   return out;
 }

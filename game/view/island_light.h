@@ -39,7 +39,7 @@ class IslandLight {
   /// Removes it. A chunk that was not added is ignored.
   void remove(const world::SectionKey& key);
   /// What closes a chunk where another level is drawn beside it, in place of what did. These faces
-  /// get the light of faces next to them.
+  /// get the light of faces next to them, which a thread looks up: poll() says so some calls later.
   void close(const world::SectionKey& key, std::vector<shared::Quad> seams);
   /// Removes a level of an island and its light.
   void end_island(const world::IslandLevel& row);
@@ -53,6 +53,8 @@ class IslandLight {
 
   /// Whether poll() has said all that follows from the chunks as they are.
   bool settled() const;
+  /// Whether poll() has more to say of what has been found.
+  bool guesses() const;
   /// Seconds that threads have computed so far.
   double work_seconds() const { return work_->load(); }
 
@@ -66,7 +68,7 @@ class IslandLight {
     std::vector<FoundChunk> chunks;  ///< ascending
   };
   /// What has been found of the sky since the last call. An island that has changed meanwhile is
-  /// looked at again.
+  /// looked at again. What has waited for a thread for some calls is done at once, a chunk a call.
   std::vector<Found> poll();
 
   struct FoundReach {
@@ -86,6 +88,19 @@ class IslandLight {
     std::shared_ptr<const world::ChunkSky> found, sky;
     std::shared_ptr<const std::vector<shared::Quad>> seams;
   };
+  /// Light of a chunk that has changed since it was looked at: faces that are not in `base` get the
+  /// light of faces next to them. Made by the frame thread, read when `done`.
+  struct Guess {
+    std::shared_ptr<const world::LightChunk> chunk;  // null: its faces are those of `base`
+    std::shared_ptr<const world::ChunkSky> base;
+    std::shared_ptr<const std::vector<shared::Quad>> seams;  // null: none
+    std::shared_ptr<const world::ChunkSky> sky;
+    int calls = 0;                    // of poll(), since it was asked for
+    std::atomic<bool> taken = false;  // by the thread that makes it
+    std::atomic<bool> done = false;
+    world::ChunkSky made() const;
+    bool take() { return !taken.exchange(true); }
+  };
   /// Where the lamps of chunks can arrive.
   struct Reaches {
     world::LightChunks of;
@@ -97,15 +112,18 @@ class IslandLight {
     std::uint64_t version = 0;  // grows with every change
     std::uint64_t asked = 0;    // version that was looked at last
     std::shared_ptr<Search> search;
-    std::unique_ptr<world::SkyTransfer> kept;  // of the version that was asked last
-    std::shared_ptr<const Reaches> reaches;    // alike
-    Skies known;                               // as poll() last said, or says next
-    std::map<world::IVec3, Closed> closings;   // as the last look made them
-    std::set<world::IVec3> guessed;            // of `known`, since poll() last said
-    world::ChunkSky inherited(world::IVec3 at, const world::ChunkSky& before) const;
+    std::unique_ptr<world::SkyTransfer> kept;                // of the version that was asked last
+    std::shared_ptr<const Reaches> reaches;                  // alike
+    Skies known;                                             // as poll() last said, or says next
+    std::map<world::IVec3, Closed> closings;                 // as the last look made them
+    std::set<world::IVec3> guessed;                          // of `known`, since poll() last said
+    std::map<world::IVec3, std::shared_ptr<Guess>> guesses;  // on their way to `known`
     void guess(world::IVec3 at);  // what is known of a chunk, for the faces that it has now
   };
-  static Found guesses(const world::IslandLevel& row, Island& island);
+  void ask_guess(Island& island, world::IVec3 at, std::shared_ptr<Guess> guess);
+  static void take_guesses(Island& island, int& most);
+  static Found guessed_of(const world::IslandLevel& row, Island& island);
+  Found found_of(const world::IslandLevel& row, Island& island, Search& search);
   static void run(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void run_or_take(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search);

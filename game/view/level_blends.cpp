@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+
+#include "world/voxel/hash.h"
 
 namespace skerry::game {
 namespace {
@@ -31,8 +34,18 @@ bool any_above(const SectionKey& key, const std::set<SectionKey>& of) {
   return any;
 }
 
-std::uint32_t steps(double share) {
-  return static_cast<std::uint32_t>(std::lround(share * shared::kBlendSteps));
+/// Of a step: by how much a place is late.
+double phase_of(const SectionKey& place) {
+  const std::uint32_t hash = world::hash3(static_cast<std::uint32_t>(place.level), place.chunk.x,
+                                          place.chunk.y, place.chunk.z);
+  return static_cast<double>(hash & 0xffffu) / 65536.0;
+}
+
+/// None for a share of 0, all for one of 1.
+std::uint32_t step_of(const SectionKey& place, double share) {
+  constexpr double kSteps = shared::kBlendSteps;
+  return static_cast<std::uint32_t>(
+      std::clamp(std::floor(share * (kSteps + 1.0) - phase_of(place)), 0.0, kSteps));
 }
 
 }  // namespace
@@ -54,76 +67,121 @@ void LevelBlends::change(std::uint64_t id, std::span<const SectionKey> came,
     each_above(key, [&](const SectionKey& place) { finer_shown.insert(place); });
   };
   for (const SectionKey& key : went) note(key);
-  for (const auto& [key, chosen] : island.sections)
-    if (!chosen) note(key);
+  for (const auto& [key, section] : island.sections)
+    if (!section.chosen) note(key);
   for (const SectionKey& key : came) {
     // What is finer of it gives way, unless it was not shown; where nothing was, it appears.
     const bool after_coarser = any_above(key, goes) && !finer_shown.contains(key);
-    if (!after_coarser) island.shares.try_emplace(key, Share{1.0, false});
+    if (!after_coarser) island.shares.try_emplace(key, Share{1.0, false, shared::kBlendSteps});
     if (const auto share = island.shares.find(key); share != island.shares.end())
       share->second.rises = false;
     // What is coarser of it gives way, be it on its way out already.
     each_above(key, [&](const SectionKey& place) {
       if (island.sections.contains(place)) island.shares[place].rises = true;
     });
-    island.sections[key] = true;
+    island.sections[key].chosen = true;
+    island.sections[key].visited = false;
   }
   for (const SectionKey& key : went) {
     if (!any_above(key, comes)) island.shares[key].rises = true;
-    island.sections[key] = false;
+    island.sections[key].chosen = false;
+    island.sections[key].visited = false;
   }
+  island.linked = false;
+  island.unsettled = true;
+}
+
+void LevelBlends::set(const SectionKey& place, Share& share, double finer, Island& island) {
+  share.finer = finer;
+  const std::uint32_t step = step_of(place, finer);
+  island.unsettled |= std::exchange(share.step, step) != step;
 }
 
 void LevelBlends::advance(double seconds) {
   const double by = std::min(seconds / kSeconds, kMostAStep);
   for (auto& [id, island] : islands_)
     for (auto& [place, share] : island.shares)
-      share.finer = std::clamp(share.finer + (share.rises ? by : -by), 0.0, 1.0);
+      set(place, share, std::clamp(share.finer + (share.rises ? by : -by), 0.0, 1.0), island);
 }
 
 void LevelBlends::finish(std::uint64_t id) {
-  const auto island = islands_.find(id);
-  if (island == islands_.end()) return;
-  for (auto& [place, share] : island->second.shares) share.finer = share.rises ? 1.0 : 0.0;
+  const auto found = islands_.find(id);
+  if (found == islands_.end()) return;
+  Island& island = found->second;
+  for (auto& [place, share] : island.shares) set(place, share, share.rises ? 1.0 : 0.0, island);
 }
 
 void LevelBlends::finish_all() {
   for (const auto& [id, island] : islands_) finish(id);
 }
 
-LevelBlends::Shown LevelBlends::shown(const Island& island, const SectionKey& key, bool chosen) {
-  Shown out{.goes = !chosen};
-  const auto own = island.shares.find(key);
-  if (own != island.shares.end()) out.first = steps(own->second.finer);
-  each_above(key, [&](const SectionKey& place) {
-    if (const auto share = island.shares.find(place); share != island.shares.end())
-      out.end = std::min(out.end, steps(share->second.finer));
-  });
+/// Hundreds of sections ask for the shares above them in every frame.
+void LevelBlends::link(Island& island) {
+  if (std::exchange(island.linked, true)) return;
+  const auto share_of = [&](const SectionKey& place) {
+    const auto found = island.shares.find(place);
+    return found == island.shares.end() ? nullptr : &found->second;
+  };
+  for (auto& [key, section] : island.sections) {
+    section.own = share_of(key);
+    section.above = {};
+    std::size_t next = 0;
+    each_above(key, [&](const SectionKey& place) { section.above[next++] = share_of(place); });
+  }
+}
+
+LevelBlends::Shown LevelBlends::shown(const Section& section) {
+  Shown out{.goes = !section.chosen};
+  if (section.own) out.first = section.own->step;
+  for (const Share* share : section.above)
+    if (share) out.end = std::min(out.end, share->step);
   return out;
 }
 
-void LevelBlends::each(const std::function<void(const SectionKey&, const Shown&)>& visit) const {
-  for (const auto& [id, island] : islands_)
-    for (const auto& [key, chosen] : island.sections) visit(key, shown(island, key, chosen));
+void LevelBlends::each_changed(const std::function<void(const SectionKey&, const Shown&)>& visit) {
+  for (auto& [id, island] : islands_) {
+    if (!island.unsettled) continue;
+    link(island);
+    for (auto& [key, section] : island.sections) {
+      const Shown now = shown(section);
+      if (std::exchange(section.visited, true) && section.shown == now) continue;
+      section.shown = now;
+      visit(key, now);
+    }
+  }
+}
+
+void LevelBlends::repeat(const SectionKey& key) {
+  const auto island = islands_.find(key.island);
+  if (island == islands_.end()) return;
+  const auto section = island->second.sections.find(key);
+  if (section == island->second.sections.end()) return;
+  section->second.visited = false;
+  island->second.unsettled = true;
 }
 
 std::vector<std::uint64_t> LevelBlends::settle() {
   std::vector<std::uint64_t> done;
   for (auto& [id, island] : islands_) {
-    std::vector<SectionKey> over;
+    if (!std::exchange(island.unsettled, false)) continue;
+    link(island);
+    bool any_share = false;
     for (auto section = island.sections.begin(); section != island.sections.end();) {
-      const auto& [key, chosen] = *section;
-      const Shown now = shown(island, key, chosen);
-      if (chosen ? !now.whole() : !now.none()) {
+      const Shown now = shown(section->second);
+      if (section->second.chosen ? !now.whole() : !now.none()) {
         ++section;
         continue;
       }
-      over.push_back(key);
+      // Of places that are not sections any more shares say nothing.
+      if (Share* const own = section->second.own) any_share = own->done = true;
       section = island.sections.erase(section);
     }
-    // Of places that are not sections any more shares say nothing.
-    for (const SectionKey& key : over) island.shares.erase(key);
     if (island.sections.empty()) done.push_back(id);
+    if (!any_share) continue;
+    for (auto& [key, section] : island.sections)
+      for (Share*& share : section.above)
+        if (share && share->done) share = nullptr;
+    std::erase_if(island.shares, [](const auto& share) { return share.second.done; });
   }
   for (const std::uint64_t id : done) islands_.erase(id);
   return done;

@@ -122,7 +122,7 @@ void SceneView::tell_left(const std::set<world::IslandLevel>& coming) {
 
 void SceneView::apply_blends() {
   std::vector<std::pair<world::SectionKey, LevelBlends::Shown>> all;
-  blends_.each([&](const world::SectionKey& key, const LevelBlends::Shown& shown) {
+  blends_.each_changed([&](const world::SectionKey& key, const LevelBlends::Shown& shown) {
     all.emplace_back(key, shown);
   });
   for (const auto& [key, now] : all) {
@@ -137,6 +137,7 @@ void SceneView::apply_blends() {
     if (!gone) blend_section(section, now.packed());
     show_section(key, section, !gone);
   }
+  renderer_->geometry().send_blends(renderer_->mesh_uploader());
   for (const std::uint64_t island : blends_.settle()) {
     for (const world::SectionKey& key : to_close_[island])
       if (const auto found = sections_.find(key); found != sections_.end())
@@ -155,7 +156,7 @@ void SceneView::show_section(const world::SectionKey& key, ResidentSection& sect
   }
   for (const render::SectionId part : section.parts) {
     renderer_->geometry().show(uploader, part, shown);
-    if (shown) renderer_->geometry().blend(uploader, part, section.blend);
+    if (shown) renderer_->geometry().blend(part, section.blend);
   }
 }
 
@@ -163,10 +164,8 @@ void SceneView::blend_section(ResidentSection& section, std::uint32_t blend) {
   if (section.blend == blend) return;
   section.blend = blend;
   if (!section.shown) return;
-  gpu::Uploader& uploader = renderer_->mesh_uploader();
-  for (const render::SectionId part : section.parts)
-    renderer_->geometry().blend(uploader, part, blend);
-  if (section.closing) renderer_->geometry().blend(uploader, *section.closing, blend);
+  for (const render::SectionId part : section.parts) renderer_->geometry().blend(part, blend);
+  if (section.closing) renderer_->geometry().blend(*section.closing, blend);
 }
 
 /// @param seams at which faces another level is drawn, a bit each.

@@ -197,8 +197,10 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
   choose_levels(camera, world_time_s, {.keep = false, .blend_s = blend_s});
   find_light(camera, world_time_s);
   if (!island_light_) return {};
-  island_light_->wait();
-  find_light(camera, world_time_s);
+  do {
+    island_light_->wait();
+    find_light(camera, world_time_s);
+  } while (island_light_->guesses());
   while (hand_over_light(camera, world_time_s, UINT64_MAX)) renderer_->reclaim();
   if (sky_light_.idle()) return {};
   // Which islands have light must not depend on what was lit before.
@@ -333,7 +335,10 @@ void SceneView::take_in(world::StreamUpdate update) {
   for (world::ReadySection& ready : update.ready) {
     const world::SectionKey key = ready.key;
     if (removed.contains(key) && add_section(ready)) {
-      if (kept_on.contains(key)) fresh_.erase(key);
+      if (kept_on.contains(key)) {
+        fresh_.erase(key);
+        blends_.repeat(key);
+      }
       continue;
     }
     waiting_.push_back(std::move(ready));

@@ -63,6 +63,19 @@ TEST(WorkerThreads, WhatAJobSubmitsComesBeforeAllThatWaits) {
   EXPECT_EQ(order, "aAbB");
 }
 
+TEST(WorkerThreads, WhatIsSubmittedFirstComesBeforeAllThatWaits) {
+  std::string order;
+  {
+    WorkerThreads background(1);
+    std::latch all_there(1);
+    background.submit([&] { all_there.wait(); });
+    background.submit([&] { order += 'a'; });
+    background.submit_first([&] { order += 'b'; });
+    all_there.count_down();
+  }
+  EXPECT_EQ(order, "ba");
+}
+
 TEST(WorkerThreads, OfLoweredPriorityGiveWayToOthersAndLeaveThemAsTheyAre) {
   const int before = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
   WorkerThreads background(1, WorkerThreads::Priority::kLowered);

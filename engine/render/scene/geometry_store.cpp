@@ -130,7 +130,7 @@ void GeometryStore::show(gpu::Uploader& uploader, SectionId id, bool shown) {
   write_record(uploader, id.slot);
 }
 
-void GeometryStore::blend(gpu::Uploader& uploader, SectionId id, std::uint32_t blend) {
+void GeometryStore::blend(SectionId id, std::uint32_t blend) {
   shared::Section& record = records_[id.slot];
   SKERRY_ASSERT(!hidden_.contains(id.slot));
   if (record.blend == blend) return;
@@ -139,7 +139,21 @@ void GeometryStore::blend(gpu::Uploader& uploader, SectionId id, std::uint32_t b
   record.blend = blend;
   count(record, 1);
   if (casts(record) != cast) changes_.note(record);
-  write_record(uploader, id.slot);
+  to_send_.push_back(id.slot);
+}
+
+void GeometryStore::send_blends(gpu::Uploader& uploader) {
+  constexpr std::uint32_t kMostApart = 8;  // what lies between is written as it is
+  std::ranges::sort(to_send_);
+  for (std::size_t next = 0; next < to_send_.size();) {
+    const std::uint32_t first = to_send_[next];
+    std::uint32_t last = first;
+    for (; next < to_send_.size() && to_send_[next] - last <= kMostApart; ++next)
+      last = to_send_[next];
+    uploader.write(sections_, std::uint64_t{first} * sizeof(shared::Section),
+                   std::span<const shared::Section>(records_).subspan(first, last - first + 1));
+  }
+  to_send_.clear();
 }
 
 void GeometryStore::remove(gpu::Uploader& uploader, SectionId id) {

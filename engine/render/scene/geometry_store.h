@@ -61,7 +61,11 @@ class GeometryStore {
   void show(gpu::Uploader& uploader, SectionId id, bool shown);
   /// In which pixels it is drawn while it is shown: shared::Section::blend. What comes into view is
   /// drawn in all of them.
-  void blend(gpu::Uploader& uploader, SectionId id, std::uint32_t blend);
+  /// The GPU has it with the next send_blends(). @pre it is shown.
+  void blend(SectionId id, std::uint32_t blend);
+  /// Writes the records of which blend() has been called: hundreds change at once, and those that
+  /// lie next to each other are written together.
+  void send_blends(gpu::Uploader& uploader);
   /// Its quads may be overwritten once the GPU has finished everything submitted so far.
   void remove(gpu::Uploader& uploader, SectionId id);
   /// Once a frame, before recording: reclaims what the GPU has finished with.
@@ -116,6 +120,7 @@ class GeometryStore {
   std::vector<std::uint32_t> free_slots_;
   std::vector<shared::Quad> scratch_;
   std::uint32_t section_capacity_ = 0, sections_blended_ = 0;
+  std::vector<std::uint32_t> to_send_;  // slots; see send_blends()
   std::uint64_t translucent_quads_ = 0, cutout_quads_ = 0;
   std::array<std::uint64_t, shared::kListCount> runs_{}, quads_of_list_{};
   DrawLimits most_draws_{};

@@ -49,7 +49,7 @@ class Row {
 
  private:
   void take() {
-    blends_.each([&](const SectionKey& key, const LevelBlends::Shown& shown) {
+    blends_.each_changed([&](const SectionKey& key, const LevelBlends::Shown& shown) {
       if (shown.goes && shown.none())
         shown_.erase(key);
       else
@@ -117,6 +117,41 @@ TEST(LevelBlends, OnlyWhatGoesIsSaidTo) {
   EXPECT_EQ(shown.packed(), kSteps << 8 | shared::kBlendGoes);
   shown = {5, 5, false};
   EXPECT_EQ(shared::blend_first(shown.packed()), kSteps) << "no pixel has that step";
+}
+
+TEST(LevelBlends, AtHighFrameRatesAFrameChangesAPartOfTheSections) {
+  constexpr int kCoarse = 200;
+  std::vector<SectionKey> fine, coarse;
+  for (int x = 0; x < kCoarse; ++x) coarse.push_back(at(1, x));
+  for (int x = 0; x < 2 * kCoarse; ++x) fine.push_back(at(0, x));
+  LevelBlends blends;
+  blends.change(kIsland, coarse, {});
+  blends.finish_all();
+  blends.settle();
+  blends.change(kIsland, fine, coarse);
+  const auto changed = [&] {
+    int count = 0;
+    blends.each_changed([&](const SectionKey&, const LevelBlends::Shown&) { ++count; });
+    return count;
+  };
+  EXPECT_EQ(changed(), 3 * kCoarse) << "all, once";
+  EXPECT_EQ(changed(), 0);
+  constexpr double kFrame = LevelBlends::kSeconds / kSteps / 10.0;  // ten to a step
+  int most = 0, all = 0;
+  for (int frame = 0; !blends.idle() && frame < 2000; ++frame) {
+    blends.advance(kFrame);
+    const int now = changed();
+    most = std::max(most, now);
+    all += now;
+    blends.settle();
+  }
+  EXPECT_TRUE(blends.idle());
+  EXPECT_EQ(all, 3 * kCoarse * static_cast<int>(kSteps)) << "each at each step";
+  EXPECT_LE(most, 3 * kCoarse / 5) << "a tenth would be even";
+  blends.change(kIsland, coarse, fine);
+  changed();
+  blends.repeat(at(0, 1));
+  EXPECT_EQ(changed(), 1);
 }
 
 /// The levels at which a row of 16 chunks is drawn: a random cut of the tree above them.
