@@ -14,6 +14,7 @@
 #include "engine/core/check.h"
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
+#include "engine/core/shared_work.h"
 #include "engine/render/frame/celestial.h"
 #include "engine/render/scene/section_parts.h"
 #include "game/panorama/load_panorama.h"
@@ -38,6 +39,8 @@ constexpr double kForEdits = 1.0 / 16.0;
 // Removed sections are the GPU's for two frames, and the streamer's answer takes one or two.
 constexpr int kFramesToLetGo = 8;
 constexpr double kLessOnRestart = 0.7;
+// Of islands that a thread places at a time: a twentieth of a millisecond or so.
+constexpr std::size_t kSlotsAPiece = 512;
 
 gpu::UploadPath upload_path(UploadMode mode) {
   switch (mode) {
@@ -531,14 +534,20 @@ Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
 /// Of all slots; those without sections are where their last island is.
 void SceneView::place_islands(double world_time_s) {
   const world::IslandPoses poses = world_->poses(world_time_s);
-  placements_.clear();
-  placements_.reserve(islands_.size());
-  for (const IslandEntry& entry : islands_) {
+  placements_.resize(islands_.size());
+  const auto place = [&](std::size_t slot) {
+    const IslandEntry& entry = islands_[slot];
     const world::Pose pose = poses.of(entry.spec);
     const bool hides = !entry.far && entry.sections != 0;
-    placements_.push_back({fixed(pose.origin), pose.rotation, entry.spec.bounding_radius, entry.far,
-                           entry.level, hides ? land_of(entry.spec) : render::IslandLand{}});
-  }
+    placements_[slot] = {
+        fixed(pose.origin), pose.rotation, entry.spec.bounding_radius,
+        entry.far,          entry.level,   hides ? land_of(entry.spec) : render::IslandLand{}};
+  };
+  const auto pieces = static_cast<int>((islands_.size() + kSlotsAPiece - 1) / kSlotsAPiece);
+  SharedWork(pieces > 1 ? Helpers::of_frames() : nullptr, pieces, [&](int piece) {
+    const std::size_t first = static_cast<std::size_t>(piece) * kSlotsAPiece;
+    for (std::size_t i = first; i < std::min(first + kSlotsAPiece, islands_.size()); ++i) place(i);
+  }).join();
 }
 
 std::vector<PlacedIsland> SceneView::placed_islands(const render::FixedPos& camera) const {

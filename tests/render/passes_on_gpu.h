@@ -243,7 +243,7 @@ class PassesOnGpu : public gpu::GpuTest {
     graph_->begin();
     SceneRefs scene;
     scene.frame = table("frame constants", std::vector<shared::FrameConstants>{tables.constants});
-    scene.view_islands = table("view island transforms", tables.islands);
+    scene.islands = table("island transforms", tables.islands);
     scene.views = table("cull views", tables.views);
     scene.clip_from_source = tables.matrices;
     scene.edge_growth = tables.edge_growth;

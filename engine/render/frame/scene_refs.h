@@ -18,9 +18,9 @@ struct SceneRefs {
   gpu::BufferRef frame;           ///< shared::FrameConstants
   gpu::BufferRef sky;             ///< shared::SkyConstants
   gpu::BufferRef sky_scattering;  ///< shared::SkyScatter, of the frame that makes the sky table
-  gpu::BufferRef islands;  ///< texels of shared::IslandTransform[island], relative to the camera
-  gpu::BufferRef view_islands;  ///< shared::IslandTransform[view][island], each view's relative to
-                                ///< its own centre
+  /// shared::IslandTransform[view][island], each view's relative to its own centre: the camera's
+  /// first. Texels, too.
+  gpu::BufferRef islands;
   std::span<const float> edge_growth;  ///< one a view, see FrameTables; lives as long
   std::span<const glm::mat4>
       clip_from_source;            ///< one a view; lives until the graph has been executed

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
+#include <iterator>
 #include <utility>
 
 namespace skerry::render {
@@ -89,12 +90,13 @@ bool is_other(const ShadowHistory& last, std::size_t index, const DrawnIsland& n
 
 }  // namespace
 
-std::vector<DrawnIsland> islands_in(const Cascade& cascade, const FrameInput& input) {
+std::shared_ptr<const std::vector<DrawnIsland>> islands_in(const Cascade& cascade,
+                                                           const FrameInput& input) {
   std::vector<DrawnIsland> out;
   for (std::size_t i = 0; i < input.islands.size(); ++i)
     if (is_listed(input.islands[i], input.camera.position, cascade))
       out.push_back(drawn(i, input.islands[i]));
-  return out;
+  return std::make_shared<const std::vector<DrawnIsland>>(std::move(out));
 }
 
 bool may_touch(const IslandPlacement& island, const FixedPos& camera, const Cascade& cascade) {
@@ -143,11 +145,11 @@ TexelBox moved_islands(DrawnMap& map, const Cascade& cascade, const FrameInput& 
   const auto texel = static_cast<double>(cascade.texel_blocks);
   const FixedPos& camera = input.camera.position;
   TexelBox box;
-  std::vector<DrawnIsland> entered;
-  auto listed = map.islands.begin();
+  std::vector<DrawnIsland> noted;  // ascending
+  auto listed = map.islands->begin();
   for (std::size_t i = 0; i < input.islands.size(); ++i) {
     const IslandPlacement& island = input.islands[i];
-    const bool known = listed != map.islands.end() && listed->index == i;
+    const bool known = listed != map.islands->end() && listed->index == i;
     if (!known && !is_listed(island, camera, cascade)) continue;
     DrawnIsland now = drawn(i, island);
     now.origin = rebased(now.origin, input.anchor, map.anchor);
@@ -156,23 +158,25 @@ TexelBox moved_islands(DrawnMap& map, const Cascade& cascade, const FrameInput& 
       const bool is_new =
           i >= map.island_count || is_other(last, i, now, map.anchor, by.at_most * texel);
       if (!is_new) box.add(box_of(ball_of(island, camera), cascade));
-      entered.push_back(now);
+      noted.push_back(now);
       continue;
     }
-    DrawnIsland& then = *listed++;
+    const DrawnIsland& then = *listed++;
     const double moved = movement(then, now);
     if (moved <= by.more_than * texel || moved > by.at_most * texel) continue;
     const FixedPos from = rebased(then.origin, map.anchor, input.anchor);
     box.add(box_of({from_camera(from, camera), then.bounding_radius}, cascade));
     box.add(box_of(ball_of(island, camera), cascade));
-    then = now;
+    noted.push_back(now);
   }
   map.island_count = static_cast<std::uint32_t>(input.islands.size());
-  if (entered.empty()) return box;
-  std::vector<DrawnIsland> all(map.islands.size() + entered.size());
-  std::ranges::merge(map.islands, entered, all.begin(), {}, &DrawnIsland::index,
-                     &DrawnIsland::index);
-  map.islands = std::move(all);
+  if (noted.empty()) return box;
+  // Of what both list, that of the first.
+  std::vector<DrawnIsland> all;
+  all.reserve(map.islands->size() + noted.size());
+  std::ranges::set_union(noted, *map.islands, std::back_inserter(all), {}, &DrawnIsland::index,
+                         &DrawnIsland::index);
+  map.islands = std::make_shared<const std::vector<DrawnIsland>>(std::move(all));
   return box;
 }
 

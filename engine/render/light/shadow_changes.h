@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,7 +45,8 @@ FixedPos rebased(FixedPos origin, const FixedPos& from, const FixedPos& to);
 
 /// The islands that may show in a cascade's map, ascending. Errs on the side of more, so that an
 /// island that has moved by less than a texel since cannot show and be missing.
-std::vector<DrawnIsland> islands_in(const Cascade& cascade, const FrameInput& input);
+std::shared_ptr<const std::vector<DrawnIsland>> islands_in(const Cascade& cascade,
+                                                           const FrameInput& input);
 
 /// How far a point of an island can have moved between two placements from one anchor [blocks], at
 /// most. @tparam A, B IslandPlacement or DrawnIsland.

@@ -34,8 +34,9 @@ struct DrawnMap {
   CascadeKey key;
   glm::dvec3 to_light{};
   std::uint64_t geometry_version = 0;
-  std::uint32_t island_count = 0;    ///< there were; all that are not listed lie outside of the map
-  std::vector<DrawnIsland> islands;  ///< ascending
+  std::uint32_t island_count = 0;  ///< there were; all that are not listed lie outside of the map
+  /// Ascending. Never null; shared by the maps of frames between which none has moved.
+  std::shared_ptr<const std::vector<DrawnIsland>> islands;
   FixedPos anchor{};
 };
 
@@ -45,6 +46,10 @@ struct ShadowJob {
   double quads_a_frame = 0.0;      ///< that face the light, about
   std::uint32_t next_section = 0;  ///< those before have been drawn
 };
+
+/// Placements of a frame, for later ones.
+using SharedIslands = std::shared_ptr<const std::vector<IslandPlacement>>;
+SharedIslands shared_islands(const FrameInput& input);
 
 /// What the shadow maps show after a frame has been submitted.
 struct ShadowHistory {
@@ -57,8 +62,8 @@ struct ShadowHistory {
   ShadowLayout layout;
   std::uint64_t generation = 0;  ///< of the array, ShadowMaps::generation()
   std::array<Kept, 8> kept;      ///< one a cascade, sun first
-  std::shared_ptr<const std::vector<IslandPlacement>> islands;  ///< of the last frame; none yet
-  FixedPos anchor{};                                            ///< likewise
+  SharedIslands islands;         ///< of the last frame; null: none yet
+  FixedPos anchor{};             ///< likewise
 
   /// Of what the maps were drawn with, meshes that came after a version were not there yet.
   void only_shows(std::uint64_t geometry_version);

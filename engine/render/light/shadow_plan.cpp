@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <optional>
 #include <utility>
 
+#include "engine/core/shared_work.h"
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/light/shadow_changes.h"
 
@@ -23,8 +25,9 @@ constexpr float kLeastCovered = 0.8f;  // of the radius
 constexpr float kCoarser = 1.2f;       // texels, than need be
 constexpr double kQuadsAtOnce = 8192.0;
 constexpr double kMostFrames = 16.0, kLeastFrames = 3.0;  // that a map takes
-constexpr int kFineMaps = 2;     // a body's first: few quads are in them, and close to the eye
-constexpr int kMostEdge = 2048;  // of maps that have a spare layer: 16 MiB
+constexpr int kFineMaps = 2;  // a body's first: few quads are in them, and close to the eye
+constexpr std::size_t kToShare = 512;  // islands, from which on several threads plan the maps
+constexpr int kMostEdge = 2048;        // of maps that have a spare layer: 16 MiB
 
 bool may_lag(const FrameInput& input, const RenderSettings& settings, int index) {
   return input.may_lag && input.parts == 1 && index >= kFineMaps &&
@@ -105,37 +108,37 @@ ShadowHistory kept_for(const ShadowLayout& layout, std::uint32_t cascades,
   return next;
 }
 
-/// Plans one map after another.
+/// A map, and what is drawn of it for later frames.
+struct PlannedMap {
+  ActiveCascade active;
+  std::vector<PartAhead> ahead;
+};
+
+/// Plans maps. What it writes to of one is no concern of another.
 class Planner {
  public:
   Planner(const FrameInput& input, const RenderSettings& settings,
           std::span<const shared::Section> sections, const GeometryChanges& geometry,
-          const ShadowHistory& before, ShadowPlan& plan)
+          const ShadowHistory& before, const ShadowLayout& layout)
       : input_(input),
         settings_(settings),
         sections_(sections),
         geometry_(geometry),
         before_(before),
-        plan_(plan),
-        next_(plan.next) {}
+        layout_(layout) {}
 
-  void add_body(int body) {
-    CascadeInput in = cascade_input(input_, settings_, body);
-    for (int index = 0; index < in.count; ++index) {
-      ShadowHistory::Kept& kept = next_.kept[slot_];
-      in.pivot = pivot_of(kept.map, in);
-      const Cascade cascade = make_cascade(in, index);
-      ActiveCascade active;
-      active.body = body, active.index = index, active.slot = slot_;
-      if (!may_lag(input_, settings_, index) || !follow(kept, in, cascade, active)) {
-        kept.job.reset();
-        bring_up_to_date(kept, in, cascade, active);
-      }
-      active.layer = kept.layer;
-      active.to_light = kept.map->to_light;
-      plan_.cascades.push_back(std::move(active));
-      ++slot_;
+  /// @param kept in: by earlier frames; out: what this one leaves behind.
+  void plan(PlannedMap& map, ShadowHistory::Kept& kept) const {
+    ActiveCascade& active = map.active;
+    CascadeInput in = cascade_input(input_, settings_, active.body);
+    in.pivot = pivot_of(kept.map, in);
+    const Cascade cascade = make_cascade(in, active.index);
+    if (!may_lag(input_, settings_, active.index) || !follow(kept, in, cascade, map)) {
+      kept.job.reset();
+      bring_up_to_date(kept, in, cascade, active);
     }
+    active.layer = kept.layer;
+    active.to_light = kept.map->to_light;
   }
 
  private:
@@ -153,7 +156,7 @@ class Planner {
     for (std::size_t i = 0; i < 3; ++i) middle[i] -= in.anchor[i];
     return middle;
   }
-  VkRect2D whole() const { return {{0, 0}, {plan_.layout.edge, plan_.layout.edge}}; }
+  VkRect2D whole() const { return {{0, 0}, {layout_.edge, layout_.edge}}; }
   DrawnMap drawn_now(const Cascade& cascade, const glm::dvec3& to_light) const {
     return {cascade.key,
             to_light,
@@ -165,7 +168,7 @@ class Planner {
 
   /// The map shows in this frame all that it should.
   void bring_up_to_date(ShadowHistory::Kept& kept, CascadeInput in, const Cascade& cascade,
-                        ActiveCascade& active) {
+                        ActiveCascade& active) const {
     const glm::dvec3 to_light = in.to_light;
     active.cascade = cascade;
     std::optional<TexelBox> box = outdated(kept.map, cascade, input_, before_, geometry_);
@@ -184,10 +187,11 @@ class Planner {
   /// The map may show what was a few frames ago. @return false: it is too far from what it should
   /// show.
   bool follow(ShadowHistory::Kept& kept, CascadeInput in, const Cascade& wanted,
-              ActiveCascade& active) {
+              PlannedMap& planned) const {
+    ActiveCascade& active = planned.active;
     const glm::dvec3 to_light = in.to_light;
     if (!kept.map || kept.map->island_count > input_.islands.size()) return false;
-    if (kept.job) draw_ahead(kept, in);
+    if (kept.job) planned.ahead.push_back(draw_ahead(kept, in));
     in.to_light = kept.map->to_light;
     active.cascade = cascade_of(kept.map->key, in);
     if (active.cascade.radius < kLeastCovered * wanted.radius ||
@@ -196,7 +200,7 @@ class Planner {
     TexelBox box = moved_islands(*kept.map, active.cascade, input_, before_,
                                  {.more_than = kLateTexels, .at_most = kOtherIsland});
     if (!kept.job) {
-      const std::optional<TexelBox> more = begin(kept, active.cascade, in, wanted, to_light);
+      const std::optional<TexelBox> more = begin(kept, in, wanted, planned, to_light);
       if (!more) return false;
       box.add(*more);
     }
@@ -207,8 +211,10 @@ class Planner {
 
   /// Begins to draw what the map lacks, if that is much. @return what is drawn at once; none: what
   /// it lacks is not known.
-  std::optional<TexelBox> begin(ShadowHistory::Kept& kept, const Cascade& shown, CascadeInput in,
-                                const Cascade& wanted, const glm::dvec3& to_light) {
+  std::optional<TexelBox> begin(ShadowHistory::Kept& kept, const CascadeInput& in,
+                                const Cascade& wanted, PlannedMap& planned,
+                                const glm::dvec3& to_light) const {
+    const Cascade& shown = planned.active.cascade;
     DrawnMap after = *kept.map;
     TexelBox box = moved_islands(after, shown, input_, before_, {.more_than = kSoonTexels});
     const std::optional<TexelBox> changed = changed_sections(after, shown, input_, geometry_);
@@ -224,7 +230,7 @@ class Planner {
     const double quads = quads_in(whole_map(wanted), wanted, input_, sections_);
     kept.job = ShadowJob{.after = drawn_now(wanted, to_light),
                          .quads_a_frame = std::max(kQuadsAtOnce, quads / frames_for(wanted))};
-    draw_ahead(kept, in);
+    planned.ahead.push_back(draw_ahead(kept, in));
     return TexelBox{};
   }
 
@@ -248,7 +254,7 @@ class Planner {
   }
 
   /// Draws the next part of a map. The last one makes it the map that is shown.
-  void draw_ahead(ShadowHistory::Kept& kept, CascadeInput in) {
+  PartAhead draw_ahead(ShadowHistory::Kept& kept, CascadeInput in) const {
     ShadowJob& job = *kept.job;
     in.to_light = job.after.to_light;
     PartAhead part{.layer = kept.spare,
@@ -258,16 +264,16 @@ class Planner {
                    .cascade = cascade_of(job.after.key, in),
                    .islands = {input_.islands.begin(), input_.islands.end()}};
     part.sections = next_part(job, part.cascade, input_, sections_);
-    for (const DrawnIsland& then : job.after.islands) {
+    for (const DrawnIsland& then : *job.after.islands) {
       if (then.index >= part.islands.size()) break;
       part.islands[then.index].origin = rebased(then.origin, job.after.anchor, input_.anchor);
       part.islands[then.index].rotation = then.rotation;
     }
-    plan_.ahead.push_back(std::move(part));
-    if (job.next_section < sections_.size()) return;
+    if (job.next_section < sections_.size()) return part;
     std::swap(kept.layer, kept.spare);
     kept.map = std::move(job.after);
     kept.job.reset();
+    return part;
   }
 
   static void set_area(ActiveCascade& active, const VkRect2D& area) {
@@ -280,12 +286,15 @@ class Planner {
   std::span<const shared::Section> sections_;
   const GeometryChanges& geometry_;
   const ShadowHistory& before_;
-  ShadowPlan& plan_;
-  ShadowHistory& next_;
-  std::uint32_t slot_ = 0;
+  const ShadowLayout& layout_;
 };
 
 }  // namespace
+
+SharedIslands shared_islands(const FrameInput& input) {
+  return std::make_shared<const std::vector<IslandPlacement>>(input.islands.begin(),
+                                                              input.islands.end());
+}
 
 void ShadowHistory::only_shows(std::uint64_t geometry_version) {
   const auto no_newer = [&](DrawnMap& map) {
@@ -311,11 +320,25 @@ ShadowPlan plan_shadows(const FrameInput& input, const RenderSettings& settings,
   plan.layout = layout_of(input, settings);
   plan.next = kept_for(plan.layout, static_cast<std::uint32_t>(settings.shadow_cascades), history,
                        generation);
-  Planner planner(input, settings, sections, geometry, history, plan);
+  std::vector<PlannedMap> maps;
   for (int body = 0; body < 2; ++body)
-    if (plan.layout.casting[static_cast<std::size_t>(body)]) planner.add_body(body);
-  plan.next.islands = std::make_shared<const std::vector<IslandPlacement>>(input.islands.begin(),
-                                                                           input.islands.end());
+    for (int index = 0; index < settings.shadow_cascades; ++index) {
+      if (!plan.layout.casting[static_cast<std::size_t>(body)]) continue;
+      ActiveCascade& active = maps.emplace_back().active;
+      active.body = body, active.index = index;
+      active.slot = static_cast<std::uint32_t>(maps.size() - 1);
+    }
+  const Planner planner(input, settings, sections, geometry, history, plan.layout);
+  Helpers* const helpers = input.islands.size() < kToShare ? nullptr : Helpers::of_frames();
+  SharedWork(helpers, static_cast<int>(maps.size()), [&](int piece) {
+    const auto slot = static_cast<std::size_t>(piece);
+    planner.plan(maps[slot], plan.next.kept[slot]);
+  }).join();
+  for (PlannedMap& map : maps) {
+    plan.cascades.push_back(std::move(map.active));
+    std::ranges::move(map.ahead, std::back_inserter(plan.ahead));
+  }
+  plan.next.islands = shared_islands(input);
   plan.next.anchor = input.anchor;
   return plan;
 }

@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <vector>
 
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/light/shadow_plan.h"
@@ -15,7 +14,7 @@ namespace skerry::render {
 struct PreviousFrame {
   Camera camera;
   FixedPos anchor{};
-  std::vector<IslandPlacement> islands;
+  SharedIslands islands;  ///< never null
 };
 
 /// The camera that culling has been frozen with.

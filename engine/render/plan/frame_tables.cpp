@@ -15,12 +15,6 @@
 namespace skerry::render {
 namespace {
 
-glm::dvec3 blocks_between(const FixedPos& to, const FixedPos& from) {
-  return {static_cast<double>(to[0] - from[0]) / 65536.0,
-          static_cast<double>(to[1] - from[1]) / 65536.0,
-          static_cast<double>(to[2] - from[2]) / 65536.0};
-}
-
 shared::Cascade shader_cascade(const ActiveCascade& active, int map_size) {
   const glm::mat4& m = active.cascade.clip_from_world;
   const float half = 0.5f * static_cast<float>(map_size);
@@ -53,14 +47,24 @@ void append_islands(std::vector<shared::IslandTransform>& out,
   for (const IslandPlacement& island : islands) out.push_back(transform_of(island, relative_to));
 }
 
+/// As append_islands() does, of islands that are the first in `out`: they are turned the same way.
+void append_again(std::vector<shared::IslandTransform>& out,
+                  std::span<const IslandPlacement> islands, const FixedPos& relative_to) {
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    shared::IslandTransform again = out[i];
+    again.translation = glm::vec3(blocks_between(islands[i].origin, relative_to));
+    out.push_back(again);
+  }
+}
+
 VkRect2D whole_area(const Cascade& cascade) {
   const auto edge = static_cast<std::uint32_t>(cascade.key.map_size);
   return {{0, 0}, {edge, edge}};
 }
 
-/// The view of a light that draws a part of a map.
+/// The view of a light that draws a part of a map, but for its islands.
 void append_light(FrameTables& out, const Cascade& cascade, const VkRect2D& area,
-                  const glm::dvec3& to_light, std::span<const IslandPlacement> islands) {
+                  const glm::dvec3& to_light) {
   shared::CullView light{};
   const std::array<glm::vec4, 6> planes = planes_about(cascade, area);
   for (std::size_t i = 0; i < planes.size(); ++i) light.planes[i] = planes[i];
@@ -70,19 +74,31 @@ void append_light(FrameTables& out, const Cascade& cascade, const VkRect2D& area
   light.orthographic = 1;
   light.enabled = 1;
   out.views.push_back(light);
-  // Relative to the map's own centre, a function of its key alone: a map drawn again in the same
-  // window is equal to the last bit.
+  // Relative to the map's own centre as its islands are, a function of its key alone: a map drawn
+  // again in the same window is equal to the last bit.
   out.matrices.push_back(cascade.clip_from_centre);
   out.edge_growth.push_back(cascade.texel_blocks / 128.0f);
-  append_islands(out.islands, islands, cascade.centre);
 }
 
 }  // namespace
+
+glm::dvec3 blocks_between(const FixedPos& to, const FixedPos& from) {
+  return {static_cast<double>(to[0] - from[0]) / 65536.0,
+          static_cast<double>(to[1] - from[1]) / 65536.0,
+          static_cast<double>(to[2] - from[2]) / 65536.0};
+}
 
 shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to) {
   const glm::dmat3 axes = glm::mat3_cast(island.rotation);
   return {glm::vec3(axes[0]), glm::vec3(axes[1]), glm::vec3(axes[2]),
           glm::vec3(blocks_between(island.origin, relative_to))};
+}
+
+shared::CullView cull_view_of(const CameraView& camera) {
+  shared::CullView view{};
+  for (std::size_t i = 0; i < camera.planes.size(); ++i) view.planes[i] = camera.planes[i];
+  view.enabled = 1;
+  return view;
 }
 
 FrameTables build_tables(const FrameInput& input, const RenderSettings& settings, VkExtent2D size,
@@ -115,12 +131,12 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.sky_horizon = static_cast<float>(std::asin(horizon_sine(eye_height_km(input))));
   f.haze_per_block = kClearAir * air_light(input.sky);
 
-  shared::CullView view{};
-  for (std::size_t i = 0; i < camera.planes.size(); ++i) view.planes[i] = camera.planes[i];
-  view.enabled = 1;
-  out.views.push_back(view);
+  out.views.push_back(cull_view_of(camera));
   out.matrices.push_back(camera.clip_from_world);
   out.edge_growth.push_back(2.0f * camera.tan_half_x / (128.0f * static_cast<float>(size.width)));
+  const auto redrawn = std::ranges::count_if(cascades, &ActiveCascade::redraw);
+  out.islands.reserve(input.islands.size() *
+                      (1 + static_cast<std::size_t>(redrawn) + ahead.size() + glass.maps.size()));
   append_islands(out.islands, input.islands, input.camera.position);
   if (input.camera_medium != 0 && input.medium_surface) {
     const MediumSurface& above = *input.medium_surface;
@@ -135,11 +151,13 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
 
   for (const ActiveCascade& active : cascades) {
     f.cascades[active.slot] = shader_cascade(active, settings.shadow_size);
-    if (active.redraw)
-      append_light(out, active.cascade, active.area, active.to_light, input.islands);
+    if (!active.redraw) continue;
+    append_light(out, active.cascade, active.area, active.to_light);
+    append_again(out.islands, input.islands, active.cascade.centre);
   }
   for (const PartAhead& part : ahead) {
-    append_light(out, part.cascade, whole_area(part.cascade), part.to_light, part.islands);
+    append_light(out, part.cascade, whole_area(part.cascade), part.to_light);
+    append_islands(out.islands, part.islands, part.cascade.centre);
     out.views.back().first_section = part.sections.first;
     out.views.back().section_limit = part.sections.end;
   }
@@ -147,7 +165,8 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.glass_per_texel = glass.per_shadow_texel;
   for (std::uint32_t layer = 0; layer < glass.maps.size(); ++layer) {
     const GlassMap& map = glass.maps[layer];
-    append_light(out, map.cascade, map.shadow_area, map.to_light, input.islands);
+    append_light(out, map.cascade, map.shadow_area, map.to_light);
+    append_again(out.islands, input.islands, map.cascade.centre);
     out.views.back().glass = 1;
     // Where quads overlapped, the map would count what is behind them twice.
     out.edge_growth.back() = 0.0f;

@@ -23,8 +23,14 @@ struct FrameTables {
       islands;  ///< [view][island], each view's relative to its own source
 };
 
+/// `to - from`, exact until it becomes a double [blocks].
+glm::dvec3 blocks_between(const FixedPos& to, const FixedPos& from);
+
 /// An island relative to a point. The subtraction is exact; only the result becomes float.
 shared::IslandTransform transform_of(const IslandPlacement& island, const FixedPos& relative_to);
+
+/// What the camera sees.
+shared::CullView cull_view_of(const CameraView& camera);
 
 /// The camera's view comes first, then those of the cascades that are drawn, then those of parts
 /// ahead, then those of glass.

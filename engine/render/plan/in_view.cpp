@@ -129,20 +129,18 @@ bool blended_in_view(std::span<const shared::Section> sections,
 }
 
 std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const IslandPlacement> islands,
-                                  const FrameTables& tables) {
+                                  const shared::CullView& view, const FixedPos& eye) {
   constexpr float kCoarser = 64.0f;  // blocks that voxels of coarse levels may stand out by
   std::vector<bool> out(islands.size(), false);
   for (const shared::Section& s : facts.sections)
     if (s.range_end[shared::kRangeCount - 1] != 0) out[s.island] = true;
   for (std::size_t i = 0; i < islands.size(); ++i) {
     const float radius = static_cast<float>(islands[i].bounding_radius) + kCoarser;
-    out[i] =
-        out[i] &&
-        std::all_of(std::begin(tables.views[0].planes), std::end(tables.views[0].planes),
-                    [&](const glm::vec4& plane) {
-                      return glm::dot(glm::vec3(plane), tables.islands[i].translation) + plane.w >=
-                             -radius;
-                    });
+    if (!out[i]) continue;
+    const glm::vec3 place(blocks_between(islands[i].origin, eye));
+    out[i] = std::ranges::all_of(view.planes, [&](const glm::vec4& plane) {
+      return glm::dot(glm::vec3(plane), place) + plane.w >= -radius;
+    });
   }
   return out;
 }

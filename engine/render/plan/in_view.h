@@ -24,8 +24,9 @@ bool blended_in_view(std::span<const shared::Section> sections,
 
 /// Which islands the camera's picture may show: those with sections whose bounding sphere touches
 /// the frustum.
+/// @param view the camera's, relative to `eye`.
 std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const IslandPlacement> islands,
-                                  const FrameTables& tables);
+                                  const shared::CullView& view, const FixedPos& eye);
 
 /// Part of the camera's picture that holds whatever translucent quads can cover: from xy to before
 /// zw [pixels]. None if the box of no section's translucent quads touches the frustum.

@@ -79,11 +79,11 @@ std::vector<shared::Motion> motions(const FrameInput& input, const PreviousFrame
   const View now(input.camera, size), before(last.camera, size);
   std::vector<shared::Motion> out;
   for (std::size_t i = 0; i < input.islands.size(); ++i) {
-    if (i >= last.islands.size()) {
+    if (i >= last.islands->size()) {
       out.emplace_back();  // it was not there
       continue;
     }
-    const IslandPlacement &here = input.islands[i], &there = last.islands[i];
+    const IslandPlacement &here = input.islands[i], &there = (*last.islands)[i];
     const glm::dmat3 rotation =
         glm::mat3_cast(there.rotation) * glm::transpose(glm::mat3_cast(here.rotation));
     const glm::dvec3 shift = blocks_from(there.origin, last.camera.position) -

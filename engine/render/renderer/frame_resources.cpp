@@ -177,18 +177,14 @@ Result<void> FrameResources::upload(gpu::Uploader& uploader, const FrameTables& 
   // Where every pixel is black, any exposure is right.
   shared::Exposure given{};
   given.ev = input.exposure_ev.value_or(0.0f);
-  const std::size_t island_count = input.islands.size();
-  const std::array<Result<void>, 6> done{
+  const std::array<Result<void>, 5> done{
       upload(uploader, exposure_, "exposure", std::span<const shared::Exposure>(&given, 1)),
       upload(uploader, frame_, "frame constants",
              std::span<const shared::FrameConstants>(&tables.constants, 1)),
       upload(uploader, sky_, "sky constants",
              std::span<const shared::SkyConstants>(&sky.constants, 1)),
       upload(uploader, islands_, "island transforms",
-             std::span<const shared::IslandTransform>(tables.islands).first(island_count),
-             ReadBy::kTexels),
-      upload(uploader, view_islands_, "view island transforms",
-             std::span<const shared::IslandTransform>(tables.islands)),
+             std::span<const shared::IslandTransform>(tables.islands), ReadBy::kTexels),
       upload(uploader, views_, "cull views", std::span<const shared::CullView>(tables.views)),
   };
   for (const Result<void>& one : done)
@@ -226,7 +222,6 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.sky = graph.import(sky_);
   s.sky_scattering = graph.import(sky_scattering_);
   s.islands = graph.import(islands_);
-  s.view_islands = graph.import(view_islands_);
   s.clip_from_source = tables.matrices;
   s.edge_growth = tables.edge_growth;
   s.views = graph.import(views_);

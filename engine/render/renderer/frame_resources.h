@@ -63,8 +63,8 @@ class FrameResources {
   Result<void> create_samplers();
 
   gpu::Device* device_;
-  gpu::Buffer frame_, sky_, sky_scattering_, islands_, view_islands_, views_, light_islands_,
-      materials_, indices_, pixel_stats_, exposure_, no_texels_, seen_, island_skies_;
+  gpu::Buffer frame_, sky_, sky_scattering_, islands_, views_, light_islands_, materials_, indices_,
+      pixel_stats_, exposure_, no_texels_, seen_, island_skies_;
   gpu::Image block_textures_, sky_lut_, no_volume_, no_words_, no_depths_, no_layers_;
   gpu::Image panorama_;  // none: sky_lut_ is the sky
   VkSampler block_sampler_{}, lut_sampler_{}, panorama_sampler_{}, point_sampler_{};

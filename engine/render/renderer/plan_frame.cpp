@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/core/shared_work.h"
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/light/shadow_pass.h"
 #include "engine/render/plan/in_view.h"
@@ -29,13 +30,15 @@ FrameInput drawn_input(const FrameInput& asked, const RenderSettings& settings) 
   return input;
 }
 
-void plan_culling(FramePlan& plan, const FrameHistory& history) {
-  if (!plan.input.freeze_culling) return;
-  shared::CullView& camera = plan.tables.views[0];
-  plan.next.frozen =
-      history.frozen ? history.frozen : FrozenView{camera, plan.input.camera.position};
-  camera = plan.next.frozen->view;
-  shift_view(camera, plan.next.frozen->position, plan.input.camera.position);
+/// @return what the camera's sections are culled by, which may be frozen.
+shared::CullView plan_culling(FramePlan& plan, const FrameHistory& history) {
+  const Camera& camera = plan.input.camera;
+  shared::CullView view = cull_view_of(view_of(camera, plan.drawn.width, plan.drawn.height));
+  if (!plan.input.freeze_culling) return view;
+  plan.next.frozen = history.frozen ? history.frozen : FrozenView{view, camera.position};
+  view = plan.next.frozen->view;
+  shift_view(view, plan.next.frozen->position, camera.position);
+  return view;
 }
 
 /// Below so many quads in view the second phase costs more than it spares: docs/decisions/0050.
@@ -67,7 +70,7 @@ void plan_sky(FramePlan& plan, const FrameHistory& history) {
 }
 
 /// The sky lights the air, too: without sun and moon it stays as thick as it was.
-void plan_indirect(FramePlan& plan, const SceneFacts& facts) {
+void plan_indirect(FramePlan& plan) {
   shared::FrameConstants& frame = plan.tables.constants;
   frame.body_in_air = 1.0f;
   if (!plan.indirect) {
@@ -76,9 +79,6 @@ void plan_indirect(FramePlan& plan, const SceneFacts& facts) {
                                              : "no face is known to see the sky"});
     return;
   }
-  plan.sky_light = sky_irradiance(plan.sky, plan.input.sky, plan.input.islands,
-                                  islands_in_view(facts, plan.input.islands, plan.tables),
-                                  plan.input.camera.position);
   frame.body_in_air = air_light(plan.input.sky);
   frame.haze_per_block = kClearAir;
 }
@@ -163,6 +163,7 @@ void choose_steps(FramePlan& plan) {
   }
 }
 
+// The skies of islands depend on little and take long: helpers may work them out meanwhile.
 FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
                      const FrameHistory& history) {
   const RenderSettings& settings = request.settings;
@@ -179,6 +180,14 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
   plan.sky = sky_model(plan.input.sky, eye_height_km(plan.input),
                        history.baked_sky ? &*history.baked_sky : nullptr, facts.panorama);
   plan.input.sky = sky_of_part(plan.input.sky, plan.input.part, plan.input.parts);
+  const shared::CullView culled_by = plan_culling(plan, history);
+  SharedWork skies(Helpers::of_frames(), plan.indirect ? 1 : 0, [&](int) {
+    const FrameInput& input = plan.input;
+    plan.sky_light =
+        sky_irradiance(plan.sky, input.sky, input.islands,
+                       islands_in_view(facts, input.islands, culled_by, input.camera.position),
+                       input.camera.position);
+  });
   if (plan.geometry)
     plan.shadows = plan_shadows(plan.input, settings, facts.sections, *facts.changes,
                                 history.shadows, facts.shadow_generation);
@@ -206,20 +215,22 @@ FramePlan plan_frame(const PictureRequest& request, const SceneFacts& facts,
                                           facts.clouds.volumes.size(), plan.tables.constants);
     plan.next.clouds = plan.clouds->next;
   }
-  plan_culling(plan, history);
+  plan.tables.views[0] = culled_by;
   plan.why_one_phase = why_one_phase(plan, facts, history);
   plan_sky(plan, history);
-  plan_indirect(plan, facts);
+  plan_indirect(plan);
   plan_marker(plan);
   plan.temporal = plan_temporal(plan.input, settings, plan.tables, facts, history);
   if (plan.temporal) {
     plan.next.temporal = plan.temporal->next;
     jitter_view(plan.tables, plan.temporal->jitter);
   }
-  plan.next.previous = PreviousFrame{
-      plan.input.camera, plan.input.anchor, {plan.input.islands.begin(), plan.input.islands.end()}};
+  plan.next.previous =
+      PreviousFrame{plan.input.camera, plan.input.anchor,
+                    plan.geometry ? plan.next.shadows.islands : shared_islands(plan.input)};
   explain_contents(plan);
   choose_steps(plan);
+  skies.join();
   return plan;
 }
 

@@ -75,8 +75,7 @@ void add_sections(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
   graph.add_pass(
       culling.names[0],
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref :
-             {scene.frame, scene.sections, scene.view_islands, scene.views})
+        for (const gpu::BufferRef ref : {scene.frame, scene.sections, scene.islands, scene.views})
           b.read(ref, Use::kComputeRead);
         if (seen) b.read(seen, Use::kComputeRead);
         out.masks = b.write(out.masks, Use::kComputeWrite);
@@ -84,8 +83,8 @@ void add_sections(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Scene
         out.stats = b.write(out.stats, Use::kComputeWrite);
         out.transforms = b.write(out.transforms, Use::kComputeWrite);
       },
-      [buffers = StepBuffers{scene.frame, scene.sections, scene.view_islands, scene.views,
-                             out.masks, culling.totals, out.stats, out.transforms, culling.totals,
+      [buffers = StepBuffers{scene.frame, scene.sections, scene.islands, scene.views, out.masks,
+                             culling.totals, out.stats, out.transforms, culling.totals,
                              culling.totals, seen ? seen : culling.totals, culling.totals},
        push = culling.push(scene), views = culling.views,
        program = cull_program(pipelines, shared::kCullSections, static_cast<bool>(seen))](
@@ -102,16 +101,15 @@ void add_hidden(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRe
   graph.add_pass(
       culling.names[0],
       [&](gpu::PassBuilder& b) {
-        for (const gpu::BufferRef ref :
-             {scene.frame, scene.sections, scene.view_islands, far_depths})
+        for (const gpu::BufferRef ref : {scene.frame, scene.sections, scene.islands, far_depths})
           b.read(ref, Use::kComputeRead);
         seen = b.write(seen, Use::kComputeWrite);
         out.masks = b.write(out.masks, Use::kComputeWrite);
         culling.totals = b.write(culling.totals, Use::kComputeWrite);
         out.stats = b.write(out.stats, Use::kComputeWrite);
       },
-      [buffers = StepBuffers{scene.frame, scene.sections, scene.view_islands, scene.sections,
-                             out.masks, culling.totals, out.stats, culling.totals, culling.totals,
+      [buffers = StepBuffers{scene.frame, scene.sections, scene.islands, scene.sections, out.masks,
+                             culling.totals, out.stats, culling.totals, culling.totals,
                              culling.totals, seen, far_depths},
        push = culling.push(scene),
        program = cull_program(pipelines, shared::kCullHidden)](gpu::Commands& c) {

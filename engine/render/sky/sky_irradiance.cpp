@@ -14,6 +14,7 @@
 
 #include "engine/core/halves.h"
 #include "engine/core/harmonics.h"
+#include "engine/core/shared_work.h"
 #include "engine/render/sky/island_shade.h"
 #include "engine/render/sky/sky_rows.h"
 #include "shaders/shared/indirect.h"
@@ -350,7 +351,8 @@ void coarsen(int level, Lobes& lobes, Harmonics& harmonics) {
   for (glm::vec3& harmonic : harmonics) harmonic *= kSide[at];
 }
 
-void append(std::vector<glm::uvec4>& out, const Lobes& lobes, const Harmonics& harmonics) {
+/// @param out of kIndirectIslandTexels.
+void write(std::span<glm::uvec4> out, const Lobes& lobes, const Harmonics& harmonics) {
   constexpr std::size_t kOfHalves = shared::kIndirectIslandTexels - 1, kShape = kHarmonics - 1;
   std::array<float, std::tuple_size_v<Lobes> + 3 * kShape> numbers;
   std::copy(lobes.begin(), lobes.end(), numbers.begin());
@@ -360,9 +362,42 @@ void append(std::vector<glm::uvec4>& out, const Lobes& lobes, const Harmonics& h
   std::array<std::uint16_t, numbers.size()> halves;
   halves_of(numbers, halves);
   static_assert(sizeof(halves) == kOfHalves * sizeof(glm::uvec4));
-  out.resize(out.size() + kOfHalves);
-  std::memcpy(&out[out.size() - kOfHalves], halves.data(), sizeof(halves));
-  out.emplace_back(std::bit_cast<glm::uvec3>(harmonics[0]), 0);
+  std::memcpy(out.data(), halves.data(), sizeof(halves));
+  out[kOfHalves] = glm::uvec4(std::bit_cast<glm::uvec3>(harmonics[0]), 0);
+}
+
+/// A sky of one island, or of all far ones of a heading.
+struct SkyToWorkOut {
+  std::size_t island;
+  std::optional<int> heading{};  ///< of far ones; none: it is of one that is near
+};
+constexpr std::size_t kSkiesAPiece = 16;  // that a thread works out at a time
+
+/// Chooses the sky of each island. @param dark first texel of the sky of 0, which others follow.
+/// @param of_islands out: first texels. @return the others, in order.
+std::vector<SkyToWorkOut> share_out(std::span<const IslandPlacement> islands,
+                                    const std::vector<bool>& shown, std::size_t dark,
+                                    std::span<glm::uvec4> of_islands) {
+  std::vector<SkyToWorkOut> skies;
+  std::array<std::size_t, kHeadings> of_far{};  // 0: none yet
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    std::uint32_t& place = of_islands[i / 4][static_cast<int>(i % 4)];
+    place = static_cast<std::uint32_t>(dark);
+    if (!shown[i]) continue;
+    const std::size_t end = dark + (1 + skies.size()) * shared::kIndirectIslandTexels;
+    if (!islands[i].far || !is_upright(islands[i].rotation)) {
+      place = static_cast<std::uint32_t>(end);
+      skies.push_back({i});
+      continue;
+    }
+    // Of floats, which are faster: there are thousands of islands.
+    const auto heading = static_cast<int>(std::lround(heading_of(glm::quat(islands[i].rotation))));
+    std::size_t& far = of_far[static_cast<std::size_t>(heading & (kHeadings - 1))];
+    if (far == 0) skies.push_back({i, heading});
+    if (far == 0) far = end;
+    place = static_cast<std::uint32_t>(far);
+  }
+  return skies;
 }
 
 }  // namespace
@@ -382,40 +417,38 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
     });
     return out;
   });
-  OpenSky open(rows, bodies);
+  const OpenSky open(rows, bodies);
   static_assert(kFaces * shared::kIndirectSkyTexels == shared::kIndirectHarmonics);
   std::vector<glm::uvec4> out((islands.size() + 3) / 4, glm::uvec4(0));
-  const auto dark = static_cast<std::uint32_t>(out.size());
-  out.resize(out.size() + shared::kIndirectIslandTexels, glm::uvec4(0));
-  std::array<std::uint32_t, kHeadings> of_far{};  // 0: none yet
+  const std::size_t dark = out.size(), first = dark + shared::kIndirectIslandTexels;
+  const std::vector<SkyToWorkOut> skies = share_out(islands, shown, dark, out);
+  out.resize(first + skies.size() * shared::kIndirectIslandTexels, glm::uvec4(0));
   const std::vector<HidingIsland> hiding = islands_that_hide(islands);
-  for (std::size_t i = 0; i < islands.size(); ++i) {
-    std::uint32_t& place = out[i / 4][static_cast<int>(i % 4)];
-    place = dark;
-    if (!shown[i]) continue;
-    const glm::dquat& rotation = islands[i].rotation;
-    const auto end = static_cast<std::uint32_t>(out.size());
-    if (islands[i].far && is_upright(rotation)) {
-      // Of floats, which are faster: there are thousands of islands.
-      const auto heading = static_cast<int>(std::lround(heading_of(glm::quat(rotation))));
-      std::uint32_t& far = of_far[static_cast<std::size_t>(heading & (kHeadings - 1))];
-      place = far != 0 ? far : end;
-      if (std::exchange(far, place) != 0) continue;
-      Lobes lobes = open.at_heading(heading);
+  const auto work_out = [&](const SkyToWorkOut& sky_of, std::span<glm::uvec4> to) {
+    const IslandPlacement& island = islands[sky_of.island];
+    if (sky_of.heading) {
+      Lobes lobes = open.at_heading(*sky_of.heading);
       Harmonics harmonics =
-          open.harmonics(glm::angleAxis(heading * kHeadingStep, glm::dvec3(0.0, 1.0, 0.0)));
-      coarsen(islands[i].level, lobes, harmonics);
-      append(out, lobes, harmonics);
-      continue;
+          open.harmonics(glm::angleAxis(*sky_of.heading * kHeadingStep, glm::dvec3(0.0, 1.0, 0.0)));
+      coarsen(island.level, lobes, harmonics);
+      write(to, lobes, harmonics);
+      return;
     }
-    place = end;
+    const glm::dquat& rotation = island.rotation;
     Lobes lobes = is_upright(rotation) ? open.upright(heading_of(rotation)) : open.tilted(rotation);
     Harmonics harmonics = open.harmonics(rotation);
-    coarsen(islands[i].level, lobes, harmonics);
-    open.hide(IslandShade(islands, hiding, i, share_of_shade(islands[i], eye)), rotation, lobes,
-              harmonics);
-    append(out, lobes, harmonics);
-  }
+    coarsen(island.level, lobes, harmonics);
+    open.hide(IslandShade(islands, hiding, sky_of.island, share_of_shade(island, eye)), rotation,
+              lobes, harmonics);
+    write(to, lobes, harmonics);
+  };
+  const std::size_t pieces = (skies.size() + kSkiesAPiece - 1) / kSkiesAPiece;
+  SharedWork(pieces > 1 ? Helpers::of_frames() : nullptr, static_cast<int>(pieces), [&](int piece) {
+    const std::size_t begin = static_cast<std::size_t>(piece) * kSkiesAPiece;
+    for (std::size_t k = begin; k < std::min(begin + kSkiesAPiece, skies.size()); ++k)
+      work_out(skies[k], std::span(out).subspan(first + k * shared::kIndirectIslandTexels,
+                                                shared::kIndirectIslandTexels));
+  }).join();
   return out;
 }
 

@@ -13,7 +13,7 @@ namespace skerry::render {
 /// the discs of sun and moon. And the harmonics, about the island's own axes, of all that sky and
 /// bodies send. The skies of all 64 headings are summed up in any case; an island that is tilted,
 /// or where others hide a part of the sky (IslandShade), costs most. Far ones of about the same
-/// heading have one sky in common.
+/// heading have one sky in common. Helpers::of_frames() take a share of the work.
 /// @param shown one an island: others have a sky of 0 in common.
 /// @return in the layout of shaders/shared/indirect.h: which sky each island has, and the skies.
 /// What a half holds is at most what it can.
