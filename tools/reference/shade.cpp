@@ -325,10 +325,15 @@ glm::dvec3 Shader::surface(const Meeting& hit, glm::dvec3 origin, glm::dvec3 dir
          world::emitted_radiance(type, albedo);
 }
 
+/// One a block; 0 where no light is that the air could scatter.
+double Shader::extinction_of_air() const {
+  return scene_.bodies.empty() && !scene_.sky_lights ? 0.0 : scene_.haze_per_block;
+}
+
 glm::dvec3 Shader::through_air(glm::dvec3 radiance, glm::dvec3 origin, glm::dvec3 direction,
                                double distance, Sampler& sampler) const {
-  const double extinction = scene_.haze_per_block;
-  if (extinction == 0.0 || (scene_.bodies.empty() && !scene_.sky_lights)) return radiance;
+  const double extinction = extinction_of_air();
+  if (extinction == 0.0) return radiance;
   const double clear = std::exp(-extinction * distance), lost = -std::expm1(-extinction * distance);
   // One place on the way, as likely as the air there is the last to scatter what the eye sees.
   const double at = -std::log1p(-sampler.next().x * lost) / extinction;
@@ -453,7 +458,7 @@ glm::dvec3 Shader::lamps_along(const CloudMeeting& met, glm::dvec3 origin, glm::
 Seen Shader::through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction, double begin,
                             double end, Sampler& sampler) const {
   if (!scene_.clouds.layer && scene_.clouds.grids.empty()) return behind;
-  const double air = scene_.bodies.empty() && !scene_.sky_lights ? 0.0 : scene_.haze_per_block;
+  const double air = extinction_of_air();
   const CloudMeeting met =
       meet_clouds(scene_.clouds, {origin, direction, begin, end}, air, sampler.next().x);
   if (met.clear == 1.0) return {behind.radiance + met.emitted, behind.open};
@@ -674,7 +679,15 @@ Seen Shader::through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 
     pass_surface(layer, ray, fine, passage, sampler);
   }
   passage.advance(rest->hit ? rest->hit->t : std::max(kOpenWater, passage.at));
-  return {passage.radiance + passage.through * behind.radiance, passage.through * behind.open};
+  const glm::dvec3 from_behind = passage.through * behind.radiance;
+  const glm::dvec3 open = passage.through * behind.open;
+  if (trace.layers.empty() || scene_.view.medium != world::kAir)
+    return {passage.radiance + from_behind, open};
+  // What lies behind has been seen through the air up to there.
+  const double surface = trace.layers.front().t;
+  const glm::dvec3 air = through_air(glm::dvec3(0.0), kEye, direction, surface, sampler);
+  const double clear = std::exp(-extinction_of_air() * surface);
+  return {passage.radiance * clear + from_behind + (1.0 - passage.through) * air, open};
 }
 
 }  // namespace skerry::reference

@@ -81,6 +81,7 @@ class Shader {
   glm::dvec3 surface(const Meeting& hit, glm::dvec3 origin, glm::dvec3 direction, glm::dvec3 fine,
                      Sampler& sampler) const;
   double ao(const Meeting& hit) const;
+  double extinction_of_air() const;
   glm::dvec3 through_air(glm::dvec3 radiance, glm::dvec3 origin, glm::dvec3 direction,
                          double distance, Sampler& sampler) const;
 

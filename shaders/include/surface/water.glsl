@@ -2,6 +2,7 @@
 #ifndef SKERRY_WATER_GLSL
 #define SKERRY_WATER_GLSL
 #include "shared/constants.h"
+#include "include/surface/haze.glsl"
 #include "include/surface/media.glsl"
 #include "include/surface/mirror.glsl"
 #include "include/surface/foam.glsl"
@@ -126,6 +127,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
   if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye);
   uint last_word = 0u;
+  float open = 0.0;  // share of its sky that the nearest surface sees
   for (uint k = 0u; k < kWaterLayers; ++k) {
     uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
@@ -150,6 +152,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     LitPoint point = LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word, no_depth());
     Reach reach = light_at(pixel, t, point);
     FaceSky around = sky_about(point.p, word);
+    if (k == 0u) open = open_share(around, surface_face(word));
     if (entering) sky_light = around.irradiance;
     reach.light += sky_light;
     bool known = kMirrorWorld && k == 0u;
@@ -191,6 +194,9 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     colour += through * scattered(m, light_in, max(end - at, 0.0));
     through *= exp(-extinction(m) * max(end - at, 0.0));
   }
-  return colour + through * behind.rgb;
+  if (frame.camera_medium != 0u) return colour + through * behind.rgb;
+  // What lies behind has been seen through the air up to there: the air before the surface is in it as far as it is let through.
+  vec3 place = ray * view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane);
+  return colour * clear_air(place) + through * behind.rgb + (1.0 - through) * seen_through_air(vec3(0.0), place, open);
 }
 #endif
