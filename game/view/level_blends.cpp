@@ -122,7 +122,9 @@ void LevelBlends::link(Island& island) {
     const auto found = island.shares.find(place);
     return found == island.shares.end() ? nullptr : &found->second;
   };
-  for (auto& [key, section] : island.sections) {
+  for (auto& entry : island.sections) {
+    const SectionKey& key = entry.first;
+    Section& section = entry.second;
     section.own = share_of(key);
     section.above = {};
     std::size_t next = 0;
