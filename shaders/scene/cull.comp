@@ -3,7 +3,7 @@
 // Culling in three steps. Sections: which ranges of each section a view needs (frustum, then the directions its faces look in), and how many draws
 // each work group of sections makes; one thread a section, one row of groups a view. Scan: where each group's draws end; one work group a list,
 // inclusive scan of the group totals in place, the last becomes the list's draw count. Emit: writes the indirect commands of every view and list,
-// in section order. docs/conventions.md.
+// in section order: each step is a scan, not an atomic counter, so that pictures do not depend on the timing of threads. docs/conventions.md.
 // Where much is hidden the camera's view is drawn in two phases (kTwoPhases; docs/decisions/0050): first the sections that the last frame showed. A
 // fourth step, Hidden, then holds all sections of the view against the depths of what has been drawn: it notes which are seen, and leaves the masks
 // of those that the first phase has not drawn, and of the translucent quads of all that are seen.

@@ -21,7 +21,7 @@ struct CullCase {
   std::uint32_t sections;
   double fov_deg;
 };
-/// The last shows 1% of its sections.
+/// The last shows less than 1% of its sections.
 constexpr CullCase kCases[] = {{1'000, 70.0},   {10'000, 70.0},    {100'000, 70.0},
                                {400'000, 70.0}, {1'000'000, 70.0}, {1'000'000, 20.0}};
 
