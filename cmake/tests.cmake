@@ -116,7 +116,7 @@ set_tests_properties(package.deb PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 # Extremes against their bounds, as the program itself runs them.
 add_test(NAME stability.all COMMAND ${CMAKE_SOURCE_DIR}/tests/tools/stability_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/stability)
-set_tests_properties(stability.all PROPERTIES TIMEOUT 900)
+set_tests_properties(stability.all PROPERTIES TIMEOUT 1800)
 
 # A few of the hostile command lines; tests/hostile/run without --count runs 2,000.
 add_test(NAME cli.hostile COMMAND ${CMAKE_SOURCE_DIR}/tests/hostile/run $<TARGET_FILE:skerry> --count 60)
