@@ -58,6 +58,16 @@ TEST(ToneCurves, ShowTheShapeOfWhatIsFarBrighterThanWhite) {
     }
 }
 
+// Shade at noon has an eighth of the light of sunlit ground. The published fit alone makes it a
+// twenty-fourth.
+TEST(ToneCurves, AddNoContrastToShade) {
+  const auto shown = [](double light) {
+    return tone_mapped(light * glm::dvec3(0.8, 1.0, 0.5), ToneCurve::kAces).y;
+  };
+  for (double sunlit = 0.12; sunlit < 0.5; sunlit *= 1.1)
+    EXPECT_LT(shown(sunlit), 8.0 * shown(sunlit / 8.0)) << sunlit;
+}
+
 TEST(ToneCurves, OfAColourNeverDarkenAndKeepTheOrderOfItsChannels) {
   for (const auto& pair : kGlowing)
     for (const glm::dvec3& light : pair) {

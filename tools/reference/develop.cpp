@@ -23,10 +23,12 @@ glm::dvec3 aces_fit(glm::dvec3 exposed) {
   return glm::clamp(curve * kOutput, 0.0, 1.0);
 }
 
-/// That fit, of light whose brightest channel is drawn together beyond 1.5, and which keeps most of
-/// its ratios there: docs/exposure.md.
+/// That fit, of light that is raised where its brightest channel is far below 0.05, is drawn
+/// together where that is beyond 1.5, and keeps most of its ratios there: docs/exposure.md.
 glm::dvec3 aces(glm::dvec3 exposed) {
-  constexpr double kBright = 1.5, kEnd = 12.0, kRatiosKept = 0.75;
+  constexpr double kDark = 0.05, kBright = 1.5, kEnd = 12.0, kRatiosKept = 0.75;
+  const double seen = std::max({exposed.x, exposed.y, exposed.z}) / kDark;
+  exposed *= 1.0 + 2.0 / (1.0 + seen * seen);
   const double b = std::max({exposed.x, exposed.y, exposed.z});
   if (!(b > kBright)) return aces_fit(exposed);
   const double y = b / kBright - 1.0;

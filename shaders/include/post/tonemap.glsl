@@ -19,14 +19,19 @@ vec3 aces_fit(vec3 exposed) {
   return clamp(c, 0.0, 1.0);
 }
 
-// The fit sends all that is far brighter than white to white, flames and crystals at night without any shape. So the brightest channel, b,
+// The fit takes an eighth of the light of sunlit ground, its shade at noon, for a twenty-fourth: black beside it. So light whose brightest
+// channel, b, is dark is raised before it, three times at 0, twice at kDark and hardly at b = 0.3; 0 stays 0, and ratios stay.
+// The fit sends all that is far brighter than white to white, flames and crystals at night without any shape. So b
 // is drawn together beyond kBright: b becomes kBright + 10.5 u, which begins with slope 1, still rises after ten stops and ends at 12; and of
-// the result 0.75 w takes the ratios of the channels that the light has. Up to kBright nothing changes, and luminance never falls as light
+// the result 0.75 w takes the ratios of the channels that the light has. Between the two nothing changes, and luminance never falls as light
 // rises. Result 0..1, linear. docs/exposure.md has the formula.
 vec3 aces(vec3 exposed) {
-  const float kBright = 1.5;
+  const float kBright = 1.5, kDark = 0.05;
   vec3 e = min(exposed, 1e9);
   float b = max(max(e.r, e.g), e.b);
+  float dark = b / kDark, lift = 1.0 + 2.0 / (1.0 + dark * dark);
+  e *= lift;
+  b *= lift;
   float y = max(b / kBright - 1.0, 0.0), p = y + 2.88, q = y + 150.0, r = y + 0.4;
   float pq = p * q, rb = r * b, share = 1.0 / (pq * rb);  // one division for all
   float u = y * (0.4 * q + 0.6 * p) * rb * share, w = y * pq * b * share;
