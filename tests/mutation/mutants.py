@@ -289,6 +289,8 @@ MUTANTS = (
     # The picture
     Mutant("wrong_srgb_curve", "gamma 2.2 instead of sRGB's curve", "shaders/include/post/tonemap.glsl",
            "vec3(1.0 / 2.4)", "vec3(1.0 / 2.2)", "day"),
+    Mutant("dark_not_raised", "shade is as black as ACES alone shows it", "shaders/include/post/tonemap.glsl",
+           "lift = 1.0 + 2.0 /", "lift = 1.0 + 0.0 /", "day dusk"),
     Mutant("channels_swapped", "red and blue are swapped", "shaders/include/post/picture.glsl",
            "srgb_encode(tone_map(exposed))", "srgb_encode(tone_map(exposed.bgr))", "day"),
     Mutant("exposure_5_percent", "the picture is 5% brighter", "shaders/include/post/picture.glsl",
