@@ -52,4 +52,14 @@ void SharedWork::join() {
   pieces_.reset();
 }
 
+void share_calls(std::size_t count, std::size_t a_piece,
+                 const std::function<void(std::size_t)>& each) {
+  SKERRY_ASSERT(a_piece > 0);
+  const auto pieces = static_cast<int>((count + a_piece - 1) / a_piece);
+  SharedWork(pieces > 1 ? Helpers::of_frames() : nullptr, pieces, [&](int piece) {
+    const std::size_t first = static_cast<std::size_t>(piece) * a_piece;
+    for (std::size_t i = first; i < std::min(first + a_piece, count); ++i) each(i);
+  }).join();
+}
+
 }  // namespace skerry

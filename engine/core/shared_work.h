@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <functional>
 #include <memory>
 
@@ -43,5 +44,12 @@ class SharedWork {
   struct Pieces;
   std::shared_ptr<Pieces> pieces_;  // null: joined
 };
+
+/// Calls each(i) once for each i of [0, count), shared with the helpers of frames where that is
+/// more than one piece, and returns when all are done.
+/// @param a_piece calls that one thread makes in a row, 1..: worth far more than waking a helper.
+/// @param each as SharedWork's body.
+void share_calls(std::size_t count, std::size_t a_piece,
+                 const std::function<void(std::size_t)>& each);
 
 }  // namespace skerry

@@ -535,19 +535,14 @@ Result<std::uint32_t> SceneView::island_slot(const world::SectionKey& key) {
 void SceneView::place_islands(double world_time_s) {
   const world::IslandPoses poses = world_->poses(world_time_s);
   placements_.resize(islands_.size());
-  const auto place = [&](std::size_t slot) {
+  share_calls(islands_.size(), kSlotsAPiece, [&](std::size_t slot) {
     const IslandEntry& entry = islands_[slot];
     const world::Pose pose = poses.of(entry.spec);
     const bool hides = !entry.far && entry.sections != 0;
     placements_[slot] = {
         fixed(pose.origin), pose.rotation, entry.spec.bounding_radius,
         entry.far,          entry.level,   hides ? land_of(entry.spec) : render::IslandLand{}};
-  };
-  const auto pieces = static_cast<int>((islands_.size() + kSlotsAPiece - 1) / kSlotsAPiece);
-  SharedWork(pieces > 1 ? Helpers::of_frames() : nullptr, pieces, [&](int piece) {
-    const std::size_t first = static_cast<std::size_t>(piece) * kSlotsAPiece;
-    for (std::size_t i = first; i < std::min(first + kSlotsAPiece, islands_.size()); ++i) place(i);
-  }).join();
+  });
 }
 
 std::vector<PlacedIsland> SceneView::placed_islands(const render::FixedPos& camera) const {

@@ -93,5 +93,14 @@ TEST(SharedWork, LeavesNothingBehindForLateHelpers) {
   }
 }
 
+// Around the edges of a piece, none left out and none twice.
+TEST(ShareCalls, CallsEachOnce) {
+  for (const std::size_t count : {0, 1, 6, 7, 8, 14, 15, 100}) {
+    std::vector<std::atomic<int>> calls(count);
+    share_calls(count, 7, [&](std::size_t i) { ++calls[i]; });
+    for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(calls[i], 1) << i << " of " << count;
+  }
+}
+
 }  // namespace
 }  // namespace skerry

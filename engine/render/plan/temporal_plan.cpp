@@ -10,6 +10,7 @@
 #include "engine/gpu/device/resource_desc.h"
 #include "engine/render/frame/frame_choices.h"
 #include "engine/render/plan/frame_history.h"
+#include "engine/render/plan/frame_tables.h"
 #include "engine/render/plan/in_view.h"
 #include "shaders/shared/edges.h"
 
@@ -65,15 +66,6 @@ shared::Motion motion(const View& now, const View& before, const glm::dmat3& rot
   return {row(row_x), row(row_y), row(forward)};
 }
 
-glm::dvec3 blocks_from(const FixedPos& to, const FixedPos& from) {
-  glm::dvec3 out;
-  for (int axis = 0; axis < 3; ++axis)
-    out[axis] = static_cast<double>(to[static_cast<std::size_t>(axis)] -
-                                    from[static_cast<std::size_t>(axis)]) /
-                65536.0;
-  return out;
-}
-
 std::vector<shared::Motion> motions(const FrameInput& input, const PreviousFrame& last,
                                     VkExtent2D size) {
   const View now(input.camera, size), before(last.camera, size);
@@ -86,8 +78,8 @@ std::vector<shared::Motion> motions(const FrameInput& input, const PreviousFrame
     const IslandPlacement &here = input.islands[i], &there = (*last.islands)[i];
     const glm::dmat3 rotation =
         glm::mat3_cast(there.rotation) * glm::transpose(glm::mat3_cast(here.rotation));
-    const glm::dvec3 shift = blocks_from(there.origin, last.camera.position) -
-                             rotation * blocks_from(here.origin, input.camera.position);
+    const glm::dvec3 shift = blocks_between(there.origin, last.camera.position) -
+                             rotation * blocks_between(here.origin, input.camera.position);
     out.push_back(motion(now, before, rotation, shift));
   }
   out.push_back(motion(now, before, glm::dmat3(1.0), glm::dvec3(0.0)));

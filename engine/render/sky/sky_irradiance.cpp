@@ -442,13 +442,10 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
               lobes, harmonics);
     write(to, lobes, harmonics);
   };
-  const std::size_t pieces = (skies.size() + kSkiesAPiece - 1) / kSkiesAPiece;
-  SharedWork(pieces > 1 ? Helpers::of_frames() : nullptr, static_cast<int>(pieces), [&](int piece) {
-    const std::size_t begin = static_cast<std::size_t>(piece) * kSkiesAPiece;
-    for (std::size_t k = begin; k < std::min(begin + kSkiesAPiece, skies.size()); ++k)
-      work_out(skies[k], std::span(out).subspan(first + k * shared::kIndirectIslandTexels,
-                                                shared::kIndirectIslandTexels));
-  }).join();
+  share_calls(skies.size(), kSkiesAPiece, [&](std::size_t k) {
+    work_out(skies[k], std::span(out).subspan(first + k * shared::kIndirectIslandTexels,
+                                              shared::kIndirectIslandTexels));
+  });
   return out;
 }
 
