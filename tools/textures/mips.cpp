@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstddef>
 
 namespace skerry::textures {
 namespace {
@@ -47,35 +47,53 @@ Image half(const Image& fine) {
   return coarse;
 }
 
-// Coverage after averaging takes few values, so many texels tie; the surroundings decide between
-// them.
-float rank_key(const Image& image, int x, int y) {
-  float around = 0.0f;
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) around += image.at(x + dx, y + dy).a;
-  return image.at(x, y).a + around * (1.0f / 128.0f);
+// Coverage of a texel. Where equal texels tie, as in a lattice finer than them, an ordered pattern
+// decides between them (B. Bayer, An Optimum Method for Two-Level Rendition, 1973).
+float untied(const Image& image, int x, int y) {
+  constexpr int kOrder[4] = {0, 2, 3, 1};
+  const int wrapped_x = (x + image.edge) % image.edge, wrapped_y = (y + image.edge) % image.edge;
+  const int fine = kOrder[(wrapped_x & 1) + 2 * (wrapped_y & 1)];
+  const int coarse = kOrder[(wrapped_x >> 1 & 1) + 2 * (wrapped_y >> 1 & 1)];
+  return image.at(x, y).a + static_cast<float>(4 * fine + coarse) * (1.0f / 1024.0f);
 }
 
-// Alpha bytes of a cut-out's mip: the `covered` texels that rank highest are at least 128, the
-// others less.
-std::vector<std::uint8_t> scaled_alpha(const Image& image, float share) {
-  const int count = image.edge * image.edge;
-  const int covered = static_cast<int>(std::floor(share * static_cast<float>(count) + 0.5f));
-  std::vector<float> keys;
-  for (int y = 0; y < image.edge; ++y)
-    for (int x = 0; x < image.edge; ++x) keys.push_back(rank_key(image, x, y));
-  std::vector<int> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return keys[a] > keys[b]; });
-  // Without a covered texel all stay below the threshold.
-  const float last =
-      covered > 0 ? std::max(image.texels[order[covered - 1]].a, 1.0f / 256.0f) : 1.0f;
-  std::vector<std::uint8_t> alpha(count);
-  for (int rank = 0; rank < count; ++rank) {
-    const std::uint8_t scaled = quantize(image.texels[order[rank]].a * 0.5f / last);
-    alpha[order[rank]] =
-        rank < covered ? std::max<std::uint8_t>(scaled, 128) : std::min<std::uint8_t>(scaled, 127);
+// What a bilinear filter makes of coverage at kLookups^2 even places of a texture that repeats.
+std::vector<float> filtered_coverage(const Image& image) {
+  constexpr int kLookups = 128;
+  std::vector<float> out;
+  const float per_lookup = static_cast<float>(image.edge) / kLookups;
+  for (int j = 0; j < kLookups; ++j) {
+    for (int i = 0; i < kLookups; ++i) {
+      const float at_x = (static_cast<float>(i) + 0.5f) * per_lookup + 0.5f;
+      const float at_y = (static_cast<float>(j) + 0.5f) * per_lookup + 0.5f;
+      const int x = static_cast<int>(at_x) - 1, y = static_cast<int>(at_y) - 1;
+      const float right = at_x - static_cast<float>(x + 1), low = at_y - static_cast<float>(y + 1);
+      const float above = untied(image, x, y) * (1.0f - right) + untied(image, x + 1, y) * right;
+      const float below =
+          untied(image, x, y + 1) * (1.0f - right) + untied(image, x + 1, y + 1) * right;
+      out.push_back(above * (1.0f - low) + below * low);
+    }
   }
+  return out;
+}
+
+// Alpha bytes of a cut-out's mip: the filter that reads them finds a half or more at a share of all
+// places.
+std::vector<std::uint8_t> scaled_alpha(const Image& image, float share) {
+  std::vector<float> found = filtered_coverage(image);
+  const auto rank = static_cast<std::ptrdiff_t>((1.0f - share) * static_cast<float>(found.size()));
+  std::nth_element(found.begin(), found.begin() + rank, found.end());
+  const float threshold = found[rank];
+  // A straight line takes the threshold to a half and what is farthest from it to 0 or 1, so that
+  // 8 bits are enough and filtering commutes with it.
+  float farthest = 0.0f;
+  for (int y = 0; y < image.edge; ++y)
+    for (int x = 0; x < image.edge; ++x)
+      farthest = std::max(farthest, std::fabs(untied(image, x, y) - threshold));
+  std::vector<std::uint8_t> alpha;
+  for (int y = 0; y < image.edge; ++y)
+    for (int x = 0; x < image.edge; ++x)
+      alpha.push_back(quantize(0.5f + 0.5f * (untied(image, x, y) - threshold) / farthest));
   return alpha;
 }
 
@@ -106,8 +124,9 @@ std::vector<Mip> make_mips(const Canvas& canvas) {
   std::vector<Mip> mips;
   for (std::size_t level = 0; level < images.size(); ++level) {
     const Image& image = images[level];
-    const std::vector<std::uint8_t> alpha =
-        is_cutout && level > 0 && share < 1.0f ? scaled_alpha(image, share) : plain_alpha(image);
+    const std::vector<std::uint8_t> alpha = is_cutout && level > 0 && image.edge > 1 && share < 1.0f
+                                                ? scaled_alpha(image, share)
+                                                : plain_alpha(image);
     Mip mip{image.edge, {}};
     for (int y = 0; y < image.edge; ++y) {
       for (int x = 0; x < image.edge; ++x) {

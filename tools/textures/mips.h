@@ -14,9 +14,10 @@ struct Mip {
 
 /// The mips of a layer, edges 32, 16, ... 1. Averages are taken of linear light, weighted by alpha.
 /// Where alpha is 0 the colour is that of the surroundings, so that filtering draws no dark fringe.
-/// Alpha of cut-outs, which is 0 or 1 on the canvas, is scaled so that alpha >= 128 covers the same
-/// share of every mip, to half a texel; any other alpha is averaged. Source: I. Castano, Computing
-/// Alpha Mipmaps (2010); the share is met by rank instead of by search.
+/// Alpha of cut-outs, which is 0 or 1 on the canvas, is scaled in each mip of 2 x 2 texels or more
+/// so that a bilinear filter finds a half or more at the same share of places, to 1/100; any other
+/// alpha is averaged. Source: I. Castano, Computing Alpha Mipmaps (2010); the share is that of what
+/// is filtered, and met by rank instead of by search.
 std::vector<Mip> make_mips(const Canvas& canvas);
 
 }  // namespace skerry::textures
