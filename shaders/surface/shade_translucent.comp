@@ -53,6 +53,7 @@ layout(constant_id = kTailConstant) const bool kTail = false;  // they are known
 #include "include/surface/lighting.glsl"
 #include "include/light/clustered.glsl"
 #include "include/light/traced.glsl"
+#include "include/light/light_panes.glsl"
 #include "include/light/indirect.glsl"
 #include "include/surface/ripples.glsl"
 #include "include/sky/mirrored_clouds.glsl"

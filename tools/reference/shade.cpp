@@ -542,6 +542,19 @@ struct Shader::Passage {
   glm::dvec3 light_in{0.0};  // irradiance on the medium it is in
   world::BlockId medium = world::kAir;
   double at = 0.0;
+  /// The air between the eye and the last surface: what is left of light, and what it sends.
+  double clear = 1.0;
+  glm::dvec3 air{0.0};
+  glm::dvec3 entered{1.0};  // `through` before that surface
+  glm::dvec3 seen{0.0};     // of all up to there, through the air before it
+
+  /// Ends what is seen through the air before the last surface: what it and the medium behind it
+  /// send, and this air itself as far as they stop the light behind it, which has passed the same.
+  void end_surface() {
+    seen += radiance * clear + (entered - through) * air;
+    radiance = glm::dvec3(0.0);
+    entered = through;
+  }
 
   /// Goes on inside the medium, if it is in one.
   void advance(double to) {
@@ -653,13 +666,23 @@ Seen Shader::through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 
   if (passage.medium != world::kAir)  // the light half a block ahead stands for all of it
     passage.light_in = irradiance({direction * 0.5, glm::dvec3(0.0, 1.0, 0.0)}, sampler);
   Ray ray{kEye, direction};
+  const auto see_surface = [&](const Meeting& layer, double distance) {
+    passage.end_surface();
+    if (scene_.view.medium == world::kAir) {
+      passage.clear = std::exp(-extinction_of_air() * distance);
+      passage.air = through_air(glm::dvec3(0.0), kEye, direction, distance, sampler);
+    }
+    pass_surface(layer, ray, fine, passage, sampler);
+  };
+  double before = 0.0;  // blocks to where the ray's last part begins
   Trace bent;
   const Trace* rest = &trace;
   // Only the first surface bends a ray: what else it meets, it goes through straight.
   if (bends(trace)) {
     const Meeting& surface = trace.layers.front();
     passage.advance(surface.t);
-    pass_surface(surface, ray, fine, passage, sampler);
+    see_surface(surface, surface.t);
+    before = surface.t;
     const glm::dvec3 normal = tracer_.normal(surface.island, surface.face);
     ray = {direction * surface.t - normal * kOffSurface,
            glm::refract(direction, rippled_normal(surface), 1.0 / kWaterIndex)};
@@ -676,18 +699,11 @@ Seen Shader::through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 
   }
   for (const Meeting& layer : rest->layers) {
     passage.advance(layer.t);
-    pass_surface(layer, ray, fine, passage, sampler);
+    see_surface(layer, before + layer.t);
   }
   passage.advance(rest->hit ? rest->hit->t : std::max(kOpenWater, passage.at));
-  const glm::dvec3 from_behind = passage.through * behind.radiance;
-  const glm::dvec3 open = passage.through * behind.open;
-  if (trace.layers.empty() || scene_.view.medium != world::kAir)
-    return {passage.radiance + from_behind, open};
-  // What lies behind has been seen through the air up to there.
-  const double surface = trace.layers.front().t;
-  const glm::dvec3 air = through_air(glm::dvec3(0.0), kEye, direction, surface, sampler);
-  const double clear = std::exp(-extinction_of_air() * surface);
-  return {passage.radiance * clear + from_behind + (1.0 - passage.through) * air, open};
+  passage.end_surface();
+  return {passage.seen + passage.through * behind.radiance, passage.through * behind.open};
 }
 
 }  // namespace skerry::reference

@@ -104,7 +104,7 @@ class LayerReads {
     if (layers_.tail_depths) own.push_back({shared::kTailConstant, 1});
     if (mirrors_) own.push_back({shared::kMirrorWorldConstant, 1});
     if (foam_) own.push_back({shared::kFoamConstant, 1});
-    return lit_ ? walls_.with_walls(lights_.with_lights(std::move(own))) : own;
+    return lit_ ? walls_.with_walls(lights_.with_panes(std::move(own))) : own;
   }
   void declare(gpu::PassBuilder& b) const {
     for (const gpu::BufferRef ref :

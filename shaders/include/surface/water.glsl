@@ -63,7 +63,7 @@ void add_lights(inout Reach r, uvec2 pixel, float z, LitPoint at) {
     Light light = frame_light(light_index(list, i));
     Arrival a = arrive(light, at.p, at.n, mirror, at.roughness * at.roughness);
     if (a.facing <= 0.0) continue;
-    vec3 arrives = light.intensity;
+    vec3 arrives = light.intensity * left_by_panes(light, at.p);
     if (kLightsShadows != 0u) arrives *= traced_visibility(start, light);
     r.light += arrives * a.facing;
     r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, at.shading_normal, at.to_eye, at.roughness);
@@ -127,7 +127,9 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
   if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye);
   uint last_word = 0u;
-  float open = 0.0;  // share of its sky that the nearest surface sees
+  // What has been seen so far through the air before it; of the last surface how clear that air is, what it sends, and the light let through up to it.
+  vec3 seen = vec3(0.0), air = vec3(0.0), entered = vec3(1.0);
+  float clear = 1.0;
   for (uint k = 0u; k < kWaterLayers; ++k) {
     uint word = layer_surface(k, ivec2(pixel));
     if (word == 0u) break;
@@ -141,6 +143,9 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
       colour += through * scattered(m, light_in, next - at);
       through *= exp(-extinction(m) * (next - at));
     }
+    seen += colour * clear + (entered - through) * air;
+    colour = vec3(0.0);
+    entered = through;
     uint block = surface_block(word);
     bool entering = medium != block;
     Material m = materials[block];
@@ -152,7 +157,10 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     LitPoint point = LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word, no_depth());
     Reach reach = light_at(pixel, t, point);
     FaceSky around = sky_about(point.p, word);
-    if (k == 0u) open = open_share(around, surface_face(word));
+    if (frame.camera_medium == 0u) {
+      clear = clear_air(point.p);
+      air = seen_through_air(vec3(0.0), point.p, open_share(around, surface_face(word)));
+    }
     if (entering) sky_light = around.irradiance;
     reach.light += sky_light;
     bool known = kMirrorWorld && k == 0u;
@@ -194,9 +202,8 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     colour += through * scattered(m, light_in, max(end - at, 0.0));
     through *= exp(-extinction(m) * max(end - at, 0.0));
   }
-  if (frame.camera_medium != 0u) return colour + through * behind.rgb;
-  // What lies behind has been seen through the air up to there: the air before the surface is in it as far as it is let through.
-  vec3 place = ray * view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane);
-  return colour * clear_air(place) + through * behind.rgb + (1.0 - through) * seen_through_air(vec3(0.0), place, open);
+  // What lies behind has been seen through the air up to there. Of the air before each surface it has as much as all surfaces let through: where
+  // they stop more, the nearer air is seen nevertheless, as far as what stands before it lets it through.
+  return seen + colour * clear + (entered - through) * air + through * behind.rgb;
 }
 #endif
