@@ -67,7 +67,7 @@ SHARED_CONST uint kTailConstant = 62u;         // bool: what lies behind the lay
 SHARED_CONST uint kShaftsConstant = 63u;       // bool: tiles know of the ways to their lights
 SHARED_CONST uint kMirrorWorldConstant = 64u;  // bool: water and glass mirror voxels
 SHARED_CONST uint kSunlessConstant = 65u;      // bool: neither sun nor moon lights any pixel
-SHARED_CONST uint kBentConstant = 66u;         // bool: what is behind water is seen by bent rays
+SHARED_CONST uint kBentConstant = 66u;         // uint: which rays level water bends
 SHARED_CONST uint kUnderWaterConstant = 67u;   // bool: surfaces may lie under water
 SHARED_CONST uint kGlassConstant = 68u;        // bool: light may come through glass
 SHARED_CONST uint kFoamConstant = 69u;         // bool: water has foam along opaque voxels
@@ -91,6 +91,10 @@ SHARED_CONST uint kLightBins = 2u;
 SHARED_CONST uint kLightLists = 3u;
 SHARED_CONST uint kLightRoom = 4u;
 SHARED_CONST uint kLightTiles = 5u;
+
+// Rays that level water bends: those of an eye in the air, or in the water.
+SHARED_CONST uint kBentIntoWater = 1u;
+SHARED_CONST uint kBentIntoAir = 2u;
 
 // How much steeper than linear an enlarged picture passes from one pixel to the next.
 SHARED_CONST float kEnlargeSlope = 1.5f;

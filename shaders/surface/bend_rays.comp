@@ -1,8 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What is seen through level water, by rays that its surface bends, for an eye in the air: the radiance of the pixel where the picture shows the
-// place that the bent ray meets, and how far it lies from the surface [blocks]; its own pixel's and 0 where the picture does not show it. To an
-// image of its own, since pixels look at one another: put_bent_rays.comp copies it to the radiance image. docs/decisions/0063-water-bends-what-is-seen.md.
+// What is seen through the surface of level water, by rays that it bends: the radiance of the pixel where the picture shows the place that the bent
+// ray meets, and how far it lies from the surface [blocks]; its own pixel's and 0 where the picture does not show it. To an image of its own, since pixels look at one another: put_bent_rays.comp copies it to the radiance image. docs/decisions/0063, 0079.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -20,6 +19,7 @@ layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
 layout(binding = kBentLightBinding) writeonly uniform image2D bent_light;
 
 layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
+layout(constant_id = kBentConstant) const uint kBent = kBentIntoWater;
 
 #include "include/scene/layers.glsl"
 #include "include/scene/tiles.glsl"
@@ -75,9 +75,12 @@ float bent_share(vec2 pixel, vec2 place, uint word) {
 const uint kSteps = 6u, kHalvings = 4u;
 const float kLongest = 2.5;
 
-// Whether what is opaque at a part of the line lies before the ray, under the same water.
+// Whether what is opaque at a part of the line lies before the ray, behind the same surface.
 bool is_passed(Line line, float part, uint word) {
-  ivec2 pixel = nearest_pixel(mix(line.from, line.to, part));
+  vec2 at = mix(line.from, line.to, part);
+  ivec2 pixel = nearest_pixel(at);
+  // What is not in the picture is looked for elsewhere: water.glsl.
+  if (kBent == kBentIntoAir && ivec2(floor(at)) != pixel) return false;
   return texelFetch(depths, pixel, 0).r >= mix(line.from_depth, line.to_depth, part) && shows_water(pixel, word);
 }
 
@@ -100,6 +103,42 @@ float part_met(Line line, uint word) {
   return met ? behind : 2.0;
 }
 
+// What a bent ray may meet under level water, as the picture shows it.
+struct Bent {
+  Line line;
+  float longest, end_z;  // of the ray, and where that ends along the view axis [blocks]
+  bool known;
+};
+
+// @param from pixels. @param p of the surface at `z` along the view axis, n its normal. @param opaque depth of the pixel.
+Bent bent_into_water(vec2 from, vec3 ray, float z, vec3 shading, vec3 n, float opaque, uint word) {
+  vec3 p = ray * z, dir = refract(normalize(ray), shading, 1.0 / kWaterIndex);
+  float depth = opaque > 0.0 ? (view_distance(opaque, frame.near_plane) - z) * -dot(ray, n) : 0.0;
+  float level = max(depth, 0.0) / max(-dot(dir, n), 0.1);
+  vec3 flat_bed = p + dir * level;
+  dir = normalize(mix(normalize(ray), dir, bent_share(from, pixel_place(flat_bed, dot(flat_bed, frame.ray_forward)), word)));
+  // Not behind the eye.
+  float ahead = dot(dir, frame.ray_forward), longest = min(level * kLongest, ahead < 0.0 ? 0.8 * z / -ahead : 1e6);
+  vec3 end = p + dir * longest;
+  float end_z = dot(end, frame.ray_forward);
+  return Bent(Line(from, pixel_place(end, end_z), frame.near_plane / z, frame.near_plane / end_z), longest, end_z, depth > 0.0);
+}
+
+// The same above the water about the eye: up to the sky.
+Bent bent_out_of_water(vec2 from, vec3 ray, float z, vec3 shading, vec3 n) {
+  vec3 dir = bent_into_air(normalize(ray), shading, n);
+  float ahead = dot(dir, frame.ray_forward);
+  return Bent(Line(from, pixel_place(dir, ahead), frame.near_plane / z, 0.0), 1.0, z, ahead > 1e-2);
+}
+
+// Whether a ray into the air meets what the picture shows at a part of its line, and does not pass behind it.
+bool meets(Line line, float part) {
+  float opaque = texelFetch(depths, nearest_pixel(mix(line.from, line.to, part)), 0).r, there = mix(line.from_depth, line.to_depth, part);
+  if (opaque <= 0.0) return there <= 0.0;
+  float met = view_distance(opaque, frame.near_plane);
+  return abs(view_distance(max(there, 1e-12), frame.near_plane) - met) < 0.5 + 0.02 * met;
+}
+
 void main() {
   uvec2 at;
   bool here = tile_pixel(at);
@@ -107,23 +146,21 @@ void main() {
   uint word = here ? nearest_surface(pixel) : 0u;
   vec3 ray = pixel_ray(pixel);
   float z = word != 0u ? view_distance(layer_depth_at(layer_depths_0, pixel, frame.layers_area), frame.near_plane) : 1.0;
-  float opaque = texelFetch(depths, pixel, 0).r;
   vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
-  vec3 p = ray * z, dir = refract(normalize(ray), shading_normal(word, ray, z), 1.0 / kWaterIndex);
-  float depth = opaque > 0.0 ? (view_distance(opaque, frame.near_plane) - z) * -dot(ray, n) : 0.0;
-  float level = max(depth, 0.0) / max(-dot(dir, n), 0.1);
+  vec3 shading = shading_normal(word, ray, z);
   vec2 from = vec2(at) + frame.sample_in_pixel;
-  vec3 flat_bed = p + dir * level;
-  dir = normalize(mix(normalize(ray), dir, bent_share(from, pixel_place(flat_bed, dot(flat_bed, frame.ray_forward)), word)));
-  // Not behind the eye.
-  float ahead = dot(dir, frame.ray_forward), longest = min(level * kLongest, ahead < 0.0 ? 0.8 * z / -ahead : 1e6);
-  vec3 end = p + dir * longest;
-  float end_z = dot(end, frame.ray_forward);
-  Line line = Line(from, pixel_place(end, end_z), frame.near_plane / z, frame.near_plane / end_z);
-  float part = part_met(line, word);
-  bool bends = has_ripples(word) && depth > 0.0 && part <= 1.0 && !another_behind(at, ray, word, n, z);
+  Bent bent;
+  if (kBent == kBentIntoAir) {
+    bent = bent_out_of_water(from, ray, z, shading, n);
+    bent.known = bent.known && surface_block(word) == frame.camera_medium;
+  } else {
+    bent = bent_into_water(from, ray, z, shading, n, texelFetch(depths, pixel, 0).r, word);
+  }
+  float part = part_met(bent.line, word);
+  if (kBent == kBentIntoAir) bent.known = bent.known && meets(bent.line, part);
+  bool bends = has_ripples(word) && bent.known && part <= 1.0 && !another_behind(at, ray, word, n, z);
   // Even parts of the line are not even parts of the ray.
-  float way = longest * part * z / mix(end_z, z, part);
-  vec3 behind = imageLoad(radiance, bends ? nearest_pixel(mix(line.from, line.to, part)) : pixel).rgb;
+  float way = bent.longest * part * z / mix(bent.end_z, z, part);
+  vec3 behind = imageLoad(radiance, bends ? nearest_pixel(mix(bent.line.from, bent.line.to, part)) : pixel).rgb;
   if (word != 0u) imageStore(bent_light, pixel, vec4(behind, bends ? way : 0.0));
 }

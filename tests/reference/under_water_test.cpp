@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/reference/made_scenes.h"
+#include "tools/reference/media.h"
 #include "tools/reference/shade.h"
 
 namespace skerry::reference {
@@ -141,6 +142,45 @@ TEST(ReferenceUnderWater, AShadowFallsWhereTheBentLightIsMissing) {
     const glm::dvec3 seen = irradiance_at(scene, {edge + off, kBed.y, 0.5}, {0.0, 1.0, 0.0}, 1);
     EXPECT_EQ(seen.z > 0.0, off > 0.0) << off;
   }
+}
+
+/// What an eye in water sees of a ceiling of lamps, by Snell's law at the rippled surface.
+TEST(ReferenceUnderWater, AnEyeSeesTheWorldAboveWithinSnellsWindow) {
+  constexpr double kDepth = 2.5, kHeight = 12.0, kEnd = -9.3;  // of the ceiling: above water, and x
+  constexpr glm::dvec3 kEye{0.2, -kDepth, 0.3};
+  const Island ceiling{
+      world::Volume::from_voxels({0, 0, 0}, {200, 1, 400},
+                                 [](world::IVec3) { return world::BlockId{world::block::kLamp}; }),
+      glm::dmat3(1.0),
+      {kEnd - 200.0, kHeight, -200.0}};
+  Scene scene = seen_from(kEye, {-1.0, 1.0, 0.0}, {lake(), ceiling}, 48, 0.8);
+  scene.albedo.reset();
+  scene.view.medium = world::block::kWater;
+  ReferenceSettings settings = samples(4);
+  settings.filter = game::ReferenceFilter::kCentre;
+  const ReferencePicture picture = render(scene, settings);
+  int lamps = 0, dark = 0;
+  for (std::uint32_t y = 0; y < 48; ++y) {
+    for (std::uint32_t x = 0; x < 48; ++x) {
+      const glm::dvec3 ray =
+          glm::normalize(scene.view.forward + scene.view.right * (((x + 0.5) / 24.0 - 1.0) * 0.8) +
+                         scene.view.up * ((1.0 - (y + 0.5) / 24.0) * 0.8));
+      if (ray.y <= 0.0) continue;
+      const double way = kDepth / ray.y;
+      const glm::dvec3 place = kEye + way * ray;
+      const Meeting surface{.t = way, .face = 2, .voxel = {}, .lattice = place};
+      const glm::dvec3 bent = glm::refract(ray, -ripples_of(surface, 0.0), kIndex);
+      if (bent != glm::dvec3(0.0) && bent.y < 0.1) continue;
+      // Where it is at the lamps' upper side: those at the end are seen from the side, too.
+      const double meets = place.x + bent.x / std::max(bent.y, 0.1) * (kHeight + 1.0);
+      if (std::abs(meets - kEnd) < 1e-3) continue;
+      const bool lit = bent != glm::dvec3(0.0) && meets < kEnd;
+      EXPECT_EQ(picture.radiance.pixels[y * 48 + x].z > 0.0f, lit) << x << ", " << y;
+      ++(lit ? lamps : dark);
+    }
+  }
+  EXPECT_GT(lamps, 200);
+  EXPECT_GT(dark, 400);
 }
 
 }  // namespace

@@ -495,14 +495,14 @@ Seen Shader::through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction
 }
 
 /// Without water, glass and clouds.
-Seen Shader::behind_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
+Seen Shader::behind_media(const Trace& trace, const Ray& ray, glm::dvec3 fine,
                           Sampler& sampler) const {
   Seen seen;
   if (trace.hit) {
-    seen.radiance = through_air(surface(*trace.hit, kEye, direction, fine, sampler), kEye,
-                                direction, trace.hit->t, sampler);
+    seen.radiance = through_air(surface(*trace.hit, ray.origin, ray.direction, fine, sampler),
+                                ray.origin, ray.direction, trace.hit->t, sampler);
   } else {
-    seen.radiance = behind_voxels(direction);
+    seen.radiance = behind_voxels(ray.direction);
     seen.open = glm::dvec3(1.0);
     if (scene_.sky) {
       seen.radiance += disc_radiance(fine, *scene_.sky);
@@ -516,13 +516,13 @@ Seen Shader::look(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
                   Sampler& sampler) const {
   const double end = trace.hit ? trace.hit->t : kFar;
   if (trace.layers.empty() && scene_.view.medium == world::kAir)
-    return through_clouds(behind_media(trace, direction, fine, sampler), kEye, direction, 0.0, end,
-                          sampler);
+    return through_clouds(behind_media(trace, {kEye, direction}, fine, sampler), kEye, direction,
+                          0.0, end, sampler);
   const double surface = trace.layers.empty() ? end : trace.layers.front().t;
   Seen seen;
   if (!bends(trace))
-    seen = through_clouds(behind_media(trace, direction, fine, sampler), kEye, direction, surface,
-                          end, sampler);
+    seen = through_clouds(behind_media(trace, {kEye, direction}, fine, sampler), kEye, direction,
+                          surface, end, sampler);
   seen = through_media(trace, direction, fine, seen, sampler);
   if (scene_.view.medium != world::kAir) return seen;
   return through_clouds(seen, kEye, direction, 0.0, surface, sampler);
@@ -586,10 +586,38 @@ glm::dvec3 Shader::rippled_normal(const Meeting& layer) const {
          (layer.face == 2 ? 1.0 : -1.0);
 }
 
-/// Whether what is seen is seen through level water, from the air.
+/// Whether what is seen is seen through the surface of level water, from either side.
 bool Shader::bends(const Trace& trace) const {
-  return scene_.view.medium == world::kAir && !trace.layers.empty() &&
-         is_wavy(trace.layers.front());
+  if (trace.layers.empty() || !is_wavy(trace.layers.front())) return false;
+  return scene_.view.medium == world::kAir || scene_.view.medium == trace.layers.front().block;
+}
+
+/// Behind level water, by Snell's law at its rippled surface. A ripple may turn a ray that leaves
+/// back into the surface's own plane: it goes on as if it had been mirrored there. Direction 0: all
+/// light is mirrored.
+Shader::Ray Shader::bent_ray(const Meeting& surface, glm::dvec3 direction) const {
+  const glm::dvec3 normal = tracer_.normal(surface.island, surface.face);
+  const bool out = scene_.view.medium == surface.block;
+  glm::dvec3 bent =
+      glm::refract(direction, rippled_normal(surface), out ? kWaterIndex : 1.0 / kWaterIndex);
+  if (out && glm::dot(bent, normal) > 0.0) bent = glm::reflect(bent, normal);
+  return {direction * surface.t - normal * kOffSurface, bent};
+}
+
+/// What a bent ray meets that is opaque, or the sky. @param direction, before of the ray from the
+/// eye, up to the surface: air is looked through as if it went on straight, but not by an eye in
+/// water.
+Seen Shader::behind_bent_ray(const Trace& trace, const Ray& ray, glm::dvec3 direction,
+                             double before, Sampler& sampler) const {
+  if (scene_.view.medium != world::kAir) {
+    const Seen seen = behind_media(trace, ray, ray.direction, sampler);
+    return through_clouds({seen.radiance, glm::dvec3(0.0)}, ray.origin, ray.direction, 0.0,
+                          trace.hit ? trace.hit->t : kFar, sampler);
+  }
+  if (!trace.hit) return {behind_voxels(ray.direction), glm::dvec3(1.0)};
+  return {through_air(surface(*trace.hit, ray.origin, ray.direction, ray.direction, sampler), kEye,
+                      direction, before + trace.hit->t, sampler),
+          glm::dvec3(0.0)};
 }
 
 /// What a surface mirrors, seen from outside: voxels, clouds and sky, but no water and glass.
@@ -683,19 +711,16 @@ Seen Shader::through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 
     passage.advance(surface.t);
     see_surface(surface, surface.t);
     before = surface.t;
-    const glm::dvec3 normal = tracer_.normal(surface.island, surface.face);
-    ray = {direction * surface.t - normal * kOffSurface,
-           glm::refract(direction, rippled_normal(surface), 1.0 / kWaterIndex)};
+    ray = bent_ray(surface, direction);
+    if (ray.direction == glm::dvec3(0.0)) {
+      passage.end_surface();
+      return {passage.seen, glm::dvec3(0.0)};
+    }
     fine = ray.direction;
     tracer_.trace(ray.origin, ray.direction, bent);
     rest = &bent;
     passage.at = 0.0;
-    behind = {behind_voxels(ray.direction), glm::dvec3(1.0)};
-    if (bent.hit)
-      behind = {
-          through_air(this->surface(*bent.hit, ray.origin, ray.direction, ray.direction, sampler),
-                      kEye, direction, surface.t + bent.hit->t, sampler),
-          glm::dvec3(0.0)};
+    behind = behind_bent_ray(bent, ray, direction, before, sampler);
   }
   for (const Meeting& layer : rest->layers) {
     passage.advance(layer.t);

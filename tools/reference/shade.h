@@ -91,8 +91,6 @@ class Shader {
                          double air, Sampler& sampler) const;
   Seen through_clouds(Seen behind, glm::dvec3 origin, glm::dvec3 direction, double begin,
                       double end, Sampler& sampler) const;
-  Seen behind_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine,
-                    Sampler& sampler) const;
   Seen through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,
                      Sampler& sampler) const;
   glm::dvec3 mirrored_outside(glm::dvec3 from, glm::dvec3 direction, Sampler& sampler) const;
@@ -101,6 +99,10 @@ class Shader {
   struct Ray {
     glm::dvec3 origin, direction;
   };
+  Seen behind_media(const Trace& trace, const Ray& ray, glm::dvec3 fine, Sampler& sampler) const;
+  Ray bent_ray(const Meeting& surface, glm::dvec3 direction) const;
+  Seen behind_bent_ray(const Trace& trace, const Ray& ray, glm::dvec3 direction, double before,
+                       Sampler& sampler) const;
   bool bends(const Trace& trace) const;
   void pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine, Passage& passage,
                     Sampler& sampler) const;

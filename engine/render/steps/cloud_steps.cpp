@@ -6,14 +6,14 @@
 namespace skerry::render {
 namespace {
 
-/// Clouds that water mirrors need an eye in the open, and a sky to be mirrored.
+/// Clouds that water mirrors need a sky to be mirrored; an eye in water sees them through it.
 const char* needs_mirrored_clouds(const FramePlan& plan) {
   if (const char* why = needs_lit_surfaces(plan)) return why;
   if (const char* why = plan.contents.features.why_not(Feature::kClouds)) return why;
   if (const char* why = plan.contents.features.why_not(Feature::kWater)) return why;
   const bool lit = plan.input.sky.sun_casts || plan.input.sky.moon_casts || plan.indirect ||
                    plan.settings.water_mirror == WaterMirror::kWorld;
-  return !lit || plan.input.camera_medium != 0 ? "no sky is mirrored" : nullptr;
+  return !lit ? "no sky is mirrored" : nullptr;
 }
 
 /// In front of what a pixel shows: that a mirror shows some needs no more than clouds.

@@ -159,6 +159,11 @@ struct ChangedTiles {
   std::vector<TileKind> kinds;
 };
 
+/// By which rays something is seen through level water: shared::kBentIntoWater ...
+std::uint32_t bent_for(const TranslucentPass::In& in) {
+  return in.inside_medium ? shared::kBentIntoAir : shared::kBentIntoWater;
+}
+
 /// What is seen through level water by the rays that it bends, in place on the radiance of `tiles`.
 gpu::ImageRef bend_rays(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                         const TranslucentPass::In& in, const Tiles& tiles, gpu::ImageRef radiance) {
@@ -180,7 +185,8 @@ gpu::ImageRef bend_rays(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
       },
       [scene, words = layers.surfaces, depths, first, second, tiles, radiance, bent,
        program = gpu::compute(pipelines, programs::kBendRays,
-                              {{shared::kWaterLayersConstant, layers.count}})](gpu::Commands& c) {
+                              {{shared::kWaterLayersConstant, layers.count},
+                               {shared::kBentConstant, bent_for(in)}})](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::texels<shared::kIslandsBinding>(scene.islands),
                   gpu::storage<shared::kMaterialsBinding>(scene.materials),
@@ -249,11 +255,10 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
   // Inside a medium every pixel is looked at through it; else only those with a translucent
   // surface.
   const Tiles& tiles = in.layers.tiles;
-  if (!in.inside_medium)
-    shaded.radiance_ = bend_rays(graph, pipelines, scene, in, tiles, shaded.radiance());
+  shaded.radiance_ = bend_rays(graph, pipelines, scene, in, tiles, shaded.radiance());
   const LayerReads reads(scene, in);
   std::vector<gpu::SpecConstant> constants = reads.constants();
-  if (!in.inside_medium) constants.push_back({shared::kBentConstant, 1});
+  constants.push_back({shared::kBentConstant, bent_for(in)});
   if (!scene.count_pixels) constants.push_back({shared::kCountPixelsConstant, 0});
   if (shaded.picture()) constants.push_back({shared::kToPictureConstant, 1});
   std::vector<TileKind> kinds{TileKind::kCovered};

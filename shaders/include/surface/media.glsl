@@ -2,8 +2,7 @@
 #ifndef SKERRY_MEDIA_GLSL
 #define SKERRY_MEDIA_GLSL
 #include "include/light/brdf.glsl"
-
-const float kWaterIndex = 1.333;
+#include "include/surface/bent.glsl"
 
 // Schlick's approximation of the Fresnel reflectance, for light that enters or leaves a medium of index n.
 float fresnel(float cosine, bool leaving, float n) {

@@ -42,7 +42,7 @@ void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoi
   r.any = max(r.any, visibility);
 }
 
-layout(constant_id = kBentConstant) const bool kBent = false;  // bend_rays.comp has been over the radiance
+layout(constant_id = kBentConstant) const uint kBent = 0u;  // how bend_rays.comp has been over the radiance; 0: not at all
 layout(constant_id = kLitConstant) const bool kLit = false;  // lamps are; if not, their lists are not read
 
 // Walls are looked for before every light.
@@ -85,12 +85,19 @@ FaceSky sky_about(vec3 p, uint word) {
 }
 
 // What the nearest surface of a pixel mirrors of the world. Once a pixel: a march for each layer would cost as much again.
-Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye) {
+// @param outwards what is seen through it instead, by the bent ray of an eye in water.
+Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye, bool outwards) {
   uint word = layer_surface(0u, ivec2(pixel));
   float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
   vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
+  vec3 shading = shading_normal(word, ray, t), dir = mirrored_ray(to_eye, shading, n);
   LitPoint at = LitPoint(ray * t, n, n, to_eye, 1.0, word, no_depth());
-  return mirrored_voxels(layer_start(at), at.p, mirrored_ray(to_eye, shading_normal(word, ray, t), n), word != 0u);
+  if (kBent == kBentIntoAir && outwards) {
+    dir = bent_into_air(-to_eye, shading, n);
+    at.n = -n;
+    at.word = word ^ kOppositeFace;
+  }
+  return mirrored_voxels(layer_start(at), at.p, dir, word != 0u);
 }
 
 // What a surface mirrors, seen from outside. @param nearest what it mirrors of the world, if that is known.
@@ -99,6 +106,32 @@ vec3 mirrored_outside(LitPoint at, vec3 mirror, FaceSky around, float lit, bool 
   if (clouds) sky = past_mirrored_clouds(mirrored_clouds, sky, pixel);
   vec3 about = mirrored_about(around, at.word, mirror, sky, lit);
   return !known ? about : nearest.sky ? sky : nearest.radiance;
+}
+
+// What an eye in water sees through its level surface where the picture does not show it. @param dir the bent ray in the air. @param met by it.
+vec3 seen_above(vec3 dir, Mirrored met, bool clouds, uvec2 pixel) {
+  vec3 sky = sample_sky(sky_lut, dir, frame.sky_horizon, frame.sky_yaw);
+  if (clouds) sky = past_mirrored_clouds(mirrored_clouds, sky, pixel);
+  if (kMirrorWorld) return met.sky ? sky : met.radiance;
+  if (kIndirect == kIndirectOff || frame.medium_surface == 0u) return sky;
+  return mirrored_about(sky_about(frame.medium_surface_place, frame.medium_surface), frame.medium_surface, dir, sky, 1.0);
+}
+
+// Whether the nearest surface is that of the water about the eye, bends what is seen through it, and the picture does not show that. Behind a second
+// surface things are seen straight.
+// @param way of bend_rays.comp: 0 where the picture shows nothing. @param bent the ray; 0: none comes through.
+bool looks_out(uvec2 pixel, vec3 ray, float way, out vec3 bent) {
+  bent = vec3(0.0);
+  if (kBent != kBentIntoAir) return false;
+  uint word = layer_surface(0u, ivec2(pixel));
+  float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
+  vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
+  bent = bent_into_air(normalize(ray), shading_normal(word, ray, t), n);
+  const uint next = min(kWaterLayers - 1u, 1u);
+  uint second = layer_surface(next, ivec2(pixel));
+  float far = view_distance(max(layer_depth(next, ivec2(pixel)), 1e-12), frame.near_plane);
+  bool alone = second == 0u || are_one_surface(second, word, n, ray, pixel_ray(pixel + 1u), t, far);
+  return word != 0u && has_ripples(word) && surface_block(word) == frame.camera_medium && way == 0.0 && bent != vec3(0.0) && alone;
 }
 
 // The same from inside a medium: as deep as it goes, or up to what it mirrors of the world.
@@ -125,7 +158,9 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     light_in += sky_light * sky_share(depth);
   }
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
-  if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye);
+  vec3 bent;
+  bool outwards = looks_out(pixel, ray, behind.w, bent);
+  if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye, outwards);
   uint last_word = 0u;
   // What has been seen so far through the air before it; of the last surface how clear that air is, what it sends, and the light let through up to it.
   vec3 seen = vec3(0.0), air = vec3(0.0), entered = vec3(1.0);
@@ -165,7 +200,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     reach.light += sky_light;
     bool known = kMirrorWorld && k == 0u;
     vec3 outside = mirrored_outside(point, mirror, around, reach.any, known, nearest, kMirroredClouds && k == 0u, pixel);
-    vec3 mirrored_sky = entering ? outside : mirrored_inside(m, light_in, known && wavy, nearest);
+    vec3 mirrored_sky = entering ? outside : mirrored_inside(m, light_in, known && wavy && !outwards, nearest);
     if (entering) sky_mirrored = mirrored_sky;
     float foam = foam_cover(word, ray, t);
     colour += through * (foam * kFoamAlbedo * kInvPi) * reach.light;
@@ -182,7 +217,8 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     medium = entering ? block : 0u;
     at = next;
   }
-  float end = kBent && behind.w > 0.0 ? at + behind.w : end_of_media(opaque, at, ray_length);
+  if (outwards) behind.rgb = seen_above(bent, nearest, kMirroredClouds, pixel);
+  float end = kBent == kBentIntoWater && behind.w > 0.0 ? at + behind.w : end_of_media(opaque, at, ray_length);
   bool tail = kTail && layer_surface(kWaterLayers - 1u, ivec2(pixel)) != 0u;
   if (tail) {
     vec4 depths_behind = texelFetch(tail_depths, ivec2(pixel), 0), light_behind = texelFetch(tail_light, ivec2(pixel), 0);

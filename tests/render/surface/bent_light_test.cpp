@@ -1,8 +1,12 @@
 // Where the bed of a lake is seen, against Snell's law.
+#include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "engine/render/sky/sky_model.h"
+#include "tests/render/extinction.h"
 #include "tests/render/renderer_on_gpu.h"
+#include "tools/reference/media.h"
 
 namespace skerry::render {
 namespace {
@@ -55,6 +59,81 @@ TEST_F(BentLight, ABedIsSeenWhereSnellsLawHasIt) {
     }
     EXPECT_GT(lamps, 5);
     EXPECT_GT(stones, 5);
+  }
+}
+
+constexpr int kCeiling = 12, kCeilingEnd = 16;  // y, x
+constexpr glm::dvec3 kInWater{32.0, -2.5, 32.0};
+
+world::BlockId under_a_ceiling(int x, int y, int) {
+  if (y == kCeiling && x < kCeilingEnd) return world::block::kStone;
+  if (y >= 0) return world::block::kAirBlock;
+  return y >= -4 ? world::block::kWater : world::block::kStone;
+}
+
+/// What an eye in water sees along a ray: the sky through the rippled surface, by Snell's,
+/// Fresnel's and Beer's laws.
+struct Above {
+  bool near_an_edge = true;
+  glm::dvec3 radiance{0.0};
+};
+Above seen_above(const SkyModel& sky, glm::dvec3 ray) {
+  if (ray.y < 0.05) return {};
+  constexpr double kIndex = 1.333;
+  const double way = -kInWater.y / ray.y;
+  const glm::dvec3 p = kInWater + way * ray;
+  const reference::Meeting surface{.t = way, .face = 2, .voxel = {}, .lattice = p};
+  const glm::dvec3 normal = -reference::ripples_of(surface, 0.0);
+  const glm::dvec3 bent = glm::refract(ray, normal, kIndex);
+  const double sine = kIndex * std::sqrt(1.0 - std::pow(glm::dot(ray, normal), 2.0));
+  if (std::abs(sine - 1.0) < 0.03) return {};
+  if (sine > 1.0) return {false, glm::dvec3(0.0)};
+  const auto inside = [&](double height) {
+    const glm::dvec3 high = p + bent * (height / bent.y);
+    return std::min({high.x, kCeilingEnd - high.x, high.z, 64.0 - high.z});
+  };
+  const double below = inside(kCeiling), above = inside(kCeiling + 1);
+  if (std::min(std::abs(below), std::abs(above)) < 0.7 || (below > 0.0) != (above > 0.0)) return {};
+  if (below > 0.0) return {false, glm::dvec3(0.0)};
+  const double upright = std::pow((kIndex - 1.0) / (kIndex + 1.0), 2.0);
+  const double mirrored =
+      upright + (1.0 - upright) * std::pow(1.0 - std::abs(glm::dot(bent, normal)), 5.0);
+  return {false, (1.0 - mirrored) * glm::exp(-way * extinction_of(world::block::kWater)) *
+                     sky_radiance(bent, sky)};
+}
+
+TEST_F(BentLight, FromWaterTheSkyIsSeenWithinSnellsWindow) {
+  add(under_a_ceiling, {0, -1, 0}, {1, 1, 1});
+  add_occupancy(under_a_ceiling, {0, -1, 0}, {1, 1, 1});
+  RenderSettings settings;
+  settings.water_mirror = WaterMirror::kWorld;
+  settings.indirect = Indirect::kOff;
+  settings.leave_out.add(Feature::kHaze);
+  // Most that the bent rays meet is in the first picture, little in the last one.
+  for (const double pitch : {40.0, 65.0, 85.0}) {
+    FrameInput in;
+    in.islands = islands_;
+    in.sky = sun_at(40.0, 90.0);
+    in.sky.sun_irradiance = glm::vec3(0.0f);
+    in.camera = camera_at(kInWater, 270.0, pitch, 60.0);
+    in.camera_medium = world::block::kWater;
+    const std::vector<glm::vec4> seen = radiance(in, settings, kSize);
+    const SkyModel sky = sky_model(in.sky, kWorldAboveMistKm);
+    int open = 0, closed = 0, wrong = 0;
+    for (std::uint32_t y = 0; y < kSize.height; ++y) {
+      for (std::uint32_t x = 0; x < kSize.width; ++x) {
+        const Above above =
+            seen_above(sky, glm::normalize(ray_of(in.camera, x, y, kSize.width, kSize.height)));
+        if (above.near_an_edge) continue;
+        const double blue = above.radiance.z;
+        wrong +=
+            std::abs(static_cast<double>(seen[y * kSize.width + x].z) - blue) > 0.06 * blue + 0.01;
+        ++(blue > 0.0 ? open : closed);
+      }
+    }
+    EXPECT_GT(open, 500) << pitch;
+    EXPECT_GT(closed, 300) << pitch;
+    EXPECT_LT(wrong, 0.002 * (open + closed)) << pitch;
   }
 }
 

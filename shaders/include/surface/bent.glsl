@@ -1,0 +1,14 @@
+// Rays that the surface of level water bends, by Snell's law.
+#ifndef SKERRY_BENT_GLSL
+#define SKERRY_BENT_GLSL
+
+const float kWaterIndex = 1.333;
+
+// From within, into the air. A ripple may turn it back into the surface's own plane: it goes on as if it had been mirrored there.
+// @param dir unit. @param shading, n of the surface, with and without ripples, towards the eye.
+// @return unit; 0 where all light is mirrored back.
+vec3 bent_into_air(vec3 dir, vec3 shading, vec3 n) {
+  vec3 bent = refract(dir, shading, kWaterIndex);
+  return bent - n * (2.0 * max(dot(bent, n), 0.0));
+}
+#endif
