@@ -120,13 +120,13 @@ std::vector<Mip> make_mips(const Canvas& canvas) {
   const float share = images.back().texels[0].a;
   const bool is_cutout =
       std::all_of(images[0].texels.begin(), images[0].texels.end(),
-                  [](const Light& light) { return light.a == 0.0f || light.a == 1.0f; });
+                  [](const Light& light) { return light.a == 0.0f || light.a == 1.0f; }) &&
+      share > 0.0f && share < 1.0f;
   std::vector<Mip> mips;
   for (std::size_t level = 0; level < images.size(); ++level) {
     const Image& image = images[level];
-    const std::vector<std::uint8_t> alpha = is_cutout && level > 0 && image.edge > 1 && share < 1.0f
-                                                ? scaled_alpha(image, share)
-                                                : plain_alpha(image);
+    const std::vector<std::uint8_t> alpha =
+        is_cutout && level > 0 && image.edge > 1 ? scaled_alpha(image, share) : plain_alpha(image);
     Mip mip{image.edge, {}};
     for (int y = 0; y < image.edge; ++y) {
       for (int x = 0; x < image.edge; ++x) {
