@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "world/generate/fill.h"
 #include "world/generate/plants.h"
@@ -12,13 +13,18 @@ namespace skerry::world {
 namespace {
 
 constexpr int kPadded = kChunkEdge + 2;
-constexpr int kLayer = kPadded * kPadded;
+// What is thin is judged with the voxels next to it, those of the shell included.
+constexpr int kWide = kPadded + 2;
+constexpr int kLayer = kWide * kWide;
 // Layers read above the chunk: no cover is deeper than two coarse voxels.
 constexpr int kLookAbove = 2;
 constexpr int kLookBelow = 1;
 constexpr int kLayers = kLookBelow + kPadded + kLookAbove;
 constexpr int kCoarsestShifted = 2;  // larger voxels do not show the sideways shift
-constexpr int kSheetOf100 = 70;      // of half a voxel: what a sheet has at least that is drawn
+// Of half a voxel: what flat and upright sheets that are drawn have at least across, and rods.
+constexpr int kSheetOf100 = 70, kWallOf100 = 120, kRodOf100 = 60;
+constexpr int kThinBeside = 8;      // of the fullest of three: what one beside it may hold
+constexpr int kFinestWithRods = 2;  // at level 1 half of the blocks is the best outline
 
 using Row = std::array<std::int16_t, kLayer>;
 using Masks = std::array<std::uint8_t, std::size_t{kLayers} * kLayer>;
@@ -61,12 +67,12 @@ class RowCover {
   }
   /// @param out of the row's first voxel in the lowest layer; layers are kLayer apart.
   void sum(std::int16_t* out) const {
-    std::array<std::int16_t, kPadded> columns{};  // that fill the layer from end to end
+    std::array<std::int16_t, kWide> columns{};  // that fill the layer from end to end
     for (int j = layers_.end - 1; j >= layers_.first; --j) {
       const auto& full = full_[static_cast<std::size_t>(j) + 1];
       const auto& part = part_[static_cast<std::size_t>(j)];
       std::int16_t* to = out + static_cast<std::ptrdiff_t>(j) * kLayer;
-      for (std::size_t k = 0; k < kPadded; ++k) {
+      for (std::size_t k = 0; k < kWide; ++k) {
         columns[k] = static_cast<std::int16_t>(columns[k] + full[k]);
         to[k] = static_cast<std::int16_t>((columns[k] << level_) + part[k]);
       }
@@ -84,12 +90,13 @@ class RowCover {
 
   int low_, level_;
   Range layers_;
-  std::array<std::array<std::int16_t, kPadded>, kLayers + 1> full_, part_;
+  std::array<std::array<std::int16_t, kWide>, kLayers + 1> full_, part_;
 };
 
 /// Larger than a stack should hold; one a thread.
 struct Scratch {
   std::array<std::int16_t, std::size_t{kLayers} * kLayer> rock, water;  // blocks of each voxel
+  std::array<std::int16_t, std::size_t{kLayers} * kLayer> filled;       // with either
   Masks arches, holes;  // which of 2 x 2 x 2 places in a voxel they take
   std::array<SkinId, std::size_t{kLayers} * kLayer> skins;  // of ground in a voxel; bare: none
 };
@@ -116,15 +123,15 @@ class CoarseFiller {
   }
   int places_edge() const { return edge_ / 2; }  // blocks from a place within a voxel to the next
   // Of the rows, in a layer.
-  int first_place() const { return rows_.first * kPadded; }
-  int end_place() const { return rows_.end * kPadded; }
+  int first_place() const { return rows_.first * kWide; }
+  int end_place() const { return rows_.end * kWide; }
   void sum_rows();
   /// Of the voxels of a row along z.
   struct RowSums {
     RowCover rock, water;
     bool wet = true;          // that `water` is not all zero
     SkinId* skins = nullptr;  // of its first voxel in the lowest layer
-    std::array<bool, kPadded> ragged{};
+    std::array<bool, kWide> ragged{};
   };
   void note_skin(int k, int y, SkinId skin, RowSums& row) const;
   void sum_column(int k, int x, int z, RowSums& row, Wet& wet);
@@ -134,7 +141,9 @@ class CoarseFiller {
   void for_places(const std::vector<Ball>& balls, F&& f) const;
   void cut_balls();
   void carve(int i, int j, std::size_t at);
-  void fill_sheets();
+  void fill_thin();
+  void mark_thin(int i, int j, int k, std::size_t at);
+  void sum_filled();
   void cover(std::size_t at, SkinId id);
   void gather();
   void paint_layer(int j, BlockId* out);
@@ -144,6 +153,7 @@ class CoarseFiller {
   const Columns& columns_;
   Canvas canvas_;
   const int level_, edge_;   // of a voxel, blocks
+  const int x0_, z0_;        // of the rows, voxels
   const int y_low_, y_end_;  // of the layers, blocks
   const Range rows_;         // along x and along z that the plan's columns reach
   const Range along_;
@@ -154,6 +164,11 @@ class CoarseFiller {
   // Shifts at the corners of cells, layer by layer of cells.
   int cell_x0_ = 0, cell_y0_ = 0, cell_z0_ = 0, cells_ = 0;
   std::vector<sideways::Shift> corners_;
+  struct Thin {
+    std::size_t voxel;  // of out_
+    BlockId block;
+  };
+  std::vector<Thin> thin_;           // solid, and filled less than half
   std::vector<std::size_t> ragged_;  // columns of voxels with rock that is shifted
   Row water_, skin_top_, skin_below_, below_depth_, top_depth_, depth_, carved_, layer_;
 };
@@ -166,14 +181,16 @@ CoarseFiller::CoarseFiller(const IslandPlan& plan, IVec3 chunk, int level, std::
               out},
       level_(level),
       edge_(1 << level),
+      x0_(canvas_.x0 - 1),
+      z0_(canvas_.z0 - 1),
       y_low_((canvas_.y0 - kLookBelow) * edge_),
       y_end_(y_low_ + kLayers * edge_),
-      rows_(reached(canvas_.x0, -columns_.half, columns_.half, kPadded)),
-      along_(reached(canvas_.z0, -columns_.half, columns_.half, kPadded)),
+      rows_(reached(x0_, -columns_.half, columns_.half, kWide)),
+      along_(reached(z0_, -columns_.half, columns_.half, kWide)),
       layers_(reached(canvas_.y0 - kLookBelow, plan.lowest - edge_, plan.highest + edge_, kLayers)),
       out_(out),
       scratch_(scratch) {
-  const int x = canvas_.x0 * edge_, z = canvas_.z0 * edge_, size = kPadded * edge_;
+  const int x = x0_ * edge_, z = z0_ * edge_, size = kWide * edge_;
   const auto near = [&](const Ball& b) {
     return b.x + b.radius >= x && b.x - b.radius < x + size && b.z + b.radius >= z &&
            b.z - b.radius < z + size && b.y + b.radius >= y_low_ && b.y - b.radius < y_end_;
@@ -184,10 +201,10 @@ CoarseFiller::CoarseFiller(const IslandPlan& plan, IVec3 chunk, int level, std::
 
 void CoarseFiller::find_shifts() {
   using sideways::floor_to;
-  cell_x0_ = floor_to(canvas_.x0 * edge_, sideways::kCell);
+  cell_x0_ = floor_to(x0_ * edge_, sideways::kCell);
   cell_y0_ = floor_to(y_low_ + layers_.first * edge_, sideways::kCellHeight);
-  cell_z0_ = floor_to(canvas_.z0 * edge_, sideways::kCell);
-  cells_ = kPadded * edge_ / sideways::kCell + 3;
+  cell_z0_ = floor_to(z0_ * edge_, sideways::kCell);
+  cells_ = kWide * edge_ / sideways::kCell + 3;
   const int layers = (layers_.end - layers_.first) * edge_ / sideways::kCellHeight + 3;
   corners_.clear();
   corners_.reserve(static_cast<std::size_t>(layers) * cells_ * cells_);
@@ -279,7 +296,7 @@ void CoarseFiller::sum_rows() {
   std::fill(&scratch_.skins[static_cast<std::size_t>(layers_.first) * kLayer],
             scratch_.skins.data() + static_cast<std::size_t>(layers_.end) * kLayer, SkinId::kBare);
   for (int i = rows_.first; i < rows_.end; ++i) {
-    const int first = i * kPadded;
+    const int first = i * kWide;
     row.rock.clear();
     if (row.wet) row.water.clear();
     row.wet = false;
@@ -287,9 +304,8 @@ void CoarseFiller::sum_rows() {
     row.ragged.fill(false);
     for (int k = along_.first; k < along_.end; ++k) {
       Wet wet;
-      for (int x = block(canvas_.x0 + i); x < block(canvas_.x0 + i + 1); ++x)
-        for (int z = block(canvas_.z0 + k); z < block(canvas_.z0 + k + 1); ++z)
-          sum_column(k, x, z, row, wet);
+      for (int x = block(x0_ + i); x < block(x0_ + i + 1); ++x)
+        for (int z = block(z0_ + k); z < block(z0_ + k + 1); ++z) sum_column(k, x, z, row, wet);
       water_[static_cast<std::size_t>(first + k)] =
           2 * wet.columns >= edge_ * edge_ ? wet.level : Columns::kDry;
       if (row.ragged[static_cast<std::size_t>(k)])
@@ -298,7 +314,7 @@ void CoarseFiller::sum_rows() {
     row.rock.sum(&scratch_.rock[static_cast<std::size_t>(first)]);
     if (row.wet) row.water.sum(&scratch_.water[static_cast<std::size_t>(first)]);
     for (int j = layers_.first; !row.wet && j < layers_.end; ++j)
-      std::fill_n(&scratch_.water[static_cast<std::size_t>(j * kLayer + first)], kPadded,
+      std::fill_n(&scratch_.water[static_cast<std::size_t>(j * kLayer + first)], kWide,
                   std::int16_t{0});
   }
 }
@@ -313,18 +329,17 @@ void CoarseFiller::for_places(const std::vector<Ball>& balls, F&& f) const {
   const auto last = [&](int high, int from, int count) {
     return std::min(2 * count - 1, sideways::floor_to(high - from - step / 2, step));
   };
-  const int x0 = canvas_.x0 * edge_, z0 = canvas_.z0 * edge_;
+  const int x0 = x0_ * edge_, z0 = z0_ * edge_;
   for (const Ball& b : balls) {
     const int y_first = first(std::max(b.y - b.radius, b.floor), y_low_);
     for (int y = y_first; y <= last(b.y + b.radius, y_low_, kLayers); ++y) {
       const int dy = y_low_ + y * step + step / 2 - b.y;
-      for (int x = first(b.x - b.radius, x0); x <= last(b.x + b.radius, x0, kPadded); ++x) {
+      for (int x = first(b.x - b.radius, x0); x <= last(b.x + b.radius, x0, kWide); ++x) {
         const int dx = x0 + x * step + step / 2 - b.x;
         const int rest = b.radius * b.radius - dy * dy - dx * dx;
         if (rest <= 0) continue;
         const auto reach = static_cast<int>(noise::isqrt(static_cast<std::uint64_t>(rest - 1)));
-        for (int z = first(b.z - reach, z0); z <= last(b.z + reach, z0, kPadded); ++z)
-          f(b, x, y, z);
+        for (int z = first(b.z - reach, z0); z <= last(b.z + reach, z0, kWide); ++z) f(b, x, y, z);
       }
     }
   }
@@ -336,7 +351,7 @@ struct Place {
   std::uint8_t bit;
 };
 Place place_of(int x, int y, int z) {
-  return {static_cast<std::size_t>((z >> 1) + kPadded * (x >> 1) + kLayer * (y >> 1)),
+  return {static_cast<std::size_t>((z >> 1) + kWide * (x >> 1) + kLayer * (y >> 1)),
           static_cast<std::uint8_t>(1u << ((z & 1) | (x & 1) << 1 | (y & 1) << 2))};
 }
 
@@ -352,8 +367,8 @@ void CoarseFiller::cut_balls() {
   for_places(solids_, [&](const Ball&, int x, int y, int z) { mark(scratch_.arches, x, y, z); });
   const int step = places_edge();
   for_places(holes_, [&](const Ball& hole, int x, int y, int z) {
-    const int bx = canvas_.x0 * edge_ + x * step + step / 2;
-    const int bz = canvas_.z0 * edge_ + z * step + step / 2;
+    const int bx = x0_ * edge_ + x * step + step / 2;
+    const int bz = z0_ * edge_ + z * step + step / 2;
     if (!columns_.has(bx, bz)) return;
     const Ball& kind = hole.open ? kOpenHole : kClosedHole;
     if (y_low_ + y * step + step / 2 < plan_.roof_of(kind, columns_.index(bx, bz)))
@@ -374,8 +389,8 @@ void CoarseFiller::carve(int i, int j, std::size_t at) {
     const auto place = [step](int low, unsigned half) {
       return low + static_cast<int>(half) * step + step / 2;
     };
-    const int x = place((canvas_.x0 + i / kPadded) * edge_, bit >> 1 & 1);
-    const int z = place((canvas_.z0 + i % kPadded) * edge_, bit & 1);
+    const int x = place((x0_ + i / kWide) * edge_, bit >> 1 & 1);
+    const int z = place((z0_ + i % kWide) * edge_, bit & 1);
     const int y = place(y_low_ + j * edge_, bit >> 2);
     if (!columns_.has(x, z)) continue;
     const std::size_t c = columns_.index(x, z);
@@ -386,21 +401,72 @@ void CoarseFiller::carve(int i, int j, std::size_t at) {
   scratch_.rock[at] = static_cast<std::int16_t>(std::max(scratch_.rock[at] + more, 0));
 }
 
-/// Sheets that are thinner than a voxel, as at an island's rim, may lie in two voxels, of which
-/// they fill half of neither.
-void CoarseFiller::fill_sheets() {
-  const int half = edge_ * edge_ * edge_ / 2;
-  const int least = half * kSheetOf100 / 100;
-  for (int j = layers_.first + 1; j + 1 < layers_.end; ++j) {
-    for (int i = first_place(); i < end_place(); ++i) {
-      const std::size_t at = static_cast<std::size_t>(j) * kLayer + static_cast<std::size_t>(i);
-      const auto filled = [this](std::size_t of) { return scratch_.rock[of] + scratch_.water[of]; };
-      const int here = filled(at), below = filled(at - kLayer), above = filled(at + kLayer);
-      if (here == 0 || std::max({here, below, above}) >= half || here < above || here <= below ||
-          below + here + above < least)
-        continue;
-      scratch_.rock[at] = static_cast<std::int16_t>(half);
+/// Whether the middle one of three voxels, `step` apart, shows something thin of which they hold
+/// parts: it is the fullest, the next one to one side is all but empty, as what is thinner than a
+/// voxel touches two of them, and none is solid without.
+bool is_thin(const std::int16_t* here, std::ptrdiff_t step, int half, int least) {
+  const int before = here[-step], after = here[step];
+  const auto [low, high] = std::minmax(before, after);
+  return high < half && before < *here && after <= *here && kThinBeside * low <= *here &&
+         low + *here + high >= least;
+}
+
+/// The same of the nine voxels of a layer, for what stands or hangs.
+bool is_rod(const std::int16_t* here, int half, int least) {
+  int sum = 0;
+  for (int i = -1; i <= 1; ++i) {
+    for (int k = -1; k <= 1; ++k) {
+      const int of = here[i * kWide + k];
+      const bool earlier = i < 0 || (i == 0 && k < 0);  // takes it of two that are as full
+      if (of >= half || of > *here || (earlier && of == *here)) return false;
+      sum += of;
     }
+  }
+  return sum >= least;
+}
+
+/// What is thinner than a voxel may fill half of none and be as wide to the eye: sheets and walls,
+/// as at an island's rim, spikes, legs of arches, islets.
+void CoarseFiller::fill_thin() {
+  sum_filled();
+  const int half = edge_ * edge_ * edge_ / 2;
+  const int flat = half * kSheetOf100 / 100, upright = half * kWallOf100 / 100,
+            rod = half * kRodOf100 / 100;
+  const bool all = level_ >= kFinestWithRods;
+  for (int j = layers_.first + 1; j + 1 < layers_.end; ++j) {
+    for (int i = std::max(rows_.first, 1); i < std::min(rows_.end, kWide - 1); ++i) {
+      const std::size_t row =
+          static_cast<std::size_t>(j) * kLayer + static_cast<std::size_t>(i) * kWide;
+      for (int k = std::max(along_.first, 1); k < std::min(along_.end, kWide - 1); ++k) {
+        const std::size_t at = row + static_cast<std::size_t>(k);
+        const std::int16_t* const here = &scratch_.filled[at];
+        if (*here == 0 || *here >= half) continue;
+        if (is_thin(here, kLayer, half, flat) ||
+            (all && (is_thin(here, kWide, half, upright) || is_thin(here, 1, half, upright) ||
+                     is_rod(here, half, rod))))
+          mark_thin(i, j, k, at);
+      }
+    }
+  }
+}
+
+void CoarseFiller::mark_thin(int i, int j, int k, std::size_t at) {
+  scratch_.rock[at] = static_cast<std::int16_t>(edge_ * edge_ * edge_ / 2);
+  if (const int y = j - kLookBelow; y >= 0 && y < kPadded)
+    thin_.push_back({static_cast<std::size_t>((y * kPadded + i - 1) * kPadded + k - 1), kAir});
+}
+
+/// Rock and liquid of all voxels, and none in the rows around those that hold anything.
+void CoarseFiller::sum_filled() {
+  for (int j = layers_.first; j < layers_.end; ++j) {
+    const auto row = [&](int i) {
+      return static_cast<std::size_t>(j) * kLayer + static_cast<std::size_t>(i) * kWide;
+    };
+    if (rows_.first > 0)
+      std::fill_n(&scratch_.filled[row(rows_.first - 1)], kWide, std::int16_t{0});
+    if (rows_.end < kWide) std::fill_n(&scratch_.filled[row(rows_.end)], kWide, std::int16_t{0});
+    for (std::size_t at = row(rows_.first); at < row(rows_.end); ++at)
+      scratch_.filled[at] = static_cast<std::int16_t>(scratch_.rock[at] + scratch_.water[at]);
   }
 }
 
@@ -419,7 +485,7 @@ void CoarseFiller::gather() {
     return columns_.has(x, z) && columns_.top[columns_.index(x, z)] != Columns::kNoGround;
   };
   for (int i = first_place(); i < end_place(); ++i) {
-    const int x0 = (canvas_.x0 + i / kPadded) * edge_, z0 = (canvas_.z0 + i % kPadded) * edge_;
+    const int x0 = (x0_ + i / kWide) * edge_, z0 = (z0_ + i % kWide) * edge_;
     int x = x0 + edge_ / 2, z = z0 + edge_ / 2;
     for (int n = 0; n < 4 && !ground(x, z); ++n) {
       x = x0 + edge_ / 4 + (n & 1) * edge_ / 2;
@@ -460,23 +526,28 @@ void CoarseFiller::paint_layer(int j, BlockId* out) {
     depth_[i] = depth;
     layer_[i] = static_cast<std::int16_t>((block & solid) | (liquid & filled & ~solid));
   }
-  if (out != nullptr)
-    std::memcpy(out + first_place(), &layer_[static_cast<std::size_t>(first_place())],
-                static_cast<std::size_t>(end_place() - first_place()) * sizeof(BlockId));
+  if (out == nullptr) return;
+  for (int i = std::max(rows_.first, 1); i < std::min(rows_.end, kWide - 1); ++i)
+    std::memcpy(out + static_cast<std::ptrdiff_t>(i - 1) * kPadded,
+                &layer_[static_cast<std::size_t>(i * kWide + 1)], kPadded * sizeof(BlockId));
 }
 
 void CoarseFiller::fill() {
   sum_rows();
   cut_balls();
   gather();
-  fill_sheets();
+  fill_thin();
   std::fill(out_.begin(), out_.end(), kAir);
   for (int j = layers_.end - 1; j >= std::max(layers_.first, kLookBelow); --j) {
     const int y = j - kLookBelow;
-    paint_layer(j, y < kPadded ? &out_[static_cast<std::size_t>(y) * kLayer] : nullptr);
+    paint_layer(j, y < kPadded ? &out_[static_cast<std::size_t>(y) * kPadded * kPadded] : nullptr);
   }
-  stamps();
+  // A crown on a crest fills the voxel that it shares with the crest.
+  for (Thin& thin : thin_) thin.block = std::exchange(out_[thin.voxel], kAir);
   for (const Tree& tree : plan_.trees) draw_tree(tree, canvas_);
+  for (const Thin& thin : thin_)
+    if (out_[thin.voxel] == kAir) out_[thin.voxel] = thin.block;
+  stamps();
   draw_glowing_plants(plan_, canvas_);
 }
 
